@@ -31,7 +31,7 @@ engines/label_images -> engines/common, engines/tessellation, geometry, geometry
 engines/segment_voronoi -> geometry, geometry/polygons, geometry/skeleton
 formats/text -> geometry, geometry/skeleton
 formats/features -> formats/io, formats/parsing, formats/points, formats/text, geometry, geometry/points,
-    geometry/polygons
+    geometry/polygons, products
 geometry/alpha -> geometry, geometry/curves, geometry/mesh, geometry/polygons
 formats/drawing -> formats/compression, formats/io, formats/parsing, geometry, geometry/alpha, geometry/curves,
     geometry/polygons, geometry/skeleton, products

@@ -8,6 +8,7 @@ from dataclasses import replace
 from vorotool.errors import InputError, UsageError
 from vorotool.formats.drawing.recognition import drawing_format, refuse_drawing
 from vorotool.formats.features.delimited_geometry import geometry_column
+from vorotool.formats.features.reading import features_of
 from vorotool.formats.features.shapefile_parts import holds_shapefile
 from vorotool.formats.io.npy_arrays import MAGIC
 from vorotool.formats.io.sources import Source
@@ -19,7 +20,6 @@ from vorotool.formats.points.delimited import has_coordinates, header_fields
 from vorotool.formats.points.tables import is_table
 from vorotool.formats.polygons.json import is_list_of_shells
 from vorotool.formats.polygons.wkt import holds_shapes as wkt_holds_shapes
-from vorotool.products.formats import resolved
 from vorotool.products.inputs import INPUTS, Holds
 
 _SUFFIXES = {f".{name}": each.name for each in INPUTS.values() for name in each.names if name not in ("json", "txt")}
@@ -154,9 +154,8 @@ def _either(source: Source, said: str | None) -> tuple[Holds, Source]:
     if chosen == "csv" or "polygons" not in INPUTS[chosen].readers:
         return "points", _points(source, chosen, None)
     source = _with_format(source, chosen)
-    if "features" in INPUTS[chosen].has:
-        module = INPUTS[chosen].readers["polygons"].partition(":")[0]
-        source = replace(source, document=resolved(f"{module}:features_of")(source))
+    if INPUTS[chosen].features:
+        source = replace(source, document=features_of(source))
         return ("polygons" if source.document.holds_shapes else "points"), source
     if chosen == "npz":
         return npz_holds(source.data), source

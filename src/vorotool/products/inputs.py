@@ -26,30 +26,37 @@ class InputFormat:
         What it may hold, and ``module:function`` of ``function(source, options)`` that reads it.
     has : frozenset of str
         ``bytes``: it is no text. ``layers``: it may hold several. ``curves``: which become lines where it is read.
-        ``features``: what it holds is told by reading it, with ``features_of`` in the module of its readers.
+    features : str
+        ``module:function`` of ``function(source)`` that reads the features of a map, which tell what it holds.
     """
 
     name: str
     names: tuple[str, ...]
     readers: Mapping[Holds, str]
     has: frozenset[str] = frozenset()
+    features: str = ""
 
 
-def _of(name: str, *names: str, has: str = "", **readers: str) -> InputFormat:
-    return InputFormat(name, names or (name,), readers, frozenset(has.split()))  # type: ignore[arg-type]  # as is held
+def _of(name: str, *names: str, has: str = "", features: str = "", **readers: str) -> InputFormat:
+    held: Mapping[Holds, str] = readers  # type: ignore[assignment]  # they are called as what is held
+    return InputFormat(name, names or (name,), held, frozenset(has.split()), features)
 
 
-def _of_maps(name: str, *names: str, module: str = "vector_files", has: str = "bytes layers features") -> InputFormat:
+def _of_maps(name: str, *names: str, module: str = "vector_files", has: str = "bytes layers") -> InputFormat:
     """Give a format of features of maps: points, polygons and lines alike."""
-    place = f"formats.features.{module}"
-    return _of(name, *names, has=has, points=f"{place}:read_points", polygons=f"{place}:read_polygons")
+    features = f"formats.features.{module}:features_of"
+    return _of(name, *names, has=has, features=features, points=_FEATURES[0], polygons=_FEATURES[1])
 
 
-_WKT_COLUMN = "formats.features.delimited_geometry"
+_FEATURES = ("formats.features.reading:read_points", "formats.features.reading:read_polygons")
 _IMAGE = "formats.images.reader:read_image"
 _ALL = (
     _of(
-        "csv", "csv", "tsv", "txt", points="formats.points.delimited:read_text", polygons=f"{_WKT_COLUMN}:read_polygons"
+        "csv",
+        *("csv", "tsv", "txt"),
+        features="formats.features.delimited_geometry:features_of",
+        points="formats.points.delimited:read_text",
+        polygons=_FEATURES[1],
     ),
     _of("node", points="formats.points.node:read_node"),
     _of(
@@ -59,7 +66,7 @@ _ALL = (
         polygons="formats.results.npz_reader:read_polygons",
         skeleton="formats.results.npz_reader:read_skeleton",
     ),
-    _of("csv-wkt", has="features", points=f"{_WKT_COLUMN}:read_points", polygons=f"{_WKT_COLUMN}:read_polygons"),
+    _of_maps("csv-wkt", module="delimited_geometry", has=""),
     _of("geojson", points="formats.points.json:read_geojson", polygons="formats.polygons.geojson:read_geojson"),
     _of("wkt", points="formats.points.wkt:read_wkt", polygons="formats.polygons.wkt:read_wkt"),
     _of(
@@ -81,8 +88,8 @@ _ALL = (
     _of_maps("shp", "shp", "shz"),
     _of_maps("kml"),
     _of_maps("gpx"),
-    _of_maps("parquet", "parquet", "geoparquet", module="geoparquet", has="bytes features"),
-    _of_maps("wkb", module="wkb", has="bytes features"),
+    _of_maps("parquet", "parquet", "geoparquet", module="geoparquet", has="bytes"),
+    _of_maps("wkb", module="wkb", has="bytes"),
     _of("svg", "svg", "svgz", has="bytes curves", polygons="formats.drawing.svg_reader:read_svg"),
     _of("dxf", has="bytes curves", polygons="formats.drawing.dxf_reader:read_dxf"),
     _of("png", image=_IMAGE),

@@ -10,15 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
-from vorotool.formats.features.feature_table import Features, points_of_features, polygons_of_features
+from vorotool.formats.features.feature_table import Features
 from vorotool.formats.features.wkb import crs_of_geometry
 from vorotool.formats.io.sources import Source, check_nesting
-from vorotool.formats.parsing.reader_options import ReadOptions, shortened
+from vorotool.formats.parsing.reader_options import shortened
 from vorotool.formats.parsing.reference_systems import crs_of_numbers
 from vorotool.formats.points.delimited import DelimitedText, delimited_text
 from vorotool.formats.points.wkt import without_number
-from vorotool.geometry.points.point_set import PointSet
-from vorotool.geometry.polygons.polygon_set import PolygonSet
 
 _GEOMETRY_COLUMNS = ("wkt", "geometry", "geom", "the_geom", "wkb", "wkb_geometry", "wkt_geom")
 _BINARY = re.compile(r"(00|01)([0-9A-Fa-f]{2}){8,}")
@@ -36,16 +34,6 @@ def geometry_column(fields: Sequence[str]) -> int | None:
     return next((lower.index(name) for name in _GEOMETRY_COLUMNS if name in lower), None)
 
 
-def read_points(source: Source, options: ReadOptions) -> PointSet:
-    """Read points with the other columns as their properties."""
-    return points_of_features(features_of(source), options)
-
-
-def read_polygons(source: Source, options: ReadOptions) -> PolygonSet:
-    """Read polygons and lines with the other columns as their properties."""
-    return polygons_of_features(features_of(source), options)
-
-
 def features_of(source: Source) -> Features:
     """Read all rows; an empty field is no geometry.
 
@@ -59,8 +47,6 @@ def features_of(source: Source) -> Features:
     >>> features_of(Source("a.csv", b"id,wkt\\n7,POINT (1 2)\\n")).columns["id"]
     ['7']
     """
-    if isinstance(source.document, Features):
-        return source.document
     text = delimited_text(source)
     column = geometry_column(text.fields)
     if column is None:

@@ -39,6 +39,8 @@ class Features:
         The ``crs`` member of GeoJSON.
     place : callable, optional
         Gives the words for a feature (0-based), for messages.
+    is_table : bool
+        There is no geometry at all: coordinates are among the columns, if anywhere.
     """
 
     name: str
@@ -47,6 +49,7 @@ class Features:
     ids: Sequence[Any] | None = None
     crs: Any = None
     place: Callable[[int], str] | None = None
+    is_table: bool = False
 
     @property
     def holds_shapes(self) -> bool:

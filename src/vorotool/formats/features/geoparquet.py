@@ -8,33 +8,15 @@ from typing import Any
 import numpy as np
 
 from vorotool.errors import InputError, LimitError
-from vorotool.formats.features.feature_table import Features, points_of_features, polygons_of_features
+from vorotool.formats.features.feature_table import Features
 from vorotool.formats.io.limits import decoding
 from vorotool.formats.io.sources import Source
-from vorotool.formats.parsing.reader_options import ReadOptions
-from vorotool.formats.points.tables import points_of_columns
 from vorotool.geometry.crs import LONGITUDE_LATITUDE, crs_member, member_of_text
 from vorotool.geometry.extras import needed
-from vorotool.geometry.points.point_set import PointSet
-from vorotool.geometry.polygons.polygon_set import PolygonSet
 
 _TITLE = "Parquet"
 _MOST_BYTES = 1 << 35
 """Of what a file unpacks to, as it says itself."""
-
-
-def read_points(source: Source, options: ReadOptions) -> PointSet:
-    """Read points with the other columns as their properties; without geometry, the columns that CSV would have."""
-    with decoding(source.name, _TITLE):
-        columns, document = _columns(source)
-    if document is None:
-        return points_of_columns(source.name, columns, options)
-    return points_of_features(features_of(source), options)
-
-
-def read_polygons(source: Source, options: ReadOptions) -> PolygonSet:
-    """Read polygons and lines with the other columns as their properties."""
-    return polygons_of_features(features_of(source), options)
 
 
 def features_of(source: Source) -> Features:
@@ -49,13 +31,11 @@ def features_of(source: Source) -> Features:
     """
     import shapely
 
-    if isinstance(source.document, Features):
-        return source.document
     with decoding(source.name, _TITLE):
         columns, document = _columns(source)
         if document is None:
             no_geometry = np.full(len(next(iter(columns.values()), [])), None, dtype=object)
-            return Features(source.name, no_geometry, columns)
+            return Features(source.name, no_geometry, columns, is_table=True)
         name = document["primary_column"]
         described = document["columns"][name]
         if described.get("encoding") != "WKB":

@@ -17,15 +17,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
-from vorotool.formats.features.feature_table import Features, points_of_features, polygons_of_features
+from vorotool.formats.features.feature_table import Features
 from vorotool.formats.features.shapefile_parts import archive_of
 from vorotool.formats.io.limits import decoding, interruptible
 from vorotool.formats.io.sources import Source
-from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.geometry.crs import member_of_text
 from vorotool.geometry.extras import needed
-from vorotool.geometry.points.point_set import PointSet
-from vorotool.geometry.polygons.polygon_set import PolygonSet
 
 TITLES = {"gpkg": "GeoPackage", "fgb": "FlatGeobuf", "shp": "Shapefile", "kml": "KML", "gpx": "GPX"}
 """Formats and what they are called."""
@@ -45,16 +42,6 @@ _TIMES = {"OFTDate": date, "OFTDateTime": datetime}
 _BYTES = "OFTBinary"
 
 
-def read_points(source: Source, options: ReadOptions) -> PointSet:
-    """Read the points of a layer with their attributes."""
-    return points_of_features(features_of(source), options)
-
-
-def read_polygons(source: Source, options: ReadOptions) -> PolygonSet:
-    """Read the polygons and lines of a layer with their attributes."""
-    return polygons_of_features(features_of(source), options)
-
-
 def features_of(source: Source) -> Features:
     """Read a layer: the one that is wanted, or the only one.
 
@@ -65,8 +52,6 @@ def features_of(source: Source) -> Features:
     UsageError
         If pyogrio is not installed.
     """
-    if isinstance(source.document, Features):
-        return source.document
     title = TITLES[source.format]
     if not _BEGINNINGS[source.format].match(source.data):
         raise InputError(f"{source.name} is no {title} that can be read: it begins as something else")

@@ -10,24 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
-from vorotool.formats.features.feature_table import Features, points_of_features, polygons_of_features
+from vorotool.formats.features.feature_table import Features
 from vorotool.formats.io.sources import Source
-from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.formats.parsing.reference_systems import crs_of_numbers
-from vorotool.geometry.points.point_set import PointSet
-from vorotool.geometry.polygons.polygon_set import PolygonSet
 
 _HEXADECIMAL = re.compile(rb"[0-9A-Fa-f\s]*")
-
-
-def read_points(source: Source, options: ReadOptions) -> PointSet:
-    """Read points."""
-    return points_of_features(features_of(source), options)
-
-
-def read_polygons(source: Source, options: ReadOptions) -> PolygonSet:
-    """Read polygons and lines."""
-    return polygons_of_features(features_of(source), options)
 
 
 def features_of(source: Source) -> Features:
@@ -45,8 +32,6 @@ def features_of(source: Source) -> Features:
     """
     import shapely
 
-    if isinstance(source.document, Features):
-        return source.document
     if not source.data.strip():
         raise InputError(f"{source.name} is empty: well-known binary was expected; check what was to write it")
     written = source.data.split() if _HEXADECIMAL.fullmatch(source.data) else [source.data]

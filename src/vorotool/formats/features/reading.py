@@ -1,0 +1,41 @@
+"""Points, polygons and lines of files of features, whatever their format."""
+
+from __future__ import annotations
+
+from vorotool.formats.features.feature_table import Features, points_of_features, polygons_of_features
+from vorotool.formats.io.sources import Source
+from vorotool.formats.parsing.reader_options import ReadOptions
+from vorotool.formats.points.tables import points_of_columns
+from vorotool.geometry.points.point_set import PointSet
+from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.products.formats import resolved
+from vorotool.products.inputs import INPUTS
+
+
+def features_of(source: Source) -> Features:
+    """Give the features of a source; those that were read to tell what it holds come with it.
+
+    Examples
+    --------
+    >>> features_of(Source("a.csv", b"id,wkt\\n7,POINT (1 2)\\n", "csv-wkt")).columns["id"]
+    ['7']
+    """
+    if isinstance(source.document, Features):
+        return source.document
+    read: Features = resolved(INPUTS[source.format].features)(source)
+    return read
+
+
+def read_points(source: Source, options: ReadOptions) -> PointSet:
+    """Read points with their attributes; where there is no geometry, as tables have them."""
+    features = features_of(source)
+    if features.is_table:
+        return points_of_columns(
+            source.name, {name: list(values) for name, values in features.columns.items()}, options
+        )
+    return points_of_features(features, options)
+
+
+def read_polygons(source: Source, options: ReadOptions) -> PolygonSet:
+    """Read polygons and lines with their attributes."""
+    return polygons_of_features(features_of(source), options)
