@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -92,21 +92,22 @@ def polygons_of_features(features: Features, options: ReadOptions) -> PolygonSet
     geometry = features.geometry[kept]
     _check_kinds(features, geometry, kept, _SHAPES, "no polygon or line", not_a_shape_advice)
     options.check_vertices(features.name, int(shapely.get_num_coordinates(geometry).sum()))
-    _check_finite(features, geometry, kept)
-    polygons = polygons_of_geometry(geometry.tolist())
-    assert polygons.feature is not None
-    owners = kept[polygons.feature].astype(np.int32)
-    if not options.properties:
-        return replace(polygons, feature=owners, y_up=True, crs=features.crs)
-    _check_attributes(features, len(owners), "polygons")
-    return replace(
-        polygons,
-        feature=owners,
-        ids=None if features.ids is None else _taken(features.ids, owners),
-        properties={name: _taken(values, owners) for name, values in features.columns.items()},
-        y_up=True,
-        crs=features.crs,
-    )
+
+    def described(items: NDArray[np.int64]) -> dict[str, Any]:
+        owners = kept[items].astype(np.int32)
+        fields = {"feature": owners, "y_up": True, "crs": features.crs}
+        if not options.properties:
+            return fields
+        _check_attributes(features, len(owners), "polygons")
+        columns = {name: _taken(values, owners) for name, values in features.columns.items()}
+        ids = None if features.ids is None else _taken(features.ids, owners)
+        return {**fields, "ids": ids, "properties": columns}
+
+    try:
+        return polygons_of_geometry(geometry, described)
+    except InputError:
+        _check_finite(features, geometry, kept)
+        raise
 
 
 def points_of_features(features: Features, options: ReadOptions) -> PointSet:

@@ -58,7 +58,7 @@ def features_of(source: Source) -> Features:
     pyogrio = needed("pyogrio", "gis", f"{title} files")
     try:
         with decoding(source.name, title):
-            return interruptible(lambda: _read(pyogrio, _readable(source), source))
+            return _read(pyogrio, _readable(source), source)
     except InputError as error:
         if error.__cause__ is None:
             raise
@@ -80,7 +80,8 @@ def _read(pyogrio: Any, data: bytes | Path, source: Source) -> Features:
 
     layers = pyogrio.list_layers(data).tolist()
     options = {"layer": _chosen_layer(source, layers), "datetime_as_string": True}
-    meta, numbers, wkb, values = pyogrio.raw.read(data, return_fids=True, **options)
+    # what is made in another thread is slower to read: GDAL alone works there
+    meta, numbers, wkb, values = interruptible(lambda: pyogrio.raw.read(data, return_fids=True, **options))
     columns = _columns(meta, values)
     lossy = [name for name in columns if _has_lost_digits(meta, name, values)]
     if lossy:

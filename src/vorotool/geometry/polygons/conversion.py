@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -64,8 +64,19 @@ def as_polygons(source: Any) -> PolygonSet:
     return _set_of_items(items)
 
 
-def polygons_of_geometry(geometry: Sequence[Any]) -> PolygonSet:
+def polygons_of_geometry(
+    geometry: Sequence[Any] | NDArray[np.object_],
+    described: Callable[[NDArray[np.int64]], Mapping[str, Any]] | None = None,
+) -> PolygonSet:
     """Polygons and lines of shapely geometry, one feature an item; rings and lines keep their direction.
+
+    Parameters
+    ----------
+    geometry : sequence of shapely geometry
+        Of polygons and lines, single or several in one.
+    described : callable, optional
+        ``described(items)`` gives further fields of the `PolygonSet` for the items that its polygons come from; by
+        default these are their features.
 
     Raises
     ------
@@ -98,8 +109,9 @@ def polygons_of_geometry(geometry: Sequence[Any]) -> PolygonSet:
     polygons = np.concatenate([polygons, lines])[order]
     first = np.diff(polygons, prepend=-1) > 0
     ring_kinds = np.where(first, np.where(kinds[polygons] == _LINESTRING, LINE, SHELL), HOLE)
+    fields = {"feature": owners} if described is None else described(owners)
     return set_of_rings(
-        shapely.get_coordinates(rings), shapely.get_num_coordinates(rings), ring_kinds, polygons, feature=owners
+        shapely.get_coordinates(rings), shapely.get_num_coordinates(rings), ring_kinds, polygons, **fields
     )
 
 
