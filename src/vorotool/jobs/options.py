@@ -1,6 +1,8 @@
 """Options of the commands: one frozen value a job, made once from what the command line gives.
 
-A field is called as its option is, and ``--help`` says what it means; one that is None was not given.
+A field is called as its option is, and ``--help`` says what it means; one that is None was not given. Classes that
+others inherit from have no methods of their own, and the others only those that are called: `dataclass` compiles each
+when this module is imported, at the start of every run.
 """
 
 from __future__ import annotations
@@ -26,7 +28,7 @@ ALL_PAGES = -1
 Method = Literal["exact", "digital", "digital-valid"]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, init=False, repr=False, eq=False)
 class JobOptions:
     """What each command has: outputs, pictures, many inputs, and what is said."""
 
@@ -88,7 +90,7 @@ class JobOptions:
         return {"--files-from": self.files_from, **files} if self.files_from else files
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False, eq=False)
 class ReadingOptions:
     """Of ``info``, which writes no file."""
 
@@ -102,7 +104,7 @@ class ReadingOptions:
     threads: int = 0
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False, eq=False)
 class DrawingOptions(JobOptions):
     """Of ``draw``, which has one result."""
 
@@ -120,7 +122,7 @@ class DrawingOptions(JobOptions):
     what: tuple[str, ...] = ("picture",)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, init=False, repr=False, eq=False)
 class ComputingOptions(JobOptions):
     """What each command has that computes something of points, polygons or an image."""
 
@@ -156,7 +158,7 @@ class ComputingOptions(JobOptions):
         return "--fill-holes" if self.fill_holes else "--min-area" if self.min_area is not None else ""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, init=False, repr=False, eq=False)
 class SiteOptions(ComputingOptions):
     """What each command has whose sites are points, or the seeds of an image."""
 
@@ -187,7 +189,7 @@ class SiteOptions(ComputingOptions):
         return {"size": self.size, "window": self.window}
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False, eq=False)
 class TessellationOptions(SiteOptions):
     """Of ``tessellate``."""
 
@@ -205,7 +207,7 @@ class TessellationOptions(SiteOptions):
         return self.cell_size
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, init=False, repr=False, eq=False)
 class LayeredOptions(SiteOptions):
     """What the commands have whose pictures are made of layers."""
 
@@ -221,7 +223,7 @@ class LayeredOptions(SiteOptions):
         return Looks(self.scale, self.drawing_unit, self.background, self.colours, self.line_widths)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False, eq=False)
 class TriangulationOptions(LayeredOptions):
     """Of ``delaunay``."""
 
@@ -239,7 +241,7 @@ class TriangulationOptions(LayeredOptions):
         return ({"clip": self.clip} if self.clip else {}) | JobOptions.files_of_inputs(self)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False, eq=False)
 class AlphaShapeOptions(LayeredOptions):
     """Of ``alphashape``."""
 
@@ -253,7 +255,7 @@ class AlphaShapeOptions(LayeredOptions):
     region_threshold: Fraction | None
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, init=False, repr=False, eq=False)
 class SkeletonOptions(ComputingOptions):
     """What the commands have that make skeletons."""
 
@@ -302,14 +304,14 @@ class SkeletonOptions(ComputingOptions):
         }
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False, eq=False)
 class ExactSkeletonOptions(SkeletonOptions):
     """Of ``skeleton-exact``."""
 
     gap: float
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False, eq=False)
 class ApproximateSkeletonOptions(SkeletonOptions):
     """Of ``skeleton-approx``."""
 
