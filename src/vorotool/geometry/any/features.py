@@ -15,11 +15,13 @@ from vorotool.geometry.alpha.complex import AlphaComplex
 from vorotool.geometry.alpha.hull import AlphaHull
 from vorotool.geometry.alpha.shape import AlphaShape
 from vorotool.geometry.alpha.tables import described_polygons, family_table, shape_edge_table, shape_point_table
+from vorotool.geometry.any.scaling import AREAS, LENGTHS, scaled_table
 from vorotool.geometry.curves.flatten import checked_flatten
 from vorotool.geometry.mesh.cells import CellSet
 from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation, DigitalTriangulation
 from vorotool.geometry.mesh.tables import edge_table, point_table, triangle_table
 from vorotool.geometry.mesh.triangulation import Triangulation
+from vorotool.geometry.pixel_grid import PixelGrid
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.points.seed_set import SeedSet
@@ -323,14 +325,25 @@ def _of_labels(image: LabelImage) -> Features:
     """Regions: a polygon, or several, a label, in the order of the table."""
     table = resolved("engines.label_images.regions:region_table")(image)
     own = {} if image.seeds is None else image.seeds.properties
-    left_out = {name if name not in own else f"voro_{name}" for name in ("bbox_x", "bbox_y", "bbox_w", "bbox_h")}
-    columns = {name: column for name, column in table.stored().items() if name not in left_out}
-    labels = np.asarray(columns["voro_label" if "label" in own else "label"])
+    labels = np.asarray(table["voro_label" if "label" in own else "label"])
+    table = _on_map(table, image.grid, own)
     seeds, item = image.seeds, None
     if seeds is not None and seeds.site_labels is not None:
         item = np.searchsorted(seeds.site_labels, labels)
     source = _Map(getattr(seeds, "index", None), None if image.grid is None else image.grid.crs)
-    return Features(_regions(image, labels), Table(columns), source, item)
+    return Features(_regions(image, labels), table, source, item)
+
+
+def _on_map(table: Table, grid: PixelGrid | None, own: Mapping[str, Any]) -> Table:
+    """A table of regions in the unit of the map, without boxes; in pixels where the image lies on none."""
+    left_out = {"bbox_x", "bbox_y", "bbox_w", "bbox_h"}
+    if grid is not None and grid.transform is not None:
+        if grid.is_square and grid.is_upright and grid.is_north_up:
+            table = scaled_table(table, grid.width, properties=own, origin=grid.centre, y_up=True)
+        else:  # a length in pixels is none on the map
+            left_out |= LENGTHS | AREAS
+    columns = table.stored().items()
+    return Table({name: column for name, column in columns if name in own or name.removeprefix("voro_") not in left_out})
 
 
 def _regions(image: LabelImage, labels: NDArray[Any]) -> NDArray[Any]:
@@ -352,10 +365,13 @@ def _regions(image: LabelImage, labels: NDArray[Any]) -> NDArray[Any]:
         return geometry
     assert image.frame is not None
     a, b, c, d, e, f = grid.transform
-    corner = np.array([image.frame.x, image.frame.y]) - 0.5
-    made: NDArray[Any] = shapely.transform(
-        geometry, lambda xy: (xy - corner) @ np.array([[a, d], [b, e]]) + (c, f)
-    )
+    left, top = image.frame.x - 0.5, image.frame.y - 0.5
+
+    def on_map(xy: NDArray[np.float64]) -> NDArray[np.float64]:
+        column, row = xy[:, 0] - left, xy[:, 1] - top
+        return np.stack([a * column + b * row + c, d * column + e * row + f], axis=1)
+
+    made: NDArray[Any] = shapely.transform(geometry, on_map)
     return made
 
 
