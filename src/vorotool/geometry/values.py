@@ -313,6 +313,36 @@ class Branched(_Places):
         """
         return resolved(f"{_FRAMES}:to_geopandas")(self, by=by, flatten=flatten)
 
+    def to_networkx(
+        self, *, by: Literal["branch", "arc"] = "branch", flatten: float | None = None
+    ) -> networkx.MultiGraph[int]:
+        """Give the graph as one of networkx, which has to be installed; see `vorotool.to_networkx`.
+
+        Parameters
+        ----------
+        by : {"branch", "arc"}
+            What an edge is.
+        flatten : float, optional
+            How far the geometry of edges may be from parabolas.
+
+        Returns
+        -------
+        networkx.MultiGraph
+            As `vorotool.to_networkx` gives it.
+
+        Raises
+        ------
+        UsageError
+            If networkx is not installed, an edge is to be something else, or the tolerance is not positive.
+
+        Examples
+        --------
+        >>> import vorotool
+        >>> len(vorotool.skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]]).to_networkx())
+        6
+        """
+        return resolved("geometry.any.graphs:to_networkx")(self, by=by, flatten=flatten)
+
 
 class Graph:
     """A value that is a graph, or has one."""
@@ -350,7 +380,7 @@ class Pictured:
         ax : matplotlib.axes.Axes, optional
             Where; by default axes of a new figure.
         **style
-            What matplotlib takes for collections of lines and polygons, such as ``linewidth`` or ``alpha``; and ``what``
+            What matplotlib takes for collections of lines and polygons, or for images, such as ``alpha``; and ``what``
             and ``layers``, as of `vorotool.write`, where the value has them.
 
         Returns

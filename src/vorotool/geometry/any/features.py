@@ -343,7 +343,9 @@ def _on_map(table: Table, grid: PixelGrid | None, own: Mapping[str, Any]) -> Tab
         else:  # a length in pixels is none on the map
             left_out |= LENGTHS | AREAS
     columns = table.stored().items()
-    return Table({name: column for name, column in columns if name in own or name.removeprefix("voro_") not in left_out})
+    return Table(
+        {name: column for name, column in columns if name in own or name.removeprefix("voro_") not in left_out}
+    )
 
 
 def _regions(image: LabelImage, labels: NDArray[Any]) -> NDArray[Any]:

@@ -130,7 +130,9 @@ def _of_points_along(points: SkeletonPoints) -> IndexedTable:
 
 
 def _of_offsets(offsets: Offsets) -> IndexedTable:
-    return IndexedTable(offsets.table(), offsets.polygons, offsets.polygon[offsets.shape_of_ring[offsets.ring_of_piece]])
+    return IndexedTable(
+        offsets.table(), offsets.polygons, offsets.polygon[offsets.shape_of_ring[offsets.ring_of_piece]]
+    )
 
 
 def _of_features(value: Any) -> IndexedTable:

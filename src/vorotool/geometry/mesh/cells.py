@@ -14,6 +14,7 @@ from vorotool.geometry.checks import set_rows
 from vorotool.geometry.curves.inverse_functions import hypotenuse
 from vorotool.geometry.ragged import divides, following, starts_of
 from vorotool.geometry.row_index import check_index
+from vorotool.geometry.values import Geometric, Pictured, Tabular, Value, counted, placed
 
 
 class Nesting(NamedTuple):
@@ -24,8 +25,8 @@ class Nesting(NamedTuple):
     cells: NDArray[np.int64]
 
 
-@dataclass(frozen=True, eq=False)
-class CellSet:
+@dataclass(frozen=True, eq=False, repr=False)
+class CellSet(Value, Tabular, Geometric, Pictured):
     """The Voronoi cells of points, clipped: one a point, in the order of the points.
 
     A cell that meets its frame nowhere, or in no area, is empty; so is that of a point which lies on an earlier one.
@@ -172,6 +173,11 @@ class CellSet:
         if kept.any():
             sums[kept] = np.add.reduceat(values, starts[:-1][kept])
         return sums
+
+    def _summary(self) -> str:
+        empty = int(np.count_nonzero(self.is_empty))
+        cells = counted(len(self), "cell") + (f" ({empty} empty)" if empty else "")
+        return placed(f"{cells}, {counted(len(self.coordinates), 'vertex', 'vertices')}", self.crs)
 
 
 def _checked_starts(values: Any, count: int, name: str) -> NDArray[np.int64]:

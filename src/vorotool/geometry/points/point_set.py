@@ -6,16 +6,17 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import DTypeLike, NDArray
 
 from vorotool.errors import InputError
 from vorotool.geometry.checks import whole_numbers
 from vorotool.geometry.coordinates import coordinate_rows
 from vorotool.geometry.row_index import check_index
+from vorotool.geometry.values import Geometric, Pictured, Tabular, Value, counted, placed
 
 
-@dataclass(frozen=True)
-class PointSet:
+@dataclass(frozen=True, eq=False, repr=False)
+class PointSet(Value, Tabular, Geometric, Pictured):
     """A list of points in the order of the input.
 
     Parameters
@@ -79,6 +80,12 @@ class PointSet:
         if self.labels is not None:
             return self.labels
         return np.arange(1, len(self.xy) + 1, dtype=np.int64)
+
+    def __array__(self, dtype: DTypeLike | None = None, copy: bool | None = None) -> NDArray[Any]:
+        return np.array(self.xy, dtype=dtype, copy=copy)  # type: ignore[call-overload,no-any-return]
+
+    def _summary(self) -> str:
+        return placed(counted(len(self), "point"), self.crs)
 
 
 def known_of_points(points: Any) -> dict[str, Any]:

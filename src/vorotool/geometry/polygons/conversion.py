@@ -133,9 +133,7 @@ def to_shapely(polygons: PolygonSet) -> NDArray[np.object_]:
     taken = np.repeat(polygons.ring_start[:-1], padded) + np.where(place < np.repeat(sizes, padded), place, 0)
     xy, of_line = polygons.xy[taken], np.repeat(lines, padded)
     made = np.empty(len(polygons), dtype=object)
-    made[is_line] = shapely.from_ragged_array(
-        shapely.GeometryType.LINESTRING, xy[of_line], (starts_of(padded[lines]),)
-    )
+    made[is_line] = shapely.from_ragged_array(shapely.GeometryType.LINESTRING, xy[of_line], (starts_of(padded[lines]),))
     rings = np.diff(polygons.polygon_start)[~is_line]
     made[~is_line] = shapely.from_ragged_array(
         shapely.GeometryType.POLYGON, xy[~of_line], (starts_of(padded[~lines]), starts_of(rings))

@@ -14,6 +14,7 @@ from vorotool.errors import InputError
 from vorotool.geometry.coordinates import coordinate_rows
 from vorotool.geometry.ragged import divides, following, starts_of, within
 from vorotool.geometry.row_index import check_index
+from vorotool.geometry.values import Geometric, Pictured, Tabular, Value, counted, placed
 
 SHELL, HOLE, LINE = 0, 1, 2
 """Kinds of rings: the outer boundary of a polygon, a hole in it, an open line."""
@@ -21,8 +22,8 @@ SHELL, HOLE, LINE = 0, 1, 2
 _KIND_NAMES = ("shell", "hole", "line")
 
 
-@dataclass(frozen=True, eq=False)
-class PolygonSet:
+@dataclass(frozen=True, eq=False, repr=False)
+class PolygonSet(Value, Tabular, Geometric, Pictured):
     """Polygons and open lines in the order of the input, each vertex once: rings do not repeat their first one.
 
     A polygon is a shell followed by its holes; an open line counts as a polygon of one ring. What lies in a polygon is
@@ -150,6 +151,11 @@ class PolygonSet:
         kind = int(self.ring_kind[ring])
         nth = f" {ring - int(self.polygon_start[polygon])}" if kind == HOLE else ""
         return f"polygon {polygon + 1}, {_KIND_NAMES[kind]}{nth}"
+
+    def _summary(self) -> str:
+        lines = int(np.count_nonzero(self.ring_kind == LINE))
+        kinds = [counted(len(self) - lines, "polygon"), *([counted(lines, "line")] if lines else [])]
+        return placed(", ".join([*kinds, counted(len(self.xy), "vertex", "vertices")]), self.crs, self.unit)
 
 
 def set_of_rings(

@@ -20,13 +20,14 @@ from vorotool.geometry.row_index import index_of_rows
 from vorotool.geometry.skeleton.skeleton import SiteTable
 from vorotool.geometry.skeleton.tables import ids_of
 from vorotool.geometry.table import Lookup, Table
+from vorotool.geometry.values import Curved, Pictured, Tabular, Value, counted, placed
 
 PIECE_KINDS = ("line", "arc")
 RING_KINDS = ("shell", "hole")
 
 
-@dataclass(frozen=True, eq=False)
-class Offsets:
+@dataclass(frozen=True, eq=False, repr=False)
+class Offsets(Value, Tabular, Curved, Pictured):
     """Shapes bounded by offset curves, distance by distance, each a shell and holes.
 
     At a distance d > 0 a shape is what is no farther than d from the polygons and lines; at d < 0 what lies in a
@@ -251,3 +252,7 @@ class Offsets:
                 "length": self.length,
             }
         )
+
+    def _summary(self) -> str:
+        sizes = f"{counted(len(self), 'shape')}, {counted(len(self.site), 'piece')}"
+        return placed(sizes, self.polygons.crs, self.polygons.unit)
