@@ -122,7 +122,7 @@ class Table(dict[str, Any], Tabular):
 
     def get(self, name: str, default: Any = None) -> Any:
         """Give a column, or something else if there is none."""
-        return self[name] if name in self else default
+        return self[name] if name in self.keys() else default
 
     def values(self) -> ValuesView[Any]:  # type: ignore[override]  # dict's shows what is stored
         """Give the columns."""
@@ -139,7 +139,7 @@ class Table(dict[str, Any], Tabular):
     def _refused(self, *_: Any, **__: Any) -> Any:
         raise TypeError("a Table does not change: make another one, as Table({**table, name: column})")
 
-    __setitem__ = __delitem__ = __ior__ = clear = pop = popitem = setdefault = update = _refused  # type: ignore[assignment]
+    __setitem__ = __delitem__ = __ior__ = clear = pop = popitem = setdefault = update = _refused
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Table):

@@ -69,7 +69,8 @@ class Tabular:
         >>> vorotool.delaunay([[0, 0], [4, 0], [0, 3]]).to_pandas()["length"].tolist()
         [3.0, 4.0, 5.0]
         """
-        return resolved(f"{_FRAMES}:to_pandas")(self)
+        made: pandas.DataFrame = resolved(f"{_FRAMES}:to_pandas")(self)
+        return made
 
 
 class _Places:
@@ -402,7 +403,8 @@ class Pictured:
         >>> len(axes.collections), axes.yaxis_inverted()
         (2, True)
         """
-        return resolved(f"{_SHOWING}:plotted")(self, ax, **style)
+        made: Axes = resolved(f"{_SHOWING}:plotted")(self, ax, **style)
+        return made
 
     def _repr_svg_(self) -> str | None:
         """The picture that notebooks show; None of what has too many elements."""
@@ -422,7 +424,7 @@ class Pixels(Pictured):
         raise NotImplementedError
 
     def __array__(self, dtype: DTypeLike | None = None, copy: bool | None = None) -> NDArray[Any]:
-        return np.array(self._array(), dtype=dtype, copy=copy)  # type: ignore[call-overload,no-any-return]
+        return np.array(self._array(), dtype=dtype, copy=copy)
 
     def __getitem__(self, place: Any) -> Any:
         return self._array()[place]

@@ -95,7 +95,7 @@ class AlphaHull(Value, Tabular, Geometric, Pictured):
         return xy, starts_of(counts)[self.ring_start]
 
     def polygons(self) -> list[list[NDArray[np.float64]]]:
-        """Flattened rings of each polygon: a counter-clockwise one, then the clockwise ones that it is the nearest around."""
+        """Flattened rings of each polygon: a counter-clockwise one, then the clockwise ones just inside it."""
         import shapely
 
         xy, starts = self.flattened(self.r * FINENESS)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -70,17 +70,19 @@ def to_networkx(
     """
     if isinstance(value, Skeleton):
         return _of_skeleton(_library(), value, by or "branch", flatten)
-    for kind, maker in (
+    makers: list[tuple[Any, Callable[[Any, Any], Any]]] = [
         (Triangulation | DigitalTriangulation, _of_mesh),
         (LabelImage, _of_labels),
         (PlanarGraph, _of_planar_graph),
-    ):
+    ]
+    for kind, maker in makers:
         if not isinstance(value, kind):
             continue
         for name, given in (("by", by), ("flatten", flatten)):
             if given is not None:
                 raise UsageError(f"{name} is for skeletons: leave it out with a {type(value).__name__}")
-        return maker(_library(), value)
+        made: networkx.Graph[int] = maker(_library(), value)
+        return made
     raise UsageError(
         f"there is no graph of a {type(value).__name__}: give a Skeleton, Triangulation, DigitalTriangulation, "
         "LabelImage or PlanarGraph"

@@ -82,7 +82,7 @@ class PointSet(Value, Tabular, Geometric, Pictured):
         return np.arange(1, len(self.xy) + 1, dtype=np.int64)
 
     def __array__(self, dtype: DTypeLike | None = None, copy: bool | None = None) -> NDArray[Any]:
-        return np.array(self.xy, dtype=dtype, copy=copy)  # type: ignore[call-overload,no-any-return]
+        return np.array(self.xy, dtype=dtype, copy=copy)
 
     def _summary(self) -> str:
         return placed(counted(len(self), "point"), self.crs)
