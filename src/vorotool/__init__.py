@@ -79,7 +79,7 @@ _HOME = {
     "rebuild": "vorotool.engines.from_skeleton.reconstruction",
     "SkeletonPoints": "vorotool.geometry.skeleton.points_along",
     "points_along": "vorotool.engines.from_skeleton.points_along",
-    "to_networkx": "vorotool.geometry.skeleton.networkx",
+    "to_networkx": "vorotool.geometry.any.graphs",
     "arc_table": "vorotool.geometry.skeleton.tables",
     "branch_table": "vorotool.geometry.skeleton.tables",
     "element_table": "vorotool.geometry.skeleton.tables",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, ItemsView, Iterator, Mapping, ValuesView
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,6 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
+from vorotool.geometry.equality import is_equal
+from vorotool.geometry.values import Tabular, counted
+from vorotool.products.formats import resolved
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,8 +80,11 @@ class Computed:
         return self.function(rows)
 
 
-class Table(Mapping[str, Any]):
+class Table(dict[str, Any], Tabular):
     """Columns by name, in order; a masked array or None marks fields that do not exist.
+
+    It is a dictionary, so that ``pandas.DataFrame(table)`` has its columns; integers of which some do not exist are
+    floats there, and stay integers in ``table.to_pandas()``. Columns are not exchanged, added or removed.
 
     Parameters
     ----------
@@ -95,30 +101,72 @@ class Table(Mapping[str, Any]):
     >>> table = Table({"label": np.array([1, 2]), "area": np.array([12, 9])})
     >>> len(table), table.rows
     (2, 2)
+    >>> table
+    Table: 2 rows of label, area
     """
 
     def __init__(self, columns: Mapping[str, Any]) -> None:
-        self._columns = dict(columns)
-        lengths = {name: len(column) for name, column in self._columns.items()}
+        stored = columns.stored() if isinstance(columns, Table) else dict(columns)
+        lengths = {name: len(column) for name, column in stored.items()}
         if len(set(lengths.values())) > 1:
             raise InputError(f"columns must have one length, but have {lengths}")
+        super().__init__(stored)
         self.rows = next(iter(lengths.values()), 0)
 
     def __getitem__(self, name: str) -> Any:
-        column = self._columns[name]
+        column = super().__getitem__(name)
         return column[:] if isinstance(column, Lookup | Computed) else column
 
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._columns)
+    def __iter__(self) -> Iterator[str]:  # that there is one of its own has dict(table) ask for the columns, too
+        return super().__iter__()
 
-    def __len__(self) -> int:
-        return len(self._columns)
+    def get(self, name: str, default: Any = None) -> Any:
+        """Give a column, or something else if there is none."""
+        return self[name] if name in self.keys() else default
+
+    def values(self) -> ValuesView[Any]:  # type: ignore[override]  # dict's shows what is stored
+        """Give the columns."""
+        return ValuesView(self)
+
+    def items(self) -> ItemsView[str, Any]:  # type: ignore[override]
+        """Give the columns with their names."""
+        return ItemsView(self)
+
+    def copy(self) -> Table:
+        """Give a table of the same columns."""
+        return Table(self)
+
+    def _refused(self, *_: Any, **__: Any) -> Any:
+        raise TypeError("a Table does not change: make another one, as Table({**table, name: column})")
+
+    __setitem__ = __delitem__ = __ior__ = clear = pop = popitem = setdefault = update = _refused
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Table):
+            return NotImplemented
+        return self is other or (list(self) == list(other) and is_equal(dict(self), dict(other)))
+
+    def __ne__(self, other: object) -> bool:  # dict has one of its own
+        return not self == other
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __reduce__(self) -> Any:
+        return Table, (self.stored(),)
+
+    def __repr__(self) -> str:
+        return f"Table: {counted(self.rows, 'row')} of {', '.join(self) or 'no columns'}"
+
+    def _repr_html_(self) -> str:
+        """The first rows, as notebooks show them."""
+        made: str = resolved("jobs.showing:table_html")(self)
+        return made
 
     def stored(self) -> dict[str, Any]:
         """Columns as they were given: what is looked up or computed is not so yet."""
-        return dict(self._columns)
+        return {name: super(Table, self).__getitem__(name) for name in self}
 
     def with_properties(self, properties: Mapping[str, Any]) -> Table:
         """Add the input's own columns; on a clash of names ours take the prefix ``voro_``."""
-        columns = {(f"voro_{name}" if name in properties else name): c for name, c in self._columns.items()}
+        columns = {(f"voro_{name}" if name in properties else name): c for name, c in self.stored().items()}
         return Table({**columns, **{name: np.asarray(c, dtype=object) for name, c in properties.items()}})

@@ -79,7 +79,7 @@ def _point_set(source: Any) -> PointSet:
     if isinstance(source, SeedSet):
         assert source.sites is not None  # SeedSet has filled them in
         labels = None if source.site_labels is None else source.site_labels.astype(np.int64)
-        return PointSet(source.sites, labels, source.properties)
+        return PointSet(source.sites, labels, source.properties, index=source.index)
     return as_points(source)
 
 

@@ -15,6 +15,7 @@ from vorotool.geometry.checks import checked_threads, whole_numbers
 from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.points.point_set import PointSet, known_of_points
 from vorotool.geometry.progress import Progress
+from vorotool.geometry.row_index import joined_index
 
 MANY = 0.25
 """Of the points there are: more further ones are triangulated sooner along with these, from the beginning."""
@@ -140,4 +141,5 @@ def _joined(mesh: Triangulation, given: PointSet) -> PointSet:
         old_values = mesh.properties.get(name, [None] * len(mesh.points))
         properties[name] = [*old_values, *given.properties.get(name, [None] * len(given))]
     xy = np.concatenate([mesh.points, given.xy])
-    return PointSet(xy, labels, properties, mesh.y_up, mesh.crs, mesh.first_number)
+    index = joined_index(mesh.index, len(mesh.points), given.index, len(given))
+    return PointSet(xy, labels, properties, mesh.y_up, mesh.crs, mesh.first_number, index)

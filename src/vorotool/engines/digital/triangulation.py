@@ -141,6 +141,7 @@ def _read(
         three_label_corners=found["three_label_corners"],
         four_label_corners=found["four_label_corners"],
         properties={} if seeds is None else seeds.properties,
+        index=None if seeds is None else seeds.index,
     )
 
 
@@ -308,7 +309,8 @@ def repair_digital(
 
     def mesh_of(core: _core.delaunay.DelaunayTriangulation) -> Triangulation:
         arrays = core.arrays(threads, progress)
-        return Triangulation(points, **arrays, labels=labels.astype(np.int64), properties=seeds.properties)
+        known: Any = {"labels": labels.astype(np.int64), "properties": seeds.properties, "index": seeds.index}
+        return Triangulation(points, **arrays, **known)
 
     mesh = mesh_of(core)
     fault = triangulation_fault(mesh, threads, progress)

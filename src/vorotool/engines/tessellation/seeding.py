@@ -26,6 +26,7 @@ from vorotool.geometry.pixel_frame import Frame
 from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.points.raster import Raster
 from vorotool.geometry.points.seed_set import FINEST_SCALE, SeedSet
+from vorotool.geometry.row_index import index_of_rows
 
 SeedMode = Literal["pixels", "components", "labels", "centroids"]
 
@@ -108,14 +109,15 @@ def seeds_from_points(points: PointSet, *, strict: bool = False, check: Check = 
 def _sites_of_points(xy: NDArray[np.float64], labels: NDArray[np.uint32], points: PointSet) -> dict[str, Any]:
     """Sites in increasing label order; points that share a label leave the choice to SeedSet."""
     if points.labels is None:
-        return {"sites": xy, "site_labels": labels, "properties": points.properties}
+        return {"sites": xy, "site_labels": labels, "properties": points.properties, "index": points.index}
     order = np.argsort(labels, kind="stable")
     if len(labels) and (np.diff(labels[order].astype(np.int64)) == 0).any():
         if points.properties:
             raise InputError("points that share a label cannot bring further columns: use --no-properties")
         return {}
     properties = {name: [column[i] for i in order] for name, column in points.properties.items()}
-    return {"sites": xy[order], "site_labels": labels[order], "properties": properties}
+    index = index_of_rows(points.index, order)
+    return {"sites": xy[order], "site_labels": labels[order], "properties": properties, "index": index}
 
 
 def _report_snapped(points: PointSet, moved: NDArray[np.bool_], largest: float, *, strict: bool) -> None:
@@ -290,4 +292,4 @@ def _seeds_of_objects(
     if len(distinct) > max_sites:
         raise LimitError(f"the image has {len(distinct)} objects, more than --max-sites {max_sites}")
     seeds = seeds_from_points(PointSet(sites, distinct), strict=strict)
-    return replace(seeds, properties={}, **known)
+    return replace(seeds, properties={}, index=None, **known)

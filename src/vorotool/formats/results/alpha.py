@@ -28,10 +28,6 @@ from vorotool.geometry.alpha.tables import (
 from vorotool.geometry.table import Table
 from vorotool.products.formats import TABLES
 
-_HULL_FINENESS = 7.529816085545908e-05
-"""Of the radius: how far the chords of flattened hulls may be from their arcs: 1 - cos(π/256), 256 to a circle."""
-
-
 _TABLES: dict[str, Callable[[Any], Table]] = {
     "edges": shape_edge_table,
     "complex": partial(shape_edge_table, interior=True),
@@ -183,7 +179,7 @@ def write_hull_geojson(out: BinaryIO, hull: AlphaHull, *, precision: int | None 
     mesh = hull.shape.family.mesh
 
     def parts() -> Iterator[tuple[dict[str, Any], dict[str, Any]]]:
-        for rings in _nested(hull):
+        for rings in hull.polygons():
             closed = [[*ring, ring[0]] for ring in map(digits.rounded, rings)]
             yield {"type": "Polygon", "coordinates": closed}, {"class": "hull"}
         for v in hull.points.tolist():
@@ -233,29 +229,3 @@ def _wkt(geometry: dict[str, Any], digits: Digits) -> str:
     if geometry["type"] == "Point":
         return f"({position(coordinates)})"
     return line(coordinates) if geometry["type"] == "LineString" else f"({', '.join(map(line, coordinates))})"
-
-
-def _nested(hull: AlphaHull) -> list[list[Any]]:
-    """Rings of each polygon: counter-clockwise ones, each with the clockwise ones that it is the smallest around."""
-    import shapely
-
-    xy, starts = hull.flattened(hull.r * _HULL_FINENESS)
-    exponent = int(np.frexp(np.abs(xy).max(initial=0.0))[1])
-    near_one = np.ldexp(xy, -exponent)  # of any magnitude areas are floating-point numbers then
-    spans = [slice(a, b) for a, b in zip(starts[:-1].tolist(), starts[1:].tolist(), strict=True)]
-    rings, small = [xy[span] for span in spans], [near_one[span] for span in spans]
-    areas = np.array([_signed_area(ring) for ring in small])
-    shells = sorted(np.flatnonzero(areas > 0).tolist(), key=lambda k: (areas[k], k))
-    polygons = {k: [rings[k]] for k in shells}
-    for k in np.flatnonzero(areas < 0).tolist():
-        middle = shapely.Polygon(small[k]).representative_point()
-        for shell in shells:
-            if areas[shell] > -areas[k] and shapely.contains(shapely.Polygon(small[shell]), middle):
-                polygons[shell].append(rings[k])
-                break
-    return [polygons[k] for k in sorted(polygons)]
-
-
-def _signed_area(ring: Any) -> float:
-    x, y = (ring - ring[0]).T
-    return float((x * np.roll(y, -1) - y * np.roll(x, -1)).sum()) / 2

@@ -14,6 +14,7 @@ from vorotool.errors import UsageError
 from vorotool.geometry.curves.inverse_functions import hypotenuse
 from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.numbers import nearest_double, real_number, shown_number
+from vorotool.geometry.values import Geometric, Pictured, Tabular, Value, counted, placed
 
 Radius = float | Fraction
 """A radius: a double, or an exact fraction such as a decimal number."""
@@ -22,8 +23,8 @@ CLASSES = ("outside", "singular", "boundary", "interior")
 """Classes of edges by number: outside of a shape, alone in it, on one triangle of it, between two."""
 
 
-@dataclass(frozen=True, eq=False)
-class AlphaComplex:
+@dataclass(frozen=True, eq=False, repr=False)
+class AlphaComplex(Value, Tabular, Geometric, Pictured):
     """For each Delaunay edge the radii r at which it enters the alpha shape, bounds it, and goes inside.
 
     The paper's α is -1/r. An edge is in the shape for r_min ≤ r < r_max. r_min is half its length, if it is a Gabriel
@@ -167,6 +168,11 @@ class AlphaComplex:
         with np.errstate(over="ignore"):
             lengths: NDArray[np.float64] = hypotenuse(*(b - a).T)
         return lengths
+
+    def _summary(self) -> str:
+        radii = counted(len(self.spectrum), "critical radius", "critical radii")
+        sizes = (counted(len(self.points), "point"), counted(len(self), "edge"), radii)
+        return placed(", ".join(sizes), self.mesh.crs)
 
 
 def classes_of(family: AlphaComplex, reached: int, entered: int) -> NDArray[np.uint8]:

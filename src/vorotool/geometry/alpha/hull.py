@@ -13,10 +13,14 @@ from vorotool.geometry.alpha.shape import AlphaShape
 from vorotool.geometry.curves.inverse_functions import PI, cosine_and_sine, hypotenuse, inverse_sine
 from vorotool.geometry.ragged import owners, starts_of, within
 from vorotool.geometry.table import Lookup, Table
+from vorotool.geometry.values import Geometric, Pictured, Tabular, Value, counted, placed
+
+FINENESS = 7.529816085545908e-05
+"""Of the radius: how far the chords of flattened hulls may be from their arcs: 1 - cos(π/256), 256 to a circle."""
 
 
-@dataclass(frozen=True, eq=False)
-class AlphaHull:
+@dataclass(frozen=True, eq=False, repr=False)
+class AlphaHull(Value, Tabular, Geometric, Pictured):
     """The complement of all open discs of radius r that hold no point.
 
     Arcs go clockwise around their centres, so that the hull is on their left; one begins where another one ends. Those
@@ -90,6 +94,26 @@ class AlphaHull:
         xy = np.where((step == 0)[:, None], self.start[arc], self.centre[arc] + np.stack([x, y], axis=1))
         return xy, starts_of(counts)[self.ring_start]
 
+    def polygons(self) -> list[list[NDArray[np.float64]]]:
+        """Flattened rings of each polygon: a counter-clockwise one, then the clockwise ones just inside it."""
+        import shapely
+
+        xy, starts = self.flattened(self.r * FINENESS)
+        exponent = int(np.frexp(np.abs(xy).max(initial=0.0))[1])
+        near_one = np.ldexp(xy, -exponent)  # of any magnitude areas are floating-point numbers then
+        spans = [slice(a, b) for a, b in zip(starts[:-1].tolist(), starts[1:].tolist(), strict=True)]
+        rings, small = [xy[span] for span in spans], [near_one[span] for span in spans]
+        areas = np.array([_signed_area(ring) for ring in small])
+        shells = sorted(np.flatnonzero(areas > 0).tolist(), key=lambda k: (areas[k], k))
+        polygons = {k: [rings[k]] for k in shells}
+        for k in np.flatnonzero(areas < 0).tolist():
+            middle = shapely.Polygon(small[k]).representative_point()
+            for shell in shells:
+                if areas[shell] > -areas[k] and shapely.contains(shapely.Polygon(small[shell]), middle):
+                    polygons[shell].append(rings[k])
+                    break
+        return [polygons[k] for k in sorted(polygons)]
+
     def table(self) -> Table:
         """Give one row an arc: ``x0, y0, x1, y1, cx, cy, r, label_a, label_b, ring``.
 
@@ -111,3 +135,12 @@ class AlphaHull:
                 "ring": rings,
             }
         )
+
+    def _summary(self) -> str:
+        rings = counted(len(self.ring_start) - 1, "ring")
+        return placed(f"r = {self.r:.6g}, {counted(len(self), 'arc')}, {rings}", self.shape.family.mesh.crs)
+
+
+def _signed_area(ring: NDArray[np.float64]) -> float:
+    x, y = (ring - ring[0]).T
+    return float((x * np.roll(y, -1) - y * np.roll(x, -1)).sum()) / 2

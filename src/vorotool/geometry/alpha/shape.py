@@ -10,13 +10,14 @@ from numpy.typing import NDArray
 from vorotool.geometry.alpha.complex import CLASSES, AlphaComplex, Radius
 from vorotool.geometry.numbers import nearest_double
 from vorotool.geometry.polygons.polygon_set import HOLE, PolygonSet
+from vorotool.geometry.values import Pictured, Tabular, Value, WithParts, counted, placed
 
 POINT_CLASSES = ("isolated", "singular", "boundary", "interior")
 """Classes of points in a shape: on no edge of it, on edges without a triangle only, on the boundary, inside."""
 
 
-@dataclass(frozen=True, eq=False)
-class AlphaShape:
+@dataclass(frozen=True, eq=False, repr=False)
+class AlphaShape(Value, Tabular, WithParts, Pictured):
     """The shape of points for one radius r (the paper's α is -1/r).
 
     Parameters
@@ -150,3 +151,8 @@ class AlphaShape:
         """(regions,) number of holes of each polygon."""
         holes = self.polygons.ring_polygon[self.polygons.ring_kind == HOLE]
         return np.bincount(holes, minlength=self.region_count)
+
+    def _summary(self) -> str:
+        sizes = (counted(len(self.points), "point"), counted(self.region_count, "region"))
+        text = f"r = {nearest_double(self.r):.6g}, {', '.join(sizes)}, {counted(len(self.edge_index), 'edge')}"
+        return placed(text, self.family.mesh.crs)

@@ -13,6 +13,8 @@ from vorotool.geometry.box import Box
 from vorotool.geometry.checks import set_rows
 from vorotool.geometry.curves.inverse_functions import hypotenuse
 from vorotool.geometry.ragged import divides, following, starts_of
+from vorotool.geometry.row_index import check_index
+from vorotool.geometry.values import Geometric, Pictured, Tabular, Value, counted, placed
 
 
 class Nesting(NamedTuple):
@@ -23,8 +25,8 @@ class Nesting(NamedTuple):
     cells: NDArray[np.int64]
 
 
-@dataclass(frozen=True, eq=False)
-class CellSet:
+@dataclass(frozen=True, eq=False, repr=False)
+class CellSet(Value, Tabular, Geometric, Pictured):
     """The Voronoi cells of points, clipped: one a point, in the order of the points.
 
     A cell that meets its frame nowhere, or in no area, is empty; so is that of a point which lies on an earlier one.
@@ -52,6 +54,8 @@ class CellSet:
         Pictures of this input are drawn y upwards.
     crs : object, optional
         The ``crs`` member of a GeoJSON input.
+    index : pandas Index, array or sequence, optional
+        What the input calls each point, as a data frame its rows: one entry a point.
 
     Raises
     ------
@@ -78,6 +82,7 @@ class CellSet:
     properties: dict[str, Any] = field(default_factory=dict)
     y_up: bool = False
     crs: Any = None
+    index: Any = None
 
     def __post_init__(self) -> None:
         for name in ("sites", "coordinates"):
@@ -91,6 +96,7 @@ class CellSet:
                 count = len(getattr(self, name)) - 1
         if count != len(self.sites):
             raise InputError(f"there are {count} cells, but {len(self.sites)} sites: give one cell a site")
+        check_index(self.index, count, "point")
 
     def __len__(self) -> int:
         return len(self.sites)
@@ -167,6 +173,11 @@ class CellSet:
         if kept.any():
             sums[kept] = np.add.reduceat(values, starts[:-1][kept])
         return sums
+
+    def _summary(self) -> str:
+        empty = int(np.count_nonzero(self.is_empty))
+        cells = counted(len(self), "cell") + (f" ({empty} empty)" if empty else "")
+        return placed(f"{cells}, {counted(len(self.coordinates), 'vertex', 'vertices')}", self.crs)
 
 
 def _checked_starts(values: Any, count: int, name: str) -> NDArray[np.int64]:

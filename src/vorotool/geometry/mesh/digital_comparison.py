@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from vorotool.geometry.table import Table
+from vorotool.geometry.values import Tabular, Value
 
 
-@dataclass(frozen=True, eq=False)
-class DigitalComparison:
+@dataclass(frozen=True, eq=False, repr=False)
+class DigitalComparison(Value, Tabular):
     """Precision, recall, and every difference with its cause.
 
     Ties are allowed: an edge or triangle is right if some Delaunay triangulation of the sites has it, and must be
@@ -56,3 +57,6 @@ class DigitalComparison:
             listed = ", ".join(f"{cause} {count}" for cause, count in by_cause.items())
             parts.append(f"{total} {kind}{'s' if total > 1 else ''} {difference} ({listed})")
         return "; ".join(parts)
+
+    def _summary(self) -> str:
+        return self.summary()

@@ -11,10 +11,11 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError
 from vorotool.geometry.checks import check_as_long
 from vorotool.geometry.mesh.triangulation import ALL, Triangulation, lengths_of
+from vorotool.geometry.values import Graph, Pictured, Tabular, Value, WithParts, counted, placed
 
 
-@dataclass(frozen=True, eq=False)
-class DigitalTriangulation:
+@dataclass(frozen=True, eq=False, repr=False)
+class DigitalTriangulation(Value, Tabular, WithParts, Graph, Pictured):
     """Edges and triangles read off a label image by the rule of section 2.1; indices are 0-based and of type int32.
 
     This is no `Triangulation`: triangles may overlap or be flat, and a side of a triangle need not be an edge.
@@ -40,6 +41,8 @@ class DigitalTriangulation:
         Pictures of this input are drawn y upwards.
     crs : object, optional
         The ``crs`` member of a GeoJSON input.
+    index : pandas Index, array or sequence, optional
+        What the input calls each site, as a data frame its rows: one entry a site.
 
     Raises
     ------
@@ -68,6 +71,7 @@ class DigitalTriangulation:
     properties: dict[str, Any] = field(default_factory=dict)
     y_up: bool = False
     crs: Any = None
+    index: Any = None
 
     def __post_init__(self) -> None:
         kinds = {
@@ -104,6 +108,10 @@ class DigitalTriangulation:
         pairs = self.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
         sides: NDArray[np.int32] = np.unique(np.sort(pairs, axis=1), axis=0)
         return sides
+
+    def _summary(self) -> str:
+        sizes = (counted(len(self.points), "site"), counted(len(self), "triangle"), counted(len(self.edges), "edge"))
+        return placed(", ".join(sizes), self.crs)
 
 
 AnyTriangulation = Triangulation | DigitalTriangulation

@@ -13,6 +13,8 @@ from numpy.typing import NDArray
 from vorotool.geometry.checks import check_as_long, set_rows
 from vorotool.geometry.curves.inverse_functions import hypotenuse
 from vorotool.geometry.numbers import nearest_double
+from vorotool.geometry.row_index import check_index
+from vorotool.geometry.values import Graph, Pictured, Tabular, Value, WithParts, counted, placed
 
 FLAT = 2.0**-20
 """Triangles whose largest angle has a smaller sine are computed in rationals: floating point would lose half."""
@@ -24,8 +26,8 @@ CHUNK = 1 << 14
 """Edges that are measured at a time, so that their ends stay in the cache."""
 
 
-@dataclass(frozen=True, eq=False)
-class Triangulation:
+@dataclass(frozen=True, eq=False, repr=False)
+class Triangulation(Value, Tabular, WithParts, Graph, Pictured):
     """Triangles, edges and hull of points; indices are 0-based and of type int32.
 
     The order of triangles and edges is that of a Morton curve through the points: it depends on where they are, not on
@@ -59,6 +61,8 @@ class Triangulation:
         The ``crs`` member of a GeoJSON input.
     first_number : {1, 0}
         Number of the first point in files of Triangle: that in the ``.node`` file that the points come from.
+    index : pandas Index, array or sequence, optional
+        What the input calls each point, as a data frame its rows: one entry a point.
 
     Raises
     ------
@@ -88,6 +92,7 @@ class Triangulation:
     y_up: bool = False
     crs: Any = None
     first_number: int = 1
+    index: Any = None
 
     def __post_init__(self) -> None:
         columns = {"points": 2, "triangles": 3, "neighbours": 3, "edges": 2, "hull": 0, "first": 0}
@@ -95,6 +100,7 @@ class Triangulation:
             set_rows(self, name, np.float64 if name == "points" else np.int32, width)
         check_as_long(self, "neighbours", "triangles")
         check_as_long(self, "first", "points")
+        check_index(self.index, len(self.points), "point")
 
     def __len__(self) -> int:
         return len(self.triangles)
@@ -179,6 +185,10 @@ class Triangulation:
         rows = np.arange(len(corners))
         b, c = sides[rows, (apex + 2) % 3], -sides[rows, (apex + 1) % 3]
         return corners[rows, apex], b, c, np.asarray(scale), exponent + scale
+
+    def _summary(self) -> str:
+        sizes = (counted(len(self.points), "point"), counted(len(self), "triangle"), counted(len(self.edges), "edge"))
+        return placed(", ".join(sizes), self.crs)
 
 
 def lengths_of(points: NDArray[np.float64], edges: NDArray[np.int32]) -> NDArray[np.float64]:

@@ -12,10 +12,14 @@ from vorotool.errors import InputError
 from vorotool.geometry.pixel_frame import Frame
 from vorotool.geometry.pixel_grid import PixelGrid
 from vorotool.geometry.points.seed_set import SeedSet
+from vorotool.geometry.values import Geometric, Graph, Pixels, Tabular, Value, counted, placed
+
+COUNTED = 1 << 24
+"""Labels of images of more pixels are not counted to describe one."""
 
 
-@dataclass(frozen=True)
-class LabelImage:
+@dataclass(frozen=True, eq=False, repr=False)
+class LabelImage(Value, Tabular, Geometric, Graph, Pixels):
     """Labels of the pixels of a frame.
 
     Parameters
@@ -71,3 +75,21 @@ class LabelImage:
             last = 2 * frame.y + frame.height - 1  # y of a seed becomes last - y
             seeds = replace(seeds, y=last * seeds.scale - seeds.y)
         return LabelImage(self.labels[::-1], frame, seeds)
+
+    def _array(self) -> NDArray[Any]:
+        return self.labels
+
+    def _summary(self) -> str:
+        height, width = self.shape
+        size = "" if self.grid is None else f", pixels of {self.grid.size_text()}"
+        text = f"{width} x {height}, {self._label_count()}, {self.labels.dtype}{size}"
+        return placed(text, None if self.grid is None else self.grid.crs)
+
+    def _label_count(self) -> str:
+        """Words for the labels that occur, where they are counted soon."""
+        largest = int(self.labels.max(initial=0))
+        if max(self.labels.size, largest) > COUNTED:
+            return f"labels up to {largest}"
+        occurs = np.zeros(largest + 1, dtype=bool)
+        occurs[np.maximum(self.labels, 0)] = True
+        return counted(int(np.count_nonzero(occurs[1:])), "label")

@@ -10,10 +10,11 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.geometry.pixel_grid import PixelGrid
+from vorotool.geometry.values import Pixels, Value, placed
 
 
-@dataclass(frozen=True)
-class Raster:
+@dataclass(frozen=True, eq=False, repr=False)
+class Raster(Value, Pixels):
     """A single-channel image, or a colour image that still has to be thresholded.
 
     Parameters
@@ -66,3 +67,13 @@ class Raster:
     def shape(self) -> tuple[int, int]:
         """Rows and columns."""
         return (self.values.shape[0], self.values.shape[1])
+
+    def _array(self) -> NDArray[Any]:
+        return self.values
+
+    def _summary(self) -> str:
+        height, width = self.shape
+        channels = f" x {self.values.shape[2]}" if self.is_colour else ""
+        size = "" if self.grid is None else f", pixels of {self.grid.size_text()}"
+        text = f"{width} x {height}{channels}, {self.values.dtype}{size}"
+        return placed(text, None if self.grid is None else self.grid.crs)

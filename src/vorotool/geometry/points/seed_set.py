@@ -13,13 +13,14 @@ from vorotool.errors import InputError
 from vorotool.geometry.checks import whole_numbers
 from vorotool.geometry.pixel_frame import Frame
 from vorotool.geometry.pixel_grid import PixelGrid
+from vorotool.geometry.values import Geometric, Pictured, Tabular, Value, counted
 
 FINEST_SCALE = 256
 """Lattice steps a pixel at most: coordinates are kept to 1/256 of a pixel."""
 
 
-@dataclass(frozen=True)
-class SeedSet:
+@dataclass(frozen=True, eq=False, repr=False)
+class SeedSet(Value, Tabular, Geometric, Pictured):
     """Generators of a digital Voronoi tessellation, several of which may share a label.
 
     Parameters
@@ -46,6 +47,8 @@ class SeedSet:
         The largest of these moves, in pixels.
     grid : PixelGrid, optional
         Sides and places of the pixels of the image that the seeds come from.
+    index : pandas Index, array or sequence, optional
+        What the input calls each site, as a data frame its rows: one entry a site.
 
     Raises
     ------
@@ -71,6 +74,7 @@ class SeedSet:
     snapped: int = 0
     largest_move: float = 0.0
     grid: PixelGrid | None = None
+    index: Any = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "x", whole_numbers(self.x, "x of seed", np.int64))
@@ -103,3 +107,7 @@ class SeedSet:
     def largest_label(self) -> int:
         """The largest label, 0 for no seeds."""
         return int(self.labels.max(initial=0))
+
+    def _summary(self) -> str:
+        sites = 0 if self.sites is None else len(self.sites)
+        return f"{counted(len(self), 'seed')} of {counted(sites, 'site')}, {self.scale} to a pixel side"

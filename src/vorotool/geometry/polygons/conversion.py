@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError
 from vorotool.geometry.coordinates import coordinate_rows, number_array
 from vorotool.geometry.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet, set_of_rings
+from vorotool.geometry.ragged import starts_of, within
 
 _LINESTRING, _LINEARRING, _POLYGON = 1, 2, 3  # type numbers of GEOS
 _COLLECTIONS = (5, 6, 7)  # MultiLineString, MultiPolygon, GeometryCollection
@@ -125,14 +126,18 @@ def to_shapely(polygons: PolygonSet) -> NDArray[np.object_]:
     """
     import shapely
 
+    sizes, is_line = np.diff(polygons.ring_start), polygons.is_line
+    lines = polygons.ring_kind == LINE
+    padded = np.where(lines, np.maximum(sizes, 2), sizes + np.maximum(1, 4 - sizes))
+    place = within(padded)
+    taken = np.repeat(polygons.ring_start[:-1], padded) + np.where(place < np.repeat(sizes, padded), place, 0)
+    xy, of_line = polygons.xy[taken], np.repeat(lines, padded)
     made = np.empty(len(polygons), dtype=object)
-    for index, is_line in enumerate(polygons.is_line):
-        rings = list(polygons.rings_of(index))
-        if is_line:
-            made[index] = shapely.LineString(rings[0] if len(rings[0]) > 1 else rings[0].repeat(2, axis=0))
-        else:
-            shell, *holes = [closed_ring(ring) for ring in rings]
-            made[index] = shapely.Polygon(shell, holes)
+    made[is_line] = shapely.from_ragged_array(shapely.GeometryType.LINESTRING, xy[of_line], (starts_of(padded[lines]),))
+    rings = np.diff(polygons.polygon_start)[~is_line]
+    made[~is_line] = shapely.from_ragged_array(
+        shapely.GeometryType.POLYGON, xy[~of_line], (starts_of(padded[~lines]), starts_of(rings))
+    )
     return made
 
 

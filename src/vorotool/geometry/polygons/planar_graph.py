@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from vorotool.errors import InputError
 from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.values import Geometric, Graph, Pictured, Tabular, Value, counted, placed
 
 REPAIRS = (
     "repeated_vertices",
@@ -21,8 +22,8 @@ REPAIRS = (
 """Names of the counts, in the order of the core: see `PlanarGraph.repairs`."""
 
 
-@dataclass(frozen=True, eq=False)
-class PlanarGraph:
+@dataclass(frozen=True, eq=False, repr=False)
+class PlanarGraph(Value, Tabular, Geometric, Graph, Pictured):
     """Distinct lattice points, and segments between them that meet at common ends only.
 
     Lattice point (i, j) stands for ``origin + scale * (i, j)``, where ``scale`` is a power of two; ``|i|`` and
@@ -152,3 +153,7 @@ class PlanarGraph:
         """
         lattice = np.asarray(self.points if points is None else points, dtype=np.float64)
         return np.asarray(self.origin) + self.scale * lattice
+
+    def _summary(self) -> str:
+        sizes = (counted(len(self.points), "point"), counted(len(self), "segment"), counted(self.faces, "face"))
+        return placed(", ".join(sizes), None if self.polygons is None else self.polygons.crs)

@@ -13,6 +13,8 @@ from numpy.typing import ArrayLike, NDArray
 from vorotool.errors import InputError
 from vorotool.geometry.coordinates import coordinate_rows
 from vorotool.geometry.ragged import divides, following, starts_of, within
+from vorotool.geometry.row_index import check_index
+from vorotool.geometry.values import Geometric, Pictured, Tabular, Value, counted, placed
 
 SHELL, HOLE, LINE = 0, 1, 2
 """Kinds of rings: the outer boundary of a polygon, a hole in it, an open line."""
@@ -20,8 +22,8 @@ SHELL, HOLE, LINE = 0, 1, 2
 _KIND_NAMES = ("shell", "hole", "line")
 
 
-@dataclass(frozen=True, eq=False)
-class PolygonSet:
+@dataclass(frozen=True, eq=False, repr=False)
+class PolygonSet(Value, Tabular, Geometric, Pictured):
     """Polygons and open lines in the order of the input, each vertex once: rings do not repeat their first one.
 
     A polygon is a shell followed by its holes; an open line counts as a polygon of one ring. What lies in a polygon is
@@ -52,6 +54,8 @@ class PolygonSet:
         together there; rings run along both, and no two cross. 4: what is outside does. By default neither.
     unit : str, optional
         The unit of length of the coordinates, such as ``mm``, where the input says it.
+    index : pandas Index, array or sequence, optional
+        What the input calls each polygon, as a data frame its rows: one entry a polygon.
 
     Raises
     ------
@@ -77,6 +81,7 @@ class PolygonSet:
     crs: Any = None
     connectivity: int | None = None
     unit: str | None = None
+    index: Any = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "xy", coordinate_rows(self.xy, "vertex"))
@@ -89,6 +94,7 @@ class PolygonSet:
         for name, values in [*self.properties.items(), ("ids", self.ids)]:
             if values is not None and len(values) != count:
                 raise InputError(f"{name} must hold one value a polygon, {count}, but holds {len(values)}")
+        check_index(self.index, count, "polygon")
         if self.connectivity not in (None, 4, 8):
             raise InputError(f"connectivity is {self.connectivity}: it must be 4 or 8, or left out")
         finite = np.isfinite(self.xy)
@@ -145,6 +151,11 @@ class PolygonSet:
         kind = int(self.ring_kind[ring])
         nth = f" {ring - int(self.polygon_start[polygon])}" if kind == HOLE else ""
         return f"polygon {polygon + 1}, {_KIND_NAMES[kind]}{nth}"
+
+    def _summary(self) -> str:
+        lines = int(np.count_nonzero(self.ring_kind == LINE))
+        kinds = [counted(len(self) - lines, "polygon"), *([counted(lines, "line")] if lines else [])]
+        return placed(", ".join([*kinds, counted(len(self.xy), "vertex", "vertices")]), self.crs, self.unit)
 
 
 def set_of_rings(

@@ -16,6 +16,7 @@ from vorotool.geometry.ragged import owners
 from vorotool.geometry.skeleton.skeleton import KINDS, Skeleton
 from vorotool.geometry.skeleton.tables import ids_of
 from vorotool.geometry.table import Lookup, Table
+from vorotool.geometry.values import Curved, Pictured, Tabular, Value, counted, placed
 
 Floats = NDArray[np.float64]
 
@@ -23,8 +24,8 @@ EXTENSION = "extension"
 """Kind of the straight lines that lead on to the ends."""
 
 
-@dataclass(frozen=True, eq=False)
-class Centerlines:
+@dataclass(frozen=True, eq=False, repr=False)
+class Centerlines(Value, Tabular, Curved, Pictured):
     """Paths along a skeleton, at most one a polygon, and straight lines that lead on from these.
 
     Parameters
@@ -129,6 +130,11 @@ class Centerlines:
             straight = joint[is_straight(whole[joint - 1], whole[joint], whole[joint + 1])]
             whole, line = np.delete(whole, straight, axis=0), np.delete(line, straight)
         return whole, np.searchsorted(line, np.arange(len(self) + 1))
+
+    def _summary(self) -> str:
+        polygons = self.path.polygons
+        text = f"{counted(len(self), 'line')} of {counted(len(polygons), 'polygon')}"
+        return placed(text, polygons.crs, polygons.unit)
 
 
 def centerline_table(lines: Centerlines) -> Table:

@@ -7,12 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.geometry.values import Tabular, Value, counted
+
 CRITERIA = ("angle", "chord", "scale", "length", "ratio")
 """By which skeletons are pruned: angles in degrees, chord and length in input units, the others without a unit."""
 
 
-@dataclass(frozen=True, eq=False)
-class CriticalValues:
+@dataclass(frozen=True, eq=False, repr=False)
+class CriticalValues(Value, Tabular):
     """The smallest thresholds that remove the places of a skeleton.
 
     Along an arc values do not decrease from either end to the place that has most.
@@ -51,9 +53,12 @@ class CriticalValues:
     def __len__(self) -> int:
         return len(self.most)
 
+    def _summary(self) -> str:
+        return f"{self.criterion} of {counted(len(self), 'arc')}"
 
-@dataclass(frozen=True, eq=False)
-class ArcProfiles:
+
+@dataclass(frozen=True, eq=False, repr=False)
+class ArcProfiles(Value):
     r"""How the two nearest places on the boundary lie along arcs: what cuts inside arcs are computed from.
 
     Between two lines the angle under which centres see these feet is the same everywhere. Else, with x linear in the
@@ -79,6 +84,9 @@ class ArcProfiles:
     kind: NDArray[np.int8]
     ends: NDArray[np.float64]
     size: NDArray[np.float64]
+
+    def _summary(self) -> str:
+        return counted(len(self.kind), "arc")
 
 
 BETWEEN_LINES, BETWEEN_POINTS, FROM_FOCUS = 0, 1, 2

@@ -16,16 +16,18 @@ from vorotool.geometry.curves.inverse_functions import inverse_sine
 from vorotool.geometry.numbers import nearest_double, real_number, shown_number
 from vorotool.geometry.polygons.polygon_set import HOLE, SHELL, PolygonSet
 from vorotool.geometry.ragged import divides, owners
+from vorotool.geometry.row_index import index_of_rows
 from vorotool.geometry.skeleton.skeleton import SiteTable
 from vorotool.geometry.skeleton.tables import ids_of
 from vorotool.geometry.table import Lookup, Table
+from vorotool.geometry.values import Curved, Pictured, Tabular, Value, counted, placed
 
 PIECE_KINDS = ("line", "arc")
 RING_KINDS = ("shell", "hole")
 
 
-@dataclass(frozen=True, eq=False)
-class Offsets:
+@dataclass(frozen=True, eq=False, repr=False)
+class Offsets(Value, Tabular, Curved, Pictured):
     """Shapes bounded by offset curves, distance by distance, each a shell and holes.
 
     At a distance d > 0 a shape is what is no farther than d from the polygons and lines; at d < 0 what lies in a
@@ -203,6 +205,7 @@ class Offsets:
             y_up=self.polygons.y_up,
             unit=self.polygons.unit,
             crs=self.polygons.crs,
+            index=index_of_rows(self.polygons.index, self.polygon),
         )
 
     def _described(self) -> dict[str, Any]:
@@ -249,3 +252,7 @@ class Offsets:
                 "length": self.length,
             }
         )
+
+    def _summary(self) -> str:
+        sizes = f"{counted(len(self), 'shape')}, {counted(len(self.site), 'piece')}"
+        return placed(sizes, self.polygons.crs, self.polygons.unit)

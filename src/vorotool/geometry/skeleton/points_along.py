@@ -12,10 +12,11 @@ from vorotool.geometry.checks import set_array
 from vorotool.geometry.skeleton.skeleton import SIDES, Skeleton
 from vorotool.geometry.skeleton.tables import ids_of
 from vorotool.geometry.table import Lookup, Table
+from vorotool.geometry.values import Pictured, Tabular, Value, WithParts, counted, placed
 
 
-@dataclass(frozen=True, eq=False)
-class SkeletonPoints:
+@dataclass(frozen=True, eq=False, repr=False)
+class SkeletonPoints(Value, Tabular, WithParts, Pictured):
     """Centres of discs along the branches of a skeleton, in the order of these.
 
     Parameters
@@ -112,3 +113,7 @@ class SkeletonPoints:
         return SkeletonPoints(
             self.skeleton, self.arc[kept], self.along[kept], self.xy[kept], self.radius[kept], self.feet[kept]
         )
+
+    def _summary(self) -> str:
+        polygons = self.skeleton.polygons
+        return placed(counted(len(self), "point"), polygons.crs, polygons.unit)

@@ -17,6 +17,7 @@ from vorotool.geometry.parallel import in_chunks
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.skeleton.arc_measures import ArcMeasures
 from vorotool.geometry.skeleton.arc_radii import arc_radii
+from vorotool.geometry.values import Branched, Pictured, Tabular, Value, counted, placed
 
 INTERIOR, EXTERIOR = 0, 1
 """Sides of an arc: inside a polygon, or in none."""
@@ -72,8 +73,8 @@ class SiteTable:
         return SiteTable(*taken)
 
 
-@dataclass(frozen=True, eq=False)
-class Skeleton:
+@dataclass(frozen=True, eq=False, repr=False)
+class Skeleton(Value, Tabular, Branched, Pictured):
     """A graph of arcs, each a straight line or a part of a parabola, in the units of the input.
 
     Arcs follow each other branch by branch: a branch is a chain of arcs between nodes with one arc or more than two.
@@ -299,6 +300,12 @@ class Skeleton:
             raise InputError(f"the tolerance is {shown_number(tolerance)}: it must be positive")
         source, target = self.vertices[self.arcs[:, 0]], self.vertices[self.arcs[:, 1]]
         return polylines(source, self.control, target, self.is_parabola, tolerance)
+
+    def _summary(self) -> str:
+        branches = counted(int(self.branch[-1]) + 1 if len(self) else 0, "branch", "branches")
+        polygons = self.polygons
+        text = f"{counted(len(self), 'arc')} in {branches}, {counted(len(self.vertices), 'node')}"
+        return placed(f"{text}, of {counted(len(polygons), 'polygon')}", polygons.crs, polygons.unit)
 
 
 def ends_of_sites(polygons: PolygonSet, table: SiteTable, sites: Any = slice(None)) -> NDArray[np.float64]:

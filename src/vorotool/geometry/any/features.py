@@ -1,0 +1,396 @@
+"""Any value as features: the geometry of each row as of shapely, its columns, and the row of the input behind it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from vorotool.errors import UsageError
+from vorotool.geometry.alpha.complex import AlphaComplex
+from vorotool.geometry.alpha.hull import AlphaHull
+from vorotool.geometry.alpha.shape import AlphaShape
+from vorotool.geometry.alpha.tables import described_polygons, family_table, shape_edge_table, shape_point_table
+from vorotool.geometry.any.scaling import AREAS, LENGTHS, scaled_table
+from vorotool.geometry.curves.flatten import checked_flatten
+from vorotool.geometry.mesh.cells import CellSet
+from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation, DigitalTriangulation
+from vorotool.geometry.mesh.tables import edge_table, point_table, triangle_table
+from vorotool.geometry.mesh.triangulation import Triangulation
+from vorotool.geometry.pixel_grid import PixelGrid
+from vorotool.geometry.points.label_image import LabelImage
+from vorotool.geometry.points.point_set import PointSet
+from vorotool.geometry.points.seed_set import SeedSet
+from vorotool.geometry.polygons.conversion import to_shapely
+from vorotool.geometry.polygons.planar_graph import PlanarGraph
+from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.skeleton.centerline import Centerlines
+from vorotool.geometry.skeleton.graph import skeleton_graph
+from vorotool.geometry.skeleton.offsets import Offsets
+from vorotool.geometry.skeleton.points_along import SkeletonPoints
+from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.geometry.skeleton.tables import ids_of
+from vorotool.geometry.table import Table
+from vorotool.products.formats import resolved
+
+Rows = NDArray[np.integer]
+
+
+@dataclass(frozen=True, eq=False)
+class Features:
+    """Geometry with columns, one row a feature.
+
+    Parameters
+    ----------
+    geometry : (n,) array of shapely geometry
+        Of each row; None where there is none.
+    columns : Table
+        Of n rows, those of the input too.
+    source : object
+        The points or polygons that the rows come from: their ``crs`` and ``index`` are of the rows, too.
+    item : (n,) integer array, optional
+        The row of the input that each comes from, -1 for none; None: they come from several.
+    """
+
+    geometry: NDArray[Any]
+    columns: Table
+    source: Any
+    item: Rows | None = None
+
+
+def features_of(value: Any, **options: Any) -> Features:
+    """Give the features of a value.
+
+    Parameters
+    ----------
+    value : value of the library
+        With places in the plane.
+    **options
+        ``what``, ``by`` and ``flatten``, as the method ``to_shapely`` of the value has them.
+
+    Raises
+    ------
+    UsageError
+        If there are none, or no such part.
+
+    Examples
+    --------
+    >>> from vorotool import delaunay
+    >>> features_of(delaunay([[0, 0], [4, 0], [0, 3]]), what="edges").geometry[0].wkt
+    'LINESTRING (0 0, 0 3)'
+    """
+    maker = _MAKERS.get(type(value))
+    if maker is None:
+        raise UsageError(f"there is no geometry of a {type(value).__name__}")
+    return maker(value, **options)
+
+
+def _chosen(value: Any, what: str | None, parts: Mapping[str, Callable[[Any], Features]]) -> Features:
+    """Make the features of a part, the first one by default."""
+    name = what or next(iter(parts))
+    if name not in parts:
+        raise UsageError(f"invalid what {what!r}: expected {', '.join(parts)} of a {type(value).__name__}")
+    return parts[name](value)
+
+
+# ---- geometry of arrays --------------------------------------------------------------------------
+def lines(points: NDArray[np.float64], start: Rows) -> NDArray[Any]:
+    """(n,) lines through places that follow one another.
+
+    Parameters
+    ----------
+    points : (k, 2) float64 array
+        Places, line after line.
+    start : (n + 1,) integer array
+        Where each line begins, and k.
+
+    Examples
+    --------
+    >>> lines(np.array([[0, 0], [1, 1], [2, 0.0], [5, 5], [6, 6]]), np.array([0, 3, 5]))[1].wkt
+    'LINESTRING (5 5, 6 6)'
+    """
+    made: NDArray[Any] = shapely.from_ragged_array(
+        shapely.GeometryType.LINESTRING, np.ascontiguousarray(points), (np.ascontiguousarray(start, dtype=np.int64),)
+    )
+    return made
+
+
+def _pairs(points: NDArray[np.float64], pairs: Rows) -> NDArray[Any]:
+    """(n,) lines between two points each."""
+    return lines(points[pairs].reshape(-1, 2), np.arange(0, 2 * len(pairs) + 1, 2))
+
+
+def _triangles(points: NDArray[np.float64], triangles: Rows) -> NDArray[Any]:
+    made: NDArray[Any] = shapely.from_ragged_array(
+        shapely.GeometryType.POLYGON,
+        np.ascontiguousarray(points[triangles[:, [0, 1, 2, 0]]].reshape(-1, 2)),
+        (np.arange(0, 4 * len(triangles) + 1, 4), np.arange(len(triangles) + 1)),
+    )
+    return made
+
+
+def _points(xy: NDArray[np.float64]) -> NDArray[Any]:
+    made: NDArray[Any] = shapely.points(np.ascontiguousarray(xy))
+    return made
+
+
+# ---- points and meshes ---------------------------------------------------------------------------
+def _every(count: int) -> Rows:
+    return np.arange(count)
+
+
+def _of_points(points: PointSet) -> Features:
+    columns = Table({"label": points.label_array}).with_properties(points.properties)
+    return Features(_points(points.xy), columns, points, _every(len(points)))
+
+
+def _of_seeds(seeds: SeedSet) -> Features:
+    assert seeds.sites is not None
+    columns: dict[str, Any] = {"label": seeds.site_labels}
+    if seeds.object_area is not None:
+        columns["object_area"] = seeds.object_area
+    made = Table(columns).with_properties(seeds.properties)
+    return Features(_points(seeds.sites), made, seeds, _every(len(seeds.sites)))
+
+
+def _of_mesh(mesh: AnyTriangulation, what: str | None = None) -> Features:
+    return _chosen(mesh, what, {"triangles": _mesh_triangles, "edges": _mesh_edges, "points": _mesh_points})
+
+
+def _mesh_triangles(mesh: AnyTriangulation) -> Features:
+    return Features(_triangles(mesh.points, mesh.triangles), triangle_table(mesh), mesh)
+
+
+def _mesh_edges(mesh: AnyTriangulation) -> Features:
+    return Features(_pairs(mesh.points, mesh.edges), without_places(edge_table(mesh)), mesh)
+
+
+def _mesh_points(mesh: AnyTriangulation) -> Features:
+    own = Table({"label": mesh.label_array}).with_properties(mesh.properties)
+    columns = without_places(point_table(mesh), mesh.properties) if isinstance(mesh, Triangulation) else own
+    return Features(_points(mesh.points), columns, mesh, _every(len(mesh.points)))
+
+
+def without_places(table: Table, properties: Mapping[str, Any] | None = None) -> Table:
+    """Leave out the columns of coordinates, which geometry has; those of the input stay.
+
+    Examples
+    --------
+    >>> list(without_places(Table({"label": [1], "x": [2], "x_a": [3], "length": [4]})))
+    ['label', 'length']
+    """
+    own = properties or {}
+    kept = {name: column for name, column in table.stored().items() if name in own or not _is_place(name)}
+    return Table(kept)
+
+
+def _is_place(name: str) -> bool:
+    return name.removeprefix("voro_") in {"x", "y", "x_a", "y_a", "x_b", "y_b"}
+
+
+def _of_cells(cells: CellSet) -> Features:
+    x, y = np.ascontiguousarray(cells.sites.T)
+    columns = {"label": cells.label_array, "x": x, "y": y, "area": cells.areas(), "perimeter": cells.perimeters()}
+    made = Table(columns).with_properties(cells.properties)
+    return Features(cells.to_shapely(), made, cells, _every(len(cells)))
+
+
+# ---- alpha shapes --------------------------------------------------------------------------------
+def _of_complex(family: AlphaComplex) -> Features:
+    return Features(_pairs(family.points, family.edges), family_table(family), family.mesh)
+
+
+def _of_shape(shape: AlphaShape, what: str | None = None) -> Features:
+    return _chosen(shape, what, {"polygons": _shape_polygons, "edges": _shape_edges, "points": _shape_points})
+
+
+def _shape_polygons(shape: AlphaShape) -> Features:
+    polygons = described_polygons(shape)
+    columns = {"region": np.arange(1, len(polygons) + 1), **polygons.properties}
+    return Features(to_shapely(polygons), Table(columns), shape.family.mesh)
+
+
+def _shape_edges(shape: AlphaShape) -> Features:
+    return Features(_pairs(shape.points, shape.edges), without_places(shape_edge_table(shape)), shape.family.mesh)
+
+
+def _shape_points(shape: AlphaShape) -> Features:
+    mesh = shape.family.mesh
+    columns = without_places(shape_point_table(shape), mesh.properties)
+    return Features(_points(mesh.points), columns, mesh, _every(len(mesh.points)))
+
+
+def _of_hull(hull: AlphaHull) -> Features:
+    mesh = hull.shape.family.mesh
+    polygons = [shapely.Polygon(shell, holes) for shell, *holes in hull.polygons()]
+    geometry = np.array([*polygons, *_points(mesh.points[hull.points])], dtype=object)
+    rows = len(polygons), len(hull.points)
+    label = np.concatenate([np.zeros(rows[0], np.int64), mesh.label_array[hull.points]])
+    is_polygon = np.arange(len(geometry)) < rows[0]
+    item = np.concatenate([np.full(rows[0], -1), hull.points])
+    columns = {"class": ["hull"] * rows[0] + ["point"] * rows[1], "label": np.ma.array(label, mask=is_polygon)}
+    return Features(geometry, Table(columns), mesh, item)
+
+
+# ---- polygons and skeletons ----------------------------------------------------------------------
+def _of_polygons(polygons: PolygonSet) -> Features:
+    count = len(polygons)
+    columns: dict[str, Any] = {"polygon": np.arange(count)}
+    if polygons.ids is not None:
+        columns["id"] = list(polygons.ids)
+    made = Table(columns).with_properties(polygons.properties)
+    return Features(to_shapely(polygons), made, polygons, _every(count))
+
+
+def _of_graph(graph: PlanarGraph) -> Features:
+    left, right = np.ascontiguousarray(graph.segment_faces.T)
+    a, b = np.ascontiguousarray(graph.segments.T)
+    columns = {"point_a": a, "point_b": b, "face_left": left, "face_right": right}
+    return Features(_pairs(graph.coordinates(), graph.segments), Table(columns), graph.polygons)
+
+
+def _with_polygons(columns: Mapping[str, Any], polygons: PolygonSet, of: Rows) -> Table:
+    """Columns with the properties of the polygon of each row; -1 has none."""
+    own = of.tolist()
+    return Table(columns).with_properties(
+        {name: [values[p] if p >= 0 else None for p in own] for name, values in polygons.properties.items()}
+    )
+
+
+def _of_skeleton(skeleton: Skeleton, by: str = "arc", flatten: float | None = None) -> Features:
+    graph = skeleton_graph(skeleton, by=by, flatten=flatten)
+    polygons = skeleton.polygons
+    arcs = np.flatnonzero(np.diff(skeleton.branch, prepend=-1)) if by == "branch" else slice(None)
+    item = skeleton.polygon[arcs]
+    columns = _with_polygons(graph.edges.stored(), polygons, item)
+    return Features(lines(graph.points, graph.start), columns, polygons, item)
+
+
+def _of_centerlines(paths: Centerlines, flatten: float | None = None) -> Features:
+    polygons = paths.path.polygons
+    least, most = paths.width_range
+    own = {"length": paths.length, "width_mean": paths.width_mean, "width_min": least, "width_max": most}
+    columns = {"polygon": paths.polygon, "id": ids_of(polygons, paths.polygon), **own}
+    geometry = lines(*paths.flattened(checked_flatten(flatten, polygons)))
+    return Features(geometry, _with_polygons(columns, polygons, paths.polygon), polygons, paths.polygon)
+
+
+def _of_points_along(points: SkeletonPoints, what: str | None = None) -> Features:
+    return _chosen(points, what, {"points": _skeleton_points, "transects": _transects})
+
+
+def _skeleton_points(points: SkeletonPoints) -> Features:
+    return _along(points, _points(points.xy), {"x", "y"})
+
+
+def _transects(points: SkeletonPoints) -> Features:
+    kept = points.transects()
+    count = len(kept)
+    feet = lines(kept.feet.reshape(-1, 2), np.arange(0, 2 * count + 1, 2))
+    return _along(kept, feet, {"x_a", "y_a", "x_b", "y_b"})
+
+
+def _along(points: SkeletonPoints, geometry: NDArray[Any], left_out: set[str]) -> Features:
+    polygons = points.skeleton.polygons
+    columns = {name: column for name, column in points.table().stored().items() if name not in left_out}
+    return Features(geometry, _with_polygons(columns, polygons, points.polygon), polygons, points.polygon)
+
+
+def _of_offsets(offsets: Offsets, flatten: float | None = None) -> Features:
+    polygons, of = offsets.polygons, offsets.polygon
+    shapes = offsets.flattened(checked_flatten(flatten, polygons))
+    columns = {
+        "polygon": np.ma.array(of, mask=of < 0),
+        "id": ids_of(polygons, of),
+        "distance": offsets.distance,
+        "area": offsets.area,
+    }
+    return Features(to_shapely(shapes), _with_polygons(columns, polygons, of), polygons, of)
+
+
+# ---- label images --------------------------------------------------------------------------------
+@dataclass(frozen=True, eq=False)
+class _Map:
+    """What the regions of a label image come from: its seeds, in the coordinate reference system of its grid."""
+
+    index: Any
+    crs: Any
+
+
+def _of_labels(image: LabelImage) -> Features:
+    """Regions: a polygon, or several, a label, in the order of the table."""
+    table = resolved("engines.label_images.regions:region_table")(image)
+    own = {} if image.seeds is None else image.seeds.properties
+    labels = np.asarray(table["voro_label" if "label" in own else "label"])
+    table = _on_map(table, image.grid, own)
+    seeds, item = image.seeds, None
+    if seeds is not None and seeds.site_labels is not None:
+        item = np.searchsorted(seeds.site_labels, labels)
+    source = _Map(getattr(seeds, "index", None), None if image.grid is None else image.grid.crs)
+    return Features(_regions(image, labels), table, source, item)
+
+
+def _on_map(table: Table, grid: PixelGrid | None, own: Mapping[str, Any]) -> Table:
+    """A table of regions in the unit of the map, without boxes; in pixels where the image lies on none."""
+    left_out = {"bbox_x", "bbox_y", "bbox_w", "bbox_h"}
+    if grid is not None and grid.transform is not None:
+        if grid.is_square and grid.is_upright and grid.is_north_up:
+            table = scaled_table(table, grid.width, properties=own, origin=grid.centre, y_up=True)
+        else:  # a length in pixels is none on the map
+            left_out |= LENGTHS | AREAS
+    columns = table.stored().items()
+    return Table(
+        {name: column for name, column in columns if name in own or name.removeprefix("voro_") not in left_out}
+    )
+
+
+def _regions(image: LabelImage, labels: NDArray[Any]) -> NDArray[Any]:
+    """(n,) outlines of the pixels of each label, on the map where the image lies on one; None of those without."""
+    geometry = np.full(len(labels), None, dtype=object)
+    if not image.labels.any():
+        return geometry
+    outlines = resolved("engines.label_images.outlines:outlines")(image, connectivity=4)
+    parts, row = to_shapely(outlines), np.searchsorted(labels, np.array(outlines.ids))
+    first = np.flatnonzero(np.diff(row, prepend=-1))
+    several = np.diff(np.append(first, len(row))) > 1
+    geometry[row[first]] = parts[first]
+    within = np.isin(row, row[first[several]])
+    if several.any():
+        numbers = np.cumsum(np.diff(row[within], prepend=-1) > 0) - 1
+        geometry[row[first[several]]] = shapely.multipolygons(parts[within], indices=numbers)
+    grid = image.grid
+    if grid is None or grid.transform is None:
+        return geometry
+    assert image.frame is not None
+    a, b, c, d, e, f = grid.transform
+    left, top = image.frame.x - 0.5, image.frame.y - 0.5
+
+    def on_map(xy: NDArray[np.float64]) -> NDArray[np.float64]:
+        column, row = xy[:, 0] - left, xy[:, 1] - top
+        return np.stack([a * column + b * row + c, d * column + e * row + f], axis=1)
+
+    made: NDArray[Any] = shapely.transform(geometry, on_map)
+    return made
+
+
+_MAKERS: dict[type, Callable[..., Features]] = {
+    PointSet: _of_points,
+    SeedSet: _of_seeds,
+    LabelImage: _of_labels,
+    Triangulation: _of_mesh,
+    DigitalTriangulation: _of_mesh,
+    CellSet: _of_cells,
+    AlphaComplex: _of_complex,
+    AlphaShape: _of_shape,
+    AlphaHull: _of_hull,
+    PolygonSet: _of_polygons,
+    PlanarGraph: _of_graph,
+    Skeleton: _of_skeleton,
+    Centerlines: _of_centerlines,
+    SkeletonPoints: _of_points_along,
+    Offsets: _of_offsets,
+}

@@ -1,0 +1,80 @@
+"""Data frames of pandas and geopandas: tables and features with the index and the reference system of the input."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from vorotool.geometry.any.features import features_of
+from vorotool.geometry.any.tables import indexed_table
+from vorotool.geometry.crs import crs_text
+from vorotool.geometry.extras import needed
+from vorotool.geometry.row_index import index_of_rows
+
+
+def to_pandas(value: Any) -> Any:
+    """Give the table of a value as a data frame, with the index of the input where rows come from its rows.
+
+    Examples
+    --------
+    >>> from vorotool import Table
+    >>> to_pandas(Table({"label": np.array([1, 2]), "size": np.ma.array([7, 0], mask=[False, True])}))["size"].tolist()
+    [7, <NA>]
+    """
+    pandas = needed("pandas", "frames", "data frames")
+    table, source, item = indexed_table(value)
+    return pandas.DataFrame(_series(pandas, table), index=_index(pandas, source, item))
+
+
+def to_geopandas(value: Any, **options: Any) -> Any:
+    """Give the features of a value as a data frame of geopandas; see `vorotool.geometry.values`.
+
+    Examples
+    --------
+    >>> from vorotool import PointSet
+    >>> to_geopandas(PointSet([[2, 1]], crs="EPSG:2056")).crs.to_epsg()
+    2056
+    """
+    geopandas = needed("geopandas", "frames", "data frames of geometry")
+    pandas = needed("pandas", "frames", "data frames of geometry")
+    features = features_of(value, **options)
+    index = _index(pandas, features.source, features.item)
+    frame = pandas.DataFrame(
+        _series(pandas, features.columns), index=pandas.RangeIndex(len(features.geometry)) if index is None else index
+    )
+    name = "voro_geometry" if "geometry" in frame else "geometry"
+    frame[name] = geopandas.GeoSeries(features.geometry, index=frame.index)
+    return geopandas.GeoDataFrame(frame, geometry=name, crs=crs_text(getattr(features.source, "crs", None)))
+
+
+def _series(pandas: Any, columns: Mapping[str, Any]) -> dict[str, Any]:
+    return {name: _column(pandas, column) for name, column in columns.items()}
+
+
+def _column(pandas: Any, column: Any) -> Any:
+    """A column in a type that has a place for what does not exist."""
+    if isinstance(column, np.ma.MaskedArray) and column.dtype.kind in "biu":
+        mask = np.ma.getmaskarray(column)
+        if not mask.any():
+            return column.data.copy()
+        kind = "boolean" if column.dtype.kind == "b" else "Int64"
+        made = pandas.array(column.filled(0), dtype=kind)
+        made[mask] = pandas.NA
+        return made
+    if isinstance(column, np.ma.MaskedArray):
+        return column.filled(np.nan) if column.dtype.kind == "f" else column.filled(None)
+    if isinstance(column, np.ndarray) and column.dtype != object:
+        return column if column.dtype.isnative else column.astype(column.dtype.newbyteorder("="))
+    return pandas.Series(list(column)).array  # the type that its values have
+
+
+def _index(pandas: Any, source: Any, item: Any) -> Any:
+    """The index of the rows: the input's own for each row that comes from one of its rows."""
+    own = getattr(source, "index", None)
+    if own is None or item is None:
+        return None
+    name = getattr(own, "names", [None]) if getattr(own, "nlevels", 1) > 1 else [getattr(own, "name", None)]
+    taken = own if np.array_equal(item, np.arange(len(own))) else index_of_rows(own, item)
+    return taken if isinstance(taken, pandas.Index) else pandas.Index(taken, name=name[0])

@@ -1,0 +1,162 @@
+"""Values as graphs of networkx: skeletons, triangulations, neighbouring regions, planar graphs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from vorotool.errors import UsageError
+from vorotool.geometry.any.features import lines
+from vorotool.geometry.extras import needed
+from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation, DigitalTriangulation
+from vorotool.geometry.mesh.triangulation import Triangulation
+from vorotool.geometry.points.label_image import LabelImage
+from vorotool.geometry.polygons.planar_graph import PlanarGraph
+from vorotool.geometry.skeleton.graph import skeleton_graph
+from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.geometry.table import Table
+from vorotool.products.formats import resolved
+
+if TYPE_CHECKING:
+    import networkx
+
+GraphLike = Skeleton | Triangulation | DigitalTriangulation | LabelImage | PlanarGraph
+"""What there are graphs of."""
+
+
+def to_networkx(
+    value: GraphLike, *, by: str | None = None, flatten: float | None = None
+) -> networkx.Graph[int] | networkx.MultiGraph[int]:
+    """Give a value as an undirected graph of networkx, which has to be installed.
+
+    The graph has ``crs`` if the input had. What does not exist is left out of the attributes.
+
+    Parameters
+    ----------
+    value : Skeleton, Triangulation, DigitalTriangulation, LabelImage or PlanarGraph
+        Of a skeleton nodes are numbers of vertices, with ``x``, ``y`` and ``r``; edges have the number of their branch
+        or arc for a key, and ``branch`` (also ``arc``), ``polygon``, ``id``, ``side``, ``kind``, ``length``, ``r_min``,
+        ``r_max``, ``r_mean`` as `branch_table` has them, and ``geometry``, a shapely LineString; the properties of the
+        polygon, too. Of a triangulation nodes are numbers of points, from 0, with ``x``, ``y``, ``label`` and the
+        properties, edges have ``length``. Of a label image nodes are labels, with the columns of `region_table`, edges
+        join neighbours, with those of `neighbour_table`. Of a planar graph nodes are numbers of its points, with ``x``
+        and ``y``, edges have ``segment``, ``length``, ``face_left`` and ``face_right``.
+    by : {"branch", "arc"}, optional
+        What an edge of a skeleton is; by default a branch. A closed branch joins a node with itself.
+    flatten : float, optional
+        How far the geometry may be from parabolas; by default 1/4096 of the larger side of the bounds.
+
+    Returns
+    -------
+    networkx.Graph or networkx.MultiGraph
+        The latter of skeletons.
+
+    Raises
+    ------
+    UsageError
+        If networkx is not installed, there is no graph of the value, ``by`` is something else, the tolerance is not
+        positive, or one of both is given for what is no skeleton.
+
+    Examples
+    --------
+    >>> from vorotool import delaunay, skeleton_exact
+    >>> graph = to_networkx(skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]]))
+    >>> sorted(dict(graph.degree).values()), max(r for _, r in graph.nodes(data="r"))
+    ([1, 1, 1, 1, 3, 3], 1.0)
+    >>> to_networkx(delaunay([[0, 0], [4, 0], [0, 3]])).edges[0, 1]["length"]
+    4.0
+    """
+    if isinstance(value, Skeleton):
+        return _of_skeleton(_library(), value, by or "branch", flatten)
+    makers: list[tuple[Any, Callable[[Any, Any], Any]]] = [
+        (Triangulation | DigitalTriangulation, _of_mesh),
+        (LabelImage, _of_labels),
+        (PlanarGraph, _of_planar_graph),
+    ]
+    for kind, maker in makers:
+        if not isinstance(value, kind):
+            continue
+        for name, given in (("by", by), ("flatten", flatten)):
+            if given is not None:
+                raise UsageError(f"{name} is for skeletons: leave it out with a {type(value).__name__}")
+        made: networkx.Graph[int] = maker(_library(), value)
+        return made
+    raise UsageError(
+        f"there is no graph of a {type(value).__name__}: give a Skeleton, Triangulation, DigitalTriangulation, "
+        "LabelImage or PlanarGraph"
+    )
+
+
+def _library() -> Any:
+    return needed("networkx", "graphs", "graphs")
+
+
+def _named(crs: Any) -> dict[str, Any]:
+    return {} if crs is None else {"crs": crs}
+
+
+def _rows(columns: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """One mapping a row, without what does not exist."""
+    lists = {
+        name: column.tolist() if isinstance(column, np.ndarray) else list(column) for name, column in columns.items()
+    }
+    rows = zip(*lists.values(), strict=True)
+    return [{name: value for name, value in zip(lists, row, strict=True) if value is not None} for row in rows]
+
+
+def _of_skeleton(library: Any, skeleton: Skeleton, by: str, flatten: float | None) -> Any:
+    parts = skeleton_graph(skeleton, by=by, flatten=flatten)
+    polygons = skeleton.polygons
+    graph = library.MultiGraph(**_named(polygons.crs))
+    x, y = skeleton.vertices[parts.nodes].T
+    nodes = _rows({"x": x, "y": y, "r": skeleton.radius[parts.nodes]})
+    graph.add_nodes_from(zip(parts.nodes.tolist(), nodes, strict=True))
+    geometry = lines(parts.points, parts.start)
+    ends = zip(parts.source.tolist(), parts.target.tolist(), strict=True)
+    for (a, b), own, line in zip(ends, _rows(parts.edges), geometry, strict=True):
+        described: dict[str, Any] = {}
+        if "polygon" in own:
+            described = {key: values[own["polygon"]] for key, values in polygons.properties.items()}
+        own["geometry"] = line
+        attributes = {**described, **{f"voro_{key}" if key in described else key: item for key, item in own.items()}}
+        graph.add_edge(a, b, key=own[by], **attributes)
+    return graph
+
+
+def _of_mesh(library: Any, mesh: AnyTriangulation) -> Any:
+    x, y = mesh.points.T
+    nodes = _rows(Table({"label": mesh.label_array, "x": x, "y": y}).with_properties(mesh.properties))
+    graph = library.Graph(**_named(mesh.crs))
+    graph.add_nodes_from(enumerate(nodes))
+    a, b = mesh.edges.T.tolist()
+    graph.add_edges_from(zip(a, b, _rows({"length": mesh.edge_lengths()}), strict=True))
+    return graph
+
+
+def _of_labels(library: Any, image: LabelImage) -> Any:
+    room = "engines.label_images.regions"
+    measures = resolved(f"{room}:measure_regions")(image)
+    regions = resolved(f"{room}:region_table")(image, measures=measures)
+    borders = dict(resolved(f"{room}:neighbour_table")(image, measures=measures))
+    own = {} if image.seeds is None else image.seeds.properties
+    labels = regions["voro_label" if "label" in own else "label"]
+    graph = library.Graph(**_named(None if image.grid is None else image.grid.crs))
+    graph.add_nodes_from(zip(labels.tolist(), _rows(regions), strict=True))
+    a, b = borders.pop("label_a").tolist(), borders.pop("label_b").tolist()
+    graph.add_edges_from(zip(a, b, _rows(borders), strict=True))
+    return graph
+
+
+def _of_planar_graph(library: Any, value: PlanarGraph) -> Any:
+    points = value.coordinates()
+    x, y = points.T
+    graph = library.Graph(**_named(None if value.polygons is None else value.polygons.crs))
+    graph.add_nodes_from(enumerate(_rows({"x": x, "y": y})))
+    (a, b), (left, right) = value.segments.T.tolist(), value.segment_faces.T
+    way = points[value.segments[:, 1]] - points[value.segments[:, 0]]
+    length = np.sqrt((way * way).sum(axis=1))
+    columns = {"segment": np.arange(len(value)), "length": length, "face_left": left, "face_right": right}
+    graph.add_edges_from(zip(a, b, _rows(columns), strict=True))
+    return graph

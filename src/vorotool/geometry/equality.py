@@ -1,0 +1,82 @@
+"""Whether two values are equal, whatever they hold: arrays by their elements, NaN equals NaN, and nothing is raised."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import fields, is_dataclass
+from itertools import starmap
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+def is_equal(a: Any, b: Any) -> bool:
+    """Tell whether two parts of values are equal.
+
+    Parameters
+    ----------
+    a, b : object
+        Arrays and sequences are equal if their shapes and their elements are, whatever their types: a list equals an
+        array, integers equal floats. Masked elements equal each other, whatever lies beneath. Mappings may differ in
+        the order of their keys. Dataclasses are equal if their fields are.
+
+    Returns
+    -------
+    bool
+        False, too, where the comparison of two elements fails, or is no truth value.
+
+    Examples
+    --------
+    >>> is_equal({"r": np.array([1.0, np.nan])}, {"r": [1, float("nan")]})
+    True
+    >>> is_equal(np.zeros((2, 1)), np.zeros((1, 2)))
+    False
+    """
+    if a is b:
+        return True
+    if isinstance(a, Mapping) and isinstance(b, Mapping):
+        return a.keys() == b.keys() and all(is_equal(a[name], b[name]) for name in a)
+    if is_dataclass(a) and type(a) is type(b):
+        return all(is_equal(getattr(a, each.name), getattr(b, each.name)) for each in fields(a))
+    if _is_rows(a) and _is_rows(b):
+        return len(a) == len(b) and _equal_rows(a, b)
+    return _equal_items(a, b)
+
+
+def _is_rows(value: Any) -> bool:
+    """Whether it is an array, a sequence, or an index of a data frame."""
+    if isinstance(value, np.ndarray):
+        return value.ndim > 0
+    if isinstance(value, str | bytes):
+        return False
+    return isinstance(value, Sequence) or (hasattr(value, "__array__") and hasattr(value, "__len__"))
+
+
+def _equal_rows(a: Any, b: Any) -> bool:
+    if isinstance(a, np.ndarray) and isinstance(b, np.ndarray) and a.dtype.kind in "biuf" and b.dtype.kind in "biuf":
+        return _equal_numbers(a, b)
+    return all(starmap(is_equal, zip(_items(a), _items(b), strict=True)))
+
+
+def _items(rows: Any) -> list[Any]:
+    return rows.tolist() if isinstance(rows, np.ndarray) else list(rows)
+
+
+def _equal_numbers(a: NDArray[Any], b: NDArray[Any]) -> bool:
+    if a.shape != b.shape:
+        return False
+    same = np.equal(np.ma.getdata(a), np.ma.getdata(b))
+    if a.dtype.kind == b.dtype.kind == "f":
+        same |= np.isnan(np.ma.getdata(a)) & np.isnan(np.ma.getdata(b))
+    if isinstance(a, np.ma.MaskedArray) or isinstance(b, np.ma.MaskedArray):
+        first, second = np.ma.getmaskarray(a), np.ma.getmaskarray(b)
+        same = (first == second) & (same | first)
+    return bool(same.all())
+
+
+def _equal_items(a: Any, b: Any) -> bool:
+    try:
+        return bool(a == b) or bool(a != a and b != b)  # noqa: PLR0124 - NaN is not itself
+    except Exception:  # of a foreign type: NA of pandas, for one, is neither equal nor different
+        return False

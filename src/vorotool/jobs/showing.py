@@ -1,0 +1,302 @@
+"""Values as notebooks and other programs show them: SVG, small pictures, HTML, axes of matplotlib, features."""
+
+from __future__ import annotations
+
+import io
+from base64 import b64encode
+from collections.abc import Callable, Sequence
+from html import escape
+from operator import attrgetter
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import UsageError
+from vorotool.geometry.any.features import features_of
+from vorotool.geometry.crs import is_geographic
+from vorotool.geometry.extras import needed
+from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation
+from vorotool.geometry.mesh.triangulation import Triangulation
+from vorotool.geometry.pixel_grid import PixelGrid
+from vorotool.geometry.points.label_image import LabelImage
+from vorotool.geometry.points.raster import Raster
+from vorotool.geometry.table import Table
+from vorotool.jobs.pictures import Drawing, drawing_of, write_label_picture, write_layers
+from vorotool.jobs.writing import to_geojson
+from vorotool.products.registry import is_of, parts_of
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from vorotool.render.canvas.layers import Layer
+
+MOST_ELEMENTS = 5_000
+"""Lines, corners, discs and texts of a picture that notebooks show as SVG; of more they show pixels."""
+
+WIDTH = 480
+"""Px across such a picture."""
+
+SIDE = 320
+"""Pixels a side of a small picture of an image, at most."""
+
+ROWS = 10
+"""Of a table, as it is shown."""
+
+
+# ---- features ------------------------------------------------------------------------------------
+def feature_collection(value: Any) -> dict[str, Any]:
+    """Give a value as a feature collection of GeoJSON: as `to_geojson` does, of triangulations the triangles.
+
+    Examples
+    --------
+    >>> from vorotool import PointSet
+    >>> feature_collection(PointSet([[2, 1]]))["features"][0]["geometry"]
+    {'type': 'Point', 'coordinates': [2.0, 1.0]}
+    """
+    if any("geojson" in each.written for each in parts_of(value).values()):
+        return to_geojson(value, what="triangles" if isinstance(value, Triangulation | DigitalTriangulation) else None)
+    return _features(value)
+
+
+def _features(value: Any) -> dict[str, Any]:
+    """Of what has no format of its own."""
+    import orjson
+    import shapely
+
+    features = features_of(value)
+    columns = {
+        name: column.tolist() if isinstance(column, np.ndarray) else list(column)
+        for name, column in features.columns.items()
+    }
+    shapes = [None if text is None else orjson.loads(text) for text in shapely.to_geojson(features.geometry)]
+    rows = zip(*columns.values(), strict=True)
+    made: dict[str, Any] = {
+        "type": "FeatureCollection",
+        "features": [
+            {"type": "Feature", "properties": dict(zip(columns, row, strict=True)), "geometry": shape}
+            for row, shape in zip(rows, shapes, strict=True)
+        ],
+    }
+    crs = getattr(features.source, "crs", None)
+    return made if crs is None else {**made, "crs": crs}
+
+
+# ---- drawings ------------------------------------------------------------------------------------
+def _drawn(value: Any, what: str | None, layers: Sequence[str] | None, width: int) -> Drawing:
+    """The picture of a value, also of what is only drawn along with others."""
+    from vorotool.render.canvas.layers import Lines, Page, Points, bounds_of
+
+    made: list[Layer]
+    if is_of(value, "AlphaComplex"):
+        return drawing_of(value.mesh, what=what, layers=layers, width=width)
+    if is_of(value, "PlanarGraph"):
+        places, y_up = value.coordinates(), value.polygons is not None and value.polygons.y_up
+        made = [Lines("segments", places, value.segments)]
+    elif is_of(value, "PointSet", "SeedSet"):
+        places, y_up = value.xy if is_of(value, "PointSet") else value.sites, getattr(value, "y_up", False)
+        made = []
+    else:
+        return drawing_of(value, what=what, layers=layers, width=width)
+    if what is not None or layers is not None:
+        raise UsageError(f"a picture of a {type(value).__name__} has one layer: leave what and layers out")
+    page = Page(bounds_of([Points("points", places)]), width=width, y_up=y_up)
+    made.append(Points("points", places, radius=min(max(page.spacing(len(places)) / 12, 0.3), 4.0)))
+    return Drawing(made, page)
+
+
+def _elements(layers: Sequence[Layer]) -> int:
+    """Lines, corners, discs and texts of layers."""
+    counts = ("pairs", "corners", "start", "points")
+    return sum(len(getattr(layer, next(name for name in counts if hasattr(layer, name)))) for layer in layers)
+
+
+def svg_of(value: Any) -> str | None:
+    """Give the picture of a value as SVG; None of images, and of what has too many elements.
+
+    Examples
+    --------
+    >>> from vorotool import delaunay
+    >>> svg_of(delaunay([[0, 0], [4, 0], [0, 3]])).count("<circle")
+    3
+    """
+    if isinstance(value, LabelImage | Raster):
+        return None
+    drawing = _drawn(value, None, None, WIDTH)
+    if _elements(drawing.layers) > MOST_ELEMENTS:
+        return None
+    return _written(lambda out: write_layers(out, drawing.layers, drawing.page, fmt="svg")).decode()
+
+
+def html_of(value: Any) -> str | None:
+    """Give a value as a small picture of pixels, with one line below; None of what `svg_of` gives.
+
+    Examples
+    --------
+    >>> from vorotool import LabelImage
+    >>> html_of(LabelImage(np.array([[1, 1, 2]], dtype=np.uint8)))[-48:]
+    '<br>LabelImage: 3 x 1, 2 labels, uint8</figure>\\n'
+    """
+    if isinstance(value, LabelImage):
+        png = _labels_png(value)
+    elif isinstance(value, Raster):
+        png = _raster_png(value)
+    else:
+        drawing = _drawn(value, None, None, WIDTH)
+        if _elements(drawing.layers) <= MOST_ELEMENTS:
+            return None
+        png = _written(lambda out: write_layers(out, drawing.layers, drawing.page, fmt="png"))
+    image = f'<img alt="" src="data:image/png;base64,{b64encode(png).decode()}">'
+    return f"<figure>{image}<br>{escape(repr(value))}</figure>\n"
+
+
+def _written(write: Callable[[io.BytesIO], None]) -> bytes:
+    out = io.BytesIO()
+    write(out)
+    return out.getvalue()
+
+
+def _step(shape: tuple[int, int]) -> int:
+    """Every how many rows and columns a small picture takes."""
+    return -(-max(shape) // SIDE)
+
+
+def _labels_png(image: LabelImage) -> bytes:
+    from vorotool.engines.label_images.object_colours import object_colours
+
+    step = _step(image.shape)
+    small = LabelImage(np.ascontiguousarray(image.labels[::step, ::step]))
+    colours = object_colours(small)
+    return _written(lambda out: write_label_picture(out, small, colours, fmt="png", layers=("cells",)))
+
+
+def _raster_png(raster: Raster) -> bytes:
+    from vorotool.formats.images.png_writer import write_png
+
+    step = _step(raster.shape)
+    seen = _visible(raster.values[::step, ::step])
+    rows = np.repeat(seen[..., None], 3, axis=2) if seen.ndim == 2 else seen
+    bands = [np.ascontiguousarray(rows).reshape(len(rows), -1)]
+    return _written(lambda out: write_png(out, bands, rows.shape[:2], rgb=True))
+
+
+def _visible(values: NDArray[Any]) -> NDArray[np.uint8]:
+    """Grey or red, green and blue, from the least value, black, to the largest."""
+    if values.ndim == 3:
+        values = values[..., :3] if values.shape[2] > 2 else values[..., 0]
+    if values.dtype == np.uint8 and values.ndim == 3:
+        return values
+    real = values.astype(np.float64)
+    known = real[np.isfinite(real)]
+    low, high = (float(known.min()), float(known.max())) if known.size else (0.0, 0.0)
+    span = high / 2 - low / 2  # no largest double overflows
+    share = (real / 2 - low / 2) / span if span > 0 else np.full(real.shape, float(high > 0))
+    return np.round(255 * np.nan_to_num(share, nan=0.0, posinf=1.0, neginf=0.0)).astype(np.uint8)
+
+
+# ---- axes ----------------------------------------------------------------------------------------
+_CRS = [
+    attrgetter(path)
+    for path in (
+        *("crs", "grid.crs", "mesh.crs", "family.mesh.crs", "shape.family.mesh.crs", "polygons.crs"),
+        *("path.polygons.crs", "skeleton.polygons.crs"),
+    )
+]
+"""Where values have their coordinate reference system."""
+
+
+def _crs_of(value: Any) -> Any:
+    for found in _CRS:
+        try:
+            return found(value)
+        except AttributeError:
+            continue
+    return None
+
+
+def plotted(value: Any, ax: Axes | None = None, **style: Any) -> Axes:
+    """Draw a value on axes of matplotlib; see `vorotool.geometry.values.Pictured`.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> from vorotool import PointSet
+    >>> len(plotted(PointSet([[2, 1]]), Figure().add_subplot()).collections)
+    1
+    """
+    needed("matplotlib", "plot", "plots")
+    from vorotool.render.canvas.axes import draw_on_axes, settle_axes
+
+    if ax is None:
+        ax = needed("matplotlib.pyplot", "plot", "plots").subplots()[1]
+    if isinstance(value, LabelImage | Raster):
+        y_up = _show_image(ax, value, style)
+    else:
+        what, layers = style.pop("what", None), style.pop("layers", None)
+        drawing = _drawn(value, what, layers, 640)
+        y_up = drawing.page.y_up
+        draw_on_axes(ax, drawing.layers, drawing.page, **style)
+    settle_axes(ax, y_up=y_up, is_geographic=is_geographic(_crs_of(value)))
+    return ax
+
+
+def _show_image(ax: Axes, image: LabelImage | Raster, style: dict[str, Any]) -> bool:
+    """Show pixels, those of a map where they are on it; tells whether y goes upwards."""
+    height, width = image.shape
+    x, y = (image.frame.x, image.frame.y) if isinstance(image, LabelImage) and image.frame is not None else (0, 0)
+    extent = (x - 0.5, x + width - 0.5, y + height - 0.5, y - 0.5)
+    grid: PixelGrid | None = image.grid
+    is_map = grid is not None and grid.transform is not None and grid.is_upright
+    if is_map:
+        a, _, c, _, e, f = grid.transform  # type: ignore[union-attr,misc]
+        extent = (c, c + a * width, f + e * height, f)
+    given: dict[str, Any] = {"extent": extent, "interpolation": "nearest"}
+    pixels: NDArray[Any]
+    if isinstance(image, LabelImage):
+        pixels = _coloured(image)
+    elif image.is_colour:
+        pixels = _visible(image.values)
+    else:
+        pixels, given["cmap"] = image.values, "gray"
+    ax.imshow(pixels, **{**given, **style})
+    return bool(is_map and grid is not None and grid.is_north_up)
+
+
+def _coloured(image: LabelImage) -> NDArray[np.uint8]:
+    """(H, W, 3) colours of the pixels, as pictures of label images have them."""
+    from vorotool.engines.label_images.object_colours import object_colours
+    from vorotool.render.canvas.palettes import picture_palette
+
+    labels, classes = object_colours(image)
+    palette = picture_palette(int(classes.max(initial=0))).colours
+    known, number = np.append(0, labels), np.append(0, classes)
+    made: NDArray[np.uint8] = palette[number[np.searchsorted(known, np.maximum(image.labels, 0))]]
+    return made
+
+
+# ---- tables --------------------------------------------------------------------------------------
+def table_html(table: Table) -> str:
+    """Give the first rows of a table as HTML, and how many it has.
+
+    Examples
+    --------
+    >>> table_html(Table({"label": [1], "name": ["a<b"]})).splitlines()[2]
+    '<tr><td>1</td><td>a&lt;b</td></tr>'
+    """
+    shown = [_first(column) for column in table.stored().values()]
+    head = "".join(f"<th>{escape(name)}</th>" for name in table)
+    rows = ["".join(f"<td>{escape(text)}</td>" for text in row) for row in zip(*shown, strict=True)]
+    body = "".join(f"<tr>{row}</tr>\n" for row in rows)
+    more = f"{table.rows} rows" if table.rows != 1 else "1 row"
+    return f"<table>\n<thead><tr>{head}</tr></thead>\n{body}</table>\n<p>{more} x {len(table)} columns</p>\n"
+
+
+def _first(column: Any) -> list[str]:
+    """Texts of the first fields; empty where there is no value."""
+    rows = column[:ROWS]
+    values = rows.tolist() if isinstance(rows, np.ndarray) else list(rows)
+    return ["" if value is None or value != value else _text(value) for value in values]  # noqa: PLR0124 - NaN
+
+
+def _text(value: Any) -> str:
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
