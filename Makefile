@@ -78,6 +78,10 @@ STUBS := src/vorotool
 stubs: build ## write the types of the compiled core (src/vorotool/_core/*.pyi) anew, from the core itself
 	$(RUN) -m nanobind.stubgen --quiet --recursive --module vorotool._core --output-dir $(STUBS)
 
+.PHONY: notebooks
+notebooks: build $(BUILD)/.tests ## run the notebooks of docs, and keep in them what they show
+	$(RUN) docs/scripts/notebooks.py
+
 .PHONY: bench
 bench: build $(BUILD)/.tests ## measure beside the peers, in one run
 	$(BIN)/$(PIP) $$($(NEEDED) bench)

@@ -7,9 +7,10 @@ version = release = vorotool.__version__
 copyright = "the authors of vorotool"
 html_title = f"vorotool {release}"
 
-extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.autosummary", "numpydoc", "sphinx_copybutton"]
+extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.autosummary", "numpydoc", "sphinx_copybutton"]
 exclude_patterns = ["man", "scripts"]
-source_suffix = {".md": "markdown"}
+source_suffix = {".md": "myst-nb", ".ipynb": "myst-nb"}
+nb_execution_mode = "off"  # `make notebooks` runs them, and the tests do
 myst_heading_anchors = 3
 smartquotes = False  # -- begins an option
 copybutton_prompt_text = "$ "
