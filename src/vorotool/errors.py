@@ -2,7 +2,66 @@
 
 from __future__ import annotations
 
+import re
 from enum import Enum, auto
+
+_TYPED, _PARAMETER, _END = "\ufdd0", "\ufdd1", "\ufdd2"
+"""Noncharacters of Unicode, which no text has: they stand around the two readings of an option in a message."""
+
+_OPTION = re.compile(f"{_TYPED}([^{_TYPED}-{_END}]*){_PARAMETER}([^{_TYPED}-{_END}]*){_END}")
+
+
+def option(typed: str, parameter: str | None = None) -> str:
+    """Name an option in a message: the command line reads it as it is typed there, Python as the parameter it is.
+
+    The text has both readings until it is shown, so that it can be put together with other text, kept, and sent to
+    another process. Errors and warnings show the parameter; `VorotoolError.typed` and `Message.typed` what is typed.
+
+    Parameters
+    ----------
+    typed : str
+        As it is typed on the command line, where an option has a value with that.
+    parameter : str, optional
+        As it is written in Python. By default the name with underscores, and ``=`` before the value, if there is one.
+
+    Returns
+    -------
+    str
+        Both.
+
+    Examples
+    --------
+    >>> error = UsageError(f"use {option('--window X,Y,W,H', 'window=(x, y, w, h)')}, or {option('--max-sites 9')}")
+    >>> print(error)
+    use window=(x, y, w, h), or max_sites=9
+    >>> error.typed
+    'use --window X,Y,W,H, or --max-sites 9'
+    """
+    if parameter is None:
+        name, _, value = typed.lstrip("-").partition(" ")
+        parameter = f"{name.replace('-', '_')}{'=' if value else ''}{value}"
+    return f"{_TYPED}{typed}{_PARAMETER}{parameter}{_END}"
+
+
+STRICT = option("--strict", "strict=True")
+NO_PROPERTIES = option("--no-properties", "properties=False")
+FORMAT = option("-f", "fmt=...")
+OTSU = option("--threshold otsu", 'threshold="otsu"')
+OUTPUT = option("-o", "path=...")
+NO_CLOBBER = option("--no-clobber", "no_clobber=True")
+AS_JSON = option("--input-format json", 'input_format="json"')
+INPUT_FORMAT = option("--input-format", "input_format=...")
+"""Options that many messages name."""
+
+
+def _typed(text: str) -> str:
+    """Read a text with options as the command line has them."""
+    return _OPTION.sub(r"\1", text)
+
+
+def _parameters(text: str) -> str:
+    """Read a text with options as Python has them."""
+    return _OPTION.sub(r"\2", text)
 
 
 class Kind(Enum):
@@ -22,16 +81,22 @@ class Kind(Enum):
 class Message(str):
     """A line for the user that knows what it is about: nothing is to be told from its words.
 
-    It is text, and equal to text, so that whoever takes lines takes these as well.
+    It is text, and equal to text, so that whoever takes lines takes these as well: the text in which options are
+    parameters.
 
     Parameters
     ----------
     text : str
-        The line.
+        The line, which may have texts of `option`.
     kind : Kind
         What it is about.
     source : str, optional
         The input that the words name; None where they name none.
+
+    Attributes
+    ----------
+    marked : str
+        The line in both readings, of which others can be made.
 
     Examples
     --------
@@ -42,12 +107,26 @@ class Message(str):
 
     kind: Kind
     source: str | None
+    marked: str
 
     def __new__(cls, text: str = "", kind: Kind = Kind.GENERAL, *, source: str | None = None) -> Message:
         """Make the line."""
-        line = super().__new__(cls, text)
+        line = super().__new__(cls, _parameters(text))
         line.kind, line.source = kind, source
+        line.marked = text.marked if isinstance(text, Message) else text
         return line
+
+    @property
+    def typed(self) -> Message:
+        """The line as the command line says it.
+
+        Examples
+        --------
+        >>> said = Message(f"nothing is left: {option('--invert', 'invert=True')} turns it")
+        >>> said, said.typed
+        ('nothing is left: invert=True turns it', 'nothing is left: --invert turns it')
+        """
+        return Message(_typed(self.marked), self.kind, source=self.source)
 
     @classmethod
     def of(cls, text: str) -> Message:
@@ -68,10 +147,24 @@ class VorotoolError(Exception):
     ----------
     source : str or None
         The input that the words name; None where they name none.
+    marked : str
+        The words in both readings, of which other messages can be made: `str` reads options as parameters.
     """
 
     exit_code = 1
     source: str | None = None
+    marked: str
+
+    def __init__(self, text: str = "") -> None:
+        """Take the words, which may have texts of `option`."""
+        said = Message.of(text)
+        self.marked = said.marked
+        super().__init__(str(said))
+
+    @property
+    def typed(self) -> Message:
+        """The words as the command line says them."""
+        return Message(_typed(self.marked), source=self.source)
 
 
 class VerificationError(VorotoolError):
@@ -111,10 +204,14 @@ class BatchError(VorotoolError):
 class VorotoolWarning(UserWarning):
     """Something was repaired, snapped or guessed; one line that counts what was done."""
 
+    def __init__(self, text: str = "") -> None:
+        """Take the line, which may have texts of `option`."""
+        super().__init__(Message.of(text))
+
     @property
     def message(self) -> Message:
         """The line."""
-        return Message.of(*self.args[:1])
+        return Message.of(*self.args)
 
 
 class RepairWarning(VorotoolWarning):

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-from vorotool.errors import InputError, UsageError
+from vorotool.errors import INPUT_FORMAT, InputError, UsageError, option
 from vorotool.formats.images.picture_reader import PICTURES, picture_format
 from vorotool.formats.images.pnm_reader import looks_like_pnm
 from vorotool.formats.io.npy_arrays import MAGIC, npy_header
@@ -92,7 +92,8 @@ def read_recognised(holds: Holds, source: Source, options: ReadOptions) -> Any:
     if holds not in ("points", "polygons"):
         return value
     if source.layer is not None and "layers" not in INPUTS[source.format].has:
-        raise UsageError(f"--input-layer is for files of several layers, but {source.name} has none: leave it out")
+        layer = option("--input-layer", "layer")
+        raise UsageError(f"{layer} is for files of several layers, but {source.name} has none: leave it out")
     from vorotool.formats.parsing.reference_systems import with_crs
 
     return with_crs(value, source.name, options)
@@ -118,7 +119,7 @@ def image_source(source: Source, said: str | None = None) -> Source:
     if found is None:
         raise InputError(
             f"{source.name} is no image that is read (PNG, TIFF, PGM, PBM, NPY, {', '.join(PICTURES.values())}): "
-            "name it with --input-format, or convert it to PNG"
+            f"name it with {INPUT_FORMAT}, or convert it to PNG"
         )
     return replace(source, format=found)
 
@@ -146,11 +147,12 @@ def image_format(source: Source, said: str | None = None) -> str | None:
         return None
     chosen = said or by_name or found
     if chosen == "zarr":
-        raise InputError(f"{source.name} is a file, but a Zarr store is a folder: leave out --input-format")
+        raise InputError(f"{source.name} is a file, but a Zarr store is a folder: leave out {INPUT_FORMAT}")
     if not source.data:
         raise InputError(f"{source.name} is empty: an image was expected")
     if found and found != chosen:
-        raise InputError(f"{source.name} is no {chosen} file, it begins as {found}: use --input-format {found}")
+        said_so = option(f"--input-format {found}", f'input_format="{found}"')
+        raise InputError(f"{source.name} is no {chosen} file, it begins as {found}: use {said_so}")
     return chosen
 
 

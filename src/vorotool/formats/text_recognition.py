@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import replace
 
-from vorotool.errors import InputError, UsageError
+from vorotool.errors import INPUT_FORMAT, InputError, UsageError, option
 from vorotool.formats.drawing.recognition import drawing_format, refuse_drawing
 from vorotool.formats.features.delimited_geometry import geometry_column
 from vorotool.formats.features.reading import features_of
@@ -21,6 +21,8 @@ from vorotool.formats.points.tables import is_table
 from vorotool.formats.polygons.json import is_list_of_shells
 from vorotool.formats.polygons.wkt import holds_shapes as wkt_holds_shapes
 from vorotool.products.inputs import INPUTS, Holds
+
+_ALPHA = option("alphashape", "alpha_shape")
 
 _SUFFIXES = {f".{name}": each.name for each in INPUTS.values() for name in each.names if name not in ("json", "txt")}
 """Extensions that tell the format; JSON is of one of several kinds, and text of any."""
@@ -66,7 +68,7 @@ def recognised_geometry(
     else:
         holds, source = _either(source, said)
     if holds == "polygons" and columns is not None:
-        raise UsageError("--columns is for lists of points: leave it out for polygons")
+        raise UsageError(f"{option('--columns')} is for lists of points: leave it out for polygons")
     return holds, source
 
 
@@ -142,7 +144,7 @@ def polygon_format(source: Source) -> str:
         return found
     raise InputError(
         f"{source.name} holds no polygons or lines that are read (it looks like {found}): use JSON, GeoJSON, WKT, "
-        ".poly, SVG or DXF, or say which with --input-format; of points alphashape makes polygons"
+        f".poly, SVG or DXF, or say which with {INPUT_FORMAT}; of points {_ALPHA} makes polygons"
     )
 
 
@@ -191,7 +193,9 @@ def _is_flat(data: bytes) -> bool:
 def _points(source: Source, chosen: str, columns: str | None) -> Source:
     source = _with_format(source, chosen)
     if columns is not None and source.format not in _WITH_COLUMNS:
-        raise UsageError(f"--columns is for delimited text, but {source.name} is read as {chosen}: leave it out")
+        raise UsageError(
+            f"{option('--columns')} is for delimited text, but {source.name} is read as {chosen}: leave it out"
+        )
     return source
 
 
@@ -206,12 +210,12 @@ def text_source(source: Source, chosen: str) -> Source:
         raise InputError(f"{source.name} is UTF-16 text; save it as UTF-8 (iconv -f UTF-16 -t UTF-8)")
     if source.data.startswith(NPZ_MAGIC):
         raise InputError(
-            f"{source.name} is an NPZ or ZIP archive: for NPZ leave out --input-format, or call it .npz; unpack others"
+            f"{source.name} is an NPZ or ZIP archive: for NPZ leave out {INPUT_FORMAT}, or call it .npz; unpack others"
         )
     if b"\0" in source.data[:4096]:
         raise InputError(
             f"{source.name} is binary, not points or polygons; use CSV, .node, NPY, .poly, GeoJSON, WKT or JSON, or "
-            "say which with --input-format"
+            f"say which with {INPUT_FORMAT}"
         )
     data = source.data.removeprefix(_UTF8_MARK)
     is_lines = chosen in ("json", "geojson") and is_json_lines(data)

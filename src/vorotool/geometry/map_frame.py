@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError, LimitError, UsageError
+from vorotool.errors import InputError, LimitError, UsageError, option
 from vorotool.geometry.pixel_frame import FARTHEST, Frame
 from vorotool.geometry.pixel_grid import PixelGrid, map_grid
 
@@ -58,8 +58,8 @@ def map_frame(
         if columns.denominator != 1 or rows.denominator != 1:
             nearest = ",".join(f"{float(max(1, round(number)) * side):.17g}" for number in (columns, rows))
             raise UsageError(
-                f"--window is {float(window[2]):.17g} x {float(window[3]):.17g}, no whole number of cells of "
-                f"{float(side):.17g}: the nearest W,H is {nearest}"
+                f"{option('--window')} is {float(window[2]):.17g} x {float(window[3]):.17g}, no whole number of cells "
+                f"of {float(side):.17g}: the nearest W,H is {nearest}"
             )
         width, height = int(columns), int(rows)
     else:
@@ -67,14 +67,16 @@ def map_frame(
         last = [ceil(Fraction(float(value)) / side) for value in high]
         if max(map(abs, [*first, *last])) > FARTHEST:
             raise InputError(
-                f"coordinates are more than 2^44 cells of {float(side):.17g} from 0: use a larger --cell-size"
+                f"coordinates are more than 2^44 cells of {float(side):.17g} from 0: use a larger "
+                f"{option('--cell-size', 'side')}"
             )
         width, height = (max(1, b - a) for a, b in zip(first, last, strict=True))
         left, bottom = first[0] * side, first[1] * side
         if width * height > MOST_UNASKED:
             raise LimitError(
                 f"what is read needs {width} x {height} cells of {float(side):.17g}, more than {MOST_UNASKED}: use a "
-                "larger --cell-size, or choose a part with --window X,Y,W,H"
+                f"larger {option('--cell-size', 'side')}, or choose a part with "
+                f"{option('--window X,Y,W,H', 'window=(x, y, w, h)')}"
             )
     top = bottom + height * side
     step = float(side)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from vorotool.errors import InputError
+from vorotool.errors import InputError, option
 
 FARTHEST = 2**44
 """No seed lies farther from the origin (in pixels); in steps of 1/256 pixel this is far from the end of 64 bits."""
@@ -47,12 +47,12 @@ class Frame:
         if max(abs(self.x), abs(self.y)) > FARTHEST:
             raise InputError(
                 f"the frame begins at {shown_number((self.x, self.y))}: its coordinates must be at most 2^44; "
-                "use a nearer --window"
+                f"use a nearer {option('--window')}"
             )
         if self.width < 1 or self.height < 1:
             raise InputError(
                 f"the frame is {shown_number(self.width)} x {shown_number(self.height)} pixels: "
-                "it needs at least 1 x 1, use --size WxH"
+                f"it needs at least 1 x 1, use {option('--size WxH', 'shape=(H, W)')}"
             )
 
     @property

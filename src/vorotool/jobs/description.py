@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from vorotool.batch.inputs import expand_inputs, is_several
 from vorotool.engines.tessellation.raster_objects import default_objects, foreground_values, numbered_components
-from vorotool.errors import BatchError, InputError, UsageError, VorotoolError
+from vorotool.errors import BatchError, InputError, Message, UsageError, VorotoolError
 from vorotool.formats.io.atomic_output import open_output
 from vorotool.formats.opening import Opened, opened
 from vorotool.formats.text.tables import json_text
@@ -58,7 +58,7 @@ def describe_inputs(options: ReadingOptions) -> None:
         except VorotoolError as error:
             if len(names) == 1 or isinstance(error, UsageError):
                 raise
-            tell(f"error: {error}")
+            tell(f"error: {error.typed}")
             failed += 1
             continue
         with open_output("-") as out:
@@ -95,11 +95,11 @@ def described(path: str, options: ReadingOptions) -> Description:
     >>> told["format"], told["kind"], told["points"], told["bounds"]
     ('csv', 'points', 6, [2.0, 2.0, 13.0, 14.0])
     """
-    notes: list[str] = []
+    notes: list[Message] = []
     with opened(path, geometry=None, input_format=options.input_format, page=options.page) as source:
         told = _of_header(source)
         if told is None:
-            told = _of_content(source, options, notes.append)
+            told = _of_content(source, options, lambda text: notes.append(Message.of(text).typed))
     return {"input": path, **told, "notes": notes}
 
 
@@ -218,7 +218,7 @@ def _of_image(value: Raster, note: Callable[[str], None]) -> Description:
         told["foreground_pixels"] = int(np.count_nonzero(objects))
         told["objects"] = _count_of_objects(objects, told["kind"])
     except InputError as error:  # what it says is what there is to know of a picture
-        note(str(error))
+        note(error.typed)
         told["kind"] = "picture"
         commands.remove("draw")
     return {**told, "commands": commands}

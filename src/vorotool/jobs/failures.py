@@ -16,7 +16,7 @@ def explained(error: Exception) -> tuple[Message, int]:
     ('too large', 5)
     """
     if isinstance(error, VorotoolError):
-        return Message(str(error), source=error.source), error.exit_code
+        return error.typed, error.exit_code
     if isinstance(error, MemoryError):
         text = "there is not enough memory: use a smaller frame, or an output that is streamed"
         return Message(text), LimitError.exit_code

@@ -323,6 +323,6 @@ def naming(given: JobInput) -> Iterator[None]:
     except InputError as error:
         if error.source is not None:
             raise
-        named = InputError(f"{given.name}: {error}")
+        named = InputError(f"{given.name}: {error.marked}")
         named.source = given.path
         raise named from error

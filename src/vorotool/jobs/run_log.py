@@ -95,24 +95,26 @@ class Run:
 
     def note(self, message: str) -> None:
         """Say something useful on standard error; that lengths are in degrees is about the result: a warning."""
-        if Message.of(message).kind is Kind.DEGREES:
+        said = Message.of(message).typed
+        if said.kind is Kind.DEGREES:
             self.warn(message)
             return
-        self.notes.append(Message.of(message))
+        self.notes.append(said)
         if not self._quiet:
-            tell(f"note: {message}")
+            tell(f"note: {said}")
 
     def warn(self, message: str) -> None:
         """Say what was repaired, snapped or guessed: on standard error and in the statistics, each once.
 
         That results are empty is left out where the image has been told to be.
         """
-        is_empty = Message.of(message).kind is Kind.EMPTY_RESULT
-        if message in self.warnings or (is_empty and any(said.kind is Kind.NO_FOREGROUND for said in self.warnings)):
+        said = Message.of(message).typed
+        is_empty = said.kind is Kind.EMPTY_RESULT
+        if said in self.warnings or (is_empty and any(each.kind is Kind.NO_FOREGROUND for each in self.warnings)):
             return
-        self.warnings.append(Message.of(message))
+        self.warnings.append(said)
         if not self._quiet:
-            tell(f"warning: {message}")
+            tell(f"warning: {said}")
 
     @contextmanager
     def phase(self, name: str) -> Iterator[Progress]:

@@ -7,6 +7,8 @@ from dataclasses import dataclass, field
 from importlib import import_module
 from typing import Any, NamedTuple
 
+from vorotool.errors import option
+
 
 class Writer(NamedTuple):
     """A function ``function(out, value, **options)``, named so that nothing is imported before something is written."""
@@ -119,12 +121,17 @@ FORMATS = {each.name: each for each in _ALL}
 """By name."""
 EXTENSIONS = {ending: each.name for each in _ALL for ending in each.endings}
 """The format that an extension stands for."""
+PICTURES = ("svg", "png")
+"""Formats of pictures."""
+
+AS_SVG, AS_PNG = (option(f"-f {name}", f'fmt="{name}"') for name in PICTURES)
+AS_PICTURE = option("-f svg or png", 'fmt="svg" or "png"')
+"""Pictures, in messages that advise one."""
+
 TABLES = ("csv", "tsv", "json", "npz")
 """Formats of tables."""
 TABLE_WRITER = Writer("formats.text.tables:write_table", ("fmt", "precision", "threads"))
 """Of tables, whatever they tell."""
-PICTURES = ("svg", "png")
-"""Formats of pictures."""
 
 
 def format_named(name: str) -> str | None:

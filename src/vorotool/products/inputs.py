@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
-from vorotool.errors import UsageError
+from vorotool.errors import UsageError, option
 
 Holds = Literal["points", "polygons", "image", "skeleton", "offsets"]
 """What an input may hold: polygons stand for lines, too."""
@@ -161,5 +161,5 @@ def known_input_format(name: str | None, names: Mapping[str, str] = NAMES_WITH[N
     if name is None:
         return None
     if name.lower() not in names:
-        raise UsageError(f"invalid --input-format {name!r}: expected one of {', '.join(names)}")
+        raise UsageError(f"invalid {option('--input-format')} {name!r}: expected one of {', '.join(names)}")
     return names[name.lower()]

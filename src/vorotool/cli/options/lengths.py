@@ -92,7 +92,7 @@ class Distances(ParameterType[tuple[float, ...]]):
         try:
             plain = iter(checked_distances([x for x in lengths if not isinstance(x, Measured)] or [1]))
         except UsageError as error:
-            self.fail(str(error), param, ctx)
+            self.fail(error.typed, param, ctx)
         if any(isinstance(length, Measured) and not length.number for length in lengths):
             self.fail("a distance is 0: use finite ones, above 0 outwards, below 0 inwards", param, ctx)
         return tuple(length if isinstance(length, Measured) else next(plain) for length in lengths)

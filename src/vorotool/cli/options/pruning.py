@@ -49,7 +49,7 @@ class PruningType(ParameterType[Pruning]):
         try:
             check_threshold(criterion, threshold)
         except UsageError as error:
-            self.fail(str(error), param, ctx)
+            self.fail(error.typed, param, ctx)
         return Pruning(criterion, criterion, threshold)
 
     def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem[str]]:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError, UsageError
+from vorotool.errors import InputError, UsageError, option
 from vorotool.geometry.alpha.complex import CLASSES
 from vorotool.geometry.alpha.hull import AlphaHull
 from vorotool.geometry.alpha.shape import AlphaShape
@@ -72,7 +72,10 @@ def alpha_hull(shape: AlphaShape) -> AlphaHull:
     if not len(shape.points):  # of an image without foreground
         return _no_hull(shape)
     if shape.r == np.inf:
-        raise UsageError("the hull of an infinite radius is the convex hull: use vorotool delaunay, or a finite r")
+        raise UsageError(
+            "the hull of an infinite radius is the convex hull: use "
+            f"{option('vorotool delaunay', 'delaunay(points).hull')}, or a finite r"
+        )
     exponent = _scale(shape)
     arcs = _Arcs(shape, exponent)
     pieces = arcs.pieces()

@@ -21,7 +21,7 @@ from vorotool.engines.alpha.few_points import (
     unjoined,
 )
 from vorotool.engines.delaunay.delaunay import delaunay
-from vorotool.errors import InputError, UsageError
+from vorotool.errors import InputError, UsageError, option
 from vorotool.geometry.alpha.complex import AlphaComplex, Radius, checked_radius
 from vorotool.geometry.alpha.shape import AlphaShape
 from vorotool.geometry.checks import checked_threads
@@ -165,6 +165,10 @@ def _scan(
     return _core.alpha.shape_edges(*ranks, reached, entered, threads, progress)
 
 
+CONVEX_HULL = f"for the convex hull use {option('-r inf', 'r=inf')}"
+"""Advice where a radius without end is meant."""
+
+
 def chosen_radius(r: Any, alpha: Any, automatic: bool = False) -> Radius | None:
     """Give the radius that was asked for; None for the automatic one.
 
@@ -194,13 +198,11 @@ def chosen_radius(r: Any, alpha: Any, automatic: bool = False) -> Radius | None:
     if alpha is not None:
         value = real_number(alpha, "alpha")
         if not value < 0:
-            known = (
-                f"for the alphashape package's {shown_number(value)} use -r {shown_number(1 / value)}"
-                if value > 0
-                else ""
-            )
-            hint = f": {known or 'for the convex hull use -r inf'}"
-            raise UsageError(f"alpha must be negative (α = −1/r){hint}")
+            hint = CONVEX_HULL
+            if value > 0:
+                radius = shown_number(1 / value)
+                hint = f"for the alphashape package's {shown_number(value)} use {option(f'-r {radius}', f'r={radius}')}"
+            raise UsageError(f"alpha must be negative (α = −1/r): {hint}")
         return checked_radius(-1 / value)
     return None if r is None else checked_radius(r)
 

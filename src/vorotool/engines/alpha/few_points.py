@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError, VorotoolWarning
+from vorotool.errors import STRICT, InputError, VorotoolWarning, option
 from vorotool.geometry.alpha.complex import AlphaComplex
 from vorotool.geometry.points.seed_set import SeedSet
 
-GIVE_R = ": give r itself (-r)"
+GIVE_R = f": give r itself{option(' (-r)', '')}"
 """Advice where no radius can be chosen."""
 
 
@@ -55,7 +55,7 @@ def refuse_or_warn(reason: str, advice: str, *, allow_empty: bool, strict: bool)
     if not allow_empty:
         raise InputError(f"{reason}{advice}")
     if strict:
-        raise InputError(f"{reason}{f'{advice}, or' if advice else ':'} leave out --strict for an empty shape")
+        raise InputError(f"{reason}{f'{advice}, or' if advice else ':'} leave out {STRICT} for an empty shape")
     warnings.warn(f"{reason}{advice}; the shape is empty", VorotoolWarning, stacklevel=3)
 
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.arrangement.flat_rings import flat_holes, with_flat_shells_as_lines
-from vorotool.errors import InputError, LimitError, RepairWarning, VerificationError
+from vorotool.errors import STRICT, InputError, LimitError, RepairWarning, VerificationError
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.magnitude import check_magnitude
 from vorotool.geometry.polygons.conversion import as_polygons
@@ -232,7 +232,7 @@ def _first_repair(polygons: PolygonSet, found: dict[str, tuple[int, int, int]]) 
         "idle_segments": f"{where} bounds nothing, or a part of it does not: a spike or an overlap",
         "empty_polygons": f"{polygons.place(edge).split(',')[0]} at {_position(polygons, edge)} has no inside",
     }[name]
-    return f"{what} ({count} such places): repair it, or leave out --strict"
+    return f"{what} ({count} such places): repair it, or leave out {STRICT}"
 
 
 def _edge(polygons: PolygonSet, edge: int) -> str:

@@ -9,7 +9,7 @@ import numpy as np
 
 from vorotool import _core
 from vorotool.engines.common.point_input import as_points
-from vorotool.errors import InputError, LimitError, VerificationError, VorotoolWarning
+from vorotool.errors import STRICT, InputError, LimitError, VerificationError, VorotoolWarning
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.points.point_set import PointSet, known_of_points
@@ -90,7 +90,7 @@ def report_duplicates(mesh: Triangulation, *, strict: bool) -> None:
         return
     what = f"{count} of {len(mesh.points)} points lie on an earlier point"
     if strict:
-        raise InputError(f"{what}: remove the duplicates, or leave out --strict")
+        raise InputError(f"{what}: remove the duplicates, or leave out {STRICT}")
     warnings.warn(f"{what}: the first one of each place is triangulated", VorotoolWarning, stacklevel=3)
 
 

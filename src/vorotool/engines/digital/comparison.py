@@ -18,6 +18,7 @@ from vorotool.engines.digital.triangulation import digital_triangulation, one_se
 from vorotool.engines.label_images.regions import measure_regions
 from vorotool.engines.tessellation.frames import as_seeds, asked_frame, default_frame, require_memory
 from vorotool.engines.tessellation.tessellator import Tessellator
+from vorotool.errors import Message, option
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.mesh.digital_comparison import DigitalComparison
 from vorotool.geometry.pixel_frame import MAX_PIXELS, Frame
@@ -107,7 +108,7 @@ def compare_digital(
         triangles.recall,
         _table(differences, digital.labels),
         dict(sorted(counts.items())),
-        "; ".join((*_wider_frame(differences, causes, frame), *_larger_scale(differences))),
+        Message("; ".join((*_wider_frame(differences, causes, frame), *_larger_scale(differences)))),
     )
 
 
@@ -190,9 +191,10 @@ def _wider_frame(differences: list[Difference], causes: Causes, frame: Frame) ->
     beyond = sorted(causes.beyond[members] for members in off)
     # Thin triangles on the hull have centres without end: nobody wants a frame of more than three times the size.
     padding = ceil(min(beyond[ceil(COVERED * len(beyond)) - 1], max(frame.shape)))
-    window = f"{frame.x - padding},{frame.y - padding},{frame.width + 2 * padding},{frame.height + 2 * padding}"
+    numbers = (frame.x - padding, frame.y - padding, frame.width + 2 * padding, frame.height + 2 * padding)
+    window = option(f"--window {','.join(map(str, numbers))}", f"window={numbers}")
     held = sum(distance <= padding for distance in beyond)
-    return [f"--window {window} (padding {padding}) holds {held} of {len(off)} Voronoi vertices off the frame"]
+    return [f"{window} (padding {padding}) holds {held} of {len(off)} Voronoi vertices off the frame"]
 
 
 def _larger_scale(differences: list[Difference]) -> list[str]:

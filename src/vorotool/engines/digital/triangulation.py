@@ -22,7 +22,7 @@ from vorotool.engines.tessellation.frames import (
     require_memory,
 )
 from vorotool.engines.tessellation.tessellator import Tessellator
-from vorotool.errors import InputError, LimitError, VorotoolWarning
+from vorotool.errors import InputError, LimitError, VorotoolWarning, option
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation
 from vorotool.geometry.mesh.triangulation import Triangulation
@@ -30,6 +30,12 @@ from vorotool.geometry.pixel_frame import MAX_PIXELS
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.geometry.progress import Progress
+
+_ONE_A_LABEL = option(
+    "--seeds pixels or centroids, or --method digital",
+    'mode="pixels" or "centroids" of seeds_from_raster, or digital_triangulation',
+)
+"""Advice where a label has several seeds."""
 
 
 def digital_triangulation(
@@ -346,7 +352,7 @@ def one_seed_a_label(seeds: SeedSet) -> NDArray[np.intp]:
         label = ordered[same[0]]
         raise InputError(
             f"label {label} has {np.count_nonzero(ordered == label)} seeds: a triangulation of points needs one "
-            "pixel a label; use --seeds pixels or centroids, or --method digital, which links regions"
+            f"pixel a label; use {_ONE_A_LABEL}, which links regions"
         )
     return order
 

@@ -12,8 +12,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError
+from vorotool.errors import InputError, option
 from vorotool.geometry.ragged import following, starts_of, within
+
+_CRACKS = option("--outline crack", 'outline="crack"')
 
 Corners = NDArray[np.int32]
 Rings = tuple[NDArray[np.float64], NDArray[np.int64]]
@@ -50,7 +52,7 @@ def grey_level(grey: NDArray[Any], threshold: float) -> GreyLevel:
     (3.5, 1.5)
     """
     if grey.dtype.kind == "f" and not np.isfinite(grey).all():
-        raise InputError("the image holds NaN or infinite values: contours need numbers; use --outline crack")
+        raise InputError("the image holds NaN or infinite values: contours need numbers; use " + _CRACKS)
     above = grey > threshold
     if above.any() and (grey == threshold).any():
         return GreyLevel(grey, threshold + (float(grey[above].min()) - threshold) / 2)

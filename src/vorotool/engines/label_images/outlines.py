@@ -21,7 +21,7 @@ from vorotool.engines.tessellation.raster_objects import (
     report_no_foreground,
     settled_threshold,
 )
-from vorotool.errors import LimitError, UsageError
+from vorotool.errors import LimitError, UsageError, option
 from vorotool.geometry.numbers import shown_number
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.raster import Raster
@@ -188,6 +188,7 @@ def _traced(
     count = _core.label_images.count_crack_vertices(labels, threads, progress)
     if count > most:
         raise LimitError(
-            f"the outlines have {count} vertices, more than --max-sites {most}: smooth the image, or use a larger limit"
+            f"the outlines have {count} vertices, more than {option(f'--max-sites {most}')}: smooth the image, or use "
+            "a larger limit"
         )
     return _core.label_images.trace_cracks(labels, _core.label_images.CornerRule[rule], threads, progress)

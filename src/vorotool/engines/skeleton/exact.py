@@ -13,7 +13,7 @@ from vorotool import _core
 from vorotool.engines.arrangement.lattice_rings import PlacedShapes, placed_shapes
 from vorotool.engines.arrangement.planar_graph import graph_for_skeletons
 from vorotool.engines.segment_voronoi.segment_voronoi import core_diagram, segment_voronoi, unwanted_sides
-from vorotool.errors import Kind, Message, UsageError, VorotoolWarning
+from vorotool.errors import Kind, Message, UsageError, VorotoolWarning, option
 from vorotool.geometry.box import bounds
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.numbers import finite_double, shown_number
@@ -280,7 +280,7 @@ def warn_empty(polygons: PolygonSet, side: str) -> None:
     elif polygons.is_line.all():
         if side == "both":
             return
-        reason = "open lines have no inside: use --side exterior"
+        reason = "open lines have no inside: use " + option("--side exterior", 'side="exterior"')
     else:
         reason = "no polygon has an inside"
     message = Message(f"the interior skeleton is empty: {reason}", Kind.EMPTY_RESULT)

@@ -16,7 +16,7 @@ from vorotool import _core
 from vorotool.engines.common.label_arrays import described
 from vorotool.engines.common.point_input import as_points
 from vorotool.engines.tessellation.seeding import Check, seeds_from_points, seeds_from_raster
-from vorotool.errors import InputError, LimitError, UsageError, VorotoolWarning
+from vorotool.errors import STRICT, InputError, LimitError, UsageError, VorotoolWarning, option
 from vorotool.geometry.numbers import real_number, shown_number
 from vorotool.geometry.pixel_frame import Frame
 from vorotool.geometry.points.raster import Raster
@@ -28,6 +28,11 @@ BAND_PIXELS = 2**24
 
 MOST_UNASKED = 2**28
 """Pixels that a frame may have which follows from the points alone: more are likely points in map units."""
+
+
+_WINDOW = option("--window X,Y,W,H", "window=(x, y, w, h)")
+_CELLS = option("delaunay --what cells", "voronoi_cells")
+_WIDEST_TYPE = option("--dtype uint32", 'dtype="uint32"')
 
 
 def as_seeds(source: Any, *, check: Check = None) -> SeedSet:
@@ -53,7 +58,7 @@ def report_duplicates(duplicates: int, seeds: int, *, strict: bool) -> None:
         return
     if strict:
         raise InputError(
-            f"{duplicates} of {seeds} seeds lie on another seed: remove the duplicates, or leave out --strict"
+            f"{duplicates} of {seeds} seeds lie on another seed: remove the duplicates, or leave out {STRICT}"
         )
     warnings.warn(
         f"{duplicates} of {seeds} seeds lie on another seed: the smallest label has the region",
@@ -91,7 +96,7 @@ def default_frame(
     for name, values in (("x", seeds.x), ("y", seeds.y)):
         if values.min() < 0:
             low, high = values.min() / seeds.scale, values.max() / seeds.scale
-            raise InputError(f"points span {name} {low:g}..{high:g}: use --window X,Y,W,H, or delaunay --what cells")
+            raise InputError(f"points span {name} {low:g}..{high:g}: use {_WINDOW}, or {_CELLS}")
     nearest = [int((2 * v.max() + seeds.scale) // (2 * seeds.scale)) + 1 for v in (seeds.x, seeds.y)]
     if nearest[0] * nearest[1] > MOST_UNASKED:
         raise LimitError(
@@ -133,7 +138,9 @@ def require_memory(frame: Frame, max_pixels: int) -> None:
     """Refuse a frame that is too large to be held in memory."""
     if frame.pixels > real_number(max_pixels, "max_pixels"):
         width, height, pixels, most = map(shown_number, (frame.width, frame.height, frame.pixels, max_pixels))
-        raise LimitError(f"the frame has {width} x {height} = {pixels} pixels, more than --max-pixels {most}")
+        raise LimitError(
+            f"the frame has {width} x {height} = {pixels} pixels, more than {option(f'--max-pixels {most}')}"
+        )
 
 
 def band_limits(frame: Frame) -> Iterator[tuple[int, int]]:
@@ -154,7 +161,7 @@ def label_dtype(largest: int, dtype: Any = None) -> np.dtype[Any]:
     if kind not in (np.uint8, np.uint16, np.uint32, np.int32):
         raise UsageError(f"labels cannot have type {kind}: use uint8, uint16, uint32 or int32")
     if largest > np.iinfo(kind).max:
-        raise LimitError(f"labels up to {largest} do not fit {kind}: use --dtype uint32")
+        raise LimitError(f"labels up to {largest} do not fit {kind}: use {_WIDEST_TYPE}")
     return kind
 
 

@@ -19,12 +19,14 @@ from vorotool.engines.tessellation.frames import (
     require_seeds,
 )
 from vorotool.engines.tessellation.tessellator import Tessellator
-from vorotool.errors import InputError, UsageError
+from vorotool.errors import InputError, UsageError, option
 from vorotool.geometry.numbers import shown_number
 from vorotool.geometry.pixel_frame import MAX_PIXELS, Frame
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.geometry.progress import Progress
+
+_EXACT = option("--method exact", 'method="exact"')
 
 
 def propagate(
@@ -63,14 +65,14 @@ def propagate(
     require_seeds(seeds)
     frame = frame or default_frame(seeds)
     if seeds.scale != 1:
-        raise InputError("the paper's propagation starts from pixels: round the seeds, or use --method exact")
+        raise InputError(f"the paper's propagation starts from pixels: round the seeds, or use {_EXACT}")
     x, y = seeds.x - frame.x, seeds.y - frame.y
     outside = np.flatnonzero((x < 0) | (y < 0) | (x >= frame.width) | (y >= frame.height))
     if outside.size:
         i = int(outside[0])
         raise InputError(
             f"seed {i + 1} at ({seeds.x[i]}, {seeds.y[i]}) is outside the frame, and the paper's propagation starts "
-            f"from its pixels: use a larger --size or --window, or --method exact"
+            f"from its pixels: use a larger {option('--size', 'shape')} or {option('--window')}, or {_EXACT}"
         )
     labels = np.empty(frame.shape, np.uint32)
     _core.tessellation.propagate(x, y, seeds.labels, passes, labels, progress)

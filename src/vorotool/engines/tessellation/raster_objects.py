@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.errors import InputError, Kind, Message, VorotoolWarning
+from vorotool.errors import OTSU, STRICT, InputError, Kind, Message, VorotoolWarning, option
 from vorotool.geometry.numbers import finite_double
 from vorotool.geometry.points.raster import Raster
 
@@ -27,6 +27,12 @@ MOSTLY = 0.75
 
 MASK_VALUES = (1, 255)
 """Of masks, beside the largest value of the type."""
+
+_THRESHOLD = option("--threshold T", "threshold=T (of seeds_from_raster and outlines)")
+_SOME_THRESHOLD = option("--threshold", "threshold=T")
+_INVERT = option("--invert", "invert=True")
+_AS_COMPONENTS = option("--seeds components", 'mode="components"')
+_AS_LABELS = option("--seeds labels", 'mode="labels"')
 
 _LUMINANCE = (0.2125, 0.7154, 0.0721)
 """Weights of red, green and blue (ITU-R BT.709, as scikit-image has them)."""
@@ -61,14 +67,14 @@ def foreground_values(raster: Raster, threshold: Threshold, *, invert: bool) -> 
         values = grey > whole_threshold(grey, number)
     elif raster.is_colour:
         made = mask_options(grey_values(raster))
-        raise InputError(f"a colour image holds no objects by itself: use --threshold T or {made}")
+        raise InputError(f"a colour image holds no objects by itself: use {_THRESHOLD} or {made}")
     elif raster.is_lossy and not is_flat(values[values != values.min()]):
         raise InputError(
-            "the file is lossy, as JPEG is: its values are no labels; use --threshold T or "
+            f"the file is lossy, as JPEG is: its values are no labels; use {_THRESHOLD} or "
             f"{mask_options(values)}, or a PNG"
         )
     if values.dtype.kind == "f" and not np.isfinite(values).all():
-        raise InputError("the image holds NaN or infinite values: use --threshold T, a number, or repair them")
+        raise InputError(f"the image holds NaN or infinite values: use {_THRESHOLD}, a number, or repair them")
     values = values == 0 if invert else values
     return values if raster.mask is None else np.where(raster.mask, values.dtype.type(0), values)
 
@@ -112,7 +118,7 @@ def settled_threshold(raster: Raster, threshold: float | Literal["otsu"], *, inv
 
     grey = counted_values(raster)
     if grey.dtype.kind == "f" and not np.isfinite(grey).all():
-        raise InputError("the image holds NaN or infinite values: use --threshold T, a number, or repair them")
+        raise InputError(f"the image holds NaN or infinite values: use {_THRESHOLD}, a number, or repair them")
     if is_flat(grey):
         return (grey.flat[0].item() if grey.size else 0), False
     return otsu_threshold(grey), invert
@@ -204,9 +210,9 @@ def objects_of_value(value: Any, *, note: Note = None) -> Objects:
         return "components"
     is_mask = value in MASK_VALUES
     if note is not None and not is_mask:
-        note(f"{value} is the only value besides 0, and taken for a label: --seeds components takes a mask")
+        note(Message(f"{value} is the only value besides 0, and taken for a label: {_AS_COMPONENTS} takes a mask"))
     if note is not None and is_mask and kind.itemsize > 1:
-        note(f"{value} is the only value besides 0, and taken for a mask: --seeds labels takes a label")
+        note(Message(f"{value} is the only value besides 0, and taken for a mask: {_AS_LABELS} takes a label"))
     return "components" if is_mask else "labels"
 
 
@@ -245,8 +251,8 @@ def report_no_foreground(*, strict: bool) -> None:
         If it is refused.
     """
     if strict:
-        raise InputError("the image has no foreground: use --invert or --threshold, or leave out --strict")
-    message = Message("the image has no foreground: use --invert or --threshold", Kind.NO_FOREGROUND)
+        raise InputError(f"the image has no foreground: use {_INVERT} or {_SOME_THRESHOLD}, or leave out {STRICT}")
+    message = Message(f"the image has no foreground: use {_INVERT} or {_SOME_THRESHOLD}", Kind.NO_FOREGROUND)
     warnings.warn(VorotoolWarning(message), stacklevel=3)
 
 
@@ -258,7 +264,9 @@ def refuse_distances() -> None:
     InputError
         Always.
     """
-    raise InputError("the image has no foreground, so that there are no distances to it: use --invert or --threshold")
+    raise InputError(
+        f"the image has no foreground, so that there are no distances to it: use {_INVERT} or {_SOME_THRESHOLD}"
+    )
 
 
 def refuse_photograph(values: NDArray[Any]) -> None:
@@ -269,11 +277,11 @@ def refuse_photograph(values: NDArray[Any]) -> None:
         if min(values.shape) <= 3 < max(values.shape):  # the sides of a list, which no photograph has
             raise InputError(
                 f"the array has the shape {values.shape}: a list of points? save x and y as one of shape (n, 2); "
-                "for an image use --seeds labels or --threshold"
+                f"for an image use {_AS_LABELS} or {_SOME_THRESHOLD}"
             )
         raise InputError(
             f"the image holds {distinct} values in {fragments} fragments: a photograph? use "
-            f"{mask_options(values)}, or --seeds labels if these are labels"
+            f"{mask_options(values)}, or {_AS_LABELS} if these are labels"
         )
 
 
@@ -282,13 +290,17 @@ def mask_options(grey: NDArray[Any]) -> str:
 
     Examples
     --------
-    >>> mask_options(np.array([250, 250, 250, 250, 3])), mask_options(np.array([3, 250]))
-    ('--threshold otsu --invert (most of it is light)', '--threshold otsu')
+    >>> light, dark = np.array([250, 250, 250, 250, 3]), np.array([3, 250])
+    >>> str(Message(mask_options(light))), str(Message(mask_options(dark)))
+    ('threshold="otsu", invert=True (most of it is light)', 'threshold="otsu"')
     """
     finite = grey[np.isfinite(grey)]
     middle = (float(finite.min()) + float(finite.max())) / 2 if finite.size else 0.0
     is_light = np.count_nonzero(finite > middle) > MOSTLY * finite.size
-    return "--threshold otsu --invert (most of it is light)" if is_light else "--threshold otsu"
+    if is_light:
+        made = option("--threshold otsu --invert", 'threshold="otsu", invert=True')
+        return f"{made} (most of it is light)"
+    return OTSU
 
 
 def _fragments(labels: NDArray[Any]) -> tuple[int, int]:
@@ -331,6 +343,6 @@ def label_values(values: NDArray[Any], *, first_row: int = 0) -> NDArray[Any]:
         row, column = np.unravel_index(int(bad.argmax()), bad.shape)
         raise InputError(
             f"the image holds the value {values[row, column]} in row {first_row + row}, column {column}: labels must "
-            f"be integers from 0 to {LARGEST_LABEL}; use --threshold T or --seeds components for a mask"
+            f"be integers from 0 to {LARGEST_LABEL}; use {_THRESHOLD} or {_AS_COMPONENTS} for a mask"
         )
     return values.astype(np.uint32)

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError
+from vorotool.errors import InputError, option
 from vorotool.geometry.pixel_frame import FARTHEST, Frame
 from vorotool.geometry.polygons.polygon_set import LINE, PolygonSet
 from vorotool.geometry.ragged import owners, ranges, within
@@ -68,7 +68,9 @@ def rasterized(polygons: PolygonSet, frame: Frame) -> NDArray[np.uint32]:
     [[1, 1, 1, 0], [1, 1, 0, 0], [1, 2, 2, 0]]
     """
     if len(polygons.xy) and np.abs(polygons.xy).max() > FARTHEST:
-        raise InputError("vertices are more than 2^44 pixels from the frame: use a larger --cell-size")
+        raise InputError(
+            f"vertices are more than 2^44 pixels from the frame: use {option('a larger --cell-size', 'larger pixels')}"
+        )
     labels = np.zeros(frame.shape, np.uint32)
     flat, label = labels.reshape(-1), np.asarray(polygons.feature, np.int64) + 1
     edges = _edges(polygons, frame)

@@ -19,7 +19,7 @@ from vorotool.engines.tessellation.raster_objects import (
     numbered_components,
     report_no_foreground,
 )
-from vorotool.errors import InputError, LimitError, UsageError, VorotoolWarning
+from vorotool.errors import NO_PROPERTIES, STRICT, InputError, LimitError, UsageError, VorotoolWarning, option
 from vorotool.geometry.curves.inverse_functions import hypotenuse
 from vorotool.geometry.numbers import shown_number
 from vorotool.geometry.pixel_frame import Frame
@@ -27,6 +27,8 @@ from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.points.raster import Raster
 from vorotool.geometry.points.seed_set import FINEST_SCALE, SeedSet
 from vorotool.geometry.row_index import index_of_rows
+
+_CENTROIDS = option("--seeds centroids", 'mode="centroids"')
 
 SeedMode = Literal["pixels", "components", "labels", "centroids"]
 
@@ -113,7 +115,7 @@ def _sites_of_points(xy: NDArray[np.float64], labels: NDArray[np.uint32], points
     order = np.argsort(labels, kind="stable")
     if len(labels) and (np.diff(labels[order].astype(np.int64)) == 0).any():
         if points.properties:
-            raise InputError("points that share a label cannot bring further columns: use --no-properties")
+            raise InputError(f"points that share a label cannot bring further columns: use {NO_PROPERTIES}")
         return {}
     properties = {name: [column[i] for i in order] for name, column in points.properties.items()}
     index = index_of_rows(points.index, order)
@@ -126,7 +128,7 @@ def _report_snapped(points: PointSet, moved: NDArray[np.bool_], largest: float, 
         row = int(np.flatnonzero(moved)[0])
         raise InputError(
             f"point {row + 1} is ({points.xy[row, 0]}, {points.xy[row, 1]}): seeds lie on multiples of 1/256 pixel "
-            f"({count} such points); round them or leave out --strict"
+            f"({count} such points); round them or leave out {STRICT}"
         )
     warnings.warn(
         f"{count} of {len(points)} seeds moved to the nearest 1/256 pixel, by at most {largest:.6f} pixels",
@@ -234,8 +236,8 @@ def _foreground(objects: NDArray[Any], most: int) -> tuple[NDArray[np.int64], ND
     count = int(np.count_nonzero(objects))
     if count > most:
         raise LimitError(
-            f"the image has {count} foreground pixels, more than --max-sites {most}: use --seeds centroids, or a "
-            "larger limit"
+            f"the image has {count} foreground pixels, more than {option(f'--max-sites {most}')}: use "
+            f"{_CENTROIDS}, or a larger limit"
         )
     x = np.flatnonzero(objects)
     width = objects.shape[1]
@@ -290,6 +292,6 @@ def _seeds_of_objects(
     if not centroids_only:
         return SeedSet(x, y, labels, **known)
     if len(distinct) > max_sites:
-        raise LimitError(f"the image has {len(distinct)} objects, more than --max-sites {max_sites}")
+        raise LimitError(f"the image has {len(distinct)} objects, more than {option(f'--max-sites {max_sites}')}")
     seeds = seeds_from_points(PointSet(sites, distinct), strict=strict)
     return replace(seeds, properties={}, index=None, **known)

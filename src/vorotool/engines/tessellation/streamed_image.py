@@ -25,7 +25,7 @@ from vorotool.engines.tessellation.raster_objects import (
     refuse_photograph,
     report_no_foreground,
 )
-from vorotool.errors import LimitError
+from vorotool.errors import LimitError, option
 from vorotool.geometry.pixel_frame import Frame
 from vorotool.geometry.points.raster import Raster
 from vorotool.geometry.points.seed_set import SeedSet
@@ -359,9 +359,10 @@ class StreamedImage:
 
     def _check(self, count: int, what: str) -> None:
         if count > min(self._max_sites, LARGEST_LABEL):
+            limit = option(f"--max-sites {min(self._max_sites, LARGEST_LABEL)}")
+            labels = option("--seeds labels", 'mode="labels"')
             raise LimitError(
-                f"the image has {count} {what} or more, more than --max-sites {min(self._max_sites, LARGEST_LABEL)}: "
-                "use a larger limit, or --seeds labels"
+                f"the image has {count} {what} or more, more than {limit}: use a larger limit, or {labels}"
             )
 
     def _count(self, objects: NDArray[np.uint32], first: int) -> None:

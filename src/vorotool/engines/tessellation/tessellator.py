@@ -21,7 +21,7 @@ from vorotool.engines.tessellation.frames import (
 )
 from vorotool.engines.tessellation.interior_seeds import needed_seeds, paint_seeds
 from vorotool.engines.tessellation.raster_objects import refuse_distances
-from vorotool.errors import InputError, LimitError, UsageError
+from vorotool.errors import InputError, LimitError, UsageError, option
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.numbers import shown_number
 from vorotool.geometry.pixel_frame import MAX_SIDE, Frame
@@ -142,7 +142,7 @@ class Tessellator:
         return InputError(
             f"seed {index + 1} at ({x:.17g}, {y:.17g}) is too far from the frame, which begins at ({frame.x}, "
             f"{frame.y}), for exact arithmetic: coordinates relative to the middle of the frame must be at most "
-            f"2^40 lattice steps ({2**40 // seeds.scale} pixels for these seeds); use a nearer --window"
+            f"2^40 lattice steps ({2**40 // seeds.scale} pixels for these seeds); use a nearer {option('--window')}"
         )
 
     def _paint(self, rows: NDArray[Any], first: int, value: int | None = None) -> None:
@@ -245,7 +245,9 @@ class Tessellator:
         dy = max(abs(int(self.seeds.y[0]) - scale * r) for r in (frame.y, frame.y + frame.height - 1))
         largest = dx * dx + dy * dy
         if largest >= 2**64:
-            raise LimitError("squared distances of this frame may exceed 64 bits: use --what distance")
+            raise LimitError(
+                f"squared distances of this frame may exceed 64 bits: use {option('--what distance', 'distances')}"
+            )
         return np.dtype(np.uint32 if largest < 2**32 else np.uint64)
 
     def _output(self, first: int, rows: int | None, dtype: np.dtype[Any], out: NDArray[Any] | None) -> NDArray[Any]:

@@ -5,8 +5,10 @@ from __future__ import annotations
 import re
 import zlib
 
-from vorotool.errors import InputError
+from vorotool.errors import OTSU, InputError, option
 from vorotool.formats.io.sources import Source
+
+_TAKERS = option("skeleton-exact, skeleton-approx or draw", "skeleton_exact or skeleton_approx")
 
 SUFFIXES = {".svg": "svg", ".svgz": "svg", ".dxf": "dxf"}
 _HEAD = 4096
@@ -54,5 +56,5 @@ def refuse_drawing(source: Source) -> None:
     if drawing_format(source) is not None:
         raise InputError(
             f"{source.name} is a drawing, which holds polygons and lines, and points or an image were expected: give "
-            "it to skeleton-exact, skeleton-approx or draw, or make an image of it and give --threshold otsu"
+            f"it to {_TAKERS}, or make an image of it and give {OTSU}"
         )

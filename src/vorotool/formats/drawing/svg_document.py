@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
 
-from vorotool.errors import InputError, LimitError
+from vorotool.errors import INPUT_FORMAT, InputError, LimitError
 from vorotool.formats.drawing.svg_shapes import SHAPES
 from vorotool.formats.drawing.svg_styles import Style, StyleSheet, referred
 from vorotool.formats.drawing.xml_tree import MOST_ELEMENTS, Element, parse_xml
@@ -52,7 +52,7 @@ class Document:
         """Parse a file, and count what it shows before anything of it is made."""
         root = parse_xml(name, data, NAMESPACE)
         if root.tag != "svg":
-            raise InputError(f"{name} is no SVG: it begins with <{root.tag[:40]}>; name the format with --input-format")
+            raise InputError(f"{name} is no SVG: it begins with <{root.tag[:40]}>; name the format with {INPUT_FORMAT}")
         made = cls(name, root)
         made._count(root, 0)
         return made

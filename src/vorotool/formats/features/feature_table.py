@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError, LimitError
+from vorotool.errors import NO_PROPERTIES, InputError, LimitError
 from vorotool.formats.parsing.geojson import MOST_CELLS
 from vorotool.formats.parsing.geometry_advice import not_a_point_advice, not_a_shape_advice
 from vorotool.formats.parsing.reader_options import ReadOptions, no_points
@@ -219,5 +219,5 @@ def _check_attributes(features: Features, count: int, noun: str) -> None:
     if len(features.columns) * count > MOST_CELLS:
         raise LimitError(
             f"{features.name} has {len(features.columns)} different properties on {count} {noun}, more than "
-            f"{MOST_CELLS} fields in all: use --no-properties"
+            f"{MOST_CELLS} fields in all: use {NO_PROPERTIES}"
         )

@@ -13,7 +13,7 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import OutputError, UsageError
+from vorotool.errors import OUTPUT, OutputError, UsageError
 from vorotool.formats.features.feature_rows import FeatureRows, TypedColumn
 from vorotool.formats.features.shapefile_parts import PARTS
 from vorotool.formats.io.atomic_output import open_output
@@ -92,7 +92,7 @@ class Shapefile(GeoPackage):
     def __init__(self, out: BinaryIO, what: str, path: str) -> None:
         super().__init__(out, what, path)
         if stream_kind(path) is not None:
-            raise UsageError("a Shapefile is several files, and no stream holds them: name a file with -o")
+            raise UsageError(f"a Shapefile is several files, and no stream holds them: name a file with {OUTPUT}")
 
     def finish(self) -> None:
         """Write the files."""

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError
+from vorotool.errors import InputError, option
 from vorotool.formats.features.feature_table import Features
 from vorotool.formats.features.shapefile_parts import archive_of
 from vorotool.formats.io.limits import decoding, interruptible
@@ -110,7 +110,9 @@ def _chosen_layer(source: Source, layers: Sequence[tuple[str, str | None]]) -> i
     if not named:
         raise InputError(f"{source.name} holds no layer with geometry: nothing can be read of it")
     if len(named) > 1:
-        raise InputError(f"{source.name} holds {len(named)} layers: choose one of {held} by --input-layer")
+        raise InputError(
+            f"{source.name} holds {len(named)} layers: choose one of {held} by {option('--input-layer', 'layer=...')}"
+        )
     return next(iter(named.values()))
 
 

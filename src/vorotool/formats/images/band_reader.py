@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError
+from vorotool.errors import InputError, option
 from vorotool.formats.images.nodata import missing_values, placed_grid
 from vorotool.formats.images.tiff_grid import PageGrid, grid_of
 from vorotool.formats.images.tiff_layout import TiffLayout
@@ -234,7 +234,7 @@ def open_zarr(name: str, input_format: str | None = None, page: int | None = Non
     if input_format is None and not is_store(name) and not name.rstrip(os.sep).lower().endswith(".zarr"):
         return None
     if page not in (None, 0):
-        raise InputError(f"{name} has a single page, so there is no --page {page}")
+        raise InputError(f"{name} has a single page, so there is no {option(f'--page {page}')}")
     return ZarrRows(name, str(Path(name).absolute()))
 
 

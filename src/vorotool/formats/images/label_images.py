@@ -8,7 +8,7 @@ from typing import Any, BinaryIO, Literal
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
-from vorotool.errors import InputError, LimitError, UsageError
+from vorotool.errors import InputError, LimitError, UsageError, option
 from vorotool.formats.images.label_text import write_label_text
 from vorotool.formats.images.npy import write_npy
 from vorotool.formats.images.png_writer import write_png
@@ -16,6 +16,8 @@ from vorotool.formats.images.tiff_writer import write_tiff
 from vorotool.geometry.pixel_grid import PixelGrid
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.raster import Raster
+
+_ANY_IMAGE = option("-o image.tif or image.npy", "the path image.tif or image.npy")
 
 LabelFormat = Literal["png", "tiff", "npy", "text"]
 
@@ -85,7 +87,7 @@ def write_label_image(
     """
     kind = np.dtype(np.uint8 if np.dtype(dtype) == np.bool_ else dtype)
     if kind.kind not in "ui" and fmt in ("png", "text"):
-        raise UsageError(f"{kind} values cannot be written as {fmt}: use -o image.tif or image.npy")
+        raise UsageError(f"{kind} values cannot be written as {fmt}: use {_ANY_IMAGE}")
     if fmt == "png":
         depth = bit_depth or (16 if palette is None else 8)
         check_png(kind, largest_label, depth)
@@ -141,11 +143,11 @@ def check_png(kind: np.dtype[Any], largest: int, depth: int = 16) -> None:
     >>> check_png(np.dtype(np.uint32), 65535)
     """
     if kind.itemsize > 4:
-        raise UsageError(f"{kind} values cannot be written as png: use -o image.tif or image.npy")
+        raise UsageError(f"{kind} values cannot be written as png: use {_ANY_IMAGE}")
     if largest >= 1 << depth:
         raise LimitError(
             f"labels up to {largest} do not fit in a {depth}-bit PNG, which ends at {(1 << depth) - 1}: "
-            "use -o labels.tif or labels.npy"
+            f"use {option('-o labels.tif or labels.npy', 'the path labels.tif or labels.npy')}"
         )
 
 

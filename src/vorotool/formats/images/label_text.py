@@ -7,8 +7,10 @@ from typing import Any, BinaryIO
 
 from numpy.typing import NDArray
 
-from vorotool.errors import LimitError
+from vorotool.errors import LimitError, option
 from vorotool.formats.io.row_bands import checked
+
+_IMAGES = option("-o labels.png, labels.tif or labels.npy", "the path labels.png, labels.tif or labels.npy")
 
 WIDEST = 4096
 MOST_PIXELS = 1_000_000
@@ -48,7 +50,7 @@ def write_label_text(
     if width > WIDEST or width * height > MOST_PIXELS:
         raise LimitError(
             f"{width} x {height} pixels are too many for text (at most {WIDEST} wide, {MOST_PIXELS} pixels): "
-            "use -o labels.png, labels.tif or labels.npy"
+            f"use {_IMAGES}"
         )
     digits = len(str(largest_label))
     for band in checked(bands, shape):

@@ -10,7 +10,7 @@ from typing import Any
 
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError
+from vorotool.errors import InputError, Message, option
 from vorotool.formats.images.jpeg_sizes import jpeg_frame
 from vorotool.formats.io.limits import check_pixels, decoding, interruptible
 from vorotool.formats.io.sources import Source
@@ -96,9 +96,10 @@ def read_picture_file(
         count = interruptible(lambda: file.properties(index=...).n_images) if kind in _ANIMATED else 1
         if not 0 <= (page or 0) < count:
             pictures = "a single page" if count == 1 else f"{count} pages, counted from 0"
-            raise InputError(f"{source.name} has {pictures}: there is no --page {page}")
+            raise InputError(f"{source.name} has {pictures}: there is no {option(f'--page {page}')}")
         if count > 1 and page is None and note is not None:
-            note(f"{source.name} has {count} pictures: the first one is read; choose another with --page")
+            other = option("--page", "page=...")
+            note(Message(f"{source.name} has {count} pictures: the first one is read; choose another with {other}"))
         values: NDArray[Any] = interruptible(lambda: _decoded(file, page or 0))
     return values
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError
+from vorotool.errors import InputError, option
 from vorotool.formats.images import npy, png_reader, pnm_reader, tiff_reader
 from vorotool.formats.images.nodata import tiff_raster
 from vorotool.formats.images.picture_reader import PICTURES, is_lossy, read_picture_file
@@ -71,7 +71,7 @@ def read_image(source: Source, options: ReadOptions) -> Raster:
 
 def _check_page(source: Source, page: int | None) -> None:
     if page not in (None, 0):
-        raise InputError(f"{source.name} has a single page, so there is no --page {page}")
+        raise InputError(f"{source.name} has a single page, so there is no {option(f'--page {page}')}")
 
 
 def _npy_shape(source: Source) -> tuple[int, ...]:
@@ -85,7 +85,7 @@ def _npy_shape(source: Source) -> tuple[int, ...]:
 def _read_npy(source: Source, max_pixels: int) -> NDArray[Any]:
     shape = _npy_shape(source)
     check_pixels(source.name, shape[1], shape[0], max_pixels)
-    return npy.read_npy(source, max_items=4 * max_pixels, option="4 x --max-pixels")
+    return npy.read_npy(source, max_items=4 * max_pixels, option="4 x " + option("--max-pixels"))
 
 
 def _plain(values: NDArray[Any]) -> NDArray[Any]:

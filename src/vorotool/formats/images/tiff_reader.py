@@ -9,7 +9,7 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError, LimitError
+from vorotool.errors import InputError, LimitError, option
 from vorotool.formats.images.jpeg_sizes import check_jpegs
 from vorotool.formats.images.tiff_grid import PageGrid, grid_of
 from vorotool.formats.images.tiff_layout import JPEGS, TiffLayout, layout_of
@@ -37,7 +37,7 @@ def read_tiff(source: Source, *, page: int | None, max_pixels: int) -> tuple[NDA
         if layout.width * layout.height * layout.samples > _MOST_CHANNELS * max_pixels:
             raise LimitError(
                 f"{source.name} has {layout.samples} values a pixel: with {layout.width} x {layout.height} pixels "
-                f"these are more than {_MOST_CHANNELS} x --max-pixels {max_pixels}"
+                f"these are more than {_MOST_CHANNELS} x {option(f'--max-pixels {max_pixels}')}"
             )
         with decoding(source.name, "TIFF"):
             about = grid_of(source.name, file, chosen)
@@ -85,10 +85,13 @@ def page_of(file: Any, name: str, page: int | None) -> Any:
         if 0 <= (page or 0) < count and (page is not None or count == 1):
             return file.pages[page or 0]
     if page is None and count > 1:
-        raise InputError(f"{name} has {count} pages: choose one with --page 0 to --page {count - 1}, or --page all")
+        one = option(f"--page 0 to --page {count - 1}, or --page all", f"page=0 to page={count - 1}")
+        raise InputError(f"{name} has {count} pages: choose one with {one}")
     if count == 0:
         raise InputError(f"{name} is damaged: it begins as a TIFF, but there is no image in it")
-    raise InputError(f"{name} has {count} page{'s' * (count != 1)}, counted from 0: there is no --page {page}")
+    raise InputError(
+        f"{name} has {count} page{'s' * (count != 1)}, counted from 0: there is no {option(f'--page {page}')}"
+    )
 
 
 def _by_library(source: Source, page: Any, layout: TiffLayout) -> NDArray[Any]:

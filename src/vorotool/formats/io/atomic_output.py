@@ -12,7 +12,7 @@ from functools import partial
 from pathlib import Path
 from typing import BinaryIO
 
-from vorotool.errors import OutputError, UsageError, VorotoolError
+from vorotool.errors import FORMAT, NO_CLOBBER, OUTPUT, OutputError, UsageError, VorotoolError
 from vorotool.formats.io.descriptors import (
     STANDARD,
     check_writable,
@@ -33,7 +33,7 @@ def open_output(
     binary: bool = False,
     no_clobber: bool = False,
     inputs: Iterable[str | os.PathLike[str]] = (),
-    option: str = "-o",
+    option: str = OUTPUT,
 ) -> Iterator[BinaryIO]:
     """Open an output that replaces an older file only when all of it has been written.
 
@@ -98,7 +98,7 @@ def check_output(
     no_clobber: bool = False,
     inputs: Iterable[str | os.PathLike[str]] = (),
     makes_folder: bool = False,
-    option: str = "-o",
+    option: str = OUTPUT,
 ) -> None:
     """Find out before any work whether `open_output` would refuse an output.
 
@@ -129,7 +129,7 @@ def check_output(
     check_folder(name, target.parent, makes_folder=makes_folder, option=option)
 
 
-def check_folder(name: str, folder: Path, *, makes_folder: bool = False, option: str = "-o") -> None:
+def check_folder(name: str, folder: Path, *, makes_folder: bool = False, option: str = OUTPUT) -> None:
     """Refuse an output whose folder is not there, unless it is made, or cannot be written in."""
     while makes_folder and not folder.exists():
         folder = folder.parent
@@ -178,7 +178,9 @@ def _checked_descriptor(name: str, binary: bool, option: str) -> int | None:
 
 def terminal_error() -> UsageError:
     """Say that a terminal is no place for what is not text."""
-    return UsageError("binary output is not written to a terminal: name a file with -o, or a text format with -f")
+    return UsageError(
+        f"binary output is not written to a terminal: name a file with {OUTPUT}, or a text format with {FORMAT}"
+    )
 
 
 def _number_of_standard_output() -> int | None:
@@ -226,7 +228,7 @@ def _checked_target(name: str, no_clobber: bool, inputs: Iterable[str | os.PathL
     return target
 
 
-def followed(name: str, option: str = "-o") -> Path:
+def followed(name: str, option: str = OUTPUT) -> Path:
     """Follow links, so that a file is replaced and not the link to it.
 
     Raises
@@ -249,9 +251,9 @@ def followed(name: str, option: str = "-o") -> Path:
     return target
 
 
-def clobber_error(name: str, option: str = "-o") -> OutputError:
+def clobber_error(name: str, option: str = OUTPUT) -> OutputError:
     """Say that an output is there already, with ``--no-clobber``."""
-    return OutputError(f"{name} exists already and --no-clobber is given: choose another name with {option}")
+    return OutputError(f"{name} exists already and {NO_CLOBBER} is given: choose another name with {option}")
 
 
 def _is_regular(target: Path) -> bool:
@@ -300,7 +302,7 @@ def _create(temporary: Path, target: Path) -> int:
 
 
 @contextmanager
-def explained(name: str, option: str = "-o") -> Iterator[None]:
+def explained(name: str, option: str = OUTPUT) -> Iterator[None]:
     """Turn what the system says of an output into an `OutputError` that names it."""
     try:
         yield
@@ -310,7 +312,7 @@ def explained(name: str, option: str = "-o") -> Iterator[None]:
         raise failure(name, error, option) from error
 
 
-def failure(name: str, error: OSError, option: str = "-o") -> OutputError:
+def failure(name: str, error: OSError, option: str = OUTPUT) -> OutputError:
     """Say why an output cannot be written, and what to do."""
     elsewhere = f"write elsewhere with {option}"
     advice = {

@@ -7,7 +7,7 @@ import shutil
 from collections.abc import Callable
 from pathlib import Path
 
-from vorotool.errors import OutputError
+from vorotool.errors import OUTPUT, OutputError
 from vorotool.formats.io.descriptors import stream_kind
 
 
@@ -39,7 +39,7 @@ def check_space(path: str | os.PathLike[str], most: int, expected: Callable[[], 
     if needed > free:
         raise OutputError(
             f"{os.fspath(path)} takes about {needed / 1e9:.3g} GB, but {free / 1e9:.3g} GB are free: free some space, "
-            "or write elsewhere with -o"
+            f"or write elsewhere with {OUTPUT}"
         )
 
 

@@ -9,7 +9,7 @@ from concurrent.futures import Future, wait
 from contextlib import contextmanager
 from typing import TypeVar
 
-from vorotool.errors import InputError, LimitError, VorotoolError
+from vorotool.errors import InputError, LimitError, VorotoolError, option
 from vorotool.geometry.parallel import start
 
 _MOMENT = 0.05
@@ -35,8 +35,9 @@ def check_pixels(name: str, width: int, height: int, max_pixels: int) -> None:
     if width < 1 or height < 1:
         raise InputError(f"{name} is {width} x {height} pixels: an image needs at least 1 x 1")
     if width * height > max_pixels:
+        limit = option(f"--max-pixels {max_pixels}")
         raise LimitError(
-            f"{name} is {width} x {height} = {width * height} pixels, more than --max-pixels {max_pixels}: "
+            f"{name} is {width} x {height} = {width * height} pixels, more than {limit}: "
             "raise that if there is memory for it, or crop the image"
         )
 

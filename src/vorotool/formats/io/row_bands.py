@@ -8,7 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
-from vorotool.errors import LimitError
+from vorotool.errors import LimitError, option
+
+_WIDER = option("-o labels.tif or .npy", "the path labels.tif or labels.npy")
+_SIGNED = option("-o labels.npy", "the path labels.npy")
 
 BLOCK_BYTES = 1 << 20
 """Bytes of a block: its own code tables cost nothing, and it stays in the cache."""
@@ -56,11 +59,9 @@ def check_fits(band: NDArray[Any], largest: int, target: str) -> None:
     if band.size == 0 or band.dtype.kind == "b":
         return
     if np.iinfo(band.dtype).max > largest and (top := int(band.max())) > largest:
-        raise LimitError(
-            f"the value {top} does not fit in {target}, which ends at {largest}: use -o labels.tif or .npy"
-        )
+        raise LimitError(f"the value {top} does not fit in {target}, which ends at {largest}: use {_WIDER}")
     if band.dtype.kind == "i" and (low := int(band.min())) < 0:
-        raise LimitError(f"the value {low} does not fit in {target}, which begins at 0: use -o labels.npy")
+        raise LimitError(f"the value {low} does not fit in {target}, which begins at 0: use {_SIGNED}")
 
 
 def blocks(

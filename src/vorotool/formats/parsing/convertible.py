@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable
 from pathlib import Path
 
-from vorotool.errors import InputError
+from vorotool.errors import OTSU, InputError
 from vorotool.formats.io.sources import Source
 
 _MAPS = (".gml", ".gdb", ".tab", ".mif")
@@ -59,7 +59,7 @@ def _as_drawing(command: str) -> Callable[[str], str]:
     def advice(file: str) -> str:
         stem = Path(file).with_suffix("")
         return (
-            f"make an image of it and give --threshold otsu, for example: {command.format(file=file, stem=stem)}; or, "
+            f"make an image of it and give {OTSU}, for example: {command.format(file=file, stem=stem)}; or, "
             f"for its outlines, an SVG: inkscape {file} --export-text-to-path --export-plain-svg "
             f"--export-filename={stem}.svg"
         )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from vorotool.errors import InputError, LimitError
+from vorotool.errors import NO_PROPERTIES, InputError, LimitError
 from vorotool.formats.io.sources import Source, check_nesting
 from vorotool.formats.parsing.json_lines import parse_lines
 from vorotool.formats.parsing.reader_options import shortened
@@ -144,6 +144,6 @@ def property_columns(
     if len(names) * len(owners) > MOST_CELLS:
         raise LimitError(
             f"{name} has {len(names)} different properties on {len(owners)} {noun}, more than "
-            f"{MOST_CELLS} fields in all: use --no-properties"
+            f"{MOST_CELLS} fields in all: use {NO_PROPERTIES}"
         )
     return {key: [rows[i].get(key) for i in owners] for key in names}

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from vorotool.errors import option
+
+_TAKER = option("skeleton-exact reads", "skeleton_exact takes")
+
 
 def not_a_point_advice(kind: str) -> str:
     """Say what to do with a geometry that is no point.
@@ -13,7 +17,7 @@ def not_a_point_advice(kind: str) -> str:
     """
     lines = kind.lower().removeprefix("multi")
     if lines in ("polygon", "linestring"):
-        return "replace it by its centroid or its vertices (skeleton-exact reads polygons and lines)"
+        return f"replace it by its centroid or its vertices ({_TAKER} polygons and lines)"
     return "use Point or MultiPoint"
 
 

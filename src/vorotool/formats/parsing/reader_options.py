@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError, LimitError
+from vorotool.errors import InputError, LimitError, option
 from vorotool.geometry.pixel_frame import MAX_PIXELS
 
 LARGEST_LABEL = 0xFFFFFFFF
@@ -68,7 +68,7 @@ class ReadOptions:
     def _check_count(self, name: str, count: int, noun: str, most: int) -> None:
         limit = most if self.max_sites is None else min(self.max_sites, most)
         if count > limit:
-            advice = "raise --max-sites or split the file" if limit < most else "split the file"
+            advice = f"raise {option('--max-sites')} or split the file" if limit < most else "split the file"
             raise LimitError(f"{name} holds {count} {noun}, more than the limit of {limit}: {advice}")
 
     def note_left_out(self, name: str, features: int) -> None:

@@ -9,11 +9,13 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError, Kind, Message
+from vorotool.errors import InputError, Kind, Message, option
 from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.geometry.crs import crs_member, crs_name, is_geographic, same_crs
 from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.polygons.polygon_set import PolygonSet
+
+_CRS, _TO_CRS = option("--input-crs", "crs"), option("--crs", "to_crs")
 
 Placed = TypeVar("Placed", PointSet, PolygonSet)
 
@@ -41,8 +43,8 @@ def with_crs(value: Placed, name: str, options: ReadOptions) -> Placed:
     if options.to_crs is not None:
         if value.crs is None:
             raise InputError(
-                f"{name} names no coordinate reference system, so that --crs cannot bring it into another one: say "
-                "which it is in with --input-crs"
+                f"{name} names no coordinate reference system, so that {_TO_CRS} cannot bring it into another one: "
+                f"say which it is in with {_CRS}"
             )
         if not same_crs(value.crs, options.to_crs):
             from vorotool.formats.parsing.reprojection import reprojected
@@ -77,7 +79,7 @@ def declared_in(value: Placed, name: str, declared: Any) -> Placed:
     if not same_crs(value.crs, declared):
         raise InputError(
             f"{name} is in {crs_name(value.crs)}, as it says itself, not in {crs_name(declared)}: leave out "
-            "--input-crs, which reprojects nothing; --crs does"
+            f"{_CRS}, which reprojects nothing; {_TO_CRS} does"
         )
     return value
 
@@ -95,8 +97,9 @@ def _projected_advice(xy: NDArray[np.float64]) -> str:
         (west, south), (east, north) = xy.min(axis=0).tolist(), xy.max(axis=0).tolist()
         if west >= -180 and east <= 180 and south >= -80 and north <= 84 and east - west <= 12:
             zone = min(60, int(((west + east) / 2 + 180) // 6) + 1)
-            return f"--crs EPSG:{(32600 if south + north >= 0 else 32700) + zone} works in metres (UTM)"
-    return "--crs brings them into a projected system"
+            code = f"EPSG:{(32600 if south + north >= 0 else 32700) + zone}"
+            return option(f"--crs {code}", f'to_crs="{code}"') + " works in metres (UTM)"
+    return f"{_TO_CRS} brings them into a projected system"
 
 
 def note_unnamed(name: str, xy: NDArray[np.float64], note: Callable[[str], None]) -> None:
@@ -104,7 +107,7 @@ def note_unnamed(name: str, xy: NDArray[np.float64], note: Callable[[str], None]
     if len(xy) and bool((np.abs(xy) <= (180.0, 90.0)).all()) and bool((xy % 1 != 0).any()):
         text = (
             f"{name} names no coordinate reference system, and is taken for planar: if it is longitude and latitude, "
-            "say so with --input-crs OGC:CRS84"
+            "say so with " + option("--input-crs OGC:CRS84", 'crs="OGC:CRS84"')
         )
         note(Message(text, Kind.UNNAMED_CRS, source=name))
 

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.errors import InputError, UsageError
+from vorotool.errors import NO_PROPERTIES, InputError, UsageError, option
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import (
     LARGEST_LABEL,
@@ -28,6 +28,8 @@ from vorotool.formats.parsing.reader_options import (
 from vorotool.geometry.crs import LONGITUDE_LATITUDE, crs_member
 from vorotool.geometry.number_text import typed_texts
 from vorotool.geometry.points.point_set import PointSet
+
+_COLUMNS, _X_Y = option("--columns"), option("--columns X,Y", 'columns="X,Y"')
 
 COORDINATE_NAMES = (
     ("x", "y"),
@@ -176,7 +178,7 @@ def _parse_columns(columns: str) -> list[str]:
     is_zero = [_is_number(part) and not part.strip("0") for part in parts]
     if len(parts) not in (2, 3) or not all(parts) or any(is_zero) or len(set(parts)) < len(parts):
         raise UsageError(
-            f"--columns is {shortened(columns)}: name two or three different columns as X,Y or X,Y,LABEL, by name or "
+            f"{_COLUMNS} is {shortened(columns)}: name two or three different columns as X,Y or X,Y,LABEL, by name or "
             "by number from 1"
         )
     return parts
@@ -246,7 +248,7 @@ def _look_up(name: str, fields: list[str], wanted: list[str]) -> tuple[bool, Seq
     """Find the columns that the user named; a name makes the first record a header."""
     chosen = [_find_column(name, fields, column) for column in wanted]
     if len(set(chosen)) < len(chosen):
-        raise InputError(f"{name}: --columns {_cut(','.join(wanted))} names one column twice; {_listing(fields)}")
+        raise InputError(f"{name}: {_COLUMNS} {_cut(','.join(wanted))} names one column twice; {_listing(fields)}")
     named = not all(map(_is_number, wanted))
     values = [fields[i] for i in chosen]
     return named or (any(values) and not any(_looks_numeric(value) for value in values)), chosen
@@ -262,15 +264,15 @@ def _find_column(name: str, fields: list[str], wanted: str) -> int:
         digits = wanted.lstrip("0")
         if len(digits) > len(str(len(fields))) or int(digits) > len(fields):
             raise InputError(
-                f"{name}: --columns names column {_cut(wanted)}, but there are {len(fields)}; {_listing(fields)}"
+                f"{name}: {_COLUMNS} names column {_cut(wanted)}, but there are {len(fields)}; {_listing(fields)}"
             )
         return int(digits) - 1
     for names, key in ((fields, wanted), ([_lower(field) for field in fields], _lower(wanted))):
         if names.count(key) == 1:
             return names.index(key)
         if names.count(key) > 1:
-            raise InputError(f"{name}: several columns are called {shortened(wanted)}; give --columns by number")
-    raise InputError(f"{name}: there is no column {shortened(wanted)}; {_listing(fields)}; correct --columns")
+            raise InputError(f"{name}: several columns are called {shortened(wanted)}; give {_COLUMNS} by number")
+    raise InputError(f"{name}: there is no column {shortened(wanted)}; {_listing(fields)}; correct {_COLUMNS}")
 
 
 def _unknown_columns(name: str, fields: list[str], header: bool) -> InputError:
@@ -284,9 +286,10 @@ def _unknown_columns(name: str, fields: list[str], header: bool) -> InputError:
     if example is None:
         return InputError(
             f"{name}: {what}, and no two columns look like one; give the points that the table was made from, or say "
-            f"which are x and y with --columns X,Y ({_listing(fields)})"
+            f"which are x and y with {_X_Y} ({_listing(fields)})"
         )
-    return InputError(f"{name}: {what}; say which are x and y, for example --columns {example} ({_listing(fields)})")
+    chosen = option(f"--columns {example}", f'columns="{example}"')
+    return InputError(f"{name}: {what}; say which are x and y, for example {chosen} ({_listing(fields)})")
 
 
 def _example(fields: list[str]) -> str | None:
@@ -328,7 +331,7 @@ def _looks_numeric(text: str) -> bool:
 def _read_rows(layout: _Layout, options: ReadOptions) -> PointSet:
     columns = [layout.x, layout.y] if layout.label is None else [layout.x, layout.y, layout.label]
     fields = len(layout.first_record)
-    advice = "correct it, or choose other columns with --columns"
+    advice = f"correct it, or choose other columns with {_COLUMNS}"
     try:
         values = _core.text.parse_numbers(
             layout.data, layout.delimiter, columns, layout.header_records, fields, options.threads
@@ -365,7 +368,7 @@ def _labels(layout: _Layout, values: NDArray[np.float64]) -> NDArray[np.int64]:
         line = _core.text.line_of_row(layout.data, layout.delimiter, layout.header_records, row)
         raise InputError(
             f"{layout.name}, line {line}: the label {values[row]:.17g} is not a whole number from 1 to "
-            f"{LARGEST_LABEL}; correct it, or leave the label out of --columns"
+            f"{LARGEST_LABEL}; correct it, or leave the label out of {_COLUMNS}"
         )
     return values.astype(np.int64)
 
@@ -398,7 +401,7 @@ def _check_utf8(layout: _Layout) -> None:
         line = layout.data.count(b"\n", 0, error.start) + 1
         raise InputError(
             f"{layout.name}, line {line}: the byte {layout.data[error.start]:#04x} is not UTF-8; "
-            "save the file as UTF-8, or use --no-properties"
+            f"save the file as UTF-8, or use {NO_PROPERTIES}"
         ) from None
 
 

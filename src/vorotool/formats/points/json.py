@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from vorotool.errors import InputError, UsageError
+from vorotool.errors import AS_JSON, InputError, UsageError, option
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.geojson import (
     feature_places,
@@ -21,6 +21,9 @@ from vorotool.formats.parsing.reader_options import ReadOptions, position_array,
 from vorotool.formats.parsing.reference_systems import note_unnamed
 from vorotool.formats.points.tables import is_table, points_of_rows
 from vorotool.geometry.points.point_set import PointSet
+
+_READER = option("skeleton-exact reads", 'geometry="polygons" reads')
+_ALONG = option("--what points -f csv there", "points_along")
 
 
 def read_json(source: Source, options: ReadOptions) -> PointSet:
@@ -45,14 +48,14 @@ def read_json(source: Source, options: ReadOptions) -> PointSet:
 
 def _refuse_columns(name: str, options: ReadOptions) -> None:
     if options.columns is not None:
-        raise UsageError(f"--columns is for delimited text and tables, but {name} is neither: leave it out")
+        raise UsageError(f"{option('--columns')} is for delimited text and tables, but {name} is neither: leave it out")
 
 
 def read_geojson(source: Source, options: ReadOptions) -> PointSet:
     """Read the points of a GeoJSON document with their ``id`` and properties."""
     document = parse_json(source)
     if not isinstance(document, dict):
-        raise InputError(f"{source.name}: GeoJSON is an object with a type; use --input-format json for [[x, y], …]")
+        raise InputError(f"{source.name}: GeoJSON is an object with a type; use {AS_JSON} for [[x, y], …]")
     return _read_document(source.name, document, options)
 
 
@@ -69,8 +72,8 @@ class _Collected:
 def _read_document(name: str, document: Mapping[str, Any], options: ReadOptions) -> PointSet:
     if "polygons" in document:
         raise InputError(
-            f"{name} holds polygons, or what was made of them, not points: skeleton-exact reads it; for places along a "
-            "skeleton use --what points -f csv there"
+            f"{name} holds polygons, or what was made of them, not points: {_READER} it; for places along a "
+            f"skeleton use {_ALONG}"
         )
     features = features_of(name, document)
     place = feature_places(name, document)

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError
+from vorotool.errors import InputError, option
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.npz_columns import npz_columns
 from vorotool.formats.parsing.reader_options import LARGEST_LABEL, ReadOptions, shortened
@@ -74,7 +74,7 @@ def read_npz(source: Source, options: ReadOptions) -> PointSet:
         held = "no arrays" if not lengths else f"arrays of {min(lengths)} to {max(lengths)} values"
         raise InputError(
             f"{source.name} is no table: it holds {held}; give one whose columns are of one length, and of a "
-            "skeleton or offset curves the table (--what points -f npz) or the JSON"
+            f"skeleton or offset curves the table ({option('--what points -f npz', 'of points_along')}) or the JSON"
         )
     kept = {name: values for name, values in columns.items() if not name.endswith(_MISSING)}
     values = {name: _present(values, columns.get(f"{name}{_MISSING}")) for name, values in kept.items()}
@@ -121,6 +121,6 @@ def _labels(name: str, values: list[Any]) -> NDArray[np.int64]:
         if type(value) not in (int, float) or value != value // 1 or not 1 <= value <= LARGEST_LABEL:
             raise InputError(
                 f"{name}, row {row}: the label {shortened(value)} is not a whole number from 1 to {LARGEST_LABEL}; "
-                "correct it, or leave the label out of --columns"
+                f"correct it, or leave the label out of {option('--columns')}"
             )
     return np.array(values, dtype=np.int64)

@@ -8,7 +8,7 @@ from typing import Any, BinaryIO
 
 import numpy as np
 
-from vorotool.errors import InputError
+from vorotool.errors import AS_JSON, InputError
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.geojson import (
     feature_places,
@@ -32,7 +32,7 @@ def read_geojson(source: Source, options: ReadOptions) -> PolygonSet:
     """Read the polygons and lines of a GeoJSON document with their ``id``, properties and ``crs``."""
     document = parse_json(source)
     if not isinstance(document, dict):
-        raise InputError(f"{source.name}: GeoJSON is an object with a type; use --input-format json for [[x, y], …]")
+        raise InputError(f"{source.name}: GeoJSON is an object with a type; use {AS_JSON} for [[x, y], …]")
     features = features_of(source.name, document)
     place = feature_places(source.name, document)
     collector = RingCollector(options, source.name, place)

@@ -6,7 +6,7 @@ from typing import Any, BinaryIO
 
 import numpy as np
 
-from vorotool.errors import InputError
+from vorotool.errors import InputError, option
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.geojson import parse_json, property_columns, refuse_table
 from vorotool.formats.parsing.reader_options import ReadOptions, shortened
@@ -16,6 +16,8 @@ from vorotool.formats.text.coordinate_text import Digits
 from vorotool.formats.text.tables import json_bytes
 from vorotool.geometry.polygons.conversion import closed_ring
 from vorotool.geometry.polygons.polygon_set import PolygonSet
+
+_AS_GEOJSON = option("--what offset -f geojson", 'fmt="geojson"')
 
 _FORM = '{"polygons": [{"shell": [[x, y], …], "holes": [[[x, y], …], …]}, {"line": [[x, y], …]}, …]}'
 
@@ -74,7 +76,7 @@ def _check_type(name: str, document: Any, options: ReadOptions) -> None:
     kind = document.get("type") if isinstance(document, dict) and "polygons" in document else None
     if kind == "vorotool.offsets":
         raise InputError(
-            f"{name} holds offset curves, with arcs: write them as GeoJSON (--what offset -f geojson), which has "
+            f"{name} holds offset curves, with arcs: write them as GeoJSON ({_AS_GEOJSON}), which has "
             "polygons instead, or give the file that they were made from"
         )
     if kind == "vorotool.skeleton":

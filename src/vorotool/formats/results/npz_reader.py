@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError
+from vorotool.errors import InputError, option
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.npz_columns import npz_columns, npz_holds
 from vorotool.formats.parsing.reader_options import ReadOptions
@@ -21,6 +21,9 @@ from vorotool.formats.text.json_writer import SITE_KINDS
 from vorotool.geometry.polygons.polygon_set import LINE, PolygonSet
 from vorotool.geometry.ragged import divides
 from vorotool.geometry.skeleton.skeleton import KINDS, SIDES, Skeleton
+
+_CELLS = option("delaunay --what cells", "voronoi_cells")
+_AS_JSON = option("-f json", 'fmt="json"')
 
 Arrays = Mapping[str, NDArray[Any]]
 
@@ -48,8 +51,8 @@ def read_polygons(source: Source, options: ReadOptions) -> PolygonSet:
     holds = npz_holds(source.data)
     if holds == "points":
         raise InputError(
-            f"{source.name} holds no polygons that are read: an NPZ has those of cells (delaunay --what cells) or of a "
-            "skeleton; of others, and of offset curves, give the JSON (-f json), and unpack what is no NPZ"
+            f"{source.name} holds no polygons that are read: an NPZ has those of cells ({_CELLS}) or of a "
+            f"skeleton; of others, and of offset curves, give the JSON ({_AS_JSON}), and unpack what is no NPZ"
         )
     arrays = npz_columns(source, options)
     document = _skeleton(source.name, arrays) if holds == "skeleton" else _cells(source.name, arrays)
@@ -167,7 +170,7 @@ def _lists(name: str, arrays: Arrays, names: Sequence[str], numbers: str = "any"
     """Arrays that must be there, of one length, as lists."""
     absent = [each for each in names if each not in arrays]
     if absent:
-        raise InputError(f"{name} has no array {absent[0]}: write it again, or give the JSON (-f json)")
+        raise InputError(f"{name} has no array {absent[0]}: write it again, or give the JSON ({_AS_JSON})")
     if len({len(arrays[each]) for each in names}) > 1:
         sizes = ", ".join(f"{each} {len(arrays[each])}" for each in names)
         raise InputError(f"{name}: arrays that belong together are of different lengths ({sizes}); write it again")

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.errors import UsageError
+from vorotool.errors import UsageError, option
 from vorotool.geometry.numbers import shown_number, whole_number
 from vorotool.geometry.parallel import in_order
 from vorotool.geometry.table import Computed, Lookup
@@ -106,9 +106,10 @@ def check_precision(precision: int | None) -> int:
     UsageError
         If it is not from 1 to 17.
     """
-    if precision is not None and not 1 <= whole_number(precision, "--precision") <= MOST_DIGITS:
+    name = option("--precision")
+    if precision is not None and not 1 <= whole_number(precision, name) <= MOST_DIGITS:
         raise UsageError(
-            f"--precision is {shown_number(precision)}: use 1 to {MOST_DIGITS} significant digits, or leave it out"
+            f"{name} is {shown_number(precision)}: use 1 to {MOST_DIGITS} significant digits, or leave it out"
         )
     return precision or 0
 

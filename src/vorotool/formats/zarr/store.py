@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from vorotool.errors import InputError, OutputError, UsageError
+from vorotool.errors import OUTPUT, InputError, OutputError, UsageError
 from vorotool.formats.io.atomic_output import check_folder, clobber_error, explained, followed, is_same_file
 from vorotool.formats.io.descriptors import STANDARD, stream_kind
 from vorotool.formats.io.temporaries import ASIDE, Temporary, new_folder, temporary_beside
@@ -108,7 +108,7 @@ def check_store(
     name = os.fspath(path)
     if (kind := stream_kind(name)) is not None:
         place = "standard output" if name == STANDARD else f"{name}, {kind}"
-        raise UsageError(f"a Zarr store is a folder, which does not go to {place}: name it with -o")
+        raise UsageError(f"a Zarr store is a folder, which does not go to {place}: name it with {OUTPUT}")
     with explained(name):
         target = followed(name)
         exists = target.exists()
@@ -117,7 +117,7 @@ def check_store(
     for each in inputs:
         within = target in Path(os.path.realpath(each)).parents
         if exists and (within or is_same_file(target, os.fspath(each))):
-            raise UsageError(f"{name} is also an input, which is never replaced: choose another name with -o")
+            raise UsageError(f"{name} is also an input, which is never replaced: choose another name with {OUTPUT}")
     if exists and no_clobber:
         raise clobber_error(name)
     check_folder(name, target.parent, makes_folder=makes_folder)

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import LimitError
+from vorotool.products.formats import AS_SVG
 
 WHITE = "#ffffff"
 LINE = "#000000"
@@ -105,7 +106,7 @@ def picture_palette(classes: int, *, has_halo: bool = False) -> PicturePalette:
     ((15, 3), 13, 14, 4)
     """
     if classes > MOST_CLASSES - has_halo:
-        raise LimitError(f"{classes} colour classes: a palette picture has at most {MOST_CLASSES}, use -f svg")
+        raise LimitError(f"{classes} colour classes: a palette picture has at most {MOST_CLASSES}, use {AS_SVG}")
     count = max(classes, len(CELLS))
     names = [*(cell_colour(c) for c in range(count + 1)), LINE, SEED, *([WHITE] if has_halo else [])]
     halo = count + 3 if has_halo else -1

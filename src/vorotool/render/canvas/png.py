@@ -7,8 +7,9 @@ from collections.abc import Iterable, Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import LimitError
+from vorotool.errors import LimitError, option
 from vorotool.geometry.ragged import owners, ranges
+from vorotool.products.formats import AS_SVG
 from vorotool.render.canvas.glyphs import HEIGHT, text_cells
 from vorotool.render.canvas.layers import Arcs, Curves, Layer, Lines, Page, Points, Polygons, Texts
 from vorotool.render.canvas.palettes import WHITE
@@ -42,8 +43,8 @@ def check_picture_size(page: Page, max_pixels: int) -> None:
     fine = page.width * page.height * FINE**2
     if fine > max_pixels:
         raise LimitError(
-            f"a PNG of {page.width} x {page.height} pixels is drawn with {fine}, more than --max-pixels {max_pixels}: "
-            "use a smaller --width, or -f svg"
+            f"a PNG of {page.width} x {page.height} pixels is drawn with {fine}, more than "
+            f"{option(f'--max-pixels {max_pixels}')}: use a smaller {option('--width')}, or {AS_SVG}"
         )
 
 
@@ -121,7 +122,7 @@ class _Canvas:
     def _colour(self, name: str) -> int:
         number = self.colours.setdefault(name, len(self.colours) + 1)
         if number > MOST_COLOURS:
-            raise LimitError(f"a PNG picture has at most {MOST_COLOURS} colours: use -f svg")
+            raise LimitError(f"a PNG picture has at most {MOST_COLOURS} colours: use {AS_SVG}")
         return number
 
     def _fill(self, layer: Polygons, places: NDArray[np.float64]) -> None:

@@ -8,7 +8,7 @@ from math import isfinite
 
 import numpy as np
 
-from vorotool.errors import UsageError
+from vorotool.errors import UsageError, option
 from vorotool.render.canvas.layers import MARGIN, Arcs, Layer, Page, Points, Polygons, Texts
 from vorotool.render.canvas.styles import PictureStyle
 
@@ -55,7 +55,7 @@ class ScaledPage(Page):
             sides = [float(side) for side in (span + 2 * MARGIN * (span.max() or 1.0)) * scale]
         if not (isfinite(scale) and min(sides) > 0 and LEAST <= max(sides) <= LARGEST):
             raise UsageError(
-                f"the page would be {sides[0]:.3g} mm by {sides[1]:.3g} mm: choose another --scale, from "
+                f"the page would be {sides[0]:.3g} mm by {sides[1]:.3g} mm: choose another {option('--scale')}, from "
                 f"{LEAST:g} to {LARGEST:g} mm"
             )
         self._sides = sides

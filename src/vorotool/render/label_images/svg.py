@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import LimitError
 from vorotool.geometry.points.label_image import LabelImage
+from vorotool.products.formats import AS_PNG
 from vorotool.render.canvas.layers import Backdrop
 from vorotool.render.canvas.palettes import EDGE, FAINT, INK, SEED, WHITE, cell_colour
 from vorotool.render.canvas.svg import CAPITAL, fill_style, halo_style, image_element
@@ -115,7 +116,7 @@ def check_size(shape: tuple[int, int]) -> None:
     >>> check_size((1000, 1000))
     """
     if shape[0] * shape[1] > MOST_PIXELS:
-        raise LimitError(f"{shape[1]} x {shape[0]} pixels are too many for SVG, at most {MOST_PIXELS}: use -f png")
+        raise LimitError(f"{shape[1]} x {shape[0]} pixels are too many for SVG, at most {MOST_PIXELS}: use {AS_PNG}")
 
 
 class _Page:

@@ -17,6 +17,7 @@ from vorotool.geometry.alpha.complex import AlphaComplex, Radius
 from vorotool.geometry.box import bounds
 from vorotool.geometry.numbers import nearest_double
 from vorotool.geometry.table import Table
+from vorotool.products.formats import AS_PICTURE
 
 MOST_POINTS = 100_000
 """Some 30 MB of data: browsers draw so many in about a second."""
@@ -36,7 +37,7 @@ def check_html_size(family: AlphaComplex) -> None:
     """
     if len(family.points) > MOST_POINTS:
         raise LimitError(
-            f"{len(family.points)} points are too many for a page, at most {MOST_POINTS}: use -f svg or png"
+            f"{len(family.points)} points are too many for a page, at most {MOST_POINTS}: use {AS_PICTURE}"
         )
 
 

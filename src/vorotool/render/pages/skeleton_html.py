@@ -15,6 +15,7 @@ from vorotool.errors import LimitError
 from vorotool.geometry.box import bounds
 from vorotool.geometry.skeleton.critical_values import ArcProfiles, CriticalValues
 from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.products.formats import AS_PICTURE
 
 MOST_ARCS = 100_000
 """Some 20 MB of data: browsers draw so many in about a second."""
@@ -33,7 +34,7 @@ def check_html_size(skeleton: Skeleton) -> None:
     """
     for count, what in ((len(skeleton), "arcs"), (len(skeleton.polygons.xy), "vertices of polygons")):
         if count > MOST_ARCS:
-            raise LimitError(f"{count} {what} are too many for a page, at most {MOST_ARCS}: use -f svg or png")
+            raise LimitError(f"{count} {what} are too many for a page, at most {MOST_ARCS}: use {AS_PICTURE}")
 
 
 def write_skeleton_html(

@@ -1,0 +1,98 @@
+"""Types of arguments that have many forms, for annotations of functions that hand them on.
+
+Nothing of this is needed to call the library: any value of one of these forms will do.
+
+Examples
+--------
+>>> from vorotool.typing import PointsLike
+>>> def count(points: PointsLike) -> int:
+...     import vorotool
+...     return len(vorotool.delaunay(points).points)
+>>> count([[0, 0], [4, 0], [0, 3]])
+3
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from typing import Any, Literal, Protocol, TypeAlias, runtime_checkable
+
+from numpy.typing import ArrayLike
+
+from vorotool.geometry.box import Box
+from vorotool.geometry.mesh.triangulation import Triangulation
+from vorotool.geometry.points.label_image import LabelImage
+from vorotool.geometry.points.point_set import PointSet
+from vorotool.geometry.points.raster import Raster
+from vorotool.geometry.points.seed_set import SeedSet
+from vorotool.geometry.polygons.planar_graph import PlanarGraph
+from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.skeleton.skeleton import Skeleton
+
+
+@runtime_checkable
+class HasGeoInterface(Protocol):
+    """What gives itself as GeoJSON: geometry of shapely, rows and frames of geopandas, and others."""
+
+    @property
+    def __geo_interface__(self) -> dict[str, Any]:
+        """A geometry, a feature or a collection."""
+
+
+@runtime_checkable
+class DataFrameLike(Protocol):
+    """What has named columns: data frames of pandas and polars."""
+
+    @property
+    def columns(self) -> Any:
+        """Their names."""
+
+    def __getitem__(self, name: Any, /) -> Any:
+        """Give one."""
+
+
+GeometryLike: TypeAlias = HasGeoInterface | Mapping[str, Any] | str
+"""A geometry, or several in one: shapely's, GeoJSON as a dict, WKT."""
+
+PointsLike: TypeAlias = PointSet | ArrayLike | DataFrameLike | GeometryLike | Sequence[GeometryLike]
+"""Points: an (n, 2) array or list of pairs, a data frame, geometry of points."""
+
+ImageLike: TypeAlias = Raster | LabelImage | ArrayLike
+"""A mask, a label image or grey values: a 2-D array, or what numpy makes one of."""
+
+SeedsLike: TypeAlias = SeedSet | PointsLike | ImageLike
+"""Seeds of a tessellation: points or an image."""
+
+MeshLike: TypeAlias = Triangulation | SeedsLike
+"""Points, or their triangulation, which is used as it is."""
+
+PolygonsLike: TypeAlias = PolygonSet | GeometryLike | Sequence[GeometryLike] | DataFrameLike | ArrayLike
+"""Polygons and lines: geometry, an (n, 2) array or list of pairs that is one ring, data frames with geometry."""
+
+ShapesLike: TypeAlias = Skeleton | PlanarGraph | PolygonsLike
+"""Polygons and lines, or what was made of them."""
+
+FrameLike: TypeAlias = Box | Sequence[float] | ArrayLike
+"""A box, or its (x, y, width, height)."""
+
+RealLike: TypeAlias = float | Fraction
+"""A number, which is taken exactly."""
+
+Spacing: TypeAlias = float | Fraction | Sequence[float | Fraction]
+"""The side of a pixel, or its (height, width), which are equal."""
+
+Side: TypeAlias = Literal["interior", "exterior", "both"]
+"""Of a skeleton."""
+
+FeaturesChoice: TypeAlias = Literal["separate", "together"]
+"""Whether features are looked at one by one."""
+
+OutlineKind: TypeAlias = Literal["crack", "contour"]
+"""The line around pixels."""
+
+AlphaRule: TypeAlias = Literal["corrected", "printed"]
+"""Which edges an alpha complex has."""
+
+Sampling: TypeAlias = Literal["paper", "symmetric"]
+"""How edges are sampled for the approximate skeleton."""
