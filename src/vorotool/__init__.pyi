@@ -70,6 +70,7 @@ from vorotool.formats import read as read
 from vorotool.geometry.alpha.complex import AlphaComplex as AlphaComplex
 from vorotool.geometry.alpha.hull import AlphaHull as AlphaHull
 from vorotool.geometry.alpha.shape import AlphaShape as AlphaShape
+from vorotool.geometry.any.graphs import to_networkx as to_networkx
 from vorotool.geometry.any.tables import table as table
 from vorotool.geometry.box import Box as Box
 from vorotool.geometry.mesh.cells import CellSet as CellSet
@@ -91,7 +92,6 @@ from vorotool.geometry.polygons.planar_graph import PlanarGraph as PlanarGraph
 from vorotool.geometry.polygons.polygon_set import PolygonSet as PolygonSet
 from vorotool.geometry.skeleton.centerline import Centerlines as Centerlines
 from vorotool.geometry.skeleton.critical_values import CriticalValues as CriticalValues
-from vorotool.geometry.skeleton.networkx import to_networkx as to_networkx
 from vorotool.geometry.skeleton.offsets import Offsets as Offsets
 from vorotool.geometry.skeleton.points_along import SkeletonPoints as SkeletonPoints
 from vorotool.geometry.skeleton.skeleton import Skeleton as Skeleton
@@ -102,6 +102,7 @@ from vorotool.geometry.skeleton.tables import (
     polygon_table as polygon_table,
 )
 from vorotool.geometry.table import Table as Table
+from vorotool.jobs.samples import sample as sample
 from vorotool.jobs.writing import to_geojson as to_geojson, write as write
 
 _HOME: dict[str, str]
