@@ -10,8 +10,8 @@ from support.readers.arrows import arrows_of
 PACKAGE = Path(__file__).parents[2] / "src" / "vorotool"
 ARROWS = """
 formats/compression ->
-geometry ->
 products ->
+geometry -> products
 formats/io -> geometry
 geometry/points -> geometry
 geometry/polygons -> geometry
@@ -42,7 +42,8 @@ engines/digital -> engines/common, engines/delaunay, engines/label_images, engin
     geometry/curves, geometry/mesh, geometry/points
 engines/features -> engines/arrangement, geometry, geometry/polygons, geometry/skeleton
 formats/polygons -> formats/io, formats/parsing, formats/points, formats/text, geometry, geometry/polygons
-geometry/any -> geometry, geometry/alpha, geometry/mesh, geometry/points, geometry/polygons, geometry/skeleton
+geometry/any -> geometry, geometry/alpha, geometry/curves, geometry/mesh, geometry/points, geometry/polygons,
+    geometry/skeleton, products
 render/layers -> geometry, geometry/alpha, geometry/mesh, geometry/polygons, geometry/skeleton, render/canvas,
     render/label_images
 render/pages -> geometry, geometry/alpha, geometry/curves, geometry/skeleton, render/canvas
@@ -65,10 +66,10 @@ engines/centerlines -> engines/from_skeleton, engines/pruning, engines/skeleton,
     geometry/skeleton
 jobs -> batch, engines, engines/alpha, engines/arrangement, engines/centerlines, engines/delaunay, engines/digital,
     engines/features, engines/from_skeleton, engines/label_images, engines/offsets, engines/pruning,
-    engines/sampled_skeleton, engines/segment_voronoi, engines/skeleton, engines/tessellation, formats, formats/images,
-    formats/io, formats/parsing, formats/points, formats/text, formats/zarr, geometry, geometry/alpha, geometry/any,
-    geometry/mesh, geometry/points, geometry/polygons, geometry/skeleton, products, render/canvas, render/label_images,
-    render/layers, render/pages
+    engines/sampled_skeleton, engines/segment_voronoi, engines/skeleton, engines/tessellation, formats,
+    formats/images, formats/io, formats/parsing, formats/points, formats/text, formats/zarr, geometry, geometry/alpha,
+    geometry/any, geometry/mesh, geometry/points, geometry/polygons, geometry/skeleton, products, render/canvas,
+    render/label_images, render/layers, render/pages
 cli/options -> engines/offsets, engines/pruning, geometry, jobs, products
 cli/batch -> batch, cli/options, formats/io, geometry, jobs, products
 cli/commands -> cli/batch, cli/options, jobs, products

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import UsageError
+from vorotool.errors import UsageError, VorotoolWarning
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.products.registry import parts_of
 
@@ -293,7 +294,10 @@ def _cell_layers(cells: CellSet, page: Page, layers: Sequence[str]) -> list[Laye
     wanted = checked_layers(layers, ("cells", "diagram", "points"))
     made: list[Layer] = []
     if "cells" in wanted:
-        made.append(cell_polygons(cells, cell_colours(delaunay(cells.sites)), page))
+        with warnings.catch_warnings():  # that points lie on others was said where the cells were made
+            warnings.simplefilter("ignore", VorotoolWarning)
+            mesh = delaunay(cells.sites)
+        made.append(cell_polygons(cells, cell_colours(mesh), page))
     if "diagram" in wanted:
         made.append(cell_lines(cells, page))
     if "points" in wanted:

@@ -1,0 +1,320 @@
+"""Results as data frames and graphs: index, reference system and columns of the input, and geometry that is right."""
+
+from dataclasses import replace
+
+import geopandas
+import networkx
+import numpy as np
+import pandas
+import pytest
+import shapely
+from pandas.testing import assert_frame_equal, assert_index_equal
+
+import vorotool
+from support.families.values import empty_values, example_values, label_image, point_set, polygon_set
+from vorotool.geometry.pixel_grid import map_grid
+
+VALUES = example_values()
+WITH_GEOMETRY = [name for name, value in VALUES.items() if hasattr(value, "to_geopandas")]
+WITH_TABLE = [name for name, value in VALUES.items() if hasattr(value, "to_pandas")]
+
+
+@pytest.mark.parametrize("name", WITH_GEOMETRY)
+def test_geometry_is_that_of_shapely_and_of_features(name):
+    value = VALUES[name]
+    frame, geometry = value.to_geopandas(), value.to_shapely()
+    assert isinstance(frame, geopandas.GeoDataFrame)
+    assert shapely.equals_identical(frame.geometry.values, geometry).all()
+    assert len(frame) == len(geometry) > 0
+    is_placed = name not in {"SeedSet", "LabelImage", "DigitalTriangulation"}
+    assert (frame.crs and frame.crs.to_epsg()) == (2056 if is_placed else None)
+    features = value.__geo_interface__
+    again = geopandas.GeoDataFrame.from_features(features)
+    if name == "Skeleton":
+        again_shapes, geometry = again.geometry.values, value.to_shapely(by="branch")
+    elif name == "PolygonSet":  # GeoJSON has the parts of a feature as one
+        again_shapes = again.explode().geometry.values
+    else:
+        again_shapes = again.geometry.values
+    filled = ~shapely.is_empty(geometry)
+    if name not in {"AlphaShape", "CellSet"}:  # rings begin elsewhere
+        assert shapely.equals_exact(again_shapes[filled], geometry[filled], 1e-9).all()
+    assert shapely.equals(again_shapes[filled], geometry[filled]).all()
+    assert len(shapely.geometry.shape(features["features"][0]["geometry"]).wkt) > 0
+
+
+@pytest.mark.parametrize("name", WITH_TABLE)
+def test_the_table_is_that_of_the_library(name):
+    value = VALUES[name]
+    frame, columns = value.to_pandas(), vorotool.table(value)
+    assert list(frame.columns) == list(columns)
+    for column, expected in columns.items():
+        got = frame[column]
+        mask = np.ma.getmaskarray(expected) if isinstance(expected, np.ma.MaskedArray) else pandas.isna(expected)
+        np.testing.assert_array_equal(got.isna().to_numpy(), mask)
+        if expected.dtype.kind in "iu":
+            assert got.dtype == ("Int64" if mask.any() else expected.dtype)
+        assert got[~mask].tolist() == np.ma.getdata(expected)[~mask].tolist()
+
+
+@pytest.mark.parametrize(
+    "name", [name for name, value in {**VALUES, **empty_values()}.items() if type(value).__name__ == "Table"]
+)
+def test_pandas_takes_tables(name):
+    table = {**VALUES, **empty_values()}[name]
+    assert_frame_equal(pandas.DataFrame(table), table.to_pandas(), check_column_type=False)
+    assert_frame_equal(pandas.DataFrame(dict(table)), table.to_pandas(), check_column_type=False)
+
+
+def test_pandas_takes_missing_integers_as_floats_and_we_as_integers():
+    table = vorotool.Table(
+        {"size": np.ma.array([7, 8], mask=[False, True]), "is": np.ma.array([True, False], mask=[1, 0])}
+    )
+    assert table.to_pandas().dtypes.astype(str).tolist() == ["Int64", "boolean"]
+    assert_frame_equal(pandas.DataFrame({"size": table["size"]}), table.to_pandas()[["size"]].astype("float64"))
+    with_columns = pandas.DataFrame(table, columns=["size"], index=["a", "b"])
+    assert with_columns["size"].isna().tolist() == [False, True]
+
+
+def test_a_table_is_a_mapping_that_does_not_change():
+    mesh = VALUES["Triangulation"]
+    table = vorotool.edge_table(mesh)
+    assert table["length"].tolist() == mesh.edge_lengths().tolist() == table.get("length").tolist()
+    assert table.get("none", 3) == 3
+    assert "length" in table
+    assert [name for name, _ in table.items()] == list(table) == list(table.keys())
+    assert {**table}["length"].tolist() == list(table.values())[-1].tolist() == dict(table)["length"].tolist()
+    for change in (
+        lambda: table.update(a=1),
+        lambda: table.pop("length"),
+        lambda: table.setdefault("a", 1),
+        table.clear,
+        table.popitem,
+        lambda: table.__setitem__("a", 1),
+        lambda: table.__delitem__("length"),
+        lambda: table.__ior__({"a": 1}),
+    ):
+        with pytest.raises(TypeError, match="does not change"):
+            change()
+    assert len(table) == 7
+    assert vorotool.Table(table) == table.copy() == table
+    assert table != vorotool.Table({name: table[name] for name in reversed(table)})
+
+
+def places(seed, count=60):
+    rng = np.random.default_rng(seed)
+    frame = geopandas.GeoDataFrame(
+        {"name": [f"s{k}" for k in range(count)], "size": rng.integers(0, 9, count)},
+        geometry=shapely.points(rng.random((count, 2)) * 1000 + 2_600_000),
+        crs="EPSG:2056",
+        index=pandas.Index(rng.permutation(count) + 1000, name="station"),
+    )
+    return frame
+
+
+def points_of(frame):
+    from vorotool.geometry.crs import crs_member
+
+    return vorotool.PointSet(
+        shapely.get_coordinates(frame.geometry.values),
+        properties={name: frame[name].tolist() for name in frame.columns.drop("geometry")},
+        crs=crs_member(frame.crs.to_string()),
+        y_up=True,
+        index=frame.index,
+    )
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_cells_of_a_data_frame_are_those_of_geopandas(seed):
+    frame = places(seed)
+    clip = shapely.box(*np.add(frame.total_bounds, [-50, -50, 50, 50]))
+    left, bottom, right, top = clip.bounds
+    cells = vorotool.voronoi_cells(
+        vorotool.delaunay(points_of(frame)), frame=(left, bottom, right - left, top - bottom)
+    )
+    got = cells.to_geopandas()
+    assert_index_equal(got.index, frame.index)
+    assert got.crs == frame.crs
+    assert_frame_equal(
+        got[["name", "size"]], frame[["name", "size"]].astype({"name": got["name"].dtype}), check_like=True
+    )
+    theirs = frame.geometry.voronoi_polygons(extend_to=clip).clip(clip)
+    joined = geopandas.sjoin(frame[["geometry"]], geopandas.GeoDataFrame(geometry=theirs.reset_index(drop=True)))
+    expected = theirs.area.to_numpy()[joined["index_right"].reindex(frame.index).to_numpy()]
+    np.testing.assert_allclose(got.area, expected, rtol=1e-9)
+    np.testing.assert_allclose(got["area"], got.area, rtol=1e-9)
+    assert got.contains(frame.geometry).all()
+    assert_index_equal(cells.to_pandas().index, frame.index)
+
+
+def test_several_indices_and_names_come_back():
+    points = point_set(4)
+    levels = pandas.MultiIndex.from_tuples([("a", 1), ("a", 2), ("b", 1), ("b", 2)], names=["street", "number"])
+    for index in (levels, pandas.DatetimeIndex(["2020-01-01"] * 4), np.array([9, 8, 7, 6]), ["p", "q", "r", "s"]):
+        frame = replace(points, index=index).to_geopandas()
+        assert list(frame.index) == list(index)
+        if hasattr(index, "names"):
+            assert list(frame.index.names) == list(index.names)
+    assert isinstance(replace(points, index=None).to_geopandas().index, pandas.RangeIndex)
+
+
+def test_parts_repeat_the_index_of_their_row_as_explode_does():
+    polygons = polygon_set()
+    frame = polygons.to_geopandas()
+    assert frame.index.tolist() == [7, 8, 8, 9]
+    assert frame.index.name == "row"
+    assert frame["depth"].tolist()[:3] == [1, 2, 2]
+    skeleton = VALUES["Skeleton"]
+    arcs = skeleton.to_geopandas()
+    inside = skeleton.polygon >= 0
+    assert arcs.index[inside].tolist() == np.array([7, 8, 8, 9])[skeleton.polygon[inside]].tolist()
+    assert arcs["depth"][inside].tolist() == np.array([1, 2, 2, 0])[skeleton.polygon[inside]].tolist()
+    assert len(skeleton.to_geopandas(by="branch")) == skeleton.branch[-1] + 1
+    np.testing.assert_allclose(arcs.length, skeleton.length, rtol=1e-3)
+    offsets = VALUES["Offsets"]
+    for row, polygon in zip(offsets.to_geopandas().index, offsets.polygon.tolist(), strict=True):
+        assert pandas.isna(row) if polygon < 0 else row == [7, 8, 8, 9][polygon]
+
+
+@pytest.mark.parametrize(
+    ("name", "parts"),
+    [
+        ("Triangulation", ("triangles", "edges", "points")),
+        ("DigitalTriangulation", ("triangles", "edges", "points")),
+        ("AlphaShape", ("polygons", "edges", "points")),
+        ("SkeletonPoints", ("points", "transects")),
+    ],
+)
+def test_parts(name, parts):
+    value = VALUES[name]
+    for part in parts:
+        assert shapely.equals_identical(
+            value.to_geopandas(what=part).geometry.values, value.to_shapely(what=part)
+        ).all()
+    with pytest.raises(vorotool.UsageError, match=f"invalid what 'cells': expected {', '.join(parts)} of a {name}"):
+        value.to_shapely(what="cells")
+
+
+def test_a_mesh_has_the_index_at_its_points_alone():
+    mesh, points = VALUES["Triangulation"], VALUES["PointSet"]
+    frame = mesh.to_geopandas(what="points")
+    assert_index_equal(frame.index, points.index)
+    assert frame["name"].tolist() == points.properties["name"]
+    assert frame["duplicate_of_label"].dtype == "Int64"
+    for part in ("triangles", "edges"):
+        assert isinstance(mesh.to_geopandas(what=part).index, pandas.RangeIndex)
+    triangles = mesh.to_geopandas()
+    np.testing.assert_allclose(triangles.area, mesh.areas(), rtol=1e-9)
+    np.testing.assert_allclose(mesh.to_geopandas(what="edges").length, mesh.edge_lengths(), rtol=1e-12)
+
+
+def test_shapes_have_the_measures_of_their_tables():
+    shape, hull = VALUES["AlphaShape"], VALUES["AlphaHull"]
+    regions = shape.to_geopandas()
+    np.testing.assert_allclose(regions.area, regions["area"], rtol=1e-9)
+    assert len(shape.to_shapely(what="edges")) == len(shape.edges)
+    polygons = hull.to_geopandas()
+    assert polygons.is_valid.all()
+    assert sorted(set(polygons["class"])) == ["hull", "point"]
+    np.testing.assert_allclose(polygons.geometry[polygons["class"] == "hull"].length.sum(), hull.perimeter, rtol=1e-3)
+    offsets = VALUES["Offsets"].to_geopandas()
+    np.testing.assert_allclose(offsets.area, offsets["area"], rtol=2e-3)
+    lines = VALUES["Centerlines"].to_geopandas()
+    np.testing.assert_allclose(lines.length, lines["length"], rtol=1e-3)
+    graph = VALUES["PlanarGraph"]
+    assert len(shapely.get_parts(shapely.polygonize(graph.to_shapely()))) == graph.faces - 1
+
+
+def test_regions_cover_the_pixels_of_their_labels():
+    image = label_image()
+    regions = image.to_geopandas()
+    assert regions["label"].tolist() == list(range(1, 10))
+    np.testing.assert_array_equal(regions.area, regions["area"])
+    assert regions.is_valid.all()
+    np.testing.assert_allclose(shapely.union_all(regions.geometry.values).bounds, (-0.5, -0.5, 39.5, 29.5))
+    scattered = vorotool.LabelImage(np.array([[5, 0, 5], [0, 5, 0], [2, 2, 0]], np.uint8))
+    frame = scattered.to_geopandas()
+    assert frame.geometry.geom_type.tolist() == ["Polygon", "MultiPolygon"]
+    assert frame.area.tolist() == frame["area"].tolist() == [2, 3]
+    assert frame.is_valid.all()
+
+
+def test_index_of_the_seeds_is_that_of_the_regions():
+    points = replace(point_set(9, 5), xy=np.stack([np.arange(9) * 4, np.arange(9) * 7 % 30], axis=1).astype(float))
+    image = vorotool.tessellate(vorotool.seeds_from_points(points), shape=(30, 40))
+    for frame in (image.to_geopandas(), image.to_pandas()):
+        assert_index_equal(frame.index, points.index)
+        assert frame["name"].tolist() == points.properties["name"]
+
+
+@pytest.mark.parametrize("transform", [(2.0, 0.0, 2600000.0, 0.0, -2.0, 1200000.0), (2.0, 0.5, 10.0, 0.5, -2.0, 20.0)])
+def test_regions_lie_on_the_map(transform):
+    rasterio_features = pytest.importorskip("rasterio.features")
+    rasterio = pytest.importorskip("rasterio")
+    labels = np.kron(np.array([[1, 2], [3, 1]]), np.ones((4, 5))).astype(np.int32)
+    image = vorotool.LabelImage(
+        labels, grid=map_grid(transform, crs={"type": "name", "properties": {"name": "EPSG:2056"}})
+    )
+    frame = image.to_geopandas()
+    assert frame.crs.to_epsg() == 2056
+    shapes = rasterio_features.shapes(labels, transform=rasterio.Affine(*transform))
+    theirs = geopandas.GeoDataFrame(
+        [(shapely.geometry.shape(s), int(v)) for s, v in shapes], columns=["geometry", "label"]
+    )
+    theirs = theirs.set_geometry("geometry").dissolve("label").geometry
+    assert shapely.equals(frame.geometry.values, theirs.values).all()
+    if "area" in frame:
+        np.testing.assert_allclose(frame["area"], frame.area)
+        assert not {"bbox_x", "bbox_y"} & set(frame.columns)
+
+
+def test_columns_of_other_names_stay():
+    points = vorotool.PointSet([[0, 0], [4, 0], [0, 3]], properties={"label": ["a", "b", "c"], "geometry": [1, 2, 3]})
+    frame = points.to_geopandas()
+    assert frame["label"].tolist() == ["a", "b", "c"]
+    assert frame["voro_label"].tolist() == [1, 2, 3]
+    assert (frame["geometry"].tolist(), frame.geometry.name) == ([1, 2, 3], "voro_geometry")
+    assert vorotool.delaunay(points).to_networkx().nodes[1]["label"] == "b"
+
+
+def test_big_endian_columns_are_taken():
+    table = vorotool.Table({"a": np.array([1, 2], ">i4"), "b": np.arange(4.0)[::2]})
+    assert table.to_pandas()["a"].tolist() == [1, 2]
+
+
+# ---- graphs --------------------------------------------------------------------------------------
+def test_degrees_are_those_of_tables():
+    mesh = VALUES["Triangulation"]
+    graph = vorotool.to_networkx(mesh)
+    degrees = vorotool.point_table(mesh)["neighbours"]
+    assert [graph.degree[k] for k in range(len(mesh.points))] == degrees.filled(0).tolist()
+    assert graph.graph["crs"] == mesh.crs
+    assert graph.nodes[2]["name"] == "c"
+    np.testing.assert_allclose(
+        sorted(d for *_, d in graph.edges(data="length")), np.sort(mesh.edge_lengths()), rtol=1e-12
+    )
+    image = label_image()
+    regions = vorotool.to_networkx(image)
+    table = vorotool.region_table(image)
+    assert dict(regions.degree) == dict(zip(table["label"].tolist(), table["neighbours"].tolist(), strict=True))
+    neighbours = vorotool.neighbour_table(image)
+    for a, b, border in zip(
+        *(neighbours[name].tolist() for name in ("label_a", "label_b", "border_length")), strict=True
+    ):
+        assert regions.edges[a, b]["border_length"] == border
+    skeleton = VALUES["Skeleton"]
+    assert networkx.utils.graphs_equal(skeleton.to_networkx(by="arc"), vorotool.to_networkx(skeleton, by="arc"))
+    arcs = skeleton.to_networkx(by="arc")
+    assert [arcs.degree[node] for node in arcs] == skeleton.degree[list(arcs)].tolist()
+    planar = VALUES["PlanarGraph"].to_networkx()
+    assert networkx.number_connected_components(planar) == 5
+    assert len(networkx.cycle_basis(planar)) == VALUES["PlanarGraph"].faces - 1
+
+
+def test_what_has_no_graph_is_refused():
+    with pytest.raises(vorotool.UsageError, match="there is no graph of a Table"):
+        vorotool.to_networkx(VALUES["Table"])
+    with pytest.raises(vorotool.UsageError, match="by is for skeletons"):
+        vorotool.to_networkx(VALUES["Triangulation"], by="arc")
+    with pytest.raises(vorotool.UsageError, match="by is 'node'"):
+        VALUES["Skeleton"].to_networkx(by="node")
