@@ -22,7 +22,7 @@ MODULES = [
 ]
 """What public functions call: `batch`, and the rest of `jobs`, speak to the command line alone."""
 
-FLAG = re.compile(r"(?<![\w\0-])(?:--[a-z][\w-]*|-[a-z]\b(?!-))")
+FLAG = re.compile(r"(?<![\w\0-])(?:--[a-z\0][\w-]*|-[a-z]\b(?!-))")
 COMMAND = re.compile(r"\bskeleton-(?:exact|approx)\b|--what")
 OF_OTHERS = re.compile(r"\b(?:ogr2ogr|inkscape|gs|pdftoppm|iconv|dwg2dxf)\b[^;)]*")
 """Command lines of other programs, which have flags of their own."""

@@ -15,6 +15,9 @@ from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.products.formats import resolved
 from vorotool.products.inputs import IMAGE_NAMES, INPUTS, Holds
 
+_CRS, _TO_CRS = option("--input-crs", "crs"), option("--crs", "to_crs")
+_LAYER = option("--input-layer", "layer")
+
 _IMAGE_SUFFIXES = {f".{name}": kind for name, kind in IMAGE_NAMES.items() if kind != "zarr"}
 _IMAGE_HEADS = (
     (b"\x89PNG", "png"),
@@ -92,8 +95,7 @@ def read_recognised(holds: Holds, source: Source, options: ReadOptions) -> Any:
     if holds not in ("points", "polygons"):
         return value
     if source.layer is not None and "layers" not in INPUTS[source.format].has:
-        layer = option("--input-layer", "layer")
-        raise UsageError(f"{layer} is for files of several layers, but {source.name} has none: leave it out")
+        raise UsageError(f"{_LAYER} is for files of several layers, but {source.name} has none: leave it out")
     from vorotool.formats.parsing.reference_systems import with_crs
 
     return with_crs(value, source.name, options)
@@ -101,9 +103,9 @@ def read_recognised(holds: Holds, source: Source, options: ReadOptions) -> Any:
 
 def refuse_for_images(options: ReadOptions, layer: str | None) -> None:
     """Refuse what is said of points, polygons and lines where the input is an image."""
-    for name, given in (("input-crs", options.crs), ("crs", options.to_crs), ("input-layer", layer)):
+    for name, given in ((_CRS, options.crs), (_TO_CRS, options.to_crs), (_LAYER, layer)):
         if given is not None:
-            raise UsageError(f"--{name} is for points, polygons and lines, but the input is an image: leave it out")
+            raise UsageError(f"{name} is for points, polygons and lines, but the input is an image: leave it out")
 
 
 def image_source(source: Source, said: str | None = None) -> Source:

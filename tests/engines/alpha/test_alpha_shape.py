@@ -225,9 +225,9 @@ def test_regions_and_rings_that_touch():
         (
             {"alpha": 0.1},
             UsageError,
-            r"alpha must be negative \(α = −1/r\): for the alphashape package's 0.1 use -r 10$",
+            r"alpha must be negative \(α = −1/r\): for the alphashape package's 0.1 use r=10$",
         ),
-        ({"alpha": 0}, UsageError, r"alpha must be negative \(α = −1/r\): for the convex hull use -r inf$"),
+        ({"alpha": 0}, UsageError, r"alpha must be negative \(α = −1/r\): for the convex hull use r=inf$"),
         ({"r": 1, "alpha": -1}, UsageError, "r and alpha are given, but each sets the radius: give one of"),
         ({"r": 1, "regions": 2}, UsageError, "regions is for the automatic choice"),
         ({"regions": 0}, UsageError, "regions is 0: at least 1"),
@@ -313,7 +313,7 @@ def test_too_few_objects_of_an_image():
     verify_alpha_shape(shape)
     assert (len(shape.edges), shape.isolated.tolist()) == (0, [0, 1])
     assert shape.r < shape.family.spectrum[0]
-    with pytest.raises(InputError, match="leave out --strict"):
+    with pytest.raises(InputError, match="leave out strict=True"):
         alpha_shape(seeds_from_raster(image), strict=True)
     with pytest.raises(InputError, match="span no triangle"):
         alpha_shape([[0, 0], [4, 0]])

@@ -109,7 +109,7 @@ def test_nothing():
         (
             [[[7, 7]]],
             "1 polygon has no inside",
-            "polygon 1 at (7.0, 7.0) has no inside (1 such places): repair it, or leave out --strict",
+            "polygon 1 at (7.0, 7.0) has no inside (1 such places): repair it, or leave out strict=True",
         ),
     ],
 )
@@ -119,7 +119,7 @@ def test_repairs(source, message, place):
     with pytest.raises(InputError) as caught:
         planar_graph(source, strict=True)
     assert str(caught.value).startswith(place)
-    assert str(caught.value).endswith("repair it, or leave out --strict")
+    assert str(caught.value).endswith("repair it, or leave out strict=True")
 
 
 def test_strict_takes_what_needs_no_repair():

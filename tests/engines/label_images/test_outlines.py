@@ -265,12 +265,12 @@ def test_options_that_are_none():
 
 
 def test_too_many_vertices_are_refused_before_they_are_made():
-    with pytest.raises(LimitError, match="14 vertices, more than --max-sites 10"):
+    with pytest.raises(LimitError, match="14 vertices, more than max_sites=10"):
         outlines(np.eye(4, dtype=bool) | np.eye(4, k=1, dtype=bool), max_sites=10)
 
 
 def test_values_that_say_nothing():
-    with pytest.raises(InputError, match="--threshold T or --threshold otsu"):
+    with pytest.raises(InputError, match=r'threshold=T .* or threshold="otsu"'):
         outlines(Raster(np.zeros((4, 4, 3), dtype=np.uint8)))
     with pytest.raises(InputError, match="NaN or infinite"):
         outlines(np.array([[np.nan, 1.0]]))

@@ -147,7 +147,7 @@ def test_a_parabola_is_cut_into_pieces():
 
 
 def test_lines_have_no_inside():
-    with pytest.warns(VorotoolWarning, match="use --side exterior"):
+    with pytest.warns(VorotoolWarning, match='use side="exterior"'):
         assert len(vorotool.skeleton_exact({"line": [[0, 0], [3, 1], [5, 5]]})) == 0
     made = skeleton_of({"line": [[0, 0], [4, 0], [4, 4]]}, side="exterior")
     assert np.count_nonzero(made.radius == 0) == 1  # only in the corner

@@ -96,5 +96,5 @@ def test_bad_input_is_named(seeds, options, error, message):
 def test_limits_of_the_library_function():
     with pytest.raises(UsageError, match="no distance limit"):
         vorotool.tessellate([[0, 0]], shape=(4, 4), method="propagation", max_distance=3)
-    with pytest.raises(LimitError, match="--max-pixels"):
+    with pytest.raises(LimitError, match="max_pixels="):
         vorotool.tessellate([[0, 0]], shape=(4, 4), method="propagation", max_pixels=15)

@@ -48,7 +48,7 @@ def test_objects_are_counted_alike_for_dense_and_sparse_labels(factor):
 def test_seeds_are_counted_before_memory_is_taken_for_them():
     raster = Raster(np.ones((4, 5), np.uint8))
     for mode in ("pixels", "components", "labels"):
-        with pytest.raises(LimitError, match="20 foreground pixels, more than --max-sites 19"):
+        with pytest.raises(LimitError, match="20 foreground pixels, more than max_sites=19"):
             seeds_from_raster(raster, mode=mode, max_sites=19)
         assert len(seeds_from_raster(raster, mode=mode, max_sites=20)) == 20
     assert len(seeds_from_raster(raster, mode="centroids", max_sites=1)) == 1
@@ -93,9 +93,9 @@ def test_one_value_is_that_of_a_mask_or_a_label(dtype, value):
         (65535 * TWO_PATCHES.astype(np.uint16), None),
         (
             0 * TWO_PATCHES + 5 * np.eye(2, 3),
-            "5.0 is the only value besides 0, and taken for a label: --seeds components",
+            '5.0 is the only value besides 0, and taken for a label: mode="components"',
         ),
-        (TWO_PATCHES.astype(np.uint16), "1 is the only value besides 0, and taken for a mask: --seeds labels"),
+        (TWO_PATCHES.astype(np.uint16), '1 is the only value besides 0, and taken for a mask: mode="labels"'),
         (np.array([[1, 2, 0]]), None),
     ],
 )
@@ -109,7 +109,7 @@ def test_what_was_taken_is_told_where_it_may_surprise(image, words):
 
 def test_a_value_that_can_be_no_label_is_no_mask_either():
     for value in (-1, 0.5, 2.0**33):
-        with pytest.raises(InputError, match=r"labels must be integers .* --seeds components for a mask"):
+        with pytest.raises(InputError, match=r'labels must be integers .* mode="components" for a mask'):
             seeds_from_raster(TWO_PATCHES * value)
         assert seeds_from_raster(TWO_PATCHES * value, mode="components").site_labels.tolist() == [1, 2]
 

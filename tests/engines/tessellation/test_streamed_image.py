@@ -154,7 +154,7 @@ def test_what_is_refused(bands):
         StreamedImage(ObjectRows(Held(np.zeros((30, 20), np.uint8))), strict=True)
     noise = Held((rng.random((40, 40)) < 0.3).astype(np.uint8))
     for mode in ("pixels", "components"):
-        with pytest.raises(LimitError, match="more than --max-sites 5"):
+        with pytest.raises(LimitError, match="more than max_sites=5"):
             StreamedImage(ObjectRows(noise, mode), max_sites=5)
     bad = np.zeros((30, 20), np.int64)
     bad[29, 3] = -1

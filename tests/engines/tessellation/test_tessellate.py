@@ -208,7 +208,7 @@ def test_inputs_of_every_kind():
 
 def test_default_frame_holds_the_points():
     assert default_frame(vorotool.seeds_from_points(vorotool.PointSet([[2, 1], [7.5, 5.25]]))) == Frame(0, 0, 9, 6)
-    with pytest.raises(InputError, match=r"points span x -3\.\.12: use --window"):
+    with pytest.raises(InputError, match=r"points span x -3\.\.12: use window="):
         vorotool.tessellate([[-3, 0], [12, 1]])
 
 
@@ -239,12 +239,12 @@ def test_duplicates_warn_or_are_refused():
         (lambda: vorotool.tessellate([[1e300, 0]], shape=(4, 4)), InputError, r"at most 2\^44"),
         (lambda: vorotool.tessellate([[2.0**43, 0]], shape=(4, 4)), InputError, "too far from the frame"),
         (lambda: vorotool.tessellate([[0, 0]], shape=(0, 4)), InputError, "at least 1 x 1"),
-        (lambda: vorotool.tessellate([[0, 1 / 256]], window=(2**56, 0, 4, 4)), InputError, "nearer --window"),
-        (lambda: vorotool.tessellate([[0, 0]], window=(0, -(10**30), 4, 4)), InputError, "nearer --window"),
+        (lambda: vorotool.tessellate([[0, 1 / 256]], window=(2**56, 0, 4, 4)), InputError, "nearer window"),
+        (lambda: vorotool.tessellate([[0, 0]], window=(0, -(10**30), 4, 4)), InputError, "nearer window"),
         (lambda: vorotool.tessellate([[0, 0]], window=(0.5, 0, 4, 4)), UsageError, "four integers"),
         (lambda: vorotool.tessellate([[0, 0]], shape=np.full(2, 60000, np.uint16)), LimitError, "3600000000 pixels"),
         (lambda: vorotool.tessellate([[0, 0]], shape=(4, 4), window=(0, 0, 4, 4)), UsageError, "not both"),
-        (lambda: vorotool.tessellate([[0, 0]], shape=(10**6, 10**6)), LimitError, "--max-pixels"),
+        (lambda: vorotool.tessellate([[0, 0]], shape=(10**6, 10**6)), LimitError, "max_pixels="),
         (lambda: vorotool.tessellate([[0, 0]], shape=(1, 2**31), max_pixels=2**40), LimitError, "a side has at most"),
         (lambda: vorotool.tessellate([[0, 0]], shape=(4, 4), threads=-1), UsageError, "threads is -1"),
         (lambda: vorotool.tessellate([[0, 0]], shape=(4, 4), dtype=float), UsageError, "cannot have type float64"),

@@ -131,7 +131,7 @@ def test_layers(tmp_path):
     frame().to_file(path, layer="lakes", driver="GPKG")
     assert len(vorotool.read(path)) == 4
     frame(SHAPES[:1], name=["b"]).to_file(path, layer="ponds", driver="GPKG")
-    with pytest.raises(InputError, match=r"a.gpkg holds 2 layers: choose one of lakes, ponds by --input-layer"):
+    with pytest.raises(InputError, match=r"a.gpkg holds 2 layers: choose one of lakes, ponds by layer="):
         vorotool.read(path)
     assert vorotool.read(path, layer="ponds").properties == {"name": ["b"]}
     with pytest.raises(InputError, match=r"a.gpkg has no layer 'rivers': its layers are lakes, ponds"):
@@ -143,10 +143,10 @@ def test_layers(tmp_path):
 
 def test_layers_where_there_are_none(tmp_path):
     (tmp_path / "a.csv").write_text("x,y\n1,2\n")
-    with pytest.raises(UsageError, match=r"--input-layer is for files of several layers, but .*a.csv has none"):
+    with pytest.raises(UsageError, match=r"layer is for files of several layers, but .*a.csv has none"):
         vorotool.read(tmp_path / "a.csv", layer="a")
     vorotool.write(vorotool.tessellate([[1, 1], [5, 3]], shape=(4, 6)), tmp_path / "a.png")
-    with pytest.raises(UsageError, match="--input-layer is for points, polygons and lines, but the input is an image"):
+    with pytest.raises(UsageError, match="layer is for points, polygons and lines, but the input is an image"):
         vorotool.read(tmp_path / "a.png", layer="a")
 
 
@@ -207,7 +207,7 @@ def test_another_system(tmp_path, fmt):
     assert shapes.properties == {"name": ["Zürichsee"]}
     assert notes_of(path, to_crs="EPSG:2056") == []
     unnamed = save(frame(crs=None), tmp_path / f"b.{fmt}")
-    with pytest.raises(InputError, match="names no coordinate reference system, so that --crs cannot"):
+    with pytest.raises(InputError, match="names no coordinate reference system, so that to_crs cannot"):
         vorotool.read(unnamed, to_crs="EPSG:2056")
     with pytest.raises(UsageError, match=r"EPSG:99999 is not known: check authority and code"):
         vorotool.read(path, to_crs="EPSG:99999")

@@ -39,7 +39,7 @@ def test_palette_indices_round_trip() -> None:
 
 def test_labels_above_16_bits_are_no_png() -> None:
     out = io.BytesIO()
-    with pytest.raises(LimitError, match=r"labels up to 100000 .*use -o labels.tif or labels.npy"):
+    with pytest.raises(LimitError, match=r"labels up to 100000 .*use the path labels.tif or labels.npy"):
         write_label_image(out, [], shape=(1, 1), dtype=np.uint32, fmt="png", largest_label=100_000)
     assert out.getvalue() == b""
     write_label_image(out, [np.array([[65_535]])], shape=(1, 1), dtype="u4", fmt="png", largest_label=65_535)
@@ -47,7 +47,7 @@ def test_labels_above_16_bits_are_no_png() -> None:
 
 @pytest.mark.parametrize(("dtype", "fmt"), [("f4", "png"), ("f4", "text"), ("u8", "png")])
 def test_other_values_need_tiff_or_npy(dtype: str, fmt: str) -> None:
-    with pytest.raises(UsageError, match=r"use -o image.tif or image.npy"):
+    with pytest.raises(UsageError, match=r"use the path image.tif or image.npy"):
         write_label_image(io.BytesIO(), [], shape=(1, 1), dtype=dtype, fmt=fmt, largest_label=1)
 
 

@@ -24,5 +24,5 @@ def test_bool_rows_are_0_and_1() -> None:
 
 @pytest.mark.parametrize("shape", [(1, 4097), (1001, 1000)])
 def test_large_images_are_refused(shape: tuple[int, int]) -> None:
-    with pytest.raises(LimitError, match=r"use -o labels.png, labels.tif or labels.npy"):
+    with pytest.raises(LimitError, match=r"use the path labels.png, labels.tif or labels.npy"):
         write_label_text(io.BytesIO(), [], shape, largest_label=1)

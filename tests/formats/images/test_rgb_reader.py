@@ -68,5 +68,5 @@ def test_pages():
 
 
 def test_too_large():
-    with pytest.raises(LimitError, match="--max-pixels"):
+    with pytest.raises(LimitError, match="max_pixels="):
         picture_of(png(GREY), max_pixels=10)

@@ -81,7 +81,7 @@ def test_a_failure_leaves_nothing_behind(old, failure):
 def test_no_space(old):
     with pytest.raises(OutputError) as caught, open_output(old):
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
-    reason = "No space left on device; free some space, or write elsewhere with -o"
+    reason = "No space left on device; free some space, or write elsewhere with path=..."
     assert str(caught.value) == f"{old} cannot be written: {reason}"
     assert old.read_bytes() == b"old"
     assert files_in(old.parent) == ["out.csv"]
@@ -138,14 +138,14 @@ def test_a_write_protected_file(old, monkeypatch):
 
 def test_no_clobber(old):
     message = error_of(OutputError, old, no_clobber=True)
-    assert message == f"{old} exists already and --no-clobber is given: choose another name with -o"
+    assert message == f"{old} exists already and no_clobber=True is given: choose another name with path=..."
     write(old.with_name("other.csv"), no_clobber=True)
     assert old.read_bytes() == b"old"
 
 
 def test_no_clobber_of_a_file_that_appears_meanwhile(tmp_path):
     path = tmp_path / "out.csv"
-    with pytest.raises(OutputError, match="--no-clobber"), open_output(path, no_clobber=True):
+    with pytest.raises(OutputError, match="no_clobber"), open_output(path, no_clobber=True):
         path.write_bytes(b"other")
     assert path.read_bytes() == b"other"
     assert files_in(tmp_path) == ["out.csv"]
@@ -156,7 +156,7 @@ def test_an_input_is_never_replaced(old, monkeypatch):
     link.hardlink_to(old)
     for name in (old, link, old.parent / "." / old.name):
         message = error_of(UsageError, name, inputs=["-", old.with_name("gone"), old])
-        assert message == f"{name} is also an input, which is never replaced: choose another name with -o"
+        assert message == f"{name} is also an input, which is never replaced: choose another name with path=..."
     with old.open() as file:
         monkeypatch.setattr(sys, "stdin", file)
         assert "is also an input" in error_of(UsageError, old, inputs=["-"])
@@ -192,7 +192,7 @@ def test_standard_output(monkeypatch):
     monkeypatch.setattr(sys, "stdout", Terminal(buffer, write_through=True))
     write("-")
     assert buffer.getvalue() == b"new"
-    assert "name a file with -o" in error_of(UsageError, "-", binary=True)
+    assert "name a file with path=..." in error_of(UsageError, "-", binary=True)
     assert buffer.getvalue() == b"new"
 
 
@@ -219,7 +219,7 @@ def test_a_descriptor_that_cannot_be_written(old):
                 check_output(f"/dev/fd/{number}")
     for number, message in zip(numbers, messages, strict=True):
         reason = "Bad file descriptor: it is closed, or open for reading only"
-        assert message == f"/dev/fd/{number} cannot be written: {reason}; write elsewhere with -o"
+        assert message == f"/dev/fd/{number} cannot be written: {reason}; write elsewhere with path=..."
     assert old.read_bytes() == b"old"
 
 
@@ -240,7 +240,7 @@ def test_a_descriptor_of_another_process(old):
     finally:
         child.kill()
         child.wait()
-    assert message.endswith("is open in another process, which alone can go on with it: name a file with -o")
+    assert message.endswith("is open in another process, which alone can go on with it: name a file with path=...")
     assert old.read_bytes() == b"old"
 
 
@@ -267,7 +267,7 @@ def test_a_terminal_by_its_name_gets_no_binary_output():
     master, slave = pty.openpty()
     try:
         for name in (os.ttyname(slave), f"/dev/fd/{slave}"):
-            assert "name a file with -o" in error_of(UsageError, name, binary=True)
+            assert "name a file with path=..." in error_of(UsageError, name, binary=True)
             write(name, b"text")
             assert os.read(master, 10) == b"text"
     finally:

@@ -84,7 +84,7 @@ def test_what_is_not_replaced(tmp_path):
     for path in (tmp_path / "folder", tmp_path / "file", group):
         with pytest.raises(OutputError, match="is no Zarr array"):
             check_store(path)
-    with pytest.raises(OutputError, match="--no-clobber"):
+    with pytest.raises(OutputError, match="no_clobber"):
         check_store(array, no_clobber=True)
     for source in (array, array / "c" / "0"):
         with pytest.raises(UsageError, match="also an input"):
@@ -105,7 +105,7 @@ def test_a_link_to_a_store_stays_a_link(tmp_path):
 
 
 def test_one_that_comes_meanwhile_is_not_clobbered(tmp_path):
-    with pytest.raises(OutputError, match="--no-clobber"), open_store(tmp_path / "a.zarr", no_clobber=True):
+    with pytest.raises(OutputError, match="no_clobber"), open_store(tmp_path / "a.zarr", no_clobber=True):
         make(tmp_path / "a.zarr", "other")
     assert "other" in text_of(tmp_path / "a.zarr")
     assert names(tmp_path) == ["a.zarr"]

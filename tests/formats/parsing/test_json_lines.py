@@ -136,7 +136,7 @@ def test_what_is_wrong_is_named_with_its_line(written, text, words):
 def test_polygons_are_not_made_of_rows(written):
     with pytest.raises(InputError, match=r"a.jsonl holds a table, whose rows have label, x, y, note, not polygons"):
         vorotool.read(written(lines_of(ROWS)), geometry="polygons")
-    with pytest.raises(UsageError, match="--columns is for delimited text"):
+    with pytest.raises(UsageError, match="columns is for delimited text"):
         vorotool.read(written(lines_of(POINTS)), columns="x,y")
 
 

@@ -58,7 +58,7 @@ def test_files_to_convert(suffix):
 def test_options_that_do_not_fit():
     assert "expected one of csv, tsv, txt, node, npz" in error_of("", kind=UsageError, input_format="xyz")
     for fmt in set(POINT_FORMATS) - {"csv", "json", "jsonl", "npz", "parquet"}:
-        assert "--columns is for delimited text" in error_of("", kind=UsageError, input_format=fmt, columns="1,2")
+        assert "columns is for delimited text" in error_of("", kind=UsageError, input_format=fmt, columns="1,2")
 
 
 def npz(**columns):

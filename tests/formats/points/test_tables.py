@@ -111,7 +111,7 @@ def test_rows_of_json_are_alike(tmp_path):
 
 def test_columns_are_for_tables(tmp_path):
     (tmp_path / "a.json").write_text("[[1, 2], [3, 4]]")
-    with pytest.raises(UsageError, match="--columns is for delimited text and tables"):
+    with pytest.raises(UsageError, match="columns is for delimited text and tables"):
         vorotool.read(tmp_path / "a.json", columns="x,y")
 
 

@@ -56,9 +56,9 @@ def test_the_caller_knows(tmp_path):
         vorotool.read(path, geometry="points")
     with pytest.raises(UsageError, match="invalid geometry 'lines'"):
         vorotool.read(path, geometry="lines")
-    with pytest.raises(UsageError, match="--columns is for lists of points"):
+    with pytest.raises(UsageError, match="columns is for lists of points"):
         vorotool.read(path, geometry="polygons", columns="1,2")
-    with pytest.raises(UsageError, match="--columns is for delimited text"):
+    with pytest.raises(UsageError, match="columns is for delimited text"):
         vorotool.read(path, columns="1,2")
 
 
@@ -104,7 +104,7 @@ def test_points_and_polygons_in_one_file(tmp_path, geometries, message):
 )
 def test_formats_that_are_not_read(data, name, message):
     assert error_of(data, name).startswith(message)
-    with pytest.raises(UsageError, match="invalid --input-format 'node': expected one of csv, tsv, txt, npz, csv-w"):
+    with pytest.raises(UsageError, match="invalid input_format 'node': expected one of csv, tsv, txt, npz, csv-w"):
         read(data, name, input_format="node")
 
 

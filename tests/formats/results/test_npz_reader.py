@@ -165,5 +165,5 @@ def test_what_holds_no_polygons(tmp_path):
     with pytest.raises(InputError, match=r"a\.npz holds no polygons that are read: an NPZ has those of cells"):
         vorotool.read(points, geometry="polygons")
     offsets = damaged(tmp_path, arrays_of(vorotool.offset(SHAPES["polygon"], 1)))
-    with pytest.raises(InputError, match=r"offset curves the table \(--what points -f npz\) or the JSON"):
+    with pytest.raises(InputError, match=r"offset curves the table \(of points_along\) or the JSON"):
         vorotool.read(offsets)

@@ -61,5 +61,5 @@ def test_no_columns_and_no_digits():
     write_rows(out, [])
     assert out.getvalue() == b""
     assert (check_precision(None), check_precision(17)) == (0, 17)
-    with pytest.raises(UsageError, match="--precision is 18"):
+    with pytest.raises(UsageError, match="precision is 18"):
         write_rows(out, [Column.of("", [1.5])], precision=18)

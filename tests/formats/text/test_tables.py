@@ -144,7 +144,7 @@ def test_options_are_checked():
     with pytest.raises(UsageError, match="a Table cannot be written as 'xls': use one of csv, tsv, json, npz"):
         vorotool.write(MIXED, "a.xls")
     for precision in (0, 18, -1):
-        with pytest.raises(UsageError, match=f"--precision is {precision}: use 1 to 17"):
+        with pytest.raises(UsageError, match=f"precision is {precision}: use 1 to 17"):
             written(MIXED, "csv", precision=precision)
 
 

@@ -58,7 +58,7 @@ def test_arcs_return():
 
 @pytest.mark.parametrize("millimetres", [1e300, 1e7, 0.0, 1e-320, float("inf"), float("nan")])
 def test_pages_that_nobody_has(millimetres):
-    with pytest.raises(UsageError, match=r"the page would be .* choose another --scale"):
+    with pytest.raises(UsageError, match=r"the page would be .* choose another scale"):
         ScaledPage((0, 0, 3, 2), y_up=False, millimetres=millimetres)
 
 

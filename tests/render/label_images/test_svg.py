@@ -100,5 +100,5 @@ def test_same_bytes_for_every_type() -> None:
 
 
 def test_many_pixels_are_refused() -> None:
-    with pytest.raises(LimitError, match=r"2000 x 501 pixels are too many for SVG.*use -f png"):
+    with pytest.raises(LimitError, match=r"2000 x 501 pixels are too many for SVG.*use fmt=.png."):
         drawn(LabelImage(np.ones((501, 2000), np.uint8)))
