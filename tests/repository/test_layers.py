@@ -24,8 +24,8 @@ engines/tessellation -> engines/common, geometry, geometry/arguments, geometry/c
     geometry/polygons
 formats/images -> formats/compression, formats/io, formats/parsing, formats/zarr, geometry, geometry/points
 formats/points -> formats/io, formats/parsing, geometry, geometry/points
-geometry/mesh -> geometry, geometry/curves
-geometry/skeleton -> geometry, geometry/curves, geometry/polygons
+geometry/mesh -> geometry, geometry/arguments, geometry/curves
+geometry/skeleton -> geometry, geometry/arguments, geometry/curves, geometry/polygons
 render/canvas -> geometry, geometry/curves, products
 engines/arrangement -> geometry, geometry/arguments, geometry/curves, geometry/polygons, geometry/skeleton
 engines/delaunay -> geometry, geometry/arguments, geometry/curves, geometry/mesh, geometry/points
@@ -39,10 +39,10 @@ geometry/alpha -> geometry, geometry/curves, geometry/mesh, geometry/polygons
 formats/drawing -> formats/compression, formats/io, formats/parsing, geometry, geometry/alpha, geometry/curves,
     geometry/polygons, geometry/skeleton, products
 render/label_images -> geometry, geometry/points, products, render/canvas
-engines/alpha -> engines/delaunay, geometry, geometry/alpha, geometry/curves, geometry/mesh, geometry/points,
-    geometry/polygons
+engines/alpha -> engines/delaunay, geometry, geometry/alpha, geometry/arguments, geometry/curves, geometry/mesh,
+    geometry/points, geometry/polygons
 engines/digital -> engines/common, engines/delaunay, engines/label_images, engines/tessellation, geometry,
-    geometry/curves, geometry/mesh, geometry/points
+    geometry/arguments, geometry/curves, geometry/mesh, geometry/points
 engines/features -> engines/arrangement, geometry, geometry/polygons, geometry/skeleton
 formats/polygons -> formats/io, formats/parsing, formats/points, formats/text, geometry, geometry/polygons
 geometry/any -> geometry, geometry/alpha, geometry/curves, geometry/mesh, geometry/points, geometry/polygons,
@@ -51,22 +51,22 @@ render/layers -> geometry, geometry/alpha, geometry/mesh, geometry/polygons, geo
     render/label_images
 render/pages -> geometry, geometry/alpha, geometry/curves, geometry/skeleton, products, render/canvas
 engines/skeleton -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi, geometry,
-    geometry/curves, geometry/polygons, geometry/skeleton
+    geometry/arguments, geometry/curves, geometry/polygons, geometry/skeleton
 formats/results -> formats/io, formats/parsing, formats/polygons, formats/text, geometry, geometry/alpha,
     geometry/curves, geometry/mesh, geometry/polygons, geometry/skeleton, products
-engines/from_skeleton -> engines/arrangement, engines/skeleton, geometry, geometry/curves, geometry/polygons,
-    geometry/skeleton
+engines/from_skeleton -> engines/arrangement, engines/skeleton, geometry, geometry/arguments, geometry/curves,
+    geometry/polygons, geometry/skeleton
 engines/offsets -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi, engines/skeleton,
     geometry, geometry/arguments, geometry/curves, geometry/polygons, geometry/skeleton
-engines/pruning -> engines/common, geometry, geometry/curves, geometry/skeleton
+engines/pruning -> engines/common, geometry, geometry/arguments, geometry/curves, geometry/skeleton
 engines/sampled_skeleton -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi,
     engines/skeleton, geometry, geometry/curves, geometry/polygons, geometry/skeleton
 formats -> formats/drawing, formats/features, formats/images, formats/io, formats/parsing, formats/points,
     formats/polygons, geometry, geometry/points, geometry/polygons, geometry/skeleton, products
 batch -> engines/tessellation, formats, formats/io, formats/text, formats/zarr
 engines -> engines/sampled_skeleton, engines/skeleton, geometry, geometry/arguments, geometry/skeleton
-engines/centerlines -> engines/from_skeleton, engines/pruning, engines/skeleton, geometry, geometry/polygons,
-    geometry/skeleton
+engines/centerlines -> engines/from_skeleton, engines/pruning, engines/skeleton, geometry, geometry/arguments,
+    geometry/polygons, geometry/skeleton
 jobs -> batch, engines, engines/alpha, engines/arrangement, engines/centerlines, engines/delaunay, engines/digital,
     engines/features, engines/from_skeleton, engines/label_images, engines/offsets, engines/pruning,
     engines/sampled_skeleton, engines/segment_voronoi, engines/skeleton, engines/tessellation, formats,

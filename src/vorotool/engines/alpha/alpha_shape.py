@@ -24,6 +24,7 @@ from vorotool.engines.delaunay.delaunay import delaunay
 from vorotool.errors import InputError, UsageError, option
 from vorotool.geometry.alpha.complex import AlphaComplex, Radius, checked_radius
 from vorotool.geometry.alpha.shape import AlphaShape
+from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation
 from vorotool.geometry.mesh.triangulation import Triangulation
@@ -154,6 +155,7 @@ def alpha_edges(
     >>> family.edges[index].tolist(), kind.tolist()
     ([[0, 2], [0, 1]], [1, 1])
     """
+    check_value(family, "family", AlphaComplex)
     r = checked_radius(r)
     return _scan(family, family.reached(r), family.entered(r), checked_threads(threads), progress)
 
@@ -412,6 +414,7 @@ def alpha_curves(family: AlphaComplex, *, progress: Progress = None) -> Table:
     >>> curves["r"].tolist(), curves["area"].tolist(), curves["edges"].tolist()
     ([1.5, 2.0, 2.5], [0.0, 0.0, 6.0], [1, 2, 3])
     """
+    check_value(family, "family", AlphaComplex)
     if family.rule != "corrected":
         raise UsageError("curves and the automatic radius are those of the corrected rule: leave out rule=printed")
     curves = _core.alpha.alpha_curves(

@@ -14,6 +14,7 @@ from vorotool import _core
 from vorotool.engines.arrangement.flat_rings import flat_holes, with_flat_shells_as_lines
 from vorotool.errors import STRICT, InputError, LimitError, RepairWarning, VerificationError
 from vorotool.geometry.arguments.polygons import as_polygons
+from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.magnitude import check_magnitude
 from vorotool.geometry.polygons.planar_graph import REPAIRS, PlanarGraph
@@ -279,6 +280,7 @@ def verify_planar_graph(graph: PlanarGraph, *, progress: Progress = None) -> Non
         ...
     vorotool.errors.VerificationError: segments 0 and 1 cross near (536870912, -536870912)
     """
+    check_value(graph, "graph", PlanarGraph)
     fault = _core.arrangement.find_fault(graph.points, graph.segments, graph.segment_faces, progress)
     fault = fault or _face_fault(graph) or (_source_fault(graph) if graph.polygons is not None else None)
     if fault is not None:

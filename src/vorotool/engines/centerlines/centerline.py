@@ -15,6 +15,7 @@ from vorotool.engines.centerlines.ends import Unforked, forked, middles_ahead, u
 from vorotool.engines.centerlines.oblique_ends import led_to_oblique_ends
 from vorotool.engines.centerlines.path_network import Network, Paths, geometry_of
 from vorotool.errors import InputError, UsageError, VorotoolWarning
+from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.magnitude import check_lengths
 from vorotool.geometry.numbers import pair_of_doubles
 from vorotool.geometry.progress import Progress
@@ -103,6 +104,7 @@ def centerline(
     >>> centerline(skeleton, start=(2, 2), end=(3, 0)).flattened(0.1)[0].tolist()
     [[2.0, 1.0], [3.0, 1.0]]
     """
+    check_value(skeleton, "skeleton", Skeleton)
     if ends not in get_args(Ends):
         raise UsageError(f"ends is {ends!r}: use {', '.join(get_args(Ends))}")
     is_whole = ends == "corner"

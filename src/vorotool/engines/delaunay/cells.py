@@ -15,6 +15,7 @@ from vorotool.engines.delaunay.delaunay import core_mesh, delaunay
 from vorotool.errors import InputError, VerificationError, VorotoolWarning
 from vorotool.geometry.arguments.boxes import as_box
 from vorotool.geometry.arguments.polygons import as_geometry
+from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.box import Box
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.crs import crs_name, same_crs
@@ -117,6 +118,7 @@ def cell_colours(mesh: Triangulation, *, progress: Progress = None) -> NDArray[n
     >>> cell_colours(delaunay([[0, 0], [4, 0], [0, 3]])).tolist()
     [3, 2, 1]
     """
+    check_value(mesh, "mesh", Triangulation)
     a, b = (np.ascontiguousarray(mesh.edges[:, side].astype(np.uint32)) for side in (0, 1))
     return _core.graphs.colour_graph(len(mesh.points), a, b, progress)
 
@@ -240,6 +242,7 @@ def verify_cells(cells: CellSet, *, threads: int = 0, progress: Progress = None)
         ...
     vorotool.errors.VerificationError: vertex (2, 2) of cell 1 is nearer to site 0 by more than rounding explains
     """
+    check_value(cells, "cells", CellSet)
     if cells.polygon_starts is not None:
         raise InputError("cells clipped to polygons cannot be checked: check them before they are clipped")
     if not (np.isfinite(cells.sites).all() and np.isfinite(cells.coordinates).all()):

@@ -10,6 +10,7 @@ import numpy as np
 from vorotool import _core
 from vorotool.errors import STRICT, InputError, LimitError, VerificationError, VorotoolWarning
 from vorotool.geometry.arguments.points import as_points
+from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.points.point_set import known_of_points
@@ -115,6 +116,7 @@ def verify_triangulation(mesh: Triangulation, *, threads: int = 0, progress: Pro
         ...
     vorotool.errors.VerificationError: triangle 0 is not counter-clockwise
     """
+    check_value(mesh, "mesh", Triangulation)
     if not np.isfinite(mesh.points).all():
         raise VerificationError("a coordinate is not finite")
     fault = triangulation_fault(mesh, checked_threads(threads), progress)

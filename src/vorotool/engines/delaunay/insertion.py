@@ -11,6 +11,7 @@ from vorotool import _core
 from vorotool.engines.delaunay.delaunay import MOST_POINTS, core_mesh, delaunay, report_duplicates
 from vorotool.errors import InputError, LimitError
 from vorotool.geometry.arguments.points import as_points
+from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.checks import checked_threads, whole_numbers
 from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.points.point_set import PointSet, known_of_points
@@ -87,6 +88,7 @@ def insert_points(
     >>> insert_points(mesh, [[1, 1]]).triangles.tolist()
     [[0, 3, 2], [0, 1, 3], [3, 1, 2]]
     """
+    check_value(mesh, "mesh", Triangulation)
     given = as_points(points)
     total = len(mesh.points) + len(given)
     if total > MOST_POINTS:

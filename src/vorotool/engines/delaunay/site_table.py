@@ -9,6 +9,7 @@ import numpy as np
 from vorotool import _core
 from vorotool.engines.delaunay.cells import voronoi_cells
 from vorotool.errors import InputError
+from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.curves.inverse_functions import hypotenuse
 from vorotool.geometry.mesh.cells import CellSet
@@ -65,6 +66,7 @@ def site_table(
     >>> table["area"].tolist(), table["nearest_label"].tolist(), table["max_distance"].tolist() == [2**0.5] * 2
     ([4.0, 4.0], [2, 1], True)
     """
+    check_value(mesh, "mesh", Triangulation)
     if cells is None:
         cells = voronoi_cells(mesh, frame=frame, threads=threads, progress=progress)
     elif not np.array_equal(cells.sites, mesh.points):

@@ -11,6 +11,7 @@ from vorotool.engines.tessellation.frames import as_seeds, asked_frame, band_lim
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.engines.tessellation.verify_tessellation import verify_label_image
 from vorotool.errors import VerificationError
+from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation
 from vorotool.geometry.pixel_frame import Frame
 
@@ -52,6 +53,7 @@ def verify_digital_triangulation(
     >>> seeds = [[1, 1], [6, 1], [2, 6]]
     >>> verify_digital_triangulation(digital_triangulation(seeds), seeds)
     """
+    check_value(found, "found", DigitalTriangulation)
     seeds, frame = as_seeds(source, "source", image=image), asked_frame(shape, window)
     edges, triangles = np.empty((0, 2), np.int64), np.empty((0, 3), np.int64)
     if len(seeds):

@@ -19,6 +19,7 @@ from vorotool.engines.tessellation.propagation import PropagatedRows
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.engines.tessellation.verify_tessellation import verify_label_image
 from vorotool.errors import UsageError
+from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.numbers import shown_number, whole_number
 from vorotool.geometry.pixel_frame import MAX_PIXELS, Frame
 from vorotool.geometry.points.label_image import LabelImage
@@ -195,6 +196,7 @@ def verify_tessellation(image: LabelImage, *, max_distance: float | Fraction | N
     --------
     >>> verify_tessellation(tessellate([[0, 0], [2, 1]], shape=(2, 3)))
     """
+    check_value(image, "image", LabelImage)
     if not isinstance(image, LabelImage) or image.seeds is None or image.frame is None:
         raise UsageError("the label image carries no seeds: make it with vorotool.tessellate")
     limit = squared_limit(max_distance, image.seeds.scale)
