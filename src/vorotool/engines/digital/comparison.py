@@ -47,6 +47,7 @@ def compare_digital(
     source : what `tessellate` accepts
         Each label must have one seed.
     shape, window : tuple of int, optional
+        As in `tessellate`.
     image : bool, optional
         As in `tessellate`.
     strict : bool

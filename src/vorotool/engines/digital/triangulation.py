@@ -257,6 +257,7 @@ def repair_digital(
         Each label must have one seed. Seeds between pixels, or outside the frame, may have no region: they are
         inserted.
     shape, window : tuple of int, optional
+        As in `tessellate`.
     image : bool, optional
         As in `tessellate`.
     strict : bool

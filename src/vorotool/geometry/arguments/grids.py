@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError
 from vorotool.geometry.arguments.features import crs_of
 from vorotool.geometry.coordinate_names import plain_name
-from vorotool.geometry.crs import member_of_text
 from vorotool.geometry.length_units import ratio
 from vorotool.geometry.pixel_grid import ALIKE, PixelGrid, map_grid
 
@@ -78,4 +77,4 @@ def _crs(image: Any) -> Any:
     """Give the system that the image names, as rioxarray and CF put it into a coordinate without axes."""
     described = image.coords["spatial_ref"].attrs if "spatial_ref" in image.coords else image.attrs
     given = described.get("crs_wkt") or described.get("crs")
-    return member_of_text(given) if given is None or isinstance(given, str) else crs_of(given)
+    return crs_of(given)
