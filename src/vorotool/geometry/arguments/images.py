@@ -54,8 +54,13 @@ def is_image(source: Any, name: str, image: bool | None = None) -> bool:
         return True
     if image is not None:
         return bool(image)
-    shape, kind = getattr(source, "shape", None), _kind(source)
-    if not isinstance(shape, tuple) or len(shape) < 2 or kind not in "biuf" or column_names(source) is not None:
+    if hasattr(source, "__array_interface__") and not hasattr(source, "shape"):  # of Pillow
+        source = np.asarray(source)
+    shape = getattr(source, "shape", None)
+    if not isinstance(shape, tuple) or len(shape) < 2 or column_names(source) is not None:
+        return False
+    kind = _kind(source)
+    if kind not in "biuf":
         return False
     if len(shape) > 2 or kind == "b":
         return True
@@ -147,11 +152,11 @@ def as_label_image(source: Any, name: str, components: Callable[[NDArray[Any]], 
 
 
 def _kind(source: Any) -> str:
-    """Give the kind of the numbers of an array; a blank of what is none."""
+    """Give the kind of the numbers of an array."""
     try:
         return np.dtype(getattr(source, "dtype", "O")).kind
-    except TypeError:  # a type that NumPy does not have
-        return " "
+    except TypeError:  # a type of another library
+        return np.asarray(source).dtype.kind
 
 
 def _has_axes(source: Any) -> bool:
