@@ -168,6 +168,9 @@ def test_what_is_not_in_memory_is_not_read_if_it_is_too_large():
         as_raster(lazy, "seeds", max_pixels=19)
     with pytest.raises(LimitError, match="more than max_pixels"):
         vorotool.tessellate(dask.array.zeros((10**6, 10**6), dtype=np.uint8))
+    for function in (vorotool.tessellate, vorotool.repair_digital, vorotool.compare_digital):
+        with pytest.raises(LimitError, match="more than max_pixels 19"):
+            function(lazy, max_pixels=19)
 
 
 # ---- axes with coordinates ---------------------------------------------------------------------------

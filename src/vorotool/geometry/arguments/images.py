@@ -12,6 +12,7 @@ from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.geometry.arguments.descriptions import column_names, described, naming, refuse_paths, unexpected
 from vorotool.geometry.arguments.grids import grid_of
 from vorotool.geometry.coordinates import MOST_AXES
+from vorotool.geometry.numbers import real_number
 from vorotool.geometry.pixel_frame import MAX_PIXELS
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.raster import Raster
@@ -60,10 +61,8 @@ def is_image(source: Any, name: str, image: bool | None = None) -> bool:
     if not isinstance(shape, tuple) or len(shape) < 2 or column_names(source) is not None:
         return False
     kind = _kind(source)
-    if kind not in "biuf":
-        return False
-    if len(shape) > 2 or kind == "b":
-        return True
+    if len(shape) > 2 or kind not in "iuf":
+        return kind in "biuf"
     if kind != "f":
         return 0 not in shape and shape[1] not in POINT_WIDTHS
     if min(shape) > MOST_AXES:
@@ -187,7 +186,7 @@ def _check_shape(source: Any, name: str, *, is_grey: bool, max_pixels: int) -> N
     if len(shape) not in (2, 3):
         raise unexpected(source, EXPECTED)
     pixels = shape[0] * shape[1]
-    if pixels > max_pixels and not isinstance(source, np.ndarray):
+    if not isinstance(source, np.ndarray) and pixels > real_number(max_pixels, "max_pixels"):
         raise LimitError(
             f"{name} has {shape[1]} x {shape[0]} = {pixels} pixels, more than max_pixels {max_pixels}: the command "
             "line reads images of TIFF, NPY and Zarr band by band"
