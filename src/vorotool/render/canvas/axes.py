@@ -130,7 +130,7 @@ def settle_axes(ax: Axes, *, y_up: bool, is_geographic: bool) -> None:
     >>> from matplotlib.figure import Figure
     >>> ax = Figure().add_subplot()
     >>> settle_axes(ax, y_up=False, is_geographic=False)
-    >>> ax.get_aspect(), ax.get_ylim()[0] > ax.get_ylim()[1]
+    >>> ax.get_aspect(), bool(ax.yaxis_inverted())
     (1.0, True)
     """
     ax.autoscale_view()
