@@ -97,6 +97,8 @@ def test_a_table_is_a_mapping_that_does_not_change():
         with pytest.raises(TypeError, match="does not change"):
             change()
     assert len(table) == 7
+    joined = table | {"further": [1]}
+    assert ("Lookup" in str(joined), list(joined)[-1], type({} | table)) == (False, "further", dict)
     assert vorotool.Table(table) == table.copy() == table
     assert table != vorotool.Table({name: table[name] for name in reversed(table)})
 
