@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.common.point_input import as_points
 from vorotool.engines.delaunay.delaunay import MOST_POINTS, core_mesh, delaunay, report_duplicates
 from vorotool.errors import InputError, LimitError
+from vorotool.geometry.arguments.points import as_points
 from vorotool.geometry.checks import checked_threads, whole_numbers
 from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.points.point_set import PointSet, known_of_points
@@ -46,7 +46,7 @@ def insert_points(
     ----------
     mesh : Triangulation
         Made by `delaunay` or by this function; it stays as it is.
-    points : PointSet, or (m, 2) array-like or shapely points
+    points : PointSet, SeedSet, (m, 2) array, data frame, GeoSeries, …
         They get the numbers after those of `mesh`.
     hint : int or (m,) array-like of int, optional
         A point of `mesh`, by index, that is near to the further ones, or to each: the walk begins there. Without it the

@@ -37,6 +37,7 @@ def digital_triangulation(
     *,
     shape: tuple[int, int] | None = None,
     window: tuple[int, int, int, int] | None = None,
+    image: bool | None = None,
     strict: bool = False,
     threads: int = 0,
     progress: Progress = None,
@@ -55,6 +56,8 @@ def digital_triangulation(
         image without seeds, the centroids of the regions are the sites.
     shape, window : tuple of int, optional
         As in `tessellate`; not for a label image.
+    image : bool, optional
+        As in `tessellate`.
     strict : bool
         Refuse several seeds at one place.
     threads : int
@@ -87,7 +90,7 @@ def digital_triangulation(
     threads = checked_threads(threads)
     if isinstance(source, LabelImage):
         return _read(source, _sites_of_image(source, threads), [label_array(source.labels)], threads, progress)
-    seeds, frame = as_seeds(source), asked_frame(shape, window)
+    seeds, frame = as_seeds(source, "source", image=image), asked_frame(shape, window)
     if not len(seeds):
         return _read(seeds, _sites_of_seeds(seeds), [], threads, None)
     sweep = Tessellator(seeds, frame, threads=threads, strict=strict, progress=progress)
@@ -235,6 +238,7 @@ def repair_digital(
     *,
     shape: tuple[int, int] | None = None,
     window: tuple[int, int, int, int] | None = None,
+    image: bool | None = None,
     strict: bool = False,
     threads: int = 0,
     max_pixels: int = MAX_PIXELS,
@@ -253,6 +257,8 @@ def repair_digital(
         Each label must have one seed. Seeds between pixels, or outside the frame, may have no region: they are
         inserted.
     shape, window : tuple of int, optional
+        As in `tessellate`.
+    image : bool, optional
         As in `tessellate`.
     strict : bool
         Refuse several seeds at one place.
@@ -292,7 +298,7 @@ def repair_digital(
     >>> len(mesh), repair.route, repair.filled
     (3, 'repaired', 1)
     """
-    seeds, frame = as_seeds(source), asked_frame(shape, window)
+    seeds, frame = as_seeds(source, "source", image=image), asked_frame(shape, window)
     order = one_seed_a_label(seeds)
     if not len(seeds):
         return delaunay(seeds), DigitalRepair("chain")

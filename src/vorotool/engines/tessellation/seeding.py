@@ -20,11 +20,12 @@ from vorotool.engines.tessellation.raster_objects import (
     report_no_foreground,
 )
 from vorotool.errors import InputError, LimitError, UsageError, VorotoolWarning
+from vorotool.geometry.arguments.images import as_raster
+from vorotool.geometry.arguments.points import as_points
 from vorotool.geometry.curves.inverse_functions import hypotenuse
 from vorotool.geometry.numbers import shown_number
 from vorotool.geometry.pixel_frame import Frame
 from vorotool.geometry.points.point_set import PointSet
-from vorotool.geometry.points.raster import Raster
 from vorotool.geometry.points.seed_set import FINEST_SCALE, SeedSet
 from vorotool.geometry.row_index import index_of_rows
 
@@ -40,13 +41,14 @@ CHUNK = 1 << 22
 """Pixels that are counted at a time."""
 
 
-def seeds_from_points(points: PointSet, *, strict: bool = False, check: Check = None) -> SeedSet:
+def seeds_from_points(points: Any, *, strict: bool = False, check: Check = None) -> SeedSet:
     """Put points on the lattice of seeds.
 
     Parameters
     ----------
-    points : PointSet
-        Coordinates in pixels. Multiples of 1/256 are kept exactly; finer ones move to the nearest multiple.
+    points : PointSet, array, data frame, GeoSeries, …
+        As `delaunay` takes them; coordinates in pixels. Multiples of 1/256 are kept exactly; finer ones move to the
+        nearest multiple.
     strict : bool
         Refuse points that would have to move.
     check : callable, optional
@@ -73,6 +75,7 @@ def seeds_from_points(points: PointSet, *, strict: bool = False, check: Check = 
     >>> seeds.scale, seeds.x.tolist()
     (2, [1, 14])
     """
+    points = as_points(points)
     far = np.flatnonzero((np.abs(points.xy) > LARGEST_COORDINATE).any(axis=1))
     if far.size:
         raise InputError(
@@ -142,7 +145,7 @@ def _coarsest_scale(lattice: NDArray[np.int64]) -> int:
 
 
 def seeds_from_raster(
-    raster: Raster | NDArray[Any],
+    raster: Any,
     *,
     mode: SeedMode | None = None,
     connectivity: int = 8,
@@ -156,7 +159,7 @@ def seeds_from_raster(
 
     Parameters
     ----------
-    raster : Raster or (H, W) array
+    raster : Raster, LabelImage, or (H, W) array of any library
         Nonzero pixels are foreground.
     mode : {"pixels", "components", "labels", "centroids"}, optional
         What shares a label: nothing, a connected component, or all pixels of one value; or one seed at the
@@ -202,7 +205,7 @@ def seeds_from_raster(
     """
     if connectivity not in (4, 8):
         raise UsageError(f"connectivity is {shown_number(connectivity)}: it must be 4 or 8")
-    raster = raster if isinstance(raster, Raster) else Raster(raster)
+    raster = as_raster(raster, "raster", is_grey=True)
     values = foreground_values(raster, threshold, invert=invert)
     if mode not in (None, *get_args(SeedMode)):
         raise UsageError(f"mode is {mode!r}: it must be one of {', '.join(get_args(SeedMode))}")
