@@ -140,6 +140,6 @@ def settle_axes(ax: Axes, *, y_up: bool, is_geographic: bool) -> None:
         ax.invert_yaxis()
     middle = sum(ax.get_ylim()) / 2
     if is_geographic and abs(middle) < 89:
-        ax.set_aspect(1 / float(cosine_and_sine(np.array([abs(middle) / 180 * PI]))[0][0]))
+        ax.set_aspect(1 / float(cosine_and_sine(abs(middle) / 180 * PI)[0]))
     else:
         ax.set_aspect(1.0)
