@@ -11,6 +11,7 @@ from xml.etree import ElementTree
 import imageio.v3 as iio
 import numpy as np
 import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import LineCollection, PathCollection
 from matplotlib.figure import Figure
 
@@ -171,9 +172,9 @@ def test_holes_are_holes():
     )
     ax = axes_of(ring, linewidth=0, facecolor="black")
     ax.set_axis_off()
-    figure = ax.figure
-    figure.canvas.draw()
-    pixels = np.asarray(figure.canvas.buffer_rgba())[..., 0]
+    canvas = FigureCanvasAgg(ax.figure)
+    canvas.draw()
+    pixels = np.asarray(canvas.buffer_rgba())[..., 0]
     for place, is_ink in (((1.5, 1.5), True), ((4.5, 4.5), False), ((8, 8), True)):
         column, row = ax.transData.transform(place).round().astype(int)
         assert (pixels[pixels.shape[0] - 1 - row, column] < 50) == is_ink, place
