@@ -24,7 +24,8 @@ formats/images -> formats/compression, formats/io, formats/parsing, formats/zarr
 formats/points -> formats/io, formats/parsing, geometry, geometry/points
 geometry/mesh -> geometry, geometry/curves
 geometry/skeleton -> geometry, geometry/curves, geometry/polygons
-render/canvas -> geometry, geometry/curves
+typing -> geometry, geometry/mesh, geometry/points, geometry/polygons, geometry/skeleton
+render/canvas -> geometry, geometry/curves, products
 engines/arrangement -> geometry, geometry/curves, geometry/polygons, geometry/skeleton
 engines/delaunay -> engines/common, geometry, geometry/curves, geometry/mesh, geometry/points
 engines/label_images -> engines/common, engines/tessellation, geometry, geometry/points, geometry/polygons
@@ -35,7 +36,7 @@ formats/features -> formats/io, formats/parsing, formats/points, formats/text, g
 geometry/alpha -> geometry, geometry/curves, geometry/mesh, geometry/polygons
 formats/drawing -> formats/compression, formats/io, formats/parsing, geometry, geometry/alpha, geometry/curves,
     geometry/polygons, geometry/skeleton, products
-render/label_images -> geometry, geometry/points, render/canvas
+render/label_images -> geometry, geometry/points, products, render/canvas
 engines/alpha -> engines/delaunay, geometry, geometry/alpha, geometry/curves, geometry/mesh, geometry/points,
     geometry/polygons
 engines/digital -> engines/common, engines/delaunay, engines/label_images, engines/tessellation, geometry,
@@ -45,7 +46,7 @@ formats/polygons -> formats/io, formats/parsing, formats/points, formats/text, g
 geometry/any -> geometry, geometry/alpha, geometry/mesh, geometry/points, geometry/polygons, geometry/skeleton
 render/layers -> geometry, geometry/alpha, geometry/mesh, geometry/polygons, geometry/skeleton, render/canvas,
     render/label_images
-render/pages -> geometry, geometry/alpha, geometry/curves, geometry/skeleton, render/canvas
+render/pages -> geometry, geometry/alpha, geometry/curves, geometry/skeleton, products, render/canvas
 engines/skeleton -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi, geometry,
     geometry/curves, geometry/polygons, geometry/skeleton
 formats/results -> formats/io, formats/parsing, formats/polygons, formats/text, geometry, geometry/alpha,
@@ -61,14 +62,16 @@ formats -> formats/drawing, formats/features, formats/images, formats/io, format
     formats/polygons, geometry, geometry/points, geometry/polygons, geometry/skeleton, products
 batch -> engines/tessellation, formats, formats/io, formats/text, formats/zarr
 engines -> engines/sampled_skeleton, engines/skeleton, geometry, geometry/polygons, geometry/skeleton
+engines/peers -> engines, engines/delaunay, engines/from_skeleton, engines/label_images, engines/pruning,
+    engines/tessellation, geometry, geometry/mesh
 engines/centerlines -> engines/from_skeleton, engines/pruning, engines/skeleton, geometry, geometry/polygons,
     geometry/skeleton
 jobs -> batch, engines, engines/alpha, engines/arrangement, engines/centerlines, engines/delaunay, engines/digital,
     engines/features, engines/from_skeleton, engines/label_images, engines/offsets, engines/pruning,
-    engines/sampled_skeleton, engines/segment_voronoi, engines/skeleton, engines/tessellation, formats, formats/images,
-    formats/io, formats/parsing, formats/points, formats/text, formats/zarr, geometry, geometry/alpha, geometry/any,
-    geometry/mesh, geometry/points, geometry/polygons, geometry/skeleton, products, render/canvas, render/label_images,
-    render/layers, render/pages
+    engines/sampled_skeleton, engines/segment_voronoi, engines/skeleton, engines/tessellation, formats,
+    formats/images, formats/io, formats/parsing, formats/points, formats/text, formats/zarr, geometry, geometry/alpha,
+    geometry/any, geometry/mesh, geometry/points, geometry/polygons, geometry/skeleton, products, render/canvas,
+    render/label_images, render/layers, render/pages
 cli/options -> engines/offsets, engines/pruning, geometry, jobs, products
 cli/batch -> batch, cli/options, formats/io, geometry, jobs, products
 cli/commands -> cli/batch, cli/options, jobs, products
