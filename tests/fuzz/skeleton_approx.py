@@ -18,7 +18,7 @@ from vorotool.engines.sampled_skeleton.approximate import SamplingOptions, appro
 from vorotool.engines.sampled_skeleton.refinement import skeleton_within
 from vorotool.engines.sampled_skeleton.verify_approximate import verify_approximate
 from vorotool.errors import LimitError
-from vorotool.geometry.polygons.conversion import as_polygons
+from vorotool.geometry.arguments.polygons import as_polygons
 
 MOST_SEEDS = 10**5
 

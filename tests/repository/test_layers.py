@@ -15,20 +15,23 @@ products ->
 formats/io -> geometry
 geometry/points -> geometry
 geometry/polygons -> geometry
-engines/common -> geometry, geometry/points, geometry/polygons
+geometry/arguments -> geometry, geometry/points, geometry/polygons
+engines/common ->
 formats/parsing -> formats/io, geometry, geometry/points, geometry/polygons
 formats/zarr -> formats/compression, formats/io, geometry
 geometry/curves -> geometry, geometry/polygons
-engines/tessellation -> engines/common, geometry, geometry/curves, geometry/points, geometry/polygons
+engines/tessellation -> engines/common, geometry, geometry/arguments, geometry/curves, geometry/points,
+    geometry/polygons
 formats/images -> formats/compression, formats/io, formats/parsing, formats/zarr, geometry, geometry/points
 formats/points -> formats/io, formats/parsing, geometry, geometry/points
 geometry/mesh -> geometry, geometry/curves
 geometry/skeleton -> geometry, geometry/curves, geometry/polygons
 typing -> geometry, geometry/mesh, geometry/points, geometry/polygons, geometry/skeleton
 render/canvas -> geometry, geometry/curves, products
-engines/arrangement -> geometry, geometry/curves, geometry/polygons, geometry/skeleton
-engines/delaunay -> engines/common, geometry, geometry/curves, geometry/mesh, geometry/points
-engines/label_images -> engines/common, engines/tessellation, geometry, geometry/points, geometry/polygons
+engines/arrangement -> geometry, geometry/arguments, geometry/curves, geometry/polygons, geometry/skeleton
+engines/delaunay -> geometry, geometry/arguments, geometry/curves, geometry/mesh, geometry/points
+engines/label_images -> engines/common, engines/tessellation, geometry, geometry/arguments, geometry/points,
+    geometry/polygons
 engines/segment_voronoi -> geometry, geometry/polygons, geometry/skeleton
 formats/text -> geometry, geometry/skeleton
 formats/features -> formats/io, formats/parsing, formats/points, formats/text, geometry, geometry/points,
@@ -54,16 +57,16 @@ formats/results -> formats/io, formats/parsing, formats/polygons, formats/text, 
 engines/from_skeleton -> engines/arrangement, engines/skeleton, geometry, geometry/curves, geometry/polygons,
     geometry/skeleton
 engines/offsets -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi, engines/skeleton,
-    geometry, geometry/curves, geometry/polygons, geometry/skeleton
+    geometry, geometry/arguments, geometry/curves, geometry/polygons, geometry/skeleton
 engines/pruning -> engines/common, geometry, geometry/curves, geometry/skeleton
 engines/sampled_skeleton -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi,
     engines/skeleton, geometry, geometry/curves, geometry/polygons, geometry/skeleton
 formats -> formats/drawing, formats/features, formats/images, formats/io, formats/parsing, formats/points,
     formats/polygons, geometry, geometry/points, geometry/polygons, geometry/skeleton, products
 batch -> engines/tessellation, formats, formats/io, formats/text, formats/zarr
-engines -> engines/sampled_skeleton, engines/skeleton, geometry, geometry/polygons, geometry/skeleton
+engines -> engines/sampled_skeleton, engines/skeleton, geometry, geometry/arguments, geometry/skeleton
 engines/peers -> engines, engines/delaunay, engines/from_skeleton, engines/label_images, engines/pruning,
-    engines/tessellation, geometry, geometry/mesh
+    engines/tessellation, geometry, geometry/arguments, geometry/mesh, typing
 engines/centerlines -> engines/from_skeleton, engines/pruning, engines/skeleton, geometry, geometry/polygons,
     geometry/skeleton
 jobs -> batch, engines, engines/alpha, engines/arrangement, engines/centerlines, engines/delaunay, engines/digital,

@@ -13,9 +13,11 @@ from vorotool.engines.skeleton.diagrams import (
     skeleton_inside,
 )
 from vorotool.engines.skeleton.exact import Frame, check_features, check_skeleton_options
+from vorotool.geometry.arguments.boxes import as_extent
+from vorotool.geometry.arguments.polygons import as_polygons
+from vorotool.geometry.box import Box
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.magnitude import check_lengths
-from vorotool.geometry.polygons.conversion import as_polygons
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.skeleton import Skeleton
 
@@ -27,7 +29,7 @@ def skeleton_exact(
     features: str = "separate",
     gap: float = 0.0,
     complete: bool = True,
-    frame: Frame | None = None,
+    frame: Box | Frame | None = None,
     strict: bool = False,
     threads: int = 0,
     progress: Progress = None,
@@ -42,9 +44,9 @@ def skeleton_exact(
 
     Parameters
     ----------
-    polygons : PolygonSet, shapely geometry, (n, 2) array-like, or a list of these
+    polygons : PolygonSet, shapely geometry, GeoSeries, GeoDataFrame, GeoJSON, (n, 2) array, …, or a list of these
         An array is the shell of one polygon; a mapping has ``shell`` and ``holes``, or ``line``. Of a list each item is
-        one feature.
+        one feature, and so is each row.
     side : {"interior", "exterior", "both"}
         Inside polygons, outside all of them, or both.
     features : {"separate", "together"}
@@ -54,7 +56,7 @@ def skeleton_exact(
         and the result is no longer exact. The new ends go to the nearest points of the lattice.
     complete : bool
         With a gap, add the straight lines that lead from the skeleton to the corners.
-    frame : (x, y, w, h), optional
+    frame : Box or (x, y, w, h), optional
         Rectangle that arcs outside are cut by; by default the bounds and a tenth of their larger side around them.
     strict : bool
         Refuse polygons that would be repaired.
@@ -93,6 +95,7 @@ def skeleton_exact(
     >>> float(skeleton.radius.max()), round(float(skeleton.length.sum()), 9)
     (1.0, 7.656854249)
     """
+    frame = None if frame is None else as_extent(frame, "frame")
     check_skeleton_options(side, gap, frame)
     check_features(features)
     check_lengths(frame or (), "frame's coordinate")
@@ -113,7 +116,7 @@ def skeleton_approx(
     side: str = "interior",
     features: str = "separate",
     complete: bool | None = None,
-    frame: Frame | None = None,
+    frame: Box | Frame | None = None,
     strict: bool = False,
     threads: int = 0,
     progress: Progress = None,
@@ -127,9 +130,9 @@ def skeleton_approx(
 
     Parameters
     ----------
-    polygons : PolygonSet, shapely geometry, (n, 2) array-like, or a list of these
+    polygons : PolygonSet, shapely geometry, GeoSeries, GeoDataFrame, GeoJSON, (n, 2) array, …, or a list of these
         An array is the shell of one polygon; a mapping has ``shell`` and ``holes``, or ``line``. Of a list each item is
-        one feature.
+        one feature, and so is each row.
     step : float
         Between samples, in input units.
     tolerance : float
@@ -145,7 +148,7 @@ def skeleton_approx(
         Take each feature by itself, or all of them, and open lines among them, as boundaries of one diagram.
     complete : bool, optional
         Join corners under 180 degrees by a line along the bisector to the first arc; by default with a tolerance.
-    frame : (x, y, w, h), optional
+    frame : Box or (x, y, w, h), optional
         Rectangle that arcs outside are cut by; by default the bounds and a tenth of their larger side around them.
     strict : bool
         Refuse polygons that would be repaired.
@@ -185,6 +188,7 @@ def skeleton_approx(
     (True, 1.5)
     """
     options = SamplingOptions(step, tolerance, sampling)
+    frame = None if frame is None else as_extent(frame, "frame")
     check_skeleton_options(side, 0, frame)
     check_features(features)
     check_lengths(frame or (), "frame's coordinate")

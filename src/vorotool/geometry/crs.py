@@ -36,6 +36,8 @@ _LONGITUDE_LATITUDE = frozenset({"OGC:CRS84", "OGC:CRS83", "OGC:CRS27"})
 _WELL_KNOWN = re.compile(r"\s*(?P<kind>[A-Z_]+)\s*\[\s*\"(?P<name>[^\"]*)\"")
 """How the text of a system begins that is spelled out, not named (WKT of either version)."""
 
+_SRID = re.compile(r"\ASRID\s*=\s*(\d{1,9})\s*;\s*", re.IGNORECASE)
+
 _GEOGRAPHIC_KINDS = ("GEOGCS", "GEOGCRS", "GEOGRAPHICCRS", "GEODCRS", "GEODETICCRS")
 
 LONGITUDE_LATITUDE = "urn:ogc:def:crs:OGC:1.3:CRS84"
@@ -172,3 +174,15 @@ def crs_text(crs: Any) -> str | None:
     return {"OGC:CRS84": "EPSG:4326", "OGC:CRS83": "EPSG:4269", "OGC:CRS27": "EPSG:4267"}.get(
         _one_name(crs), crs_name(crs)
     )
+
+
+def without_number(text: str) -> tuple[str, int]:
+    """Take the number (SRID) of its reference system off extended well-known text; 0 where it has none.
+
+    Examples
+    --------
+    >>> without_number("SRID=2056;POINT (1 2)")
+    ('POINT (1 2)', 2056)
+    """
+    srid = _SRID.match(text)
+    return (text, 0) if srid is None else (text[srid.end() :], int(srid[1]))

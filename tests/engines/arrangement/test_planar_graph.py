@@ -22,7 +22,8 @@ from vorotool import (
     verify_planar_graph,
 )
 from vorotool.engines.arrangement import planar_graph as engine
-from vorotool.geometry.polygons.conversion import as_polygons, to_shapely
+from vorotool.geometry.arguments.polygons import as_polygons
+from vorotool.geometry.polygons.conversion import to_shapely
 
 DATA = Path(__file__).parents[3] / "data"
 SQUARE = [[0, 0], [8, 0], [8, 8], [0, 8]]

@@ -10,7 +10,8 @@ import shapely
 from support.families.polygon_families import FAMILIES, draw
 from vorotool import PolygonSet, planar_graph, read
 from vorotool.engines.arrangement.repaired_polygons import repaired_polygons
-from vorotool.geometry.polygons.conversion import as_polygons, to_shapely
+from vorotool.geometry.arguments.polygons import as_polygons
+from vorotool.geometry.polygons.conversion import to_shapely
 from vorotool.geometry.polygons.polygon_set import HOLE, LINE, SHELL
 
 DATA = Path(__file__).parents[3] / "data"

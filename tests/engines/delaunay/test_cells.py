@@ -260,7 +260,7 @@ def test_frames_without_area(frame):
 
 @pytest.mark.parametrize("frame", [5, (1, 2, 3), "abcd", (0, 0, "w", 1)])
 def test_no_frames(frame):
-    with pytest.raises(InputError, match="give a Box"):
+    with pytest.raises(InputError, match="expected a Box"):
         voronoi_cells([[0, 0]], frame=frame)
 
 

@@ -27,7 +27,7 @@ def up(shapes):
     """Polygons with y upwards."""
     from dataclasses import replace
 
-    from vorotool.geometry.polygons.conversion import as_polygons
+    from vorotool.geometry.arguments.polygons import as_polygons
 
     return replace(as_polygons(shapes), y_up=True)
 

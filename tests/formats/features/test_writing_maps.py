@@ -14,7 +14,7 @@ import vorotool
 from support.families.vector_files import DRIVERS, frame, load, save
 from vorotool.errors import OutputError, UsageError
 from vorotool.formats.features.feature_rows import FeatureRows
-from vorotool.geometry.polygons.conversion import as_polygons
+from vorotool.geometry.arguments.polygons import as_polygons
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 
 FORMATS = list(DRIVERS)

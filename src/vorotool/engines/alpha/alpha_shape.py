@@ -52,7 +52,7 @@ def alpha_complex(
 
     Parameters
     ----------
-    points : PointSet, SeedSet, Triangulation, DigitalTriangulation, or (n, 2) array-like or shapely points
+    points : PointSet, SeedSet, Triangulation, DigitalTriangulation, (n, 2) array, data frame, GeoSeries, …
         At least two distinct ones, unless fewer are allowed. A triangulation is taken as it is; of a digital one only
         edges are right.
     rule : {"corrected", "printed"}
@@ -227,7 +227,7 @@ def alpha_shape(
 
     Parameters
     ----------
-    points : AlphaComplex, PointSet, SeedSet, Triangulation, or (n, 2) array-like or shapely points
+    points : AlphaComplex, PointSet, SeedSet, Triangulation, (n, 2) array, data frame, GeoSeries, …
         From a complex, any number of shapes are made.
     r : float or Fraction, optional
         The radius, in input units.

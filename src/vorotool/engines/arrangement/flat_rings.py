@@ -25,7 +25,7 @@ def flat_holes(polygons: PolygonSet, places: NDArray[Any] | None = None) -> NDAr
 
     Examples
     --------
-    >>> from vorotool.geometry.polygons.conversion import as_polygons
+    >>> from vorotool.geometry.arguments.polygons import as_polygons
     >>> flat_holes(as_polygons([{"shell": [[0, 0], [9, 0], [0, 9]], "holes": [[[1, 1], [2, 1]]]}])).tolist()
     [False, True]
     """
@@ -37,7 +37,7 @@ def with_flat_shells_as_lines(polygons: PolygonSet) -> PolygonSet:
 
     Examples
     --------
-    >>> from vorotool.geometry.polygons.conversion import as_polygons
+    >>> from vorotool.geometry.arguments.polygons import as_polygons
     >>> with_flat_shells_as_lines(as_polygons([[[0, 0], [9, 0], [0, 9]], [[5, 5]]])).is_line.tolist()
     [False, True]
     """

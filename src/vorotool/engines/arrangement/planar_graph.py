@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.engines.arrangement.flat_rings import flat_holes, with_flat_shells_as_lines
 from vorotool.errors import STRICT, InputError, LimitError, RepairWarning, VerificationError
+from vorotool.geometry.arguments.polygons import as_polygons
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.magnitude import check_magnitude
-from vorotool.geometry.polygons.conversion import as_polygons
 from vorotool.geometry.polygons.planar_graph import REPAIRS, PlanarGraph
 from vorotool.geometry.polygons.polygon_set import LINE, PolygonSet
 from vorotool.geometry.progress import Progress
@@ -39,9 +39,9 @@ def planar_graph(polygons: Any, *, strict: bool = False, threads: int = 0, progr
 
     Parameters
     ----------
-    polygons : PolygonSet, shapely geometry, (n, 2) array-like, or a list of these
+    polygons : PolygonSet, shapely geometry, GeoSeries, GeoDataFrame, GeoJSON, (n, 2) array, …, or a list of these
         An array is the shell of one polygon; a mapping has ``shell`` and ``holes``, or ``line``. Of a list each item is
-        one feature.
+        one feature, and so is each row.
     strict : bool
         Refuse what would be repaired; a move by placement alone, at most 0.71 of a step, is none.
     threads : int

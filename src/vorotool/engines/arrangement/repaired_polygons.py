@@ -15,6 +15,7 @@ from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet
 from vorotool.geometry.polygons.repaired_polygons import RepairedPolygons
 from vorotool.geometry.ragged import owners, ranges, starts_of
+from vorotool.geometry.row_index import index_of_rows
 
 
 @dataclass(frozen=True)
@@ -70,6 +71,7 @@ def repaired_polygons(graph: PlanarGraph) -> RepairedPolygons:
         given.y_up,
         given.crs,
         unit=given.unit,
+        index=index_of_rows(given.index, source),
     )
     return RepairedPolygons(polygons, source.astype(np.int32), rings.point, rings.segment)
 

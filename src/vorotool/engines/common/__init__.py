@@ -1,1 +1,1 @@
-"""Shared by engines: arrays of labels, input of points, faults."""
+"""Shared by engines: arrays of labels, faults."""

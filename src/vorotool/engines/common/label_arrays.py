@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
-from vorotool.geometry.points.label_image import LabelImage
 
 
 def label_array(labels: NDArray[Any]) -> NDArray[Any]:
@@ -34,11 +33,6 @@ def next_row(row: NDArray[Any] | None, name: str, labels: NDArray[Any]) -> NDArr
     if not np.can_cast(row.dtype, labels.dtype):
         raise InputError(f"the row {name} has type {row.dtype}, but the labels {labels.dtype}: use one type")
     return row.astype(labels.dtype, copy=False)
-
-
-def as_label_image(image: Any) -> LabelImage:
-    """Return a label image as it is; a 2-D integer array becomes one."""
-    return image if isinstance(image, LabelImage) else LabelImage(image)
 
 
 def described(array: Any) -> str:

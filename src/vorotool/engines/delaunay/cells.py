@@ -12,12 +12,14 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.delaunay.delaunay import core_mesh, delaunay
-from vorotool.errors import InputError, UsageError, VerificationError, VorotoolWarning
+from vorotool.errors import InputError, VerificationError, VorotoolWarning
+from vorotool.geometry.arguments.boxes import as_box
+from vorotool.geometry.arguments.polygons import as_geometry
 from vorotool.geometry.box import Box
 from vorotool.geometry.checks import checked_threads
+from vorotool.geometry.crs import crs_name, same_crs
 from vorotool.geometry.mesh.cells import CellSet
 from vorotool.geometry.mesh.triangulation import Triangulation
-from vorotool.geometry.numbers import finite_double, shown_number
 from vorotool.geometry.points.point_set import known_of_points
 from vorotool.geometry.progress import Progress
 
@@ -38,11 +40,11 @@ def voronoi_cells(
 
     Parameters
     ----------
-    points : Triangulation, PointSet, SeedSet, or (n, 2) array-like or shapely points
+    points : Triangulation, PointSet, SeedSet, (n, 2) array, data frame, GeoSeries, …
         A triangulation is used as it is.
     frame : Box or (x, y, width, height), optional
         By default the bounds of the points, widened by a tenth of the longer side; with `clip`, its bounds.
-    clip : shapely polygon or multipolygon, or a list of them, optional
+    clip : polygons as for `skeleton_exact`, optional
         Cells are cut to these too, by shapely: they may fall in several parts and have holes.
     threads : int
         0 uses all.
@@ -77,7 +79,7 @@ def voronoi_cells(
     mesh = points if isinstance(points, Triangulation) else delaunay(points, threads=threads, progress=progress)
     if not np.isfinite(mesh.points).all():
         raise InputError("a coordinate of the triangulation is not finite")
-    area = None if clip is None else _clip_area(clip)
+    area = None if clip is None else _clip_area(clip, mesh.crs)
     box = _box(frame, mesh, area)
     try:
         coordinates, starts = _core.cells.voronoi_cells(core_mesh(mesh), box.sides, checked_threads(threads), progress)
@@ -88,16 +90,8 @@ def voronoi_cells(
 
 
 def _box(frame: Box | Sequence[float] | None, mesh: Triangulation, area: Any) -> Box:
-    if isinstance(frame, Box):
-        return frame
     if frame is not None:
-        try:
-            x, y, width, height = (finite_double(side, "frame") for side in frame)
-        except (TypeError, ValueError, UsageError):
-            raise InputError(
-                f"frame is {shown_number(frame)}: give a Box or (x, y, width, height), all finite numbers"
-            ) from None
-        return Box.of_size(x, y, width, height)
+        return as_box(frame, "frame")
     if area is None:
         return Box.around(mesh.points)
     return Box(*area.bounds)
@@ -130,16 +124,19 @@ def cell_colours(mesh: Triangulation, *, progress: Progress = None) -> NDArray[n
 # ---- clipping to polygons ----------------------------------------------------------------------------------
 
 
-def _clip_area(clip: Any) -> Any:
+def _clip_area(clip: Any, crs: Any) -> Any:
     """Union of the polygons, valid."""
     import shapely
 
-    given = [clip] if hasattr(clip, "geom_type") else list(np.asarray(clip, dtype=object).ravel())
-    for number, polygon in enumerate(given, 1):
-        kind = getattr(polygon, "geom_type", type(polygon).__name__)
-        if kind not in ("Polygon", "MultiPolygon"):
-            raise InputError(f"polygon {number} of clip is a {kind}: give shapely polygons")
-    polygons = np.array(given, dtype=object)
+    polygons, own_crs = as_geometry(clip, "clip")
+    if crs is not None and own_crs is not None and not same_crs(crs, own_crs):
+        raise InputError(
+            f"invalid clip: it is in {crs_name(own_crs)}, but the points in {crs_name(crs)}; bring both into one system"
+        )
+    polygons = polygons[~shapely.is_missing(polygons)]
+    for number, polygon in enumerate(polygons, 1):
+        if polygon.geom_type not in ("Polygon", "MultiPolygon"):
+            raise InputError(f"invalid clip: polygon {number} is a {polygon.geom_type}; give polygons")
     bad = ~shapely.is_valid(polygons)
     if bad.any():
         reason = shapely.is_valid_reason(polygons[np.argmax(bad)])

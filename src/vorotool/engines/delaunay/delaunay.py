@@ -8,12 +8,11 @@ from typing import Any
 import numpy as np
 
 from vorotool import _core
-from vorotool.engines.common.point_input import as_points
 from vorotool.errors import STRICT, InputError, LimitError, VerificationError, VorotoolWarning
+from vorotool.geometry.arguments.points import as_points
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.mesh.triangulation import Triangulation
-from vorotool.geometry.points.point_set import PointSet, known_of_points
-from vorotool.geometry.points.seed_set import SeedSet
+from vorotool.geometry.points.point_set import known_of_points
 from vorotool.geometry.progress import Progress
 
 MOST_POINTS = 2**28
@@ -28,7 +27,7 @@ def delaunay(points: Any, *, strict: bool = False, threads: int = 0, progress: P
 
     Parameters
     ----------
-    points : PointSet, SeedSet, or (n, 2) array-like or shapely points
+    points : PointSet, SeedSet, (n, 2) array, data frame, GeoSeries, …
         Of a `SeedSet`, its sites.
     strict : bool
         Refuse points that lie on another one.
@@ -64,7 +63,7 @@ def delaunay(points: Any, *, strict: bool = False, threads: int = 0, progress: P
     >>> mesh.triangles.tolist(), mesh.hull.tolist()
     ([[0, 3, 2], [0, 1, 3], [3, 1, 2]], [0, 1, 2])
     """
-    given = _point_set(points)
+    given = as_points(points)
     if len(given) > MOST_POINTS:
         raise LimitError(f"there are {len(given)} points, more than {MOST_POINTS}: triangulate them in parts")
     threads = checked_threads(threads)
@@ -73,14 +72,6 @@ def delaunay(points: Any, *, strict: bool = False, threads: int = 0, progress: P
     mesh = Triangulation(given.xy, **arrays, **known, first_number=given.first_number)
     report_duplicates(mesh, strict=strict)
     return mesh
-
-
-def _point_set(source: Any) -> PointSet:
-    if isinstance(source, SeedSet):
-        assert source.sites is not None  # SeedSet has filled them in
-        labels = None if source.site_labels is None else source.site_labels.astype(np.int64)
-        return PointSet(source.sites, labels, source.properties)
-    return as_points(source)
 
 
 def report_duplicates(mesh: Triangulation, *, strict: bool) -> None:

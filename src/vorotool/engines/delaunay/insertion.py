@@ -8,13 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.common.point_input import as_points
 from vorotool.engines.delaunay.delaunay import MOST_POINTS, core_mesh, delaunay, report_duplicates
 from vorotool.errors import InputError, LimitError
+from vorotool.geometry.arguments.points import as_points
 from vorotool.geometry.checks import checked_threads, whole_numbers
 from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.points.point_set import PointSet, known_of_points
 from vorotool.geometry.progress import Progress
+from vorotool.geometry.row_index import joined_index
 
 MANY = 0.25
 """Of the points there are: more further ones are triangulated sooner along with these, from the beginning."""
@@ -45,7 +46,7 @@ def insert_points(
     ----------
     mesh : Triangulation
         Made by `delaunay` or by this function; it stays as it is.
-    points : PointSet, or (m, 2) array-like or shapely points
+    points : PointSet, SeedSet, (m, 2) array, data frame, GeoSeries, …
         They get the numbers after those of `mesh`.
     hint : int or (m,) array-like of int, optional
         A point of `mesh`, by index, that is near to the further ones, or to each: the walk begins there. Without it the
@@ -140,4 +141,5 @@ def _joined(mesh: Triangulation, given: PointSet) -> PointSet:
         old_values = mesh.properties.get(name, [None] * len(mesh.points))
         properties[name] = [*old_values, *given.properties.get(name, [None] * len(given))]
     xy = np.concatenate([mesh.points, given.xy])
-    return PointSet(xy, labels, properties, mesh.y_up, mesh.crs, mesh.first_number)
+    index = joined_index(mesh.index, len(mesh.points), given.index, len(given))
+    return PointSet(xy, labels, properties, mesh.y_up, mesh.crs, mesh.first_number, index)

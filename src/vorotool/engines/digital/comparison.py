@@ -35,6 +35,7 @@ def compare_digital(
     *,
     shape: tuple[int, int] | None = None,
     window: tuple[int, int, int, int] | None = None,
+    image: bool | None = None,
     strict: bool = False,
     threads: int = 0,
     max_pixels: int = MAX_PIXELS,
@@ -47,6 +48,7 @@ def compare_digital(
     source : what `tessellate` accepts
         Each label must have one seed.
     shape, window : tuple of int, optional
+    image : bool, optional
         As in `tessellate`.
     strict : bool
         Refuse several seeds at one place.
@@ -79,7 +81,7 @@ def compare_digital(
     >>> comparison.triangle_precision, comparison.table.rows
     (1.0, 0)
     """
-    seeds, frame = as_seeds(source), asked_frame(shape, window)
+    seeds, frame = as_seeds(source, "source", image=image), asked_frame(shape, window)
     one_seed_a_label(seeds)
     if not len(seeds):
         return DigitalComparison(1.0, 1.0, 1.0, 1.0, _table([], np.empty(0, np.int64)), {}, "")
@@ -87,9 +89,9 @@ def compare_digital(
     require_memory(frame, max_pixels)
     threads = checked_threads(threads)
     sweep = Tessellator(seeds, frame, threads=threads, strict=strict, progress=progress)
-    image = LabelImage(sweep.labels(), frame, seeds)
-    measures = measure_regions(image, threads=threads, progress=progress)
-    digital = digital_triangulation(image, threads=threads, progress=progress)
+    labelled = LabelImage(sweep.labels(), frame, seeds)
+    measures = measure_regions(labelled, threads=threads, progress=progress)
+    digital = digital_triangulation(labelled, threads=threads, progress=progress)
     components = np.zeros(len(digital.points), np.int64)
     components[np.searchsorted(digital.labels, measures.labels)] = measures.columns["components"]
     mesh = delaunay(digital.points, threads=threads, progress=progress)

@@ -43,6 +43,7 @@ def digital_triangulation(
     *,
     shape: tuple[int, int] | None = None,
     window: tuple[int, int, int, int] | None = None,
+    image: bool | None = None,
     strict: bool = False,
     threads: int = 0,
     progress: Progress = None,
@@ -61,6 +62,8 @@ def digital_triangulation(
         image without seeds, the centroids of the regions are the sites.
     shape, window : tuple of int, optional
         As in `tessellate`; not for a label image.
+    image : bool, optional
+        As in `tessellate`.
     strict : bool
         Refuse several seeds at one place.
     threads : int
@@ -93,7 +96,7 @@ def digital_triangulation(
     threads = checked_threads(threads)
     if isinstance(source, LabelImage):
         return _read(source, _sites_of_image(source, threads), [label_array(source.labels)], threads, progress)
-    seeds, frame = as_seeds(source), asked_frame(shape, window)
+    seeds, frame = as_seeds(source, "source", image=image), asked_frame(shape, window)
     if not len(seeds):
         return _read(seeds, _sites_of_seeds(seeds), [], threads, None)
     sweep = Tessellator(seeds, frame, threads=threads, strict=strict, progress=progress)
@@ -147,6 +150,7 @@ def _read(
         three_label_corners=found["three_label_corners"],
         four_label_corners=found["four_label_corners"],
         properties={} if seeds is None else seeds.properties,
+        index=None if seeds is None else seeds.index,
     )
 
 
@@ -240,6 +244,7 @@ def repair_digital(
     *,
     shape: tuple[int, int] | None = None,
     window: tuple[int, int, int, int] | None = None,
+    image: bool | None = None,
     strict: bool = False,
     threads: int = 0,
     max_pixels: int = MAX_PIXELS,
@@ -258,6 +263,7 @@ def repair_digital(
         Each label must have one seed. Seeds between pixels, or outside the frame, may have no region: they are
         inserted.
     shape, window : tuple of int, optional
+    image : bool, optional
         As in `tessellate`.
     strict : bool
         Refuse several seeds at one place.
@@ -297,7 +303,7 @@ def repair_digital(
     >>> len(mesh), repair.route, repair.filled
     (3, 'repaired', 1)
     """
-    seeds, frame = as_seeds(source), asked_frame(shape, window)
+    seeds, frame = as_seeds(source, "source", image=image), asked_frame(shape, window)
     order = one_seed_a_label(seeds)
     if not len(seeds):
         return delaunay(seeds), DigitalRepair("chain")
@@ -314,7 +320,8 @@ def repair_digital(
 
     def mesh_of(core: _core.delaunay.DelaunayTriangulation) -> Triangulation:
         arrays = core.arrays(threads, progress)
-        return Triangulation(points, **arrays, labels=labels.astype(np.int64), properties=seeds.properties)
+        known: Any = {"labels": labels.astype(np.int64), "properties": seeds.properties, "index": seeds.index}
+        return Triangulation(points, **arrays, **known)
 
     mesh = mesh_of(core)
     fault = triangulation_fault(mesh, threads, progress)

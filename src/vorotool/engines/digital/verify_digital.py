@@ -21,6 +21,7 @@ def verify_digital_triangulation(
     *,
     shape: tuple[int, int] | None = None,
     window: tuple[int, int, int, int] | None = None,
+    image: bool | None = None,
     threads: int = 0,
 ) -> None:
     """Check edges and triangles against the definitions of section 2.1, band by band.
@@ -35,6 +36,7 @@ def verify_digital_triangulation(
     source : what `tessellate` accepts
         What it was made from; no label image.
     shape, window : tuple of int, optional
+    image : bool, optional
         As in `digital_triangulation`.
     threads : int
         0 uses all.
@@ -50,7 +52,7 @@ def verify_digital_triangulation(
     >>> seeds = [[1, 1], [6, 1], [2, 6]]
     >>> verify_digital_triangulation(digital_triangulation(seeds), seeds)
     """
-    seeds, frame = as_seeds(source), asked_frame(shape, window)
+    seeds, frame = as_seeds(source, "source", image=image), asked_frame(shape, window)
     edges, triangles = np.empty((0, 2), np.int64), np.empty((0, 3), np.int64)
     if len(seeds):
         frame = frame or default_frame(seeds)

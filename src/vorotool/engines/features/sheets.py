@@ -41,7 +41,7 @@ class Features:
 
         Examples
         --------
-        >>> from vorotool.geometry.polygons.conversion import as_polygons
+        >>> from vorotool.geometry.arguments.polygons import as_polygons
         >>> Features.of(as_polygons([[[0, 0], [1, 0], [0, 1]], [[5, 5], [6, 5], [5, 6]]])).vertex_start.tolist()
         [0, 3, 6]
         """
@@ -85,7 +85,7 @@ def sheets_of_boxes(
 
     Examples
     --------
-    >>> from vorotool.geometry.polygons.conversion import as_polygons
+    >>> from vorotool.geometry.arguments.polygons import as_polygons
     >>> nested = as_polygons([[[0, 0], [9, 0], [0, 9]], [[1, 1], [2, 1], [1, 2]], [[20, 0], [29, 0], [20, 9]]])
     >>> sheets_of_boxes(Features.of(nested), nested.xy.astype(np.int32)).tolist()
     [0, 1, 0]

@@ -17,6 +17,7 @@ from vorotool.geometry.curves.circular_arcs import chords_of, middles_of
 from vorotool.geometry.curves.flatten import checked_flatten
 from vorotool.geometry.polygons.polygon_set import HOLE, SHELL, PolygonSet
 from vorotool.geometry.ragged import following, owners, starts_of
+from vorotool.geometry.row_index import index_of_rows
 from vorotool.geometry.skeleton.skeleton import EDGE, INTERIOR, Skeleton
 
 Floats = NDArray[np.float64]
@@ -332,4 +333,5 @@ def _assembled(skeleton: Skeleton, rings: list[Ring]) -> PolygonSet:
         y_up=given.y_up,
         unit=given.unit,
         crs=given.crs,
+        index=index_of_rows(given.index, polygon[order[~is_hole]]),
     )

@@ -22,6 +22,7 @@ from vorotool.engines.tessellation.raster_objects import (
     settled_threshold,
 )
 from vorotool.errors import LimitError, UsageError, option
+from vorotool.geometry.arguments.images import as_raster
 from vorotool.geometry.numbers import shown_number
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.raster import Raster
@@ -45,7 +46,7 @@ _CORNER_RULES = {
 
 
 def outlines(
-    image: Raster | LabelImage | NDArray[Any],
+    image: Any,
     *,
     outline: str = "crack",
     mode: Objects | None = None,
@@ -76,7 +77,7 @@ def outlines(
 
     Parameters
     ----------
-    image : Raster, LabelImage or (H, W) array
+    image : Raster, LabelImage, or (H, W) array of any library
         Nonzero pixels are foreground. Pixel (x, y) is in column x and row y, and covers half a unit on each side.
     outline : {"crack", "contour"}
         Which line.
@@ -145,7 +146,7 @@ def outlines(
     if isinstance(image, LabelImage):
         assert image.frame is not None  # LabelImage has filled it in
         mode, origin, image = mode or "labels", (image.frame.x, image.frame.y), image.labels
-    raster = image if isinstance(image, Raster) else Raster(image)
+    raster = as_raster(image, "image", is_grey=True)
     if threshold is not None:
         threshold, invert = settled_threshold(raster, threshold, invert=invert)
         raster = Raster(grey_values(raster), mask=raster.mask)

@@ -9,8 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.common.label_arrays import as_label_image, described, label_array, next_row
+from vorotool.engines.common.label_arrays import described, label_array, next_row
+from vorotool.engines.tessellation.raster_objects import numbered_components
 from vorotool.errors import InputError, LimitError
+from vorotool.geometry.arguments.images import as_label_image
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.numbers import finite_double
 from vorotool.geometry.points.label_image import LabelImage
@@ -45,14 +47,14 @@ class RegionMeasures:
     border_length: NDArray[np.int64]
 
 
-def measure_regions(image: LabelImage | NDArray[Any], *, threads: int = 0, progress: Progress = None) -> RegionMeasures:
+def measure_regions(image: Any, *, threads: int = 0, progress: Progress = None) -> RegionMeasures:
     """Measure all regions of a label image in one pass.
 
     The tables and the colouring take the result as ``measures``, so that several of them cost one pass.
 
     Parameters
     ----------
-    image : LabelImage or (H, W) integer array
+    image : LabelImage, or (H, W) array of integers or truth values
         Label 0 is background and no region.
     threads : int
         0 for all; the result is the same for any number.
@@ -75,7 +77,7 @@ def measure_regions(image: LabelImage | NDArray[Any], *, threads: int = 0, progr
     >>> measures.columns["area"].tolist(), measures.border_length.tolist()
     ([3, 3], [3])
     """
-    image = as_label_image(image)
+    image = _labelled(image)
     found = _core.label_images.measure_regions(label_array(image.labels), checked_threads(threads), progress)
     labels = found.pop("labels")
     _refuse_negative(image, int(labels.max(initial=0)))
@@ -85,7 +87,7 @@ def measure_regions(image: LabelImage | NDArray[Any], *, threads: int = 0, progr
 
 
 def region_table(
-    image: LabelImage | NDArray[Any],
+    image: Any,
     *,
     distance2: NDArray[Any] | None = None,
     distance_scale: int | None = None,
@@ -98,7 +100,7 @@ def region_table(
 
     Parameters
     ----------
-    image : LabelImage or (H, W) integer array
+    image : LabelImage, or (H, W) array of integers or truth values
         With ``seeds``, every site has a row, also one without pixels (a duplicate, or a seed far outside the
         frame): its area is 0, and its bounding box, ``touches_frame`` and ``max_distance`` do not exist.
         Without ``seeds`` every label that occurs has a row, and the centroid of its region is its site.
@@ -137,7 +139,7 @@ def region_table(
     >>> table["perimeter"].tolist(), table["nearest_label"].tolist()
     ([8, 8], [2, 1])
     """
-    image = as_label_image(image)
+    image = _labelled(image)
     threads = checked_threads(threads)
     measures = measures or measure_regions(image, threads=threads, progress=progress)
     labels, sites = _sites(image, measures)
@@ -169,7 +171,7 @@ def region_table(
 
 
 def neighbour_table(
-    image: LabelImage | NDArray[Any],
+    image: Any,
     *,
     measures: RegionMeasures | None = None,
     threads: int = 0,
@@ -179,7 +181,7 @@ def neighbour_table(
 
     Parameters
     ----------
-    image : LabelImage or (H, W) integer array
+    image : LabelImage, or (H, W) array of integers or truth values
         Label 0 is no region.
     measures : RegionMeasures, optional
         The result of `measure_regions` for this image.
@@ -207,7 +209,7 @@ def neighbour_table(
     >>> list(zip(*(table[name].tolist() for name in ("label_a", "label_b", "border_length"))))
     [(1, 2, 1), (1, 3, 2), (2, 3, 1)]
     """
-    image = as_label_image(image)
+    image = _labelled(image)
     measures = measures or measure_regions(image, threads=threads, progress=progress)
     labels, sites = _sites(image, measures)
     position = sites[_rows_of(measures.labels, labels, image)]
@@ -223,7 +225,7 @@ def neighbour_table(
 
 
 def voronoi_diagram(
-    image: LabelImage | NDArray[Any],
+    image: Any,
     *,
     above: NDArray[Any] | None = None,
     below: NDArray[Any] | None = None,
@@ -235,7 +237,7 @@ def voronoi_diagram(
 
     Parameters
     ----------
-    image : LabelImage or (H, W) integer array
+    image : LabelImage, or (H, W) array of integers or truth values
         Pixels of label 0 are never marked, and as neighbours never larger.
     above, below : (W,) integer array, optional
         The rows next to a band of a larger image, which then can be streamed in bands of any height.
@@ -263,7 +265,7 @@ def voronoi_diagram(
     array([[1, 1, 1, 0],
            [0, 0, 0, 0]], dtype=uint8)
     """
-    labels = label_array(as_label_image(image).labels)
+    labels = label_array(_labelled(image).labels)
     if out is None:
         out = np.empty(labels.shape, dtype=np.uint8)
     elif described(out) != f"uint8 of shape {labels.shape}" or not out.flags.c_contiguous:
@@ -274,7 +276,7 @@ def voronoi_diagram(
 
 
 def region_colours(
-    image: LabelImage | NDArray[Any],
+    image: Any,
     *,
     measures: RegionMeasures | None = None,
     threads: int = 0,
@@ -284,7 +286,7 @@ def region_colours(
 
     Parameters
     ----------
-    image : LabelImage or (H, W) integer array
+    image : LabelImage, or (H, W) array of integers or truth values
         Label 0 is no region.
     measures : RegionMeasures, optional
         The result of `measure_regions` for this image.
@@ -313,7 +315,7 @@ def region_colours(
 
 
 def colour_regions(
-    image: LabelImage | NDArray[Any],
+    image: Any,
     *,
     measures: RegionMeasures | None = None,
     threads: int = 0,
@@ -323,7 +325,7 @@ def colour_regions(
 
     Parameters
     ----------
-    image : LabelImage or (H, W) integer array
+    image : LabelImage, or (H, W) array of integers or truth values
         Label 0 is no region.
     measures : RegionMeasures, optional
         The result of `measure_regions` for this image.
@@ -358,6 +360,10 @@ def colour_regions(
     by_label = np.zeros(largest + 1, dtype=np.uint8 if colours.max(initial=0) <= 255 else np.uint32)
     by_label[labels] = colours
     return by_label
+
+
+def _labelled(image: Any) -> LabelImage:
+    return as_label_image(image, "image", numbered_components)
 
 
 # ---- columns of the table -------------------------------------------------------------------------------

@@ -25,10 +25,10 @@ from vorotool.engines.skeleton.exact import (
 )
 from vorotool.engines.skeleton.per_feature import batch_diagram
 from vorotool.errors import UsageError, VorotoolWarning
+from vorotool.geometry.arguments.polygons import as_polygons
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.magnitude import check_lengths
 from vorotool.geometry.numbers import finite_double
-from vorotool.geometry.polygons.conversion import as_polygons
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.ragged import ranges, starts_of
@@ -105,9 +105,9 @@ def offset(
         features, shapes = shapes.features, shapes.polygons
     common: dict[str, Any] = {"threads": threads, "progress": progress}
     if not isinstance(shapes, ShapeDiagram) and features == "separate":
-        return _offsets_of_features(as_polygons(shapes), wanted, strict, checked_threads(threads), progress)
+        return _offsets_of_features(as_polygons(shapes, "shapes"), wanted, strict, checked_threads(threads), progress)
     if not isinstance(shapes, ShapeDiagram):
-        shapes = shape_diagram(shapes, strict=strict, **common)
+        shapes = shape_diagram(as_polygons(shapes, "shapes"), strict=strict, **common)
     made = _offsets_of(shapes, wanted, threads, progress)
     feature = made.polygons.feature
     assert feature is not None

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
@@ -10,13 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError, UsageError
+from vorotool.geometry.arguments.images import as_raster
 from vorotool.geometry.numbers import real_number, shown_number
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
+    from vorotool.typing import ImageLike, Spacing
 
 
-def pixel_side(spacing: float | Fraction | Sequence[float | Fraction] | None) -> Fraction:
+def pixel_side(spacing: Spacing | None) -> Fraction:
     """Give the side of a square pixel: a number, or two equal ones.
 
     Raises
@@ -44,7 +44,7 @@ def pixel_side(spacing: float | Fraction | Sequence[float | Fraction] | None) ->
     return Fraction(sides.pop())
 
 
-def plane(values: ArrayLike, name: str) -> NDArray[Any]:
+def plane(values: ImageLike, name: str) -> NDArray[Any]:
     """Give an image as a 2-D array of booleans or numbers.
 
     Raises
@@ -57,11 +57,12 @@ def plane(values: ArrayLike, name: str) -> NDArray[Any]:
     >>> plane([[0, 1]], "mask").shape
     (1, 2)
     """
-    if isinstance(values, np.ma.MaskedArray) and np.ma.getmaskarray(values).any():
+    shape = getattr(values, "shape", None)
+    if isinstance(shape, tuple) and len(shape) == 2 and 0 in shape:
+        return np.asarray(values)
+    image = as_raster(values, name, is_grey=True)
+    if image.is_colour:
+        raise InputError(f"invalid {name}: expected one value in each pixel, but it is a colour image")
+    if image.mask is not None and image.mask.any():
         raise InputError(f"invalid {name}: expected a value in each pixel, but some are masked; fill them first")
-    array: NDArray[Any] = np.asarray(values)
-    if array.ndim != 2 or array.dtype.kind not in "biuf":
-        raise InputError(
-            f"invalid {name}: expected a 2-D array of booleans or numbers, but got {array.dtype} of shape {array.shape}"
-        )
-    return array
+    return image.values

@@ -17,16 +17,14 @@ from vorotool.geometry.numbers import nearest_double
 from vorotool.geometry.pixel_frame import MAX_PIXELS, Frame
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from numpy.typing import ArrayLike
+    from vorotool.typing import ImageLike, Spacing
 
 
 @overload
 def distance_transform(
-    mask: ArrayLike,
+    mask: ImageLike,
     *,
-    spacing: float | Fraction | Sequence[float | Fraction] | None = ...,
+    spacing: Spacing | None = ...,
     return_distances: Literal[True] = ...,
     return_indices: Literal[False] = ...,
     threads: int = ...,
@@ -34,9 +32,9 @@ def distance_transform(
 ) -> NDArray[np.float64]: ...
 @overload
 def distance_transform(
-    mask: ArrayLike,
+    mask: ImageLike,
     *,
-    spacing: float | Fraction | Sequence[float | Fraction] | None = ...,
+    spacing: Spacing | None = ...,
     return_distances: Literal[False],
     return_indices: Literal[True],
     threads: int = ...,
@@ -44,18 +42,18 @@ def distance_transform(
 ) -> NDArray[np.int32]: ...
 @overload
 def distance_transform(
-    mask: ArrayLike,
+    mask: ImageLike,
     *,
-    spacing: float | Fraction | Sequence[float | Fraction] | None = ...,
+    spacing: Spacing | None = ...,
     return_distances: Literal[True] = ...,
     return_indices: Literal[True],
     threads: int = ...,
     max_pixels: int = ...,
 ) -> tuple[NDArray[np.float64], NDArray[np.int32]]: ...
 def distance_transform(
-    mask: ArrayLike,
+    mask: ImageLike,
     *,
-    spacing: float | Fraction | Sequence[float | Fraction] | None = None,
+    spacing: Spacing | None = None,
     return_distances: bool = True,
     return_indices: bool = False,
     threads: int = 0,

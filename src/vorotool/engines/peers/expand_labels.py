@@ -17,16 +17,14 @@ from vorotool.geometry.numbers import real_number, shown_number
 from vorotool.geometry.pixel_frame import MAX_PIXELS, Frame
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from numpy.typing import ArrayLike
+    from vorotool.typing import ImageLike, Spacing
 
 
 def expand_labels(
-    labels: ArrayLike,
+    labels: ImageLike,
     distance: float | Fraction = 1,
     *,
-    spacing: float | Fraction | Sequence[float | Fraction] | None = None,
+    spacing: Spacing | None = None,
     threads: int = 0,
     max_pixels: int = MAX_PIXELS,
 ) -> NDArray[Any]:

@@ -15,20 +15,20 @@ from vorotool.engines.pruning.pruning import default_pruning_for_masks, prune
 from vorotool.engines.skeleton_api import skeleton_exact
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
+    from vorotool.typing import ImageLike
 
 _STEP = 0.125
 """Between the places along the skeleton whose pixels are marked: an arc marks each pixel in which it is this long."""
 
 
 @overload
-def medial_axis(mask: ArrayLike, *, return_distance: Literal[False] = ..., threads: int = ...) -> NDArray[np.bool_]: ...
+def medial_axis(mask: ImageLike, *, return_distance: Literal[False] = ..., threads: int = ...) -> NDArray[np.bool_]: ...
 @overload
 def medial_axis(
-    mask: ArrayLike, *, return_distance: Literal[True], threads: int = ...
+    mask: ImageLike, *, return_distance: Literal[True], threads: int = ...
 ) -> tuple[NDArray[np.bool_], NDArray[np.float64]]: ...
 def medial_axis(
-    mask: ArrayLike, *, return_distance: bool = False, threads: int = 0
+    mask: ImageLike, *, return_distance: bool = False, threads: int = 0
 ) -> NDArray[np.bool_] | tuple[NDArray[np.bool_], NDArray[np.float64]]:
     """Mark the pixels that the exact skeleton of a mask passes through.
 

@@ -174,7 +174,7 @@ def feature_approximation(
 
     Examples
     --------
-    >>> from vorotool.geometry.polygons.conversion import as_polygons
+    >>> from vorotool.geometry.arguments.polygons import as_polygons
     >>> square = [[0, 0], [4, 0], [4, 4], [0, 4]]
     >>> made = feature_approximation(as_polygons([square, square]), SamplingOptions(step=1.0))
     >>> made.skeleton.polygon.tolist()

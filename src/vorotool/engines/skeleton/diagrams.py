@@ -50,7 +50,7 @@ def skeleton_inside(
 
     Examples
     --------
-    >>> from vorotool.geometry.polygons.conversion import as_polygons
+    >>> from vorotool.geometry.arguments.polygons import as_polygons
     >>> square = as_polygons([[0, 0], [8, 0], [8, 8], [0, 8]])
     >>> len(skeleton_inside(square).skeleton), len(skeleton_inside(square, 1.0).skeleton)
     (4, 12)

@@ -53,7 +53,7 @@ def feature_elements(
 
     Examples
     --------
-    >>> from vorotool.geometry.polygons.conversion import as_polygons
+    >>> from vorotool.geometry.arguments.polygons import as_polygons
     >>> square = [[0, 0], [8, 0], [8, 8], [0, 8]]
     >>> made = feature_elements(as_polygons([square, square]), 1.0)
     >>> np.bincount(made.skeleton.polygon).tolist(), made.skeleton.gap

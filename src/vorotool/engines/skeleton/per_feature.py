@@ -61,7 +61,7 @@ def feature_skeleton(
 
     Examples
     --------
-    >>> from vorotool.geometry.polygons.conversion import as_polygons
+    >>> from vorotool.geometry.arguments.polygons import as_polygons
     >>> square = [[0, 0], [4, 0], [4, 4], [0, 4]]
     >>> made = feature_skeleton(as_polygons([square, square]))
     >>> made.skeleton.polygon.tolist(), made.skeleton.radius.tolist()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import warnings
 from collections.abc import Iterator
+from dataclasses import replace
 from fractions import Fraction
 from numbers import Rational, Real
 from operator import index
@@ -14,12 +15,15 @@ import numpy as np
 
 from vorotool import _core
 from vorotool.engines.common.label_arrays import described
-from vorotool.engines.common.point_input import as_points
 from vorotool.engines.tessellation.seeding import Check, seeds_from_points, seeds_from_raster
 from vorotool.errors import STRICT, InputError, LimitError, UsageError, VorotoolWarning, option
+from vorotool.geometry.arguments.images import as_raster, is_image
+from vorotool.geometry.arguments.points import as_points
+from vorotool.geometry.arguments.polygons import as_polygons
 from vorotool.geometry.numbers import real_number, shown_number
 from vorotool.geometry.pixel_frame import Frame
-from vorotool.geometry.points.raster import Raster
+from vorotool.geometry.points.label_image import LabelImage
+from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.points.seed_set import SeedSet
 
 SIMD_LEVELS = ("portable", "avx2", "avx512")
@@ -32,18 +36,53 @@ MOST_UNASKED = 2**28
 
 _WINDOW = option("--window X,Y,W,H", "window=(x, y, w, h)")
 _CELLS = option("delaunay --what cells", "voronoi_cells")
+_RASTERIZED = option(
+    "type --cell-size C", "a Raster of vorotool.engines.tessellation.rasterized.rasterized(polygons, frame)"
+)
 _WIDEST_TYPE = option("--dtype uint32", 'dtype="uint32"')
 
 
-def as_seeds(source: Any, *, check: Check = None) -> SeedSet:
-    """Seeds from whatever `tessellate` accepts; `check` may refuse them before anyone is told that they moved."""
-    if not isinstance(source, SeedSet | Raster):
-        expected = "seeds must be an (n, 2) array of numbers, shapely points, or an image"
-        return seeds_from_points(as_points(source, expected=expected, noun="seed"), check=check)
-    seeds = source if isinstance(source, SeedSet) else seeds_from_raster(source)
+def as_seeds(source: Any, name: str = "seeds", *, image: bool | None = None, check: Check = None) -> SeedSet:
+    """Give seeds from whatever `tessellate` accepts; `check` may refuse them before anyone is told that they moved."""
+    if isinstance(source, SeedSet):
+        seeds = source
+    elif is_image(source, name, image):
+        seeds = seeds_from_raster(as_raster(source, name), mode="labels" if isinstance(source, LabelImage) else None)
+        seeds = _moved_to(seeds, source.frame) if isinstance(source, LabelImage) else seeds
+    else:
+        return seeds_from_points(_points(source, name), check=check)
     if check is not None:
         check(seeds)
     return seeds
+
+
+def _moved_to(seeds: SeedSet, frame: Frame | None) -> SeedSet:
+    """Move the seeds of an image to where its frame is."""
+    assert frame is not None  # LabelImage has filled it in
+    assert seeds.sites is not None  # so has SeedSet
+    x, y = frame.x * seeds.scale, frame.y * seeds.scale
+    return replace(seeds, x=seeds.x + x, y=seeds.y + y, sites=seeds.sites + np.array([frame.x, frame.y]), frame=frame)
+
+
+def _points(source: Any, name: str) -> PointSet:
+    try:
+        return as_points(source, name)
+    except InputError:
+        if not _holds_polygons(source):
+            raise
+        raise InputError(
+            f"invalid {name}: these are polygons or lines, and seeds are points or an image; give their centroids or "
+            f"vertices, or {_RASTERIZED}"
+        ) from None
+
+
+def _holds_polygons(source: Any) -> bool:
+    if isinstance(source, np.ndarray) and source.dtype != object:
+        return False
+    try:
+        return len(as_polygons(source)) > 0
+    except InputError:
+        return False
 
 
 def require_seeds(seeds: SeedSet) -> None:

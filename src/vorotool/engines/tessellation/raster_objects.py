@@ -225,7 +225,8 @@ def numbered_components(values: NDArray[Any], connectivity: int = 8) -> NDArray[
     [[1, 0, 2], [1, 0, 2]]
     """
     components = np.empty(values.shape, np.uint32)
-    _core.label_images.label_components((values != 0).view(np.uint8), connectivity == 8, components, None)
+    foreground = np.ascontiguousarray(values != 0).view(np.uint8)
+    _core.label_images.label_components(foreground, connectivity == 8, components, None)
     return components
 
 

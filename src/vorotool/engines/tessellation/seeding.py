@@ -20,12 +20,14 @@ from vorotool.engines.tessellation.raster_objects import (
     report_no_foreground,
 )
 from vorotool.errors import NO_PROPERTIES, STRICT, InputError, LimitError, UsageError, VorotoolWarning, option
+from vorotool.geometry.arguments.images import as_raster
+from vorotool.geometry.arguments.points import as_points
 from vorotool.geometry.curves.inverse_functions import hypotenuse
 from vorotool.geometry.numbers import shown_number
 from vorotool.geometry.pixel_frame import Frame
 from vorotool.geometry.points.point_set import PointSet
-from vorotool.geometry.points.raster import Raster
 from vorotool.geometry.points.seed_set import FINEST_SCALE, SeedSet
+from vorotool.geometry.row_index import index_of_rows
 
 _CENTROIDS = option("--seeds centroids", 'mode="centroids"')
 
@@ -41,13 +43,14 @@ CHUNK = 1 << 22
 """Pixels that are counted at a time."""
 
 
-def seeds_from_points(points: PointSet, *, strict: bool = False, check: Check = None) -> SeedSet:
+def seeds_from_points(points: Any, *, strict: bool = False, check: Check = None) -> SeedSet:
     """Put points on the lattice of seeds.
 
     Parameters
     ----------
-    points : PointSet
-        Coordinates in pixels. Multiples of 1/256 are kept exactly; finer ones move to the nearest multiple.
+    points : PointSet, array, data frame, GeoSeries, …
+        As `delaunay` takes them; coordinates in pixels. Multiples of 1/256 are kept exactly; finer ones move to the
+        nearest multiple.
     strict : bool
         Refuse points that would have to move.
     check : callable, optional
@@ -74,6 +77,7 @@ def seeds_from_points(points: PointSet, *, strict: bool = False, check: Check = 
     >>> seeds.scale, seeds.x.tolist()
     (2, [1, 14])
     """
+    points = as_points(points)
     far = np.flatnonzero((np.abs(points.xy) > LARGEST_COORDINATE).any(axis=1))
     if far.size:
         raise InputError(
@@ -110,14 +114,15 @@ def seeds_from_points(points: PointSet, *, strict: bool = False, check: Check = 
 def _sites_of_points(xy: NDArray[np.float64], labels: NDArray[np.uint32], points: PointSet) -> dict[str, Any]:
     """Sites in increasing label order; points that share a label leave the choice to SeedSet."""
     if points.labels is None:
-        return {"sites": xy, "site_labels": labels, "properties": points.properties}
+        return {"sites": xy, "site_labels": labels, "properties": points.properties, "index": points.index}
     order = np.argsort(labels, kind="stable")
     if len(labels) and (np.diff(labels[order].astype(np.int64)) == 0).any():
         if points.properties:
             raise InputError(f"points that share a label cannot bring further columns: use {NO_PROPERTIES}")
         return {}
     properties = {name: [column[i] for i in order] for name, column in points.properties.items()}
-    return {"sites": xy[order], "site_labels": labels[order], "properties": properties}
+    index = index_of_rows(points.index, order)
+    return {"sites": xy[order], "site_labels": labels[order], "properties": properties, "index": index}
 
 
 def _report_snapped(points: PointSet, moved: NDArray[np.bool_], largest: float, *, strict: bool) -> None:
@@ -142,7 +147,7 @@ def _coarsest_scale(lattice: NDArray[np.int64]) -> int:
 
 
 def seeds_from_raster(
-    raster: Raster | NDArray[Any],
+    raster: Any,
     *,
     mode: SeedMode | None = None,
     connectivity: int = 8,
@@ -156,7 +161,7 @@ def seeds_from_raster(
 
     Parameters
     ----------
-    raster : Raster or (H, W) array
+    raster : Raster, LabelImage, or (H, W) array of any library
         Nonzero pixels are foreground.
     mode : {"pixels", "components", "labels", "centroids"}, optional
         What shares a label: nothing, a connected component, or all pixels of one value; or one seed at the
@@ -202,7 +207,7 @@ def seeds_from_raster(
     """
     if connectivity not in (4, 8):
         raise UsageError(f"connectivity is {shown_number(connectivity)}: it must be 4 or 8")
-    raster = raster if isinstance(raster, Raster) else Raster(raster)
+    raster = as_raster(raster, "raster", is_grey=True)
     values = foreground_values(raster, threshold, invert=invert)
     if mode not in (None, *get_args(SeedMode)):
         raise UsageError(f"mode is {mode!r}: it must be one of {', '.join(get_args(SeedMode))}")
@@ -292,4 +297,4 @@ def _seeds_of_objects(
     if len(distinct) > max_sites:
         raise LimitError(f"the image has {len(distinct)} objects, more than {option(f'--max-sites {max_sites}')}")
     seeds = seeds_from_points(PointSet(sites, distinct), strict=strict)
-    return replace(seeds, properties={}, **known)
+    return replace(seeds, properties={}, index=None, **known)

@@ -33,6 +33,7 @@ def tessellate(
     *,
     shape: tuple[int, int] | None = None,
     window: tuple[int, int, int, int] | None = None,
+    image: bool | None = None,
     method: Method = "exact",
     passes: int = 2,
     max_distance: float | Fraction | None = None,
@@ -46,12 +47,16 @@ def tessellate(
 
     Parameters
     ----------
-    seeds : SeedSet, PointSet, Raster, or (n, 2) array-like or shapely points
-        Where the regions come from. Point i of an array has label i + 1.
+    seeds : SeedSet, points or image
+        Where the regions come from: points in an array, a data frame, a GeoSeries, …, or an image, as a mask or a label
+        image. Point i of an array has label i + 1; objects of images are those of `seeds_from_raster`.
     shape : (H, W), optional
         Rows and columns of the image; pixel (0, 0) is at the origin.
     window : (x, y, w, h), optional
         The same with an origin. By default an image's own frame, or what just holds the points.
+    image : bool, optional
+        Whether an array is an image. By default arrays of truth values are, and those of integers but for two or three
+        columns, which are points.
     method : {"exact", "propagation"}
         "propagation" is the paper's algorithm to the letter, whose labels are nearly always right.
     passes : {2, 1}
@@ -98,7 +103,7 @@ def tessellate(
         if len(made) or made.is_empty_image:
             require_memory(frame or default_frame(made), max_pixels)
 
-    seed_set = as_seeds(seeds, check=require_frame)
+    seed_set = as_seeds(seeds, image=image, check=require_frame)
     rows = labelled_rows(
         seed_set,
         frame,

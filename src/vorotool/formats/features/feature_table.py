@@ -13,10 +13,10 @@ from vorotool.errors import NO_PROPERTIES, InputError, LimitError
 from vorotool.formats.parsing.geojson import MOST_CELLS
 from vorotool.formats.parsing.geometry_advice import not_a_point_advice, not_a_shape_advice
 from vorotool.formats.parsing.reader_options import ReadOptions, no_points
+from vorotool.geometry.points.conversion import part_numbers, single_points
 from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.polygons.conversion import polygons_of_geometry
 from vorotool.geometry.polygons.polygon_set import PolygonSet
-from vorotool.geometry.ragged import within
 
 _POINTS, _SHAPES, _COLLECTION = (0, 4), (1, 2, 3, 5, 6), 7  # type numbers of GEOS
 
@@ -134,11 +134,8 @@ def points_of_features(features: Features, options: ReadOptions) -> PointSet:
     kept = _kept(features, options)
     geometry = features.geometry[kept]
     _check_kinds(features, geometry, kept, _POINTS, "not a point", not_a_point_advice)
-    points, owners = geometry, kept
-    while len(points) and (shapely.get_type_id(points) != 0).any():
-        points, index = shapely.get_parts(points, return_index=True)
-        there = ~shapely.is_empty(points)
-        points, owners = points[there], owners[index[there]]
+    points, items = single_points(geometry)
+    owners = kept[items]
     options.check_sites(features.name, len(points))
     if not len(points):
         return PointSet(no_points(), y_up=True, crs=features.crs)
@@ -155,8 +152,7 @@ def _point_columns(features: Features, owners: NDArray[np.int64]) -> dict[str, l
         columns["id"] = _taken(features.ids, owners)
     for name, values in features.columns.items():
         columns["property_id" if name in columns else name] = _taken(values, owners)
-    first = np.flatnonzero(np.diff(owners, prepend=-1))
-    part = within(np.diff(first, append=len(owners))) + 1
+    part = part_numbers(owners)
     if part.max(initial=1) > 1:
         columns["voro_part" if "part" in columns else "part"] = part.tolist()
     return columns

@@ -19,9 +19,6 @@ LARGEST_LABEL = 0xFFFFFFFF
 MOST_VERTICES = 2**28
 """Vertices and edges are numbered in 32 bits, with room for the crossings of edges."""
 
-LONGITUDES = ("lon", "longitude")
-LATITUDES = ("lat", "latitude")
-
 
 def no_note(message: str) -> None:
     """Drop a note that nobody asked for."""

@@ -19,25 +19,16 @@ from vorotool.errors import NO_PROPERTIES, InputError, UsageError, option
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import (
     LARGEST_LABEL,
-    LATITUDES,
-    LONGITUDES,
     ReadOptions,
     no_points,
     shortened,
 )
+from vorotool.geometry.coordinate_names import coordinate_columns, is_longitude_latitude, is_map, plain_name
 from vorotool.geometry.crs import LONGITUDE_LATITUDE, crs_member
 from vorotool.geometry.number_text import typed_texts
 from vorotool.geometry.points.point_set import PointSet
 
 _COLUMNS, _X_Y = option("--columns"), option("--columns X,Y", 'columns="X,Y"')
-
-COORDINATE_NAMES = (
-    ("x", "y"),
-    ("lon", "lat"),
-    ("longitude", "latitude"),
-    ("centroid-1", "centroid-0"),  # scikit-image: row first
-    ("axis-1", "axis-0"),  # napari: row first
-)
 _BEGINNINGS = (("x", "y"), ("longitude", "latitude"), ("lon", "lat"), ("lng", "lat"), ("east", "north"))
 """Of names that may be a pair of coordinates, such as x0 and y0."""
 
@@ -74,10 +65,10 @@ def read_text(source: Source, options: ReadOptions) -> PointSet:
     """Read delimited text.
 
     It may have a byte order mark, ``#`` comments, blank lines, quoted fields, and commas, semicolons, tabs or blanks
-    between fields. A header with x,y, lon,lat, longitude,latitude, centroid-1,centroid-0 or axis-1,axis-0 (in any case)
-    says which columns are the coordinates; without a header two columns are x, y; all else needs ``columns``. A column
-    ``label`` is used when ``columns`` names it, or when the header is x, y and label alone. Longitude and latitude by
-    the header are points with y upwards.
+    between fields. A header with x,y, lon,lat, longitude,latitude, easting,northing, centroid-1,centroid-0 or
+    axis-1,axis-0 (in any case) says which columns are the coordinates; without a header two columns are x, y; all else
+    needs ``columns``. A column ``label`` is used when ``columns`` names it, or when the header is x, y and label alone.
+    Places on a map by the header are points with y upwards.
     """
     data = _plain_lines(source.data)
     wanted = None if options.columns is None else _parse_columns(options.columns)
@@ -157,8 +148,7 @@ def has_coordinates(fields: Sequence[str]) -> bool:
     >>> has_coordinates(["id", "Lon", "Lat"]), has_coordinates(["id", "wkt"])
     (True, False)
     """
-    lower = [_lower(field) for field in fields]
-    return any(all(lower.count(each) == 1 for each in pair) for pair in COORDINATE_NAMES)
+    return coordinate_columns(fields) is not None
 
 
 def _plain_lines(data: bytes) -> bytes:
@@ -226,18 +216,13 @@ def chosen_columns(name: str, fields: list[str], options: ReadOptions) -> list[i
 
 def _recognise(name: str, fields: list[str], options: ReadOptions) -> tuple[bool, Sequence[int | None]]:
     """Find the coordinates by the header; two columns without one are x, y."""
-    lower = [_lower(field) for field in fields]
-    for pair in COORDINATE_NAMES:
-        if all(lower.count(each) == 1 for each in pair):
-            chosen: list[int | None] = [lower.index(each) for each in pair]
-            used = [fields[i] for i in chosen if i is not None]
-            if sorted(lower) == ["label", "x", "y"]:
-                chosen.append(lower.index("label"))
-                used.append(fields[lower.index("label")])
-            meanings = "x, y, label" if len(chosen) == 3 else "x, y"
-            if pair != ("x", "y") or len(chosen) == 3:  # plain x, y need no word
-                options.note(f"{name}: columns {', '.join(used)} are read as {meanings}")
-            return True, chosen
+    chosen = coordinate_columns(fields)
+    if chosen is not None:
+        used = [fields[column] for column in chosen]
+        meanings = "x, y, label" if len(chosen) == 3 else "x, y"
+        if [plain_name(each) for each in used] != ["x", "y"]:  # plain x, y need no word
+            options.note(f"{name}: columns {', '.join(used)} are read as {meanings}")
+        return True, chosen
     header = not any(_looks_numeric(field) for field in fields) and any(fields)
     if not header and len(fields) == 2:
         return False, [0, 1]
@@ -267,7 +252,7 @@ def _find_column(name: str, fields: list[str], wanted: str) -> int:
                 f"{name}: {_COLUMNS} names column {_cut(wanted)}, but there are {len(fields)}; {_listing(fields)}"
             )
         return int(digits) - 1
-    for names, key in ((fields, wanted), ([_lower(field) for field in fields], _lower(wanted))):
+    for names, key in ((fields, wanted), ([plain_name(field) for field in fields], plain_name(wanted))):
         if names.count(key) == 1:
             return names.index(key)
         if names.count(key) > 1:
@@ -294,7 +279,7 @@ def _unknown_columns(name: str, fields: list[str], header: bool) -> InputError:
 
 def _example(fields: list[str]) -> str | None:
     """Two columns that may be x and y, as their names begin alike and go on the same; None where no two do."""
-    names = {_lower(field): field for field in fields}
+    names = {plain_name(field): field for field in fields}
     for first, second in _BEGINNINGS:
         for key, field in names.items():
             other = names.get(second + key.removeprefix(first))
@@ -317,10 +302,6 @@ def _listing(fields: list[str]) -> str:
 
 def _cut(text: str) -> str:
     return text if len(text) <= 40 else f"{text[:39]}…"
-
-
-def _lower(text: str) -> str:
-    return text.strip().lower()
 
 
 def _looks_numeric(text: str) -> bool:
@@ -353,8 +334,8 @@ def placed_by(x: str, y: str, options: ReadOptions) -> dict[str, Any]:
     >>> placed_by("x", "y", ReadOptions())
     {'y_up': False, 'crs': None}
     """
-    is_map = _lower(x) in LONGITUDES and _lower(y) in LATITUDES
-    return {"y_up": is_map, "crs": crs_member(LONGITUDE_LATITUDE) if is_map and options.crs is None else None}
+    is_geographic = is_longitude_latitude(x, y) and options.crs is None
+    return {"y_up": is_map(x, y), "crs": crs_member(LONGITUDE_LATITUDE) if is_geographic else None}
 
 
 def _counted_by(layout: _Layout) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from typing import Any
 
 import numpy as np
@@ -12,10 +11,9 @@ from vorotool.formats.io.sources import Source, check_nesting
 from vorotool.formats.parsing.geometry_advice import not_a_point_advice
 from vorotool.formats.parsing.reader_options import ReadOptions, no_points, shortened
 from vorotool.formats.parsing.reference_systems import crs_of_numbers
+from vorotool.geometry.crs import without_number
+from vorotool.geometry.points.conversion import COLLECTION, MULTIPOINT, POINT, part_numbers, single_points
 from vorotool.geometry.points.point_set import PointSet
-
-_SRID = re.compile(r"\ASRID\s*=\s*(\d{1,9})\s*;\s*", re.IGNORECASE)
-_POINT, _MULTIPOINT, _COLLECTION = 0, 4, 7  # type numbers of GEOS
 
 
 def read_wkt(source: Source, options: ReadOptions) -> PointSet:
@@ -27,9 +25,9 @@ def read_wkt(source: Source, options: ReadOptions) -> PointSet:
     crs = crs_of_numbers(source.name, srids, lines.__getitem__)
     with np.errstate(all="ignore"):  # numbers beyond the largest double are found below
         geometries = shapely.from_wkt(np.array(texts, dtype=object), on_invalid="ignore")
-    for index in np.flatnonzero(shapely.get_type_id(geometries) != _POINT):
+    for index in np.flatnonzero(shapely.get_type_id(geometries) != POINT):
         _check_geometry(geometries[index], texts[index], f"{source.name}, line {lines[index]}")
-    points, owners = _single_points(geometries)
+    points, owners = single_points(geometries)
     options.check_sites(source.name, len(points))
     if not len(points):
         return PointSet(no_points(), y_up=True, crs=crs)
@@ -40,21 +38,9 @@ def read_wkt(source: Source, options: ReadOptions) -> PointSet:
         raise InputError(f"{source.name}, line {lines[owner]}: {texts[owner][:40]!r} is not finite; correct it")
     if shapely.has_z(points).any():
         options.note_heights(source.name)
-    parts = _part_numbers(owners)
+    parts = part_numbers(owners)
     properties = {"part": parts.tolist()} if options.properties and parts.max() > 1 else {}
     return PointSet(xy, None, properties, y_up=True, crs=crs)
-
-
-def without_number(text: str) -> tuple[str, int]:
-    """Take the number (SRID) of its reference system off extended well-known text; 0 where it has none.
-
-    Examples
-    --------
-    >>> without_number("SRID=2056;POINT (1 2)")
-    ('POINT (1 2)', 2056)
-    """
-    srid = _SRID.match(text)
-    return (text, 0) if srid is None else (text[srid.end() :], int(srid[1]))
 
 
 def geometry_texts(source: Source) -> tuple[list[str], list[int], list[int]]:
@@ -84,26 +70,9 @@ def _check_geometry(geometry: Any, text: str, place: str) -> None:
     if geometry is None:
         raise InputError(f"{place}: {shortened(text)} is not WKT; write for example POINT (3 4)")
     kind = shapely.get_type_id(geometry)
-    if kind == _COLLECTION:
+    if kind == COLLECTION:
         for part in shapely.get_parts(geometry):
             _check_geometry(part, text, place)
-    elif kind not in (_POINT, _MULTIPOINT):
+    elif kind not in (POINT, MULTIPOINT):
         name = geometry.geom_type
         raise InputError(f"{place}: a {name} is not a point; {not_a_point_advice(name)}")
-
-
-def _single_points(geometries: Any) -> tuple[Any, Any]:
-    """Give the points that are not empty, and the index of the geometry that each comes from."""
-    import shapely
-
-    points, owners = geometries, np.arange(len(geometries))
-    while len(points) and (shapely.get_type_id(points) != _POINT).any():
-        points, index = shapely.get_parts(points, return_index=True)
-        owners = owners[index]
-    there = ~shapely.is_empty(points) if len(points) else np.zeros(0, dtype=bool)
-    return points[there], owners[there]
-
-
-def _part_numbers(owners: Any) -> Any:
-    starts = np.flatnonzero(np.r_[True, owners[1:] != owners[:-1]])
-    return np.arange(len(owners)) - np.repeat(starts, np.diff(np.r_[starts, len(owners)])) + 1

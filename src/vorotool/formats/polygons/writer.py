@@ -37,7 +37,7 @@ def write_polygons(out: BinaryIO, polygons: PolygonSet, fmt: str, *, precision: 
     Examples
     --------
     >>> import io
-    >>> from vorotool.geometry.polygons.conversion import as_polygons
+    >>> from vorotool.geometry.arguments.polygons import as_polygons
     >>> out = io.BytesIO()
     >>> write_polygons(out, as_polygons([[0, 0], [4, 0.5], [0, 3]]), "wkt")
     >>> out.getvalue()

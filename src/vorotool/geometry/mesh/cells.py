@@ -13,6 +13,7 @@ from vorotool.geometry.box import Box
 from vorotool.geometry.checks import set_rows
 from vorotool.geometry.curves.inverse_functions import hypotenuse
 from vorotool.geometry.ragged import divides, following, starts_of
+from vorotool.geometry.row_index import check_index
 
 
 class Nesting(NamedTuple):
@@ -52,6 +53,8 @@ class CellSet:
         Pictures of this input are drawn y upwards.
     crs : object, optional
         The ``crs`` member of a GeoJSON input.
+    index : pandas Index, array or sequence, optional
+        What the input calls each point, as a data frame its rows: one entry a point.
 
     Raises
     ------
@@ -78,6 +81,7 @@ class CellSet:
     properties: dict[str, Any] = field(default_factory=dict)
     y_up: bool = False
     crs: Any = None
+    index: Any = None
 
     def __post_init__(self) -> None:
         for name in ("sites", "coordinates"):
@@ -91,6 +95,7 @@ class CellSet:
                 count = len(getattr(self, name)) - 1
         if count != len(self.sites):
             raise InputError(f"there are {count} cells, but {len(self.sites)} sites: give one cell a site")
+        check_index(self.index, count, "point")
 
     def __len__(self) -> int:
         return len(self.sites)

@@ -40,6 +40,8 @@ class DigitalTriangulation:
         Pictures of this input are drawn y upwards.
     crs : object, optional
         The ``crs`` member of a GeoJSON input.
+    index : pandas Index, array or sequence, optional
+        What the input calls each site, as a data frame its rows: one entry a site.
 
     Raises
     ------
@@ -68,6 +70,7 @@ class DigitalTriangulation:
     properties: dict[str, Any] = field(default_factory=dict)
     y_up: bool = False
     crs: Any = None
+    index: Any = None
 
     def __post_init__(self) -> None:
         kinds = {

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from vorotool.geometry.checks import check_as_long, set_rows
 from vorotool.geometry.curves.inverse_functions import hypotenuse
 from vorotool.geometry.numbers import nearest_double
+from vorotool.geometry.row_index import check_index
 
 FLAT = 2.0**-20
 """Triangles whose largest angle has a smaller sine are computed in rationals: floating point would lose half."""
@@ -59,6 +60,8 @@ class Triangulation:
         The ``crs`` member of a GeoJSON input.
     first_number : {1, 0}
         Number of the first point in files of Triangle: that in the ``.node`` file that the points come from.
+    index : pandas Index, array or sequence, optional
+        What the input calls each point, as a data frame its rows: one entry a point.
 
     Raises
     ------
@@ -88,6 +91,7 @@ class Triangulation:
     y_up: bool = False
     crs: Any = None
     first_number: int = 1
+    index: Any = None
 
     def __post_init__(self) -> None:
         columns = {"points": 2, "triangles": 3, "neighbours": 3, "edges": 2, "hull": 0, "first": 0}
@@ -95,6 +99,7 @@ class Triangulation:
             set_rows(self, name, np.float64 if name == "points" else np.int32, width)
         check_as_long(self, "neighbours", "triangles")
         check_as_long(self, "first", "points")
+        check_index(self.index, len(self.points), "point")
 
     def __len__(self) -> int:
         return len(self.triangles)

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError
 from vorotool.geometry.checks import whole_numbers
 from vorotool.geometry.coordinates import coordinate_rows
+from vorotool.geometry.row_index import check_index
 
 
 @dataclass(frozen=True)
@@ -31,6 +32,8 @@ class PointSet:
         The ``crs`` member of a GeoJSON input, copied to GeoJSON outputs.
     first_number : {1, 0}
         Number of the first point in the input's own file: a ``.node`` file may count from 0.
+    index : pandas Index, array or sequence, optional
+        What the input calls each point, as a data frame its rows: one entry a point.
 
     Raises
     ------
@@ -50,6 +53,7 @@ class PointSet:
     y_up: bool = False
     crs: Any = None
     first_number: int = 1
+    index: Any = None
 
     def __post_init__(self) -> None:
         xy = coordinate_rows(self.xy, "point")
@@ -64,6 +68,7 @@ class PointSet:
         object.__setattr__(self, "xy", xy)
         if self.labels is not None:
             object.__setattr__(self, "labels", _checked_labels(self.labels, len(xy)))
+        check_index(self.index, len(xy), "point")
 
     def __len__(self) -> int:
         return len(self.xy)
@@ -78,7 +83,7 @@ class PointSet:
 
 def known_of_points(points: Any) -> dict[str, Any]:
     """Give what is known of points beside their places, as what is made of them has it, too."""
-    return {name: getattr(points, name) for name in ("labels", "properties", "y_up", "crs")}
+    return {name: getattr(points, name) for name in ("labels", "properties", "y_up", "crs", "index")}
 
 
 def _checked_labels(labels: Any, count: int) -> NDArray[np.int64]:

@@ -46,6 +46,8 @@ class SeedSet:
         The largest of these moves, in pixels.
     grid : PixelGrid, optional
         Sides and places of the pixels of the image that the seeds come from.
+    index : pandas Index, array or sequence, optional
+        What the input calls each site, as a data frame its rows: one entry a site.
 
     Raises
     ------
@@ -71,6 +73,7 @@ class SeedSet:
     snapped: int = 0
     largest_move: float = 0.0
     grid: PixelGrid | None = None
+    index: Any = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "x", whole_numbers(self.x, "x of seed", np.int64))

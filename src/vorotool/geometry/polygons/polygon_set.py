@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from vorotool.errors import InputError
 from vorotool.geometry.coordinates import coordinate_rows
 from vorotool.geometry.ragged import divides, following, starts_of, within
+from vorotool.geometry.row_index import check_index
 
 SHELL, HOLE, LINE = 0, 1, 2
 """Kinds of rings: the outer boundary of a polygon, a hole in it, an open line."""
@@ -52,6 +53,8 @@ class PolygonSet:
         together there; rings run along both, and no two cross. 4: what is outside does. By default neither.
     unit : str, optional
         The unit of length of the coordinates, such as ``mm``, where the input says it.
+    index : pandas Index, array or sequence, optional
+        What the input calls each polygon, as a data frame its rows: one entry a polygon.
 
     Raises
     ------
@@ -77,6 +80,7 @@ class PolygonSet:
     crs: Any = None
     connectivity: int | None = None
     unit: str | None = None
+    index: Any = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "xy", coordinate_rows(self.xy, "vertex"))
@@ -89,6 +93,7 @@ class PolygonSet:
         for name, values in [*self.properties.items(), ("ids", self.ids)]:
             if values is not None and len(values) != count:
                 raise InputError(f"{name} must hold one value a polygon, {count}, but holds {len(values)}")
+        check_index(self.index, count, "polygon")
         if self.connectivity not in (None, 4, 8):
             raise InputError(f"connectivity is {self.connectivity}: it must be 4 or 8, or left out")
         finite = np.isfinite(self.xy)

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.ragged import owners, ranges, starts_of
+from vorotool.geometry.row_index import index_of_rows
 
 Indices = NDArray[np.int64]
 
@@ -65,7 +66,7 @@ class RingArrays:
         return made, rings, vertices
 
     def polygons(self, given: PolygonSet, source: NDArray[Any]) -> PolygonSet:
-        """Make a set of polygons that are described as those of another set: ids, features and properties.
+        """Make a set of polygons that are described as those of another set: ids, features, properties and index.
 
         Parameters
         ----------
@@ -85,4 +86,5 @@ class RingArrays:
             ids=None if given.ids is None else [given.ids[k] for k in own],
             feature=given.feature[source],
             properties={name: [values[k] for k in own] for name, values in given.properties.items()},
+            index=index_of_rows(given.index, source),
         )

@@ -16,6 +16,7 @@ from vorotool.geometry.curves.inverse_functions import inverse_sine
 from vorotool.geometry.numbers import nearest_double, real_number, shown_number
 from vorotool.geometry.polygons.polygon_set import HOLE, SHELL, PolygonSet
 from vorotool.geometry.ragged import divides, owners
+from vorotool.geometry.row_index import index_of_rows
 from vorotool.geometry.skeleton.skeleton import SiteTable
 from vorotool.geometry.skeleton.tables import ids_of
 from vorotool.geometry.table import Lookup, Table
@@ -203,6 +204,7 @@ class Offsets:
             y_up=self.polygons.y_up,
             unit=self.polygons.unit,
             crs=self.polygons.crs,
+            index=index_of_rows(self.polygons.index, self.polygon),
         )
 
     def _described(self) -> dict[str, Any]:

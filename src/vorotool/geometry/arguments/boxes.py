@@ -1,0 +1,63 @@
+"""Rectangles from whatever a caller holds."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from vorotool.errors import InputError, UsageError
+from vorotool.geometry.box import Box
+from vorotool.geometry.numbers import finite_double, shown_number
+
+Extent = tuple[float, float, float, float]
+
+EXPECTED = "expected a Box or four finite numbers x, y, width, height, the last two above 0"
+
+
+def as_box(source: Any, name: str) -> Box:
+    """Give a box from one, or from four numbers: its smallest corner, its width and its height.
+
+    Parameters
+    ----------
+    source : Box or (x, y, width, height)
+        What the caller gave.
+    name : str
+        Of the parameter, for messages.
+
+    Raises
+    ------
+    InputError
+        If it is neither, or has no area.
+
+    Examples
+    --------
+    >>> as_box((10, 20, 4, 3), "frame").sides
+    (10.0, 20.0, 14.0, 23.0)
+    """
+    if isinstance(source, Box):
+        return source
+    try:
+        return Box.of_size(*as_extent(source, name))
+    except UsageError as error:
+        raise InputError(error.marked) from None
+
+
+def as_extent(source: Any, name: str) -> Extent:
+    """Give the smallest corner of a rectangle, its width and its height, digit by digit as they were given.
+
+    Raises
+    ------
+    UsageError
+        If these are no box and no four finite numbers.
+
+    Examples
+    --------
+    >>> as_extent(Box(10, 20, 14, 23), "frame")
+    (10.0, 20.0, 4.0, 3.0)
+    """
+    if isinstance(source, Box):
+        return source.extent
+    try:
+        x, y, width, height = (finite_double(side, name) for side in source)
+    except (TypeError, ValueError):  # a UsageError is one of the latter
+        raise UsageError(f"invalid {name} {shown_number(source)}: {EXPECTED}") from None
+    return x, y, width, height

@@ -1,0 +1,264 @@
+"""Features as callers hold them: geometry of shapely, geopandas, GeoJSON and WKT, and what these say of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import InputError
+from vorotool.geometry.arguments.descriptions import LONGEST
+from vorotool.geometry.arguments.tables import index_of, listed
+from vorotool.geometry.crs import crs_member, member_of_text, without_number
+from vorotool.geometry.row_index import index_of_rows
+
+SIMPLE_TYPES = ("Point", "LineString", "Polygon")
+GEOMETRY_TYPES = frozenset({*SIMPLE_TYPES, *(f"Multi{kind}" for kind in SIMPLE_TYPES), "GeometryCollection"})
+FEATURE_TYPES = frozenset({"Feature", "FeatureCollection"})
+
+
+@dataclass(frozen=True, eq=False)
+class HeldFeatures:
+    """Features, one geometry each, and what is known of them.
+
+    Parameters
+    ----------
+    items : list
+        Geometry of each: of shapely, a mapping of GeoJSON, or None where there is none.
+    properties : dict of str to list
+        Attributes, one value a feature.
+    ids : list, optional
+        Names of the features.
+    index : pandas Index, array or sequence, optional
+        What a series or a data frame calls them.
+    crs : object, optional
+        The ``crs`` member of GeoJSON.
+    is_map : bool
+        They come from a form in which features say where they are: pictures have y upwards, and what has no geometry is
+        left out, since an index or an id tells of the others which they are.
+    """
+
+    items: Sequence[Any] | NDArray[np.object_]
+    properties: dict[str, list[Any]] = field(default_factory=dict)
+    ids: list[Any] | None = None
+    index: Any = None
+    crs: Any = None
+    is_map: bool = False
+
+    @property
+    def is_all_shapely(self) -> bool:
+        """Whether there are no mappings among the items."""
+        return isinstance(self.items, np.ndarray) or all(item is None or is_shapely(item) for item in self.items)
+
+    @property
+    def geometry(self) -> NDArray[np.object_]:
+        """(n,) the items, if all are of shapely."""
+        if isinstance(self.items, np.ndarray):
+            return self.items
+        made = np.empty(len(self.items), dtype=object)
+        made[:] = self.items
+        return made
+
+    def described(self, owners: NDArray[Any]) -> dict[str, Any]:
+        """Give the fields of a `PolygonSet` for polygons by the feature of each."""
+        own = owners.tolist()
+        return {
+            "ids": None if self.ids is None else [self.ids[k] for k in own],
+            "properties": {name: [values[k] for k in own] for name, values in self.properties.items()},
+            "index": index_of_rows(self.index, owners),
+            "crs": self.crs,
+            "y_up": self.is_map,
+        }
+
+
+def held_features(source: Any) -> HeldFeatures | None:
+    """Take features apart; None of what has no geometry.
+
+    Parameters
+    ----------
+    source : object
+        Shapely geometry, a GeoSeries, GeoDataFrame or GeometryArray, a mapping of GeoJSON, an object with
+        ``__geo_interface__``, well-known text; a list, an object array or a series of such geometry.
+
+    Raises
+    ------
+    InputError
+        If a text is no geometry, or a feature is malformed.
+
+    Examples
+    --------
+    >>> held_features("POINT (1 2)").geometry.tolist(), held_features([[1, 2]]) is None
+    ([<POINT (1 2)>], True)
+    """
+    if is_shapely(source):
+        is_nothing = source.is_empty and source.geom_type in ("Point", "MultiPoint", "GeometryCollection")
+        return HeldFeatures([] if is_nothing else [source])
+    if isinstance(source, str | bytes):
+        return _of_texts([source], is_alone=True)
+    if isinstance(source, Mapping):
+        return _of_geojson(source)
+    if hasattr(source, "crs") and (hasattr(source, "geometry") or _dtype_name(source) == "geometry"):
+        return _of_geopandas(source)
+    if hasattr(source, "__geo_interface__"):
+        return _of_geojson(source.__geo_interface__)
+    items = _listed_items(source)
+    return None if items is None else _of_items(items, index_of(source))
+
+
+def is_shapely(value: Any) -> bool:
+    """Tell whether a value is one geometry of shapely; arrays of geopandas have a type for each."""
+    return isinstance(getattr(value, "geom_type", None), str)
+
+
+def is_geojson(value: Any) -> bool:
+    """Tell whether a value is an object of GeoJSON, by its type."""
+    return isinstance(value, Mapping) and value.get("type") in GEOMETRY_TYPES | FEATURE_TYPES
+
+
+def _dtype_name(value: Any) -> str:
+    return str(getattr(value, "dtype", ""))
+
+
+def _listed_items(source: Any) -> list[Any] | None:
+    """Give the items of a list, an object array or a series whose first one is geometry in some form."""
+    is_array = hasattr(source, "dtype")
+    if is_array and not (getattr(source, "ndim", 0) == 1 and _dtype_name(source) in ("object", "str", "string")):
+        if getattr(getattr(source, "dtype", None), "kind", "") != "U" or source.ndim != 1:
+            return None
+    elif not is_array and not isinstance(source, list | tuple):
+        return None
+    items = listed(source) if is_array else list(source)
+    first = next((item for item in items if item is not None), None)
+    held = is_shapely(first) or is_geojson(first) or isinstance(first, str) or hasattr(first, "__geo_interface__")
+    return items if held else None
+
+
+# ---- each form -------------------------------------------------------------------------------------
+def _of_items(items: list[Any], index: Any) -> HeldFeatures | None:
+    held: HeldFeatures | None
+    if all(isinstance(item, str | None) for item in items):
+        held = _of_texts(items)
+    elif all(isinstance(item, Mapping) and item.get("type") == "Feature" for item in items):
+        held = _of_geojson({"type": "FeatureCollection", "features": items})
+    else:
+        plain = [_plain_item(item) for item in items]
+        held = HeldFeatures(plain, is_map=bool(items) and all(map(is_geojson, plain)))
+    if held is None or index is None:
+        return held
+    return HeldFeatures(held.items, held.properties, held.ids, index, held.crs, is_map=True)
+
+
+def _plain_item(item: Any) -> Any:
+    """Give the geometry of an item of a mixed list; what is none stays as it is, for whoever knows it."""
+    if isinstance(item, str):
+        held: Any = _of_texts([item])
+    elif is_shapely(item) or not (is_geojson(item) or hasattr(item, "__geo_interface__")):
+        return item
+    else:
+        held = _of_geojson(item if is_geojson(item) else item.__geo_interface__)
+    if held is None or len(held.items) == 1:
+        return item if held is None else held.items[0]
+    return {"type": "GeometryCollection", "geometries": [each for each in held.items if each is not None]}
+
+
+def _of_texts(texts: Sequence[Any], *, is_alone: bool = False) -> HeldFeatures:
+    import shapely
+
+    plain = [without_number(text.strip()) if isinstance(text, str) else (text, 0) for text in texts]
+    with np.errstate(all="ignore"):  # numbers beyond the largest double are found later
+        geometry = shapely.from_wkt(np.array([text for text, _ in plain], dtype=object), on_invalid="ignore")
+    wrong = [k for k, text in enumerate(texts) if text is not None and geometry[k] is None]
+    if wrong:
+        text = texts[wrong[0]]
+        shown = repr(text if len(text) <= LONGEST else text[: LONGEST - 1] + "…")
+        if is_alone and isinstance(text, str):
+            raise InputError(f"{shown} is no well-known text; files are read with vorotool.read(path)")
+        raise InputError(f"item {wrong[0] + 1} is {shown}, no well-known text such as POINT (3 4)")
+    numbers = sorted({number for _, number in plain if number})
+    if len(numbers) > 1:
+        raise InputError(f"geometry is in EPSG:{numbers[0]} and EPSG:{numbers[1]}: bring all into one system")
+    return HeldFeatures(list(geometry), crs=crs_member(f"EPSG:{numbers[0]}") if numbers else None, is_map=True)
+
+
+def _of_geojson(document: Any) -> HeldFeatures | None:
+    if not is_geojson(document):
+        return None
+    if document["type"] in GEOMETRY_TYPES:
+        return HeldFeatures([document], crs=document.get("crs"), is_map=True)
+    features = [document] if document["type"] == "Feature" else document.get("features")
+    if isinstance(features, str) or not isinstance(features, Iterable):
+        raise InputError('the FeatureCollection has no list of features: add "features": […]')
+    features = list(features)
+    for number, feature in enumerate(features, 1):
+        if not isinstance(feature, Mapping) or feature.get("type") != "Feature":
+            raise InputError(f'item {number} of the features is no Feature: give it "type": "Feature"')
+        if not isinstance(feature.get("properties"), Mapping | None):
+            raise InputError(f"the properties of feature {number} are no object: give one, or null")
+    rows = [feature.get("properties") or {} for feature in features]
+    names = dict.fromkeys(key for row in rows for key in row)
+    return HeldFeatures(
+        [feature.get("geometry") for feature in features],
+        {str(name): [row.get(name) for row in rows] for name in names},
+        [feature.get("id") for feature in features] if any("id" in feature for feature in features) else None,
+        crs=document.get("crs"),
+        is_map=True,
+    )
+
+
+def _of_geopandas(source: Any) -> HeldFeatures:
+    """Take a GeoDataFrame, a GeoSeries or a GeometryArray; missing geometry is None."""
+    geometry = source.geometry if hasattr(source, "geometry") else source
+    properties = {}
+    if hasattr(source, "columns"):
+        active = geometry.name
+        for place, name in enumerate(source.columns):
+            if name != active:
+                properties[str(name)] = listed(source.iloc[:, place])
+    items = np.empty(len(geometry), dtype=object)
+    items[:] = np.asarray(geometry, dtype=object)
+    return HeldFeatures(items, properties, index=index_of(geometry), crs=crs_of(source.crs), is_map=True)
+
+
+def crs_of(crs: Any) -> Any:
+    """Give the ``crs`` member for a system of pyproj: authority and code where it has them, else spelled out.
+
+    Examples
+    --------
+    >>> crs_of(None) is None
+    True
+    """
+    if crs is None:
+        return None
+    found = crs.to_authority()
+    return member_of_text(":".join(found) if found else crs.to_wkt())
+
+
+def joined_parts(geometry: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
+    """Give the simple geometries of an object of GeoJSON in order: the kind of each and its coordinates.
+
+    Raises
+    ------
+    InputError
+        If a geometry has no type or lacks its coordinates.
+
+    Examples
+    --------
+    >>> list(joined_parts({"type": "MultiPoint", "coordinates": [[1, 2], [3, 4]]}))
+    [('Point', [1, 2]), ('Point', [3, 4])]
+    """
+    pending: list[Any] = [geometry]
+    while pending:  # not recursive: collections may be nested as deep as one likes
+        each = pending.pop()
+        kind = each.get("type") if isinstance(each, Mapping) else None
+        member = "geometries" if kind == "GeometryCollection" else "coordinates"
+        if kind not in GEOMETRY_TYPES or not isinstance(each.get(member), Sequence | np.ndarray):
+            raise InputError(f"a geometry has the type {kind!r} and no {member}: give an object of GeoJSON")
+        if kind == "GeometryCollection":
+            pending.extend(reversed(each["geometries"]))
+        elif kind.startswith("Multi"):
+            yield from ((kind.removeprefix("Multi"), part) for part in each["coordinates"])
+        elif len(each["coordinates"]):
+            yield kind, each["coordinates"]

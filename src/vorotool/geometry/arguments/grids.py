@@ -1,0 +1,81 @@
+"""The grid of an image whose axes have coordinates, as an array of xarray has them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import InputError
+from vorotool.geometry.arguments.features import crs_of
+from vorotool.geometry.coordinate_names import plain_name
+from vorotool.geometry.crs import member_of_text
+from vorotool.geometry.length_units import ratio
+from vorotool.geometry.pixel_grid import ALIKE, PixelGrid, map_grid
+
+COLUMN_AXES = ("x", "lon", "longitude", "easting", "column", "col")
+"""Names of axes that run along rows."""
+
+
+def grid_of(image: Any) -> PixelGrid | None:
+    """Give the grid of an image with named axes; None where its axes have no coordinates.
+
+    Parameters
+    ----------
+    image : object
+        With ``dims`` and ``coords``, rows first.
+
+    Returns
+    -------
+    PixelGrid
+        Of a map: the first pixel, and what one column and one row go on, in the unit that both coordinates have.
+
+    Raises
+    ------
+    InputError
+        If columns come first, or coordinates are no evenly spaced numbers.
+    """
+    rows, columns = image.dims
+    if plain_name(str(rows)) in COLUMN_AXES:
+        raise InputError(f"its dimensions are {rows}, {columns}: give it transposed, rows first")
+    if rows not in image.coords or columns not in image.coords:
+        return None
+    x, dx = _even(image.coords[columns], columns)
+    y, dy = _even(image.coords[rows], rows)
+    transform = (dx, 0.0, x - dx / 2, 0.0, dy, y - dy / 2)
+    return map_grid(transform, unit=_unit(image, rows, columns), crs=_crs(image))
+
+
+def _even(coordinate: Any, name: Any) -> tuple[float, float]:
+    """Give the first coordinate of an axis and the step; a single one has a step of 1."""
+    values: NDArray[Any] = np.asarray(coordinate)
+    if values.ndim != 1 or values.dtype.kind not in "iuf" or not np.isfinite(values).all():
+        raise InputError(f"the coordinates of {name} are no numbers: drop them, as with drop_vars({name!r})")
+    places = values.astype(np.float64)
+    if len(places) < 2:
+        return (float(places[0]) if len(places) else 0.0), 1.0
+    step = (places[-1] - places[0]) / (len(places) - 1)
+    wanted = places[0] + step * np.arange(len(places))
+    rounding = 4 * np.spacing(np.abs(places).max())  # of coordinates far from 0
+    if step == 0 or (np.abs(places - wanted) > float(ALIKE) * abs(step) + rounding).any():
+        gaps = np.diff(places)
+        raise InputError(
+            f"the coordinates of {name} are not evenly spaced: their steps are {gaps.min():g} to {gaps.max():g}; bring "
+            f"it to an even grid, as with interp, or drop them, as with drop_vars({name!r})"
+        )
+    return float(places[0]), float(step)
+
+
+def _unit(image: Any, rows: Any, columns: Any) -> str | None:
+    """Give the unit that both axes have, if it is one of length."""
+    units = {str(image.coords[axis].attrs.get("units", "")) for axis in (rows, columns)}
+    unit = units.pop()
+    return unit if not units and ratio(unit, "m") is not None else None
+
+
+def _crs(image: Any) -> Any:
+    """Give the system that the image names, as rioxarray and CF put it into a coordinate without axes."""
+    described = image.coords["spatial_ref"].attrs if "spatial_ref" in image.coords else image.attrs
+    given = described.get("crs_wkt") or described.get("crs")
+    return member_of_text(given) if given is None or isinstance(given, str) else crs_of(given)

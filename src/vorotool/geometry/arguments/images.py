@@ -1,0 +1,193 @@
+"""Images from whatever a caller holds, and whether an array is an image or a list of points."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import InputError, LimitError, UsageError
+from vorotool.geometry.arguments.descriptions import column_names, described, naming, refuse_paths, unexpected
+from vorotool.geometry.arguments.grids import grid_of
+from vorotool.geometry.coordinates import MOST_AXES
+from vorotool.geometry.pixel_frame import MAX_PIXELS
+from vorotool.geometry.points.label_image import LabelImage
+from vorotool.geometry.points.raster import Raster
+
+EXPECTED = "an image: a Raster, a LabelImage, or a 2-D array of truth values or integers"
+POINT_WIDTHS = (2, 3)
+"""Numbers a row of arrays of integers that are points unless they are said to be images."""
+
+COLOUR_CHANNELS = (1, 2, 3, 4)
+
+
+def is_image(source: Any, name: str, image: bool | None = None) -> bool:
+    """Tell whether what may be points or an image is an image.
+
+    Parameters
+    ----------
+    source : object
+        What the caller gave.
+    name : str
+        Of the parameter, for messages.
+    image : bool, optional
+        What the caller says of an array; by default truth values are an image, and so are integers, but those with two
+        or three columns, which are points, as floating-point numbers are.
+
+    Raises
+    ------
+    InputError
+        If it looks like an image of grey values, which needs a threshold.
+    UsageError
+        If `image` is no truth value.
+
+    Examples
+    --------
+    >>> is_image(np.eye(3, dtype=bool), "seeds"), is_image(np.zeros((9, 2), int), "seeds"), is_image([[1, 2]], "seeds")
+    (True, False, False)
+    """
+    if image not in (None, True, False):
+        raise UsageError(f"invalid image {image!r}: expected True, False or None")
+    if isinstance(source, Raster | LabelImage):
+        return True
+    if image is not None:
+        return bool(image)
+    shape, kind = getattr(source, "shape", None), _kind(source)
+    if not isinstance(shape, tuple) or len(shape) < 2 or kind not in "biuf" or column_names(source) is not None:
+        return False
+    if len(shape) > 2 or kind == "b":
+        return True
+    if kind != "f":
+        return 0 not in shape and shape[1] not in POINT_WIDTHS
+    if min(shape) > MOST_AXES:
+        raise InputError(
+            f"invalid {name}: it is {described(source)}, grey values of an image? give "
+            f"vorotool.seeds_from_raster({name}, threshold=…)"
+        )
+    return False
+
+
+def as_raster(source: Any, name: str, *, is_grey: bool = False, max_pixels: int = MAX_PIXELS) -> Raster:
+    """Give an image from whatever holds it.
+
+    Parameters
+    ----------
+    source : object
+        A `Raster`, which is given back; a `LabelImage`; an array, of xarray with its grid; what makes an array of
+        itself, as arrays of Dask and Zarr and images of Pillow do.
+    name : str
+        Of the parameter, for messages.
+    is_grey : bool
+        Floating-point numbers and colours are right, since there may be a threshold.
+    max_pixels : int
+        More are refused before what is not yet in memory is read.
+
+    Raises
+    ------
+    InputError
+        If it is no image.
+    LimitError
+        If it is too large.
+
+    Examples
+    --------
+    >>> as_raster(np.eye(3, dtype=bool), "image").shape
+    (3, 3)
+    """
+    if isinstance(source, Raster):
+        return source
+    if isinstance(source, LabelImage):
+        return Raster(source.labels, source.grid)
+    with naming(name):
+        refuse_paths(source, texts=True)
+        _check_shape(source, name, is_grey=is_grey, max_pixels=max_pixels)
+        grid = grid_of(source) if _has_axes(source) else None
+        array = _array(source)
+        if array.dtype.kind not in "biuf":
+            raise unexpected(source, EXPECTED)
+        _check_shape(array, name, is_grey=is_grey, max_pixels=max_pixels)
+        if array.dtype.kind == "f" and not is_grey:
+            how = f"vorotool.seeds_from_raster({name}, threshold=…) takes grey values"
+            raise InputError(f"expected truth values or integers, but got {described(array)}; {how}")
+        return Raster(array, grid)
+
+
+def as_label_image(source: Any, name: str, components: Callable[[NDArray[Any]], NDArray[Any]]) -> LabelImage:
+    """Give a label image: of truth values the components are numbered, integers are labels.
+
+    Parameters
+    ----------
+    source : object
+        A `LabelImage`, which is given back, or what `as_raster` takes.
+    name : str
+        Of the parameter, for messages.
+    components : callable
+        Numbers the connected components of a mask.
+
+    Raises
+    ------
+    InputError
+        If it is no image of labels.
+
+    Examples
+    --------
+    >>> as_label_image(np.array([[0, 7]]), "image", np.asarray).labels.tolist()
+    [[0, 7]]
+    """
+    if isinstance(source, LabelImage):
+        return source
+    raster = as_raster(source, name)
+    values = raster.values if raster.mask is None else np.where(raster.mask, raster.values.dtype.type(0), raster.values)
+    with naming(name):
+        if values.ndim != 2 or values.dtype.kind == "f":
+            raise InputError(f"expected labels, a 2-D array of integers, but got {described(values)}")
+        return LabelImage(components(values) if values.dtype == bool else values, grid=raster.grid)
+
+
+def _kind(source: Any) -> str:
+    """Give the kind of the numbers of an array; a blank of what is none."""
+    try:
+        return np.dtype(getattr(source, "dtype", "O")).kind
+    except TypeError:  # a type that NumPy does not have
+        return " "
+
+
+def _has_axes(source: Any) -> bool:
+    """Whether an array has named axes with coordinates, as those of xarray."""
+    return hasattr(source, "dims") and hasattr(source, "coords") and len(source.dims) == 2
+
+
+def _array(source: Any) -> NDArray[Any]:
+    if isinstance(source, np.ma.MaskedArray):
+        return source
+    if column_names(source) is None and not isinstance(source, str | bytes):
+        try:
+            return np.asarray(source)
+        except (TypeError, ValueError):
+            pass
+    raise unexpected(source, EXPECTED)
+
+
+def _check_shape(source: Any, name: str, *, is_grey: bool, max_pixels: int) -> None:
+    """Refuse what is no image by its shape alone: arrays of Dask and Zarr are not in memory yet."""
+    shape = getattr(source, "shape", None)
+    if not isinstance(shape, tuple):
+        return
+    if len(shape) == 3 and shape[2] in COLOUR_CHANNELS and not is_grey:
+        raise InputError(f"it is a colour image, {described(source)}: give {_thresholded(name)}")
+    if len(shape) == 3 and shape[2] not in COLOUR_CHANNELS:
+        raise InputError(f"it is a stack of {shape[0]} images, {described(source)}: give one of them, {name}[0]")
+    if len(shape) not in (2, 3):
+        raise unexpected(source, EXPECTED)
+    pixels = shape[0] * shape[1]
+    if pixels > max_pixels and not isinstance(source, np.ndarray):
+        raise LimitError(
+            f"{name} has {shape[1]} x {shape[0]} = {pixels} pixels, more than max_pixels {max_pixels}: the command "
+            "line reads images of TIFF, NPY and Zarr band by band"
+        )
+
+
+def _thresholded(name: str) -> str:
+    return f"vorotool.seeds_from_raster({name}, threshold=…)"

@@ -1,0 +1,79 @@
+"""Names of columns that hold coordinates, as tables of all kinds have them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+COORDINATE_NAMES = (
+    ("x", "y"),
+    ("lon", "lat"),
+    ("longitude", "latitude"),
+    ("easting", "northing"),
+    ("centroid-1", "centroid-0"),  # scikit-image: row first
+    ("axis-1", "axis-0"),  # napari: row first
+)
+LONGITUDE_LATITUDE_NAMES = (("lon", "lat"), ("longitude", "latitude"))
+MAP_NAMES = (*LONGITUDE_LATITUDE_NAMES, ("easting", "northing"))
+"""Of which the second one grows northwards."""
+
+
+def coordinate_columns(names: Sequence[str]) -> list[int] | None:
+    """Find the columns of a table that are its coordinates, and its label where it has no others.
+
+    Parameters
+    ----------
+    names : sequence of str
+        Of the columns, in any case.
+
+    Returns
+    -------
+    list of int, or None
+        The columns of x and y; then that of the label, if the names are x, y and label. None without such a pair.
+
+    Examples
+    --------
+    >>> coordinate_columns(["id", "Lat", "Lon"]), coordinate_columns(["label", "x", "y"])
+    ([2, 1], [1, 2, 0])
+    """
+    plain = [plain_name(name) for name in names]
+    for pair in COORDINATE_NAMES:
+        if all(plain.count(each) == 1 for each in pair):
+            label = [plain.index("label")] if sorted(plain) == ["label", "x", "y"] else []
+            return [*(plain.index(each) for each in pair), *label]
+    return None
+
+
+def plain_name(text: str) -> str:
+    """Give the name of a column without blanks around it, in lower case.
+
+    Examples
+    --------
+    >>> plain_name(" Lon")
+    'lon'
+    """
+    return text.strip().lower()
+
+
+def is_longitude_latitude(x: str, y: str) -> bool:
+    """Tell whether columns are longitude and latitude by their names.
+
+    Examples
+    --------
+    >>> is_longitude_latitude("Lon", "Lat"), is_longitude_latitude("x", "y")
+    (True, False)
+    """
+    return plain_name(x) in _FIRST and plain_name(y) in _SECOND
+
+
+def is_map(x: str, y: str) -> bool:
+    """Tell whether columns are places on a map by their names, so that pictures have y upwards.
+
+    Examples
+    --------
+    >>> is_map("easting", "northing"), is_map("x", "y")
+    (True, False)
+    """
+    return is_longitude_latitude(x, y) or (plain_name(x), plain_name(y)) in MAP_NAMES
+
+
+_FIRST, _SECOND = (tuple(pair[k] for pair in LONGITUDE_LATITUDE_NAMES) for k in (0, 1))
