@@ -143,6 +143,11 @@ class Message(str):
 class VorotoolError(Exception):
     """Base of all errors raised on purpose; a bare one is a defect of ours (exit 1).
 
+    Parameters
+    ----------
+    text : str, optional
+        The words, which may have texts of `option`.
+
     Attributes
     ----------
     source : str or None
@@ -156,7 +161,7 @@ class VorotoolError(Exception):
     marked: str
 
     def __init__(self, text: str = "") -> None:
-        """Take the words, which may have texts of `option`."""
+        """Take the words."""
         said = Message.of(text)
         self.marked = said.marked
         super().__init__(str(said))
@@ -168,44 +173,86 @@ class VorotoolError(Exception):
 
 
 class VerificationError(VorotoolError):
-    """A shipped checker found a result wrong (exit 1)."""
+    """A shipped checker found a result wrong (exit 1).
+
+    Parameters
+    ----------
+    text : str, optional
+        The words, which may have texts of `option`.
+    """
 
 
 class UsageError(VorotoolError, ValueError):
-    """Options that do not go together, or an option's value out of range (exit 2)."""
+    """Options that do not go together, or an option's value out of range (exit 2).
+
+    Parameters
+    ----------
+    text : str, optional
+        The words, which may have texts of `option`.
+    """
 
     exit_code = 2
 
 
 class InputError(VorotoolError, ValueError):
-    """Input that cannot be used: the message names the file, the place, the value and what to do (exit 3)."""
+    """Input that cannot be used: the message names the file, the place, the value and what to do (exit 3).
+
+    Parameters
+    ----------
+    text : str, optional
+        The words, which may have texts of `option`.
+    """
 
     exit_code = 3
 
 
 class OutputError(VorotoolError, OSError):
-    """Output that cannot be written; an older file is untouched (exit 4)."""
+    """Output that cannot be written; an older file is untouched (exit 4).
+
+    Parameters
+    ----------
+    text : str, optional
+        The words, which may have texts of `option`.
+    """
 
     exit_code = 4
 
 
 class LimitError(VorotoolError):
-    """A limit would be exceeded; found before memory is taken (exit 5)."""
+    """A limit would be exceeded; found before memory is taken (exit 5).
+
+    Parameters
+    ----------
+    text : str, optional
+        The words, which may have texts of `option`.
+    """
 
     exit_code = 5
 
 
 class BatchError(VorotoolError):
-    """A batch in which some inputs failed (exit 6)."""
+    """A batch in which some inputs failed (exit 6).
+
+    Parameters
+    ----------
+    text : str, optional
+        The words, which may have texts of `option`.
+    """
 
     exit_code = 6
 
 
 class VorotoolWarning(UserWarning):
-    """Something was repaired, snapped or guessed; one line that counts what was done."""
+    """Something was repaired, snapped or guessed; one line that counts what was done.
+
+    Parameters
+    ----------
+    text : str, optional
+        The words, which may have texts of `option`.
+    """
 
     def __init__(self, text: str = "") -> None:
-        """Take the line, which may have texts of `option`."""
+        """Take the line."""
         super().__init__(Message.of(text))
 
     @property
@@ -215,4 +262,10 @@ class VorotoolWarning(UserWarning):
 
 
 class RepairWarning(VorotoolWarning):
-    """Polygons were repaired where they were placed."""
+    """Polygons were repaired where they were placed.
+
+    Parameters
+    ----------
+    text : str, optional
+        The words, which may have texts of `option`.
+    """

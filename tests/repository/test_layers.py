@@ -26,6 +26,7 @@ formats/images -> formats/compression, formats/io, formats/parsing, formats/zarr
 formats/points -> formats/io, formats/parsing, geometry, geometry/points
 geometry/mesh -> geometry, geometry/arguments, geometry/curves
 geometry/skeleton -> geometry, geometry/arguments, geometry/curves, geometry/polygons
+typing -> geometry, geometry/mesh, geometry/points, geometry/polygons, geometry/skeleton
 render/canvas -> geometry, geometry/curves, products
 engines/arrangement -> geometry, geometry/arguments, geometry/curves, geometry/polygons, geometry/skeleton
 engines/delaunay -> geometry, geometry/arguments, geometry/curves, geometry/mesh, geometry/points
@@ -65,6 +66,8 @@ formats -> formats/drawing, formats/features, formats/images, formats/io, format
     formats/polygons, geometry, geometry/points, geometry/polygons, geometry/skeleton, products
 batch -> engines/tessellation, formats, formats/io, formats/text, formats/zarr
 engines -> engines/sampled_skeleton, engines/skeleton, geometry, geometry/arguments, geometry/skeleton
+engines/peers -> engines, engines/delaunay, engines/from_skeleton, engines/label_images, engines/pruning,
+    engines/tessellation, geometry, geometry/arguments, geometry/mesh, typing
 engines/centerlines -> engines/from_skeleton, engines/pruning, engines/skeleton, geometry, geometry/arguments,
     geometry/polygons, geometry/skeleton
 jobs -> batch, engines, engines/alpha, engines/arrangement, engines/centerlines, engines/delaunay, engines/digital,
@@ -78,7 +81,6 @@ cli/batch -> batch, cli/options, formats/io, geometry, jobs, products
 cli/commands -> cli/batch, cli/options, jobs, products
 cli -> cli/commands, jobs
 render ->
-typing -> geometry, geometry/mesh, geometry/points, geometry/polygons, geometry/skeleton
 """
 """Rooms of the package from below, and what each may import; `errors` and `signals` are for all."""
 

@@ -36,6 +36,9 @@ MOST_UNASKED = 2**28
 
 _WINDOW = option("--window X,Y,W,H", "window=(x, y, w, h)")
 _CELLS = option("delaunay --what cells", "voronoi_cells")
+_RASTERIZED = option(
+    "type --cell-size C", "a Raster of vorotool.engines.tessellation.rasterized.rasterized(polygons, frame)"
+)
 _WIDEST_TYPE = option("--dtype uint32", 'dtype="uint32"')
 
 
@@ -77,8 +80,7 @@ def _points(source: Any, name: str) -> PointSet:
             raise
         raise InputError(
             f"invalid {name}: these are polygons or lines, and seeds are points or an image; give their centroids or "
-            "vertices, or a Raster of vorotool.engines.tessellation.rasterized.rasterized(polygons, frame); on the "
-            "command line type --cell-size"
+            f"vertices, or {_RASTERIZED}"
         ) from None
 
 

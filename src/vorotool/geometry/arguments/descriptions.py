@@ -30,7 +30,7 @@ def naming(name: str) -> Iterator[None]:
     try:
         yield
     except InputError as error:
-        raise InputError(f"invalid {name}: {error}") from None
+        raise InputError(f"invalid {name}: {error.marked}") from None
 
 
 def unexpected(value: Any, expected: str) -> InputError:
