@@ -77,9 +77,9 @@ def test_arrays_are_taken_for_images():
     assert vorotool.neighbour_table(image).rows == 0
     assert vorotool.colour_regions(image).tolist() == [0, 1]
     for function in (vorotool.region_table, vorotool.neighbour_table, vorotool.colour_regions):
-        with pytest.raises(InputError, match="^invalid image: expected truth values or integers"):
+        with pytest.raises(InputError, match=r"^invalid image: expected truth values or integers"):
             function(np.ones((2, 2)))
-    with pytest.raises(InputError, match="^invalid raster: expected an image"):
+    with pytest.raises(InputError, match=r"^invalid raster: expected an image"):
         vorotool.seeds_from_raster([["a", "b"]])
     with pytest.raises(UsageError, match="no seeds"):
         vorotool.verify_tessellation(image)
