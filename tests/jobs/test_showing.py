@@ -236,3 +236,13 @@ def test_axes_are_made(monkeypatch):
 
     monkeypatch.setattr(matplotlib.pyplot, "subplots", lambda: (None, Figure().add_subplot()))
     assert VALUES["PointSet"].plot().collections
+
+
+def test_features_of_what_is_in_no_file_have_the_reference_system():
+    for crs in ("EPSG:2056", crs_member("EPSG:2056")):
+        features = vorotool.PointSet([[2, 1]], crs=crs).__geo_interface__
+        assert features["crs"]["properties"]["name"] == "urn:ogc:def:crs:EPSG::2056"
+        assert features["features"] == [
+            {"type": "Feature", "properties": {"label": 1}, "geometry": {"type": "Point", "coordinates": [2.0, 1.0]}}
+        ]
+    assert len(VALUES["AlphaComplex"].__geo_interface__["features"]) == len(VALUES["AlphaComplex"])

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import UsageError
 from vorotool.geometry.any.features import features_of
-from vorotool.geometry.crs import is_geographic
+from vorotool.geometry.crs import crs_text, is_geographic, member_of_text
 from vorotool.geometry.extras import needed
 from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation
 from vorotool.geometry.mesh.triangulation import Triangulation
@@ -79,7 +79,9 @@ def _features(value: Any) -> dict[str, Any]:
         ],
     }
     crs = getattr(features.source, "crs", None)
-    return made if crs is None else {**made, "crs": crs}
+    if crs is None:
+        return made
+    return {**made, "crs": crs if isinstance(crs, dict) else member_of_text(crs_text(crs))}
 
 
 # ---- drawings ------------------------------------------------------------------------------------
