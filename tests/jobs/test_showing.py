@@ -1,6 +1,7 @@
 """Notebooks and plots: the pictures that are written to files, small ones of what is large, and axes of the data."""
 
 import io
+import json
 import re
 from base64 import b64decode
 from dataclasses import replace
@@ -246,3 +247,9 @@ def test_features_of_what_is_in_no_file_have_the_reference_system():
             {"type": "Feature", "properties": {"label": 1}, "geometry": {"type": "Point", "coordinates": [2.0, 1.0]}}
         ]
     assert len(VALUES["AlphaComplex"].__geo_interface__["features"]) == len(VALUES["AlphaComplex"])
+
+
+@pytest.mark.parametrize("name", [name for name, value in VALUES.items() if hasattr(type(value), "__geo_interface__")])
+def test_features_are_json(name):
+    features = VALUES[name].__geo_interface__
+    assert json.loads(json.dumps(features, allow_nan=False)) == features

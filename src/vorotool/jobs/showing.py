@@ -65,10 +65,7 @@ def _features(value: Any) -> dict[str, Any]:
     import shapely
 
     features = features_of(value)
-    columns = {
-        name: column.tolist() if isinstance(column, np.ndarray) else list(column)
-        for name, column in features.columns.items()
-    }
+    columns = {name: _json_values(column) for name, column in features.columns.items()}
     shapes = [None if text is None else orjson.loads(text) for text in shapely.to_geojson(features.geometry)]
     rows = zip(*columns.values(), strict=True)
     made: dict[str, Any] = {
@@ -82,6 +79,13 @@ def _features(value: Any) -> dict[str, Any]:
     if crs is None:
         return made
     return {**made, "crs": crs if isinstance(crs, dict) else member_of_text(crs_text(crs))}
+
+
+def _json_values(column: Any) -> list[Any]:
+    """A column as lists of JSON have it: None for what is no finite number."""
+    if isinstance(column, np.ndarray) and column.dtype.kind == "f":
+        column = np.ma.masked_invalid(column)
+    return column.tolist() if isinstance(column, np.ndarray) else list(column)
 
 
 # ---- drawings ------------------------------------------------------------------------------------
