@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -28,7 +29,8 @@ def grid_of(image: Any) -> PixelGrid | None:
     Returns
     -------
     PixelGrid
-        Of a map: the first pixel, and what one column and one row go on, in the unit that both coordinates have.
+        The sides of a pixel in the unit that both coordinates have. Of a map also where the first pixel is; an image
+        whose rows go down from 0, as those of microscopes do, is none.
 
     Raises
     ------
@@ -42,8 +44,10 @@ def grid_of(image: Any) -> PixelGrid | None:
         return None
     x, dx = _even(image.coords[columns], columns)
     y, dy = _even(image.coords[rows], rows)
-    transform = (dx, 0.0, x - dx / 2, 0.0, dy, y - dy / 2)
-    return map_grid(transform, unit=_unit(image, rows, columns), crs=_crs(image))
+    unit, crs = _unit(image, rows, columns), _crs(image)
+    if crs is None and dx > 0 and dy > 0 and all(first in (0, step / 2) for first, step in ((x, dx), (y, dy))):
+        return PixelGrid(Fraction(dx), Fraction(dy), unit)
+    return map_grid((dx, 0.0, x - dx / 2, 0.0, dy, y - dy / 2), unit=unit, crs=crs)
 
 
 def _even(coordinate: Any, name: Any) -> tuple[float, float]:
