@@ -98,8 +98,9 @@ def column_names(value: Any) -> list[Any] | None:
         return None
     names = getattr(value, "column_names", None)  # pyarrow, whose columns are arrays
     names = getattr(value, "columns", None) if names is None else names
-    is_frame = isinstance(names, Iterable) and hasattr(value, "__getitem__") and not isinstance(value, type)
-    return list(names) if is_frame else None
+    if not isinstance(names, Iterable) or not hasattr(value, "__getitem__") or isinstance(value, type):
+        return None
+    return list(names)
 
 
 def refuse_paths(value: Any, *, texts: bool = False) -> None:
