@@ -1,6 +1,7 @@
 """Notebooks and plots: the pictures that are written to files, small ones of what is large, and axes of the data."""
 
 import io
+import json
 import re
 from base64 import b64decode
 from dataclasses import replace
@@ -236,3 +237,19 @@ def test_axes_are_made(monkeypatch):
 
     monkeypatch.setattr(matplotlib.pyplot, "subplots", lambda: (None, Figure().add_subplot()))
     assert VALUES["PointSet"].plot().collections
+
+
+def test_features_of_what_is_in_no_file_have_the_reference_system():
+    for crs in ("EPSG:2056", crs_member("EPSG:2056")):
+        features = vorotool.PointSet([[2, 1]], crs=crs).__geo_interface__
+        assert features["crs"]["properties"]["name"] == "urn:ogc:def:crs:EPSG::2056"
+        assert features["features"] == [
+            {"type": "Feature", "properties": {"label": 1}, "geometry": {"type": "Point", "coordinates": [2.0, 1.0]}}
+        ]
+    assert len(VALUES["AlphaComplex"].__geo_interface__["features"]) == len(VALUES["AlphaComplex"])
+
+
+@pytest.mark.parametrize("name", [name for name, value in VALUES.items() if hasattr(type(value), "__geo_interface__")])
+def test_features_are_json(name):
+    features = VALUES[name].__geo_interface__
+    assert json.loads(json.dumps(features, allow_nan=False)) == features

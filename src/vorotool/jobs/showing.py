@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import UsageError
 from vorotool.geometry.any.features import features_of
-from vorotool.geometry.crs import is_geographic
+from vorotool.geometry.crs import crs_text, is_geographic, member_of_text
 from vorotool.geometry.extras import needed
 from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation
 from vorotool.geometry.mesh.triangulation import Triangulation
@@ -65,10 +65,7 @@ def _features(value: Any) -> dict[str, Any]:
     import shapely
 
     features = features_of(value)
-    columns = {
-        name: column.tolist() if isinstance(column, np.ndarray) else list(column)
-        for name, column in features.columns.items()
-    }
+    columns = {name: _json_values(column) for name, column in features.columns.items()}
     shapes = [None if text is None else orjson.loads(text) for text in shapely.to_geojson(features.geometry)]
     rows = zip(*columns.values(), strict=True)
     made: dict[str, Any] = {
@@ -79,7 +76,16 @@ def _features(value: Any) -> dict[str, Any]:
         ],
     }
     crs = getattr(features.source, "crs", None)
-    return made if crs is None else {**made, "crs": crs}
+    if crs is None:
+        return made
+    return {**made, "crs": crs if isinstance(crs, dict) else member_of_text(crs_text(crs))}
+
+
+def _json_values(column: Any) -> list[Any]:
+    """A column as lists of JSON have it: None for what is no finite number."""
+    if isinstance(column, np.ndarray) and column.dtype.kind == "f":
+        column = np.ma.masked_invalid(column)
+    return column.tolist() if isinstance(column, np.ndarray) else list(column)
 
 
 # ---- drawings ------------------------------------------------------------------------------------

@@ -62,7 +62,7 @@ def test_rings_too_small_for_shapely():
         (Path("a.geojson"), r"invalid polygons: files are read with vorotool.read\('a.geojson'\)"),
         (5, "invalid polygons: expected polygons or lines of .* but got an int$"),
         (np.array(5.0), "expected polygons .* but got an array of float64 and shape"),
-        (PointSet([[1, 2]]), "expected polygons .* but got a PointSet$"),
+        (PointSet([[1, 2]]), "item 1 is or holds a Point: give polygons or lines"),
         (None, "expected polygons .* but got None$"),
         (shapely.Point(1, 1), "item 1 is or holds a Point"),
         ([HOLED, shapely.MultiPoint([(1, 1)])], "item 2 is or holds a MultiPoint"),
