@@ -316,6 +316,15 @@ def test_the_index_comes_back():
     assert v.region_table(v.tessellate(frame))["n"].tolist() == list(range(len(XY)))
 
 
+def test_places_of_centerlines():
+    skeleton = v.skeleton_exact([HOUSE])
+    expected = v.centerline(skeleton, start=(2, 1), end=(11, 7)).length
+    start, end = shapely.Point(2, 1), {"type": "Point", "coordinates": [11, 7]}
+    assert v.centerline(skeleton, start=start, end=end).length == expected
+    with pytest.raises(InputError, match=r"^invalid end: point 1 is a Polygon"):
+        v.centerline(skeleton, start=start, end=HOUSE)
+
+
 def test_no_form_is_warned_of():
     with warnings.catch_warnings():
         warnings.simplefilter("error", VorotoolWarning)

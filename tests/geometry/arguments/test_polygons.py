@@ -193,6 +193,10 @@ def test_extended_text_names_its_system():
         ),
         (np.ones((9, 3)), r"shapes\[:, :2\] leaves the heights out"),
         (np.ones((2, 9)), r"give the transpose, \.T"),
+        (
+            "GEOMETRYCOLLECTION (" * 10**5 + HOLED.wkt + ")" * 10**5,
+            "brackets of the text are nested more than 100 deep",
+        ),
         ([HOLED.wkt, "hello"], "item 2 is 'hello', no well-known text"),
         ({"type": "Polygon"}, "a geometry has the type 'Polygon' and no coordinates"),
         ({"type": "Polygon", "coordinates": [[["a", "b"]]]}, "ring 1 of item 1 is no list of positions"),

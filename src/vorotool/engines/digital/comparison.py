@@ -51,6 +51,7 @@ def compare_digital(
     source : what `tessellate` accepts
         Each label must have one seed.
     shape, window : tuple of int, optional
+        As in `tessellate`.
     image : bool, optional
         As in `tessellate`.
     strict : bool
@@ -84,7 +85,7 @@ def compare_digital(
     >>> comparison.triangle_precision, comparison.table.rows
     (1.0, 0)
     """
-    seeds, frame = as_seeds(source, "source", image=image), asked_frame(shape, window)
+    seeds, frame = as_seeds(source, "source", image=image, max_pixels=max_pixels), asked_frame(shape, window)
     one_seed_a_label(seeds)
     if not len(seeds):
         return DigitalComparison(1.0, 1.0, 1.0, 1.0, _table([], np.empty(0, np.int64)), {}, "")

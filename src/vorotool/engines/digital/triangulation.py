@@ -266,6 +266,7 @@ def repair_digital(
         Each label must have one seed. Seeds between pixels, or outside the frame, may have no region: they are
         inserted.
     shape, window : tuple of int, optional
+        As in `tessellate`.
     image : bool, optional
         As in `tessellate`.
     strict : bool
@@ -306,7 +307,7 @@ def repair_digital(
     >>> len(mesh), repair.route, repair.filled
     (3, 'repaired', 1)
     """
-    seeds, frame = as_seeds(source, "source", image=image), asked_frame(shape, window)
+    seeds, frame = as_seeds(source, "source", image=image, max_pixels=max_pixels), asked_frame(shape, window)
     order = one_seed_a_label(seeds)
     if not len(seeds):
         return delaunay(seeds), DigitalRepair("chain")

@@ -39,6 +39,7 @@ def verify_digital_triangulation(
     source : what `tessellate` accepts
         What it was made from; no label image.
     shape, window : tuple of int, optional
+        As in `digital_triangulation`.
     image : bool, optional
         As in `digital_triangulation`.
     threads : int

@@ -21,7 +21,7 @@ from vorotool.geometry.arguments.images import as_raster, is_image
 from vorotool.geometry.arguments.points import as_points
 from vorotool.geometry.arguments.polygons import as_polygons
 from vorotool.geometry.numbers import real_number, shown_number
-from vorotool.geometry.pixel_frame import Frame
+from vorotool.geometry.pixel_frame import MAX_PIXELS, Frame
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.points.seed_set import SeedSet
@@ -42,12 +42,20 @@ _RASTERIZED = option(
 _WIDEST_TYPE = option("--dtype uint32", 'dtype="uint32"')
 
 
-def as_seeds(source: Any, name: str = "seeds", *, image: bool | None = None, check: Check = None) -> SeedSet:
+def as_seeds(
+    source: Any,
+    name: str = "seeds",
+    *,
+    image: bool | None = None,
+    max_pixels: int = MAX_PIXELS,
+    check: Check = None,
+) -> SeedSet:
     """Give seeds from whatever `tessellate` accepts; `check` may refuse them before anyone is told that they moved."""
     if isinstance(source, SeedSet):
         seeds = source
     elif is_image(source, name, image):
-        seeds = seeds_from_raster(as_raster(source, name), mode="labels" if isinstance(source, LabelImage) else None)
+        raster = as_raster(source, name, max_pixels=max_pixels)
+        seeds = seeds_from_raster(raster, mode="labels" if isinstance(source, LabelImage) else None)
         seeds = _moved_to(seeds, source.frame) if isinstance(source, LabelImage) else seeds
     else:
         return seeds_from_points(_points(source, name), check=check)

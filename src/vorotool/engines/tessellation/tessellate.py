@@ -108,7 +108,7 @@ def tessellate(
         if len(made) or made.is_empty_image:
             require_memory(frame or default_frame(made), max_pixels)
 
-    seed_set = as_seeds(seeds, image=image, check=require_frame)
+    seed_set = as_seeds(seeds, image=image, max_pixels=max_pixels, check=require_frame)
     rows = labelled_rows(
         seed_set,
         frame,

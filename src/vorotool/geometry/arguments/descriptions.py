@@ -94,6 +94,8 @@ def column_names(value: Any) -> list[Any] | None:
     fields = getattr(getattr(value, "dtype", None), "names", None)
     if fields:
         return list(fields)
+    if hasattr(value, "dims"):  # of xarray, whose axes may have any name
+        return None
     names = getattr(value, "column_names", None)  # pyarrow, whose columns are arrays
     names = getattr(value, "columns", None) if names is None else names
     if names is None or callable(names) or not hasattr(value, "__getitem__"):

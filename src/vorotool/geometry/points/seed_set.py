@@ -13,6 +13,7 @@ from vorotool.errors import InputError
 from vorotool.geometry.checks import whole_numbers
 from vorotool.geometry.pixel_frame import Frame
 from vorotool.geometry.pixel_grid import PixelGrid
+from vorotool.geometry.row_index import check_index
 
 FINEST_SCALE = 256
 """Lattice steps a pixel at most: coordinates are kept to 1/256 of a pixel."""
@@ -93,6 +94,8 @@ class SeedSet:
             sites = np.stack([self.x[chosen], self.y[chosen]], axis=1) / self.scale
             object.__setattr__(self, "sites", sites)
             object.__setattr__(self, "site_labels", labels)
+        assert self.sites is not None
+        check_index(self.index, len(self.sites), "site")
 
     def __len__(self) -> int:
         return len(self.x)
