@@ -143,6 +143,7 @@ def test_what_is_missing_or_empty_is_left_out_in_step():
     assert made.feature.tolist() == [0, 0, 3]
     assert made.properties["count"] == [2, 2, 3]
     assert as_polygons([None, HOLED, None]).feature.tolist() == [1]
+    assert as_polygons({"type": "MultiLineString", "coordinates": [[], [[0, 0], [1, 1]]]}).is_line.tolist() == [True]
     assert len(as_polygons(FRAME.iloc[:0])) == len(as_polygons(geopandas.GeoSeries([None, None]))) == 0
 
 
