@@ -122,7 +122,7 @@ def test_masks_that_say_nothing():
 @pytest.mark.parametrize("wrong", [[0, 1], np.zeros((2, 2, 2)), "mask", None, [["a"]], [[1j]]])
 @pytest.mark.parametrize("function", [vorotool.distance_transform, vorotool.expand_labels, vorotool.medial_axis])
 def test_what_is_no_image_is_refused(function, wrong):
-    with pytest.raises(InputError, match="invalid (mask|labels): "):
+    with pytest.raises(InputError, match=r"invalid (mask|labels): "):
         function(wrong)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,13 +34,16 @@ from vorotool.geometry.progress import Progress
 from vorotool.geometry.ragged import ranges, starts_of
 from vorotool.geometry.table import Table
 
+if TYPE_CHECKING:
+    from vorotool.typing import AlphaRule, MeshLike, RealLike
+
 RULES = ("corrected", "printed")
 
 
 def alpha_complex(
-    points: Any,
+    points: DigitalTriangulation | MeshLike,
     *,
-    rule: str = "corrected",
+    rule: AlphaRule = "corrected",
     strict: bool = False,
     allow_empty: bool | None = None,
     threads: int = 0,
@@ -107,8 +110,10 @@ def alpha_complex(
     if isinstance(points, DigitalTriangulation):
         mesh, edges, sides = linked_digital(points)
     else:
-        given = isinstance(points, Triangulation)
-        mesh = points if given else delaunay(points, strict=strict, threads=threads, progress=progress)
+        if isinstance(points, Triangulation):
+            mesh = points
+        else:
+            mesh = delaunay(points, strict=strict, threads=threads, progress=progress)
         edges, sides = _edges_and_sides(mesh, threads, progress)
     if len(mesh.points) - mesh.duplicates < 2:
         report_too_few(len(mesh.points), allow_empty=allows_empty(points, allow_empty), strict=strict)
@@ -210,14 +215,14 @@ def chosen_radius(r: Any, alpha: Any, automatic: bool = False) -> Radius | None:
 
 
 def alpha_shape(
-    points: Any,
+    points: AlphaComplex | DigitalTriangulation | MeshLike,
     *,
-    r: Any = None,
-    alpha: Any = None,
+    r: RealLike | None = None,
+    alpha: RealLike | None = None,
     regions: int = 1,
-    hole_threshold: Any = None,
-    region_threshold: Any = None,
-    rule: str = "corrected",
+    hole_threshold: RealLike | None = None,
+    region_threshold: RealLike | None = None,
+    rule: AlphaRule = "corrected",
     strict: bool = False,
     allow_empty: bool | None = None,
     threads: int = 0,

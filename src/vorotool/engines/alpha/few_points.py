@@ -56,7 +56,7 @@ def refuse_or_warn(reason: str, advice: str, *, allow_empty: bool, strict: bool)
         raise InputError(f"{reason}{advice}")
     if strict:
         raise InputError(f"{reason}{f'{advice}, or' if advice else ':'} leave out {STRICT} for an empty shape")
-    warnings.warn(f"{reason}{advice}; the shape is empty", VorotoolWarning, stacklevel=3)
+    warnings.warn(VorotoolWarning(f"{reason}{advice}; the shape is empty"), stacklevel=3)
 
 
 def radius_below_all(family: AlphaComplex) -> float:

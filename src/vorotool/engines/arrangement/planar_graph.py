@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import warnings
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,13 +22,18 @@ from vorotool.geometry.polygons.polygon_set import LINE, PolygonSet
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.ragged import divides, owners, ranges
 
+if TYPE_CHECKING:
+    from vorotool.typing import PolygonsLike
+
 MOST_VERTICES = 2**28
 """Segments are numbered in 31 bits, and crossings make more of them."""
 MOST_OVERLAPS = 2**26
 """Polygons of all faces together, as the core has it."""
 
 
-def planar_graph(polygons: Any, *, strict: bool = False, threads: int = 0, progress: Progress = None) -> PlanarGraph:
+def planar_graph(
+    polygons: PolygonsLike, *, strict: bool = False, threads: int = 0, progress: Progress = None
+) -> PlanarGraph:
     """Place polygons and open lines on an integer lattice, and cut them where they meet.
 
     The step of the lattice is the least power of two for which the extent fits into 31 signed bits, its origin a

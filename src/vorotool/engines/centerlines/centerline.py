@@ -5,7 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Literal, get_args
+from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +23,9 @@ from vorotool.geometry.ragged import owners
 from vorotool.geometry.skeleton.centerline import Centerlines, without_centerline
 from vorotool.geometry.skeleton.skeleton import Skeleton
 
+if TYPE_CHECKING:
+    from vorotool.typing import PointsLike
+
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int32]
 Booleans = NDArray[np.bool_]
@@ -36,8 +39,8 @@ MOST_NAMED = 10
 def centerline(
     skeleton: Skeleton,
     *,
-    start: Place | None = None,
-    end: Place | None = None,
+    start: PointsLike | None = None,
+    end: PointsLike | None = None,
     ends: Ends = "middle",
     progress: Progress = None,
 ) -> Centerlines:
@@ -117,7 +120,7 @@ def centerline(
 
 
 def _path_between(
-    network: Network, skeleton: Skeleton, start: Place | None, end: Place | None, ends: Ends, progress: Progress
+    network: Network, skeleton: Skeleton, start: Any, end: Any, ends: Ends, progress: Progress
 ) -> Centerlines:
     """The one path with a place that is given at one end or both."""
     start, end = (None if place is None else as_place(place, name) for name, place in (("start", start), ("end", end)))

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,12 +23,15 @@ from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.points.point_set import known_of_points
 from vorotool.geometry.progress import Progress
 
+if TYPE_CHECKING:
+    from vorotool.typing import FrameLike, MeshLike, PolygonsLike
+
 
 def voronoi_cells(
-    points: Any,
+    points: MeshLike,
     *,
-    frame: Box | Sequence[float] | None = None,
-    clip: Any = None,
+    frame: FrameLike | None = None,
+    clip: PolygonsLike | None = None,
     threads: int = 0,
     progress: Progress = None,
 ) -> CellSet:
@@ -90,7 +92,7 @@ def voronoi_cells(
     return cells if area is None else _clipped(cells, area)
 
 
-def _box(frame: Box | Sequence[float] | None, mesh: Triangulation, area: Any) -> Box:
+def _box(frame: FrameLike | None, mesh: Triangulation, area: Any) -> Box:
     if frame is not None:
         return as_box(frame, "frame")
     if area is None:

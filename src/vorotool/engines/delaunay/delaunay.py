@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -16,11 +16,14 @@ from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.points.point_set import known_of_points
 from vorotool.geometry.progress import Progress
 
+if TYPE_CHECKING:
+    from vorotool.typing import SeedsLike
+
 MOST_POINTS = 2**28
 """Half-edges, six a point, are counted in 32 bits."""
 
 
-def delaunay(points: Any, *, strict: bool = False, threads: int = 0, progress: Progress = None) -> Triangulation:
+def delaunay(points: SeedsLike, *, strict: bool = False, threads: int = 0, progress: Progress = None) -> Triangulation:
     """Triangulate points so that no circle through the vertices of a triangle holds another point.
 
     Every decision is exact for all finite coordinates. The result depends on the points alone: other numbers of

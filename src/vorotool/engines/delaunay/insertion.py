@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,15 +18,20 @@ from vorotool.geometry.points.point_set import PointSet, known_of_points
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.row_index import joined_index
 
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from vorotool.typing import PointsLike
+
 MANY = 0.25
 """Of the points there are: more further ones are triangulated sooner along with these, from the beginning."""
 
 
 def insert_points(
     mesh: Triangulation,
-    points: Any,
+    points: PointsLike,
     *,
-    hint: Any = None,
+    hint: ArrayLike | None = None,
     strict: bool = False,
     threads: int = 0,
     progress: Progress = None,

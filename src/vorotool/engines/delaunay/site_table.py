@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -17,12 +17,15 @@ from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.table import Table
 
+if TYPE_CHECKING:
+    from vorotool.typing import FrameLike
+
 
 def site_table(
     mesh: Triangulation,
     cells: CellSet | None = None,
     *,
-    frame: Any = None,
+    frame: FrameLike | None = None,
     properties: bool = True,
     threads: int = 0,
     progress: Progress = None,

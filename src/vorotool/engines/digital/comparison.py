@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import ceil
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,12 +26,15 @@ from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.table import Table
 
+if TYPE_CHECKING:
+    from vorotool.typing import SeedsLike
+
 COVERED = 0.75
 """Share of what is missing that a suggested frame or scale would show."""
 
 
 def compare_digital(
-    source: Any,
+    source: SeedsLike,
     *,
     shape: tuple[int, int] | None = None,
     window: tuple[int, int, int, int] | None = None,

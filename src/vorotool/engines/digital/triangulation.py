@@ -5,7 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,6 +31,9 @@ from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.geometry.progress import Progress
 
+if TYPE_CHECKING:
+    from vorotool.typing import SeedsLike
+
 _ONE_A_LABEL = option(
     "--seeds pixels or centroids, or --method digital",
     'mode="pixels" or "centroids" of seeds_from_raster, or digital_triangulation',
@@ -39,7 +42,7 @@ _ONE_A_LABEL = option(
 
 
 def digital_triangulation(
-    source: Any,
+    source: SeedsLike,
     *,
     shape: tuple[int, int] | None = None,
     window: tuple[int, int, int, int] | None = None,
@@ -214,7 +217,7 @@ class DigitalRepair:
     fault: str | None = None
 
 
-def digital_delaunay(source: Any, **options: Any) -> Triangulation:
+def digital_delaunay(source: SeedsLike, **options: Any) -> Triangulation:
     """Give the Delaunay triangulation of seeds from their digital tessellation, repaired and certified.
 
     The result is that of ``delaunay(seeds)``, array by array.
@@ -240,7 +243,7 @@ def digital_delaunay(source: Any, **options: Any) -> Triangulation:
 
 
 def repair_digital(
-    source: Any,
+    source: SeedsLike,
     *,
     shape: tuple[int, int] | None = None,
     window: tuple[int, int, int, int] | None = None,

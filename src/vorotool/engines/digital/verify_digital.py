@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,10 +15,13 @@ from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation
 from vorotool.geometry.pixel_frame import Frame
 
+if TYPE_CHECKING:
+    from vorotool.typing import SeedsLike
+
 
 def verify_digital_triangulation(
     found: DigitalTriangulation,
-    source: Any,
+    source: SeedsLike,
     *,
     shape: tuple[int, int] | None = None,
     window: tuple[int, int, int, int] | None = None,

@@ -15,8 +15,12 @@ from vorotool.geometry.mesh.triangulation import Triangulation
 if TYPE_CHECKING:
     import shapely
 
+    from vorotool.typing import HasGeoInterface, MeshLike
 
-def voronoi_polygons(points: Any, *, extend_to: Any = None, threads: int = 0) -> shapely.GeometryCollection:
+
+def voronoi_polygons(
+    points: MeshLike, *, extend_to: HasGeoInterface | None = None, threads: int = 0
+) -> shapely.GeometryCollection:
     """Give the exact Voronoi cells of points as polygons of shapely.
 
     As `shapely.voronoi_polygons` with ``ordered=True``: the cells fill the bounds of the points, widened on all sides

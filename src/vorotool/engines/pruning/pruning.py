@@ -6,7 +6,7 @@ from dataclasses import replace
 from decimal import Decimal, localcontext
 from functools import partial
 from itertools import pairwise, starmap
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +22,9 @@ from vorotool.geometry.progress import Progress
 from vorotool.geometry.ragged import owners, starts_of
 from vorotool.geometry.skeleton.critical_values import CRITERIA, ArcProfiles, CriticalValues
 from vorotool.geometry.skeleton.skeleton import Skeleton
+
+if TYPE_CHECKING:
+    from vorotool.typing import Criterion
 
 Floats = NDArray[np.float64]
 
@@ -183,7 +186,7 @@ def _pruned_part(
     return {**left, "sites": np.where(is_reversed[:, None], sites[:, ::-1], sites)}
 
 
-def critical_values(skeleton: Skeleton, criterion: str, *, progress: Progress = None) -> CriticalValues:
+def critical_values(skeleton: Skeleton, criterion: Criterion, *, progress: Progress = None) -> CriticalValues:
     """Compute for all places of a skeleton the smallest threshold that removes them.
 
     Parameters

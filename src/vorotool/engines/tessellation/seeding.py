@@ -5,7 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from typing import Any, Literal, get_args
+from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +29,9 @@ from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.points.seed_set import FINEST_SCALE, SeedSet
 from vorotool.geometry.row_index import index_of_rows
 
+if TYPE_CHECKING:
+    from vorotool.typing import ImageLike, PointsLike
+
 _CENTROIDS = option("--seeds centroids", 'mode="centroids"')
 
 SeedMode = Literal["pixels", "components", "labels", "centroids"]
@@ -43,7 +46,7 @@ CHUNK = 1 << 22
 """Pixels that are counted at a time."""
 
 
-def seeds_from_points(points: Any, *, strict: bool = False, check: Check = None) -> SeedSet:
+def seeds_from_points(points: PointsLike, *, strict: bool = False, check: Check = None) -> SeedSet:
     """Put points on the lattice of seeds.
 
     Parameters
@@ -147,7 +150,7 @@ def _coarsest_scale(lattice: NDArray[np.int64]) -> int:
 
 
 def seeds_from_raster(
-    raster: Any,
+    raster: ImageLike,
     *,
     mode: SeedMode | None = None,
     connectivity: int = 8,

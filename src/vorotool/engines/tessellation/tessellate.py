@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from numpy.typing import NDArray
 
@@ -26,11 +26,16 @@ from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.geometry.progress import Progress
 
+if TYPE_CHECKING:
+    from numpy.typing import DTypeLike
+
+    from vorotool.typing import SeedsLike
+
 Method = Literal["exact", "propagation"]
 
 
 def tessellate(
-    seeds: Any,
+    seeds: SeedsLike,
     *,
     shape: tuple[int, int] | None = None,
     window: tuple[int, int, int, int] | None = None,
@@ -38,7 +43,7 @@ def tessellate(
     method: Method = "exact",
     passes: int = 2,
     max_distance: float | Fraction | None = None,
-    dtype: Any = None,
+    dtype: DTypeLike | None = None,
     out: NDArray[Any] | None = None,
     threads: int = 0,
     max_pixels: int = MAX_PIXELS,
