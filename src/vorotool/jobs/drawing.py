@@ -23,9 +23,10 @@ from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.offsets import Offsets
 from vorotool.geometry.skeleton.skeleton import Skeleton
 from vorotool.jobs.inputs import JobInput, note_other_size, refuse
+from vorotool.jobs.label_pictures import LabelPicture, default_layers
 from vorotool.jobs.options import DrawingOptions
 from vorotool.jobs.picture_style import styled_page
-from vorotool.jobs.pictures import default_layers, drawing_of, write_label_picture, write_layers
+from vorotool.jobs.pictures import drawing_of, write_layers
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target, check_picture_options
 from vorotool.products.inputs import DRAWN_NAMES, Holds, known_input_format
@@ -33,7 +34,9 @@ from vorotool.products.registry import PRODUCTS, Product
 
 _SKELETONS = PRODUCTS["skeleton-exact"]
 _COLOURED = PRODUCTS["tessellate"]["colour"].layers
-LABEL_LAYERS = {fmt: [layer for layer in layers if layer != "seeds"] for fmt, layers in _COLOURED.items()}
+LABEL_LAYERS = {
+    fmt: [layer for layer in layers if layer not in ("objects", "seeds")] for fmt, layers in _COLOURED.items()
+}
 """A label image from a file has no seeds."""
 
 Lined = Skeleton | Offsets | PolygonSet
@@ -128,17 +131,17 @@ def _of_labels(run: Run, o: DrawingOptions, given: JobInput, image: LabelImage, 
     image = _objects(run, image)
     with run.phase("colour"):
         colours = object_colours(image, threads=o.threads)
-    draw = partial(
-        write_label_picture,
-        image=image,
-        colours=colours,
-        fmt=fmt,
-        layers=o.layers or default_layers(image, ("cells", "labels") if fmt == "svg" else ("cells",)),
+    picture = LabelPicture(
+        image,
+        colours,
+        o.layers or default_layers(image, ("cells", "labels") if fmt == "svg" else ("cells",)),
+        o.looks.style(),
         width=o.width or 1000,
         y_up=bool(o.y_up),
         backdrop=given.backdrop,
         threads=o.threads,
     )
+    draw = partial(picture.write, fmt=fmt)
     return draw, {"shape": image.shape, "colours": int(colours[1].max(initial=0))}
 
 

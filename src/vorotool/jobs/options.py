@@ -44,6 +44,9 @@ class JobOptions:
     overlay: str | None
     width: int | None
     y_up: bool | None
+    background: str | None
+    colours: tuple[tuple[str, str], ...]
+    line_widths: tuple[tuple[str, float], ...]
     max_pixels: int
     threads: int
     quiet: bool
@@ -69,8 +72,13 @@ class JobOptions:
 
     @property
     def looks(self) -> Looks:
-        """The looks of pictures that are made of layers."""
-        return Looks()
+        """The looks of pictures."""
+        return Looks(*self.paper, self.background, self.colours, self.line_widths)
+
+    @property
+    def paper(self) -> tuple[Scale | None, str | None]:
+        """Scale of SVG, and the unit of the input, where pictures are of lines and areas."""
+        return None, None
 
     @property
     def is_of_many(self) -> bool:
@@ -108,16 +116,12 @@ class DrawingOptions(JobOptions):
 
     scale: Scale | None
     drawing_unit: str | None
-    background: str | None
-    colours: tuple[tuple[str, str], ...]
-    line_widths: tuple[tuple[str, float], ...]
+    what: tuple[str, ...] = ("picture",)
 
     @property
-    def looks(self) -> Looks:
-        """The looks of pictures."""
-        return Looks(self.scale, self.drawing_unit, self.background, self.colours, self.line_widths)
-
-    what: tuple[str, ...] = ("picture",)
+    def paper(self) -> tuple[Scale | None, str | None]:
+        """Scale of SVG, and the unit of the input."""
+        return self.scale, self.drawing_unit
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -204,30 +208,26 @@ class TessellationOptions(SiteOptions):
         """The side of the cells of a map, where the frame is in its units."""
         return self.cell_size
 
+    @property
+    def draws_diagram(self) -> bool:
+        """Whether the diagram as PNG is a picture, not a mask."""
+        return bool(self.layers or self.overlay or self.looks.given())
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class LayeredOptions(SiteOptions):
-    """What the commands have whose pictures are made of layers."""
+class TriangulationOptions(SiteOptions):
+    """Of ``delaunay``."""
 
     scale: Scale | None
     drawing_unit: str | None
-    background: str | None
-    colours: tuple[tuple[str, str], ...]
-    line_widths: tuple[tuple[str, float], ...]
-
-    @property
-    def looks(self) -> Looks:
-        """The looks of pictures."""
-        return Looks(self.scale, self.drawing_unit, self.background, self.colours, self.line_widths)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class TriangulationOptions(LayeredOptions):
-    """Of ``delaunay``."""
-
     method: Method
     frame: Rectangle | None
     clip: str | None
+
+    @property
+    def paper(self) -> tuple[Scale | None, str | None]:
+        """Scale of SVG, and the unit of the input."""
+        return self.scale, self.drawing_unit
 
     @property
     def triangulated_by(self) -> Method:
@@ -240,9 +240,11 @@ class TriangulationOptions(LayeredOptions):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class AlphaShapeOptions(LayeredOptions):
+class AlphaShapeOptions(SiteOptions):
     """Of ``alphashape``."""
 
+    scale: Scale | None
+    drawing_unit: str | None
     method: Method
     r: Fraction | float | None
     alpha: Fraction | None
@@ -251,6 +253,11 @@ class AlphaShapeOptions(LayeredOptions):
     rule: Literal["corrected", "printed"]
     hole_threshold: Fraction | None
     region_threshold: Fraction | None
+
+    @property
+    def paper(self) -> tuple[Scale | None, str | None]:
+        """Scale of SVG, and the unit of the input."""
+        return self.scale, self.drawing_unit
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -274,14 +281,11 @@ class SkeletonOptions(ComputingOptions):
     seeds: Literal["components", "labels"] | None
     scale: Scale | None
     drawing_unit: str | None
-    background: str | None
-    colours: tuple[tuple[str, str], ...]
-    line_widths: tuple[tuple[str, float], ...]
 
     @property
-    def looks(self) -> Looks:
-        """The looks of pictures."""
-        return Looks(self.scale, self.drawing_unit, self.background, self.colours, self.line_widths)
+    def paper(self) -> tuple[Scale | None, str | None]:
+        """Scale of SVG, and the unit of the input."""
+        return self.scale, self.drawing_unit
 
     @property
     def wants_skeleton(self) -> bool:

@@ -6,16 +6,22 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from vorotool.errors import UsageError
+from vorotool.geometry.numbers import finite_double
 
 if TYPE_CHECKING:
     from vorotool.jobs.options import JobOptions
     from vorotool.render.canvas.layers import Page
+    from vorotool.render.canvas.styles import PictureStyle
 
 MILLIMETRES = {
     **{"nm": 1e-6, "um": 1e-3, "mm": 1.0, "cm": 10.0, "dm": 100.0, "m": 1e3, "km": 1e6},
     **{"in": 25.4, "ft": 304.8, "yd": 914.4},
 }
 """Of the units that ``--unit`` has."""
+
+
+LARGEST_WIDTH = 1e6
+"""Px of a line."""
 
 
 class Scale(NamedTuple):
@@ -46,6 +52,14 @@ class Looks(NamedTuple):
     colours: tuple[tuple[str, str], ...] = ()
     line_widths: tuple[tuple[str, float], ...] = ()
 
+    def style(self) -> PictureStyle:
+        """Ground, colours and widths, as what draws takes them."""
+        from vorotool.render.canvas.palettes import WHITE
+        from vorotool.render.canvas.styles import PictureStyle
+
+        ground = WHITE if self.background is None else self.background
+        return PictureStyle(None if ground == "none" else ground, dict(self.colours), dict(self.line_widths))
+
     def given(self) -> list[str]:
         """Names of the options that are given."""
         names = ("scale", "unit", "background", "color", "line-width")
@@ -75,14 +89,12 @@ def check_style(
     """
     looks = o.looks
     given = looks.given()
-    for name in given:
-        if not pictures:
-            raise UsageError(f"--{name} is for pictures: use -f svg or -f png, or leave it out")
+    if given and not pictures:
+        raise UsageError(f"--{given[0]} is for pictures: use -f svg or -f png, or leave it out")
+    for name in [each for each in given if each in ("scale", "unit")]:
         if not is_of_lines:
-            raise UsageError(
-                f"--{name} is for pictures of lines and areas, not for those of label images: leave it out"
-            )
-    for name in set(given) & {"scale", "unit"}:
+            of = "of lines and areas, not for those of label images"
+            raise UsageError(f"--{name} is for pictures {of}: leave it out")
         if "png" in pictures:
             raise UsageError(f"--{name} is for SVG, a PNG has pixels: use -f svg, or leave it out")
         if o.width is not None or o.overlay is not None:
@@ -92,13 +104,59 @@ def check_style(
         raise UsageError("--scale S is millimetres a unit: leave out --unit, or use --scale 1:N")
     if looks.background is not None and o.overlay is not None:
         raise UsageError("--overlay is the ground: leave out --background")
-    if looks.background == "none" and "png" in pictures:
-        raise UsageError("a PNG has a ground: use -f svg, or another --background")
     for option, chosen in (("color", looks.colours), ("line-width", looks.line_widths)):
         for layer, _ in chosen:
             if not any(layer in layers[fmt] for fmt in pictures):
                 known = dict.fromkeys(each for fmt in pictures for each in layers[fmt])
                 raise UsageError(f"--{option} {layer}: the picture has {', '.join(known)}; choose of these")
+
+
+def looks_of(
+    *, color: Mapping[str, str] | None, line_width: Mapping[str, float] | None, background: str | None
+) -> Looks:
+    """Give the looks that the library is asked for; see `vorotool.write`.
+
+    Raises
+    ------
+    UsageError
+        If a colour is none, or a width no number from 0 on.
+
+    Examples
+    --------
+    >>> looks_of(color={"seeds": "red"}, line_width=None, background=None).colours
+    (('seeds', '#ff0000'),)
+    """
+    ground = background if background in (None, "none") else _colour(background, "background")
+    colours = tuple((layer, _colour(each, f"color of {layer}")) for layer, each in (color or {}).items())
+    widths = tuple((layer, finite_double(each, f"line_width of {layer}")) for layer, each in (line_width or {}).items())
+    for layer, width in widths:
+        if not 0 <= width < LARGEST_WIDTH:
+            raise UsageError(f"invalid line_width of {layer} {width}: expected a number of px from 0 on")
+    return Looks(None, None, ground, colours, widths)
+
+
+def _colour(text: object, what: str) -> str:
+    code = colour_code(text) if isinstance(text, str) else None
+    if code is None:
+        raise UsageError(f"invalid {what} {text!r}: expected a colour such as '#aa3344' or 'navy'")
+    return code
+
+
+def check_layers(looks: Looks, drawn: Sequence[str]) -> None:
+    """Refuse colours and widths of layers that a picture has not.
+
+    Raises
+    ------
+    UsageError
+        If there are some; the layers of the picture are named.
+    """
+    from vorotool.render.canvas.styles import DRAWN_AS
+
+    known = [*dict.fromkeys([*drawn, *(DRAWN_AS[layer] for layer in drawn if layer in DRAWN_AS)])]
+    for option, chosen in (("color", looks.colours), ("line_width", looks.line_widths)):
+        for layer, _ in chosen:
+            if layer not in known:
+                raise UsageError(f"invalid {option} of {layer!r}: expected a layer of the picture, {', '.join(known)}")
 
 
 def styled_page(page: Page, o: JobOptions, unit: str | None) -> Page:
@@ -118,16 +176,30 @@ def styled_page(page: Page, o: JobOptions, unit: str | None) -> Page:
     UsageError
         If a ratio has no unit to go by.
     """
-    from vorotool.render.canvas.palettes import WHITE
     from vorotool.render.canvas.scaled_page import ScaledPage
-    from vorotool.render.canvas.styles import PictureStyle
 
     looks = o.looks
     if looks.scale is not None or looks.drawing_unit is not None:
         page = ScaledPage(page.bounds, y_up=page.y_up, millimetres=_millimetres(looks, unit))
-    ground = WHITE if looks.background is None else looks.background
-    page.style = PictureStyle(None if ground == "none" else ground, dict(looks.colours), dict(looks.line_widths))
+    page.style = looks.style()
     return page
+
+
+def colour_code(text: str) -> str | None:
+    """Give a colour, ``#rrggbb`` or a name as in CSS, as ``#rrggbb``; None if it is none.
+
+    Examples
+    --------
+    >>> colour_code("navy"), colour_code("#fff"), colour_code("#12345678")
+    ('#000080', '#ffffff', None)
+    """
+    from PIL import ImageColor
+
+    try:
+        rgb: tuple[int, ...] = ImageColor.getrgb(text.strip().lower())
+    except ValueError:
+        return None
+    return "#" + "".join(f"{channel:02x}" for channel in rgb) if len(rgb) == 3 else None
 
 
 def _millimetres(looks: Looks, unit: str | None) -> float:

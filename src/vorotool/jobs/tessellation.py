@@ -206,12 +206,8 @@ class Products:
 
     def _is_picture(self, target: Target) -> bool:
         """Whether it is drawn from the whole image."""
-        layered = bool(self.options.layers or self.backdrop)
-        return (
-            target.what == "colour"
-            or target.fmt == "svg"
-            or (target.what == "diagram" and target.fmt == "png" and layered)
-        )
+        is_diagram = (target.what, target.fmt) == ("diagram", "png")
+        return target.what == "colour" or target.fmt == "svg" or (is_diagram and self.options.draws_diagram)
 
     def _tell(self, target: Target) -> None:
         """Say what may surprise in a result."""
@@ -272,19 +268,22 @@ class Products:
         return table_in_units(self.options.pixel_size, neighbour_table(self.image, measures=self.measures))
 
     def _write_picture(self, out: BinaryIO, target: Target) -> None:
-        from vorotool.jobs.pictures import default_layers, write_label_picture
+        from vorotool.jobs.label_pictures import LabelPicture, default_layers
 
-        write_label_picture(
-            out,
+        o = self.options
+        layers = o.layers or default_layers(self.image, PRODUCTS["tessellate"][target.what].usual_layers)
+        y_up = self.backdrop is None and (self.read.y_up if o.y_up is None else o.y_up)
+        picture = LabelPicture(
             self.image,
             self.colours,
-            fmt=target.fmt,
-            layers=self.options.layers or default_layers(self.image, PRODUCTS["tessellate"][target.what].usual_layers),
-            width=self.options.width or 1000,
-            y_up=self.backdrop is None and (self.read.y_up if self.options.y_up is None else self.options.y_up),
+            layers,
+            o.looks.style(),
+            width=o.width or 1000,
+            y_up=y_up,
             backdrop=self.backdrop,
-            threads=self.options.threads,
+            threads=o.threads,
         )
+        picture.write(out, target.fmt)
 
     def _exact_rows(self) -> Tessellator:
         assert isinstance(self.rows, Tessellator)  # the command refuses distances of the propagation

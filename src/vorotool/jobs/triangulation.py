@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple, cast
 
 from vorotool.engines.delaunay.cells import cell_colours, verify_cells, voronoi_cells
 from vorotool.engines.delaunay.delaunay import delaunay, verify_triangulation
@@ -29,7 +30,7 @@ from vorotool.products.writing import write_product
 if TYPE_CHECKING:
     from vorotool.geometry.box import Box
     from vorotool.geometry.mesh.cells import CellSet
-    from vorotool.render.canvas.layers import Layer, Page
+    from vorotool.render.canvas.layers import Layer, Page, Polygons
 
 
 class ReadPoints(NamedTuple):
@@ -175,6 +176,8 @@ class MeshProducts:
         made: dict[str, Layer] = {layer.name: layer for layer in mesh_layers.mesh_layers(self.mesh, page, of_mesh)}
         if "cells" in wanted:
             made["cells"] = cell_polygons(self.cells, cell_colours(self.mesh), page)
+            if "triangles" in made:  # which would hide the cells
+                made["triangles"] = replace(cast("Polygons", made["triangles"]), is_sheer=True)
         if "diagram" in wanted:
             made["diagram"] = cell_lines(self.cells, page)
         layers = [made[name] for name in PRODUCTS["delaunay"][what].layers[fmt] if name in made]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -10,12 +10,14 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from vorotool.errors import UsageError
 from vorotool.geometry.numbers import shown_number, whole_number
 from vorotool.geometry.pixel_frame import MAX_SIDE
+from vorotool.jobs.picture_style import Looks, check_layers, looks_of
 from vorotool.products.formats import FORMATS, PICTURES, format_named
 from vorotool.products.registry import Product, is_of, parts_of
 from vorotool.products.writing import chosen_part, write_product
 
 if TYPE_CHECKING:
     from vorotool.geometry.points.label_image import LabelImage
+    from vorotool.render.canvas.layers import Page
 
 
 def write(
@@ -29,6 +31,9 @@ def write(
     layers: Sequence[str] | None = None,
     width: int | None = None,
     y_up: bool | None = None,
+    color: Mapping[str, str] | None = None,
+    line_width: Mapping[str, float] | None = None,
+    background: str | None = None,
     threads: int = 0,
 ) -> None:
     """Write a value in any format that has a place for it, or draw it.
@@ -57,6 +62,13 @@ def write(
         Of a picture, in px; by default 1000. The PNG of a label image has its own size.
     y_up : bool, optional
         Draw y upwards; by default as the input is drawn.
+    color : mapping of str to str, optional
+        Of layers of a picture, by their names: ``#rrggbb``, or names as in CSS; of areas of many colours, as cells are,
+        that of their borders.
+    line_width : mapping of str to float, optional
+        Of the lines of layers of a picture, in px; 0 draws none.
+    background : str, optional
+        Colour of the ground of a picture, or ``"none"``; by default white.
     threads : int
         0 uses all.
 
@@ -82,8 +94,10 @@ def write(
     name = fmt or Path(path).suffix
     chosen = format_named(name) or name.lower().removeprefix(".")
     threads = checked_threads(threads)
+    looks = looks_of(color=color, line_width=line_width, background=background)
+    styles = {"color": color, "line_width": line_width, "background": background}
     if chosen not in PICTURES or (is_of(value, "LabelImage") and chosen == "png" and what in (None, "labels")):
-        for option, given in (("layers", layers), ("width", width), ("y_up", y_up)):
+        for option, given in {"layers": layers, "width": width, "y_up": y_up, **styles}.items():
             if given is not None:
                 raise UsageError(f"{option} is for pictures: use fmt='svg' or fmt='png', or leave it out")
         _write_data(value, fspath(path), chosen, what, flatten, precision, threads)
@@ -93,7 +107,7 @@ def write(
             raise UsageError(f"{option} is for numbers in text: leave it out of pictures")
     if width is not None and not 0 <= whole_number(width, "width") <= MAX_SIDE:
         raise UsageError(f"width is {shown_number(width)}: give a number of pixels up to {MAX_SIDE}")
-    _draw(value, _Picture(fspath(path), chosen, what, layers, width, y_up, threads))
+    _draw(value, _Picture(fspath(path), chosen, what, layers, width, y_up, looks, threads))
 
 
 def to_geojson(value: Any, *, what: str | None = None, flatten: float | None = None) -> dict[str, Any]:
@@ -164,7 +178,13 @@ class _Picture(NamedTuple):
     layers: Sequence[str] | None
     width: int | None
     y_up: bool | None
+    looks: Looks
     threads: int
+
+    def styled(self, page: Page) -> Page:
+        """Give a page the looks that are chosen."""
+        page.style = self.looks.style()
+        return page
 
 
 def _draw(value: Any, wanted: _Picture) -> None:
@@ -176,7 +196,15 @@ def _draw(value: Any, wanted: _Picture) -> None:
     if is_of(value, "LabelImage"):
         _draw_labels(value, wanted)
         return
-    drawing = drawing_of(value, what=wanted.what, layers=wanted.layers, width=wanted.width or 1000, y_up=wanted.y_up)
+    drawing = drawing_of(
+        value,
+        what=wanted.what,
+        layers=wanted.layers,
+        width=wanted.width or 1000,
+        y_up=wanted.y_up,
+        styled=wanted.styled,
+    )
+    check_layers(wanted.looks, [layer.name for layer in drawing.layers])
     if wanted.fmt == "png":
         check_picture_size(drawing.page, MAX_PIXELS)
     with open_output(wanted.path, binary=wanted.fmt == "png") as out:
@@ -186,7 +214,7 @@ def _draw(value: Any, wanted: _Picture) -> None:
 def _draw_labels(image: LabelImage, wanted: _Picture) -> None:
     from vorotool.engines.label_images.object_colours import object_colours
     from vorotool.formats.io.atomic_output import open_output
-    from vorotool.jobs.pictures import default_layers, write_label_picture
+    from vorotool.jobs.label_pictures import LabelPicture, default_layers
 
     if wanted.what not in (None, "colour", "color", "labels"):
         raise UsageError(f"what={wanted.what!r} is no picture of a LabelImage: use colour, or leave it out")
@@ -195,14 +223,15 @@ def _draw_labels(image: LabelImage, wanted: _Picture) -> None:
     usual = parts_of(image)["labels" if wanted.what == "labels" else "colour"].usual_layers
     shown = [layer for layer in default_layers(image, usual) if layer != "seeds" or image.seeds is not None]
     colours = object_colours(image, threads=wanted.threads)
+    picture = LabelPicture(
+        image,
+        colours,
+        wanted.layers or shown,
+        wanted.looks.style(),
+        width=wanted.width or 1000,
+        y_up=bool(wanted.y_up),
+        threads=wanted.threads,
+    )
+    check_layers(wanted.looks, picture.layers)
     with open_output(wanted.path, binary=wanted.fmt == "png") as out:
-        write_label_picture(
-            out,
-            image,
-            colours,
-            fmt=wanted.fmt,
-            layers=wanted.layers or shown,
-            width=wanted.width or 1000,
-            y_up=bool(wanted.y_up),
-            threads=wanted.threads,
-        )
+        picture.write(out, wanted.fmt)

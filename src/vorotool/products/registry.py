@@ -85,7 +85,7 @@ _TABLES = " ".join(TABLES)
 # ---- tessellate ----------------------------------------------------------------------------------
 _IMAGES = "png tiff npy text"
 _LABELS = Writer("formats.images.label_images:write_labels", ("fmt", "threads"))
-_COLOURED = {"png": ("cells", "diagram", "seeds", "labels"), "svg": ("cells", "labels", "seeds")}
+_COLOURED = {"png": ("cells", "diagram", "objects", "seeds", "labels"), "svg": ("cells", "labels", "objects", "seeds")}
 _TESSELLATE = (
     _product("labels", "LabelImage", f"{_IMAGES} zarr", _LABELS, {"svg": _COLOURED["svg"]}, "cells seeds labels"),
     _product("diagram", "", _IMAGES, None, {"png": _COLOURED["png"]}, "diagram"),
@@ -199,7 +199,7 @@ def layers_of(command: str) -> dict[str, tuple[str, ...]]:
     Examples
     --------
     >>> layers_of("tessellate")["svg"]
-    ('cells', 'labels', 'seeds')
+    ('cells', 'labels', 'objects', 'seeds')
     """
     own = PRODUCTS[command].values()
     return {fmt: tuple(dict.fromkeys(name for each in own for name in each.layers.get(fmt, ()))) for fmt in PICTURES}
@@ -211,7 +211,7 @@ def all_layers(command: str) -> tuple[str, ...]:
     Examples
     --------
     >>> all_layers("tessellate")
-    ('cells', 'diagram', 'seeds', 'labels')
+    ('cells', 'diagram', 'objects', 'seeds', 'labels')
     """
     by_format = layers_of(command)
     return tuple(dict.fromkeys([*by_format["png"], *by_format["svg"]]))

@@ -67,7 +67,7 @@ _PICTURES = {(what, fmt) for what, each in PRODUCTS["tessellate"].items() for fm
     type=Decimal(),
     help="Side of a pixel in the units of points, lines or polygons on a map; --window is in these units, too.",
 )
-@site_options(all_layers("tessellate"), has_style=False)
+@site_options(all_layers("tessellate"), has_scale=False)
 def command(**options: Any) -> None:
     """Label every pixel with its nearest seed, exactly; ties go to the smallest label.
 
@@ -117,7 +117,7 @@ def _check_output_options(o: TessellationOptions, outputs: set[tuple[str, str]])
         raise UsageError("--tiled is for TIFF: use -f tiff, or leave it out")
     if o.layers is not None and not outputs & _PICTURES:
         raise UsageError("--layers is for pictures: --what colour, labels as SVG, or the diagram as PNG")
-    pictures = sorted(outputs & _PICTURES - ({("diagram", "png")} if o.layers is None and o.overlay is None else set()))
+    pictures = sorted(outputs & _PICTURES - (set() if o.draws_diagram else {("diagram", "png")}))
     check_picture_options(o, [fmt for _, fmt in pictures], layers_of("tessellate"))
 
 

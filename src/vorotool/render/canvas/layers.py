@@ -118,6 +118,8 @@ class Polygons:
         Of the outlines, in px.
     is_alone : (p,) bool array, optional
         Polygons that are paths of their own in SVG in any case, since others lie over them.
+    is_sheer : bool
+        Half of what lies beneath is seen through the fills, as it is over an image in any case.
     """
 
     name: str
@@ -131,6 +133,7 @@ class Polygons:
     edge: str | None = None
     width: float = 1.5
     is_alone: NDArray[np.bool_] | None = None
+    is_sheer: bool = False
 
     @property
     def ring_limits(self) -> NDArray[np.int64]:
@@ -154,12 +157,18 @@ class Polygons:
 
 @dataclass(frozen=True, eq=False)
 class Points:
-    """Discs of one radius, in px."""
+    """Discs of one radius, in px; those with a halo, a colour, have an edge around them."""
 
     name: str
     points: NDArray[np.float64]
     colour: str = SEED
     radius: float = 2.5
+    halo: str | None = None
+
+    @property
+    def edge(self) -> float:
+        """Width of the halo, in px."""
+        return min(1.0, self.radius)
 
 
 @dataclass(frozen=True, eq=False)
@@ -273,8 +282,19 @@ def name_size(page: Page, count: int) -> float:
 Layer = Lines | Curves | Polygons | Points | Texts | Arcs
 
 
+def halo_width(width: float) -> float:
+    """Give the width of a line with a white edge of up to 1 px on both sides: many fine lines leave no more room.
+
+    Examples
+    --------
+    >>> halo_width(1.5), halo_width(0.25)
+    (3.5, 0.75)
+    """
+    return width + min(2.0, 2 * width)
+
+
 def with_halos(layers: Sequence[Layer]) -> list[Layer]:
-    """Put a white edge of up to 1 px beneath each layer of lines, so that they show on dark and on light ground.
+    """Put a white edge beneath each layer of lines and of points, so that they show on dark and on light ground.
 
     Examples
     --------
@@ -284,12 +304,14 @@ def with_halos(layers: Sequence[Layer]) -> list[Layer]:
     """
     made: list[Layer] = []
     for layer in layers:
-        if isinstance(layer, Lines | Curves | Arcs):
-            width = layer.width + min(2.0, 2 * layer.width)  # lines that are fine, as there are many, leave room
-            wider = replace(layer, name=f"{layer.name}-halo", width=width)
-            made.append(
-                replace(wider, edge=WHITE, fill=None) if isinstance(wider, Arcs) else replace(wider, colour=WHITE)
-            )
+        name = f"{layer.name}-halo"
+        if isinstance(layer, Arcs):
+            made.append(replace(layer, name=name, width=halo_width(layer.width), edge=WHITE, fill=None))
+        elif isinstance(layer, Lines | Curves):
+            made.append(replace(layer, name=name, width=halo_width(layer.width), colour=WHITE))
+        elif isinstance(layer, Points):
+            made.append(replace(layer, halo=WHITE))
+            continue
         made.append(layer)
     return made
 

@@ -59,8 +59,9 @@ def layer_bands(layers: Iterable[Layer], page: Page) -> Iterator[NDArray[np.uint
 
     Yields
     ------
-    (rows, 3 W) uint8 array
-        Red, green and blue of each pixel, in bands from top to bottom.
+    (rows, 3 W) or (rows, 4 W) uint8 array
+        Red, green and blue of each pixel, in bands from top to bottom; where the page has no ground, how opaque it is,
+        too.
 
     Examples
     --------
@@ -96,14 +97,17 @@ class _Canvas:
             lines = layer.flattened(places, FLATNESS)
             self._stroke(*lines, layer.width, self._colour(layer.colour))
         elif isinstance(layer, Points):
+            if layer.halo is not None:
+                self._discs(places, (layer.radius + layer.edge) * FINE, self._colour(layer.halo))
             self._discs(places, layer.radius * FINE, self._colour(layer.colour))
         elif isinstance(layer, Texts):
             self._write(layer, places)
 
     def bands(self) -> Iterator[NDArray[np.uint8]]:
-        """Means of the colours of FINE x FINE pixels; where nothing is drawn, that is white or the image."""
-        backdrop = self.page.backdrop
-        names = [(self.page.style.ground or WHITE) if backdrop is None else NOTHING, *self.colours]
+        """Means of the colours of FINE x FINE pixels; where nothing is drawn, that of the ground or the image."""
+        backdrop, ground = self.page.backdrop, self.page.style.ground
+        has_alpha = backdrop is None and ground is None
+        names = [NOTHING if backdrop is not None or ground is None else ground, *self.colours]
         palette = np.array([list(bytes.fromhex(name[1:])) for name in names], dtype=np.uint16)
         for top in range(0, self.page.height, BAND_ROWS):
             fine = self.indices[top * FINE : (top + BAND_ROWS) * FINE]
@@ -116,7 +120,7 @@ class _Canvas:
                 bare[:, :, 0] += part == 0
             if backdrop is not None:
                 sums += bare * backdrop.pixels[top : top + rows]
-            yield ((sums + FINE**2 // 2) // FINE**2).astype(np.uint8).reshape(rows, -1)
+            yield (_with_alpha(sums, FINE**2 - bare) if has_alpha else _means(sums, FINE**2)).reshape(rows, -1)
 
     def _colour(self, name: str) -> int:
         number = self.colours.setdefault(name, len(self.colours) + 1)
@@ -137,11 +141,18 @@ class _Canvas:
         while start < len(corner_limits) - 1:  # some whole polygons at a time
             stop = max(start + 1, int(np.searchsorted(corner_limits, corner_limits[start] + _ITEMS, "right")) - 1)
             part = slice(corner_limits[start], corner_limits[stop])
-            self._fill_part(places, sides[part], owner[part], fills)
+            is_sheer = layer.is_sheer or self.page.backdrop is not None
+            self._fill_part(places, sides[part], owner[part], fills, is_sheer=is_sheer)
             start = stop
 
     def _fill_part(
-        self, places: NDArray[np.float64], sides: NDArray[np.int32], owner: NDArray[np.int64], fills: NDArray[np.uint8]
+        self,
+        places: NDArray[np.float64],
+        sides: NDArray[np.int32],
+        owner: NDArray[np.int64],
+        fills: NDArray[np.uint8],
+        *,
+        is_sheer: bool,
     ) -> None:
         a, b = places[sides[:, 0]], places[sides[:, 1]]
         height = self.indices.shape[0]
@@ -152,7 +163,7 @@ class _Canvas:
         x = a[side, 0] + (row + 0.5 - a[side, 1]) * slope
         order = np.lexsort((x, row, owner[side]))
         row, x, of = row[order], np.ceil(x[order] - 0.5), owner[side][order]
-        self._set_rows(row[::2], x[::2], x[1::2], fills[of[::2]], every_other=self.page.backdrop is not None)
+        self._set_rows(row[::2], x[::2], x[1::2], fills[of[::2]], every_other=is_sheer)
 
     def _stroke(self, places: NDArray[np.float64], pairs: NDArray[np.int32], width: float, value: int) -> None:
         """Draw lines as runs of pixels across them: a column of pixels where they are flat, else a row."""
@@ -243,6 +254,15 @@ class _Canvas:
                 run, x = run[chosen], x[chosen]
             drawing[row[begin:end][run], x] = values if isinstance(values, int) else values[begin:end][run]
             begin = end
+
+
+def _means(sums: NDArray[np.uint16], counts: NDArray[np.uint16] | int) -> NDArray[np.uint8]:
+    return ((sums + counts // 2) // counts).astype(np.uint8)
+
+
+def _with_alpha(sums: NDArray[np.uint16], drawn: NDArray[np.uint16]) -> NDArray[np.uint8]:
+    """Means of what is drawn alone, and how much of each pixel that is."""
+    return np.concatenate([_means(sums, np.maximum(drawn, np.uint16(1))), _means(255 * drawn, FINE**2)], axis=2)
 
 
 def _expanded(first: NDArray[np.int64], counts: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:

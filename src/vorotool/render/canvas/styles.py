@@ -38,3 +38,8 @@ class PictureStyle:
         """Give colour and width of a layer, None where they are left to what draws it."""
         other = DRAWN_AS.get(layer, layer)
         return self.colours.get(layer, self.colours.get(other)), self.widths.get(layer, self.widths.get(other))
+
+    def width_of(self, layer: str, usual: float = 1.0) -> float:
+        """Give the width of a layer's lines, or a usual one."""
+        chosen = self.of(layer)[1]
+        return usual if chosen is None else chosen

@@ -78,9 +78,9 @@ def halo_style(colour: str, size: float) -> str:
     return f'stroke="{colour}" stroke-width="{HALO * size:.3g}" stroke-linejoin="round" paint-order="stroke"'
 
 
-def fill_style(backdrop: Backdrop | None) -> str:
-    """Attribute of a group whose areas the image shows through, if there is one."""
-    return "" if backdrop is None else ' fill-opacity="0.5"'
+def fill_style(backdrop: Backdrop | None, *, is_sheer: bool = False) -> str:
+    """Attribute of a group whose areas the image shows through, if there is one, or in any case."""
+    return "" if backdrop is None and not is_sheer else ' fill-opacity="0.5"'
 
 
 def _parts(layer: Layer, page: Page, threads: int) -> Iterator[bytes]:
@@ -92,7 +92,7 @@ def _parts(layer: Layer, page: Page, threads: int) -> Iterator[bytes]:
     if isinstance(layer, Curves):
         return _curves(layer, x, y, threads)
     if isinstance(layer, Polygons):
-        return _polygons(layer, x, y, fill_style(page.backdrop), threads)
+        return _polygons(layer, x, y, fill_style(page.backdrop, is_sheer=layer.is_sheer), threads)
     return _points(layer, x, y, threads) if isinstance(layer, Points) else _texts(layer, x, y, threads)
 
 
@@ -183,17 +183,25 @@ def _openings(layer: Polygons) -> tuple[list[str], NDArray[np.int32]]:
 
 def _points(layer: Points, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iterator[bytes]:
     if len(x) > MOST_ELEMENTS:
-        yield from _dots(layer, x, y, threads)
+        if layer.halo is not None:
+            yield from _dots(f"{layer.name}-halo", layer.halo, layer.radius + layer.edge, x, y, threads)
+        yield from _dots(layer.name, layer.colour, layer.radius, x, y, threads)
         return
-    yield f'<g id="{_escaped(layer.name)}" fill="{layer.colour}">\n'.encode()
+    halo = "" if layer.halo is None else f" {edge_style(layer.halo, layer.edge)}"
+    yield f'<g id="{_escaped(layer.name)}" fill="{layer.colour}"{halo}>\n'.encode()
     radius = f'" r="{layer.radius:.3g}"/>\n'
     yield from _rows([x, y], ('<circle cx="', '" cy="', radius), threads)
     yield b"</g>\n"
 
 
-def _dots(layer: Points, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iterator[bytes]:
+def edge_style(colour: str, width: float) -> str:
+    """Attributes of discs that have an edge around them."""
+    return f'stroke="{colour}" stroke-width="{2 * width:.3g}" paint-order="stroke"'
+
+
+def _dots(name: str, colour: str, radius: float, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iterator[bytes]:
     """Lines of no length with round ends are discs."""
-    yield f'<g id="{_escaped(layer.name)}" fill="none" {_stroke(layer.colour, 2 * layer.radius)}>\n'.encode()
+    yield f'<g id="{_escaped(name)}" fill="none" {_stroke(colour, 2 * radius)}>\n'.encode()
     for rows in _chunks(len(x), PATH_ROWS):
         yield f"<path {_UNSCALED} d=".encode() + b'"'
         yield from _rows([x[rows], y[rows]], ("M", " ", "h0"), threads)

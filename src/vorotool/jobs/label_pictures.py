@@ -1,0 +1,235 @@
+"""Pictures of label images, as SVG and PNG."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.geometry.points.label_image import LabelImage
+
+if TYPE_CHECKING:
+    from vorotool.render.canvas.layers import Backdrop
+    from vorotool.render.canvas.styles import PictureStyle
+    from vorotool.render.label_images.png import Names
+
+BAND_ROWS = 256
+"""Rows of a picture that are composed at a time."""
+
+LARGEST_TABLE = 1 << 20
+"""Entries that a table of colours by label may have in any case; beyond, it must be mostly used."""
+
+LEAST_SPACING = 6.0
+"""Pixels between the middles of cells, below which borders in PNG would hide them."""
+
+
+@dataclass(frozen=True, eq=False)
+class LabelPicture:
+    """A label image, and how it is drawn.
+
+    Parameters
+    ----------
+    image : LabelImage
+        With seeds, if these are drawn.
+    colours : pair of (k,) integer arrays
+        The labels that occur, increasing, and the colour class of each: what `region_colours` gives.
+    layers : sequence of str
+        Of cells, diagram (PNG), objects, seeds and labels.
+    style : PictureStyle
+        Ground, colours and widths of lines.
+    width : int
+        Pixels across an SVG.
+    y_up : bool
+        Draw the last row on top.
+    backdrop : Backdrop, optional
+        The image, whose size the picture has.
+    texts : mapping of int to str, optional
+        Written on regions instead of their labels; on those that are not in it nothing is.
+    threads : int
+        0 uses all.
+    """
+
+    image: LabelImage
+    colours: tuple[NDArray[Any], NDArray[Any]]
+    layers: Sequence[str]
+    style: PictureStyle
+    width: int = 1000
+    y_up: bool = False
+    backdrop: Backdrop | None = None
+    texts: Mapping[int, str] | None = None
+    threads: int = 0
+
+    def write(self, out: BinaryIO, fmt: str) -> None:
+        """Draw it as SVG, or as a palette PNG of its own size, or over an image.
+
+        Parameters
+        ----------
+        out : binary file
+            Where to write.
+        fmt : {"png", "svg"}
+            Kind of picture.
+        """
+        picture = replace(self, image=self.image.flipped()) if self.y_up else self
+        if fmt == "svg":
+            _write_svg(out, picture)
+        else:
+            _write_png(out, picture)
+
+
+def default_layers(image: LabelImage, layers: Sequence[str]) -> tuple[str, ...]:
+    """Layers of a picture for which none are chosen: numbers in the pixels of small images, but no names in others."""
+    from vorotool.render.label_images.svg import has_numbers
+
+    return tuple(layer for layer in layers if layer != "labels" or has_numbers(image.shape))
+
+
+def _names(picture: LabelPicture) -> Names | None:
+    """Names of regions, deep inside their objects or themselves."""
+    if "labels" not in picture.layers:
+        return None
+    from vorotool.engines.label_images.label_places import name_places
+    from vorotool.render.label_images.png import Names
+
+    labels, places = name_places(picture.image, threads=picture.threads)
+    if picture.texts is None:
+        return Names([str(label) for label in labels.tolist()], places)
+    texts = [picture.texts.get(label, "") for label in labels.tolist()]
+    named = [k for k, text in enumerate(texts) if text]
+    return Names([texts[k] for k in named], places[named])
+
+
+def _objects(picture: LabelPicture) -> LabelImage | None:
+    """The objects that are the seeds, if they are drawn."""
+    if not {"objects", "seeds"} & set(picture.layers):
+        return None
+    from vorotool.engines.label_images.label_places import seed_objects
+
+    return seed_objects(picture.image)
+
+
+def _write_svg(out: BinaryIO, picture: LabelPicture) -> None:
+    from vorotool.render.label_images.svg import has_numbers, write_label_svg
+
+    is_numbered = "labels" in picture.layers and has_numbers(picture.image.shape) and picture.texts is None
+    objects = None if is_numbered else _objects(picture)
+    write_label_svg(
+        out,
+        picture.image,
+        colour_of_label=dict(zip(picture.colours[0].tolist(), picture.colours[1].tolist(), strict=True)),
+        width=picture.width,
+        layers=picture.layers,
+        backdrop=picture.backdrop,
+        names=None if is_numbered else _names(picture),
+        objects=None if objects is None else objects.labels,
+        style=picture.style,
+    )
+
+
+def _write_png(out: BinaryIO, picture: LabelPicture) -> None:
+    from vorotool.formats.images.png_writer import write_png
+    from vorotool.render.label_images.png import over_image, picture_bands
+
+    image, backdrop, threads = picture.image, picture.backdrop, picture.threads
+    marks = _Marks(picture)
+    number, colour_of_number = _numbering(*picture.colours)
+    starts = range(0, image.shape[0], BAND_ROWS)
+    bands = picture_bands(
+        (number(image.labels[row : row + BAND_ROWS]) for row in starts),
+        shape=image.shape,
+        palette=marks.palette,
+        colour_of_label=colour_of_number,
+        diagram=None if marks.diagram is None else (marks.diagram[row : row + BAND_ROWS] for row in starts),
+        marks=marks.below,
+        seeds=image.seeds,
+        outlines=marks.outlines,
+        frame=image.frame,
+        names=marks.names,
+        layers=picture.layers,
+    )
+    if backdrop is not None:
+        assert image.frame is not None  # LabelImage has filled it in
+        made = over_image(bands, backdrop, marks.palette, image.frame)
+        write_png(out, [made], backdrop.pixels.shape[:2], rgb=True, threads=threads)
+        return
+    palette, has_alpha = marks.palette, picture.style.ground is None
+    depth = palette.bit_depth
+    write_png(out, bands, image.shape, bit_depth=depth, palette=palette.colours, has_alpha=has_alpha, threads=threads)
+
+
+class _Marks:
+    """What is drawn over the cells of a PNG, pixel by pixel, and in which colours.
+
+    Parameters
+    ----------
+    picture : LabelPicture
+        With everything that is chosen.
+    """
+
+    def __init__(self, picture: LabelPicture) -> None:
+        from vorotool.engines.label_images.label_places import outermost_pixels
+        from vorotool.render.canvas.palettes import picture_palette
+        from vorotool.render.label_images.png import around, widened
+
+        layers, style, over = picture.layers, picture.style, picture.backdrop is not None
+        objects, self.names = _objects(picture), _names(picture)
+        borders = _borders(picture)
+        self.diagram = self._lines(picture) if "diagram" in layers else None
+        self.outlines: NDArray[np.bool_] | None = None
+        if objects is not None and "seeds" in layers:
+            self.outlines = widened(outermost_pixels(objects), style.width_of("seeds"))
+        lines = [each for each in (self.diagram, self.outlines) if each is not None]
+        halo = around(np.logical_or.reduce(lines)) if over and lines else None
+        chosen = {layer: colour for layer, colour in style.colours.items() if layer in layers}
+        if style.ground is not None:
+            chosen["ground"] = style.ground
+        self.palette = picture_palette(
+            int(picture.colours[1].max(initial=0)),
+            has_halo=over or self.names is not None or borders is not None,
+            has_halos=over,
+            chosen=chosen,
+        )
+        below = [(self.palette.border, borders), (self.palette.object, None), (self.palette.halo, halo)]
+        if objects is not None and "objects" in layers:
+            below[1] = (self.palette.object, objects.labels != 0)
+        self.below = [(value, pixels) for value, pixels in below if pixels is not None]
+
+    @staticmethod
+    def _lines(picture: LabelPicture) -> NDArray[np.bool_]:
+        from vorotool.engines.label_images.regions import voronoi_diagram
+        from vorotool.render.label_images.png import widened
+
+        diagram = voronoi_diagram(picture.image, threads=picture.threads).view(bool)
+        return widened(diagram, picture.style.width_of("diagram"))
+
+
+def _borders(picture: LabelPicture) -> NDArray[np.bool_] | None:
+    """Borders between cells: a pixel wide, if cells are not too small for that, or as is chosen."""
+    from vorotool.engines.label_images.regions import voronoi_diagram
+    from vorotool.render.label_images.png import widened
+
+    chosen = picture.style.of("cells")[1]
+    labels = picture.image.labels
+    if "cells" not in picture.layers or chosen == 0 or not len(picture.colours[0]):
+        return None
+    covered = int(np.count_nonzero(labels)) / len(picture.colours[0])
+    if chosen is None and covered < LEAST_SPACING**2:
+        return None
+    return widened(
+        voronoi_diagram(picture.image, threads=picture.threads).view(bool), 1.0 if chosen is None else chosen
+    )
+
+
+def _numbering(
+    labels: NDArray[Any], classes: NDArray[Any]
+) -> tuple[Callable[[NDArray[Any]], NDArray[Any]], NDArray[Any]]:
+    """Numbers that a table of colours is indexed by: the labels, or their ranks from 1 where labels are sparse."""
+    largest = int(labels.max(initial=0))
+    if largest > 4 * len(labels) + LARGEST_TABLE:
+        known = np.append(0, labels)
+        return lambda band: np.searchsorted(known, band), np.append(0, classes)
+    by_label = np.zeros(largest + 1, classes.dtype)
+    by_label[labels] = classes
+    return np.asarray, by_label
