@@ -26,6 +26,7 @@ from vorotool.jobs.inputs import JobInput, note_other_size, refuse
 from vorotool.jobs.label_pictures import LabelPicture, default_layers
 from vorotool.jobs.options import DrawingOptions
 from vorotool.jobs.picture_style import styled_page
+from vorotool.jobs.picture_world import check_column, world_of, world_of_polygons
 from vorotool.jobs.pictures import drawing_of, write_layers
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target, check_picture_options
@@ -107,7 +108,9 @@ def _read(run: Run, o: DrawingOptions, given: JobInput) -> LabelImage | Lined:
                 "makes them, with -f svg"
             )
         holds = "polygons"  # whose reader says more of tables
-    options = ReadOptions(page=o.page, properties=False, max_pixels=o.max_pixels, note=partial(_note, run))
+    options = ReadOptions(
+        page=o.page, properties=o.label_by is not None, max_pixels=o.max_pixels, note=partial(_note, run)
+    )
     value = read_recognised(holds, source, options)
     return label_image_of(value, source.name) if isinstance(value, Raster) else value
 
@@ -127,6 +130,7 @@ def _of_labels(run: Run, o: DrawingOptions, given: JobInput, image: LabelImage, 
     from vorotool.engines.label_images.object_colours import object_colours
 
     check_picture_options(o, [fmt], LABEL_LAYERS)
+    check_column(o.label_by, ())
     note_other_size(run, o, given, image.shape)
     image = _objects(run, image)
     with run.phase("colour"):
@@ -134,8 +138,8 @@ def _of_labels(run: Run, o: DrawingOptions, given: JobInput, image: LabelImage, 
     picture = LabelPicture(
         image,
         colours,
-        o.layers or default_layers(image, ("cells", "labels") if fmt == "svg" else ("cells",)),
-        o.looks.style(),
+        o.drawn(default_layers(image, ("cells", "labels") if fmt == "svg" else ("cells",))),
+        o.looks.style(world_of(run, o.looks, frame=image.frame).scale_bar),
         width=o.width or 1000,
         y_up=bool(o.y_up),
         backdrop=given.backdrop,
@@ -167,13 +171,14 @@ def _of_layers(run: Run, o: DrawingOptions, given: JobInput, value: Lined, fmt: 
     if not len(value):
         run.warn(f"the picture is empty: the input is {kind}, but there are none in it")
     polygons = value if isinstance(value, PolygonSet) else value.polygons
+    check_column(o.label_by, polygons.properties)
     drawing = drawing_of(
         value,
         layers=o.layers,
         width=o.width or 1000,
         y_up=o.y_up,
         backdrop=given.backdrop,
-        styled=partial(styled_page, o=o, unit=polygons.unit),
+        styled=partial(styled_page, looks=o.looks, world=world_of_polygons(run, o, polygons)),
     )
     if fmt == "png":
         check_picture_size(drawing.page, o.max_pixels)

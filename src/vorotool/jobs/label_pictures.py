@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, BinaryIO
 
@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from vorotool.geometry.points.label_image import LabelImage
 
 if TYPE_CHECKING:
-    from vorotool.render.canvas.layers import Backdrop
+    from vorotool.geometry.points.seed_set import SeedSet
+    from vorotool.render.canvas.layers import Backdrop, Layer, Page
     from vorotool.render.canvas.styles import PictureStyle
     from vorotool.render.label_images.png import Names
 
@@ -78,12 +79,39 @@ class LabelPicture:
         else:
             _write_png(out, picture)
 
+    def pixels(self) -> NDArray[np.uint8]:
+        """(H, W, 3) red, green and blue of the PNG."""
+        picture = replace(self, image=self.image.flipped()) if self.y_up else self
+        return _pixels(picture, _Marks(picture))
+
+    @property
+    def shows_borders(self) -> bool:
+        """Whether cells are wide enough for borders of a pixel."""
+        labelled = int(np.count_nonzero(self.image.labels))
+        return labelled >= LEAST_SPACING**2 * len(self.colours[0])
+
 
 def default_layers(image: LabelImage, layers: Sequence[str]) -> tuple[str, ...]:
     """Layers of a picture for which none are chosen: numbers in the pixels of small images, but no names in others."""
     from vorotool.render.label_images.svg import has_numbers
 
     return tuple(layer for layer in layers if layer != "labels" or has_numbers(image.shape))
+
+
+def site_texts(seeds: SeedSet, column: str) -> dict[int, str]:
+    """Give what a column of the sites writes on the region of each label.
+
+    Examples
+    --------
+    >>> from vorotool.geometry.points.seed_set import SeedSet
+    >>> seeds = SeedSet(np.array([0, 5]), np.array([0, 1]), np.array([1, 2]), properties={"town": ["Ulm", None]})
+    >>> site_texts(seeds, "town")
+    {1: 'Ulm', 2: ''}
+    """
+    from vorotool.render.canvas.names import column_texts
+
+    assert seeds.site_labels is not None  # SeedSet has filled it in
+    return dict(zip(seeds.site_labels.tolist(), column_texts(seeds.properties, column, ()), strict=True))
 
 
 def _names(picture: LabelPicture) -> Names | None:
@@ -125,18 +153,66 @@ def _write_svg(out: BinaryIO, picture: LabelPicture) -> None:
         names=None if is_numbered else _names(picture),
         objects=None if objects is None else objects.labels,
         style=picture.style,
+        insets=_insets(picture, _page(picture), has_outlines=objects is not None),
     )
+
+
+def _page(picture: LabelPicture) -> Page:
+    """Where pixels are on an SVG."""
+    from vorotool.render.canvas.layers import ImagePage, Page
+
+    if picture.backdrop is not None:
+        return ImagePage(picture.backdrop)
+    rows, columns = picture.image.shape
+    return Page((0.0, 0.0, float(columns), float(rows)), width=picture.width, y_up=False)
+
+
+def _insets(picture: LabelPicture, page: Page, *, has_outlines: bool) -> list[Layer]:
+    """The legend and the scale bar, if they are asked for."""
+    from vorotool.render.canvas.insets import insets
+    from vorotool.render.canvas.layers import Lines, Points, Polygons
+    from vorotool.render.canvas.palettes import CELLS, EDGE, LINE, SEED
+
+    page.style = picture.style
+    nowhere, none = np.empty((0, 2)), np.empty((0, 2), np.int32)
+    corners, rings = np.empty(0, np.int32), np.zeros(1, np.int64)
+
+    def colour(layer: str, usual: str) -> str:
+        return picture.style.of(layer)[0] or usual
+
+    seeds = colour("seeds", SEED)
+    made: dict[str, Layer] = {
+        "cells": Polygons("cells", nowhere, corners, rings, colours=CELLS[:1], edge=colour("cells", EDGE)),
+        "diagram": Lines("diagram", nowhere, none, colour("diagram", LINE)),
+        "objects": Polygons("objects", nowhere, corners, rings, colours=[colour("objects", seeds)]),
+        "seeds": Lines("seeds", nowhere, none, seeds) if has_outlines else Points("seeds", nowhere, seeds),
+    }
+    return insets([layer for name, layer in made.items() if name in picture.layers], page)
 
 
 def _write_png(out: BinaryIO, picture: LabelPicture) -> None:
     from vorotool.formats.images.png_writer import write_png
-    from vorotool.render.label_images.png import over_image, picture_bands
 
-    image, backdrop, threads = picture.image, picture.backdrop, picture.threads
-    marks = _Marks(picture)
+    threads, marks = picture.threads, _Marks(picture)
+    if picture.backdrop is not None or picture.style.has_insets:
+        pixels = _pixels(picture, marks)
+        write_png(out, [pixels.reshape(len(pixels), -1)], pixels.shape[:2], rgb=True, threads=threads)
+        return
+    palette, has_alpha = marks.palette, picture.style.ground is None
+    bands, depth = _indexed(picture, marks), palette.bit_depth
+    write_png(
+        out, bands, picture.image.shape, bit_depth=depth, palette=palette.colours, has_alpha=has_alpha, threads=threads
+    )
+
+
+def _indexed(picture: LabelPicture, marks: _Marks) -> Iterator[NDArray[np.uint8]]:
+    """Rows of palette indices, in bands from top to bottom."""
+    from vorotool.render.label_images.png import picture_bands
+
+    image = picture.image
     number, colour_of_number = _numbering(*picture.colours)
     starts = range(0, image.shape[0], BAND_ROWS)
-    bands = picture_bands(
+    return picture_bands(
         (number(image.labels[row : row + BAND_ROWS]) for row in starts),
         shape=image.shape,
         palette=marks.palette,
@@ -149,14 +225,26 @@ def _write_png(out: BinaryIO, picture: LabelPicture) -> None:
         names=marks.names,
         layers=picture.layers,
     )
-    if backdrop is not None:
-        assert image.frame is not None  # LabelImage has filled it in
-        made = over_image(bands, backdrop, marks.palette, image.frame)
-        write_png(out, [made], backdrop.pixels.shape[:2], rgb=True, threads=threads)
-        return
-    palette, has_alpha = marks.palette, picture.style.ground is None
-    depth = palette.bit_depth
-    write_png(out, bands, image.shape, bit_depth=depth, palette=palette.colours, has_alpha=has_alpha, threads=threads)
+
+
+def _pixels(picture: LabelPicture, marks: _Marks) -> NDArray[np.uint8]:
+    """(H, W, 3) red, green and blue, with the image beneath, and a legend and a scale bar over them."""
+    from vorotool.render.canvas.layers import Backdrop, ImagePage
+    from vorotool.render.canvas.png import layer_bands
+    from vorotool.render.label_images.png import over_image
+
+    bands, backdrop = _indexed(picture, marks), picture.backdrop
+    if backdrop is None:
+        pixels: NDArray[np.uint8] = marks.palette.colours[np.concatenate(list(bands))]
+    else:
+        assert picture.image.frame is not None  # LabelImage has filled it in
+        pixels = over_image(bands, backdrop, marks.palette, picture.image.frame).reshape(backdrop.pixels.shape)
+    if not picture.style.has_insets:
+        return pixels
+    page = ImagePage(Backdrop(pixels, bytes))
+    over = _insets(picture, page, has_outlines=marks.outlines is not None)
+    drawn: NDArray[np.uint8] = np.concatenate(list(layer_bands([], page, insets=over)))
+    return drawn.reshape(pixels.shape)
 
 
 class _Marks:
@@ -211,11 +299,9 @@ def _borders(picture: LabelPicture) -> NDArray[np.bool_] | None:
     from vorotool.render.label_images.png import widened
 
     chosen = picture.style.of("cells")[1]
-    labels = picture.image.labels
     if "cells" not in picture.layers or chosen == 0 or not len(picture.colours[0]):
         return None
-    covered = int(np.count_nonzero(labels)) / len(picture.colours[0])
-    if chosen is None and covered < LEAST_SPACING**2:
+    if chosen is None and not picture.shows_borders:
         return None
     return widened(
         voronoi_diagram(picture.image, threads=picture.threads).view(bool), 1.0 if chosen is None else chosen

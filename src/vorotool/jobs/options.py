@@ -5,11 +5,12 @@ A field is called as its option is, and ``--help`` says what it means; one that 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Literal
 
-from vorotool.jobs.picture_style import Looks
+from vorotool.jobs.picture_style import Looks, Paper
 
 if TYPE_CHECKING:
     from vorotool.engines.centerlines.centerline import Ends
@@ -47,6 +48,9 @@ class JobOptions:
     background: str | None
     colours: tuple[tuple[str, str], ...]
     line_widths: tuple[tuple[str, float], ...]
+    label_by: str | None
+    legend: bool
+    scale_bar: bool
     max_pixels: int
     threads: int
     quiet: bool
@@ -73,12 +77,29 @@ class JobOptions:
     @property
     def looks(self) -> Looks:
         """The looks of pictures."""
-        return Looks(*self.paper, self.background, self.colours, self.line_widths)
+        paper = self.paper
+        return Looks(
+            paper.scale,
+            paper.unit,
+            self.background,
+            self.colours,
+            self.line_widths,
+            self.label_by,
+            self.legend,
+            self.scale_bar,
+            paper.aspect,
+            paper.extent,
+        )
 
     @property
-    def paper(self) -> tuple[Scale | None, str | None]:
-        """Scale of SVG, and the unit of the input, where pictures are of lines and areas."""
-        return None, None
+    def paper(self) -> Paper:
+        """The page of pictures, where these are of lines and areas."""
+        return Paper()
+
+    def drawn(self, usual: Sequence[str]) -> tuple[str, ...]:
+        """Give the layers of a picture that has usual ones: a column of names is shown in any case."""
+        chosen = tuple(self.layers or usual)
+        return chosen if self.label_by is None or "labels" in chosen else (*chosen, "labels")
 
     @property
     def is_of_many(self) -> bool:
@@ -116,12 +137,14 @@ class DrawingOptions(JobOptions):
 
     scale: Scale | None
     drawing_unit: str | None
+    aspect: float | None
+    extent: Literal["image", "data"] | None
     what: tuple[str, ...] = ("picture",)
 
     @property
-    def paper(self) -> tuple[Scale | None, str | None]:
-        """Scale of SVG, and the unit of the input."""
-        return self.scale, self.drawing_unit
+    def paper(self) -> Paper:
+        """The page of pictures."""
+        return Paper(self.scale, self.drawing_unit, self.aspect, self.extent)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -202,6 +225,9 @@ class TessellationOptions(SiteOptions):
     chunk: tuple[int, int] | None
     cell_size: Fraction | None
     tiled: bool
+    animate: bool
+    frames: int | None
+    fps: float | None
 
     @property
     def cell_side(self) -> Fraction | None:
@@ -220,14 +246,16 @@ class TriangulationOptions(SiteOptions):
 
     scale: Scale | None
     drawing_unit: str | None
+    aspect: float | None
+    extent: Literal["image", "data"] | None
     method: Method
     frame: Rectangle | None
     clip: str | None
 
     @property
-    def paper(self) -> tuple[Scale | None, str | None]:
-        """Scale of SVG, and the unit of the input."""
-        return self.scale, self.drawing_unit
+    def paper(self) -> Paper:
+        """The page of pictures."""
+        return Paper(self.scale, self.drawing_unit, self.aspect, self.extent)
 
     @property
     def triangulated_by(self) -> Method:
@@ -245,6 +273,8 @@ class AlphaShapeOptions(SiteOptions):
 
     scale: Scale | None
     drawing_unit: str | None
+    aspect: float | None
+    extent: Literal["image", "data"] | None
     method: Method
     r: Fraction | float | None
     alpha: Fraction | None
@@ -253,11 +283,14 @@ class AlphaShapeOptions(SiteOptions):
     rule: Literal["corrected", "printed"]
     hole_threshold: Fraction | None
     region_threshold: Fraction | None
+    animate: bool
+    frames: int | None
+    fps: float | None
 
     @property
-    def paper(self) -> tuple[Scale | None, str | None]:
-        """Scale of SVG, and the unit of the input."""
-        return self.scale, self.drawing_unit
+    def paper(self) -> Paper:
+        """The page of pictures."""
+        return Paper(self.scale, self.drawing_unit, self.aspect, self.extent)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -278,14 +311,19 @@ class SkeletonOptions(ComputingOptions):
     join_tolerance: float | None
     simplify: float | None
     outline: Literal["crack", "contour"] | None
+    animate: bool
+    frames: int | None
+    fps: float | None
     seeds: Literal["components", "labels"] | None
     scale: Scale | None
     drawing_unit: str | None
+    aspect: float | None
+    extent: Literal["image", "data"] | None
 
     @property
-    def paper(self) -> tuple[Scale | None, str | None]:
-        """Scale of SVG, and the unit of the input."""
-        return self.scale, self.drawing_unit
+    def paper(self) -> Paper:
+        """The page of pictures."""
+        return Paper(self.scale, self.drawing_unit, self.aspect, self.extent)
 
     @property
     def wants_skeleton(self) -> bool:

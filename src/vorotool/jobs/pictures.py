@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
 
 from vorotool.errors import UsageError
 from vorotool.products.registry import parts_of
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from vorotool.geometry.mesh.cells import CellSet
     from vorotool.render.canvas.layers import Backdrop, Layer, Page
 
@@ -29,24 +32,42 @@ def write_layers(out: BinaryIO, layers: Sequence[Layer], page: Page, *, fmt: str
     threads : int
         0 uses all.
     """
-    from vorotool.render.canvas.scaled_page import styled_layers
-
-    layers = styled_layers(layers, page.style)
-    if page.backdrop is not None:
-        from vorotool.render.canvas.layers import with_halos
-
-        layers = with_halos(layers)
+    made = _finished(layers, page)
     if fmt == "svg":
         from vorotool.render.canvas.svg import write_layers_svg
 
-        write_layers_svg(out, layers, page, threads=threads)
+        write_layers_svg(out, made.layers, page, insets=made.insets, threads=threads)
     else:
         from vorotool.formats.images.png_writer import write_png
-        from vorotool.render.canvas.png import layer_bands
 
         has_alpha = page.backdrop is None and page.style.ground is None
         shape = page.height, page.width
-        write_png(out, layer_bands(layers, page), shape, rgb=True, has_alpha=has_alpha, threads=threads)
+        write_png(out, picture_bands(layers, page), shape, rgb=True, has_alpha=has_alpha, threads=threads)
+
+
+def picture_bands(layers: Sequence[Layer], page: Page) -> Iterator[NDArray[np.uint8]]:
+    """Give the rows of a picture as PNG has them; see `vorotool.render.canvas.png.layer_bands`."""
+    from vorotool.render.canvas.png import layer_bands
+
+    made = _finished(layers, page)
+    return layer_bands(made.layers, page, insets=made.insets)
+
+
+class _Finished(NamedTuple):
+    """Layers as they are drawn, and what lies over them in px of the page."""
+
+    layers: Sequence[Layer]
+    insets: Sequence[Layer]
+
+
+def _finished(layers: Sequence[Layer], page: Page) -> _Finished:
+    """Give layers the chosen looks, over an image with edges, and make the legend and the scale bar."""
+    from vorotool.render.canvas.halos import with_halos
+    from vorotool.render.canvas.insets import insets
+    from vorotool.render.canvas.scaled_page import styled_layers
+
+    styled = styled_layers(layers, page.style)
+    return _Finished(styled if page.backdrop is None else with_halos(styled), insets(styled, page))
 
 
 # ---- any value -----------------------------------------------------------------------------------
@@ -109,7 +130,10 @@ def drawing_of(
         page = page_of(value, width=width, y_up=y_up) if backdrop is None else ImagePage(backdrop)
         page = page if styled is None else styled(page)
         usual = [layer for layer in drawn[chosen].usual_layers if backdrop is None or layer != "polygons"]
-        return Drawing(layers_of(value, page, layers or usual), page)
+        shown = list(layers or usual)
+        if page.style.label_by is not None and "labels" not in shown:
+            shown.append("labels")
+        return Drawing(layers_of(value, page, shown), page)
     raise UsageError(f"there is no picture of a {type(value).__name__}: write it as a table")
 
 
@@ -161,8 +185,9 @@ def _cell_layers(cells: CellSet, page: Page, layers: Sequence[str]) -> list[Laye
     from vorotool.render.canvas.layers import Points
     from vorotool.render.label_images.png import checked_layers
     from vorotool.render.layers.cells import cell_lines, cell_polygons
+    from vorotool.render.layers.mesh import site_names
 
-    wanted = checked_layers(layers, ("cells", "diagram", "points"))
+    wanted = checked_layers(layers, ("cells", "diagram", "points", "labels"))
     made: list[Layer] = []
     if "cells" in wanted:
         made.append(cell_polygons(cells, cell_colours(delaunay(cells.sites)), page))
@@ -170,4 +195,6 @@ def _cell_layers(cells: CellSet, page: Page, layers: Sequence[str]) -> list[Laye
         made.append(cell_lines(cells, page))
     if "points" in wanted:
         made.append(Points("points", cells.sites, radius=min(max(page.spacing(len(cells)) / 12, 0.3), 4.0)))
+    if "labels" in wanted:
+        made.append(site_names(cells, page))
     return made

@@ -18,6 +18,7 @@ from vorotool.geometry.progress import Progress
 from vorotool.jobs.inputs import JobInput, read_clip, read_sites
 from vorotool.jobs.options import Rectangle, TriangulationOptions
 from vorotool.jobs.picture_style import styled_page
+from vorotool.jobs.picture_world import check_column, world_of_sites
 from vorotool.jobs.pictures import write_layers
 from vorotool.jobs.pixel_sizes import clip_in_pixels, placed_backdrop, placed_mesh, placed_sites
 from vorotool.jobs.run_log import Run
@@ -52,7 +53,7 @@ def products(run: Run, o: TriangulationOptions, given: JobInput) -> MeshProducts
     """Read points, or find those of an image, and triangulate them."""
     is_digital = o.triangulated_by != "exact"
     with run.phase("read"):
-        properties = bool({"table", "cells"} & set(o.what))
+        properties = bool({"table", "cells"} & set(o.what)) or o.label_by is not None
         o, points = placed_sites(run, o, given, read_sites(run, o, given, properties=properties, is_digital=is_digital))
         read = ReadPoints(points, None)
     if o.clip is not None:
@@ -89,6 +90,8 @@ class MeshProducts:
         if self.wants_mesh:
             with run.phase("triangulate") as progress:
                 self.mesh: Any = placed_mesh(options.pixel_size, self._triangulate(points, progress))
+            check_column(options.label_by, self.mesh.properties)
+            self._world = world_of_sites(run, options, self.mesh, points)
 
     @property
     def wants_mesh(self) -> bool:
@@ -154,18 +157,21 @@ class MeshProducts:
         )
 
     def _layers(self, what: str) -> Sequence[str]:
-        return self.options.layers or PRODUCTS["delaunay"][what].usual_layers
+        return self.options.drawn(PRODUCTS["delaunay"][what].usual_layers)
 
     def _page(self, what: str) -> Page:
         """Where the picture of a result shows what: the frame of cells, where it has any."""
         from vorotool.render.canvas.layers import ImagePage
         from vorotool.render.layers.mesh import mesh_page
 
+        looks, world = self.options.looks, self._world
         if self.backdrop is not None:
-            return styled_page(ImagePage(self.backdrop), self.options, None)
-        bounds = self.cells.frame.sides if {"cells", "diagram"} & set(self._layers(what)) else None
+            return styled_page(ImagePage(self.backdrop), looks, world)
+        bounds = None
+        if {"cells", "diagram"} & set(self._layers(what)):
+            bounds, world = self.cells.frame.sides, world._replace(frame=None)
         page = mesh_page(self.mesh, width=self.options.width or 1000, y_up=self.options.y_up, bounds=bounds)
-        return styled_page(page, self.options, None)
+        return styled_page(page, looks, world)
 
     def _write_picture(self, out: BinaryIO, fmt: str, what: str) -> None:
         from vorotool.render.layers import mesh as mesh_layers

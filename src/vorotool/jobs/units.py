@@ -167,7 +167,7 @@ def check_units(o: JobOptions, targets: Sequence[Target]) -> None:
     """
     if o.unit is None or measured(o):
         return
-    if not shows_units(targets):
+    if not shows_units(targets) and not o.scale_bar:
         raise UsageError("--pixel-size is for tables and vectors: use --what table, or leave it out")
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import partial
 from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -10,14 +11,15 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from vorotool.errors import UsageError
 from vorotool.geometry.numbers import shown_number, whole_number
 from vorotool.geometry.pixel_frame import MAX_SIDE
-from vorotool.jobs.picture_style import Looks, check_layers, looks_of
+from vorotool.jobs.picture_style import Looks, check_layers, looks_of, styled_page
+from vorotool.jobs.picture_world import check_column, world_of, world_of_value
+from vorotool.jobs.units import PixelSize
 from vorotool.products.formats import FORMATS, PICTURES, format_named
 from vorotool.products.registry import Product, is_of, parts_of
 from vorotool.products.writing import chosen_part, write_product
 
 if TYPE_CHECKING:
     from vorotool.geometry.points.label_image import LabelImage
-    from vorotool.render.canvas.layers import Page
 
 
 def write(
@@ -34,6 +36,9 @@ def write(
     color: Mapping[str, str] | None = None,
     line_width: Mapping[str, float] | None = None,
     background: str | None = None,
+    label_by: str | None = None,
+    legend: bool = False,
+    scale_bar: bool = False,
     threads: int = 0,
 ) -> None:
     """Write a value in any format that has a place for it, or draw it.
@@ -69,6 +74,10 @@ def write(
         Of the lines of layers of a picture, in px; 0 draws none.
     background : str, optional
         Colour of the ground of a picture, or ``"none"``; by default white.
+    label_by : str, optional
+        Column of the properties that names objects or sites in a picture, instead of their ids.
+    legend, scale_bar : bool
+        Draw the names of the layers with their colours, and a length, in corners of a picture.
     threads : int
         0 uses all.
 
@@ -95,7 +104,14 @@ def write(
     chosen = format_named(name) or name.lower().removeprefix(".")
     threads = checked_threads(threads)
     looks = looks_of(color=color, line_width=line_width, background=background)
-    styles = {"color": color, "line_width": line_width, "background": background}
+    looks = looks._replace(label_by=label_by, has_legend=legend, has_scale_bar=scale_bar)
+    styles: dict[str, object] = {
+        "color": color,
+        "line_width": line_width,
+        "background": background,
+        "label_by": label_by,
+    }
+    styles |= {"legend": legend or None, "scale_bar": scale_bar or None}
     if chosen not in PICTURES or (is_of(value, "LabelImage") and chosen == "png" and what in (None, "labels")):
         for option, given in {"layers": layers, "width": width, "y_up": y_up, **styles}.items():
             if given is not None:
@@ -181,11 +197,6 @@ class _Picture(NamedTuple):
     looks: Looks
     threads: int
 
-    def styled(self, page: Page) -> Page:
-        """Give a page the looks that are chosen."""
-        page.style = self.looks.style()
-        return page
-
 
 def _draw(value: Any, wanted: _Picture) -> None:
     from vorotool.formats.io.atomic_output import open_output
@@ -202,7 +213,7 @@ def _draw(value: Any, wanted: _Picture) -> None:
         layers=wanted.layers,
         width=wanted.width or 1000,
         y_up=wanted.y_up,
-        styled=wanted.styled,
+        styled=partial(styled_page, looks=wanted.looks, world=world_of_value(value, wanted.looks)),
     )
     check_layers(wanted.looks, [layer.name for layer in drawing.layers])
     if wanted.fmt == "png":
@@ -214,7 +225,7 @@ def _draw(value: Any, wanted: _Picture) -> None:
 def _draw_labels(image: LabelImage, wanted: _Picture) -> None:
     from vorotool.engines.label_images.object_colours import object_colours
     from vorotool.formats.io.atomic_output import open_output
-    from vorotool.jobs.label_pictures import LabelPicture, default_layers
+    from vorotool.jobs.label_pictures import LabelPicture, default_layers, site_texts
 
     if wanted.what not in (None, "colour", "color", "labels"):
         raise UsageError(f"what={wanted.what!r} is no picture of a LabelImage: use colour, or leave it out")
@@ -223,15 +234,27 @@ def _draw_labels(image: LabelImage, wanted: _Picture) -> None:
     usual = parts_of(image)["labels" if wanted.what == "labels" else "colour"].usual_layers
     shown = [layer for layer in default_layers(image, usual) if layer != "seeds" or image.seeds is not None]
     colours = object_colours(image, threads=wanted.threads)
+    chosen, label_by = list(wanted.layers or shown), wanted.looks.label_by
+    columns = {} if image.seeds is None else image.seeds.properties
+    check_column(label_by, columns, "label_by")
+    if label_by is not None and "labels" not in chosen:
+        chosen.append("labels")
     picture = LabelPicture(
         image,
         colours,
-        wanted.layers or shown,
-        wanted.looks.style(),
+        chosen,
+        wanted.looks.style(world_of(None, wanted.looks, frame=image.frame, size=_pixel_size(image)).scale_bar),
         width=wanted.width or 1000,
         y_up=bool(wanted.y_up),
+        texts=None if label_by is None or image.seeds is None else site_texts(image.seeds, label_by),
         threads=wanted.threads,
     )
     check_layers(wanted.looks, picture.layers)
     with open_output(wanted.path, binary=wanted.fmt == "png") as out:
         picture.write(out, wanted.fmt)
+
+
+def _pixel_size(image: LabelImage) -> PixelSize | None:
+    """The side of a pixel, if the image says that it is a square."""
+    grid = image.grid
+    return PixelSize(grid.width, grid.unit) if grid is not None and grid.is_size and grid.is_square else None

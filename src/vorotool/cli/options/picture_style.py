@@ -13,6 +13,9 @@ from vorotool.cli.options.shared import SPELLINGS, Decorator, together
 from vorotool.cli.options.suggestions import words
 from vorotool.jobs.picture_style import MILLIMETRES, Scale, colour_code
 
+LEAST_ASPECT = 0.001
+"""Pictures that are a thousand times stretched show nothing."""
+
 
 class ScaleType(ParameterType[Scale]):
     """``S``, millimetres a unit, or ``1:N``."""
@@ -91,6 +94,24 @@ class Width(ParameterType[float]):
         return number * 96 / 25.4 if match[2] == "mm" else number
 
 
+class Aspect(ParameterType[float]):
+    """A ratio of heights to widths."""
+
+    name = "RATIO"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
+        """Parse the number."""
+        try:
+            number = float(value)
+        except ValueError:
+            number = 0.0
+        if not LEAST_ASPECT <= number <= 1 / LEAST_ASPECT:
+            self.fail(
+                f"{value!r}: expected a number from {LEAST_ASPECT:g} to {1 / LEAST_ASPECT:g}, such as 1", param, ctx
+            )
+        return number
+
+
 def picture_style_options(*, has_scale: bool = True) -> Decorator:
     """Add the options of the looks of pictures; those of label images have no scale."""
     return together(
@@ -118,6 +139,17 @@ def picture_style_options(*, has_scale: bool = True) -> Decorator:
             help="Width of the lines of a layer, in px or with mm, such as skeleton=0.1mm, or cells=0 for no borders; "
             "may be given again.",
         ),
+        click.option(
+            "--label-by",
+            metavar="COLUMN",
+            help="Column or property that names objects or sites in pictures, instead of their ids.",
+        ),
+        click.option("--legend", is_flag=True, help="Draw the names of the layers with their colours in a corner."),
+        click.option(
+            "--scale-bar",
+            is_flag=True,
+            help="Draw a length of 1, 2 or 5 times a power of ten, in the unit of --pixel-size or of the input.",
+        ),
     )
 
 
@@ -134,4 +166,30 @@ def _scale_options() -> tuple[Decorator, ...]:
             type=click.Choice([*MILLIMETRES], case_sensitive=False),
             help="Unit of the input, for SVG to scale; by default what it names. Without --scale, 1:1.",
         ),
+        click.option(
+            "--aspect",
+            type=Aspect(),
+            help="Height of a unit of y beside the width of one of x; by default 1, of longitude and latitude that in "
+            "the middle of the data.",
+        ),
+        click.option(
+            "--extent",
+            type=click.Choice(["image", "data"], case_sensitive=False),
+            help="What pictures of an image's result show: the whole image, as by default, or the data and a margin.",
+        ),
+    )
+
+
+def animation_options(grows: str) -> Decorator:
+    """Add the options of animations of what grows."""
+    return together(
+        click.option(
+            "--animate",
+            is_flag=True,
+            help=f"Write an animation of {grows}: GIF, APNG or WebP, as -f or the extension says; by default GIF.",
+        ),
+        click.option(
+            "--frames", type=click.IntRange(2, 10_000), metavar="N", help="Frames of an animation; by default 40."
+        ),
+        click.option("--fps", type=click.FloatRange(0.1, 100), metavar="N", help="Frames a second; by default 10."),
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,11 +13,11 @@ from vorotool.geometry.box import bounds
 from vorotool.geometry.curves.circular_arcs import chords_of
 from vorotool.geometry.curves.flatten import polylines
 from vorotool.geometry.ragged import following, owners
-from vorotool.render.canvas.palettes import INK, SEED, WHITE
+from vorotool.render.canvas.palettes import INK, SEED
 from vorotool.render.canvas.styles import PictureStyle
 
 MARGIN = 0.02
-"""Of the larger side of the data, on each side of the page."""
+"""Of the larger side of the data, on each side of the page, where nothing else says."""
 
 TALLEST = 4
 """A page is at most so many times as high as wide: narrower data are drawn smaller."""
@@ -187,6 +187,8 @@ class Texts:
         Colour of an edge around the letters, which sets them off from what they lie on; in PNG there always is one.
     is_centred : bool
         Write them on the points instead, as names of what is around these.
+    is_led : bool
+        They begin at the points, and are not in the middle over them.
     """
 
     name: str
@@ -196,6 +198,7 @@ class Texts:
     size: float = 12.0
     halo: str | None = None
     is_centred: bool = False
+    is_led: bool = False
 
     def lowered(self, y: NDArray[np.float64], capital: float) -> NDArray[np.float64]:
         """Give the px from the top at which the letters stand, for points at these.
@@ -282,40 +285,6 @@ def name_size(page: Page, count: int) -> float:
 Layer = Lines | Curves | Polygons | Points | Texts | Arcs
 
 
-def halo_width(width: float) -> float:
-    """Give the width of a line with a white edge of up to 1 px on both sides: many fine lines leave no more room.
-
-    Examples
-    --------
-    >>> halo_width(1.5), halo_width(0.25)
-    (3.5, 0.75)
-    """
-    return width + min(2.0, 2 * width)
-
-
-def with_halos(layers: Sequence[Layer]) -> list[Layer]:
-    """Put a white edge beneath each layer of lines and of points, so that they show on dark and on light ground.
-
-    Examples
-    --------
-    >>> line = Lines("edges", np.zeros((2, 2)), np.array([[0, 1]], dtype=np.int32))
-    >>> [(layer.name, layer.colour, layer.width) for layer in with_halos([line])]
-    [('edges-halo', '#ffffff', 3.5), ('edges', '#222222', 1.5)]
-    """
-    made: list[Layer] = []
-    for layer in layers:
-        name = f"{layer.name}-halo"
-        if isinstance(layer, Arcs):
-            made.append(replace(layer, name=name, width=halo_width(layer.width), edge=WHITE, fill=None))
-        elif isinstance(layer, Lines | Curves):
-            made.append(replace(layer, name=name, width=halo_width(layer.width), colour=WHITE))
-        elif isinstance(layer, Points):
-            made.append(replace(layer, halo=WHITE))
-            continue
-        made.append(layer)
-    return made
-
-
 def bounds_of(layers: Iterable[Layer]) -> tuple[float, float, float, float]:
     """Smallest box that holds the points of layers: least x, least y, largest x, largest y.
 
@@ -342,6 +311,10 @@ class Page:
         Of the page, in px. The height follows from the bounds.
     y_up : bool
         Draw y upwards.
+    aspect : float
+        Px of a unit of y for each px of a unit of x.
+    margin : float
+        Of the larger side of the data, on each side of the page.
 
     Attributes
     ----------
@@ -360,14 +333,22 @@ class Page:
     style = PictureStyle()
     decimals = 2
 
-    def __init__(self, bounds: tuple[float, float, float, float], *, width: int, y_up: bool) -> None:
-        self.bounds = bounds
+    def __init__(
+        self,
+        bounds: tuple[float, float, float, float],
+        *,
+        width: int,
+        y_up: bool,
+        aspect: float = 1.0,
+        margin: float = MARGIN,
+    ) -> None:
+        self.bounds, self.aspect = bounds, aspect
         box = np.array(bounds, dtype=np.float64)
         self._exponent = int(np.frexp(np.abs(box).max())[1])  # a power of two keeps differences within range
         low, high = np.ldexp(box, -self._exponent).reshape(2, 2)
         span = high - low
-        margin = MARGIN * (span.max() or 1.0)
-        across, down = span + 2 * margin
+        sides = span * (1.0, aspect)
+        across, down = sides + 2 * margin * (sides.max() or 1.0)
         self.scale = float(min(width / across, TALLEST * width / down))  # px a unit of the scaled data
         self.width, self.height = width, max(1, round(float(down * self.scale)))
         self.y_up, self._middle = y_up, low + span / 2
@@ -390,18 +371,18 @@ class Page:
 
     def place(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """(n, 2) px from the left and from the top."""
-        scale = np.array([self.scale, -self.scale if self.y_up else self.scale])
+        scale = np.array([self.scale, (-self.scale if self.y_up else self.scale) * self.aspect])
         centre = np.array([self.width / 2, self.height / 2])
         placed: NDArray[np.float64] = (np.ldexp(points, -self._exponent) - self._middle - self._rest) * scale + centre
         return placed
 
     def length(self, distance: float) -> float:
-        """Px of a distance."""
+        """Px of a distance along x."""
         return float(np.ldexp(distance, -self._exponent) * self.scale)
 
     def distance(self, length: float) -> float:
-        """Give a length in px as one of the data."""
-        return float(np.ldexp(length / self.scale, self._exponent))
+        """Give a length in px as one of the data, which is no longer than that in any direction."""
+        return float(np.ldexp(length / (self.scale * max(self.aspect, 1.0)), self._exponent))
 
     def spacing(self, count: int) -> float:
         """Distance in px between neighbours of so many points, spread evenly over the page."""

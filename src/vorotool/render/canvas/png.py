@@ -9,9 +9,10 @@ from numpy.typing import NDArray
 
 from vorotool.errors import LimitError
 from vorotool.geometry.ragged import owners, ranges
-from vorotool.render.canvas.glyphs import HEIGHT, text_cells
+from vorotool.render.canvas.glyphs import ADVANCE, HEIGHT, text_cells
 from vorotool.render.canvas.layers import Arcs, Curves, Layer, Lines, Page, Points, Polygons, Texts
 from vorotool.render.canvas.palettes import WHITE
+from vorotool.render.canvas.pixel_page import PixelPage
 
 FINE = 4
 """Pixels of the drawing a pixel of the picture, each way: 16 shades."""
@@ -47,7 +48,7 @@ def check_picture_size(page: Page, max_pixels: int) -> None:
         )
 
 
-def layer_bands(layers: Iterable[Layer], page: Page) -> Iterator[NDArray[np.uint8]]:
+def layer_bands(layers: Iterable[Layer], page: Page, *, insets: Iterable[Layer] = ()) -> Iterator[NDArray[np.uint8]]:
     """Draw layers from below, over the page's image if it has one.
 
     Parameters
@@ -56,6 +57,8 @@ def layer_bands(layers: Iterable[Layer], page: Page) -> Iterator[NDArray[np.uint
         What to draw; at most 254 colours together.
     page : Page
         Where it lies.
+    insets : iterable of Layer
+        What lies over these, in px of the page.
 
     Yields
     ------
@@ -71,7 +74,9 @@ def layer_bands(layers: Iterable[Layer], page: Page) -> Iterator[NDArray[np.uint
     """
     canvas = _Canvas(page)
     for layer in layers:
-        canvas.draw(layer)
+        canvas.draw(layer, page)
+    for inset in insets:
+        canvas.draw(inset, PixelPage(page))
     return canvas.bands()
 
 
@@ -83,12 +88,12 @@ class _Canvas:
         self.indices = np.zeros((page.height * FINE, page.width * FINE), np.uint8)  # 0: nothing
         self.colours: dict[str, int] = {}
 
-    def draw(self, layer: Layer) -> None:
+    def draw(self, layer: Layer, page: Page) -> None:
         if isinstance(layer, Arcs):
-            layer = layer.chords(self.page.distance(FLATNESS / FINE))
-        places = self.page.place(layer.points) * FINE
+            layer = layer.chords(page.distance(FLATNESS / FINE))
+        places = page.place(layer.points) * FINE
         if isinstance(layer, Polygons):
-            self._fill(layer, places)
+            self._fill(layer, places, is_sheer=layer.is_sheer or page.backdrop is not None)
             if layer.edge is not None:
                 self._stroke(places, layer.sides(), layer.width, self._colour(layer.edge))
         elif isinstance(layer, Lines):
@@ -128,7 +133,7 @@ class _Canvas:
             raise LimitError(f"a PNG picture has at most {MOST_COLOURS} colours: use -f svg")
         return number
 
-    def _fill(self, layer: Polygons, places: NDArray[np.float64]) -> None:
+    def _fill(self, layer: Polygons, places: NDArray[np.float64], *, is_sheer: bool) -> None:
         """Fill each polygon by the even-odd rule: rows of pixels between crossings of its sides, in pairs."""
         classes = np.array([self._colour(name) for name in layer.colours], dtype=np.uint8)
         polygon = layer.polygon_of_ring
@@ -141,7 +146,6 @@ class _Canvas:
         while start < len(corner_limits) - 1:  # some whole polygons at a time
             stop = max(start + 1, int(np.searchsorted(corner_limits, corner_limits[start] + _ITEMS, "right")) - 1)
             part = slice(corner_limits[start], corner_limits[stop])
-            is_sheer = layer.is_sheer or self.page.backdrop is not None
             self._fill_part(places, sides[part], owner[part], fills, is_sheer=is_sheer)
             start = stop
 
@@ -202,7 +206,10 @@ class _Canvas:
         """Write texts, each cell of a glyph a square of pixels; halos first, so that they cover no letter."""
         cell = max(2, round(CAPITAL * layer.size * FINE / HEIGHT))
         foot = layer.lowered(places[:, 1] / FINE, CAPITAL) * FINE - cell * (HEIGHT - 1) / 2
-        corner = np.floor(np.stack([places[:, 0], foot], axis=1) - cell / 2).astype(np.int64)
+        left = places[:, 0]
+        if layer.is_led:
+            left = left + cell * ADVANCE * np.array([len(text) for text in layer.texts]) / 2
+        corner = np.floor(np.stack([left, foot], axis=1) - cell / 2).astype(np.int64)
         ink, halo = self._colour(layer.colour), self._colour(layer.halo or WHITE)
         for begin in range(0, len(layer.texts), _TEXTS):
             owner, cells, is_ink = text_cells(layer.texts[begin : begin + _TEXTS])

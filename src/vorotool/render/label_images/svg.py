@@ -12,10 +12,12 @@ from numpy.typing import NDArray
 
 from vorotool.errors import LimitError
 from vorotool.geometry.points.label_image import LabelImage
-from vorotool.render.canvas.layers import Backdrop, halo_width
+from vorotool.render.canvas.halos import halo_width
+from vorotool.render.canvas.layers import Backdrop, Layer, Page
 from vorotool.render.canvas.palettes import EDGE, FAINT, INK, SEED, WHITE, cell_colour
+from vorotool.render.canvas.pixel_page import PixelPage
 from vorotool.render.canvas.styles import PictureStyle
-from vorotool.render.canvas.svg import CAPITAL, edge_style, fill_style, halo_style, image_element
+from vorotool.render.canvas.svg import CAPITAL, edge_style, fill_style, halo_style, image_element, layer_parts
 from vorotool.render.label_images.crack_outline import Loop, crack_loops
 from vorotool.render.label_images.png import Names, checked_layers, disc_radius
 
@@ -39,6 +41,7 @@ def write_label_svg(
     names: Names | None = None,
     objects: NDArray[np.integer] | None = None,
     style: PictureStyle | None = None,
+    insets: Iterable[Layer] = (),
 ) -> None:
     """Draw a label image with one path a label, and numbers in the pixels of images of at most 40 x 40.
 
@@ -67,6 +70,8 @@ def write_label_svg(
         The labels of the objects that are the seeds: drawn as outlines, filled ones in their own layer.
     style : PictureStyle, optional
         Ground, colours and widths of lines.
+    insets : iterable of Layer
+        What lies over all, in px of the page.
 
     Raises
     ------
@@ -107,6 +112,8 @@ def write_label_svg(
         parts += _names(page, names)
     if backdrop is not None:
         parts.append("</g>")
+    paper = PixelPage(Page((0.0, 0.0, 1.0, 1.0), width=page.width, y_up=False))
+    parts += [b"".join(layer_parts(inset, paper, 1)).decode().rstrip() for inset in insets]
     out.write(("\n".join([*parts, "</svg>"]) + "\n").encode())
 
 
