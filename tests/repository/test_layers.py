@@ -45,7 +45,8 @@ formats/polygons -> formats/io, formats/parsing, formats/points, formats/text, g
 geometry/any -> geometry, geometry/alpha, geometry/mesh, geometry/points, geometry/polygons, geometry/skeleton
 render/layers -> geometry, geometry/alpha, geometry/mesh, geometry/polygons, geometry/skeleton, render/canvas,
     render/label_images
-render/pages -> geometry, geometry/alpha, geometry/curves, geometry/skeleton, render/canvas
+render/pages -> geometry, geometry/alpha, geometry/curves, geometry/mesh, geometry/skeleton, render/canvas,
+    render/label_images
 engines/skeleton -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi, geometry,
     geometry/curves, geometry/polygons, geometry/skeleton
 formats/results -> formats/io, formats/parsing, formats/polygons, formats/text, geometry, geometry/alpha,

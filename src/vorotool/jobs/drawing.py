@@ -7,7 +7,7 @@ from dataclasses import replace
 from functools import partial
 from typing import Any, BinaryIO
 
-from vorotool.errors import InputError, Kind, Message
+from vorotool.errors import InputError, Kind, Message, UsageError
 from vorotool.formats.images.band_reader import open_zarr, read_rows
 from vorotool.formats.images.label_images import label_image_of
 from vorotool.formats.io.atomic_output import open_output
@@ -23,7 +23,7 @@ from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.offsets import Offsets
 from vorotool.geometry.skeleton.skeleton import Skeleton
 from vorotool.jobs.inputs import JobInput, note_other_size, refuse
-from vorotool.jobs.label_pictures import LabelPicture, default_layers
+from vorotool.jobs.label_pictures import LabelPicture, default_layers, write_label_page
 from vorotool.jobs.options import DrawingOptions
 from vorotool.jobs.picture_style import styled_page
 from vorotool.jobs.picture_world import check_column, world_of, world_of_polygons
@@ -128,13 +128,22 @@ def _note(run: Run, message: str) -> None:
 
 def _of_labels(run: Run, o: DrawingOptions, given: JobInput, image: LabelImage, fmt: str) -> Drawing:
     from vorotool.engines.label_images.object_colours import object_colours
+    from vorotool.engines.label_images.regions import region_table
+    from vorotool.render.label_images.svg import check_size
 
-    check_picture_options(o, [fmt], LABEL_LAYERS)
+    is_page = fmt == "html"
+    check_picture_options(o, [] if is_page else [fmt], LABEL_LAYERS, has_page=is_page)
     check_column(o.label_by, ())
     note_other_size(run, o, given, image.shape)
     image = _objects(run, image)
     with run.phase("colour"):
         colours = object_colours(image, threads=o.threads)
+    counts = {"shape": image.shape, "colours": int(colours[1].max(initial=0))}
+    if is_page:
+        check_size(image.shape, "HTML")
+        table = region_table(image, threads=o.threads)
+        page = partial(write_label_page, labels=image.labels, colours=colours, table=table, y_up=bool(o.y_up))
+        return page, counts
     picture = LabelPicture(
         image,
         colours,
@@ -145,8 +154,7 @@ def _of_labels(run: Run, o: DrawingOptions, given: JobInput, image: LabelImage, 
         backdrop=given.backdrop,
         threads=o.threads,
     )
-    draw = partial(picture.write, fmt=fmt)
-    return draw, {"shape": image.shape, "colours": int(colours[1].max(initial=0))}
+    return partial(picture.write, fmt=fmt), counts
 
 
 def _objects(run: Run, image: LabelImage) -> LabelImage:
@@ -166,6 +174,8 @@ def _of_layers(run: Run, o: DrawingOptions, given: JobInput, value: Lined, fmt: 
     from vorotool.render.canvas.png import check_picture_size
 
     kind, product, counts = _described(value)
+    if fmt == "html":
+        raise UsageError(f"a page is of cells or labels, but the input is {kind}: use -f svg or -f png")
     check_picture_options(o, [fmt], product.layers, png_has_width=True)
     refuse({"page": o.page}, f"is for images, but the input is {kind}")
     if not len(value):

@@ -13,6 +13,7 @@ from vorotool.geometry.points.label_image import LabelImage
 
 if TYPE_CHECKING:
     from vorotool.geometry.points.seed_set import SeedSet
+    from vorotool.geometry.table import Table
     from vorotool.render.canvas.layers import Backdrop, Layer, Page
     from vorotool.render.canvas.styles import PictureStyle
     from vorotool.render.label_images.png import Names
@@ -89,6 +90,40 @@ class LabelPicture:
         """Whether cells are wide enough for borders of a pixel."""
         labelled = int(np.count_nonzero(self.image.labels))
         return labelled >= LEAST_SPACING**2 * len(self.colours[0])
+
+
+def write_label_page(
+    out: BinaryIO,
+    labels: NDArray[Any],
+    colours: tuple[NDArray[Any], NDArray[Any]],
+    table: Table,
+    more: Mapping[str, Sequence[Any]] | None = None,
+    *,
+    y_up: bool,
+) -> None:
+    """Write a page that names the region that is pointed at, with its row of a table.
+
+    Parameters
+    ----------
+    out : binary file
+        Receives UTF-8.
+    labels : (H, W) integer array
+        0 is no label.
+    colours : pair of (k,) integer arrays
+        The labels that occur, increasing, and the colour class of each.
+    table : Table
+        A row a label, by its column ``label``.
+    more : mapping of str to sequence, optional
+        Further columns, in the order of the colours.
+    y_up : bool
+        The last row is on top.
+    """
+    from vorotool.render.pages.cells_html import shapes_of_labels, write_cells_html
+
+    rows = {int(label): row for row, label in enumerate(table["label"])}
+    chosen = [rows[int(label)] for label in colours[0]]
+    columns = {name: [table[name][row] for row in chosen] for name in table if name != "label"}
+    write_cells_html(out, shapes_of_labels(labels, y_up=y_up), colours[1], columns | dict(more or {}))
 
 
 def default_layers(image: LabelImage, layers: Sequence[str]) -> tuple[str, ...]:

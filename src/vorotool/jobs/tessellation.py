@@ -47,7 +47,7 @@ from vorotool.jobs.run_log import Run
 from vorotool.jobs.streamed_output import RowsOf, Stream, check_chunks, write_file, write_store
 from vorotool.jobs.streamed_tessellation import StreamedProducts, rows_of_large
 from vorotool.jobs.targets import Target
-from vorotool.jobs.units import measured, table_in_units
+from vorotool.jobs.units import measured, table_in_units, unit_columns
 from vorotool.products.formats import ANIMATIONS
 from vorotool.products.registry import PRODUCTS
 from vorotool.products.writing import write_product
@@ -83,7 +83,7 @@ def products(run: Run, o: TessellationOptions, given: JobInput) -> Products | St
     with run.phase("read"):
         with opened_input(o, given, "points" if o.cell_size is None else None) as source:
             large = rows_of_large(o, source)
-            with_columns = "table" in o.what or o.label_by is not None
+            with_columns = "table" in o.what or o.label_by is not None or given.has_page
             if large is None:
                 value = read_opened(run, o, given, source, columns=o.columns, properties=with_columns)
         if large is not None:
@@ -185,8 +185,8 @@ class Products:
         from vorotool.render.label_images.svg import check_size
 
         what, fmt = target.what, target.fmt
-        if fmt == "svg":
-            check_size(self.rows.frame.shape)
+        if fmt in ("svg", "html"):
+            check_size(self.rows.frame.shape, fmt.upper())
         elif fmt in ANIMATIONS:
             animations.check_size(self.options, self.rows.frame.shape)
             self._exact_rows().check_distances()
@@ -209,7 +209,9 @@ class Products:
             write_store(self.run, o, target, self._stream(what), inputs)
             return
         with open_output(target.path, binary=target.is_binary, no_clobber=o.no_clobber, inputs=inputs) as out:
-            if self._is_picture(target):
+            if target.fmt == "html":
+                self._write_html(out)
+            elif self._is_picture(target):
                 self._write_picture(out, target)
             elif what in ("table", "neighbours"):
                 table, product = getattr(self, f"_{what}")(), PRODUCTS["tessellate"][what]
@@ -288,19 +290,28 @@ class Products:
         else:
             self._picture(target).write(out, target.fmt)
 
+    @property
+    def _is_y_up(self) -> bool:
+        return self.read.y_up if self.options.y_up is None else self.options.y_up
+
+    def _write_html(self, out: BinaryIO) -> None:
+        from vorotool.jobs.label_pictures import write_label_page
+
+        more = unit_columns(self.options.pixel_size, len(self.colours[0]))
+        write_label_page(out, self.image.labels, self.colours, self._table(), more, y_up=self._is_y_up)
+
     def _picture(self, target: Target) -> LabelPicture:
         from vorotool.jobs.label_pictures import LabelPicture, default_layers
 
         o = self.options
         layers = o.drawn(default_layers(self.image, PRODUCTS["tessellate"][target.what].usual_layers))
-        y_up = self.backdrop is None and (self.read.y_up if o.y_up is None else o.y_up)
         return LabelPicture(
             self.image,
             self.colours,
             layers,
             o.looks.style(self._scale_bar),
             width=o.width or 1000,
-            y_up=y_up,
+            y_up=self.backdrop is None and self._is_y_up,
             backdrop=self.backdrop,
             texts=self._texts,
             threads=o.threads,

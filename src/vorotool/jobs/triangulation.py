@@ -23,7 +23,7 @@ from vorotool.jobs.pictures import write_layers
 from vorotool.jobs.pixel_sizes import clip_in_pixels, placed_backdrop, placed_mesh, placed_sites
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
-from vorotool.jobs.units import in_units, table_in_units
+from vorotool.jobs.units import in_units, table_in_units, unit_columns
 from vorotool.products.formats import PICTURES
 from vorotool.products.registry import PRODUCTS
 from vorotool.products.writing import write_product
@@ -107,6 +107,10 @@ class MeshProducts:
             from vorotool.render.canvas.png import check_picture_size
 
             check_picture_size(self._page(target.what), self.options.max_pixels)
+        if target.fmt == "html":
+            from vorotool.render.pages.cells_html import check_html_size
+
+            check_html_size(len(self.mesh.points))
         if target.what in ("edges", "triangles") and not len(getattr(self.mesh, target.what)):
             self.run.warn(Message(f"there are no {target.what}: {self._shape()}", Kind.EMPTY_RESULT))
 
@@ -125,6 +129,9 @@ class MeshProducts:
         ) as out:
             if target.fmt in PICTURES:
                 self._write_picture(out, target.fmt, target.what)
+                return
+            if target.fmt == "html":
+                self._write_html(out)
                 return
             o, value = self.options, self._value(target.what, target.fmt)
             product = PRODUCTS["delaunay"][target.what]
@@ -188,6 +195,17 @@ class MeshProducts:
             made["diagram"] = cell_lines(self.cells, page)
         layers = [made[name] for name in PRODUCTS["delaunay"][what].layers[fmt] if name in made]
         write_layers(out, layers, page, fmt=fmt, threads=self.options.threads)
+
+    def _write_html(self, out: BinaryIO) -> None:
+        from vorotool.render.pages.cells_html import shapes_of_cells, write_cells_html
+
+        cells = in_units(self.options.pixel_size, self.cells)
+        x, y = cells.sites.T
+        measures = {"area": cells.areas(), "perimeter": cells.perimeters(), "x": x, "y": y}
+        columns: dict[str, Any] = {name: values.tolist() for name, values in measures.items()}
+        columns |= unit_columns(self.options.pixel_size, len(cells))
+        shapes = shapes_of_cells(cells, y_up=self.options.y_up)
+        write_cells_html(out, shapes, cell_colours(self.mesh), columns | cells.properties)
 
     def verify(self, progress: Progress) -> None:
         """Check the triangulation exactly, from its arrays alone; and cells before they are clipped to polygons."""

@@ -188,6 +188,11 @@ def in_units(size: PixelSize | None, value: Value) -> Value:
     return result
 
 
+def unit_columns(size: PixelSize | None, count: int) -> dict[str, list[str]]:
+    """Give the column that names the unit of so many rows, where there is one."""
+    return {} if size is None or size.unit is None else {"unit": [size.unit] * count}
+
+
 def table_in_units(
     size: PixelSize | None, table: Table, *, properties: Collection[str] = (), has_rows: bool = False
 ) -> Table:

@@ -90,9 +90,17 @@ _IMAGES = "png tiff npy text"
 _LABELS = Writer("formats.images.label_images:write_labels", ("fmt", "threads"))
 _COLOURED = {"png": ("cells", "diagram", "objects", "seeds", "labels"), "svg": ("cells", "labels", "objects", "seeds")}
 _TESSELLATE = (
-    _product("labels", "LabelImage", f"{_IMAGES} zarr", _LABELS, {"svg": _COLOURED["svg"]}, "cells seeds labels"),
+    _product(
+        "labels",
+        "LabelImage",
+        f"{_IMAGES} zarr",
+        _LABELS,
+        {"svg": _COLOURED["svg"]},
+        "cells seeds labels",
+        has_page=True,
+    ),
     _product("diagram", "", _IMAGES, None, {"png": _COLOURED["png"]}, "diagram"),
-    _product("colour", "LabelImage", "", None, _COLOURED, "cells seeds", moves=True),
+    _product("colour", "LabelImage", "", None, _COLOURED, "cells seeds", has_page=True, moves=True),
     _product("distance", "", "tiff npy zarr"),
     _product("distance2", "", "tiff npy zarr text"),
     _product("table", "Table", _TABLES, TABLE_WRITER),
@@ -109,7 +117,7 @@ _DELAUNAY = (
     _product(
         "triangles", _MESHES, "csv tsv json geojson npz npy ele obj", _MESH, _MESH_LAYERS, "triangles edges points"
     ),
-    _product("cells", "CellSet", "geojson csv tsv json npz wkt", _CELLS, _MESH_LAYERS, "cells points"),
+    _product("cells", "CellSet", "geojson csv tsv json npz wkt", _CELLS, _MESH_LAYERS, "cells points", has_page=True),
     _product("table", _MESHES, f"{_TABLES} node", _MESH),
     _product("compare", "", _TABLES, TABLE_WRITER),
 )
@@ -178,7 +186,9 @@ def _drawn() -> Product:
     """The picture of a result that was written before: the layers of all that is read again."""
     of_labels = {"png": ("cells", "diagram"), "svg": ("cells",)}
     return Product(
-        "picture", layers={fmt: (*layers, *_ARCS[fmt], "offset", "shape") for fmt, layers in of_labels.items()}
+        "picture",
+        layers={fmt: (*layers, *_ARCS[fmt], "offset", "shape") for fmt, layers in of_labels.items()},
+        has_page=True,
     )
 
 

@@ -122,8 +122,8 @@ def has_numbers(shape: tuple[int, int]) -> bool:
     return max(shape) <= MOST_NUMBERED
 
 
-def check_size(shape: tuple[int, int]) -> None:
-    """Refuse an image that is too large for a picture with a path a label.
+def check_size(shape: tuple[int, int], fmt: str = "SVG") -> None:
+    """Refuse an image that is too large for a picture with a path a label, as SVG or on a page.
 
     Raises
     ------
@@ -135,7 +135,7 @@ def check_size(shape: tuple[int, int]) -> None:
     >>> check_size((1000, 1000))
     """
     if shape[0] * shape[1] > MOST_PIXELS:
-        raise LimitError(f"{shape[1]} x {shape[0]} pixels are too many for SVG, at most {MOST_PIXELS}: use -f png")
+        raise LimitError(f"{shape[1]} x {shape[0]} pixels are too many for {fmt}, at most {MOST_PIXELS}: use -f png")
 
 
 class _Page:
