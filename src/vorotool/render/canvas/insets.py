@@ -144,7 +144,7 @@ def _scale_bar(bar: ScaleBar, page: Page) -> list[Layer]:
     if not 0 < longest < float("inf"):
         raise UsageError("no length fits as a scale bar: leave out --scale-bar")
     length = rounded_length(longest)
-    left, low, serif = size, page.height - size, 0.3 * size
+    left, low, serif = 2 * size, page.height - 2 * size, 0.3 * size
     right = left + length * unit
     places = np.array([[left, low - serif], [left, low], [right, low], [right, low - serif]])
     lines = _line("scale-bar", places, INK, 2.0)
