@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from vorotool.errors import UsageError
-from vorotool.geometry.numbers import finite_double
 
 if TYPE_CHECKING:
     from vorotool.jobs.options import JobOptions
@@ -162,6 +161,8 @@ def looks_of(
     >>> looks_of(color={"seeds": "red"}, line_width=None, background=None).colours
     (('seeds', '#ff0000'),)
     """
+    from vorotool.geometry.numbers import finite_double
+
     ground = background if background in (None, "none") else _colour(background, "background")
     colours = tuple((layer, _colour(each, f"color of {layer}")) for layer, each in (color or {}).items())
     widths = tuple((layer, finite_double(each, f"line_width of {layer}")) for layer, each in (line_width or {}).items())

@@ -208,8 +208,8 @@ def test_results_of_images_have_their_frame(run, folder, command):
 
 REFUSED = [
     (
-        ["draw", "shapes.geojson", "-f", "svg", "--label-by", "nam"],
-        "'nam': expected a column of the input, name, depth",
+        ["draw", "shapes.geojson", "-f", "svg", "--label-by", "river"],
+        "'river': expected a column of the input, name, depth",
     ),
     (
         ["delaunay", "dots.csv", "-f", "svg", "--label-by", "x"],
