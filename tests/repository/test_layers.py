@@ -50,7 +50,8 @@ geometry/any -> geometry, geometry/alpha, geometry/curves, geometry/mesh, geomet
     geometry/skeleton, products
 render/layers -> geometry, geometry/alpha, geometry/mesh, geometry/polygons, geometry/skeleton, render/canvas,
     render/label_images
-render/pages -> geometry, geometry/alpha, geometry/curves, geometry/skeleton, products, render/canvas
+render/pages -> geometry, geometry/alpha, geometry/curves, geometry/mesh, geometry/skeleton, products, render/canvas,
+    render/label_images
 engines/skeleton -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi, geometry,
     geometry/arguments, geometry/curves, geometry/polygons, geometry/skeleton
 formats/results -> formats/io, formats/parsing, formats/polygons, formats/text, geometry, geometry/alpha,
@@ -74,8 +75,8 @@ jobs -> batch, engines, engines/alpha, engines/arrangement, engines/centerlines,
     engines/features, engines/from_skeleton, engines/label_images, engines/offsets, engines/pruning,
     engines/sampled_skeleton, engines/segment_voronoi, engines/skeleton, engines/tessellation, formats,
     formats/images, formats/io, formats/parsing, formats/points, formats/text, formats/zarr, geometry, geometry/alpha,
-    geometry/any, geometry/mesh, geometry/points, geometry/polygons, geometry/skeleton, products, render/canvas,
-    render/label_images, render/layers, render/pages, typing
+    geometry/any, geometry/curves, geometry/mesh, geometry/points, geometry/polygons, geometry/skeleton, products,
+    render/canvas, render/label_images, render/layers, render/pages, typing
 cli/options -> engines/offsets, engines/pruning, geometry, jobs, products
 cli/batch -> batch, cli/options, formats/io, geometry, jobs, products
 cli/commands -> cli/batch, cli/options, jobs, products

@@ -22,7 +22,8 @@ from vorotool.geometry.pixel_grid import PixelGrid
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.raster import Raster
 from vorotool.geometry.table import Table
-from vorotool.jobs.pictures import Drawing, drawing_of, write_label_picture, write_layers
+from vorotool.jobs.label_pictures import LabelPicture
+from vorotool.jobs.pictures import Drawing, drawing_of, write_layers
 from vorotool.jobs.writing import to_geojson
 from vorotool.products.registry import is_of, parts_of
 
@@ -169,11 +170,13 @@ def _step(shape: tuple[int, int]) -> int:
 
 def _labels_png(image: LabelImage) -> bytes:
     from vorotool.engines.label_images.object_colours import object_colours
+    from vorotool.render.canvas.styles import PictureStyle
 
     step = _step(image.shape)
     small = LabelImage(np.ascontiguousarray(image.labels[::step, ::step]))
     colours = object_colours(small)
-    return _written(lambda out: write_label_picture(out, small, colours, fmt="png", layers=("cells",)))
+    picture = LabelPicture(small, colours, ("cells",), PictureStyle())
+    return _written(lambda out: picture.write(out, "png"))
 
 
 def _raster_png(raster: Raster) -> bytes:
