@@ -33,7 +33,7 @@ _HOME = {
     "Table": "vorotool.geometry.table",
     "Triangulation": "vorotool.geometry.mesh.triangulation",
     "read": "vorotool.formats",
-    "sample": "vorotool.jobs.samples",
+    "sample": "vorotool.formats.samples",
     "to_geojson": "vorotool.jobs.writing",
     "write": "vorotool.jobs.writing",
     "seeds_from_points": "vorotool.engines.tessellation.seeding",

@@ -161,6 +161,9 @@ from vorotool.errors import (
 from vorotool.formats import (
     read as read,
 )
+from vorotool.formats.samples import (
+    sample as sample,
+)
 from vorotool.geometry.alpha.complex import (
     AlphaComplex as AlphaComplex,
 )
@@ -253,9 +256,6 @@ from vorotool.geometry.skeleton.tables import (
 )
 from vorotool.geometry.table import (
     Table as Table,
-)
-from vorotool.jobs.samples import (
-    sample as sample,
 )
 from vorotool.jobs.writing import (
     to_geojson as to_geojson,

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+import sys
+import warnings
 from enum import Enum, auto
 
 _TYPED, _PARAMETER, _END = "\ufdd0", "\ufdd1", "\ufdd2"
@@ -269,3 +271,26 @@ class RepairWarning(VorotoolWarning):
     text : str, optional
         The words, which may have texts of `option`.
     """
+
+
+def warn(message: VorotoolWarning | str, category: type[VorotoolWarning] = VorotoolWarning) -> None:
+    """Warn of something, at the line outside of this package that called it.
+
+    Parameters
+    ----------
+    message : VorotoolWarning or str
+        The line.
+    category : type
+        Of a line that is text.
+
+    Examples
+    --------
+    >>> with warnings.catch_warnings(record=True) as said:
+    ...     warn("2 seeds were moved")
+    >>> str(said[0].message)
+    '2 seeds were moved'
+    """
+    level, frame = 2, sys._getframe(1)
+    while frame.f_back is not None and frame.f_globals.get("__name__", "").startswith("vorotool."):
+        level, frame = level + 1, frame.f_back
+    warnings.warn(message, category, stacklevel=level)

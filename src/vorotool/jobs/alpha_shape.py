@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Sequence
 from dataclasses import replace
 from decimal import Decimal, localcontext
@@ -19,7 +18,7 @@ from vorotool.engines.alpha.alpha_shape import (
     chosen_radius,
 )
 from vorotool.engines.alpha.few_points import unjoined
-from vorotool.errors import VorotoolWarning
+from vorotool.errors import warn
 from vorotool.geometry.alpha.complex import AlphaComplex, Radius
 from vorotool.geometry.alpha.shape import AlphaShape
 from vorotool.geometry.numbers import nearest_double
@@ -209,11 +208,7 @@ class ShapeProducts:
         if empty is not None and len(self.family.spectrum) and not self.is_unjoined and empty():
             words = {"table": "regions", "hull": "arcs in the hull"}.get(target.what, target.what)
             smallest = radius_text(float(self.family.spectrum[0]))
-            warnings.warn(
-                f"there are no {words} at r = {radius_text(self.shape.r)}: shapes begin at r = {smallest}",
-                VorotoolWarning,
-                stacklevel=2,
-            )
+            warn(f"there are no {words} at r = {radius_text(self.shape.r)}: shapes begin at r = {smallest}")
 
     def write(self, target: Target, *, inputs: Sequence[str]) -> None:
         """Write one result."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import warnings
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -12,7 +11,7 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.arrangement.flat_rings import flat_holes, with_flat_shells_as_lines
-from vorotool.errors import STRICT, InputError, LimitError, RepairWarning, VerificationError
+from vorotool.errors import STRICT, InputError, LimitError, RepairWarning, VerificationError, warn
 from vorotool.geometry.arguments.polygons import as_polygons
 from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.checks import checked_threads
@@ -193,20 +192,18 @@ def graph_of_placement(
 ) -> PlanarGraph:
     """Make the planar graph of polygons whose vertices are placed; errors and warnings as of `planar_graph`."""
     made = arranged(given, placement, progress=progress)
-    report_repairs(given, made.found, made.graph.scale, strict=strict, stacklevel=4)
+    report_repairs(given, made.found, made.graph.scale, strict=strict)
     return made.graph
 
 
-def report_repairs(
-    given: PolygonSet, found: dict[str, tuple[int, int, int]], step: float, *, strict: bool, stacklevel: int = 3
-) -> None:
+def report_repairs(given: PolygonSet, found: dict[str, tuple[int, int, int]], step: float, *, strict: bool) -> None:
     """Warn of repairs, if there are any; raise InputError instead if `strict`."""
     repairs = {name: count for name, (count, _, _) in found.items()}
     if not any(repairs.values()):
         return
     if strict:
         raise InputError(_first_repair(given, found))
-    warnings.warn(_summary(repairs, step), RepairWarning, stacklevel=stacklevel)
+    warn(_summary(repairs, step), RepairWarning)
 
 
 _WORDS = {

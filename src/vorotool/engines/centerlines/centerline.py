@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Literal, get_args
@@ -14,7 +13,7 @@ from vorotool.engines.centerlines.boundary_rays import first_hits
 from vorotool.engines.centerlines.ends import Unforked, forked, middles_ahead, unforked
 from vorotool.engines.centerlines.oblique_ends import led_to_oblique_ends
 from vorotool.engines.centerlines.path_network import Network, Paths, geometry_of
-from vorotool.errors import InputError, UsageError, VorotoolWarning
+from vorotool.errors import InputError, UsageError, warn
 from vorotool.geometry.arguments.points import as_place
 from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.magnitude import check_lengths
@@ -318,11 +317,7 @@ def _warn_missing(lines: Centerlines) -> None:
     named = [str(ids[k] if ids is not None and has_ids else k + 1) for k in missing[:MOST_NAMED].tolist()]
     more = f" and {len(missing) - MOST_NAMED} more" if len(missing) > MOST_NAMED else ""
     what = "ids" if has_ids else "numbers"
-    warnings.warn(
-        f"{len(missing)} of {total} polygons gave no centerline: {what} {', '.join(named)}{more}",
-        VorotoolWarning,
-        stacklevel=3,
-    )
+    warn(f"{len(missing)} of {total} polygons gave no centerline: {what} {', '.join(named)}{more}")
 
 
 def _no_path(skeleton: Skeleton, start: Place | None, end: Place | None, *, is_apart: bool) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -11,7 +10,7 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.delaunay.delaunay import core_mesh, delaunay
-from vorotool.errors import InputError, VerificationError, VorotoolWarning
+from vorotool.errors import InputError, VerificationError, warn
 from vorotool.geometry.arguments.boxes import as_box
 from vorotool.geometry.arguments.polygons import as_geometry
 from vorotool.geometry.arguments.values import check_value
@@ -144,11 +143,9 @@ def _clip_area(clip: Any, crs: Any) -> Any:
     bad = ~shapely.is_valid(polygons)
     if bad.any():
         reason = shapely.is_valid_reason(polygons[np.argmax(bad)])
-        warnings.warn(
+        warn(
             f"{int(bad.sum())} of {len(polygons)} polygons to clip to are not valid and were repaired "
-            f"(the first: {reason})",
-            VorotoolWarning,
-            stacklevel=3,
+            f"(the first: {reason})"
         )
         polygons[bad] = shapely.make_valid(polygons[bad])
     area = shapely.union_all(polygons)

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import warnings
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from vorotool import _core
-from vorotool.errors import STRICT, InputError, LimitError, VerificationError, VorotoolWarning
+from vorotool.errors import STRICT, InputError, LimitError, VerificationError, warn
 from vorotool.geometry.arguments.points import as_points
 from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.checks import checked_threads
@@ -86,7 +85,7 @@ def report_duplicates(mesh: Triangulation, *, strict: bool) -> None:
     what = f"{count} of {len(mesh.points)} points lie on an earlier point"
     if strict:
         raise InputError(f"{what}: remove the duplicates, or leave out {STRICT}")
-    warnings.warn(f"{what}: the first one of each place is triangulated", VorotoolWarning, stacklevel=3)
+    warn(f"{what}: the first one of each place is triangulated")
 
 
 def verify_triangulation(mesh: Triangulation, *, threads: int = 0, progress: Progress = None) -> None:

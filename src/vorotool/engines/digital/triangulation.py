@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -22,7 +21,7 @@ from vorotool.engines.tessellation.frames import (
     require_memory,
 )
 from vorotool.engines.tessellation.tessellator import Tessellator
-from vorotool.errors import InputError, LimitError, VorotoolWarning, option
+from vorotool.errors import InputError, LimitError, option, warn
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation
 from vorotool.geometry.mesh.triangulation import Triangulation
@@ -370,8 +369,4 @@ def _report_rebuilt(repair: DigitalRepair) -> None:
     if repair.route != "rebuilt":
         return
     why = f"the certificate failed ({repair.fault})" if repair.fault else "the regions have no planar dual"
-    warnings.warn(
-        f"the digital triangulation could not be repaired, {why}: all {repair.inserted} sites were inserted exactly",
-        VorotoolWarning,
-        stacklevel=3,
-    )
+    warn(f"the digital triangulation could not be repaired, {why}: all {repair.inserted} sites were inserted exactly")

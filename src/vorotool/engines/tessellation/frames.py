@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import warnings
 from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
@@ -16,7 +15,7 @@ import numpy as np
 from vorotool import _core
 from vorotool.engines.common.label_arrays import described
 from vorotool.engines.tessellation.seeding import Check, seeds_from_points, seeds_from_raster
-from vorotool.errors import STRICT, InputError, LimitError, UsageError, VorotoolWarning, option
+from vorotool.errors import STRICT, InputError, LimitError, UsageError, option, warn
 from vorotool.geometry.arguments.images import as_raster, is_image
 from vorotool.geometry.arguments.points import as_points
 from vorotool.geometry.arguments.polygons import as_polygons
@@ -107,11 +106,7 @@ def report_duplicates(duplicates: int, seeds: int, *, strict: bool) -> None:
         raise InputError(
             f"{duplicates} of {seeds} seeds lie on another seed: remove the duplicates, or leave out {STRICT}"
         )
-    warnings.warn(
-        f"{duplicates} of {seeds} seeds lie on another seed: the smallest label has the region",
-        VorotoolWarning,
-        stacklevel=4,
-    )
+    warn(f"{duplicates} of {seeds} seeds lie on another seed: the smallest label has the region")
 
 
 def default_frame(

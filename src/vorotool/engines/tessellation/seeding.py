@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal, get_args
@@ -19,7 +18,7 @@ from vorotool.engines.tessellation.raster_objects import (
     numbered_components,
     report_no_foreground,
 )
-from vorotool.errors import NO_PROPERTIES, STRICT, InputError, LimitError, UsageError, VorotoolWarning, option
+from vorotool.errors import NO_PROPERTIES, STRICT, InputError, LimitError, UsageError, option, warn
 from vorotool.geometry.arguments.images import as_raster
 from vorotool.geometry.arguments.points import as_points
 from vorotool.geometry.curves.inverse_functions import hypotenuse
@@ -136,11 +135,7 @@ def _report_snapped(points: PointSet, moved: NDArray[np.bool_], largest: float, 
             f"point {row + 1} is ({points.xy[row, 0]}, {points.xy[row, 1]}): seeds lie on multiples of 1/256 pixel "
             f"({count} such points); round them or leave out {STRICT}"
         )
-    warnings.warn(
-        f"{count} of {len(points)} seeds moved to the nearest 1/256 pixel, by at most {largest:.6f} pixels",
-        VorotoolWarning,
-        stacklevel=4,
-    )
+    warn(f"{count} of {len(points)} seeds moved to the nearest 1/256 pixel, by at most {largest:.6f} pixels")
 
 
 def _coarsest_scale(lattice: NDArray[np.int64]) -> int:

@@ -9,7 +9,7 @@ from decimal import Decimal
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import UsageError
+from vorotool.errors import UsageError, option
 from vorotool.render.canvas.layers import Arcs, Curves, Layer, Lines, Page, Points, Polygons, Texts
 from vorotool.render.canvas.palettes import FAINT, INK, WHITE
 from vorotool.render.canvas.styles import ScaleBar
@@ -142,7 +142,7 @@ def _scale_bar(bar: ScaleBar, page: Page) -> list[Layer]:
     unit = page.length(1.0) / bar.factor  # px of a unit of the bar
     longest = LONGEST * page.width / unit if unit > 0 else 0.0
     if not 0 < longest < float("inf"):
-        raise UsageError("no length fits as a scale bar: leave out --scale-bar")
+        raise UsageError(f"no length fits as a scale bar: leave out {option('--scale-bar', 'scale_bar=True')}")
     length = rounded_length(longest)
     left, low, serif = 2 * size, page.height - 2 * size, 0.3 * size
     right = left + length * unit

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 from vorotool.errors import LimitError
 from vorotool.geometry.mesh.cells import CellSet
 from vorotool.geometry.ragged import starts_of
+from vorotool.products.formats import AS_SVG
 from vorotool.render.canvas.palettes import cell_colour
 from vorotool.render.label_images.crack_outline import crack_loops
 
@@ -133,7 +134,7 @@ def check_html_size(cells: int, vertices: int = 0) -> None:
     """
     for count, most, what in ((cells, MOST_CELLS, "cells"), (vertices, MOST_VERTICES, "vertices of cells")):
         if count > most:
-            raise LimitError(f"{count} {what} are too many for a page, at most {most}: use -f svg or png")
+            raise LimitError(f"{count} {what} are too many for a page, at most {most}: use {AS_SVG} or png")
 
 
 def _data(shapes: Shapes, classes: NDArray[Any], columns: Mapping[str, Sequence[Any]]) -> dict[str, Any]:
