@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
 from vorotool.errors import UsageError
@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from vorotool.geometry.mesh.cells import CellSet
     from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation
     from vorotool.geometry.pixel_frame import Frame
     from vorotool.geometry.points.point_set import PointSet
@@ -83,7 +84,9 @@ def world_of_sites(run: Run, o: SiteOptions, mesh: AnyTriangulation, sites: Poin
     sites : PointSet or SeedSet
         What was read.
     """
-    frame = getattr(sites, "frame", None)
+    from vorotool.geometry.points.seed_set import SeedSet
+
+    frame = sites.frame if isinstance(sites, SeedSet) else None
     return world_of(run, o.looks, crs=mesh.crs, bounds=_bounds_of(mesh.points), frame=frame, size=o.pixel_size)
 
 
@@ -105,15 +108,37 @@ def world_of_value(value: Any, looks: Looks) -> World:
     looks : Looks
         What is chosen of pictures.
     """
-    while not hasattr(value, "crs"):
-        value = next(getattr(value, name) for name in _INSIDE if hasattr(value, name))
-    check_column(looks.label_by, value.properties, "label_by")
-    points = next(getattr(value, name) for name in ("points", "sites", "xy") if hasattr(value, name))
-    return world_of(None, looks, crs=value.crs, unit=getattr(value, "unit", None), bounds=_bounds_of(points))
+    from vorotool.geometry.mesh.cells import CellSet
+    from vorotool.geometry.polygons.polygon_set import PolygonSet
+
+    inner = _input_of(value)
+    check_column(looks.label_by, inner.properties, "label_by")
+    if isinstance(inner, PolygonSet):
+        return world_of(None, looks, crs=inner.crs, unit=inner.unit, bounds=_bounds_of(inner.xy))
+    points = inner.sites if isinstance(inner, CellSet) else inner.points
+    return world_of(None, looks, crs=inner.crs, bounds=_bounds_of(points))
 
 
-_INSIDE = ("path", "skeleton", "shape", "family", "mesh", "polygons")
-"""What of a value has the coordinate reference system and the columns of its input, from outside to inside."""
+def _input_of(value: Any) -> AnyTriangulation | CellSet | PolygonSet:
+    """What of a value has the coordinate reference system and the columns of its input."""
+    from vorotool.geometry.alpha.hull import AlphaHull
+    from vorotool.geometry.alpha.shape import AlphaShape
+    from vorotool.geometry.skeleton.centerline import Centerlines
+    from vorotool.geometry.skeleton.offsets import Offsets
+    from vorotool.geometry.skeleton.points_along import SkeletonPoints
+    from vorotool.geometry.skeleton.skeleton import Skeleton
+
+    inside: list[tuple[Any, Callable[[Any], Any]]] = [
+        (AlphaHull, lambda hull: hull.shape.family.mesh),
+        (AlphaShape, lambda shape: shape.family.mesh),
+        (Centerlines, lambda lines: lines.path.polygons),
+        (SkeletonPoints, lambda points: points.skeleton.polygons),
+        ((Skeleton, Offsets), lambda of: of.polygons),
+    ]
+    found: AnyTriangulation | CellSet | PolygonSet = next(
+        (get(value) for kind, get in inside if isinstance(value, kind)), value
+    )
+    return found
 
 
 def _bounds_of(points: NDArray[np.float64]) -> tuple[float, float, float, float]:
