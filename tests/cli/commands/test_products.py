@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from vorotool.jobs.names import DERIVED
-from vorotool.products.formats import FORMATS
+from vorotool.products.formats import ANIMATIONS, FORMATS
 from vorotool.products.registry import PRODUCTS, all_layers, formats_of, layers_of
 from vorotool.render.label_images import png as label_png
 from vorotool.render.label_images import svg as label_svg
@@ -30,8 +30,9 @@ def test_every_format_is_written(run, folder, command, what):
         if (command, what, fmt) in OF_SEVERAL_KINDS:
             continue
         named, chosen = folder / f"a{FORMATS[fmt].endings[0]}", folder / "b"
+        frames = ["--frames", 2] if fmt in ANIMATIONS else []
         for way in (["-o", named.name], ["-f", fmt, "-o", "b"] if fmt != "zarr" else ["-o", named.name]):
-            done = run(command, *INPUTS[command], "--what", what, *more, *way)
+            done = run(command, *INPUTS[command], "--what", what, *more, *frames, *way)
             assert (done.code, done.err if what != "compare" else "") == (0, ""), fmt
         assert fmt == "zarr" or named.read_bytes() == chosen.read_bytes() != b"", fmt
 

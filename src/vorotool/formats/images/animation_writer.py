@@ -46,7 +46,7 @@ def write_animation(out: BinaryIO, frames: Iterable[NDArray[np.uint8]], *, fmt: 
         images = _with_one_palette(images)
         options |= {"optimize": False, "disposal": 1}
     elif fmt == "webp":
-        options |= {"lossless": True, "quality": 80, "method": 4}
+        options |= {"lossless": True, "quality": 20, "method": 0}
     made = io.BytesIO()
     name = {"gif": "GIF", "apng": "PNG", "webp": "WEBP"}[fmt]
     images[0].save(made, name, append_images=images[1:], **options)
