@@ -76,6 +76,8 @@ _HOME = {
     "Offsets": "vorotool.geometry.skeleton.offsets",
     "offset": "vorotool.engines.offsets.offsets",
     "verify_offsets": "vorotool.engines.offsets.verify_offsets",
+    "VoronoiMap": "vorotool.geometry.voronoi.voronoi_map",
+    "voronoi": "vorotool.engines.voronoi.voronoi",
     "rebuild": "vorotool.engines.from_skeleton.reconstruction",
     "SkeletonPoints": "vorotool.geometry.skeleton.points_along",
     "points_along": "vorotool.engines.from_skeleton.points_along",
