@@ -137,8 +137,8 @@ def _own_ends(graph: PlanarGraph, diagram: SegmentVoronoiDiagram) -> _OwnEnds:
     has_left = diagram.edge_sites[edge, 0] == segment + count
     forth, back = np.where(has_left, right, left), np.where(has_left, left, right)
     source, target = diagram.edges[edge].T
-    begins = (source >= 0) & (diagram.radius[source] == 0)
-    ends = (target >= 0) & (diagram.radius[target] == 0)
+    radius = np.append(diagram.radius, np.inf)  # that of -1, at infinity
+    begins, ends = radius[source] == 0, radius[target] == 0
     faces = np.stack([np.where(begins, forth, back), np.where(ends, back, forth)], axis=1)
     degree = np.bincount(graph.segments.ravel(), minlength=count)
     is_through = ~begins & ~ends & (degree[point] > 1)
@@ -269,7 +269,7 @@ class _Nodes:
         """
         order = np.zeros((len(ends), 2), dtype=np.int64)
         vertices = len(self.diagram)
-        busy = np.bincount(ends[ends >= 0], minlength=len(self.places)) > 2
+        busy = np.append(np.bincount(ends[ends >= 0], minlength=len(self.places)) > 2, False)  # none at infinity
         for end in (0, 1):
             at = ends[:, end]
             is_wall = elements[:, 0] == elements[:, 1]

@@ -21,6 +21,9 @@ SIDES = 4
 
 INFINITY = float("inf")
 
+TOUCH = 2.0**-48
+"""Of the coordinates, by which a parabola may miss a side of the frame and still be taken to touch it."""
+
 
 @dataclass(frozen=True, eq=False)
 class CutBorders:
@@ -180,6 +183,12 @@ class _Curve:
         return [root for root in (c / q if q else None, q / a if a else None) if root is not None]
 
 
+    def turn(self, axis: int) -> float | None:
+        """Where a coordinate is least or most along a parabola."""
+        across = (-self.way[1], self.way[0])[axis]
+        return -self.way[axis] * self.height / across if self.height and across else None
+
+
 class _Cutter:
     """Cuts pieces one by one; there are few that leave a frame."""
 
@@ -211,7 +220,12 @@ class _Cutter:
         low, high = min(curve.first, curve.last), max(curve.first, curve.last)
         found = []
         for side in range(SIDES):
-            roots = curve.meets(*self.box.lattice_line(side))
+            axis, value = self.box.lattice_line(side)
+            roots = curve.meets(axis, value)
+            if not roots and (turn := curve.turn(axis)) is not None:
+                slack = TOUCH * (abs(value) + abs(curve.base[axis]) + curve.height)
+                if abs(curve.place(turn)[axis] - value) <= slack:  # it touches the frame, as far as doubles tell
+                    roots = [turn, turn]
             for end, t in zip(own, (curve.first, curve.last)):
                 if end >= 0 and self.side[end] == side and roots:  # that is where it meets the side
                     roots.remove(min(roots, key=lambda root: abs(root - t)))

@@ -17,6 +17,9 @@ Indices = NDArray[np.int64]
 PART_OF_RADIUS = 0.25
 """How far a polyline may be from its parabola, as a part of the smallest distance of that from the sites."""
 
+_BEND_OF_TWO = 10
+"""A parabola that may be off by its second difference over this is divided in two: more than 4, at most 16."""
+
 
 def flattened_arcs(cells: VoronoiMap, tolerance: float) -> tuple[Floats, Indices]:
     """Give each arc as a polyline, from its source to its target.
@@ -46,8 +49,17 @@ def flattened_arcs(cells: VoronoiMap, tolerance: float) -> tuple[Floats, Indices
     np.int64(4)
     """
     source, target = cells.vertices[cells.arcs[:, 0]], cells.vertices[cells.arcs[:, 1]]
-    least = PART_OF_RADIUS * _least_radii(source, cells.control, target)
-    return polylines(source, cells.control, target, cells.is_parabola, np.minimum(tolerance, least))
+    most = np.minimum(tolerance, PART_OF_RADIUS * _least_radii(source, cells.control, target))
+    paired = _in_pairs(cells)
+    bend = (source - 2 * cells.control + target)[paired]
+    most[paired] = np.fmin(most[paired], np.sqrt((bend * bend).sum(axis=1)) / _BEND_OF_TWO)
+    return polylines(source, cells.control, target, cells.is_parabola, most)
+
+
+def _in_pairs(cells: VoronoiMap) -> Indices:
+    """Arcs of rings of two: of one piece each they would hold nothing."""
+    first = cells.ring_start[:-1][np.diff(cells.ring_start) == 2]
+    return np.abs(cells.ring_arcs[np.concatenate([first, first + 1])].astype(np.int64)) - 1
 
 
 def _least_radii(source: Floats, control: Floats, target: Floats) -> Floats:
