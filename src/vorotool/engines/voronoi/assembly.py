@@ -81,7 +81,7 @@ def arcs_of(cut: CutBorders, ring: FrameRing, sites: Indices, parts: Indices, or
     turned = ends[:, 0] > ends[:, 1]
     for each in (ends, both_sites, both_parts, orders):
         each[turned] = each[turned, ::-1]
-    sorting = np.lexsort((control[:, 1], control[:, 0], ends[:, 1], ends[:, 0]))
+    sorting = _by_ends(ends, control)
     return Arcs(
         places[kept],
         radius[kept],
@@ -91,6 +91,18 @@ def arcs_of(cut: CutBorders, ring: FrameRing, sites: Indices, parts: Indices, or
         both_parts[sorting],
         orders[sorting],
     )
+
+
+def _by_ends(ends: Indices, control: Floats) -> Indices:
+    """The order of arcs by their ends; those between the same two by their control points."""
+    key = ends[:, 0] * (int(ends.max(initial=0)) + 1) + ends[:, 1]
+    sorting = np.argsort(key, kind="stable")
+    again = np.flatnonzero(np.diff(key[sorting]) == 0)
+    if again.size:  # few arcs have both ends in common
+        alike = np.union1d(again, again + 1)
+        arc = sorting[alike]
+        sorting[alike] = arc[np.lexsort((control[arc, 1], control[arc, 0], key[arc]))]
+    return sorting
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,7 +143,9 @@ def rings_of(arcs: Arcs) -> Rings:
         If an arc has another site on its left than the one before it.
     """
     tail = arcs.ends.ravel()
-    out = np.lexsort((arcs.order.ravel(), tail))
+    order = arcs.order.ravel()
+    least = int(order.min(initial=0))
+    out = np.argsort(tail * (int(order.max(initial=0)) - least + 1) + (order - least), kind="stable")
     first = np.flatnonzero(np.diff(tail[out], prepend=-1))
     before = np.roll(out, 1)
     before[first] = out[np.append(first[1:], len(out)) - 1] if len(first) else before[first]

@@ -18,6 +18,9 @@ from vorotool.geometry.skeleton.segment_voronoi import SegmentVoronoiDiagram
 
 Indices = NDArray[np.int64]
 
+_FEW = 6
+"""Sites around a vertex that are gone through one by one: there are three of most."""
+
 
 @dataclass(frozen=True, eq=False)
 class Borders:
@@ -243,8 +246,9 @@ class _Nodes:
         self.graph, self.diagram = graph, diagram
         count = len(diagram)
         self.of_point = _vertices_of_points(graph, diagram)
-        added = np.unique(needed)
-        added = added[self.of_point[added] < 0]
+        is_needed = np.zeros(len(graph.points), dtype=bool)
+        is_needed[needed] = True
+        added = np.flatnonzero(is_needed & (self.of_point < 0))
         added = added[np.lexsort(graph.points[added].T[::-1])]  # by place, however they are numbered
         self.of_point[added] = count + np.arange(len(added))
         self.added = added
@@ -283,17 +287,32 @@ class _Nodes:
 
     def _ranks(self, vertex: Indices, element: Indices) -> Indices:
         """The place of elements among the sites of vertices."""
+        start, sites = self.diagram.vertex_start, self.diagram.vertex_sites
+        rank = np.full(len(vertex), -1, dtype=np.int64)
+        left = np.arange(len(vertex))
+        for k in range(_FEW):
+            left = left[k < start[vertex[left] + 1] - start[vertex[left]]]
+            found = sites[start[vertex[left]] + k] == element[left]
+            rank[left[found]] = k
+            left = left[~found]
+        if left.size:
+            rank[left] = self._ranks_among_many(vertex[left], element[left])
+        if (rank < 0).any():
+            raise VerificationError("a border ends at a vertex that its element does not touch: please report it")
+        return rank
+
+    def _ranks_among_many(self, vertex: Indices, element: Indices) -> Indices:
+        """The same by one search for all, where many sites meet; -1 of what is not there."""
         diagram = self.diagram
         vertices = np.unique(vertex)
         sizes = np.diff(diagram.vertex_start)[vertices]
-        entries = ranges(diagram.vertex_start[vertices], sizes)
         elements = len(self.graph.points) + len(self.graph)
+        entries = ranges(diagram.vertex_start[vertices], sizes)
         key = np.repeat(vertices, sizes) * elements + diagram.vertex_sites[entries]
         sorting = np.argsort(key, kind="stable")
-        found = sorting[np.searchsorted(key, vertex * elements + element, sorter=sorting).clip(max=max(len(key) - 1, 0))]
-        if (key[found] != vertex * elements + element).any():
-            raise VerificationError("a border ends at a vertex that its element does not touch: please report it")
-        ranks: Indices = within(sizes)[found]
+        wanted = vertex * elements + element
+        found = sorting[np.searchsorted(key, wanted, sorter=sorting).clip(max=len(key) - 1)]
+        ranks: Indices = np.where(key[found] == wanted, within(sizes)[found], -1)
         return ranks
 
     def _order_in_line(self, node: Indices, left: Indices, right: Indices, is_wall: NDArray[np.bool_]) -> Indices:

@@ -287,11 +287,9 @@ class _Cutter:
 
     def _ends_of(self, element: int) -> tuple[Place, Place]:
         count = len(self.graph.points)
-        points = self.graph.points.astype(np.float64)[
-            [element, element] if element < count else self.graph.segments[element - count]
-        ]
-        (ax, ay), (bx, by) = points.tolist()
-        return (ax, ay), (bx, by)
+        ends = [element, element] if element < count else self.graph.segments[element - count]
+        (ax, ay), (bx, by) = self.graph.points[ends].tolist()
+        return (float(ax), float(ay)), (float(bx), float(by))
 
     def _curve(self, piece: int) -> _Curve:
         """The curve that a piece is on."""
