@@ -78,6 +78,7 @@ _HOME = {
     "verify_offsets": "vorotool.engines.offsets.verify_offsets",
     "VoronoiMap": "vorotool.geometry.voronoi.voronoi_map",
     "voronoi": "vorotool.engines.voronoi.voronoi",
+    "verify_voronoi": "vorotool.engines.voronoi.verify_voronoi",
     "rebuild": "vorotool.engines.from_skeleton.reconstruction",
     "SkeletonPoints": "vorotool.geometry.skeleton.points_along",
     "points_along": "vorotool.engines.from_skeleton.points_along",
