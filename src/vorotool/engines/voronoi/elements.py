@@ -24,6 +24,8 @@ from vorotool.geometry.ragged import owners, ranges
 NOBODY = np.int32(2**31 - 1)
 """A site after all others, while the smallest is looked for."""
 
+_FAULTS = ("repeated_vertices", "idle_segments", "empty_polygons")
+
 Sites = NDArray[np.int32]
 
 
@@ -49,7 +51,7 @@ class OwnedGraph:
 
 
 def owned_graph(
-    polygons: PolygonSet, site: Sites, *, strict: bool = False, threads: int = 0, progress: Progress = None
+    polygons: PolygonSet, site: Sites, *, threads: int = 0, progress: Progress = None
 ) -> OwnedGraph:
     """Put polygons and lines into one planar graph, and tell whose its elements are.
 
@@ -61,8 +63,13 @@ def owned_graph(
         Points are lines of one vertex.
     site : (p,) int32 array
         Of each polygon.
-    strict, threads, progress
-        As of `vorotool.planar_graph`, as are errors and warnings.
+    threads, progress
+        As of `vorotool.planar_graph`, as are errors.
+
+    Warns
+    -----
+    RepairWarning
+        If vertices are repeated, or an edge or a polygon bounds nothing. That edges meet is no fault of sites.
 
     Examples
     --------
@@ -72,20 +79,21 @@ def owned_graph(
     >>> owned.face.tolist(), sorted(owned.element.tolist())
     ([-1, 0, 1], [0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1])
     """
-    graph = _graph(polygons, strict, threads, progress)
+    graph = _graph(polygons, threads, progress)
     given = graph.polygons
     assert given is not None
     return OwnedGraph(graph, _element_owners(graph, given, site), _face_owners(graph, site))
 
 
-def _graph(polygons: PolygonSet, strict: bool, threads: int, progress: Progress) -> PlanarGraph:
+def _graph(polygons: PolygonSet, threads: int, progress: Progress) -> PlanarGraph:
     given = with_flat_shells_as_lines(polygons)
     check_magnitude(given.xy)
     if len(given.xy) > MOST_VERTICES:
         raise LimitError(f"there are {len(given.xy)} vertices, more than {MOST_VERTICES}: split the polygons")
     placement = placed_vertices(given, threads=threads, progress=progress)
     made = arranged(given, placement, progress=progress)
-    report_repairs(given, made.found, made.graph.scale, strict=strict, stacklevel=5)
+    found = {name: each if name in _FAULTS else (0, -1, -1) for name, each in made.found.items()}
+    report_repairs(given, found, made.graph.scale, strict=False, stacklevel=5)
     is_empty = ~given.is_line
     is_empty[made.graph.face_polygon] = False
     if is_empty.any():

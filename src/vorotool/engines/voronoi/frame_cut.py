@@ -179,8 +179,10 @@ class _Curve:
         discriminant = b * b - 4 * a * c
         if discriminant < 0:
             return []
-        q = -(b + np.copysign(np.sqrt(discriminant), b)) / 2
-        return [root for root in (c / q if q else None, q / a if a else None) if root is not None]
+        q = -(b + float(np.copysign(np.sqrt(discriminant), b))) / 2
+        if not q:  # it touches where t is 0
+            return [0.0, 0.0] if a else []
+        return [c / q, *([q / a] if a else [])]
 
 
     def turn(self, axis: int) -> float | None:

@@ -29,7 +29,6 @@ def voronoi(
     *,
     by: Any = None,
     frame: Frame | None = None,
-    strict: bool = False,
     threads: int = 0,
     progress: Progress = None,
 ) -> VoronoiMap:
@@ -38,7 +37,8 @@ def voronoi(
     All sites are placed on a lattice of 31 bits and cut where they meet. From there on every decision is exact: the
     Voronoi diagram of the vertices and open edges is made, and of its edges those between different sites are kept.
     Polygons are filled: what is inside is at distance 0. Of sites that are equally near to a whole region, as where
-    polygons overlap or share a corner, the first has it; its cell may leave nothing for another one.
+    polygons overlap or share a corner, the first has it; its cell may leave nothing for another one. A polygon is what
+    lies inside its rings by the even-odd rule; one without inside is a line.
 
     Parameters
     ----------
@@ -49,8 +49,6 @@ def voronoi(
         appearance.
     frame : (x, y, w, h), optional
         Rectangle that cells are cut by; by default the bounds and a tenth of their larger side around them.
-    strict : bool
-        Refuse polygons that would be repaired; sites that meet are none of these, but are cut there.
     threads : int
         0 uses all.
     progress : callable, optional
@@ -64,7 +62,7 @@ def voronoi(
     Raises
     ------
     InputError
-        If `sites` are none, a coordinate is not finite, or `strict` and something would be repaired.
+        If `sites` are none, or a coordinate is not finite.
     UsageError
         If the frame is none, or `by` is no column.
     LimitError
@@ -73,7 +71,7 @@ def voronoi(
     Warns
     -----
     RepairWarning
-        If polygons were repaired.
+        If vertices are repeated, or an edge or a polygon bounds nothing.
 
     References
     ----------
@@ -88,7 +86,7 @@ def voronoi(
     _check_frame(frame)
     threads = checked_threads(threads)
     given = as_sites(sites, by)
-    owned = owned_graph(given.polygons, given.site, strict=strict, threads=threads, progress=progress)
+    owned = owned_graph(given.polygons, given.site, threads=threads, progress=progress)
     frame = default_frame(given.polygons) if frame is None else frame
     arcs, rings = _map(owned, frame, threads, progress)
     cells = cells_of(rings, shells_of(rings, arcs), given.count)
