@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.voronoi.borders import Borders
-from vorotool.engines.voronoi.curves import Parabolas, controls_of, parabolas_of
+from vorotool.engines.voronoi.curves import controls_of, parabolas_of
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 
 Floats = NDArray[np.float64]
@@ -69,7 +69,9 @@ class FrameBox:
         self.low, self.high = np.array([x, y]), np.array([x + w, y + h])
         self.origin, self.scale = np.array(graph.origin), graph.scale
         with np.errstate(over="ignore"):  # the lattice of a single place is finer than anything
-            self.least, self.most = ((place - self.origin) / self.scale for place in (self.low, self.high))
+            self.least, self.most = (
+                ((place - self.origin) / self.scale).tolist() for place in (self.low, self.high)
+            )
 
     def side_of(self, places: Floats) -> Indices:
         """(n,) the side that places in input units lie on; -1 of those strictly inside, -2 outside."""
@@ -77,7 +79,7 @@ class FrameBox:
         x, y = places.T
         for number, hit in ((3, x == self.low[0]), (2, y == self.high[1]), (1, x == self.high[0]), (0, y == self.low[1])):
             side[hit] = number
-        is_out = (places < self.low).any(axis=1) | (places > self.high).any(axis=1)
+        is_out = (x < self.low[0]) | (y < self.low[1]) | (x > self.high[0]) | (y > self.high[1])
         side[is_out] = -2
         return side
 
@@ -85,7 +87,7 @@ class FrameBox:
         """Which coordinate a side holds constant, and its value on the lattice."""
         bound = self.least if side in (0, 3) else self.most
         axis = 1 - side % 2
-        return axis, float(bound[axis])
+        return axis, bound[axis]
 
     def put_on(self, side: int, place: Place) -> Place:
         """A place on the lattice in input units, exactly on a side."""
@@ -96,7 +98,8 @@ class FrameBox:
 
     def holds(self, place: Place) -> bool:
         """Whether a place on the lattice is inside."""
-        return bool(self.least[0] < place[0] < self.most[0] and self.least[1] < place[1] < self.most[1])
+        inside: bool = self.least[0] < place[0] < self.most[0] and self.least[1] < place[1] < self.most[1]
+        return inside
 
     def nearest_side(self, place: Place) -> int:
         """The side that a place on the lattice is nearest to, or beyond."""
@@ -120,25 +123,30 @@ def cut_borders(borders: Borders, graph: PlanarGraph, frame: tuple[float, float,
     box = FrameBox(frame, graph)
     places = graph.coordinates(borders.places).reshape(-1, 2)
     side = box.side_of(places)
-    padded, padded_side = np.concatenate([places, [[np.nan, np.nan]]]), np.append(side, -2)  # at infinity
+    padded = np.concatenate([places, [[np.nan, np.nan]]])  # that of -1, at infinity
     control = controls_of(borders, graph)
-    is_finite = (borders.ends >= 0).all(axis=1)
     source, target = borders.ends.T
+    is_finite = (source >= 0) & (target >= 0)
     corners = [padded[source], padded[target], graph.coordinates(control)]
     corners[2] = np.where(np.isnan(corners[2]), corners[0], corners[2])
-    within = [((c >= box.low) & (c <= box.high)).all(axis=1) for c in corners]
-    is_whole = is_finite & (padded_side[borders.ends] == -1).all(axis=1) & within[2]
-    is_touching = is_finite & within[0] & within[1] & within[2] & ~is_whole
-    is_off = np.zeros(len(source), dtype=bool)
-    for axis in (0, 1):
-        is_off |= np.logical_and.reduce([c[:, axis] <= box.low[axis] for c in corners])
-        is_off |= np.logical_and.reduce([c[:, axis] >= box.high[axis] for c in corners])
-    is_off &= is_finite
-    kept = np.flatnonzero(is_whole | (is_touching & ~is_off))
-    crossing = np.flatnonzero(~is_whole & ~is_touching & ~is_off)
-    cutter = _Cutter(borders, graph, box, side)
+    low, high = _reach(corners)
+    is_within = is_finite & _all_of(low >= box.low) & _all_of(high <= box.high)
+    is_off = is_finite & ~(_all_of(low < box.high) & _all_of(high > box.low))
+    kept, crossing = np.flatnonzero(is_within & ~is_off), np.flatnonzero(~is_within & ~is_off)
+    cutter = _Cutter(borders, graph, box, side, crossing)
     parts = [part for piece in crossing.tolist() for part in cutter.parts(piece)]
     return cutter.put_together(places, kept, corners[2][kept], np.isnan(control[kept, 0]), parts)
+
+
+def _reach(corners: list[Floats]) -> tuple[Floats, Floats]:
+    """Least and most coordinates of the triangles that pieces lie in."""
+    a, b, c = corners
+    return np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
+
+
+def _all_of(pairs: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    both: NDArray[np.bool_] = pairs[:, 0] & pairs[:, 1]
+    return both
 
 
 @dataclass(frozen=True)
@@ -194,9 +202,12 @@ class _Curve:
 class _Cutter:
     """Cuts pieces one by one; there are few that leave a frame."""
 
-    def __init__(self, borders: Borders, graph: PlanarGraph, box: FrameBox, side: Indices) -> None:
+    def __init__(self, borders: Borders, graph: PlanarGraph, box: FrameBox, side: Indices, pieces: Indices) -> None:
         self.borders, self.graph, self.box = borders, graph, box
-        self.side = side
+        self.sides = side
+        ends = borders.ends[pieces]
+        self.side = dict(zip(ends.ravel().tolist(), side[ends].ravel().tolist(), strict=True)) if len(side) else {}
+        self.parabolas = dict(self._parabolas(pieces))
         self.cuts: list[tuple[Place, float, int]] = []
 
     def parts(self, piece: int) -> Iterator[_Part]:
@@ -297,12 +308,8 @@ class _Cutter:
         """The curve that a piece is on."""
         borders = self.borders
         source, target = (int(end) for end in borders.ends[piece])
-        pair = borders.elements[piece : piece + 1]
-        is_parabola, parabolas = parabolas_of(self.graph, pair)
-        if is_parabola[0]:
-            t = [self._parameter(parabolas, end) for end in (source, target)]
-            (x, y), (u, v) = parabolas.focus[0].tolist(), parabolas.way[0].tolist()
-            return _Curve((x, y), (u, v), float(parabolas.height[0]), *t)
+        if piece in self.parabolas:
+            return self.parabolas[piece]
         if source >= 0 and target >= 0:
             a, b = borders.places[source].tolist(), borders.places[target].tolist()
             way = (b[0] - a[0], b[1] - a[1])
@@ -310,11 +317,19 @@ class _Cutter:
             if max(map(abs, a)) <= max(map(abs, b)):
                 return _Curve((a[0], a[1]), way, 0.0, 0.0, 1.0)
             return _Curve((b[0], b[1]), way, 0.0, -1.0, 0.0)
-        return self._unbounded(pair[0], source, target)
+        return self._unbounded(borders.elements[piece], source, target)
 
-    def _parameter(self, parabolas: Parabolas, end: int) -> float:
-        found = parabolas.parameter(self.borders.places[end : end + 1], self.borders.radius[end : end + 1])
-        return float(found[0])
+    def _parabolas(self, pieces: Indices) -> Iterator[tuple[int, _Curve]]:
+        """Those among some pieces."""
+        borders = self.borders
+        is_parabola, parabolas = parabolas_of(self.graph, borders.elements[pieces])
+        bent = pieces[is_parabola]
+        first, last = (
+            parabolas.parameter(borders.places[end], borders.radius[end]).tolist() for end in borders.ends[bent].T
+        )
+        rows = zip(parabolas.focus.tolist(), parabolas.way.tolist(), parabolas.height.tolist(), first, last, strict=True)
+        for piece, ((x, y), (u, v), *others) in zip(bent.tolist(), rows, strict=True):
+            yield piece, _Curve((x, y), (u, v), *others)
 
     def _unbounded(self, pair: Indices, source: int, target: int) -> _Curve:
         """The bisector of two points, or of a segment and its end: across the way between them."""
@@ -346,5 +361,5 @@ class _Cutter:
             np.concatenate([np.where(is_line[:, None], np.nan, control), self.graph.coordinates(of_parts)]),
             np.concatenate([places, new]),
             self.graph.scale * np.concatenate([self.borders.radius, [radius for _, radius, _ in self.cuts]]),
-            np.concatenate([self.side, np.array([side for _, _, side in self.cuts], dtype=np.int64)]),
+            np.concatenate([self.sides, np.array([side for _, _, side in self.cuts], dtype=np.int64)]),
         )
