@@ -69,7 +69,8 @@ def _features(value: Any) -> dict[str, Any]:
         name: column.tolist() if isinstance(column, np.ndarray) else list(column)
         for name, column in features.columns.items()
     }
-    shapes = [None if text is None else orjson.loads(text) for text in shapely.to_geojson(features.geometry)]
+    there = np.where(shapely.is_empty(features.geometry), None, features.geometry)
+    shapes = [None if text is None else orjson.loads(text) for text in shapely.to_geojson(there)]
     rows = zip(*columns.values(), strict=True)
     made: dict[str, Any] = {
         "type": "FeatureCollection",

@@ -63,16 +63,16 @@ def lengths_of(source: Floats, control: Floats, target: Floats) -> Floats:
         axis = bend / size[:, None]
         along = np.abs(first[:, 0] * axis[:, 1] - first[:, 1] * axis[:, 0])
         s0, s1 = ((way * axis).sum(axis=1) / along for way in (first, second))
-        curved = along * along / size * _rise(s0, s1)
+        curved = along * along / size * _rise(s0, s1, size / along)
     folded = _norm(first) + _norm(second)
     length[bent] = np.where((size > 0) & (along > 0) & np.isfinite(curved), curved, folded)
     return length
 
 
-def _rise(s0: Floats, s1: Floats) -> Floats:
-    """The difference of s w + asinh s, w = sqrt(1 + s^2), from s0 to s1 above it."""
+def _rise(s0: Floats, s1: Floats, step: Floats) -> Floats:
+    """The difference of s w + asinh s, w = sqrt(1 + s^2), from s0 to s1, a known step above it."""
     w0, w1 = np.sqrt(1 + s0 * s0), np.sqrt(1 + s1 * s1)
-    step, same = s1 - s0, s0 * s1
+    same = s0 * s1
     products = (w0 + w1) / 2 + (s0 + s1) * (s0 + s1) / (2 * (w0 + w1))
     outer = np.where(same > 0, (1 + s0 * s0 + s1 * s1) / (w0 * w1 + same), w0 * w1 - same)
     rise: Floats = step * products + inverse_sinh(np.nan_to_num(step * (1 + outer) / (w0 + w1)))
