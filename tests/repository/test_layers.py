@@ -45,8 +45,6 @@ engines/digital -> engines/common, engines/delaunay, engines/label_images, engin
     geometry/curves, geometry/mesh, geometry/points
 engines/features -> engines/arrangement, geometry, geometry/polygons, geometry/skeleton
 formats/polygons -> formats/io, formats/parsing, formats/points, formats/text, geometry, geometry/polygons
-geometry/any -> geometry, geometry/alpha, geometry/curves, geometry/mesh, geometry/points, geometry/polygons,
-    geometry/skeleton, products
 render/layers -> geometry, geometry/alpha, geometry/mesh, geometry/polygons, geometry/skeleton, render/canvas,
     render/label_images
 render/pages -> geometry, geometry/alpha, geometry/curves, geometry/skeleton, products, render/canvas
@@ -67,6 +65,11 @@ batch -> engines/tessellation, formats, formats/io, formats/text, formats/zarr
 engines -> engines/sampled_skeleton, engines/skeleton, geometry, geometry/arguments, geometry/skeleton
 engines/centerlines -> engines/from_skeleton, engines/pruning, engines/skeleton, geometry, geometry/polygons,
     geometry/skeleton
+render ->
+typing -> geometry, geometry/mesh, geometry/points, geometry/polygons, geometry/skeleton
+geometry/voronoi -> geometry, geometry/curves, geometry/polygons, products
+geometry/any -> geometry, geometry/alpha, geometry/curves, geometry/mesh, geometry/points, geometry/polygons,
+    geometry/skeleton, geometry/voronoi, products
 jobs -> batch, engines, engines/alpha, engines/arrangement, engines/centerlines, engines/delaunay, engines/digital,
     engines/features, engines/from_skeleton, engines/label_images, engines/offsets, engines/pruning,
     engines/sampled_skeleton, engines/segment_voronoi, engines/skeleton, engines/tessellation, formats,
@@ -77,8 +80,8 @@ cli/options -> engines/offsets, engines/pruning, geometry, jobs, products
 cli/batch -> batch, cli/options, formats/io, geometry, jobs, products
 cli/commands -> cli/batch, cli/options, jobs, products
 cli -> cli/commands, jobs
-render ->
-typing -> geometry, geometry/mesh, geometry/points, geometry/polygons, geometry/skeleton
+engines/voronoi -> engines/arrangement, engines/common, engines/segment_voronoi, engines/skeleton, geometry,
+    geometry/arguments, geometry/curves, geometry/polygons, geometry/skeleton, geometry/voronoi
 """
 """Rooms of the package from below, and what each may import; `errors` and `signals` are for all."""
 

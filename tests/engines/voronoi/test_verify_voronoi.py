@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import shapely
-
 from tests.support.families.site_families import row_houses
+
 from vorotool import PolygonSet, verify_voronoi, voronoi
 from vorotool.errors import VerificationError
 
@@ -35,7 +35,7 @@ FAULTS = {
     "an arc that does not exist": ("ring_arcs", lambda a: a.__setitem__(0, 10**6)),
     "a ring against its cell": ("ring_arcs", lambda a: np.negative(a, out=a)),
     "a ring in another order": ("ring_arcs", lambda a: swap(a[:3])),
-    "sides of another cell": ("sites", lambda a: swap(a)),
+    "sides of another cell": ("sites", swap),
     "a radius": ("radius", lambda a: a.__imul__(1.01)),
     "a vertex": ("vertices", lambda a: a.__setitem__(0, a[0] + 1e-3)),
     "all vertices": ("vertices", lambda a: a.__iadd__(1)),
@@ -60,7 +60,9 @@ def test_another_order_of_ties():
     with pytest.raises(VerificationError, match="comes first"):
         verify_voronoi(exchanged(made))
     with pytest.raises(VerificationError, match="comes first"):
-        verify_voronoi(exchanged(voronoi([shapely.LineString([(0, 0), (-8, -1)]), shapely.LineString([(0, 0), (-8, 1)])])))
+        verify_voronoi(
+            exchanged(voronoi([shapely.LineString([(0, 0), (-8, -1)]), shapely.LineString([(0, 0), (-8, 1)])]))
+        )
 
 
 def exchanged(cells):

@@ -6,10 +6,10 @@ from itertools import permutations
 import numpy as np
 import pytest
 import shapely
-
-import vorotool
 from tests.support.families.site_families import mixed_sites, row_houses, squares
 from tests.support.oracles.voronoi_oracle import assert_is_coverage, assert_nearest
+
+import vorotool
 from vorotool import verify_voronoi, voronoi
 from vorotool.errors import InputError, RepairWarning, UsageError
 
@@ -33,7 +33,8 @@ def test_mixed_sites(seed):
     sites = mixed_sites(random, int(random.integers(1, 9)), grid)
     frame = None
     if seed % 2:
-        frame = tuple((random.uniform(-20, 60, 2).round() if grid else random.uniform(-20, 60, 2)).tolist()) + (50.0, 37.0)
+        corner = random.uniform(-20, 60, 2)
+        frame = (*(corner.round() if grid else corner).tolist(), 50.0, 37.0)
     cells = quietly(sites, frame=frame)
     assert assert_nearest(sites, cells, seed=seed) > 20
     verify_voronoi(cells, places=100)
@@ -75,7 +76,8 @@ def test_lattice_points():
 def test_equal_polygons():
     assert area_shares(voronoi([BOX, BOX, BOX], frame=FRAME)) == [1, 0, 0]
     empty = voronoi([BOX, BOX]).to_shapely()[1]
-    assert empty.is_empty and empty.geom_type == "Polygon"
+    assert empty.is_empty
+    assert empty.geom_type == "Polygon"
 
 
 def test_nested_polygons():
@@ -165,7 +167,7 @@ def test_one_site_has_the_frame(sites):
 
 def test_no_sites():
     cells = voronoi([])
-    assert len(cells) == 0 and cells.areas.tolist() == [] and len(cells.to_shapely()) == 0
+    assert (len(cells), len(cells.areas), len(cells.to_shapely())) == (0, 0, 0)
     verify_voronoi(cells)
     assert voronoi([None, shapely.Polygon()]).areas.tolist() == [0, 0]
 
@@ -214,7 +216,9 @@ def _spread(random, count):
         x, y = place % 20 * 64, place // 20 * 64
         dx, dy = random.integers(5, 25, 2).tolist()
         made.append(
-            [shapely.Point(x, y), shapely.LineString([(x, y), (x + dx, y + dy)]), shapely.box(x, y, x + dx, y + dy)][k % 3]
+            [shapely.Point(x, y), shapely.LineString([(x, y), (x + dx, y + dy)]), shapely.box(x, y, x + dx, y + dy)][
+                k % 3
+            ]
         )
     return made
 
@@ -287,7 +291,7 @@ def test_spikes_bound_nothing():
 
 @pytest.mark.parametrize("frame", [(0, 0, 0, 1), (0, 0, 1, -1), (0, 0, np.nan, 1), (0, 0, 1)])
 def test_frames_that_are_none(frame):
-    with pytest.raises(UsageError, match="invalid frame .*expected X, Y, W, H"):
+    with pytest.raises(UsageError, match=r"invalid frame .*expected X, Y, W, H"):
         voronoi([[0, 0], [1, 1]], frame=frame)
 
 

@@ -45,7 +45,8 @@ def test_mixed_geometry(name, source):
 def test_what_is_known_of_features():
     frame = dict(forms())["frame"]
     sites = as_sites(frame)
-    assert sites.index.tolist() == list("uvwxyz") and sites.properties == {"name": list("abcdef")}
+    assert sites.index.tolist() == list("uvwxyz")
+    assert sites.properties == {"name": list("abcdef")}
     joined = as_sites(frame, by="name")
     assert (joined.ids, joined.index, joined.properties) == (list("abcdef"), None, {})
     with pytest.raises(UsageError, match=r"invalid by 'x': expected a column of the sites \(name\)"):

@@ -42,4 +42,5 @@ def test_folded_and_straight():
 
 def test_nothing():
     none = np.empty((0, 2))
-    assert not len(lengths_of(none, none, none)) and not len(areas_beside(none, none, none, np.zeros(2)))
+    assert not len(lengths_of(none, none, none))
+    assert not len(areas_beside(none, none, none, np.zeros(2)))

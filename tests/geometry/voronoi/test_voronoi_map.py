@@ -6,8 +6,8 @@ import geopandas
 import numpy as np
 import pytest
 import shapely
-
 from tests.support.families.site_families import mixed_sites
+
 from vorotool import table, voronoi
 from vorotool.errors import InputError, UsageError
 from vorotool.geometry.voronoi.shapes import PART_OF_RADIUS, flattened_arcs
@@ -60,7 +60,8 @@ def test_tables(cells):
     assert rows["neighbours"].tolist() == [1, 1]
     assert cells.neighbours.rows == 1
     assert cells.neighbours["border_length"][0] == pytest.approx(borders["length"].sum())
-    assert borders["label_a"].tolist() == [1] and list(borders["kind"]) == ["parabola"]
+    assert borders["label_a"].tolist() == [1]
+    assert list(borders["kind"]) == ["parabola"]
     assert rows["perimeter"].sum() == pytest.approx(36 + 2 * borders["length"].sum())
 
 
@@ -69,7 +70,8 @@ def test_data_frames():
         {"kind": ["wall", "tree", "none"]}, geometry=[*WALL_AND_TREE, None], index=["a", "b", "c"], crs="EPSG:2056"
     )
     made = voronoi(frame).to_geopandas()
-    assert made.index.tolist() == ["a", "b", "c"] and made.crs.to_epsg() == 2056
+    assert made.index.tolist() == ["a", "b", "c"]
+    assert made.crs.to_epsg() == 2056
     assert made["kind"].tolist() == ["wall", "tree", "none"]
     assert made.geometry.is_empty.tolist() == [False, False, True]
     np.testing.assert_allclose(made.geometry.area, made["area"], rtol=1e-2)

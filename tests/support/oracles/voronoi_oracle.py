@@ -29,7 +29,7 @@ def places_on_borders(cells, random, count):
 
 def assert_is_coverage(cells):
     """Cells share their borders and fill the frame, however coarse polylines are."""
-    x, y, w, h = cells.frame
+    _, _, w, h = cells.frame
     assert abs(cells.areas.sum() - w * h) <= 1e-12 * w * h
     for flatten in (None, max(w, h) * 1e-3, max(w, h)):
         shapes = cells.to_shapely(flatten=flatten)
@@ -55,7 +55,9 @@ def assert_nearest(geometry, cells, *, seed=0, count=200):
         far = np.nan_to_num(np.abs(cells.control[arc] - near)).max(axis=1) + extent
         for hand in (0, 1):
             assert (np.abs(distance[cells.sites[arc, hand], np.arange(count)] - least) <= 1e-7 * far).all()
-        places = np.concatenate([places, near + random.normal(size=(count, 2)) * extent * 10.0 ** -random.uniform(2, 6, (count, 1))])
+        places = np.concatenate(
+            [places, near + random.normal(size=(count, 2)) * extent * 10.0 ** -random.uniform(2, 6, (count, 1))]
+        )
     places = places[((places > [x, y]) & (places < [x + w, y + h])).all(axis=1)]
     distance = distances_of(geometry, places)
     least = distance.min(axis=0)

@@ -152,9 +152,7 @@ def rings_of(arcs: Arcs) -> Rings:
     clockwise = np.empty(len(out), dtype=np.int64)
     clockwise[out] = before
     after = clockwise[np.arange(len(out)) ^ 1]
-    start, half_edge = _core.graphs.boundary_cycles(
-        after.astype(np.int32), tail.astype(np.int32), len(arcs.vertices)
-    )
+    start, half_edge = _core.graphs.boundary_cycles(after.astype(np.int32), tail.astype(np.int32), len(arcs.vertices))
     site, part = arcs.sites.ravel()[half_edge], arcs.parts.ravel()[half_edge]
     row, begin = owners(np.diff(start)), start[:-1]
     if (site != site[begin][row]).any():
@@ -162,7 +160,7 @@ def rings_of(arcs: Arcs) -> Rings:
     centre = arcs.vertices.mean(axis=0) if len(arcs.vertices) else np.zeros(2)
     source, target = arcs.vertices[arcs.ends[:, 0]], arcs.vertices[arcs.ends[:, 1]]
     beside = areas_beside(source, arcs.control, target, centre)[half_edge >> 1]
-    area = np.bincount(row, np.where(half_edge & 1, -beside, beside), minlength=len(begin))
+    area = np.bincount(row, np.where(half_edge & 1, -beside, beside), minlength=len(begin)).astype(np.float64)
     rings = Rings(start.astype(np.int64), half_edge.astype(np.int64), site[begin], part[begin], area)
     return rings[site[begin] != OUTSIDE]
 

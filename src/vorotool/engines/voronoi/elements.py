@@ -50,9 +50,7 @@ class OwnedGraph:
     face: Sites
 
 
-def owned_graph(
-    polygons: PolygonSet, site: Sites, *, threads: int = 0, progress: Progress = None
-) -> OwnedGraph:
+def owned_graph(polygons: PolygonSet, site: Sites, *, threads: int = 0, progress: Progress = None) -> OwnedGraph:
     """Put polygons and lines into one planar graph, and tell whose its elements are.
 
     A polygon without inside, on the lattice or as it is given, is the line along its shell.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -69,15 +70,18 @@ class FrameBox:
         self.low, self.high = np.array([x, y]), np.array([x + w, y + h])
         self.origin, self.scale = np.array(graph.origin), graph.scale
         with np.errstate(over="ignore"):  # the lattice of a single place is finer than anything
-            self.least, self.most = (
-                ((place - self.origin) / self.scale).tolist() for place in (self.low, self.high)
-            )
+            self.least, self.most = (((place - self.origin) / self.scale).tolist() for place in (self.low, self.high))
 
     def side_of(self, places: Floats) -> Indices:
         """(n,) the side that places in input units lie on; -1 of those strictly inside, -2 outside."""
         side = np.full(len(places), -1, dtype=np.int64)
         x, y = places.T
-        for number, hit in ((3, x == self.low[0]), (2, y == self.high[1]), (1, x == self.high[0]), (0, y == self.low[1])):
+        for number, hit in (
+            (3, x == self.low[0]),
+            (2, y == self.high[1]),
+            (1, x == self.high[0]),
+            (0, y == self.low[1]),
+        ):
             side[hit] = number
         is_out = (x < self.low[0]) | (y < self.low[1]) | (x > self.high[0]) | (y > self.high[1])
         side[is_out] = -2
@@ -192,7 +196,6 @@ class _Curve:
             return [0.0, 0.0] if a else []
         return [c / q, *([q / a] if a else [])]
 
-
     def turn(self, axis: int) -> float | None:
         """Where a coordinate is least or most along a parabola."""
         across = (-self.way[1], self.way[0])[axis]
@@ -216,7 +219,7 @@ class _Cutter:
         own = [int(end) for end in self.borders.ends[piece]]
         cuts = self._cuts(curve, own)
         stops = [curve.first, *(t for t, _ in cuts), curve.last]
-        inside = [self._is_inside(curve, a, b) for a, b in zip(stops, stops[1:])]
+        inside = [self._is_inside(curve, a, b) for a, b in pairwise(stops)]
         for end, at in ((own[0], 0), (own[1], -1)):  # rounding does not part an end inside from its piece
             if end >= 0 and self.side[end] == -1:
                 inside[at] = True
@@ -239,7 +242,7 @@ class _Cutter:
                 slack = TOUCH * (abs(value) + abs(curve.base[axis]) + curve.height)
                 if abs(curve.place(turn)[axis] - value) <= slack:  # it touches the frame, as far as doubles tell
                     roots = [turn, turn]
-            for end, t in zip(own, (curve.first, curve.last)):
+            for end, t in zip(own, (curve.first, curve.last), strict=True):
                 if end >= 0 and self.side[end] == side and roots:  # that is where it meets the side
                     roots.remove(min(roots, key=lambda root: abs(root - t)))
             found += [(root, side) for root in roots if low < root < high]
@@ -327,7 +330,9 @@ class _Cutter:
         first, last = (
             parabolas.parameter(borders.places[end], borders.radius[end]).tolist() for end in borders.ends[bent].T
         )
-        rows = zip(parabolas.focus.tolist(), parabolas.way.tolist(), parabolas.height.tolist(), first, last, strict=True)
+        rows = zip(
+            parabolas.focus.tolist(), parabolas.way.tolist(), parabolas.height.tolist(), first, last, strict=True
+        )
         for piece, ((x, y), (u, v), *others) in zip(bent.tolist(), rows, strict=True):
             yield piece, _Curve((x, y), (u, v), *others)
 
@@ -357,7 +362,9 @@ class _Cutter:
         new = np.array([place for place, _, _ in self.cuts]).reshape(-1, 2)
         return CutBorders(
             np.concatenate([kept, np.array([part.piece for part in parts], dtype=np.int64)]),
-            np.concatenate([own, np.array([(part.source, part.target) for part in parts], dtype=np.int64).reshape(-1, 2)]),
+            np.concatenate(
+                [own, np.array([(part.source, part.target) for part in parts], dtype=np.int64).reshape(-1, 2)]
+            ),
             np.concatenate([np.where(is_line[:, None], np.nan, control), self.graph.coordinates(of_parts)]),
             np.concatenate([places, new]),
             self.graph.scale * np.concatenate([self.borders.radius, [radius for _, radius, _ in self.cuts]]),

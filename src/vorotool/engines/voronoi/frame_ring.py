@@ -135,7 +135,7 @@ def _counter_clockwise(ends: list[Pair], cut: CutBorders, order: Indices, side: 
         arc, at = each
         there = cut.control[arc] if not np.isnan(cut.control[arc, 0]) else cut.places[cut.ends[arc, 1 - at]]
         x, y = (there - cut.places[cut.ends[arc, at]]).tolist()
-        return -(x * forward[0] + y * forward[1]) / float(np.sqrt(x * x + y * y))
+        return -float(x * forward[0] + y * forward[1]) / float(np.sqrt(x * x + y * y))
 
     first = min(range(len(ends)), key=lambda k: turned(ends[k]))
     return ends[first:] + ends[:first]

@@ -42,7 +42,7 @@ def _around(hole: int, shells: Indices, rings: Rings, arcs: Arcs) -> int:
     import shapely
 
     place = shapely.points(arcs.vertices[arcs.ends.ravel()[rings.half_edge[rings.start[hole]]]])
-    distances = []
+    distances: list[tuple[float, float, int]] = []
     for each in shells.tolist():
         around = shapely.Polygon(_outline(each, rings, arcs))
         distances.append((float(shapely.distance(around, place)), abs(float(rings.area[each])), each))

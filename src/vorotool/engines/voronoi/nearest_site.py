@@ -100,8 +100,10 @@ def _exact_distance(graph: Any, element: int, at: Exact) -> Fraction:
     count = len(graph.points)
     ends = [element, element] if element < count else graph.segments[element - count]
     (ax, ay), (bx, by) = graph.points[ends].tolist()
-    u, v, x, y = bx - ax, by - ay, at[0] - ax, at[1] - ay
+    u, v = bx - ax, by - ay
+    x, y = at[0] - ax, at[1] - ay
     length = u * u + v * v
     t = min(max(Fraction(x * u + y * v) / length, Fraction(0)), Fraction(1)) if length else Fraction(0)
     dx, dy = x - t * u, y - t * v
-    return dx * dx + dy * dy
+    squared: Fraction = dx * dx + dy * dy
+    return squared

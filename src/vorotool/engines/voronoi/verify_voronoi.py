@@ -56,10 +56,10 @@ def verify_voronoi(cells: VoronoiMap, *, places: int = 1000) -> None:
     >>> from vorotool import voronoi
     >>> cells = voronoi([[0, 0], [4, 0], [0, 4]])
     >>> verify_voronoi(cells)
-    >>> verify_voronoi(replace(cells, vertices=cells.vertices + [0.5, 0]))
+    >>> verify_voronoi(replace(cells, radius=cells.radius + 1))
     Traceback (most recent call last):
         ...
-    vorotool.errors.VerificationError: vertex 0 at (2.5, 2.0) is 2.5 from its sites, but is said to be 2.8284271247461903
+    vorotool.errors.VerificationError: vertex 1 at (2.0, -0.4) is 2.039607805437114 from its sites, but is said to be 3
     """
     _check_rings(cells)
     _check_areas(cells)
@@ -158,9 +158,7 @@ class _SitePlaces:
         """Of each place from the nearest site."""
         import shapely
 
-        found, distance = self.tree.query_nearest(
-            shapely.points(places), return_distance=True, all_matches=False
-        )
+        found, distance = self.tree.query_nearest(shapely.points(places), return_distance=True, all_matches=False)
         least = np.empty(len(places))
         least[found[0]] = distance
         return least

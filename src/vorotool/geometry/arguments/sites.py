@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from math import isnan
 from typing import Any
 
 import numpy as np
@@ -14,7 +15,7 @@ from vorotool.geometry.arguments.descriptions import naming
 from vorotool.geometry.arguments.features import held_features
 from vorotool.geometry.arguments.points import as_points
 from vorotool.geometry.arguments.polygons import as_polygons, is_ring
-from vorotool.geometry.arguments.tables import is_table
+from vorotool.geometry.arguments.tables import MISSING_TYPES, is_table
 from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.geometry.polygons.conversion import polygons_of_geometry
@@ -156,10 +157,14 @@ def _values(features: Sites, by: Any) -> list[Any]:
     values = by.tolist() if hasattr(by, "tolist") else list(by)
     if len(values) != features.count:
         raise InputError(f"invalid by: expected one value a feature, {features.count}, but got {len(values)}")
-    missing = [k for k, value in enumerate(values) if value is None or value != value]
+    missing = [k for k, value in enumerate(values) if _is_missing(value)]
     if missing:
         raise InputError(f"invalid by: feature {missing[0]} has no value ({len(missing)} such features): fill it in")
     return values
+
+
+def _is_missing(value: Any) -> bool:
+    return value is None or type(value).__name__ in MISSING_TYPES or (isinstance(value, float) and isnan(value))
 
 
 def _first_appearances(values: list[Any]) -> tuple[NDArray[np.int32], list[Any]]:

@@ -59,7 +59,8 @@ def flattened_arcs(cells: VoronoiMap, tolerance: float) -> tuple[Floats, Indices
 def _in_pairs(cells: VoronoiMap) -> Indices:
     """Arcs of rings of two: of one piece each they would hold nothing."""
     first = cells.ring_start[:-1][np.diff(cells.ring_start) == 2]
-    return np.abs(cells.ring_arcs[np.concatenate([first, first + 1])].astype(np.int64)) - 1
+    arcs: Indices = np.abs(cells.ring_arcs[np.concatenate([first, first + 1])].astype(np.int64)) - 1
+    return arcs
 
 
 def _least_radii(source: Floats, control: Floats, target: Floats) -> Floats:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -61,7 +63,8 @@ def neighbour_pairs(cells: VoronoiMap) -> tuple[NDArray[np.int64], NDArray[np.fl
     pair = np.sort(cells.sites[arc], axis=1).astype(np.int64)
     key, row = np.unique(pair[:, 0] * max(len(cells), 1) + pair[:, 1], return_inverse=True)
     pairs = np.stack(np.divmod(key, max(len(cells), 1)), axis=1)
-    return pairs, np.bincount(row, cells.length[arc], minlength=len(key))
+    length: NDArray[np.float64] = np.bincount(row, cells.length[arc], minlength=len(key)).astype(np.float64)
+    return pairs, length
 
 
 def neighbour_table(cells: VoronoiMap) -> Table:
@@ -110,9 +113,9 @@ def cell_table(cells: VoronoiMap) -> Table:
     [1, 1]
     """
     pairs, _ = neighbour_pairs(cells)
-    columns = {"label": np.arange(1, len(cells) + 1)}
+    columns: dict[str, Any] = {"label": np.arange(1, len(cells) + 1)}
     if cells.ids is not None:
-        columns["id"] = list(cells.ids)  # type: ignore[assignment]
+        columns["id"] = list(cells.ids)
     columns |= {
         "area": cells.areas,
         "perimeter": cells.perimeters,

@@ -14,7 +14,7 @@ from vorotool.errors import InputError
 from vorotool.geometry.checks import set_array
 from vorotool.geometry.curves.bezier import areas_beside, lengths_of
 from vorotool.geometry.polygons.polygon_set import PolygonSet
-from vorotool.geometry.ragged import divides, owners, starts_of
+from vorotool.geometry.ragged import divides, owners
 from vorotool.geometry.table import Table
 from vorotool.geometry.values import Curved, Tabular, Value, counted, placed
 from vorotool.products.formats import resolved
@@ -163,9 +163,7 @@ class VoronoiMap(Value, Tabular, Curved):
         """(s,) areas of the cells, with the true curves."""
         x, y, w, h = self.frame
         centre = np.array([x + w / 2, y + h / 2])
-        beside = areas_beside(
-            self.vertices[self.arcs[:, 0]], self.control, self.vertices[self.arcs[:, 1]], centre
-        )
+        beside = areas_beside(self.vertices[self.arcs[:, 0]], self.control, self.vertices[self.arcs[:, 1]], centre)
         total = np.zeros(len(self))
         for hand, sign in ((0, 1), (1, -1)):
             inner = self.sites[:, hand] != OUTSIDE
@@ -216,5 +214,9 @@ class VoronoiMap(Value, Tabular, Curved):
         ]
 
     def _summary(self) -> str:
-        sizes = (counted(len(self), "cell"), counted(len(self.arcs), "arc"), counted(len(self.vertices), "vertex", "vertices"))
+        sizes = (
+            counted(len(self), "cell"),
+            counted(len(self.arcs), "arc"),
+            counted(len(self.vertices), "vertex", "vertices"),
+        )
         return placed(", ".join(sizes), self.polygons.crs, self.polygons.unit)
