@@ -9,6 +9,7 @@ from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 import orjson
 import pytest
 
+import vorotool
 from vorotool import errors
 from vorotool.errors import (
     InputError,
@@ -111,3 +112,9 @@ def test_file_names_with_the_marks_stay_as_they_are(name):
 def test_an_error_without_words_has_none():
     assert str(VorotoolError()) == VorotoolError().typed == ""
     assert io.StringIO(str(OutputError(TEXT))).read() == IN_PYTHON
+
+
+def test_a_warning_names_the_line_that_called_the_library():
+    with pytest.warns(VorotoolWarning) as said:
+        vorotool.delaunay([[0, 0], [4, 0], [0, 3], [0, 0]])
+    assert [each.filename for each in said] == [__file__]

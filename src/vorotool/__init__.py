@@ -33,7 +33,7 @@ _HOME = {
     "Table": "vorotool.geometry.table",
     "Triangulation": "vorotool.geometry.mesh.triangulation",
     "read": "vorotool.formats",
-    "sample": "vorotool.jobs.samples",
+    "sample": "vorotool.formats.samples",
     "to_geojson": "vorotool.jobs.writing",
     "write": "vorotool.jobs.writing",
     "seeds_from_points": "vorotool.engines.tessellation.seeding",
@@ -98,6 +98,10 @@ _HOME = {
     "alpha_hull": "vorotool.engines.alpha.alpha_hull",
     "alpha_shape": "vorotool.engines.alpha.alpha_shape",
     "verify_alpha_shape": "vorotool.engines.alpha.verify_alpha",
+    "distance_transform": "vorotool.engines.peers.distance_transform",
+    "expand_labels": "vorotool.engines.peers.expand_labels",
+    "medial_axis": "vorotool.engines.peers.medial_axis",
+    "voronoi_polygons": "vorotool.engines.peers.voronoi_polygons",
 }
 
 __all__ = ["__version__", *_HOME]  # noqa: PLE0604 - the keys are strings

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+import sys
+import warnings
 from enum import Enum, auto
 
 _TYPED, _PARAMETER, _END = "\ufdd0", "\ufdd1", "\ufdd2"
@@ -143,6 +145,11 @@ class Message(str):
 class VorotoolError(Exception):
     """Base of all errors raised on purpose; a bare one is a defect of ours (exit 1).
 
+    Parameters
+    ----------
+    text : str, optional
+        The words, which may have texts of `option`.
+
     Attributes
     ----------
     source : str or None
@@ -156,7 +163,7 @@ class VorotoolError(Exception):
     marked: str
 
     def __init__(self, text: str = "") -> None:
-        """Take the words, which may have texts of `option`."""
+        """Take the words."""
         said = Message.of(text)
         self.marked = said.marked
         super().__init__(str(said))
@@ -168,44 +175,86 @@ class VorotoolError(Exception):
 
 
 class VerificationError(VorotoolError):
-    """A shipped checker found a result wrong (exit 1)."""
+    """A shipped checker found a result wrong (exit 1).
+
+    Parameters
+    ----------
+    text : str, optional
+        The words, which may have texts of `option`.
+    """
 
 
 class UsageError(VorotoolError, ValueError):
-    """Options that do not go together, or an option's value out of range (exit 2)."""
+    """Options that do not go together, or an option's value out of range (exit 2).
+
+    Parameters
+    ----------
+    text : str, optional
+        The words, which may have texts of `option`.
+    """
 
     exit_code = 2
 
 
 class InputError(VorotoolError, ValueError):
-    """Input that cannot be used: the message names the file, the place, the value and what to do (exit 3)."""
+    """Input that cannot be used: the message names the file, the place, the value and what to do (exit 3).
+
+    Parameters
+    ----------
+    text : str, optional
+        The words, which may have texts of `option`.
+    """
 
     exit_code = 3
 
 
 class OutputError(VorotoolError, OSError):
-    """Output that cannot be written; an older file is untouched (exit 4)."""
+    """Output that cannot be written; an older file is untouched (exit 4).
+
+    Parameters
+    ----------
+    text : str, optional
+        The words, which may have texts of `option`.
+    """
 
     exit_code = 4
 
 
 class LimitError(VorotoolError):
-    """A limit would be exceeded; found before memory is taken (exit 5)."""
+    """A limit would be exceeded; found before memory is taken (exit 5).
+
+    Parameters
+    ----------
+    text : str, optional
+        The words, which may have texts of `option`.
+    """
 
     exit_code = 5
 
 
 class BatchError(VorotoolError):
-    """A batch in which some inputs failed (exit 6)."""
+    """A batch in which some inputs failed (exit 6).
+
+    Parameters
+    ----------
+    text : str, optional
+        The words, which may have texts of `option`.
+    """
 
     exit_code = 6
 
 
 class VorotoolWarning(UserWarning):
-    """Something was repaired, snapped or guessed; one line that counts what was done."""
+    """Something was repaired, snapped or guessed; one line that counts what was done.
+
+    Parameters
+    ----------
+    text : str, optional
+        The words, which may have texts of `option`.
+    """
 
     def __init__(self, text: str = "") -> None:
-        """Take the line, which may have texts of `option`."""
+        """Take the line."""
         super().__init__(Message.of(text))
 
     @property
@@ -215,4 +264,33 @@ class VorotoolWarning(UserWarning):
 
 
 class RepairWarning(VorotoolWarning):
-    """Polygons were repaired where they were placed."""
+    """Polygons were repaired where they were placed.
+
+    Parameters
+    ----------
+    text : str, optional
+        The words, which may have texts of `option`.
+    """
+
+
+def warn(message: VorotoolWarning | str, category: type[VorotoolWarning] = VorotoolWarning) -> None:
+    """Warn of something, at the line outside of this package that called it.
+
+    Parameters
+    ----------
+    message : VorotoolWarning or str
+        The line.
+    category : type
+        Of a line that is text.
+
+    Examples
+    --------
+    >>> with warnings.catch_warnings(record=True) as said:
+    ...     warn("2 seeds were moved")
+    >>> str(said[0].message)
+    '2 seeds were moved'
+    """
+    level, frame = 2, sys._getframe(1)
+    while frame.f_back is not None and frame.f_globals.get("__name__", "").startswith("vorotool."):
+        level, frame = level + 1, frame.f_back
+    warnings.warn(message, category, stacklevel=level)

@@ -26,7 +26,6 @@ from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.points.raster import Raster
 from vorotool.geometry.points.seed_set import SeedSet
-from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.skeleton.skeleton import Skeleton
 
@@ -70,8 +69,8 @@ MeshLike: TypeAlias = Triangulation | SeedsLike
 PolygonsLike: TypeAlias = PolygonSet | GeometryLike | Sequence[GeometryLike] | DataFrameLike | ArrayLike
 """Polygons and lines: geometry, an (n, 2) array or list of pairs that is one ring, data frames with geometry."""
 
-ShapesLike: TypeAlias = Skeleton | PlanarGraph | PolygonsLike
-"""Polygons and lines, or what was made of them."""
+ShapesLike: TypeAlias = Skeleton | PolygonsLike
+"""Polygons and lines, or their skeleton."""
 
 FrameLike: TypeAlias = Box | Sequence[float] | ArrayLike
 """A box, or its (x, y, width, height)."""
@@ -96,3 +95,6 @@ AlphaRule: TypeAlias = Literal["corrected", "printed"]
 
 Sampling: TypeAlias = Literal["paper", "symmetric"]
 """How edges are sampled for the approximate skeleton."""
+
+Criterion: TypeAlias = Literal["angle", "chord", "scale", "length", "ratio"]
+"""What branches are pruned by."""

@@ -144,7 +144,7 @@ def image_row(fmt, folder):
 def table(folder):
     """Give the page."""
     images = [name for name, each in INPUTS.items() if "image" in each.readers] + ["text"]
-    vectors = [name for name in (*INPUTS, *FORMATS) if name not in images and name not in ("html",)]
+    vectors = [name for name in (*INPUTS, *FORMATS) if name not in images and name not in ("html", "apng")]
     rows = {name: vector_row(name, folder) for name in dict.fromkeys(vectors)}
     rows |= {name: image_row(name, folder) for name in images}
     lines = [f"| `{name}` | {' | '.join(cells)} |" for name, cells in rows.items()]

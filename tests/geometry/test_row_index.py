@@ -1,5 +1,7 @@
 """The index of the input goes to everything that is made of its points and polygons."""
 
+import dataclasses
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -27,8 +29,12 @@ def test_an_index_needs_one_entry_for_each():
     for made in (
         lambda: v.PointSet(SITES, index=[1, 2]),
         lambda: rectangles([1, 2]),
+        lambda: v.SeedSet([0, 1, 2], [0, 1, 2], [1, 2, 3], index=[1, 2]),
+        lambda: dataclasses.replace(v.delaunay(SITES), index=[1, 2]),
+        lambda: dataclasses.replace(v.voronoi_cells(SITES), index=[1, 2]),
+        lambda: dataclasses.replace(v.digital_triangulation(SITES), index=[1, 2]),
     ):
-        with pytest.raises(InputError, match=r"^index must hold one entry a (point|polygon), [34], but holds 2$"):
+        with pytest.raises(InputError, match=r"^index must hold one entry a (point|polygon|site), [34], but holds 2$"):
             made()
 
 

@@ -251,3 +251,14 @@ def test_values_go_through_files_of_pickles():
     pickle.dump(VALUES, held)
     held.seek(0)
     assert is_equal(pickle.load(held), VALUES)
+
+
+def test_results_go_on_as_inputs():
+    cells, points, table = VALUES["CellSet"], VALUES["SkeletonPoints"], VALUES["Table"]
+    filled = ~cells.is_empty
+    np.testing.assert_allclose(
+        [each.area for each in vorotool.planar_graph(cells).polygons.to_shapely()], cells.areas()[filled], rtol=1e-12
+    )
+    with pytest.warns(vorotool.VorotoolWarning, match="3 of 50 points lie on an earlier point"):
+        np.testing.assert_array_equal(vorotool.delaunay(points).points, points.xy)
+    np.testing.assert_array_equal(vorotool.delaunay(table).points, np.stack([table["x"], table["y"]], axis=1))

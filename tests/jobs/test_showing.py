@@ -1,6 +1,7 @@
 """Notebooks and plots: the pictures that are written to files, small ones of what is large, and axes of the data."""
 
 import io
+import json
 import re
 from base64 import b64decode
 from dataclasses import replace
@@ -11,6 +12,7 @@ from xml.etree import ElementTree
 import imageio.v3 as iio
 import numpy as np
 import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import LineCollection, PathCollection
 from matplotlib.figure import Figure
 
@@ -171,9 +173,9 @@ def test_holes_are_holes():
     )
     ax = axes_of(ring, linewidth=0, facecolor="black")
     ax.set_axis_off()
-    figure = ax.figure
-    figure.canvas.draw()
-    pixels = np.asarray(figure.canvas.buffer_rgba())[..., 0]
+    canvas = FigureCanvasAgg(ax.figure)
+    canvas.draw()
+    pixels = np.asarray(canvas.buffer_rgba())[..., 0]
     for place, is_ink in (((1.5, 1.5), True), ((4.5, 4.5), False), ((8, 8), True)):
         column, row = ax.transData.transform(place).round().astype(int)
         assert (pixels[pixels.shape[0] - 1 - row, column] < 50) == is_ink, place
@@ -235,3 +237,19 @@ def test_axes_are_made(monkeypatch):
 
     monkeypatch.setattr(matplotlib.pyplot, "subplots", lambda: (None, Figure().add_subplot()))
     assert VALUES["PointSet"].plot().collections
+
+
+def test_features_of_what_is_in_no_file_have_the_reference_system():
+    for crs in ("EPSG:2056", crs_member("EPSG:2056")):
+        features = vorotool.PointSet([[2, 1]], crs=crs).__geo_interface__
+        assert features["crs"]["properties"]["name"] == "urn:ogc:def:crs:EPSG::2056"
+        assert features["features"] == [
+            {"type": "Feature", "properties": {"label": 1}, "geometry": {"type": "Point", "coordinates": [2.0, 1.0]}}
+        ]
+    assert len(VALUES["AlphaComplex"].__geo_interface__["features"]) == len(VALUES["AlphaComplex"])
+
+
+@pytest.mark.parametrize("name", [name for name, value in VALUES.items() if hasattr(type(value), "__geo_interface__")])
+def test_features_are_json(name):
+    features = VALUES[name].__geo_interface__
+    assert json.loads(json.dumps(features, allow_nan=False)) == features

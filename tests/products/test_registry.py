@@ -84,7 +84,7 @@ EXPECTED = {
     "WKT (`.wkt`), JSON lines (`.jsonl`, `.ndjson`), GeoPackage (`.gpkg`), FlatGeobuf (`.fgb`), Shapefile (`.shp`), "
     "GeoParquet (`.parquet`, `.geoparquet`), DXF (`.dxf`), Drawing (`.drw`)",
     "refusal": "offset cannot be written as obj: use one of json, csv, tsv, geojson, npz, wkt, jsonl, gpkg, fgb, shp, "
-    "parquet, dxf, drawing, svg, png\n",
+    "parquet, dxf, drawing, svg, png, gif, apng, webp\n",
     "writing": " curves\n",
     "library": "1 curves\n",
 }

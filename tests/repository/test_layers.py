@@ -20,17 +20,18 @@ engines/common ->
 formats/parsing -> formats/io, geometry, geometry/points, geometry/polygons
 formats/zarr -> formats/compression, formats/io, geometry
 geometry/curves -> geometry, geometry/polygons
-engines/tessellation -> engines/common, geometry, geometry/arguments, geometry/curves, geometry/points,
-    geometry/polygons
 formats/images -> formats/compression, formats/io, formats/parsing, formats/zarr, geometry, geometry/points
 formats/points -> formats/io, formats/parsing, geometry, geometry/points
-geometry/mesh -> geometry, geometry/curves
-geometry/skeleton -> geometry, geometry/curves, geometry/polygons
+geometry/mesh -> geometry, geometry/arguments, geometry/curves
+geometry/skeleton -> geometry, geometry/arguments, geometry/curves, geometry/polygons
+typing -> geometry, geometry/mesh, geometry/points, geometry/polygons, geometry/skeleton
+engines/tessellation -> engines/common, geometry, geometry/arguments, geometry/curves, geometry/points,
+    geometry/polygons, typing
 render/canvas -> geometry, geometry/curves, products
-engines/arrangement -> geometry, geometry/arguments, geometry/curves, geometry/polygons, geometry/skeleton
-engines/delaunay -> geometry, geometry/arguments, geometry/curves, geometry/mesh, geometry/points
+engines/arrangement -> geometry, geometry/arguments, geometry/curves, geometry/polygons, geometry/skeleton, typing
+engines/delaunay -> geometry, geometry/arguments, geometry/curves, geometry/mesh, geometry/points, typing
 engines/label_images -> engines/common, engines/tessellation, geometry, geometry/arguments, geometry/points,
-    geometry/polygons
+    geometry/polygons, typing
 engines/segment_voronoi -> geometry, geometry/polygons, geometry/skeleton
 formats/text -> geometry, geometry/skeleton
 formats/features -> formats/io, formats/parsing, formats/points, formats/text, geometry, geometry/points,
@@ -39,49 +40,51 @@ geometry/alpha -> geometry, geometry/curves, geometry/mesh, geometry/polygons
 formats/drawing -> formats/compression, formats/io, formats/parsing, geometry, geometry/alpha, geometry/curves,
     geometry/polygons, geometry/skeleton, products
 render/label_images -> geometry, geometry/points, products, render/canvas
-engines/alpha -> engines/delaunay, geometry, geometry/alpha, geometry/curves, geometry/mesh, geometry/points,
-    geometry/polygons
+engines/alpha -> engines/delaunay, geometry, geometry/alpha, geometry/arguments, geometry/curves, geometry/mesh,
+    geometry/points, geometry/polygons, typing
 engines/digital -> engines/common, engines/delaunay, engines/label_images, engines/tessellation, geometry,
-    geometry/curves, geometry/mesh, geometry/points
+    geometry/arguments, geometry/curves, geometry/mesh, geometry/points, typing
 engines/features -> engines/arrangement, geometry, geometry/polygons, geometry/skeleton
 formats/polygons -> formats/io, formats/parsing, formats/points, formats/text, geometry, geometry/polygons
 render/layers -> geometry, geometry/alpha, geometry/mesh, geometry/polygons, geometry/skeleton, render/canvas,
     render/label_images
-render/pages -> geometry, geometry/alpha, geometry/curves, geometry/skeleton, products, render/canvas
+render/pages -> geometry, geometry/alpha, geometry/curves, geometry/mesh, geometry/skeleton, products, render/canvas,
+    render/label_images
 engines/skeleton -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi, geometry,
-    geometry/curves, geometry/polygons, geometry/skeleton
+    geometry/arguments, geometry/curves, geometry/polygons, geometry/skeleton
 formats/results -> formats/io, formats/parsing, formats/polygons, formats/text, geometry, geometry/alpha,
     geometry/curves, geometry/mesh, geometry/polygons, geometry/skeleton, products
-engines/from_skeleton -> engines/arrangement, engines/skeleton, geometry, geometry/curves, geometry/polygons,
-    geometry/skeleton
+engines/from_skeleton -> engines/arrangement, engines/skeleton, geometry, geometry/arguments, geometry/curves,
+    geometry/polygons, geometry/skeleton
 engines/offsets -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi, engines/skeleton,
-    geometry, geometry/arguments, geometry/curves, geometry/polygons, geometry/skeleton
-engines/pruning -> engines/common, geometry, geometry/curves, geometry/skeleton
+    geometry, geometry/arguments, geometry/curves, geometry/polygons, geometry/skeleton, typing
+engines/pruning -> engines/common, geometry, geometry/arguments, geometry/curves, geometry/skeleton, typing
 engines/sampled_skeleton -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi,
     engines/skeleton, geometry, geometry/curves, geometry/polygons, geometry/skeleton
 formats -> formats/drawing, formats/features, formats/images, formats/io, formats/parsing, formats/points,
     formats/polygons, geometry, geometry/points, geometry/polygons, geometry/skeleton, products
 batch -> engines/tessellation, formats, formats/io, formats/text, formats/zarr
-engines -> engines/sampled_skeleton, engines/skeleton, geometry, geometry/arguments, geometry/skeleton
-engines/centerlines -> engines/from_skeleton, engines/pruning, engines/skeleton, geometry, geometry/polygons,
-    geometry/skeleton
-render ->
-typing -> geometry, geometry/mesh, geometry/points, geometry/polygons, geometry/skeleton
+engines -> engines/sampled_skeleton, engines/skeleton, geometry, geometry/arguments, geometry/skeleton, typing
+engines/peers -> engines, engines/delaunay, engines/from_skeleton, engines/label_images, engines/pruning,
+    engines/tessellation, geometry, geometry/arguments, geometry/mesh, typing
+engines/centerlines -> engines/from_skeleton, engines/pruning, engines/skeleton, geometry, geometry/arguments,
+    geometry/polygons, geometry/skeleton, typing
 geometry/voronoi -> geometry, geometry/curves, geometry/polygons, products
+render ->
+engines/voronoi -> engines/arrangement, engines/common, engines/segment_voronoi, engines/skeleton, geometry,
+    geometry/arguments, geometry/curves, geometry/polygons, geometry/skeleton, geometry/voronoi
 geometry/any -> geometry, geometry/alpha, geometry/curves, geometry/mesh, geometry/points, geometry/polygons,
     geometry/skeleton, geometry/voronoi, products
 jobs -> batch, engines, engines/alpha, engines/arrangement, engines/centerlines, engines/delaunay, engines/digital,
     engines/features, engines/from_skeleton, engines/label_images, engines/offsets, engines/pruning,
     engines/sampled_skeleton, engines/segment_voronoi, engines/skeleton, engines/tessellation, formats,
     formats/images, formats/io, formats/parsing, formats/points, formats/text, formats/zarr, geometry, geometry/alpha,
-    geometry/any, geometry/mesh, geometry/points, geometry/polygons, geometry/skeleton, products, render/canvas,
-    render/label_images, render/layers, render/pages
+    geometry/any, geometry/curves, geometry/mesh, geometry/points, geometry/polygons, geometry/skeleton, products,
+    render/canvas, render/label_images, render/layers, render/pages, typing
 cli/options -> engines/offsets, engines/pruning, geometry, jobs, products
 cli/batch -> batch, cli/options, formats/io, geometry, jobs, products
 cli/commands -> cli/batch, cli/options, jobs, products
 cli -> cli/commands, jobs
-engines/voronoi -> engines/arrangement, engines/common, engines/segment_voronoi, engines/skeleton, geometry,
-    geometry/arguments, geometry/curves, geometry/polygons, geometry/skeleton, geometry/voronoi
 """
 """Rooms of the package from below, and what each may import; `errors` and `signals` are for all."""
 

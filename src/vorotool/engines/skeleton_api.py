@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from vorotool.engines.sampled_skeleton.approximate import SamplingOptions
 from vorotool.engines.sampled_skeleton.per_feature import approximation
@@ -21,12 +21,15 @@ from vorotool.geometry.magnitude import check_lengths
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.skeleton import Skeleton
 
+if TYPE_CHECKING:
+    from vorotool.typing import FeaturesChoice, PolygonsLike, Sampling, Side
+
 
 def skeleton_exact(
-    polygons: Any,
+    polygons: PolygonsLike,
     *,
-    side: str = "interior",
-    features: str = "separate",
+    side: Side = "interior",
+    features: FeaturesChoice = "separate",
     gap: float = 0.0,
     complete: bool = True,
     frame: Box | Frame | None = None,
@@ -108,13 +111,13 @@ def skeleton_exact(
 
 
 def skeleton_approx(
-    polygons: Any,
+    polygons: PolygonsLike,
     *,
     step: float | None = None,
     tolerance: float | None = None,
-    sampling: str | None = None,
-    side: str = "interior",
-    features: str = "separate",
+    sampling: Sampling | None = None,
+    side: Side = "interior",
+    features: FeaturesChoice = "separate",
     complete: bool | None = None,
     frame: Box | Frame | None = None,
     strict: bool = False,

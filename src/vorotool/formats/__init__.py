@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from os import PathLike
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from vorotool.geometry.pixel_frame import MAX_PIXELS
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 def read(
     path: str | PathLike[str],
     *,
-    geometry: str | None = None,
+    geometry: Literal["points", "polygons"] | None = None,
     input_format: str | None = None,
     columns: str | None = None,
     page: int | None = None,

@@ -52,7 +52,7 @@ def coordinate_rows(values: Any, noun: str) -> NDArray[np.float64]:
         x, y = map(shown_number, array[row].tolist())
         raise InputError(f"{noun} {row + 1} is ({x}, {y}): {INEXACT}")
     if array.dtype.kind == "O":  # float() fails for fractions beyond all doubles
-        array = np.array([[nearest_double(value) for value in row] for row in array.tolist()])
+        array = np.array([[nearest_double(value) for value in row] for row in array.tolist()]).reshape(-1, 2)
     return np.array(array, dtype=np.float64, order="C")
 
 

@@ -136,7 +136,17 @@ class Table(dict[str, Any], Tabular):
         """Give a table of the same columns."""
         return Table(self)
 
+    def __or__(self, other: Mapping[str, Any]) -> dict[str, Any]:  # type: ignore[override]  # dict's has what is stored
+        return {**self, **other}
+
+    def __ror__(self, other: Mapping[str, Any]) -> dict[str, Any]:  # type: ignore[override]
+        return {**other, **self}
+
     def _refused(self, *_: Any, **__: Any) -> Any:
+        """Refuse a change.
+
+        :meta private:
+        """
         raise TypeError("a Table does not change: make another one, as Table({**table, name: column})")
 
     __setitem__ = __delitem__ = __ior__ = clear = pop = popitem = setdefault = update = _refused

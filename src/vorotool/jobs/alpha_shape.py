@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Sequence
 from dataclasses import replace
 from decimal import Decimal, localcontext
@@ -19,7 +18,7 @@ from vorotool.engines.alpha.alpha_shape import (
     chosen_radius,
 )
 from vorotool.engines.alpha.few_points import unjoined
-from vorotool.errors import VorotoolWarning
+from vorotool.errors import warn
 from vorotool.geometry.alpha.complex import AlphaComplex, Radius
 from vorotool.geometry.alpha.shape import AlphaShape
 from vorotool.geometry.numbers import nearest_double
@@ -28,30 +27,37 @@ from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.table import Table
+from vorotool.jobs.animations import check_size, layer_pixels, parts_of_whole, write_frames
 from vorotool.jobs.inputs import JobInput, read_sites, window_of
 from vorotool.jobs.names import OF_ONE_SHAPE
 from vorotool.jobs.options import AlphaShapeOptions
 from vorotool.jobs.picture_style import styled_page
+from vorotool.jobs.picture_world import check_column, world_of_sites
 from vorotool.jobs.pictures import write_layers
 from vorotool.jobs.pixel_sizes import placed_backdrop, placed_mesh, placed_sites
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import in_units, length_in_units, table_in_units
-from vorotool.products.formats import PICTURES
+from vorotool.products.formats import ANIMATIONS, PICTURES, picture_format
 from vorotool.products.registry import PRODUCTS
 from vorotool.products.writing import write_product
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from vorotool.geometry.alpha.hull import AlphaHull
     from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation
-    from vorotool.render.canvas.layers import Page
+    from vorotool.render.canvas.layers import Layer, Page
 
 
 def products(run: Run, o: AlphaShapeOptions, given: JobInput) -> ShapeProducts:
     """Read points, or find those of an image, and what their shapes of all radii are made of."""
     radius = chosen_radius(o.r, o.alpha, o.auto)
     with run.phase("read"):
-        points = read_sites(run, o, given, properties="points" in o.what, is_digital=o.method != "exact")
+        points = read_sites(
+            run, o, given, properties="points" in o.what or o.label_by is not None, is_digital=o.method != "exact"
+        )
         o, points = placed_sites(run, o, given, points)
     return ShapeProducts(run, o, given, points, radius)
 
@@ -91,6 +97,8 @@ class ShapeProducts:
             self.family = alpha_complex(
                 mesh, rule=options.rule, **self._empty, threads=options.threads, progress=progress
             )
+        check_column(options.label_by, self.family.mesh.properties)
+        self._world = world_of_sites(run, options, self.family.mesh, points)
         self.has_shape = bool(set(options.what) & OF_ONE_SHAPE)
         if self.has_shape:
             with run.phase("shape") as progress:
@@ -181,10 +189,12 @@ class ShapeProducts:
 
     def check(self, target: Target) -> None:
         """Refuse what cannot be written, and say what will be empty, before anything is written."""
-        if target.fmt == "png":
+        if picture_format(target.fmt) == "png":
             from vorotool.render.canvas.png import check_picture_size
 
             check_picture_size(self.page, self.options.max_pixels)
+        if target.fmt in ANIMATIONS:
+            check_size(self.options, (self.page.height, self.page.width))
         if target.fmt == "html":
             from vorotool.render.pages.alpha_html import check_html_size
 
@@ -198,27 +208,24 @@ class ShapeProducts:
         if empty is not None and len(self.family.spectrum) and not self.is_unjoined and empty():
             words = {"table": "regions", "hull": "arcs in the hull"}.get(target.what, target.what)
             smallest = radius_text(float(self.family.spectrum[0]))
-            warnings.warn(
-                f"there are no {words} at r = {radius_text(self.shape.r)}: shapes begin at r = {smallest}",
-                VorotoolWarning,
-                stacklevel=2,
-            )
+            warn(f"there are no {words} at r = {radius_text(self.shape.r)}: shapes begin at r = {smallest}")
 
     def write(self, target: Target, *, inputs: Sequence[str]) -> None:
         """Write one result."""
         from vorotool.formats.io.atomic_output import open_output
 
-        with open_output(
-            target.path, binary=target.is_binary, no_clobber=self.options.no_clobber, inputs=inputs
-        ) as out:
+        o = self.options
+        with open_output(target.path, binary=target.is_binary, no_clobber=o.no_clobber, inputs=inputs) as out:
             if target.fmt == "html":
                 self._write_html(out)
             elif target.fmt in PICTURES and target.what == "curves":
                 self._write_plot(out)
             elif target.fmt in PICTURES:
-                self._write_picture(out, target)
+                write_layers(out, self._layers(target, self.shape), self.page, fmt=target.fmt, threads=o.threads)
+            elif target.fmt in ANIMATIONS:
+                self._write_animation(out, target)
             else:
-                o, value = self.options, self._value(target.what)
+                value = self._value(target.what)
                 product = PRODUCTS["alphashape"][target.what]
                 write_product(
                     out, value, product, target.fmt, precision=o.precision, threads=o.threads, path=target.path
@@ -251,17 +258,33 @@ class ShapeProducts:
         from vorotool.render.layers.mesh import mesh_page
 
         if self.backdrop is not None:
-            return styled_page(ImagePage(self.backdrop), self.options, None)
+            return styled_page(ImagePage(self.backdrop), self.options.looks, self._world)
         page = mesh_page(self.family.mesh, width=self.options.width or 1000, y_up=self.options.y_up)
-        return styled_page(page, self.options, None)
+        return styled_page(page, self.options.looks, self._world)
 
-    def _write_picture(self, out: BinaryIO, target: Target) -> None:
+    def _layers(self, target: Target, shape: AlphaShape) -> list[Layer]:
+        """Layers of the picture of a result, of the shape or of one of another radius."""
         from vorotool.render.layers.alpha import alpha_layers
 
-        chosen = self.options.layers or PRODUCTS["alphashape"][target.what].usual_layers
-        hull = self.hull if "hull" in chosen else None
-        drawn = alpha_layers(self.shape, self.page, chosen, hull=hull)
-        write_layers(out, drawn, self.page, fmt=target.fmt, threads=self.options.threads)
+        chosen = self.options.drawn(PRODUCTS["alphashape"][target.what].usual_layers)
+        hull = None
+        if "hull" in chosen:
+            from vorotool.engines.alpha.alpha_hull import alpha_hull
+
+            hull = self.hull if shape is self.shape else alpha_hull(shape)
+        return alpha_layers(shape, self.page, chosen, hull=hull)
+
+    def _write_animation(self, out: BinaryIO, target: Target) -> None:
+        """Shapes whose radius grows to that of the shape, or to the largest critical one if that is infinite."""
+        finite = self.family.spectrum[self.family.spectrum < inf]
+        largest = float(finite[-1]) if len(finite) else 1.0
+        r = Fraction(self.shape.r) if self.shape.r < inf else Fraction(largest)
+
+        def draw(part: Fraction) -> NDArray[np.uint8]:
+            shape = alpha_shape(self.family, r=r * part, threads=self.options.threads, **self._empty)
+            return layer_pixels(self._layers(target, shape), self.page)
+
+        write_frames(out, self.run, self.options, target.fmt, parts_of_whole(self.options), draw)
 
     def verify(self, progress: Progress) -> None:
         """Check the shape exactly, from its triangulation."""

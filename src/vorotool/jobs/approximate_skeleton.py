@@ -18,7 +18,7 @@ from vorotool.engines.sampled_skeleton.approximate import (
     whole_sampled_diagram,
 )
 from vorotool.engines.sampled_skeleton.per_feature import FeatureApproximation, approximation, samples_of_graph
-from vorotool.errors import VorotoolWarning
+from vorotool.errors import VorotoolWarning, warn
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.boundary_samples import sample_table
@@ -163,7 +163,7 @@ class ApproximateProducts(SkeletonProducts[ApproximateSkeletonOptions]):
             place = f"({value['x']:g}, {value['y']:g})"
             said = f"{name.replace('_', ' ')} the distance is up to {value['largest']:.3g}, near {place}"
             if tolerance is not None and value["largest"] > tolerance:
-                warnings.warn(f"{said}: more than the tolerance of {tolerance:g}", VorotoolWarning, stacklevel=2)
+                warn(f"{said}: more than the tolerance of {tolerance:g}")
             else:
                 self.run.note(said)
         return found

@@ -10,6 +10,7 @@ from vorotool.engines.digital.comparison import compare_digital
 from vorotool.engines.digital.triangulation import DigitalRepair, digital_triangulation, repair_digital
 from vorotool.engines.digital.verify_digital import verify_digital_triangulation
 from vorotool.engines.tessellation.seeding import seeds_from_points
+from vorotool.errors import Message
 from vorotool.geometry.mesh.digital_comparison import DigitalComparison
 from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation
 from vorotool.geometry.points.point_set import PointSet
@@ -88,7 +89,7 @@ class DigitalProducts(MeshProducts):
             names = ("edge_precision", "edge_recall", "triangle_precision", "triangle_recall")
             counts["compare"] = {name: getattr(found, name) for name in names} | {
                 "differences": found.counts,
-                "suggestion": found.suggestion,
+                "suggestion": Message.of(found.suggestion).typed,
             }
         return {**counts, "method": "digital", "threads": self.options.threads}
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 from functools import partial
 from typing import Any, BinaryIO
 
-from vorotool.errors import InputError, Kind, Message
+from vorotool.errors import InputError, Kind, Message, UsageError
 from vorotool.formats.images.band_reader import open_zarr, read_rows
 from vorotool.formats.images.label_images import label_image_of
 from vorotool.formats.io.atomic_output import open_output
@@ -23,9 +23,11 @@ from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.offsets import Offsets
 from vorotool.geometry.skeleton.skeleton import Skeleton
 from vorotool.jobs.inputs import JobInput, note_other_size, refuse
+from vorotool.jobs.label_pictures import LabelPicture, default_layers, write_label_page
 from vorotool.jobs.options import DrawingOptions
 from vorotool.jobs.picture_style import styled_page
-from vorotool.jobs.pictures import default_layers, drawing_of, write_label_picture, write_layers
+from vorotool.jobs.picture_world import check_column, world_of, world_of_polygons
+from vorotool.jobs.pictures import drawing_of, write_layers
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target, check_picture_options
 from vorotool.products.inputs import DRAWN_NAMES, Holds, known_input_format
@@ -33,7 +35,9 @@ from vorotool.products.registry import PRODUCTS, Product
 
 _SKELETONS = PRODUCTS["skeleton-exact"]
 _COLOURED = PRODUCTS["tessellate"]["colour"].layers
-LABEL_LAYERS = {fmt: [layer for layer in layers if layer != "seeds"] for fmt, layers in _COLOURED.items()}
+LABEL_LAYERS = {
+    fmt: [layer for layer in layers if layer not in ("objects", "seeds")] for fmt, layers in _COLOURED.items()
+}
 """A label image from a file has no seeds."""
 
 Lined = Skeleton | Offsets | PolygonSet
@@ -104,7 +108,9 @@ def _read(run: Run, o: DrawingOptions, given: JobInput) -> LabelImage | Lined:
                 "makes them, with -f svg"
             )
         holds = "polygons"  # whose reader says more of tables
-    options = ReadOptions(page=o.page, properties=False, max_pixels=o.max_pixels, note=partial(_note, run))
+    options = ReadOptions(
+        page=o.page, properties=o.label_by is not None, max_pixels=o.max_pixels, note=partial(_note, run)
+    )
     value = read_recognised(holds, source, options)
     return label_image_of(value, source.name) if isinstance(value, Raster) else value
 
@@ -122,24 +128,33 @@ def _note(run: Run, message: str) -> None:
 
 def _of_labels(run: Run, o: DrawingOptions, given: JobInput, image: LabelImage, fmt: str) -> Drawing:
     from vorotool.engines.label_images.object_colours import object_colours
+    from vorotool.engines.label_images.regions import region_table
+    from vorotool.render.label_images.svg import check_size
 
-    check_picture_options(o, [fmt], LABEL_LAYERS)
+    is_page = fmt == "html"
+    check_picture_options(o, [] if is_page else [fmt], LABEL_LAYERS, has_page=is_page)
+    check_column(o.label_by, ())
     note_other_size(run, o, given, image.shape)
     image = _objects(run, image)
     with run.phase("colour"):
         colours = object_colours(image, threads=o.threads)
-    draw = partial(
-        write_label_picture,
-        image=image,
-        colours=colours,
-        fmt=fmt,
-        layers=o.layers or default_layers(image, ("cells", "labels") if fmt == "svg" else ("cells",)),
+    counts = {"shape": image.shape, "colours": int(colours[1].max(initial=0))}
+    if is_page:
+        check_size(image.shape, "HTML")
+        table = region_table(image, threads=o.threads)
+        page = partial(write_label_page, labels=image.labels, colours=colours, table=table, y_up=bool(o.y_up))
+        return page, counts
+    picture = LabelPicture(
+        image,
+        colours,
+        o.drawn(default_layers(image, ("cells", "labels") if fmt == "svg" else ("cells",))),
+        o.looks.style(world_of(run, o.looks, frame=image.frame).scale_bar),
         width=o.width or 1000,
         y_up=bool(o.y_up),
         backdrop=given.backdrop,
         threads=o.threads,
     )
-    return draw, {"shape": image.shape, "colours": int(colours[1].max(initial=0))}
+    return partial(picture.write, fmt=fmt), counts
 
 
 def _objects(run: Run, image: LabelImage) -> LabelImage:
@@ -159,18 +174,21 @@ def _of_layers(run: Run, o: DrawingOptions, given: JobInput, value: Lined, fmt: 
     from vorotool.render.canvas.png import check_picture_size
 
     kind, product, counts = _described(value)
+    if fmt == "html":
+        raise UsageError(f"a page is of cells or labels, but the input is {kind}: use -f svg or -f png")
     check_picture_options(o, [fmt], product.layers, png_has_width=True)
     refuse({"page": o.page}, f"is for images, but the input is {kind}")
     if not len(value):
         run.warn(f"the picture is empty: the input is {kind}, but there are none in it")
     polygons = value if isinstance(value, PolygonSet) else value.polygons
+    check_column(o.label_by, polygons.properties)
     drawing = drawing_of(
         value,
         layers=o.layers,
         width=o.width or 1000,
         y_up=o.y_up,
         backdrop=given.backdrop,
-        styled=partial(styled_page, o=o, unit=polygons.unit),
+        styled=partial(styled_page, looks=o.looks, world=world_of_polygons(run, o, polygons)),
     )
     if fmt == "png":
         check_picture_size(drawing.page, o.max_pixels)

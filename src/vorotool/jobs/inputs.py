@@ -41,11 +41,14 @@ class JobInput(NamedTuple):
         The image that pictures of it are drawn over.
     has_units : bool
         An output has lengths.
+    has_page : bool
+        An output is a page of HTML, which shows columns of the input.
     """
 
     path: str
     backdrop: Backdrop | None = None
     has_units: bool = False
+    has_page: bool = False
 
     @property
     def name(self) -> str:

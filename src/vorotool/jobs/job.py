@@ -83,7 +83,8 @@ def process_input(recipe: Recipe[Options], run: Run, options: Options, path: str
     computing = options if isinstance(options, ComputingOptions) else None
     check_targets(options, targets, path)
     with run.phase("read"):
-        given = JobInput(path, read_backdrop(options), shows_units(targets))
+        has_units, has_page = shows_units(targets) or options.scale_bar, any(each.fmt == "html" for each in targets)
+        given = JobInput(path, read_backdrop(options), has_units, has_page)
     with naming(given):
         products = recipe.make(run, options, given)
     for target in targets:

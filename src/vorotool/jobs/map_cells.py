@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from vorotool.errors import InputError, Kind, Message, VorotoolWarning
+from vorotool.errors import InputError, Kind, Message, VorotoolWarning, warn
 from vorotool.jobs.options import TessellationOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.units import AUTO
@@ -87,5 +86,5 @@ def _seeds_of_features(o: TessellationOptions, polygons: PolygonSet, frame: Fram
         names = [str(int(number) + 1) for number in np.setdiff1d(features, seeds.site_labels.astype(np.int64) - 1)]
         shown = ", ".join([*names[:MOST_NAMED], *(["…"] if len(names) > MOST_NAMED else [])])
         text = f"{without} of {len(features)} features have no cell, as they are small, covered or outside: {shown}"
-        warnings.warn(VorotoolWarning(Message(text, Kind.GENERAL)), stacklevel=2)
+        warn(VorotoolWarning(Message(text, Kind.GENERAL)))
     return replace(seeds, properties={name: [column[k] for k in known] for name, column in polygons.properties.items()})

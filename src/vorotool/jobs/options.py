@@ -7,11 +7,12 @@ when this module is imported, at the start of every run.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Literal
 
-from vorotool.jobs.picture_style import Looks
+from vorotool.jobs.picture_style import Looks, Paper
 
 if TYPE_CHECKING:
     from vorotool.engines.centerlines.centerline import Ends
@@ -46,6 +47,12 @@ class JobOptions:
     overlay: str | None
     width: int | None
     y_up: bool | None
+    background: str | None
+    colours: tuple[tuple[str, str], ...]
+    line_widths: tuple[tuple[str, float], ...]
+    label_by: str | None
+    legend: bool
+    scale_bar: bool
     max_pixels: int
     threads: int
     quiet: bool
@@ -71,8 +78,30 @@ class JobOptions:
 
     @property
     def looks(self) -> Looks:
-        """The looks of pictures that are made of layers."""
-        return Looks()
+        """The looks of pictures."""
+        paper = self.paper
+        return Looks(
+            paper.scale,
+            paper.unit,
+            self.background,
+            self.colours,
+            self.line_widths,
+            self.label_by,
+            self.legend,
+            self.scale_bar,
+            paper.aspect,
+            paper.extent,
+        )
+
+    @property
+    def paper(self) -> Paper:
+        """The page of pictures, where these are of lines and areas."""
+        return Paper()
+
+    def drawn(self, usual: Sequence[str]) -> tuple[str, ...]:
+        """Give the layers of a picture that has usual ones: a column of names is shown in any case."""
+        chosen = tuple(self.layers or usual)
+        return chosen if self.label_by is None or "labels" in chosen else (*chosen, "labels")
 
     @property
     def is_of_many(self) -> bool:
@@ -110,16 +139,14 @@ class DrawingOptions(JobOptions):
 
     scale: Scale | None
     drawing_unit: str | None
-    background: str | None
-    colours: tuple[tuple[str, str], ...]
-    line_widths: tuple[tuple[str, float], ...]
+    aspect: float | None
+    extent: Literal["image", "data"] | None
+    what: tuple[str, ...] = ("picture",)
 
     @property
-    def looks(self) -> Looks:
-        """The looks of pictures."""
-        return Looks(self.scale, self.drawing_unit, self.background, self.colours, self.line_widths)
-
-    what: tuple[str, ...] = ("picture",)
+    def paper(self) -> Paper:
+        """The page of pictures."""
+        return Paper(self.scale, self.drawing_unit, self.aspect, self.extent)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, init=False, repr=False, eq=False)
@@ -200,36 +227,37 @@ class TessellationOptions(SiteOptions):
     chunk: tuple[int, int] | None
     cell_size: Fraction | None
     tiled: bool
+    animate: bool
+    frames: int | None
+    fps: float | None
 
     @property
     def cell_side(self) -> Fraction | None:
         """The side of the cells of a map, where the frame is in its units."""
         return self.cell_size
 
-
-@dataclass(frozen=True, slots=True, kw_only=True, init=False, repr=False, eq=False)
-class LayeredOptions(SiteOptions):
-    """What the commands have whose pictures are made of layers."""
-
-    scale: Scale | None
-    drawing_unit: str | None
-    background: str | None
-    colours: tuple[tuple[str, str], ...]
-    line_widths: tuple[tuple[str, float], ...]
-
     @property
-    def looks(self) -> Looks:
-        """The looks of pictures."""
-        return Looks(self.scale, self.drawing_unit, self.background, self.colours, self.line_widths)
+    def draws_diagram(self) -> bool:
+        """Whether the diagram as PNG is a picture, not a mask."""
+        return bool(self.layers or self.overlay or self.looks.given())
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False, eq=False)
-class TriangulationOptions(LayeredOptions):
+class TriangulationOptions(SiteOptions):
     """Of ``delaunay``."""
 
+    scale: Scale | None
+    drawing_unit: str | None
+    aspect: float | None
+    extent: Literal["image", "data"] | None
     method: Method
     frame: Rectangle | None
     clip: str | None
+
+    @property
+    def paper(self) -> Paper:
+        """The page of pictures."""
+        return Paper(self.scale, self.drawing_unit, self.aspect, self.extent)
 
     @property
     def triangulated_by(self) -> Method:
@@ -242,9 +270,13 @@ class TriangulationOptions(LayeredOptions):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False, eq=False)
-class AlphaShapeOptions(LayeredOptions):
+class AlphaShapeOptions(SiteOptions):
     """Of ``alphashape``."""
 
+    scale: Scale | None
+    drawing_unit: str | None
+    aspect: float | None
+    extent: Literal["image", "data"] | None
     method: Method
     r: Fraction | float | None
     alpha: Fraction | None
@@ -253,6 +285,14 @@ class AlphaShapeOptions(LayeredOptions):
     rule: Literal["corrected", "printed"]
     hole_threshold: Fraction | None
     region_threshold: Fraction | None
+    animate: bool
+    frames: int | None
+    fps: float | None
+
+    @property
+    def paper(self) -> Paper:
+        """The page of pictures."""
+        return Paper(self.scale, self.drawing_unit, self.aspect, self.extent)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, init=False, repr=False, eq=False)
@@ -273,17 +313,19 @@ class SkeletonOptions(ComputingOptions):
     join_tolerance: float | None
     simplify: float | None
     outline: Literal["crack", "contour"] | None
+    animate: bool
+    frames: int | None
+    fps: float | None
     seeds: Literal["components", "labels"] | None
     scale: Scale | None
     drawing_unit: str | None
-    background: str | None
-    colours: tuple[tuple[str, str], ...]
-    line_widths: tuple[tuple[str, float], ...]
+    aspect: float | None
+    extent: Literal["image", "data"] | None
 
     @property
-    def looks(self) -> Looks:
-        """The looks of pictures."""
-        return Looks(self.scale, self.drawing_unit, self.background, self.colours, self.line_widths)
+    def paper(self) -> Paper:
+        """The page of pictures."""
+        return Paper(self.scale, self.drawing_unit, self.aspect, self.extent)
 
     @property
     def wants_skeleton(self) -> bool:

@@ -10,6 +10,7 @@ from vorotool.errors import UsageError
 if TYPE_CHECKING:
     from vorotool.jobs.options import JobOptions
     from vorotool.render.canvas.layers import Page
+    from vorotool.render.canvas.styles import PictureStyle, ScaleBar
 
 MILLIMETRES = {
     **{"nm": 1e-6, "um": 1e-3, "mm": 1.0, "cm": 10.0, "dm": 100.0, "m": 1e3, "km": 1e6},
@@ -18,11 +19,28 @@ MILLIMETRES = {
 """Of the units that ``--unit`` has."""
 
 
+LARGEST_WIDTH = 1e6
+"""Px of a line."""
+
+
 class Scale(NamedTuple):
     """A scale: millimetres of paper a unit, or a ratio, 1 to a number."""
 
     number: float
     is_ratio: bool
+
+
+class Paper(NamedTuple):
+    """The page of pictures of lines and areas; see `Looks`."""
+
+    scale: Scale | None = None
+    unit: str | None = None
+    aspect: float | None = None
+    extent: str | None = None
+
+
+OPTIONS = ("scale", "unit", "background", "color", "line-width", "label-by", "legend", "scale-bar", "aspect", "extent")
+"""Those that looks are chosen by, in the order of their fields."""
 
 
 class Looks(NamedTuple):
@@ -38,6 +56,14 @@ class Looks(NamedTuple):
         ``#rrggbb`` or ``none``.
     colours, line_widths : tuple of pairs
         By layers.
+    label_by : str, optional
+        Column that names objects.
+    has_legend, has_scale_bar : bool
+        They are drawn.
+    aspect : float, optional
+        Px of a unit of y for each of a unit of x.
+    extent : {"image", "data"}, optional
+        What the page of an image's result shows.
     """
 
     scale: Scale | None = None
@@ -45,11 +71,30 @@ class Looks(NamedTuple):
     background: str | None = None
     colours: tuple[tuple[str, str], ...] = ()
     line_widths: tuple[tuple[str, float], ...] = ()
+    label_by: str | None = None
+    has_legend: bool = False
+    has_scale_bar: bool = False
+    aspect: float | None = None
+    extent: str | None = None
+
+    def style(self, scale_bar: ScaleBar | None = None) -> PictureStyle:
+        """What is chosen, as what draws takes it, with the lengths that a scale bar may have."""
+        from vorotool.render.canvas.palettes import WHITE
+        from vorotool.render.canvas.styles import PictureStyle
+
+        ground = WHITE if self.background is None else self.background
+        return PictureStyle(
+            None if ground == "none" else ground,
+            dict(self.colours),
+            dict(self.line_widths),
+            has_legend=self.has_legend,
+            scale_bar=scale_bar if self.has_scale_bar else None,
+            label_by=self.label_by,
+        )
 
     def given(self) -> list[str]:
         """Names of the options that are given."""
-        names = ("scale", "unit", "background", "color", "line-width")
-        return [name for name, value in zip(names, self, strict=True) if value not in (None, ())]
+        return [name for name, value in zip(OPTIONS, self, strict=True) if value not in (None, (), False)]
 
 
 def check_style(
@@ -75,25 +120,25 @@ def check_style(
     """
     looks = o.looks
     given = looks.given()
-    for name in given:
-        if not pictures:
-            raise UsageError(f"--{name} is for pictures: use -f svg or -f png, or leave it out")
+    if given and not pictures:
+        raise UsageError(f"--{given[0]} is for pictures: use -f svg or -f png, or leave it out")
+    for name in [each for each in given if each in ("scale", "unit", "aspect", "extent")]:
         if not is_of_lines:
-            raise UsageError(
-                f"--{name} is for pictures of lines and areas, not for those of label images: leave it out"
-            )
-    for name in set(given) & {"scale", "unit"}:
+            of = "of lines and areas, not for those of label images"
+            raise UsageError(f"--{name} is for pictures {of}: leave it out")
+        if name in ("aspect", "extent"):
+            if o.overlay is not None:
+                raise UsageError(f"a picture over an image has its size: leave out --overlay or --{name}")
+            continue
         if "png" in pictures:
             raise UsageError(f"--{name} is for SVG, a PNG has pixels: use -f svg, or leave it out")
-        if o.width is not None or o.overlay is not None:
-            other = "--width" if o.width is not None else "--overlay"
+        if o.width is not None or o.overlay is not None or looks.aspect is not None:
+            other = "--width" if o.width is not None else "--overlay" if o.overlay is not None else "--aspect"
             raise UsageError(f"a picture to scale has its size: leave out {other} or --{name}")
     if looks.scale is not None and not looks.scale.is_ratio and looks.drawing_unit is not None:
         raise UsageError("--scale S is millimetres a unit: leave out --unit, or use --scale 1:N")
     if looks.background is not None and o.overlay is not None:
         raise UsageError("--overlay is the ground: leave out --background")
-    if looks.background == "none" and "png" in pictures:
-        raise UsageError("a PNG has a ground: use -f svg, or another --background")
     for option, chosen in (("color", looks.colours), ("line-width", looks.line_widths)):
         for layer, _ in chosen:
             if not any(layer in layers[fmt] for fmt in pictures):
@@ -101,16 +146,87 @@ def check_style(
                 raise UsageError(f"--{option} {layer}: the picture has {', '.join(known)}; choose of these")
 
 
-def styled_page(page: Page, o: JobOptions, unit: str | None) -> Page:
+def looks_of(
+    *, color: Mapping[str, str] | None, line_width: Mapping[str, float] | None, background: str | None
+) -> Looks:
+    """Give the looks that the library is asked for; see `vorotool.write`.
+
+    Raises
+    ------
+    UsageError
+        If a colour is none, or a width no number from 0 on.
+
+    Examples
+    --------
+    >>> looks_of(color={"seeds": "red"}, line_width=None, background=None).colours
+    (('seeds', '#ff0000'),)
+    """
+    from vorotool.geometry.numbers import finite_double
+
+    ground = background if background in (None, "none") else _colour(background, "background")
+    colours = tuple((layer, _colour(each, f"color of {layer}")) for layer, each in (color or {}).items())
+    widths = tuple((layer, finite_double(each, f"line_width of {layer}")) for layer, each in (line_width or {}).items())
+    for layer, width in widths:
+        if not 0 <= width < LARGEST_WIDTH:
+            raise UsageError(f"invalid line_width of {layer} {width}: expected a number of px from 0 on")
+    return Looks(None, None, ground, colours, widths)
+
+
+def _colour(text: object, what: str) -> str:
+    code = colour_code(text) if isinstance(text, str) else None
+    if code is None:
+        raise UsageError(f"invalid {what} {text!r}: expected a colour such as '#aa3344' or 'navy'")
+    return code
+
+
+def check_layers(looks: Looks, drawn: Sequence[str]) -> None:
+    """Refuse colours and widths of layers that a picture has not.
+
+    Raises
+    ------
+    UsageError
+        If there are some; the layers of the picture are named.
+    """
+    from vorotool.render.canvas.styles import DRAWN_AS
+
+    known = [*dict.fromkeys([*drawn, *(DRAWN_AS[layer] for layer in drawn if layer in DRAWN_AS)])]
+    for option, chosen in (("color", looks.colours), ("line_width", looks.line_widths)):
+        for layer, _ in chosen:
+            if layer not in known:
+                raise UsageError(f"invalid {option} of {layer!r}: expected a layer of the picture, {', '.join(known)}")
+
+
+class World(NamedTuple):
+    """Where what is drawn lies.
+
+    Parameters
+    ----------
+    scale_bar : ScaleBar, optional
+        What lengths are written in.
+    millimetre_unit : str, optional
+        Unit of the data, for pictures to scale.
+    aspect : float
+        Px of a unit of y for each of a unit of x.
+    frame : (x, y, x, y), optional
+        Of the image that the data come from.
+    """
+
+    scale_bar: ScaleBar | None = None
+    millimetre_unit: str | None = None
+    aspect: float = 1.0
+    frame: tuple[float, float, float, float] | None = None
+
+
+def styled_page(page: Page, looks: Looks, world: World) -> Page:
     """Give the page of a picture as the options say.
 
     Parameters
     ----------
     page : Page
         As it is if they say nothing.
-    o : JobOptions
-        Of the command line.
-    unit : str, optional
+    looks : Looks
+        What is chosen.
+    world : World
         Of the data.
 
     Raises
@@ -118,16 +234,38 @@ def styled_page(page: Page, o: JobOptions, unit: str | None) -> Page:
     UsageError
         If a ratio has no unit to go by.
     """
-    from vorotool.render.canvas.palettes import WHITE
+    from vorotool.render.canvas.layers import MARGIN, Page
     from vorotool.render.canvas.scaled_page import ScaledPage
-    from vorotool.render.canvas.styles import PictureStyle
 
-    looks = o.looks
-    if looks.scale is not None or looks.drawing_unit is not None:
-        page = ScaledPage(page.bounds, y_up=page.y_up, millimetres=_millimetres(looks, unit))
-    ground = WHITE if looks.background is None else looks.background
-    page.style = PictureStyle(None if ground == "none" else ground, dict(looks.colours), dict(looks.line_widths))
+    if page.backdrop is None:
+        frame = None if looks.extent == "data" else world.frame
+        bounds = page.bounds if frame is None else frame
+        aspect = world.aspect if looks.aspect is None else looks.aspect
+        if looks.scale is not None or looks.drawing_unit is not None:
+            millimetres = _millimetres(looks, world.millimetre_unit)
+            page = ScaledPage(bounds, y_up=page.y_up, millimetres=millimetres)
+        elif frame is not None or aspect != 1:
+            margin = MARGIN if frame is None else 0.0
+            page = Page(bounds, width=page.width, y_up=page.y_up, aspect=aspect, margin=margin)
+    page.style = looks.style(world.scale_bar)
     return page
+
+
+def colour_code(text: str) -> str | None:
+    """Give a colour, ``#rrggbb`` or a name as in CSS, as ``#rrggbb``; None if it is none.
+
+    Examples
+    --------
+    >>> colour_code("navy"), colour_code("#fff"), colour_code("#12345678")
+    ('#000080', '#ffffff', None)
+    """
+    from PIL import ImageColor
+
+    try:
+        rgb: tuple[int, ...] = ImageColor.getrgb(text.strip().lower())
+    except ValueError:
+        return None
+    return "#" + "".join(f"{channel:02x}" for channel in rgb) if len(rgb) == 3 else None
 
 
 def _millimetres(looks: Looks, unit: str | None) -> float:

@@ -1,147 +1,20 @@
-"""Pictures: of label images, from layers, and of any value that has one."""
+"""Pictures made of layers, and the layers of any value that has a picture."""
 
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
 from vorotool.errors import UsageError, VorotoolWarning
-from vorotool.geometry.points.label_image import LabelImage
 from vorotool.products.registry import parts_of
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from vorotool.geometry.mesh.cells import CellSet
     from vorotool.render.canvas.layers import Backdrop, Layer, Page
-    from vorotool.render.label_images.png import Names
-
-BAND_ROWS = 256
-"""Rows of a picture that are composed at a time."""
-
-LARGEST_TABLE = 1 << 20
-"""Entries that a table of colours by label may have in any case; beyond, it must be mostly used."""
-
-
-def write_label_picture(
-    out: BinaryIO,
-    image: LabelImage,
-    colours: tuple[NDArray[Any], NDArray[Any]],
-    *,
-    fmt: str,
-    layers: Sequence[str],
-    width: int = 1000,
-    y_up: bool = False,
-    backdrop: Backdrop | None = None,
-    threads: int = 0,
-) -> None:
-    """Draw a label image as SVG or as a palette PNG of its own size, or over an image.
-
-    Parameters
-    ----------
-    out : binary file
-        Where to write.
-    image : LabelImage
-        With seeds, if these are drawn.
-    colours : pair of (k,) integer arrays
-        The labels that occur, increasing, and the colour class of each: what `region_colours` gives.
-    fmt : {"png", "svg"}
-        Kind of picture.
-    layers : sequence of str
-        Of cells, diagram (PNG), labels and seeds.
-    width : int
-        Pixels across an SVG.
-    y_up : bool
-        Draw the last row on top.
-    backdrop : Backdrop, optional
-        The image, whose size the picture has.
-    threads : int
-        0 uses all.
-    """
-    if y_up:
-        image = image.flipped()
-    if fmt == "svg":
-        from vorotool.render.label_images.svg import has_numbers, write_label_svg
-
-        by_label = dict(zip(colours[0].tolist(), colours[1].tolist(), strict=True))
-        names = None if has_numbers(image.shape) else _names(image, layers, threads)
-        write_label_svg(
-            out, image, colour_of_label=by_label, width=width, layers=layers, backdrop=backdrop, names=names
-        )
-    else:
-        _write_png(out, image, colours, layers, backdrop, threads)
-
-
-def default_layers(image: LabelImage, layers: Sequence[str]) -> tuple[str, ...]:
-    """Layers of a picture for which none are chosen: numbers in the pixels of small images, but no names in others."""
-    from vorotool.render.label_images.svg import has_numbers
-
-    return tuple(layer for layer in layers if layer != "labels" or has_numbers(image.shape))
-
-
-def _names(image: LabelImage, layers: Sequence[str], threads: int) -> Names | None:
-    """Labels, deep inside their objects or regions."""
-    if "labels" not in layers:
-        return None
-    from vorotool.engines.label_images.label_places import name_places
-    from vorotool.render.label_images.png import Names
-
-    labels, places = name_places(image, threads=threads)
-    return Names([str(label) for label in labels.tolist()], places)
-
-
-def _write_png(
-    out: BinaryIO,
-    image: LabelImage,
-    colours: tuple[NDArray[Any], NDArray[Any]],
-    layers: Sequence[str],
-    backdrop: Backdrop | None,
-    threads: int,
-) -> None:
-    from vorotool.engines.label_images.regions import voronoi_diagram
-    from vorotool.formats.images.png_writer import write_png
-    from vorotool.render.canvas.palettes import picture_palette
-    from vorotool.render.label_images.png import around, over_image, picture_bands
-
-    names = _names(image, layers, threads)
-    starts = range(0, image.shape[0], BAND_ROWS)
-    diagram = voronoi_diagram(image, threads=threads).view(bool) if "diagram" in layers else None
-    halo = None if diagram is None or backdrop is None else around(diagram)
-    palette = picture_palette(int(colours[1].max(initial=0)), has_halo=names is not None or halo is not None)
-    number, colour_of_number = _numbering(*colours)
-    bands = picture_bands(
-        (number(image.labels[row : row + BAND_ROWS]) for row in starts),
-        shape=image.shape,
-        palette=palette,
-        colour_of_label=colour_of_number,
-        diagram=None if diagram is None else (diagram[row : row + BAND_ROWS] for row in starts),
-        halo=None if halo is None else (halo[row : row + BAND_ROWS] for row in starts),
-        seeds=image.seeds,
-        frame=image.frame,
-        names=names,
-        layers=layers,
-    )
-    if backdrop is not None:
-        assert image.frame is not None  # LabelImage has filled it in
-        made = over_image(bands, backdrop, palette, image.frame)
-        write_png(out, [made], backdrop.pixels.shape[:2], rgb=True, threads=threads)
-        return
-    write_png(out, bands, image.shape, bit_depth=palette.bit_depth, palette=palette.colours, threads=threads)
-
-
-def _numbering(
-    labels: NDArray[Any], classes: NDArray[Any]
-) -> tuple[Callable[[NDArray[Any]], NDArray[Any]], NDArray[Any]]:
-    """Numbers that a table of colours is indexed by: the labels, or their ranks from 1 where labels are sparse."""
-    largest = int(labels.max(initial=0))
-    if largest > 4 * len(labels) + LARGEST_TABLE:
-        known = np.append(0, labels)
-        return lambda band: np.searchsorted(known, band), np.append(0, classes)
-    by_label = np.zeros(largest + 1, classes.dtype)
-    by_label[labels] = classes
-    return np.asarray, by_label
 
 
 def write_layers(out: BinaryIO, layers: Sequence[Layer], page: Page, *, fmt: str, threads: int = 0) -> None:
@@ -160,22 +33,42 @@ def write_layers(out: BinaryIO, layers: Sequence[Layer], page: Page, *, fmt: str
     threads : int
         0 uses all.
     """
-    from vorotool.render.canvas.scaled_page import styled_layers
-
-    layers = styled_layers(layers, page.style)
-    if page.backdrop is not None:
-        from vorotool.render.canvas.layers import with_halos
-
-        layers = with_halos(layers)
+    made = _finished(layers, page)
     if fmt == "svg":
         from vorotool.render.canvas.svg import write_layers_svg
 
-        write_layers_svg(out, layers, page, threads=threads)
+        write_layers_svg(out, made.layers, page, insets=made.insets, threads=threads)
     else:
         from vorotool.formats.images.png_writer import write_png
-        from vorotool.render.canvas.png import layer_bands
 
-        write_png(out, layer_bands(layers, page), (page.height, page.width), rgb=True, threads=threads)
+        has_alpha = page.backdrop is None and page.style.ground is None
+        shape = page.height, page.width
+        write_png(out, picture_bands(layers, page), shape, rgb=True, has_alpha=has_alpha, threads=threads)
+
+
+def picture_bands(layers: Sequence[Layer], page: Page) -> Iterator[NDArray[np.uint8]]:
+    """Give the rows of a picture as PNG has them; see `vorotool.render.canvas.png.layer_bands`."""
+    from vorotool.render.canvas.png import layer_bands
+
+    made = _finished(layers, page)
+    return layer_bands(made.layers, page, insets=made.insets)
+
+
+class _Finished(NamedTuple):
+    """Layers as they are drawn, and what lies over them in px of the page."""
+
+    layers: Sequence[Layer]
+    insets: Sequence[Layer]
+
+
+def _finished(layers: Sequence[Layer], page: Page) -> _Finished:
+    """Give layers the chosen looks, over an image with edges, and make the legend and the scale bar."""
+    from vorotool.render.canvas.halos import with_halos
+    from vorotool.render.canvas.insets import insets
+    from vorotool.render.canvas.scaled_page import styled_layers
+
+    styled = styled_layers(layers, page.style)
+    return _Finished(styled if page.backdrop is None else with_halos(styled), insets(styled, page))
 
 
 # ---- any value -----------------------------------------------------------------------------------
@@ -238,7 +131,10 @@ def drawing_of(
         page = page_of(value, width=width, y_up=y_up) if backdrop is None else ImagePage(backdrop)
         page = page if styled is None else styled(page)
         usual = [layer for layer in drawn[chosen].usual_layers if backdrop is None or layer != "polygons"]
-        return Drawing(layers_of(value, page, layers or usual), page)
+        shown = list(layers or usual)
+        if page.style.label_by is not None and "labels" not in shown:
+            shown.append("labels")
+        return Drawing(layers_of(value, page, shown), page)
     raise UsageError(f"there is no picture of a {type(value).__name__}: write it as a table")
 
 
@@ -290,8 +186,9 @@ def _cell_layers(cells: CellSet, page: Page, layers: Sequence[str]) -> list[Laye
     from vorotool.render.canvas.layers import Points
     from vorotool.render.label_images.png import checked_layers
     from vorotool.render.layers.cells import cell_lines, cell_polygons
+    from vorotool.render.layers.mesh import site_names
 
-    wanted = checked_layers(layers, ("cells", "diagram", "points"))
+    wanted = checked_layers(layers, ("cells", "diagram", "points", "labels"))
     made: list[Layer] = []
     if "cells" in wanted:
         with warnings.catch_warnings():  # that points lie on others was said where the cells were made
@@ -302,4 +199,6 @@ def _cell_layers(cells: CellSet, page: Page, layers: Sequence[str]) -> list[Laye
         made.append(cell_lines(cells, page))
     if "points" in wanted:
         made.append(Points("points", cells.sites, radius=min(max(page.spacing(len(cells)) / 12, 0.3), 4.0)))
+    if "labels" in wanted:
+        made.append(site_names(cells, page))
     return made

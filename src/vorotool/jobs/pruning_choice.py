@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-CRITERIA = ("angle", "chord", "scale", "length", "ratio")
+if TYPE_CHECKING:
+    from vorotool.typing import Criterion
+
+CRITERIA: tuple[Criterion, ...] = ("angle", "chord", "scale", "length", "ratio")
 """As `vorotool.geometry.skeleton.critical_values` has them, which ``--help`` does not import."""
 LENGTHS = ("chord", "length")
 """Criteria whose thresholds are lengths."""

@@ -1,45 +1,12 @@
-"""The small files that come with the package: where they are, and written where they are wanted."""
+"""The small files that come with the package, written where they are wanted."""
 
 from __future__ import annotations
 
-from difflib import get_close_matches
-from importlib.resources import files
 from pathlib import Path
 
 from vorotool.errors import UsageError
+from vorotool.formats.samples import sample
 from vorotool.products.formats import EXTENSIONS, FORMATS
-from vorotool.products.samples import SAMPLES
-
-
-def sample(name: str) -> Path:
-    """Give the path of a small file that comes with the package, for `read`.
-
-    Parameters
-    ----------
-    name : str
-        ``dots.csv``, ``six-seeds.csv``, ``blobs.png``, ``cells.png``, ``shape.json``, ``two-shapes.json``,
-        ``segments.wkt`` or ``great-lakes.geojson``; ``vorotool sample`` says what each is.
-
-    Returns
-    -------
-    Path
-        Of the file in the package.
-
-    Raises
-    ------
-    UsageError
-        If there is no such sample; the message has the names.
-
-    Examples
-    --------
-    >>> import vorotool
-    >>> len(vorotool.read(sample("dots.csv")))
-    53
-    """
-    if name not in SAMPLES:
-        meant = " or ".join(get_close_matches(name.lower(), SAMPLES))
-        raise UsageError(f"there is no sample {name!r}: " + (f"did you mean {meant}?" if meant else _listing()))
-    return Path(str(files("vorotool").joinpath("samples", name)))
 
 
 def write_sample(name: str, output: str | None) -> None:
@@ -48,7 +15,7 @@ def write_sample(name: str, output: str | None) -> None:
     Parameters
     ----------
     name : str
-        One of `SAMPLES`.
+        One of `vorotool.products.samples.SAMPLES`.
     output : str, optional
         Where to write; by default standard output, for text.
 
@@ -72,7 +39,3 @@ def write_sample(name: str, output: str | None) -> None:
         raise UsageError(f"{name} is binary: say where it goes with -o {name}")
     with open_output(output or "-", binary=is_binary) as out:
         out.write(path.read_bytes())
-
-
-def _listing() -> str:
-    return f"use one of {', '.join(SAMPLES)}"

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import UsageError
 from vorotool.geometry.any.features import features_of
-from vorotool.geometry.crs import is_geographic
+from vorotool.geometry.crs import crs_text, is_geographic, member_of_text
 from vorotool.geometry.extras import needed
 from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation
 from vorotool.geometry.mesh.triangulation import Triangulation
@@ -22,7 +22,8 @@ from vorotool.geometry.pixel_grid import PixelGrid
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.raster import Raster
 from vorotool.geometry.table import Table
-from vorotool.jobs.pictures import Drawing, drawing_of, write_label_picture, write_layers
+from vorotool.jobs.label_pictures import LabelPicture
+from vorotool.jobs.pictures import Drawing, drawing_of, write_layers
 from vorotool.jobs.writing import to_geojson
 from vorotool.products.registry import is_of, parts_of
 
@@ -65,10 +66,7 @@ def _features(value: Any) -> dict[str, Any]:
     import shapely
 
     features = features_of(value)
-    columns = {
-        name: column.tolist() if isinstance(column, np.ndarray) else list(column)
-        for name, column in features.columns.items()
-    }
+    columns = {name: _json_values(column) for name, column in features.columns.items()}
     there = ~shapely.is_empty(features.geometry)
     texts = zip(shapely.to_geojson(features.geometry), there, strict=True)
     shapes = [orjson.loads(text) if text is not None and is_there else None for text, is_there in texts]
@@ -81,7 +79,16 @@ def _features(value: Any) -> dict[str, Any]:
         ],
     }
     crs = getattr(features.source, "crs", None)
-    return made if crs is None else {**made, "crs": crs}
+    if crs is None:
+        return made
+    return {**made, "crs": crs if isinstance(crs, dict) else member_of_text(crs_text(crs))}
+
+
+def _json_values(column: Any) -> list[Any]:
+    """A column as lists of JSON have it: None for what is no finite number."""
+    if isinstance(column, np.ndarray) and column.dtype.kind == "f":
+        column = np.ma.masked_invalid(column)
+    return column.tolist() if isinstance(column, np.ndarray) else list(column)
 
 
 # ---- drawings ------------------------------------------------------------------------------------
@@ -165,11 +172,13 @@ def _step(shape: tuple[int, int]) -> int:
 
 def _labels_png(image: LabelImage) -> bytes:
     from vorotool.engines.label_images.object_colours import object_colours
+    from vorotool.render.canvas.styles import PictureStyle
 
     step = _step(image.shape)
     small = LabelImage(np.ascontiguousarray(image.labels[::step, ::step]))
     colours = object_colours(small)
-    return _written(lambda out: write_label_picture(out, small, colours, fmt="png", layers=("cells",)))
+    picture = LabelPicture(small, colours, ("cells",), PictureStyle())
+    return _written(lambda out: picture.write(out, "png"))
 
 
 def _raster_png(raster: Raster) -> bytes:

@@ -20,6 +20,7 @@ from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.names import DERIVED
 from vorotool.jobs.options import Place, SkeletonOptions
 from vorotool.jobs.picture_style import styled_page
+from vorotool.jobs.picture_world import check_column, world_of_polygons
 from vorotool.jobs.pictures import write_layers
 from vorotool.jobs.pixel_sizes import placed_backdrop
 from vorotool.jobs.pruning_choice import CRITERIA, LENGTHS, Pruning, chosen_pruning
@@ -28,7 +29,7 @@ from vorotool.jobs.skeleton_extras import Derived
 from vorotool.jobs.skeleton_input import read_polygons
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import in_units, length_in_units
-from vorotool.products.formats import PICTURES
+from vorotool.products.formats import PICTURES, picture_format
 from vorotool.products.registry import PRODUCTS
 from vorotool.products.writing import write_product
 
@@ -57,10 +58,12 @@ class SkeletonProducts(ABC, Generic[Options]):
     def __init__(self, run: Run, options: Options, given: JobInput) -> None:
         self.run = run
         with run.phase("read"):
-            self._polygons, self.is_mask, options = read_polygons(run, options, given)
+            self._polygons, self.is_mask, options, frame = read_polygons(run, options, given)
         self.options, self.backdrop = options, placed_backdrop(options.pixel_size, given.backdrop)
         self._is_told = False  # what was repaired, once
-        styled = partial(styled_page, o=options, unit=self._polygons.unit)
+        check_column(options.label_by, self._polygons.properties)
+        world = world_of_polygons(run, options, self._polygons, frame=frame, size=options.pixel_size)
+        self._styled = styled = partial(styled_page, looks=options.looks, world=world)
         self.derived = Derived(run, options, self.backdrop, lambda: self.skeleton, self._shapes, styled)
 
     @contextmanager
@@ -198,7 +201,7 @@ class SkeletonProducts(ABC, Generic[Options]):
         ) as out:
             if target.fmt == "html":
                 self._write_html(out)
-            elif target.fmt not in PICTURES:
+            elif picture_format(target.fmt) not in PICTURES:
                 self._write_data(out, target)
             elif target.what in DERIVED:
                 self.derived.write_picture(out, target)
@@ -253,9 +256,9 @@ class SkeletonProducts(ABC, Generic[Options]):
         from vorotool.render.layers.skeleton import skeleton_page
 
         if self.backdrop is not None:
-            return styled_page(ImagePage(self.backdrop), self.options, None)
+            return self._styled(ImagePage(self.backdrop))
         page = skeleton_page(value, width=self.options.width or 1000, y_up=self.options.y_up)
-        return styled_page(page, self.options, self._polygons.unit)
+        return self._styled(page)
 
     def _write_picture(self, out: BinaryIO, target: Target) -> None:
         from vorotool.render.layers.skeleton import centerline_layers, picture_layers
@@ -273,9 +276,9 @@ class SkeletonProducts(ABC, Generic[Options]):
     def _layers(self, what: str) -> Sequence[str]:
         """Layers of a picture: over an image the shapes are to be seen already."""
         usual = PRODUCTS["skeleton-exact"][what].usual_layers
-        if self.options.layers is not None or self.backdrop is None:
-            return self.options.layers or usual
-        return [layer for layer in usual if layer != "polygons"]
+        if self.backdrop is not None:
+            usual = tuple(layer for layer in usual if layer != "polygons")
+        return self.options.drawn(usual)
 
     def stats(self) -> dict[str, Any]:
         """Counts and sizes."""

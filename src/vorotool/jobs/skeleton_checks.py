@@ -5,9 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 from vorotool.errors import UsageError
+from vorotool.jobs.animations import check_animation
 from vorotool.jobs.options import ApproximateSkeletonOptions, ExactSkeletonOptions, SkeletonOptions
 from vorotool.jobs.targets import Target, check_picture_options, check_precision
-from vorotool.products.formats import FORMATS, PICTURES
+from vorotool.products.formats import FORMATS, PICTURES, picture_format
 from vorotool.products.inputs import DRAWINGS
 from vorotool.products.registry import PRODUCTS, formats_of, layers_of
 
@@ -32,7 +33,8 @@ def check_options(o: SkeletonOptions, targets: list[Target]) -> None:
     if o.frame is not None:
         _check_frame(o.frame)
     _check_centerline(o)
-    pictures = sorted(formats & set(PICTURES))
+    pictures = sorted({picture_format(fmt) for fmt in formats} & set(PICTURES))
+    check_animation(o, targets)
     if o.layers is not None and not pictures:
         raise UsageError("--layers is for pictures: use -f svg or -f png, or leave it out")
     _check_layers(o, targets)
@@ -65,8 +67,8 @@ def _command(o: SkeletonOptions) -> str:
 
 def _check_layers(o: SkeletonOptions, targets: list[Target]) -> None:
     """Each picture has each of the layers."""
-    for target in (target for target in targets if target.fmt in PICTURES):
-        own = PRODUCTS[_command(o)][target.what].layers[target.fmt]
+    for target in (target for target in targets if picture_format(target.fmt) in PICTURES):
+        own = PRODUCTS[_command(o)][target.what].layers[picture_format(target.fmt)]
         for layer in (layer for layer in o.layers or () if layer not in own):
             raise UsageError(
                 f"--layers {layer}: a picture of {target.what} in {target.fmt.upper()} has {', '.join(own)}; "

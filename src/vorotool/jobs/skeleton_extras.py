@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, BinaryIO
 
@@ -12,12 +13,17 @@ from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.offsets import Offsets
 from vorotool.geometry.skeleton.points_along import SkeletonPoints
 from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.jobs.animations import check_size, layer_pixels, parts_of_whole, write_frames
 from vorotool.jobs.options import SkeletonOptions
 from vorotool.jobs.pictures import Drawing, drawing_of, write_layers
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
+from vorotool.products.formats import ANIMATIONS, picture_format
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from vorotool.engines.skeleton.exact import ShapeDiagram
     from vorotool.render.canvas.layers import Backdrop, Page
 
@@ -99,25 +105,44 @@ class Derived:
         from vorotool.render.canvas.png import check_picture_size
 
         self.value(target.what)
-        if target.fmt == "png":
-            check_picture_size(self._drawing(target.what).page, self.options.max_pixels)
+        if picture_format(target.fmt) == "png":
+            page = self._drawing(target.what).page
+            check_picture_size(page, self.options.max_pixels)
+            if target.fmt in ANIMATIONS:
+                check_size(self.options, (page.height, page.width))
 
-    def _drawing(self, what: str) -> Drawing:
+    def _drawing(self, what: str, value: Any = None, styled: Callable[[Page], Page] | None = None) -> Drawing:
         o = self.options
         return drawing_of(
-            self.value(what),
+            self.value(what) if value is None else value,
             what=what,
             layers=o.layers,
             width=o.width or 1000,
             y_up=o.y_up,
             backdrop=self.backdrop,
-            styled=self._styled,
+            styled=styled or self._styled,
         )
 
     def write_picture(self, out: BinaryIO, target: Target) -> None:
         """Draw one result."""
+        if target.fmt in ANIMATIONS:
+            self._write_animation(out, target.fmt)
+            return
         drawing = self._drawing(target.what)
         write_layers(out, drawing.layers, drawing.page, fmt=target.fmt, threads=self.options.threads)
+
+    def _write_animation(self, out: BinaryIO, fmt: str) -> None:
+        """Offset curves whose distances grow from nothing, on the page of the last ones."""
+        from vorotool.engines.offsets.offsets import offset
+
+        shapes, o, page = self._shapes(), self.options, self._drawing("offset").page
+
+        def draw(part: Fraction) -> NDArray[np.uint8]:
+            distances = [float(distance * part) for distance in map(Fraction, self.distances)]
+            made = offset(shapes, distances, features=o.features, strict=o.strict, threads=o.threads)
+            return layer_pixels(self._drawing("offset", made, lambda _: page).layers, page)
+
+        write_frames(out, self.run, o, fmt, parts_of_whole(o), draw)
 
     def verify(self, progress: Progress) -> None:
         """Check the offset curves, if there are any."""

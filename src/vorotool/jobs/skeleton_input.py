@@ -11,6 +11,7 @@ from vorotool.jobs.pixel_sizes import placed_polygons, with_pixel_size
 from vorotool.jobs.run_log import Run
 
 if TYPE_CHECKING:
+    from vorotool.geometry.pixel_frame import Frame
     from vorotool.geometry.points.raster import Raster
     from vorotool.geometry.polygons.polygon_set import PolygonSet
 
@@ -28,15 +29,19 @@ class ReadPolygons(NamedTuple, Generic[Options]):
         Whether they are the outlines of an image.
     options : SkeletonOptions
         With the size of pixels, and places, as the image has them.
+    frame : Frame, optional
+        Of the image, in the coordinates of the outlines.
     """
 
     polygons: PolygonSet
     is_mask: bool
     options: Options
+    frame: Frame | None = None
 
 
 def read_polygons(run: Run, o: Options, given: JobInput) -> ReadPolygons[Options]:
     """Read polygons, or the outlines of an image."""
+    from vorotool.geometry.pixel_frame import Frame
     from vorotool.geometry.points.raster import Raster
     from vorotool.geometry.polygons.polygon_set import PolygonSet
 
@@ -44,7 +49,11 @@ def read_polygons(run: Run, o: Options, given: JobInput) -> ReadPolygons[Options
         value = read_opened(run, o, given, source)
     if isinstance(value, Raster):
         o = with_pixel_size(run, o, given, value.grid)
-        return ReadPolygons(placed_polygons(o.pixel_size, _outlines(run, o, value)), is_mask=True, options=o)
+        height, width = value.values.shape[:2]
+        is_mirrored = o.pixel_size is not None and o.pixel_size.y_up
+        frame = Frame(0, 1 - height if is_mirrored else 0, width, height)
+        polygons = placed_polygons(o.pixel_size, _outlines(run, o, value))
+        return ReadPolygons(polygons, is_mask=True, options=o, frame=frame)
     assert isinstance(value, PolygonSet)  # what is asked for is polygons, or an image
     refuse(o.for_images(), "is for images, but the input is polygons or lines")
     return ReadPolygons(

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
+from dataclasses import replace
+from fractions import Fraction
 from functools import cached_property, partial
-from typing import Any, BinaryIO, NamedTuple
+from math import isqrt
+from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +22,7 @@ from vorotool.engines.label_images.regions import (
     voronoi_diagram,
 )
 from vorotool.engines.tessellation.bands import Band, Quantity, SeedBand, SeedBands
-from vorotool.engines.tessellation.frames import label_dtype, require_memory
+from vorotool.engines.tessellation.frames import label_dtype, require_memory, squared_limit
 from vorotool.engines.tessellation.propagation import PropagatedRows
 from vorotool.engines.tessellation.seeding import seeds_from_points
 from vorotool.engines.tessellation.tessellate import labelled_rows, verify_rows
@@ -34,17 +37,24 @@ from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.table import Table
+from vorotool.jobs import animations
 from vorotool.jobs.inputs import JobInput, frame_of, opened_input, read_opened, refuse, seeds_of_image
 from vorotool.jobs.map_cells import seeds_on_map
 from vorotool.jobs.options import TessellationOptions
+from vorotool.jobs.picture_world import check_column, world_of
 from vorotool.jobs.pixel_sizes import with_pixel_size
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.streamed_output import RowsOf, Stream, check_chunks, write_file, write_store
 from vorotool.jobs.streamed_tessellation import StreamedProducts, rows_of_large
 from vorotool.jobs.targets import Target
-from vorotool.jobs.units import measured, table_in_units
+from vorotool.jobs.units import measured, table_in_units, unit_columns
+from vorotool.products.formats import ANIMATIONS
 from vorotool.products.registry import PRODUCTS
 from vorotool.products.writing import write_product
+
+if TYPE_CHECKING:
+    from vorotool.jobs.label_pictures import LabelPicture
+    from vorotool.render.canvas.styles import ScaleBar
 
 DARK_LABELS = 1024
 """Labels up to here look black in a 16-bit image."""
@@ -73,8 +83,9 @@ def products(run: Run, o: TessellationOptions, given: JobInput) -> Products | St
     with run.phase("read"):
         with opened_input(o, given, "points" if o.cell_size is None else None) as source:
             large = rows_of_large(o, source)
+            with_columns = "table" in o.what or o.label_by is not None or given.has_page
             if large is None:
-                value = read_opened(run, o, given, source, columns=o.columns, properties="table" in o.what)
+                value = read_opened(run, o, given, source, columns=o.columns, properties=with_columns)
         if large is not None:
             o = with_pixel_size(run, o, given, large.grid) if measured(o) else o
             return StreamedProducts(run, o, large)
@@ -145,6 +156,7 @@ class Products:
     ) -> None:
         self.run, self.options, self.read, self.rows = run, options, read, rows
         self.backdrop = given.backdrop
+        check_column(options.label_by, read.seeds.properties)
         self.dtype = label_dtype(rows.seeds.largest_label, options.dtype)
 
     @cached_property
@@ -173,8 +185,11 @@ class Products:
         from vorotool.render.label_images.svg import check_size
 
         what, fmt = target.what, target.fmt
-        if fmt == "svg":
-            check_size(self.rows.frame.shape)
+        if fmt in ("svg", "html"):
+            check_size(self.rows.frame.shape, fmt.upper())
+        elif fmt in ANIMATIONS:
+            animations.check_size(self.options, self.rows.frame.shape)
+            self._exact_rows().check_distances()
         elif what == "labels" and fmt == "png":
             check_png(self.dtype, self.rows.seeds.largest_label)
         elif what == "distance2":
@@ -194,7 +209,9 @@ class Products:
             write_store(self.run, o, target, self._stream(what), inputs)
             return
         with open_output(target.path, binary=target.is_binary, no_clobber=o.no_clobber, inputs=inputs) as out:
-            if self._is_picture(target):
+            if target.fmt == "html":
+                self._write_html(out)
+            elif self._is_picture(target):
                 self._write_picture(out, target)
             elif what in ("table", "neighbours"):
                 table, product = getattr(self, f"_{what}")(), PRODUCTS["tessellate"][what]
@@ -206,12 +223,8 @@ class Products:
 
     def _is_picture(self, target: Target) -> bool:
         """Whether it is drawn from the whole image."""
-        layered = bool(self.options.layers or self.backdrop)
-        return (
-            target.what == "colour"
-            or target.fmt == "svg"
-            or (target.what == "diagram" and target.fmt == "png" and layered)
-        )
+        is_diagram = (target.what, target.fmt) == ("diagram", "png")
+        return target.what == "colour" or target.fmt == "svg" or (is_diagram and self.options.draws_diagram)
 
     def _tell(self, target: Target) -> None:
         """Say what may surprise in a result."""
@@ -272,19 +285,69 @@ class Products:
         return table_in_units(self.options.pixel_size, neighbour_table(self.image, measures=self.measures))
 
     def _write_picture(self, out: BinaryIO, target: Target) -> None:
-        from vorotool.jobs.pictures import default_layers, write_label_picture
+        if target.fmt in ANIMATIONS:
+            self._write_animation(out, target)
+        else:
+            self._picture(target).write(out, target.fmt)
 
-        write_label_picture(
-            out,
+    @property
+    def _is_y_up(self) -> bool:
+        return self.read.y_up if self.options.y_up is None else self.options.y_up
+
+    def _write_html(self, out: BinaryIO) -> None:
+        from vorotool.jobs.label_pictures import write_label_page
+
+        more = unit_columns(self.options.pixel_size, len(self.colours[0]))
+        write_label_page(out, self.image.labels, self.colours, self._table(), more, y_up=self._is_y_up)
+
+    def _picture(self, target: Target) -> LabelPicture:
+        from vorotool.jobs.label_pictures import LabelPicture, default_layers
+
+        o = self.options
+        layers = o.drawn(default_layers(self.image, PRODUCTS["tessellate"][target.what].usual_layers))
+        return LabelPicture(
             self.image,
             self.colours,
-            fmt=target.fmt,
-            layers=self.options.layers or default_layers(self.image, PRODUCTS["tessellate"][target.what].usual_layers),
-            width=self.options.width or 1000,
-            y_up=self.backdrop is None and (self.read.y_up if self.options.y_up is None else self.options.y_up),
+            layers,
+            o.looks.style(self._scale_bar),
+            width=o.width or 1000,
+            y_up=self.backdrop is None and self._is_y_up,
             backdrop=self.backdrop,
-            threads=self.options.threads,
+            texts=self._texts,
+            threads=o.threads,
         )
+
+    def _write_animation(self, out: BinaryIO, target: Target) -> None:
+        """Cells that grow from their seeds until they fill the frame, or to the largest distance."""
+        o, whole, rows = self.options, self._picture(target), self._exact_rows()
+        squares = rows.squared_distances()
+        scale = rows.seeds.scale
+        farthest = Fraction(isqrt(int(squares.max(initial=0))) + 1, scale)
+        last = farthest if o.max_distance is None else min(farthest, o.max_distance)
+        widths = {"cells": 1.0 if whole.shows_borders else 0.0} | dict(whole.style.widths)
+        whole = replace(whole, style=replace(whole.style, widths=widths))
+
+        def draw(part: Fraction) -> NDArray[np.uint8]:
+            limit = squared_limit(part * last, scale)
+            labels = np.where(squares <= limit, whole.image.labels, 0)
+            return replace(whole, image=replace(whole.image, labels=labels)).pixels()
+
+        animations.write_frames(out, self.run, o, target.fmt, animations.parts_of_whole(o, has_nothing=True), draw)
+
+    @cached_property
+    def _scale_bar(self) -> ScaleBar | None:
+        o, seeds = self.options, self.rows.seeds
+        return world_of(self.run, o.looks, frame=seeds.frame or self.rows.frame, size=o.pixel_size).scale_bar
+
+    @property
+    def _texts(self) -> dict[int, str] | None:
+        """What the column says that names regions."""
+        column, seeds = self.options.label_by, self.rows.seeds
+        if column is None:
+            return None
+        from vorotool.jobs.label_pictures import site_texts
+
+        return site_texts(seeds, column)
 
     def _exact_rows(self) -> Tessellator:
         assert isinstance(self.rows, Tessellator)  # the command refuses distances of the propagation

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple, cast
 
 from vorotool.engines.delaunay.cells import cell_colours, verify_cells, voronoi_cells
 from vorotool.engines.delaunay.delaunay import delaunay, verify_triangulation
@@ -17,11 +18,12 @@ from vorotool.geometry.progress import Progress
 from vorotool.jobs.inputs import JobInput, read_clip, read_sites
 from vorotool.jobs.options import Rectangle, TriangulationOptions
 from vorotool.jobs.picture_style import styled_page
+from vorotool.jobs.picture_world import check_column, world_of_sites
 from vorotool.jobs.pictures import write_layers
 from vorotool.jobs.pixel_sizes import clip_in_pixels, placed_backdrop, placed_mesh, placed_sites
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
-from vorotool.jobs.units import in_units, table_in_units
+from vorotool.jobs.units import in_units, table_in_units, unit_columns
 from vorotool.products.formats import PICTURES
 from vorotool.products.registry import PRODUCTS
 from vorotool.products.writing import write_product
@@ -29,7 +31,7 @@ from vorotool.products.writing import write_product
 if TYPE_CHECKING:
     from vorotool.geometry.box import Box
     from vorotool.geometry.mesh.cells import CellSet
-    from vorotool.render.canvas.layers import Layer, Page
+    from vorotool.render.canvas.layers import Layer, Page, Polygons
 
 
 class ReadPoints(NamedTuple):
@@ -51,7 +53,7 @@ def products(run: Run, o: TriangulationOptions, given: JobInput) -> MeshProducts
     """Read points, or find those of an image, and triangulate them."""
     is_digital = o.triangulated_by != "exact"
     with run.phase("read"):
-        properties = bool({"table", "cells"} & set(o.what))
+        properties = bool({"table", "cells"} & set(o.what)) or o.label_by is not None
         o, points = placed_sites(run, o, given, read_sites(run, o, given, properties=properties, is_digital=is_digital))
         read = ReadPoints(points, None)
     if o.clip is not None:
@@ -88,6 +90,8 @@ class MeshProducts:
         if self.wants_mesh:
             with run.phase("triangulate") as progress:
                 self.mesh: Any = placed_mesh(options.pixel_size, self._triangulate(points, progress))
+            check_column(options.label_by, self.mesh.properties)
+            self._world = world_of_sites(run, options, self.mesh, points)
 
     @property
     def wants_mesh(self) -> bool:
@@ -103,6 +107,10 @@ class MeshProducts:
             from vorotool.render.canvas.png import check_picture_size
 
             check_picture_size(self._page(target.what), self.options.max_pixels)
+        if target.fmt == "html":
+            from vorotool.render.pages.cells_html import check_html_size
+
+            check_html_size(len(self.mesh.points))
         if target.what in ("edges", "triangles") and not len(getattr(self.mesh, target.what)):
             self.run.warn(Message(f"there are no {target.what}: {self._shape()}", Kind.EMPTY_RESULT))
 
@@ -121,6 +129,9 @@ class MeshProducts:
         ) as out:
             if target.fmt in PICTURES:
                 self._write_picture(out, target.fmt, target.what)
+                return
+            if target.fmt == "html":
+                self._write_html(out)
                 return
             o, value = self.options, self._value(target.what, target.fmt)
             product = PRODUCTS["delaunay"][target.what]
@@ -153,18 +164,21 @@ class MeshProducts:
         )
 
     def _layers(self, what: str) -> Sequence[str]:
-        return self.options.layers or PRODUCTS["delaunay"][what].usual_layers
+        return self.options.drawn(PRODUCTS["delaunay"][what].usual_layers)
 
     def _page(self, what: str) -> Page:
         """Where the picture of a result shows what: the frame of cells, where it has any."""
         from vorotool.render.canvas.layers import ImagePage
         from vorotool.render.layers.mesh import mesh_page
 
+        looks, world = self.options.looks, self._world
         if self.backdrop is not None:
-            return styled_page(ImagePage(self.backdrop), self.options, None)
-        bounds = self.cells.frame.sides if {"cells", "diagram"} & set(self._layers(what)) else None
+            return styled_page(ImagePage(self.backdrop), looks, world)
+        bounds = None
+        if {"cells", "diagram"} & set(self._layers(what)):
+            bounds, world = self.cells.frame.sides, world._replace(frame=None)
         page = mesh_page(self.mesh, width=self.options.width or 1000, y_up=self.options.y_up, bounds=bounds)
-        return styled_page(page, self.options, None)
+        return styled_page(page, looks, world)
 
     def _write_picture(self, out: BinaryIO, fmt: str, what: str) -> None:
         from vorotool.render.layers import mesh as mesh_layers
@@ -175,10 +189,23 @@ class MeshProducts:
         made: dict[str, Layer] = {layer.name: layer for layer in mesh_layers.mesh_layers(self.mesh, page, of_mesh)}
         if "cells" in wanted:
             made["cells"] = cell_polygons(self.cells, cell_colours(self.mesh), page)
+            if "triangles" in made:  # which would hide the cells
+                made["triangles"] = replace(cast("Polygons", made["triangles"]), is_sheer=True)
         if "diagram" in wanted:
             made["diagram"] = cell_lines(self.cells, page)
         layers = [made[name] for name in PRODUCTS["delaunay"][what].layers[fmt] if name in made]
         write_layers(out, layers, page, fmt=fmt, threads=self.options.threads)
+
+    def _write_html(self, out: BinaryIO) -> None:
+        from vorotool.render.pages.cells_html import shapes_of_cells, write_cells_html
+
+        cells = in_units(self.options.pixel_size, self.cells)
+        x, y = cells.sites.T
+        measures = {"area": cells.areas(), "perimeter": cells.perimeters(), "x": x, "y": y}
+        columns: dict[str, Any] = {name: values.tolist() for name, values in measures.items()}
+        columns |= unit_columns(self.options.pixel_size, len(cells))
+        shapes = shapes_of_cells(cells, y_up=self.options.y_up)
+        write_cells_html(out, shapes, cell_colours(self.mesh), columns | cells.properties)
 
     def verify(self, progress: Progress) -> None:
         """Check the triangulation exactly, from its arrays alone; and cells before they are clipped to polygons."""

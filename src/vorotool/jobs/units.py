@@ -167,7 +167,7 @@ def check_units(o: JobOptions, targets: Sequence[Target]) -> None:
     """
     if o.unit is None or measured(o):
         return
-    if not shows_units(targets):
+    if not shows_units(targets) and not o.scale_bar:
         raise UsageError("--pixel-size is for tables and vectors: use --what table, or leave it out")
 
 
@@ -186,6 +186,11 @@ def in_units(size: PixelSize | None, value: Value) -> Value:
     with _within_doubles():
         result: Value = scaled(value, size.factor, size.origin, unit=size.unit)
     return result
+
+
+def unit_columns(size: PixelSize | None, count: int) -> dict[str, list[str]]:
+    """Give the column that names the unit of so many rows, where there is one."""
+    return {} if size is None or size.unit is None else {"unit": [size.unit] * count}
 
 
 def table_in_units(

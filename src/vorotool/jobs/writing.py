@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from functools import partial
 from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -10,6 +11,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from vorotool.errors import UsageError
 from vorotool.geometry.numbers import shown_number, whole_number
 from vorotool.geometry.pixel_frame import MAX_SIDE
+from vorotool.jobs.picture_style import Looks, check_layers, looks_of, styled_page
+from vorotool.jobs.picture_world import check_column, world_of, world_of_value
+from vorotool.jobs.units import PixelSize
 from vorotool.products.formats import FORMATS, PICTURES, format_named
 from vorotool.products.registry import Product, is_of, parts_of
 from vorotool.products.writing import chosen_part, write_product
@@ -29,6 +33,12 @@ def write(
     layers: Sequence[str] | None = None,
     width: int | None = None,
     y_up: bool | None = None,
+    color: Mapping[str, str] | None = None,
+    line_width: Mapping[str, float] | None = None,
+    background: str | None = None,
+    label_by: str | None = None,
+    legend: bool = False,
+    scale_bar: bool = False,
     threads: int = 0,
 ) -> None:
     """Write a value in any format that has a place for it, or draw it.
@@ -57,6 +67,17 @@ def write(
         Of a picture, in px; by default 1000. The PNG of a label image has its own size.
     y_up : bool, optional
         Draw y upwards; by default as the input is drawn.
+    color : mapping of str to str, optional
+        Of layers of a picture, by their names: ``#rrggbb``, or names as in CSS; of areas of many colours, as cells are,
+        that of their borders.
+    line_width : mapping of str to float, optional
+        Of the lines of layers of a picture, in px; 0 draws none.
+    background : str, optional
+        Colour of the ground of a picture, or ``"none"``; by default white.
+    label_by : str, optional
+        Column of the properties that names objects or sites in a picture, instead of their ids.
+    legend, scale_bar : bool
+        Draw the names of the layers with their colours, and a length, in corners of a picture.
     threads : int
         0 uses all.
 
@@ -82,8 +103,17 @@ def write(
     name = fmt or Path(path).suffix
     chosen = format_named(name) or name.lower().removeprefix(".")
     threads = checked_threads(threads)
+    looks = looks_of(color=color, line_width=line_width, background=background)
+    looks = looks._replace(label_by=label_by, has_legend=legend, has_scale_bar=scale_bar)
+    styles: dict[str, object] = {
+        "color": color,
+        "line_width": line_width,
+        "background": background,
+        "label_by": label_by,
+    }
+    styles |= {"legend": legend or None, "scale_bar": scale_bar or None}
     if chosen not in PICTURES or (is_of(value, "LabelImage") and chosen == "png" and what in (None, "labels")):
-        for option, given in (("layers", layers), ("width", width), ("y_up", y_up)):
+        for option, given in {"layers": layers, "width": width, "y_up": y_up, **styles}.items():
             if given is not None:
                 raise UsageError(f"{option} is for pictures: use fmt='svg' or fmt='png', or leave it out")
         _write_data(value, fspath(path), chosen, what, flatten, precision, threads)
@@ -93,7 +123,7 @@ def write(
             raise UsageError(f"{option} is for numbers in text: leave it out of pictures")
     if width is not None and not 0 <= whole_number(width, "width") <= MAX_SIDE:
         raise UsageError(f"width is {shown_number(width)}: give a number of pixels up to {MAX_SIDE}")
-    _draw(value, _Picture(fspath(path), chosen, what, layers, width, y_up, threads))
+    _draw(value, _Picture(fspath(path), chosen, what, layers, width, y_up, looks, threads))
 
 
 def to_geojson(value: Any, *, what: str | None = None, flatten: float | None = None) -> dict[str, Any]:
@@ -164,6 +194,7 @@ class _Picture(NamedTuple):
     layers: Sequence[str] | None
     width: int | None
     y_up: bool | None
+    looks: Looks
     threads: int
 
 
@@ -176,7 +207,15 @@ def _draw(value: Any, wanted: _Picture) -> None:
     if is_of(value, "LabelImage"):
         _draw_labels(value, wanted)
         return
-    drawing = drawing_of(value, what=wanted.what, layers=wanted.layers, width=wanted.width or 1000, y_up=wanted.y_up)
+    drawing = drawing_of(
+        value,
+        what=wanted.what,
+        layers=wanted.layers,
+        width=wanted.width or 1000,
+        y_up=wanted.y_up,
+        styled=partial(styled_page, looks=wanted.looks, world=world_of_value(value, wanted.looks)),
+    )
+    check_layers(wanted.looks, [layer.name for layer in drawing.layers])
     if wanted.fmt == "png":
         check_picture_size(drawing.page, MAX_PIXELS)
     with open_output(wanted.path, binary=wanted.fmt == "png") as out:
@@ -186,7 +225,7 @@ def _draw(value: Any, wanted: _Picture) -> None:
 def _draw_labels(image: LabelImage, wanted: _Picture) -> None:
     from vorotool.engines.label_images.object_colours import object_colours
     from vorotool.formats.io.atomic_output import open_output
-    from vorotool.jobs.pictures import default_layers, write_label_picture
+    from vorotool.jobs.label_pictures import LabelPicture, default_layers, site_texts
 
     if wanted.what not in (None, "colour", "color", "labels"):
         raise UsageError(f"what={wanted.what!r} is no picture of a LabelImage: use colour, or leave it out")
@@ -195,14 +234,27 @@ def _draw_labels(image: LabelImage, wanted: _Picture) -> None:
     usual = parts_of(image)["labels" if wanted.what == "labels" else "colour"].usual_layers
     shown = [layer for layer in default_layers(image, usual) if layer != "seeds" or image.seeds is not None]
     colours = object_colours(image, threads=wanted.threads)
+    chosen, label_by = list(wanted.layers or shown), wanted.looks.label_by
+    columns = {} if image.seeds is None else image.seeds.properties
+    check_column(label_by, columns, "label_by")
+    if label_by is not None and "labels" not in chosen:
+        chosen.append("labels")
+    picture = LabelPicture(
+        image,
+        colours,
+        chosen,
+        wanted.looks.style(world_of(None, wanted.looks, frame=image.frame, size=_pixel_size(image)).scale_bar),
+        width=wanted.width or 1000,
+        y_up=bool(wanted.y_up),
+        texts=None if label_by is None or image.seeds is None else site_texts(image.seeds, label_by),
+        threads=wanted.threads,
+    )
+    check_layers(wanted.looks, picture.layers)
     with open_output(wanted.path, binary=wanted.fmt == "png") as out:
-        write_label_picture(
-            out,
-            image,
-            colours,
-            fmt=wanted.fmt,
-            layers=wanted.layers or shown,
-            width=wanted.width or 1000,
-            y_up=bool(wanted.y_up),
-            threads=wanted.threads,
-        )
+        picture.write(out, wanted.fmt)
+
+
+def _pixel_size(image: LabelImage) -> PixelSize | None:
+    """The side of a pixel, if the image says that it is a square."""
+    grid = image.grid
+    return PixelSize(grid.width, grid.unit) if grid is not None and grid.is_size and grid.is_square else None

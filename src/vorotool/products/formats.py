@@ -115,6 +115,9 @@ _ALL = (
     _of_maps("parquet", "GeoParquet", "GeoParquet", ("geojson", "json"), extensions=("parquet", "geoparquet")),
     Format("dxf", "DXF", writers=dict.fromkeys(_DRAWN, _DXF), beside="geojson"),
     Format("html", "HTML"),
+    Format("gif", "GIF", is_text=False, is_image=True),
+    Format("apng", "APNG", is_text=False, is_image=True),
+    Format("webp", "WebP", is_text=False, is_image=True),
     Format("zarr", "Zarr", is_text=False, is_image=True),
 )
 FORMATS = {each.name: each for each in _ALL}
@@ -132,6 +135,8 @@ TABLES = ("csv", "tsv", "json", "npz")
 """Formats of tables."""
 TABLE_WRITER = Writer("formats.text.tables:write_table", ("fmt", "precision", "threads"))
 """Of tables, whatever they tell."""
+ANIMATIONS = ("gif", "apng", "webp")
+"""Formats of pictures that move."""
 
 
 def format_named(name: str) -> str | None:
@@ -144,6 +149,17 @@ def format_named(name: str) -> str | None:
     """
     lower = name.lower().removeprefix(".")
     return lower if lower in FORMATS else EXTENSIONS.get(f".{lower}")
+
+
+def picture_format(name: str) -> str:
+    """Give the format of a picture that a frame of an animation is like; of all else its own.
+
+    Examples
+    --------
+    >>> picture_format("gif"), picture_format("svg")
+    ('png', 'svg')
+    """
+    return "png" if name in ANIMATIONS else name
 
 
 def with_digits(possible: Iterable[str]) -> list[str]:

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from vorotool.products.formats import FORMATS, PICTURES, TABLE_WRITER, TABLES, Format, Writer
+from vorotool.products.formats import ANIMATIONS, FORMATS, PICTURES, TABLE_WRITER, TABLES, Format, Writer
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,6 +29,8 @@ class Product:
         Those that a picture has where none are chosen.
     has_page : bool
         The command line writes it as a page of HTML, too.
+    moves : bool
+        The command line writes it as an animation, too.
     is_curved : bool
         It has curves.
     usual_for : tuple of str
@@ -42,6 +44,7 @@ class Product:
     layers: Mapping[str, Sequence[str]] = field(default_factory=dict)
     usual_layers: tuple[str, ...] = ()
     has_page: bool = False
+    moves: bool = False
     is_curved: bool = False
     usual_for: tuple[str, ...] = ()
 
@@ -59,7 +62,7 @@ class Product:
     def formats(self) -> tuple[str, ...]:
         """All formats, the default first."""
         pages = ("html",) if self.has_page else ()
-        return tuple(dict.fromkeys((*self.written, *self.layers, *pages)))
+        return tuple(dict.fromkeys((*self.written, *self.layers, *pages, *(ANIMATIONS if self.moves else ()))))
 
 
 def _product(
@@ -85,11 +88,19 @@ _TABLES = " ".join(TABLES)
 # ---- tessellate ----------------------------------------------------------------------------------
 _IMAGES = "png tiff npy text"
 _LABELS = Writer("formats.images.label_images:write_labels", ("fmt", "threads"))
-_COLOURED = {"png": ("cells", "diagram", "seeds", "labels"), "svg": ("cells", "labels", "seeds")}
+_COLOURED = {"png": ("cells", "diagram", "objects", "seeds", "labels"), "svg": ("cells", "labels", "objects", "seeds")}
 _TESSELLATE = (
-    _product("labels", "LabelImage", f"{_IMAGES} zarr", _LABELS, {"svg": _COLOURED["svg"]}, "cells seeds labels"),
+    _product(
+        "labels",
+        "LabelImage",
+        f"{_IMAGES} zarr",
+        _LABELS,
+        {"svg": _COLOURED["svg"]},
+        "cells seeds labels",
+        has_page=True,
+    ),
     _product("diagram", "", _IMAGES, None, {"png": _COLOURED["png"]}, "diagram"),
-    _product("colour", "LabelImage", "", None, _COLOURED, "cells seeds"),
+    _product("colour", "LabelImage", "", None, _COLOURED, "cells seeds", has_page=True, moves=True),
     _product("distance", "", "tiff npy zarr"),
     _product("distance2", "", "tiff npy zarr text"),
     _product("table", "Table", _TABLES, TABLE_WRITER),
@@ -106,7 +117,7 @@ _DELAUNAY = (
     _product(
         "triangles", _MESHES, "csv tsv json geojson npz npy ele obj", _MESH, _MESH_LAYERS, "triangles edges points"
     ),
-    _product("cells", "CellSet", "geojson csv tsv json npz wkt", _CELLS, _MESH_LAYERS, "cells points"),
+    _product("cells", "CellSet", "geojson csv tsv json npz wkt", _CELLS, _MESH_LAYERS, "cells points", has_page=True),
     _product("table", _MESHES, f"{_TABLES} node", _MESH),
     _product("compare", "", _TABLES, TABLE_WRITER),
 )
@@ -118,10 +129,10 @@ _EDGES = ("AlphaShape", "csv tsv json geojson npz npy", _SHAPE, _SHAPE_LAYERS)
 _POLYGONS = ("AlphaShape", "geojson wkt json poly", _SHAPE, _SHAPE_LAYERS)
 _GENERAL = ("AlphaShape", "geojson wkt", _SHAPE, _SHAPE_LAYERS)
 _ALPHASHAPE = (
-    _product("edges", *_EDGES, "boundary singular points", has_page=True),
-    _product("polygons", *_POLYGONS, "polygons", has_page=True, usual_for=("geojson", "wkt", "poly")),
-    _product("complex", *_EDGES, "interior boundary singular points", has_page=True),
-    _product("general", *_GENERAL, "polygons boundary singular points", has_page=True),
+    _product("edges", *_EDGES, "boundary singular points", has_page=True, moves=True),
+    _product("polygons", *_POLYGONS, "polygons", has_page=True, moves=True, usual_for=("geojson", "wkt", "poly")),
+    _product("complex", *_EDGES, "interior boundary singular points", has_page=True, moves=True),
+    _product("general", *_GENERAL, "polygons boundary singular points", has_page=True, moves=True),
     _product("family", "AlphaComplex", _TABLES, _SHAPE, has_page=True),
     _product("spectrum", "AlphaComplex", f"{_TABLES} npy", _SHAPE),
     _product("curves", "", _TABLES, TABLE_WRITER, {"svg": ()}, has_page=True),
@@ -139,7 +150,7 @@ _RINGS = Writer("formats.polygons.writer:write_polygons", ("fmt", "precision"))
 _POINTS = Writer("formats.results.points_along:write_skeleton_points")
 _CURVES = "json csv tsv geojson npz wkt"
 _ARCS = _pictures("polygons elements points skeleton nodes labels")
-_ALONG = _pictures("polygons skeleton transects points")
+_ALONG = _pictures("polygons skeleton transects points labels")
 _SKELETONS = (
     _product("skeleton", "Skeleton", _CURVES, _SKELETON, _ARCS, "polygons skeleton", has_page=True, is_curved=True),
     _product("diagram", "", _CURVES, _SKELETON, _ARCS, "polygons elements points skeleton", is_curved=True),
@@ -147,8 +158,17 @@ _SKELETONS = (
     _product(
         "centerline", "Centerlines", f"geojson {_TABLES} wkt", _CENTERLINES, _ARCS, "polygons skeleton", is_curved=True
     ),
-    _product("offset", "Offsets", _CURVES, _OFFSETS, _pictures("polygons offset"), "polygons offset", is_curved=True),
-    _product("shape", "PolygonSet", "json geojson wkt poly", _RINGS, _pictures("shape"), "shape"),
+    _product(
+        "offset",
+        "Offsets",
+        _CURVES,
+        _OFFSETS,
+        _pictures("polygons offset labels"),
+        "polygons offset",
+        is_curved=True,
+        moves=True,
+    ),
+    _product("shape", "PolygonSet", "json geojson wkt poly", _RINGS, _pictures("shape labels"), "shape"),
     _product("points", "SkeletonPoints", f"{_TABLES} npy geojson wkt", _POINTS, _ALONG, "polygons skeleton points"),
     _product("transects", "SkeletonPoints", f"geojson wkt {_TABLES}", _POINTS, _ALONG, "polygons skeleton transects"),
     _product("branches", "Skeleton", _TABLES, _SKELETON),
@@ -166,7 +186,9 @@ def _drawn() -> Product:
     """The picture of a result that was written before: the layers of all that is read again."""
     of_labels = {"png": ("cells", "diagram"), "svg": ("cells",)}
     return Product(
-        "picture", layers={fmt: (*layers, *_ARCS[fmt], "offset", "shape") for fmt, layers in of_labels.items()}
+        "picture",
+        layers={fmt: (*layers, *_ARCS[fmt], "offset", "shape") for fmt, layers in of_labels.items()},
+        has_page=True,
     )
 
 
@@ -199,7 +221,7 @@ def layers_of(command: str) -> dict[str, tuple[str, ...]]:
     Examples
     --------
     >>> layers_of("tessellate")["svg"]
-    ('cells', 'labels', 'seeds')
+    ('cells', 'labels', 'objects', 'seeds')
     """
     own = PRODUCTS[command].values()
     return {fmt: tuple(dict.fromkeys(name for each in own for name in each.layers.get(fmt, ()))) for fmt in PICTURES}
@@ -211,7 +233,7 @@ def all_layers(command: str) -> tuple[str, ...]:
     Examples
     --------
     >>> all_layers("tessellate")
-    ('cells', 'diagram', 'seeds', 'labels')
+    ('cells', 'diagram', 'objects', 'seeds', 'labels')
     """
     by_format = layers_of(command)
     return tuple(dict.fromkeys([*by_format["png"], *by_format["svg"]]))

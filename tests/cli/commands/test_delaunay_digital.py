@@ -140,7 +140,7 @@ def test_compare(run):
     assert list(table[0]) == ["kind", "difference", "label_a", "label_b", "label_c", "cause", "voronoi_length"]
     comparison = vorotool.compare_digital(vorotool.read(DOTS), shape=(512, 512))
     assert len(table) == comparison.table.rows == 30
-    assert done.err.splitlines() == [f"note: {comparison.summary()}", f"note: {comparison.suggestion}"]
+    assert done.err.splitlines() == [f"note: {comparison.summary()}", f"note: {comparison.suggestion.typed}"]
     stats = json.loads(Path("stats.json").read_text())["compare"]
     assert stats["differences"] == {"edge missing off_frame": 15, "triangle missing off_frame": 15}
     assert stats["edge_recall"] == comparison.edge_recall

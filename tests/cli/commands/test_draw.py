@@ -56,7 +56,13 @@ def groups_of(svg):
     ("options", "count", "layer", "other", "words"),
     [
         ([], '"arcs": 43', "skeleton", "cells", "nodes, labels; choose of these"),
-        (["--what", "offset", "-d", "-20,10"], '"shapes": 5', "offset", "nodes", "polygons, offset; choose of these"),
+        (
+            ["--what", "offset", "-d", "-20,10"],
+            '"shapes": 5',
+            "offset",
+            "nodes",
+            "polygons, offset, labels; choose of these",
+        ),
     ],
 )
 def test_results_are_drawn_as_by_the_command_that_makes_them(run, folder, options, count, layer, other, words):

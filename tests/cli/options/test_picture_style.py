@@ -91,7 +91,6 @@ REFUSED = [
     (["-f", "html", "--background", "red"], "--background is for pictures"),
     (["-f", "png", "--scale", "2"], "--scale is for SVG, a PNG has pixels"),
     (["-f", "png", "--unit", "mm"], "--unit is for SVG"),
-    (["-f", "png", "--background", "none"], "a PNG has a ground"),
     (["-f", "svg", "--scale", "2", "--width", "100"], "a picture to scale has its size: leave out --width"),
     (["-f", "svg", "--scale", "2", "--unit", "mm"], "--scale S is millimetres a unit: leave out --unit"),
     (

@@ -209,7 +209,7 @@ def test_not_finite_is_refused_naming_the_row(bad):
 
 @pytest.mark.parametrize("bad", [5, [[1, 2, 3]], [["a", "b"]], [1, 2, 3]])
 def test_no_points(bad):
-    with pytest.raises(InputError, match="^invalid points: expected "):
+    with pytest.raises(InputError, match=r"^invalid points: expected "):
         delaunay(bad)
 
 

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import re
 from collections import Counter
 from fractions import Fraction
 from itertools import combinations
@@ -124,7 +125,8 @@ def test_cocircular_seeds_are_no_difference_that_counts():
 def test_a_suggested_window_shows_more():
     seeds = distinct_pixels(7, 100, 60)
     comparison = compare_digital(seeds, shape=(100, 100))
-    window = tuple(map(int, comparison.suggestion.split("--window ")[1].split()[0].split(",")))
+    window = tuple(map(int, re.match(r"window=\((.*?)\)", comparison.suggestion)[1].split(",")))
+    assert comparison.suggestion.typed.startswith(f"--window {','.join(map(str, window))} ")
     wider = compare_digital(seeds, window=window)
     assert wider.triangle_recall > comparison.triangle_recall
     held, of = (int(word) for word in comparison.suggestion.split("holds ")[1].split()[:3:2])

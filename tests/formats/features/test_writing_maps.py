@@ -165,7 +165,9 @@ def test_times_of_a_zone(tmp_path):
 
 
 def test_a_shapefile_needs_a_file(tmp_path):
-    with pytest.raises(UsageError, match="a Shapefile is several files, and no stream holds them: name a file with -o"):
+    with pytest.raises(
+        UsageError, match="a Shapefile is several files, and no stream holds them: name a file with path"
+    ):
         vorotool.write(shapes(), "-", fmt="shp")
 
 

@@ -14,7 +14,7 @@ FONTS = {".ttf": b"\0\1\0\0\0\x0f", ".otf": b"OTTO\0\x0f", ".woff2": b"wOF2\0\1"
 @pytest.mark.parametrize("name", ["plan.pdf", "plan"])
 def test_documents(tmp_path, name, geometry):
     (tmp_path / name).write_bytes(b"%PDF-1.7\n")
-    advice = r"make an image of it and give --threshold otsu, .* pdftoppm .*; or, for its outlines, an SVG: inkscape "
+    advice = r'make an image of it and give threshold="otsu", .* pdftoppm .*; or, for its outlines, an SVG: inkscape '
     with pytest.raises(InputError, match=r"\.pdf files are not read; " + advice):
         vorotool.read(tmp_path / name, geometry=geometry)
 
@@ -71,7 +71,7 @@ def test_arrays_that_are_lists(tmp_path, shape):
         (
             "a.eps",
             b"%!PS-Adobe-3.0 EPSF-3.0\n",
-            r"otsu, for example: gs -o a\.png .* a\.eps; or.*inkscape a\.eps .*a\.svg$",
+            r"otsu., for example: gs -o a\.png .* a\.eps; or.*inkscape a\.eps .*a\.svg$",
         ),
         ("a.ai", b"%PDF-1.4\n", r"gs -o a\.png .* a\.ai; or"),
         ("page", b"%!PS\n", r"\.ps files are not read; .*gs -o FILE\.png .* FILE\.ps; or"),

@@ -48,7 +48,7 @@ def test_recognised_headers(header, used, point):
         return
     assert notes[0] == f"seeds.csv: columns {used} are read as x, y"
     degrees = (
-        "seeds.csv: longitude and latitude are treated as planar, lengths are in degrees; --crs EPSG:32631 works in "
+        'seeds.csv: longitude and latitude are treated as planar, lengths are in degrees; to_crs="EPSG:32631" works in '
         "metres (UTM)"
     )
     is_map = used.lower().startswith("lon")
@@ -83,7 +83,7 @@ def test_chosen_columns_without_a_header():
     assert rows("1,2,3\n4,5,6\n", columns="3,1") == [[3, 1], [6, 4]]
     assert rows("n1,2,3\nn2,5,6\n", columns="2,3") == [[2, 3], [5, 6]]
     assert notes_of("n,lon,lat\nn1,5,6\n", columns="lon,lat") == [
-        "seeds.csv: longitude and latitude are treated as planar, lengths are in degrees; --crs EPSG:32631 works in "
+        'seeds.csv: longitude and latitude are treated as planar, lengths are in degrees; to_crs="EPSG:32631" works in '
         "metres (UTM)"
     ]
 
@@ -109,7 +109,7 @@ def test_no_points(text):
     [
         (
             "x,y\n1,2\n# c\n\n3,abc\n",
-            "line 5: 'abc' in column 2 (y) is not a number; correct it, or choose other columns with --columns",
+            "line 5: 'abc' in column 2 (y) is not a number; correct it, or choose other columns with columns",
         ),
         ("1,2\n3,\n", "line 2: column 2 is empty; fill in a number, or remove the line"),
         ("1,2\nNaN,3\n", "line 2: 'NaN' in column 1 is not a finite number; correct it, or remove the line"),
@@ -135,17 +135,17 @@ def test_no_points(text):
             "x,y,label\n1,2,3\n\n4,5,0\n",
             "line 4: the label 0 is not a whole number from 1 to 4294967295; correct it, or "
             "leave the label out of "
-            "--columns",
+            "columns",
         ),
         (
             "x,y,label\n1,2,1.5\n",
             "line 2: the label 1.5 is not a whole number from 1 to 4294967295; correct it, or "
             "leave the label out "
-            "of --columns",
+            "of columns",
         ),
         (
             "x,y,label\n1,2,b\n",
-            "line 2: 'b' in column 3 (label) is not a number; correct it, or choose other columns with --columns",
+            "line 2: 'b' in column 3 (label) is not a number; correct it, or choose other columns with columns",
         ),
     ],
 )
@@ -159,20 +159,20 @@ def test_bad_lines(text, message):
     [
         (
             "1,2,3\n",
-            "3 columns without a header; say which are x and y, for example --columns 1,2 (its "
+            '3 columns without a header; say which are x and y, for example columns="1,2" (its '
             "columns are 1 = 1, "
             "2 = 2, 3 = 3)",
         ),
         (
             "id,east,north\n1,2,3\n",
             "the header names no known pair of coordinates; say which are x and y, for example "
-            "--columns east,north "
+            'columns="east,north" '
             "(its columns are 1 = id, 2 = east, 3 = north)",
         ),
         (
             "lng,lat\n1,2\n",
             "the header names no known pair of coordinates; say which are x and y, for example "
-            "--columns lng,lat "
+            'columns="lng,lat" '
             "(its columns are 1 = lng, 2 = lat)",
         ),
         (
@@ -193,15 +193,15 @@ def test_many_columns_are_not_all_listed():
 @pytest.mark.parametrize("columns", ["x", "x,y,label,more", "x,,y", "", "0,1", "x,x", "1,1"])
 def test_malformed_columns(columns):
     message = error_of("x,y\n1,2\n", kind=UsageError, columns=columns)
-    assert message.startswith(f"--columns is {columns!r}: name two or three different columns")
+    assert message.startswith(f"columns is {columns!r}: name two or three different columns")
 
 
 def test_columns_that_are_not_there():
     assert (
         error_of("x,y\n1,2\n", columns="x,z")
-        == "seeds.csv: there is no column 'z'; its columns are 1 = x, 2 = y; correct --columns"
+        == "seeds.csv: there is no column 'z'; its columns are 1 = x, 2 = y; correct columns"
     )
-    message = "seeds.csv: --columns names column 3, but there are 2; its columns are 1 = x, 2 = y"
+    message = "seeds.csv: columns names column 3, but there are 2; its columns are 1 = x, 2 = y"
     assert error_of("x,y\n1,2\n", columns="1,3") == message
     assert "names one column twice" in error_of("x,y\n1,2\n", columns="x,1")
 
@@ -210,7 +210,7 @@ def test_other_encodings():
     assert "is UTF-16 text; save it as UTF-8" in error_of("1,2\n".encode("utf-16"))
     assert "is binary, not points or polygons" in error_of(b"\x7fELF\0\0")
     message = error_of("x,y,name\n1,2,a\n3,4,é\n".encode("latin-1"))
-    assert message == ("seeds.csv, line 3: the byte 0xe9 is not UTF-8; save the file as UTF-8, or use --no-properties")
+    assert message == ("seeds.csv, line 3: the byte 0xe9 is not UTF-8; save the file as UTF-8, or use properties=False")
     assert len(read("x,y,name\n1,2,é\n".encode("latin-1"), properties=False)) == 1
 
 
@@ -218,4 +218,4 @@ def test_the_limit_of_text():
     text = "# c\nx,y\n\n1,2\n3,4\n5,6\n"
     assert len(read(text, max_sites=3)) == 3
     message = error_of(text, kind=LimitError, max_sites=2)
-    assert message == "seeds.csv holds 3 points, more than the limit of 2: raise --max-sites or split the file"
+    assert message == "seeds.csv holds 3 points, more than the limit of 2: raise max_sites or split the file"

@@ -117,12 +117,12 @@ def test_geojson_notes():
         "a.geojson: 2 features without a geometry are left out",
         "a.geojson: only x and y are used, heights are left out",
         "a.geojson names no coordinate reference system, and is taken for planar: if it is longitude and latitude, say "
-        "so with --input-crs OGC:CRS84",
+        'so with crs="OGC:CRS84"',
     ]
     assert len(read(text, "a.geojson")) == 1
     wgs84 = {"type": "name", "properties": {"name": "urn:ogc:def:crs:OGC:1.3:CRS84"}}
     assert notes_of(collection(feature([7, 46]), crs=wgs84), "a.geojson") == [
-        "a.geojson: longitude and latitude are treated as planar, lengths are in degrees; --crs EPSG:32632 works "
+        'a.geojson: longitude and latitude are treated as planar, lengths are in degrees; to_crs="EPSG:32632" works '
         "in metres (UTM)"
     ]
     assert len(read(collection(), "a.geojson")) == 0
@@ -134,7 +134,7 @@ def test_geojson_notes():
         (
             collection(feature([1, 2]), feature([[[0, 0], [1, 0], [1, 1], [0, 0]]], "Polygon")),
             "a.geojson, feature 2: 'Polygon' is not a point; replace it by its centroid or its vertices "
-            "(skeleton-exact reads polygons and lines)",
+            "(skeleton_exact takes polygons and lines)",
         ),
         (
             collection(feature([1, 2]), feature([1, "2"])),
@@ -155,7 +155,7 @@ def test_geojson_notes():
             'a.geojson: the FeatureCollection has no list of features; add "features": […]',
         ),
         ('{"type": "Circle"}', "a.geojson: 'Circle' is not a point; use Point or MultiPoint"),
-        ("[]", "a.geojson: GeoJSON is an object with a type; use --input-format json for [[x, y], …]"),
+        ("[]", 'a.geojson: GeoJSON is an object with a type; use input_format="json" for [[x, y], …]'),
         ('{"a":' * 1000, "a.geojson, line 1: brackets are nested more than 100 deep; check the brackets"),
         ("", "a.geojson is empty: JSON was expected"),
     ],

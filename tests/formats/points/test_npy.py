@@ -75,6 +75,6 @@ def test_bad_npy(data, message):
 def test_the_limit_of_npy():
     data = header(SHAPE.format("(100000000000, 2)"))
     assert "holds 100000000000 points, more than the limit of 4294967295" in error_of(data, "a.npy", LimitError)
-    assert "more than the limit of 5: raise --max-sites" in error_of(
+    assert "more than the limit of 5: raise max_sites" in error_of(
         npy(np.zeros((6, 2))), "a.npy", LimitError, max_sites=5
     )

@@ -18,8 +18,8 @@ def test_wkt():
     assert points.crs == {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::4326"}}
     assert read("POINT (1 2)\nSRID=0;POINT (2 3)", "a.wkt").crs is None
     degrees = (
-        "a.wkt: longitude and latitude are treated as planar, lengths are in degrees; --crs EPSG:32631 works in metres "
-        "(UTM)"
+        'a.wkt: longitude and latitude are treated as planar, lengths are in degrees; to_crs="EPSG:32631" works in '
+        "metres (UTM)"
     )
     assert notes_of("SRID=4258;POINT (1 2)", "a.wkt") == [degrees]
     assert notes_of("SRID=2056;POINT (1 2)", "a.wkt") == []
@@ -48,8 +48,8 @@ def test_wkt_without_points(text):
         (
             "POINT (1 2)\nLINESTRING (0 0, 1 1)\n",
             "a.wkt, line 2: a LineString is not a point; replace it by its centroid or its "
-            "vertices (skeleton-exact "
-            "reads polygons and lines)",
+            "vertices (skeleton_exact "
+            "takes polygons and lines)",
         ),
         ("GEOMETRYCOLLECTION (POLYGON EMPTY)", "a.wkt, line 1: a Polygon is not a point"),
         ("GEOMETRYCOLLECTION (" * 5000, "a.wkt, line 1: brackets are nested more than 100 deep"),

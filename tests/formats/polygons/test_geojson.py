@@ -69,13 +69,13 @@ def test_bare_geometry_and_feature():
 
 UNNAMED = (
     "a.geojson names no coordinate reference system, and is taken for planar: if it is longitude and latitude, say so "
-    "with --input-crs OGC:CRS84"
+    'with crs="OGC:CRS84"'
 )
 
 
 def test_degrees_are_told_by_the_reference_system_alone_and_heights_are_left_out():
-    utm, other = " EPSG:32631 works in metres (UTM)", " brings them into a projected system"
-    degrees = "a.geojson: longitude and latitude are treated as planar, lengths are in degrees; --crs"
+    utm, other = '="EPSG:32631" works in metres (UTM)', " brings them into a projected system"
+    degrees = "a.geojson: longitude and latitude are treated as planar, lengths are in degrees; to_crs"
     heights = "a.geojson: only x and y are used, heights are left out"
     lake = [[7.5, 46.9, 400], [8, 46], [8, 47]]
     assert notes_of(collection(feature("Polygon", [lake])), "a.geojson") == [heights, UNNAMED]

@@ -97,6 +97,8 @@ def test_a_table_is_a_mapping_that_does_not_change():
         with pytest.raises(TypeError, match="does not change"):
             change()
     assert len(table) == 7
+    joined = table | {"further": [1]}
+    assert ("Lookup" in str(joined), list(joined)[-1], type({} | table)) == (False, "further", dict)
     assert vorotool.Table(table) == table.copy() == table
     assert table != vorotool.Table({name: table[name] for name in reversed(table)})
 
@@ -112,26 +114,12 @@ def places(seed, count=60):
     return frame
 
 
-def points_of(frame):
-    from vorotool.geometry.crs import crs_member
-
-    return vorotool.PointSet(
-        shapely.get_coordinates(frame.geometry.values),
-        properties={name: frame[name].tolist() for name in frame.columns.drop("geometry")},
-        crs=crs_member(frame.crs.to_string()),
-        y_up=True,
-        index=frame.index,
-    )
-
-
 @pytest.mark.parametrize("seed", range(3))
 def test_cells_of_a_data_frame_are_those_of_geopandas(seed):
     frame = places(seed)
     clip = shapely.box(*np.add(frame.total_bounds, [-50, -50, 50, 50]))
     left, bottom, right, top = clip.bounds
-    cells = vorotool.voronoi_cells(
-        vorotool.delaunay(points_of(frame)), frame=(left, bottom, right - left, top - bottom)
-    )
+    cells = vorotool.voronoi_cells(vorotool.delaunay(frame), frame=(left, bottom, right - left, top - bottom))
     got = cells.to_geopandas()
     assert_index_equal(got.index, frame.index)
     assert got.crs == frame.crs
@@ -145,6 +133,24 @@ def test_cells_of_a_data_frame_are_those_of_geopandas(seed):
     np.testing.assert_allclose(got["area"], got.area, rtol=1e-9)
     assert got.contains(frame.geometry).all()
     assert_index_equal(cells.to_pandas().index, frame.index)
+
+
+def test_skeletons_of_a_data_frame_have_its_rows():
+    shapes = [
+        shapely.box(0, 0, 9, 4),
+        None,
+        shapely.MultiPolygon([shapely.box(20, 0, 24, 4), shapely.box(30, 0, 33, 9)]),
+    ]
+    frame = geopandas.GeoDataFrame({"use": ["a", "b", "c"]}, geometry=shapes, crs=2056, index=["p", "q", "r"])
+    arcs = vorotool.skeleton_exact(frame).to_geopandas()
+    assert sorted(set(arcs.index)) == ["p", "r"]
+    assert arcs.crs == frame.crs
+    for row, line in arcs.iterrows():
+        assert line["use"] == frame.loc[row, "use"]
+        assert line.geometry.within(frame.geometry[row].buffer(1e-9))
+    joined = vorotool.offset(frame, [-1]).to_geopandas()
+    assert joined.index.tolist() == ["p", "r", "r"]
+    np.testing.assert_allclose(joined.area, [14, 4, 7])
 
 
 def test_several_indices_and_names_come_back():

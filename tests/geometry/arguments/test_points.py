@@ -7,14 +7,15 @@ from pathlib import Path
 import geopandas
 import numpy as np
 import pandas as pd
+import pyarrow
 import pytest
 import shapely
 import xarray
 from hypothesis import given
 from hypothesis import strategies as st
 
-from vorotool import InputError, PointSet, PolygonSet, Raster, SeedSet, read
-from vorotool.geometry.arguments.points import as_points
+from vorotool import InputError, PointSet, PolygonSet, Raster, SeedSet, UsageError, read
+from vorotool.geometry.arguments.points import as_place, as_points
 
 XY = [[2.0, 1.0], [7.5, 5.0], [4.0, 9.0]]
 POINTS = [shapely.Point(x, y) for x, y in XY]
@@ -66,6 +67,7 @@ FRAME = geopandas.GeoDataFrame({"name": ["a", None, "c"]}, geometry=SERIES.value
         pd.DataFrame(np.array(XY)[:, ::-1], columns=["centroid-0", "centroid-1"]),
         FRAME.get_coordinates(),
         dict(zip("xy", np.array(XY).T.tolist(), strict=True)),
+        pyarrow.table({"y": np.array(XY)[:, 1], "x": np.array(XY)[:, 0]}),
         np.array([tuple(each) for each in XY], dtype=[("x", "f8"), ("y", "f8")]),
         xarray.DataArray(XY),
     ],
@@ -165,6 +167,21 @@ def test_features_have_ids():
     }
     made = as_points(document)
     assert (made.xy.tolist(), made.properties) == ([[1, 2]], {"id": ["k"], "property_id": [5]})
+
+
+@pytest.mark.parametrize(
+    "source",
+    [(2, 1), [2, 1], np.array([2, 1]), POINTS[0], POINTS[0].wkt, shapely.geometry.mapping(POINTS[0]), SERIES.iloc[:1]],
+    ids=lambda source: type(source).__name__,
+)
+def test_one_place(source):
+    assert as_place(source, "start") == (2, 1)
+
+
+@pytest.mark.parametrize("source", ["a", shapely.MultiPoint(POINTS), shapely.box(0, 0, 1, 1), (1, 2, 3), 5, None])
+def test_what_is_no_place(source):
+    with pytest.raises((InputError, UsageError), match=r"start"):
+        as_place(source, "start")
 
 
 def test_nothing_is_no_points():

@@ -62,7 +62,7 @@ def test_rings_too_small_for_shapely():
         (Path("a.geojson"), r"invalid polygons: files are read with vorotool.read\('a.geojson'\)"),
         (5, "invalid polygons: expected polygons or lines of .* but got an int$"),
         (np.array(5.0), "expected polygons .* but got an array of float64 and shape"),
-        (PointSet([[1, 2]]), "expected polygons .* but got a PointSet$"),
+        (PointSet([[1, 2]]), "item 1 is or holds a Point: give polygons or lines"),
         (None, "expected polygons .* but got None$"),
         (shapely.Point(1, 1), "item 1 is or holds a Point"),
         ([HOLED, shapely.MultiPoint([(1, 1)])], "item 2 is or holds a MultiPoint"),
@@ -143,6 +143,7 @@ def test_what_is_missing_or_empty_is_left_out_in_step():
     assert made.feature.tolist() == [0, 0, 3]
     assert made.properties["count"] == [2, 2, 3]
     assert as_polygons([None, HOLED, None]).feature.tolist() == [1]
+    assert as_polygons({"type": "MultiLineString", "coordinates": [[], [[0, 0], [1, 1]]]}).is_line.tolist() == [True]
     assert len(as_polygons(FRAME.iloc[:0])) == len(as_polygons(geopandas.GeoSeries([None, None]))) == 0
 
 
@@ -193,6 +194,10 @@ def test_extended_text_names_its_system():
         ),
         (np.ones((9, 3)), r"shapes\[:, :2\] leaves the heights out"),
         (np.ones((2, 9)), r"give the transpose, \.T"),
+        (
+            "GEOMETRYCOLLECTION (" * 10**5 + HOLED.wkt + ")" * 10**5,
+            "brackets of the text are nested more than 100 deep",
+        ),
         ([HOLED.wkt, "hello"], "item 2 is 'hello', no well-known text"),
         ({"type": "Polygon"}, "a geometry has the type 'Polygon' and no coordinates"),
         ({"type": "Polygon", "coordinates": [[["a", "b"]]]}, "ring 1 of item 1 is no list of positions"),

@@ -77,7 +77,7 @@ def test_layers_are_selectable() -> None:
     assert len(without["labels"]) == 12
     discs = groups(drawn(layers=["cells", "seeds"]))["seeds"]
     assert [disc.tag for disc in discs] == [f"{NS}circle"] * 3
-    with pytest.raises(UsageError, match="no layer 'edges': use cells, labels, seeds"):
+    with pytest.raises(UsageError, match="no layer 'edges': use cells, labels, objects, seeds"):
         drawn(layers=["edges"])
 
 

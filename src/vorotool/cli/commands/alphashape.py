@@ -11,6 +11,7 @@ from vorotool.cli.batch.dispatch import run_command
 from vorotool.cli.options.groups import site_options
 from vorotool.cli.options.help_page import GroupedCommand
 from vorotool.cli.options.lengths import Radius
+from vorotool.cli.options.picture_style import animation_options
 from vorotool.cli.options.shared import (
     Decimal,
     Names,
@@ -18,13 +19,14 @@ from vorotool.cli.options.shared import (
     output_options,
 )
 from vorotool.errors import UsageError
+from vorotool.jobs.animations import animated, check_animation
 from vorotool.jobs.inputs import JobInput, check_components, check_frame_options
 from vorotool.jobs.job import Recipe
 from vorotool.jobs.names import METHODS, OF_ONE_SHAPE
 from vorotool.jobs.options import AlphaShapeOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target, check_picture_options, check_precision
-from vorotool.products.formats import PICTURES, format_named
+from vorotool.products.formats import ANIMATIONS, PICTURES, format_named, picture_format
 from vorotool.products.inputs import NAMES_WITH
 from vorotool.products.registry import PRODUCTS, all_layers, formats_of, layers_of
 
@@ -63,6 +65,7 @@ OF_DIGITAL_RULE = frozenset({"edges", "complex", "family", "spectrum"})
     help="How points are triangulated, as in delaunay.",
 )
 @site_options(all_layers("alphashape"))
+@animation_options("shapes whose r grows to that of the shape")
 def command(**options: Any) -> None:
     """Find the alpha shape of points: edges that an empty disc of radius r touches at both ends, and what they bound.
 
@@ -79,7 +82,7 @@ def command(**options: Any) -> None:
     """
     if options["what"] is None:
         options["what"] = (_default_what(options["format"], options["output"]),)
-    run_command(RECIPE, AlphaShapeOptions(**options))
+    run_command(RECIPE, AlphaShapeOptions(**animated(options)))
 
 
 def _products(run: Run, o: AlphaShapeOptions, given: JobInput) -> ShapeProducts:
@@ -102,8 +105,13 @@ def _check_options(o: AlphaShapeOptions, targets: list[Target]) -> None:
         raise UsageError("the hull has no thresholds: leave out --hole-threshold and --region-threshold")
     formats = {target.fmt for target in targets}
     check_precision(o, FORMATS, targets)
+    check_animation(o, targets)
+    if o.method == "digital" and formats & set(ANIMATIONS):
+        raise UsageError("--method digital has no animation: use --method exact or digital-valid")
     products = PRODUCTS["alphashape"]
-    pictures = sorted({target.fmt for target in targets if products[target.what].usual_layers} & set(PICTURES))
+    pictures = sorted(
+        {picture_format(target.fmt) for target in targets if products[target.what].usual_layers} & set(PICTURES)
+    )
     if o.layers is not None and not pictures:
         raise UsageError("--layers is for pictures of a shape: use -f svg or -f png, or leave it out")
     if o.overlay is not None and not pictures:

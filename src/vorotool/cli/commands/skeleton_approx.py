@@ -11,6 +11,7 @@ from vorotool.cli.options.help_page import GroupedCommand
 from vorotool.cli.options.lengths import Length
 from vorotool.cli.options.skeleton import skeleton_options
 from vorotool.errors import UsageError
+from vorotool.jobs.animations import animated
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.job import Recipe
 from vorotool.jobs.options import ApproximateSkeletonOptions
@@ -56,7 +57,7 @@ def command(**options: Any) -> None:
     left out, and those that the shapes cross. No point of an arc is farther from the exact skeleton than its
     error_bound.
     """
-    o = ApproximateSkeletonOptions(**options)
+    o = ApproximateSkeletonOptions(**animated(options))
     if (o.step is None) == (o.tolerance is None):
         raise UsageError("use either --step H or --tolerance E")
     if o.tolerance is not None and o.sampling == "paper":

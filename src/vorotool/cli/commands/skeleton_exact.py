@@ -11,6 +11,7 @@ from vorotool.cli.options.help_page import GroupedCommand
 from vorotool.cli.options.lengths import Length
 from vorotool.cli.options.skeleton import skeleton_options
 from vorotool.errors import UsageError
+from vorotool.jobs.animations import animated
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.job import Recipe
 from vorotool.jobs.options import ExactSkeletonOptions
@@ -51,7 +52,7 @@ def command(**options: Any) -> None:
     Voronoi diagram of vertices and open edges, the edges between an edge and its own end are left out. What is
     drawn inside polygons comes first, polygon by polygon; arcs of a branch follow each other.
     """
-    o = ExactSkeletonOptions(**options)
+    o = ExactSkeletonOptions(**animated(options))
     if o.complete is not None and not o.gap:
         raise UsageError("nothing is missing without a gap: use --gap STEP, or leave --complete out")
     run_command(RECIPE, o)

@@ -10,6 +10,7 @@ from vorotool.cli.batch.dispatch import run_command
 from vorotool.cli.options.groups import site_options
 from vorotool.cli.options.help_page import GroupedCommand
 from vorotool.cli.options.lengths import ExactLength
+from vorotool.cli.options.picture_style import animation_options
 from vorotool.cli.options.shared import (
     Decimal,
     Size,
@@ -18,11 +19,13 @@ from vorotool.cli.options.shared import (
     what_option,
 )
 from vorotool.errors import UsageError
+from vorotool.jobs.animations import animated, check_animation
 from vorotool.jobs.inputs import JobInput, check_components, check_frame_options
 from vorotool.jobs.job import Recipe
 from vorotool.jobs.options import TessellationOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target, check_picture_options, check_precision
+from vorotool.products.formats import ANIMATIONS, picture_format
 from vorotool.products.inputs import NAMES_WITH
 from vorotool.products.registry import PRODUCTS, all_layers, formats_of, layers_of
 
@@ -67,7 +70,8 @@ _PICTURES = {(what, fmt) for what, each in PRODUCTS["tessellate"].items() for fm
     type=Decimal(),
     help="Side of a pixel in the units of points, lines or polygons on a map; --window is in these units, too.",
 )
-@site_options(all_layers("tessellate"), has_style=False)
+@site_options(all_layers("tessellate"), has_scale=False)
+@animation_options("cells that grow from their seeds, up to --max-distance")
 def command(**options: Any) -> None:
     """Label every pixel with its nearest seed, exactly; ties go to the smallest label.
 
@@ -79,7 +83,7 @@ def command(**options: Any) -> None:
     INPUT is a list of points (CSV, TSV, Triangle .node, NPY, GeoJSON, WKT, JSON) or an image (PNG, TIFF, PGM, JPEG,
     NPY, Zarr); - is standard input. Label i is the i-th point; an image's own labels are kept.
     """
-    run_command(RECIPE, TessellationOptions(**options))
+    run_command(RECIPE, TessellationOptions(**animated(options)))
 
 
 def _check_options(o: TessellationOptions, targets: list[Target]) -> None:
@@ -95,7 +99,10 @@ def _check_options(o: TessellationOptions, targets: list[Target]) -> None:
     if o.method == "propagation" and o.cluster is not None and o.out_dir is None:
         raise UsageError("a cluster computes bands of the exact tessellation: leave out --method propagation")
     check_precision(o, FORMATS, targets)
-    _check_output_options(o, {(target.what, target.fmt) for target in targets})
+    check_animation(o, targets)
+    if o.method == "propagation" and any(target.fmt in ANIMATIONS for target in targets):
+        raise UsageError("animations are of the exact tessellation: leave out --method propagation")
+    _check_output_options(o, {(target.what, picture_format(target.fmt)) for target in targets})
 
 
 def _check_cells(o: TessellationOptions) -> None:
@@ -117,8 +124,9 @@ def _check_output_options(o: TessellationOptions, outputs: set[tuple[str, str]])
         raise UsageError("--tiled is for TIFF: use -f tiff, or leave it out")
     if o.layers is not None and not outputs & _PICTURES:
         raise UsageError("--layers is for pictures: --what colour, labels as SVG, or the diagram as PNG")
-    pictures = sorted(outputs & _PICTURES - ({("diagram", "png")} if o.layers is None and o.overlay is None else set()))
-    check_picture_options(o, [fmt for _, fmt in pictures], layers_of("tessellate"))
+    pictures = sorted(outputs & _PICTURES - (set() if o.draws_diagram else {("diagram", "png")}))
+    has_page = any(fmt == "html" for _, fmt in outputs)
+    check_picture_options(o, [fmt for _, fmt in pictures], layers_of("tessellate"), has_page=has_page)
 
 
 def _products(run: Run, o: TessellationOptions, given: JobInput) -> Products | StreamedProducts:

@@ -16,7 +16,8 @@ _GROUPS = {
     "Input": "columns input_format input_layer input_crs crs page pixel_size seeds connectivity threshold invert "
     "min_area fill_holes outline simplify join_tolerance",
     "Frame": "size window cell_size frame clip",
-    "Pictures": "layers overlay width y_up scale drawing_unit background colours line_widths",
+    "Pictures": "layers overlay width y_up scale drawing_unit aspect extent background colours "
+    "line_widths label_by legend scale_bar animate frames fps",
     "Many inputs": "out_dir files_from null jobs keep_going dry_run resume shard table cluster",
     "Checks and resources": "verify strict stats threads max_pixels max_sites quiet verbose",
 }

@@ -11,7 +11,10 @@ import click
 from vorotool.cli.options.parameter_types import ParameterType
 from vorotool.cli.options.shared import SPELLINGS, Decorator, together
 from vorotool.cli.options.suggestions import words
-from vorotool.jobs.picture_style import MILLIMETRES, Scale
+from vorotool.jobs.picture_style import MILLIMETRES, Scale, colour_code
+
+LEAST_ASPECT = 0.001
+"""Pictures that are a thousand times stretched show nothing."""
 
 
 class ScaleType(ParameterType[Scale]):
@@ -41,16 +44,10 @@ class Colour(ParameterType[str]):
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
         """Give it as ``#rrggbb``."""
-        from PIL import ImageColor
-
-        text = str(value).strip().lower()
-        try:
-            rgb: tuple[int, ...] = ImageColor.getrgb(text)
-        except ValueError:
-            rgb = ()
-        if len(rgb) != 3:
+        code = colour_code(str(value))
+        if code is None:
             self.fail(f"{value!r}: expected a colour such as #aa3344 or navy", param, ctx)
-        return "#" + "".join(f"{channel:02x}" for channel in rgb)
+        return code
 
 
 class Ground(Colour):
@@ -89,17 +86,75 @@ class Width(ParameterType[float]):
         """Give it in px."""
         match = re.fullmatch(r"\s*([0-9.]+(?:[eE][-+]?[0-9]+)?)\s*(px|mm)?\s*", value)
         try:
-            number = float(match[1]) if match else 0.0
+            number = float(match[1]) if match else -1.0
         except ValueError:
-            number = 0.0
-        if match is None or not 0 < number < 1e6:
+            number = -1.0
+        if match is None or not 0 <= number < 1e6:
             self.fail(f"{value!r}: expected a width in px such as 0.5, or 0.1mm", param, ctx)
         return number * 96 / 25.4 if match[2] == "mm" else number
 
 
-def picture_style_options() -> Decorator:
-    """Add the options of the looks of pictures."""
+class Aspect(ParameterType[float]):
+    """A ratio of heights to widths."""
+
+    name = "RATIO"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
+        """Parse the number."""
+        try:
+            number = float(value)
+        except ValueError:
+            number = 0.0
+        if not LEAST_ASPECT <= number <= 1 / LEAST_ASPECT:
+            self.fail(
+                f"{value!r}: expected a number from {LEAST_ASPECT:g} to {1 / LEAST_ASPECT:g}, such as 1", param, ctx
+            )
+        return number
+
+
+def picture_style_options(*, has_scale: bool = True) -> Decorator:
+    """Add the options of the looks of pictures; those of label images have no scale."""
     return together(
+        *(_scale_options() if has_scale else ()),
+        click.option(
+            "--background",
+            type=Ground(),
+            help="Ground of pictures, none for nothing; by default white.",
+            shell_complete=words(("none", "white", "black")),
+        ),
+        click.option(
+            "--color",
+            "--colour",
+            "colours",
+            type=OfLayer(Colour(), "red"),
+            multiple=True,
+            help="Colour of a layer of pictures, such as skeleton=#0000ff or seeds=red, of cells that of borders; "
+            "may be given again.",
+        ),
+        click.option(
+            "--line-width",
+            "line_widths",
+            type=OfLayer(Width(), "0.5"),
+            multiple=True,
+            help="Width of the lines of a layer, in px or with mm, such as skeleton=0.1mm, or cells=0 for no borders; "
+            "may be given again.",
+        ),
+        click.option(
+            "--label-by",
+            metavar="COLUMN",
+            help="Column or property that names objects or sites in pictures, instead of their ids.",
+        ),
+        click.option("--legend", is_flag=True, help="Draw the names of the layers with their colours in a corner."),
+        click.option(
+            "--scale-bar",
+            is_flag=True,
+            help="Draw a length of 1, 2 or 5 times a power of ten, in the unit of --pixel-size or of the input.",
+        ),
+    )
+
+
+def _scale_options() -> tuple[Decorator, ...]:
+    return (
         click.option(
             "--scale",
             type=ScaleType(),
@@ -112,24 +167,29 @@ def picture_style_options() -> Decorator:
             help="Unit of the input, for SVG to scale; by default what it names. Without --scale, 1:1.",
         ),
         click.option(
-            "--background",
-            type=Ground(),
-            help="Ground of pictures, none in SVG for nothing; by default white.",
-            shell_complete=words(("none", "white", "black")),
+            "--aspect",
+            type=Aspect(),
+            help="Height of a unit of y beside the width of one of x; by default 1, of longitude and latitude that in "
+            "the middle of the data.",
         ),
         click.option(
-            "--color",
-            "--colour",
-            "colours",
-            type=OfLayer(Colour(), "red"),
-            multiple=True,
-            help="Colour of a layer of pictures, such as skeleton=#0000ff or points=red; may be given again.",
+            "--extent",
+            type=click.Choice(["image", "data"], case_sensitive=False),
+            help="What pictures of an image's result show: the whole image, as by default, or the data and a margin.",
+        ),
+    )
+
+
+def animation_options(grows: str) -> Decorator:
+    """Add the options of animations of what grows."""
+    return together(
+        click.option(
+            "--animate",
+            is_flag=True,
+            help=f"Write an animation of {grows}: GIF, APNG or WebP, as -f or the extension says; by default GIF.",
         ),
         click.option(
-            "--line-width",
-            "line_widths",
-            type=OfLayer(Width(), "0.5"),
-            multiple=True,
-            help="Width of the lines of a layer, in px or with mm, such as skeleton=0.1mm; may be given again.",
+            "--frames", type=click.IntRange(2, 10_000), metavar="N", help="Frames of an animation; by default 40."
         ),
+        click.option("--fps", type=click.FloatRange(0.1, 100), metavar="N", help="Frames a second; by default 10."),
     )

@@ -13,6 +13,7 @@ from vorotool.errors import InputError, UsageError, option
 from vorotool.geometry.alpha.complex import CLASSES
 from vorotool.geometry.alpha.hull import AlphaHull
 from vorotool.geometry.alpha.shape import AlphaShape
+from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.curves.inverse_functions import angle_of, cosine_and_sine, hypotenuse, inverse_sine
 from vorotool.geometry.numbers import nearest_double, shown_number
 
@@ -69,6 +70,7 @@ def alpha_hull(shape: AlphaShape) -> AlphaHull:
     >>> len(hull), hull.points.tolist()
     (3, [0, 1, 2])
     """
+    check_value(shape, "shape", AlphaShape)
     if not len(shape.points):  # of an image without foreground
         return _no_hull(shape)
     if shape.r == np.inf:

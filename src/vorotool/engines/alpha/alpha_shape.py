@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,6 +24,7 @@ from vorotool.engines.delaunay.delaunay import delaunay
 from vorotool.errors import InputError, UsageError, option
 from vorotool.geometry.alpha.complex import AlphaComplex, Radius, checked_radius
 from vorotool.geometry.alpha.shape import AlphaShape
+from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation
 from vorotool.geometry.mesh.triangulation import Triangulation
@@ -33,13 +34,16 @@ from vorotool.geometry.progress import Progress
 from vorotool.geometry.ragged import ranges, starts_of
 from vorotool.geometry.table import Table
 
+if TYPE_CHECKING:
+    from vorotool.typing import AlphaRule, MeshLike, RealLike
+
 RULES = ("corrected", "printed")
 
 
 def alpha_complex(
-    points: Any,
+    points: DigitalTriangulation | MeshLike,
     *,
-    rule: str = "corrected",
+    rule: AlphaRule = "corrected",
     strict: bool = False,
     allow_empty: bool | None = None,
     threads: int = 0,
@@ -106,8 +110,10 @@ def alpha_complex(
     if isinstance(points, DigitalTriangulation):
         mesh, edges, sides = linked_digital(points)
     else:
-        given = isinstance(points, Triangulation)
-        mesh = points if given else delaunay(points, strict=strict, threads=threads, progress=progress)
+        if isinstance(points, Triangulation):
+            mesh = points
+        else:
+            mesh = delaunay(points, strict=strict, threads=threads, progress=progress)
         edges, sides = _edges_and_sides(mesh, threads, progress)
     if len(mesh.points) - mesh.duplicates < 2:
         report_too_few(len(mesh.points), allow_empty=allows_empty(points, allow_empty), strict=strict)
@@ -154,6 +160,7 @@ def alpha_edges(
     >>> family.edges[index].tolist(), kind.tolist()
     ([[0, 2], [0, 1]], [1, 1])
     """
+    check_value(family, "family", AlphaComplex)
     r = checked_radius(r)
     return _scan(family, family.reached(r), family.entered(r), checked_threads(threads), progress)
 
@@ -208,14 +215,14 @@ def chosen_radius(r: Any, alpha: Any, automatic: bool = False) -> Radius | None:
 
 
 def alpha_shape(
-    points: Any,
+    points: AlphaComplex | DigitalTriangulation | MeshLike,
     *,
-    r: Any = None,
-    alpha: Any = None,
+    r: RealLike | None = None,
+    alpha: RealLike | None = None,
     regions: int = 1,
-    hole_threshold: Any = None,
-    region_threshold: Any = None,
-    rule: str = "corrected",
+    hole_threshold: RealLike | None = None,
+    region_threshold: RealLike | None = None,
+    rule: AlphaRule = "corrected",
     strict: bool = False,
     allow_empty: bool | None = None,
     threads: int = 0,
@@ -412,6 +419,7 @@ def alpha_curves(family: AlphaComplex, *, progress: Progress = None) -> Table:
     >>> curves["r"].tolist(), curves["area"].tolist(), curves["edges"].tolist()
     ([1.5, 2.0, 2.5], [0.0, 0.0, 6.0], [1, 2, 3])
     """
+    check_value(family, "family", AlphaComplex)
     if family.rule != "corrected":
         raise UsageError("curves and the automatic radius are those of the corrected rule: leave out rule=printed")
     curves = _core.alpha.alpha_curves(

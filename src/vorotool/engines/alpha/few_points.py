@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import warnings
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import STRICT, InputError, VorotoolWarning, option
+from vorotool.errors import STRICT, InputError, VorotoolWarning, option, warn
 from vorotool.geometry.alpha.complex import AlphaComplex
 from vorotool.geometry.points.seed_set import SeedSet
 
@@ -56,7 +55,7 @@ def refuse_or_warn(reason: str, advice: str, *, allow_empty: bool, strict: bool)
         raise InputError(f"{reason}{advice}")
     if strict:
         raise InputError(f"{reason}{f'{advice}, or' if advice else ':'} leave out {STRICT} for an empty shape")
-    warnings.warn(f"{reason}{advice}; the shape is empty", VorotoolWarning, stacklevel=3)
+    warn(VorotoolWarning(f"{reason}{advice}; the shape is empty"))
 
 
 def radius_below_all(family: AlphaComplex) -> float:

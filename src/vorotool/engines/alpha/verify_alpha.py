@@ -12,6 +12,7 @@ from vorotool.engines.delaunay.delaunay import verify_triangulation
 from vorotool.errors import VerificationError
 from vorotool.geometry.alpha.complex import CLASSES, AlphaComplex, Radius
 from vorotool.geometry.alpha.shape import AlphaShape
+from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.ragged import owners
@@ -55,6 +56,7 @@ def verify_alpha_shape(shape: AlphaShape, *, threads: int = 0, progress: Progres
         ...
     vorotool.errors.VerificationError: triangle 0 is in the shape, but its circumradius is greater than r
     """
+    check_value(shape, "shape", AlphaShape)
     family = shape.family
     verify_triangulation(family.mesh, threads=threads, progress=progress)
     _check_sides(family)

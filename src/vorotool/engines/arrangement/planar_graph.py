@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import math
-import warnings
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.arrangement.flat_rings import flat_holes, with_flat_shells_as_lines
-from vorotool.errors import STRICT, InputError, LimitError, RepairWarning, VerificationError
+from vorotool.errors import STRICT, InputError, LimitError, RepairWarning, VerificationError, warn
 from vorotool.geometry.arguments.polygons import as_polygons
+from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.magnitude import check_magnitude
 from vorotool.geometry.polygons.planar_graph import REPAIRS, PlanarGraph
@@ -21,13 +21,18 @@ from vorotool.geometry.polygons.polygon_set import LINE, PolygonSet
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.ragged import divides, owners, ranges
 
+if TYPE_CHECKING:
+    from vorotool.typing import PolygonsLike
+
 MOST_VERTICES = 2**28
 """Segments are numbered in 31 bits, and crossings make more of them."""
 MOST_OVERLAPS = 2**26
 """Polygons of all faces together, as the core has it."""
 
 
-def planar_graph(polygons: Any, *, strict: bool = False, threads: int = 0, progress: Progress = None) -> PlanarGraph:
+def planar_graph(
+    polygons: PolygonsLike, *, strict: bool = False, threads: int = 0, progress: Progress = None
+) -> PlanarGraph:
     """Place polygons and open lines on an integer lattice, and cut them where they meet.
 
     The step of the lattice is the least power of two for which the extent fits into 31 signed bits, its origin a
@@ -187,20 +192,18 @@ def graph_of_placement(
 ) -> PlanarGraph:
     """Make the planar graph of polygons whose vertices are placed; errors and warnings as of `planar_graph`."""
     made = arranged(given, placement, progress=progress)
-    report_repairs(given, made.found, made.graph.scale, strict=strict, stacklevel=4)
+    report_repairs(given, made.found, made.graph.scale, strict=strict)
     return made.graph
 
 
-def report_repairs(
-    given: PolygonSet, found: dict[str, tuple[int, int, int]], step: float, *, strict: bool, stacklevel: int = 3
-) -> None:
+def report_repairs(given: PolygonSet, found: dict[str, tuple[int, int, int]], step: float, *, strict: bool) -> None:
     """Warn of repairs, if there are any; raise InputError instead if `strict`."""
     repairs = {name: count for name, (count, _, _) in found.items()}
     if not any(repairs.values()):
         return
     if strict:
         raise InputError(_first_repair(given, found))
-    warnings.warn(_summary(repairs, step), RepairWarning, stacklevel=stacklevel)
+    warn(_summary(repairs, step), RepairWarning)
 
 
 _WORDS = {
@@ -279,6 +282,7 @@ def verify_planar_graph(graph: PlanarGraph, *, progress: Progress = None) -> Non
         ...
     vorotool.errors.VerificationError: segments 0 and 1 cross near (536870912, -536870912)
     """
+    check_value(graph, "graph", PlanarGraph)
     fault = _core.arrangement.find_fault(graph.points, graph.segments, graph.segment_faces, progress)
     fault = fault or _face_fault(graph) or (_source_fault(graph) if graph.polygons is not None else None)
     if fault is not None:

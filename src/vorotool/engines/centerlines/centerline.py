@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Literal, get_args
+from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,13 +13,17 @@ from vorotool.engines.centerlines.boundary_rays import first_hits
 from vorotool.engines.centerlines.ends import Unforked, forked, middles_ahead, unforked
 from vorotool.engines.centerlines.oblique_ends import led_to_oblique_ends
 from vorotool.engines.centerlines.path_network import Network, Paths, geometry_of
-from vorotool.errors import InputError, UsageError, VorotoolWarning
+from vorotool.errors import InputError, UsageError, warn
+from vorotool.geometry.arguments.points import as_place
+from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.magnitude import check_lengths
-from vorotool.geometry.numbers import pair_of_doubles
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.ragged import owners
 from vorotool.geometry.skeleton.centerline import Centerlines, without_centerline
 from vorotool.geometry.skeleton.skeleton import Skeleton
+
+if TYPE_CHECKING:
+    from vorotool.typing import PointsLike
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int32]
@@ -35,8 +38,8 @@ MOST_NAMED = 10
 def centerline(
     skeleton: Skeleton,
     *,
-    start: Place | None = None,
-    end: Place | None = None,
+    start: PointsLike | None = None,
+    end: PointsLike | None = None,
     ends: Ends = "middle",
     progress: Progress = None,
 ) -> Centerlines:
@@ -65,7 +68,7 @@ def centerline(
     ----------
     skeleton : Skeleton
         Its arcs inside polygons are used.
-    start, end : (x, y), optional
+    start, end : (x, y) or a point of shapely, GeoJSON or WKT, optional
         Give the one path between the places nearest to these on the skeleton whose forks are led to the middles of
         their edges, and whose round ends are left out: it goes up no corner of these. With one of the two, the path
         leads to the end that is farthest from there.
@@ -103,6 +106,7 @@ def centerline(
     >>> centerline(skeleton, start=(2, 2), end=(3, 0)).flattened(0.1)[0].tolist()
     [[2.0, 1.0], [3.0, 1.0]]
     """
+    check_value(skeleton, "skeleton", Skeleton)
     if ends not in get_args(Ends):
         raise UsageError(f"ends is {ends!r}: use {', '.join(get_args(Ends))}")
     is_whole = ends == "corner"
@@ -115,12 +119,10 @@ def centerline(
 
 
 def _path_between(
-    network: Network, skeleton: Skeleton, start: Place | None, end: Place | None, ends: Ends, progress: Progress
+    network: Network, skeleton: Skeleton, start: Any, end: Any, ends: Ends, progress: Progress
 ) -> Centerlines:
     """The one path with a place that is given at one end or both."""
-    start, end = (
-        None if place is None else pair_of_doubles(place, name) for name, place in (("start", start), ("end", end))
-    )
+    start, end = (None if place is None else as_place(place, name) for name, place in (("start", start), ("end", end)))
     for place in (start, end):
         if place is not None and not np.isfinite(place).all():
             raise UsageError(f"({place[0]}, {place[1]}) is no place: its coordinates must be finite")
@@ -315,11 +317,7 @@ def _warn_missing(lines: Centerlines) -> None:
     named = [str(ids[k] if ids is not None and has_ids else k + 1) for k in missing[:MOST_NAMED].tolist()]
     more = f" and {len(missing) - MOST_NAMED} more" if len(missing) > MOST_NAMED else ""
     what = "ids" if has_ids else "numbers"
-    warnings.warn(
-        f"{len(missing)} of {total} polygons gave no centerline: {what} {', '.join(named)}{more}",
-        VorotoolWarning,
-        stacklevel=3,
-    )
+    warn(f"{len(missing)} of {total} polygons gave no centerline: {what} {', '.join(named)}{more}")
 
 
 def _no_path(skeleton: Skeleton, start: Place | None, end: Place | None, *, is_apart: bool) -> str:

@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-import warnings
-from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.delaunay.delaunay import core_mesh, delaunay
-from vorotool.errors import InputError, VerificationError, VorotoolWarning
+from vorotool.errors import InputError, VerificationError, warn
 from vorotool.geometry.arguments.boxes import as_box
 from vorotool.geometry.arguments.polygons import as_geometry
+from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.box import Box
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.crs import crs_name, same_crs
@@ -23,12 +22,15 @@ from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.points.point_set import known_of_points
 from vorotool.geometry.progress import Progress
 
+if TYPE_CHECKING:
+    from vorotool.typing import FrameLike, MeshLike, PolygonsLike
+
 
 def voronoi_cells(
-    points: Any,
+    points: MeshLike,
     *,
-    frame: Box | Sequence[float] | None = None,
-    clip: Any = None,
+    frame: FrameLike | None = None,
+    clip: PolygonsLike | None = None,
     threads: int = 0,
     progress: Progress = None,
 ) -> CellSet:
@@ -89,7 +91,7 @@ def voronoi_cells(
     return cells if area is None else _clipped(cells, area)
 
 
-def _box(frame: Box | Sequence[float] | None, mesh: Triangulation, area: Any) -> Box:
+def _box(frame: FrameLike | None, mesh: Triangulation, area: Any) -> Box:
     if frame is not None:
         return as_box(frame, "frame")
     if area is None:
@@ -117,6 +119,7 @@ def cell_colours(mesh: Triangulation, *, progress: Progress = None) -> NDArray[n
     >>> cell_colours(delaunay([[0, 0], [4, 0], [0, 3]])).tolist()
     [3, 2, 1]
     """
+    check_value(mesh, "mesh", Triangulation)
     a, b = (np.ascontiguousarray(mesh.edges[:, side].astype(np.uint32)) for side in (0, 1))
     return _core.graphs.colour_graph(len(mesh.points), a, b, progress)
 
@@ -140,11 +143,9 @@ def _clip_area(clip: Any, crs: Any) -> Any:
     bad = ~shapely.is_valid(polygons)
     if bad.any():
         reason = shapely.is_valid_reason(polygons[np.argmax(bad)])
-        warnings.warn(
+        warn(
             f"{int(bad.sum())} of {len(polygons)} polygons to clip to are not valid and were repaired "
-            f"(the first: {reason})",
-            VorotoolWarning,
-            stacklevel=3,
+            f"(the first: {reason})"
         )
         polygons[bad] = shapely.make_valid(polygons[bad])
     area = shapely.union_all(polygons)
@@ -240,6 +241,7 @@ def verify_cells(cells: CellSet, *, threads: int = 0, progress: Progress = None)
         ...
     vorotool.errors.VerificationError: vertex (2, 2) of cell 1 is nearer to site 0 by more than rounding explains
     """
+    check_value(cells, "cells", CellSet)
     if cells.polygon_starts is not None:
         raise InputError("cells clipped to polygons cannot be checked: check them before they are clipped")
     if not (np.isfinite(cells.sites).all() and np.isfinite(cells.coordinates).all()):

@@ -2,24 +2,27 @@
 
 from __future__ import annotations
 
-import warnings
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from vorotool import _core
-from vorotool.errors import STRICT, InputError, LimitError, VerificationError, VorotoolWarning
+from vorotool.errors import STRICT, InputError, LimitError, VerificationError, warn
 from vorotool.geometry.arguments.points import as_points
+from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.points.point_set import known_of_points
 from vorotool.geometry.progress import Progress
 
+if TYPE_CHECKING:
+    from vorotool.typing import SeedsLike
+
 MOST_POINTS = 2**28
 """Half-edges, six a point, are counted in 32 bits."""
 
 
-def delaunay(points: Any, *, strict: bool = False, threads: int = 0, progress: Progress = None) -> Triangulation:
+def delaunay(points: SeedsLike, *, strict: bool = False, threads: int = 0, progress: Progress = None) -> Triangulation:
     """Triangulate points so that no circle through the vertices of a triangle holds another point.
 
     Every decision is exact for all finite coordinates. The result depends on the points alone: other numbers of
@@ -82,7 +85,7 @@ def report_duplicates(mesh: Triangulation, *, strict: bool) -> None:
     what = f"{count} of {len(mesh.points)} points lie on an earlier point"
     if strict:
         raise InputError(f"{what}: remove the duplicates, or leave out {STRICT}")
-    warnings.warn(f"{what}: the first one of each place is triangulated", VorotoolWarning, stacklevel=3)
+    warn(f"{what}: the first one of each place is triangulated")
 
 
 def verify_triangulation(mesh: Triangulation, *, threads: int = 0, progress: Progress = None) -> None:
@@ -115,6 +118,7 @@ def verify_triangulation(mesh: Triangulation, *, threads: int = 0, progress: Pro
         ...
     vorotool.errors.VerificationError: triangle 0 is not counter-clockwise
     """
+    check_value(mesh, "mesh", Triangulation)
     if not np.isfinite(mesh.points).all():
         raise VerificationError("a coordinate is not finite")
     fault = triangulation_fault(mesh, checked_threads(threads), progress)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,11 +11,17 @@ from vorotool import _core
 from vorotool.engines.delaunay.delaunay import MOST_POINTS, core_mesh, delaunay, report_duplicates
 from vorotool.errors import InputError, LimitError
 from vorotool.geometry.arguments.points import as_points
+from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.checks import checked_threads, whole_numbers
 from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.points.point_set import PointSet, known_of_points
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.row_index import joined_index
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from vorotool.typing import PointsLike
 
 MANY = 0.25
 """Of the points there are: more further ones are triangulated sooner along with these, from the beginning."""
@@ -23,9 +29,9 @@ MANY = 0.25
 
 def insert_points(
     mesh: Triangulation,
-    points: Any,
+    points: PointsLike,
     *,
-    hint: Any = None,
+    hint: ArrayLike | None = None,
     strict: bool = False,
     threads: int = 0,
     progress: Progress = None,
@@ -87,6 +93,7 @@ def insert_points(
     >>> insert_points(mesh, [[1, 1]]).triangles.tolist()
     [[0, 3, 2], [0, 1, 3], [3, 1, 2]]
     """
+    check_value(mesh, "mesh", Triangulation)
     given = as_points(points)
     total = len(mesh.points) + len(given)
     if total > MOST_POINTS:

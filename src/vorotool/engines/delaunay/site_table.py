@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from vorotool import _core
 from vorotool.engines.delaunay.cells import voronoi_cells
 from vorotool.errors import InputError
+from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.curves.inverse_functions import hypotenuse
 from vorotool.geometry.mesh.cells import CellSet
@@ -16,12 +17,15 @@ from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.table import Table
 
+if TYPE_CHECKING:
+    from vorotool.typing import FrameLike
+
 
 def site_table(
     mesh: Triangulation,
     cells: CellSet | None = None,
     *,
-    frame: Any = None,
+    frame: FrameLike | None = None,
     properties: bool = True,
     threads: int = 0,
     progress: Progress = None,
@@ -65,6 +69,7 @@ def site_table(
     >>> table["area"].tolist(), table["nearest_label"].tolist(), table["max_distance"].tolist() == [2**0.5] * 2
     ([4.0, 4.0], [2, 1], True)
     """
+    check_value(mesh, "mesh", Triangulation)
     if cells is None:
         cells = voronoi_cells(mesh, frame=frame, threads=threads, progress=progress)
     elif not np.array_equal(cells.sites, mesh.points):

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import ceil
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,12 +26,15 @@ from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.table import Table
 
+if TYPE_CHECKING:
+    from vorotool.typing import SeedsLike
+
 COVERED = 0.75
 """Share of what is missing that a suggested frame or scale would show."""
 
 
 def compare_digital(
-    source: Any,
+    source: SeedsLike,
     *,
     shape: tuple[int, int] | None = None,
     window: tuple[int, int, int, int] | None = None,
@@ -48,6 +51,7 @@ def compare_digital(
     source : what `tessellate` accepts
         Each label must have one seed.
     shape, window : tuple of int, optional
+        As in `tessellate`.
     image : bool, optional
         As in `tessellate`.
     strict : bool
@@ -81,7 +85,7 @@ def compare_digital(
     >>> comparison.triangle_precision, comparison.table.rows
     (1.0, 0)
     """
-    seeds, frame = as_seeds(source, "source", image=image), asked_frame(shape, window)
+    seeds, frame = as_seeds(source, "source", image=image, max_pixels=max_pixels), asked_frame(shape, window)
     one_seed_a_label(seeds)
     if not len(seeds):
         return DigitalComparison(1.0, 1.0, 1.0, 1.0, _table([], np.empty(0, np.int64)), {}, "")

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,7 +21,7 @@ from vorotool.engines.tessellation.frames import (
     require_memory,
 )
 from vorotool.engines.tessellation.tessellator import Tessellator
-from vorotool.errors import InputError, LimitError, VorotoolWarning, option
+from vorotool.errors import InputError, LimitError, option, warn
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation
 from vorotool.geometry.mesh.triangulation import Triangulation
@@ -30,6 +29,9 @@ from vorotool.geometry.pixel_frame import MAX_PIXELS
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.geometry.progress import Progress
+
+if TYPE_CHECKING:
+    from vorotool.typing import SeedsLike
 
 _ONE_A_LABEL = option(
     "--seeds pixels or centroids, or --method digital",
@@ -39,7 +41,7 @@ _ONE_A_LABEL = option(
 
 
 def digital_triangulation(
-    source: Any,
+    source: SeedsLike,
     *,
     shape: tuple[int, int] | None = None,
     window: tuple[int, int, int, int] | None = None,
@@ -214,7 +216,7 @@ class DigitalRepair:
     fault: str | None = None
 
 
-def digital_delaunay(source: Any, **options: Any) -> Triangulation:
+def digital_delaunay(source: SeedsLike, **options: Any) -> Triangulation:
     """Give the Delaunay triangulation of seeds from their digital tessellation, repaired and certified.
 
     The result is that of ``delaunay(seeds)``, array by array.
@@ -240,7 +242,7 @@ def digital_delaunay(source: Any, **options: Any) -> Triangulation:
 
 
 def repair_digital(
-    source: Any,
+    source: SeedsLike,
     *,
     shape: tuple[int, int] | None = None,
     window: tuple[int, int, int, int] | None = None,
@@ -263,6 +265,7 @@ def repair_digital(
         Each label must have one seed. Seeds between pixels, or outside the frame, may have no region: they are
         inserted.
     shape, window : tuple of int, optional
+        As in `tessellate`.
     image : bool, optional
         As in `tessellate`.
     strict : bool
@@ -303,7 +306,7 @@ def repair_digital(
     >>> len(mesh), repair.route, repair.filled
     (3, 'repaired', 1)
     """
-    seeds, frame = as_seeds(source, "source", image=image), asked_frame(shape, window)
+    seeds, frame = as_seeds(source, "source", image=image, max_pixels=max_pixels), asked_frame(shape, window)
     order = one_seed_a_label(seeds)
     if not len(seeds):
         return delaunay(seeds), DigitalRepair("chain")
@@ -366,8 +369,4 @@ def _report_rebuilt(repair: DigitalRepair) -> None:
     if repair.route != "rebuilt":
         return
     why = f"the certificate failed ({repair.fault})" if repair.fault else "the regions have no planar dual"
-    warnings.warn(
-        f"the digital triangulation could not be repaired, {why}: all {repair.inserted} sites were inserted exactly",
-        VorotoolWarning,
-        stacklevel=3,
-    )
+    warn(f"the digital triangulation could not be repaired, {why}: all {repair.inserted} sites were inserted exactly")

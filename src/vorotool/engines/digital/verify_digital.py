@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,13 +11,17 @@ from vorotool.engines.tessellation.frames import as_seeds, asked_frame, band_lim
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.engines.tessellation.verify_tessellation import verify_label_image
 from vorotool.errors import VerificationError
+from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation
 from vorotool.geometry.pixel_frame import Frame
+
+if TYPE_CHECKING:
+    from vorotool.typing import SeedsLike
 
 
 def verify_digital_triangulation(
     found: DigitalTriangulation,
-    source: Any,
+    source: SeedsLike,
     *,
     shape: tuple[int, int] | None = None,
     window: tuple[int, int, int, int] | None = None,
@@ -36,6 +40,7 @@ def verify_digital_triangulation(
     source : what `tessellate` accepts
         What it was made from; no label image.
     shape, window : tuple of int, optional
+        As in `digital_triangulation`.
     image : bool, optional
         As in `digital_triangulation`.
     threads : int
@@ -52,6 +57,7 @@ def verify_digital_triangulation(
     >>> seeds = [[1, 1], [6, 1], [2, 6]]
     >>> verify_digital_triangulation(digital_triangulation(seeds), seeds)
     """
+    check_value(found, "found", DigitalTriangulation)
     seeds, frame = as_seeds(source, "source", image=image), asked_frame(shape, window)
     edges, triangles = np.empty((0, 2), np.int64), np.empty((0, 3), np.int64)
     if len(seeds):

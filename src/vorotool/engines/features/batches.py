@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
@@ -24,7 +23,7 @@ from vorotool.engines.arrangement.planar_graph import (
 )
 from vorotool.engines.features.crack_corners import OwnCorners, own_corners
 from vorotool.engines.features.sheets import Features, batches_of, sheets_of_boxes, sheets_of_cracks, touching_features
-from vorotool.errors import LimitError, VorotoolWarning
+from vorotool.errors import LimitError, warn
 from vorotool.geometry.box import bounds
 from vorotool.geometry.checks import available_threads
 from vorotool.geometry.magnitude import check_magnitude
@@ -231,7 +230,7 @@ def in_batches(
         made = _done(used, placement, features, sheets, work, threads, progress)
     assert made is not None  # what is apart by its bounds is independent
     found = _all_repairs([shapes for shapes, _ in made], corners)
-    report_repairs(polygons, found, ldexp(1.0, placement.exponent), strict=strict, stacklevel=4)
+    report_repairs(polygons, found, ldexp(1.0, placement.exponent), strict=strict)
     return _as_a_whole(polygons, used, corners, placement, found, [shapes for shapes, _ in made]), made
 
 
@@ -287,7 +286,7 @@ def _report_flat(count: int) -> None:
     """Warn of polygons that are taken for lines where what is inside is asked for."""
     polygons = "1 polygon has" if count == 1 else f"{count} polygons have"
     message = f"{polygons} vertices at one or two places only, and so no inside: points and segments"
-    warnings.warn(message, VorotoolWarning, stacklevel=4)
+    warn(message)
 
 
 def _check_size(polygons: PolygonSet) -> None:

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from vorotool.engines.skeleton.site_distances import SitePlaces
 from vorotool.errors import LimitError, UsageError
+from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.numbers import finite_double
 from vorotool.geometry.ragged import owners, within
 from vorotool.geometry.skeleton.points_along import SkeletonPoints
@@ -45,6 +46,7 @@ def points_along(skeleton: Skeleton, *, every: float) -> SkeletonPoints:
     >>> points.xy[points.radius == 1].tolist(), points.along[points.radius == 1].tolist()
     ([[1.0, 1.0], [3.0, 1.0], [5.0, 1.0], [7.0, 1.0]], [0.0, 2.0, 4.0, 6.0])
     """
+    check_value(skeleton, "skeleton", Skeleton)
     every = finite_double(every, "the step")
     check_step(every)
     start = np.flatnonzero(np.diff(skeleton.branch, prepend=-1))

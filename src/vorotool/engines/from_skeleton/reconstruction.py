@@ -13,6 +13,7 @@ from vorotool.engines.arrangement.flat_rings import flat_holes
 from vorotool.engines.from_skeleton.contour_walk import Contours, contours_of
 from vorotool.engines.from_skeleton.disc_union import Ring, covered_rings
 from vorotool.errors import UsageError
+from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.curves.circular_arcs import chords_of, middles_of
 from vorotool.geometry.curves.flatten import checked_flatten
 from vorotool.geometry.polygons.polygon_set import HOLE, SHELL, PolygonSet
@@ -62,6 +63,7 @@ def rebuild(skeleton: Skeleton, *, flatten: float | None = None) -> PolygonSet:
     >>> rebuild(skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]])).xy.tolist()
     [[4.0, 0.0], [4.0, 2.0], [0.0, 2.0], [0.0, 0.0]]
     """
+    check_value(skeleton, "skeleton", Skeleton)
     if skeleton.gap:
         raise UsageError(f"a skeleton with a gap of {skeleton.gap:g} leaves the corners out: use one without a gap")
     tolerance = checked_flatten(flatten, skeleton.polygons)

@@ -88,7 +88,7 @@ def name_places(image: LabelImage, *, threads: int = 0) -> tuple[NDArray[np.uint
     labels, places, _ = label_places(image, threads=threads)
     if image.seeds is None or image.seeds.frame is None or not len(labels):
         return labels, places
-    named, own, _ = label_places(_objects(image, image.seeds), threads=threads)
+    named, own, _ = label_places(_painted(image, image.seeds), threads=threads)
     index = np.searchsorted(labels, named)
     index[index == len(labels)] = 0
     has_region = labels[index] == named
@@ -96,8 +96,46 @@ def name_places(image: LabelImage, *, threads: int = 0) -> tuple[NDArray[np.uint
     return labels, places
 
 
-def _objects(image: LabelImage, seeds: SeedSet) -> LabelImage:
-    """The pixels of the seeds; where several lie in one the smallest label has it."""
+def seed_objects(image: LabelImage) -> LabelImage | None:
+    """Give the pixels of the objects whose tessellation an image is; of several in one the smallest label has it.
+
+    Parameters
+    ----------
+    image : LabelImage
+        With the seeds that it was made of.
+
+    Returns
+    -------
+    LabelImage or None
+        None if the seeds are points, or objects of a pixel each.
+
+    Examples
+    --------
+    >>> pixels = SeedSet(np.array([0, 1, 4]), np.zeros(3), np.array([1, 1, 2]), frame=Frame(0, 0, 5, 1))
+    >>> seed_objects(LabelImage(np.array([[1, 1, 1, 2, 2]]), seeds=pixels)).labels.tolist()
+    [[1, 1, 0, 0, 2]]
+    """
+    seeds = image.seeds
+    if seeds is None or seeds.frame is None or seeds.site_labels is None or len(seeds) <= len(seeds.site_labels):
+        return None
+    return _painted(image, seeds)
+
+
+def outermost_pixels(image: LabelImage) -> NDArray[np.bool_]:
+    """Find the pixels of regions that lie beside another label, or on a side of the image.
+
+    Examples
+    --------
+    >>> outermost_pixels(LabelImage(np.ones((3, 4), int))).sum()
+    np.int64(10)
+    """
+    labels = label_array(image.labels)
+    outermost: NDArray[np.bool_] = (labels != 0) & ~surrounded_pixels(labels)
+    return outermost
+
+
+def _painted(image: LabelImage, seeds: SeedSet) -> LabelImage:
+    """The pixels of the seeds."""
     assert image.frame is not None  # LabelImage has filled it in
     order = np.argsort(seeds.labels, kind="stable")[::-1]
     column, row = (

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, get_args
+from typing import TYPE_CHECKING, Any, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +29,9 @@ from vorotool.geometry.points.raster import Raster
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.progress import Progress
 
+if TYPE_CHECKING:
+    from vorotool.typing import ImageLike, OutlineKind
+
 KINDS = ("crack", "contour")
 MOST_VERTICES = 2**28
 """As many as a planar graph may have."""
@@ -46,9 +49,9 @@ _CORNER_RULES = {
 
 
 def outlines(
-    image: Any,
+    image: ImageLike,
     *,
-    outline: str = "crack",
+    outline: OutlineKind = "crack",
     mode: Objects | None = None,
     connectivity: int = 8,
     threshold: Threshold = None,

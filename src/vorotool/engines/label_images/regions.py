@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +19,9 @@ from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.table import Table
+
+if TYPE_CHECKING:
+    from vorotool.typing import ImageLike
 
 LARGEST_COLOUR_TABLE = 1 << 28
 """Entries that an array indexed by label may have."""
@@ -87,7 +90,7 @@ def measure_regions(image: Any, *, threads: int = 0, progress: Progress = None) 
 
 
 def region_table(
-    image: Any,
+    image: ImageLike,
     *,
     distance2: NDArray[Any] | None = None,
     distance_scale: int | None = None,
@@ -171,7 +174,7 @@ def region_table(
 
 
 def neighbour_table(
-    image: Any,
+    image: ImageLike,
     *,
     measures: RegionMeasures | None = None,
     threads: int = 0,
@@ -225,7 +228,7 @@ def neighbour_table(
 
 
 def voronoi_diagram(
-    image: Any,
+    image: ImageLike,
     *,
     above: NDArray[Any] | None = None,
     below: NDArray[Any] | None = None,
@@ -315,7 +318,7 @@ def region_colours(
 
 
 def colour_regions(
-    image: Any,
+    image: ImageLike,
     *,
     measures: RegionMeasures | None = None,
     threads: int = 0,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,15 +35,18 @@ from vorotool.geometry.ragged import ranges, starts_of
 from vorotool.geometry.skeleton.offsets import Offsets
 from vorotool.geometry.skeleton.skeleton import SiteTable, Skeleton
 
+if TYPE_CHECKING:
+    from vorotool.typing import FeaturesChoice, ShapesLike
+
 Curves = dict[str, NDArray[Any]]
 """Arrays of `Offsets` at one distance."""
 
 
 def offset(
-    shapes: Any,
+    shapes: ShapeDiagram | ShapesLike,
     distances: float | Sequence[float],
     *,
-    features: str = "separate",
+    features: FeaturesChoice = "separate",
     strict: bool = False,
     threads: int = 0,
     progress: Progress = None,
@@ -101,13 +104,12 @@ def offset(
     """
     wanted = checked_distances(distances)
     check_features(features)
-    if isinstance(shapes, Skeleton):
-        features, shapes = shapes.features, shapes.polygons
-    common: dict[str, Any] = {"threads": threads, "progress": progress}
-    if not isinstance(shapes, ShapeDiagram) and features == "separate":
-        return _offsets_of_features(as_polygons(shapes, "shapes"), wanted, strict, checked_threads(threads), progress)
+    are_separate = (shapes.features if isinstance(shapes, Skeleton) else features) == "separate"
     if not isinstance(shapes, ShapeDiagram):
-        shapes = shape_diagram(as_polygons(shapes, "shapes"), strict=strict, **common)
+        polygons = shapes.polygons if isinstance(shapes, Skeleton) else as_polygons(shapes, "shapes")
+        if are_separate:
+            return _offsets_of_features(polygons, wanted, strict, checked_threads(threads), progress)
+        shapes = shape_diagram(polygons, strict=strict, threads=threads, progress=progress)
     made = _offsets_of(shapes, wanted, threads, progress)
     feature = made.polygons.feature
     assert feature is not None

@@ -18,6 +18,7 @@ from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi
 from vorotool.engines.segment_voronoi.verify_segment_voronoi import verify_segment_voronoi
 from vorotool.engines.skeleton.site_distances import ULPS, largest_coordinate
 from vorotool.errors import VorotoolWarning
+from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.curves.circular_arcs import middles_of
 from vorotool.geometry.numbers import finite_double
 from vorotool.geometry.polygons.conversion import to_shapely
@@ -66,6 +67,7 @@ def verify_offsets(
     >>> from vorotool import offset
     >>> verify_offsets(offset([[0, 0], [4, 0], [4, 2], [0, 2]], [-0.5, 1]))
     """
+    check_value(offsets, "offsets", Offsets)
     tolerance = _tolerance(offsets)
     _check_chains(offsets)
     _check_sites(offsets, tolerance)

@@ -6,13 +6,14 @@ from dataclasses import replace
 from decimal import Decimal, localcontext
 from functools import partial
 from itertools import pairwise, starmap
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.errors import UsageError
+from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.checks import available_threads, checked_threads
 from vorotool.geometry.curves.inverse_functions import inverse_sine
 from vorotool.geometry.numbers import finite_double, shown_number
@@ -21,6 +22,9 @@ from vorotool.geometry.progress import Progress
 from vorotool.geometry.ragged import owners, starts_of
 from vorotool.geometry.skeleton.critical_values import CRITERIA, ArcProfiles, CriticalValues
 from vorotool.geometry.skeleton.skeleton import Skeleton
+
+if TYPE_CHECKING:
+    from vorotool.typing import Criterion
 
 Floats = NDArray[np.float64]
 
@@ -105,6 +109,7 @@ def prune(
     >>> len(prune(skeleton, scale=1.4)), len(prune(skeleton, scale=1.5))
     (5, 1)
     """
+    check_value(skeleton, "skeleton", Skeleton)
     given = {"angle": angle, "chord": chord, "scale": scale, "length": length, "ratio": ratio}
     thresholds = {name: value for name, value in given.items() if value is not None}
     if len(thresholds) != 1:
@@ -181,7 +186,7 @@ def _pruned_part(
     return {**left, "sites": np.where(is_reversed[:, None], sites[:, ::-1], sites)}
 
 
-def critical_values(skeleton: Skeleton, criterion: str, *, progress: Progress = None) -> CriticalValues:
+def critical_values(skeleton: Skeleton, criterion: Criterion, *, progress: Progress = None) -> CriticalValues:
     """Compute for all places of a skeleton the smallest threshold that removes them.
 
     Parameters
@@ -210,6 +215,7 @@ def critical_values(skeleton: Skeleton, criterion: str, *, progress: Progress = 
     >>> critical_values(skeleton, "ratio").most.round(9).tolist()
     [1.414213562, 1.414213562, 1.414213562, 1.414213562, inf]
     """
+    check_value(skeleton, "skeleton", Skeleton)
     if criterion not in CRITERIA:
         raise UsageError(f"unknown criterion {criterion!r}: choose one of {', '.join(CRITERIA)}")
     ends, most, kept_arc, kept_place = _core.pruning.critical_values(
@@ -239,6 +245,7 @@ def arc_profiles(skeleton: Skeleton) -> ArcProfiles:
     >>> arc_profiles(skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]])).kind.tolist()
     [0, 0, 0, 0, 0]
     """
+    check_value(skeleton, "skeleton", Skeleton)
     return ArcProfiles(*_core.pruning.arc_profiles(core_skeleton(skeleton)))
 
 

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.common.faults import fail, first_wrong
+from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.ragged import owners, ranges
 from vorotool.geometry.skeleton.arc_measures import ArcMeasures
 from vorotool.geometry.skeleton.skeleton import Skeleton
@@ -52,6 +53,8 @@ def verify_pruning(pruned: Skeleton, skeleton: Skeleton) -> None:
         ...
     vorotool.errors.VerificationError: arc 0 of the pruned skeleton is no part of an arc between sites 4 and 7
     """
+    check_value(pruned, "pruned", Skeleton)
+    check_value(skeleton, "skeleton", Skeleton)
     _check_counts(pruned, skeleton)
     own, other = _candidates(pruned, skeleton)
     is_part = np.zeros(len(pruned), dtype=bool)

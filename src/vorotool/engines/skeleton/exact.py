@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -13,7 +12,7 @@ from vorotool import _core
 from vorotool.engines.arrangement.lattice_rings import PlacedShapes, placed_shapes
 from vorotool.engines.arrangement.planar_graph import graph_for_skeletons
 from vorotool.engines.segment_voronoi.segment_voronoi import core_diagram, segment_voronoi, unwanted_sides
-from vorotool.errors import Kind, Message, UsageError, VorotoolWarning, option
+from vorotool.errors import Kind, Message, UsageError, VorotoolWarning, option, warn
 from vorotool.geometry.box import bounds
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.numbers import finite_double, shown_number
@@ -284,4 +283,4 @@ def warn_empty(polygons: PolygonSet, side: str) -> None:
     else:
         reason = "no polygon has an inside"
     message = Message(f"the interior skeleton is empty: {reason}", Kind.EMPTY_RESULT)
-    warnings.warn(VorotoolWarning(message), stacklevel=4)
+    warn(VorotoolWarning(message))

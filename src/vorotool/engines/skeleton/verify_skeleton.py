@@ -16,6 +16,7 @@ from vorotool.engines.skeleton.site_distances import SitePlaces
 from vorotool.engines.skeleton.verify_distances import check_equal_distances, check_nothing_nearer
 from vorotool.engines.skeleton.verify_regions import SkeletonRegions, border_components, check_regions
 from vorotool.errors import VorotoolWarning
+from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.progress import Progress
@@ -64,6 +65,7 @@ def verify_skeleton(skeleton: Skeleton, *, threads: int = 0, progress: Progress 
         ...
     vorotool.errors.VerificationError: node 0 at (0.0, 0.0) is 0.0 from site 7, but its radius is 1.0
     """
+    check_value(skeleton, "skeleton", Skeleton)
     threads = checked_threads(threads)
     if not len(skeleton):
         return

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import warnings
 from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
@@ -16,12 +15,12 @@ import numpy as np
 from vorotool import _core
 from vorotool.engines.common.label_arrays import described
 from vorotool.engines.tessellation.seeding import Check, seeds_from_points, seeds_from_raster
-from vorotool.errors import STRICT, InputError, LimitError, UsageError, VorotoolWarning, option
+from vorotool.errors import STRICT, InputError, LimitError, UsageError, option, warn
 from vorotool.geometry.arguments.images import as_raster, is_image
 from vorotool.geometry.arguments.points import as_points
 from vorotool.geometry.arguments.polygons import as_polygons
 from vorotool.geometry.numbers import real_number, shown_number
-from vorotool.geometry.pixel_frame import Frame
+from vorotool.geometry.pixel_frame import MAX_PIXELS, Frame
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.points.seed_set import SeedSet
@@ -36,15 +35,26 @@ MOST_UNASKED = 2**28
 
 _WINDOW = option("--window X,Y,W,H", "window=(x, y, w, h)")
 _CELLS = option("delaunay --what cells", "voronoi_cells")
+_RASTERIZED = option(
+    "type --cell-size C", "a Raster of vorotool.engines.tessellation.rasterized.rasterized(polygons, frame)"
+)
 _WIDEST_TYPE = option("--dtype uint32", 'dtype="uint32"')
 
 
-def as_seeds(source: Any, name: str = "seeds", *, image: bool | None = None, check: Check = None) -> SeedSet:
+def as_seeds(
+    source: Any,
+    name: str = "seeds",
+    *,
+    image: bool | None = None,
+    max_pixels: int = MAX_PIXELS,
+    check: Check = None,
+) -> SeedSet:
     """Give seeds from whatever `tessellate` accepts; `check` may refuse them before anyone is told that they moved."""
     if isinstance(source, SeedSet):
         seeds = source
     elif is_image(source, name, image):
-        seeds = seeds_from_raster(as_raster(source, name), mode="labels" if isinstance(source, LabelImage) else None)
+        raster = as_raster(source, name, max_pixels=max_pixels)
+        seeds = seeds_from_raster(raster, mode="labels" if isinstance(source, LabelImage) else None)
         seeds = _moved_to(seeds, source.frame) if isinstance(source, LabelImage) else seeds
     else:
         return seeds_from_points(_points(source, name), check=check)
@@ -69,8 +79,7 @@ def _points(source: Any, name: str) -> PointSet:
             raise
         raise InputError(
             f"invalid {name}: these are polygons or lines, and seeds are points or an image; give their centroids or "
-            "vertices, or a Raster of vorotool.engines.tessellation.rasterized.rasterized(polygons, frame); on the "
-            "command line type --cell-size"
+            f"vertices, or {_RASTERIZED}"
         ) from None
 
 
@@ -97,11 +106,7 @@ def report_duplicates(duplicates: int, seeds: int, *, strict: bool) -> None:
         raise InputError(
             f"{duplicates} of {seeds} seeds lie on another seed: remove the duplicates, or leave out {STRICT}"
         )
-    warnings.warn(
-        f"{duplicates} of {seeds} seeds lie on another seed: the smallest label has the region",
-        VorotoolWarning,
-        stacklevel=4,
-    )
+    warn(f"{duplicates} of {seeds} seeds lie on another seed: the smallest label has the region")
 
 
 def default_frame(

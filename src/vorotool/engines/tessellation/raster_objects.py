@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable
 from math import floor
 from typing import Any, Literal, cast
@@ -11,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.errors import OTSU, STRICT, InputError, Kind, Message, VorotoolWarning, option
+from vorotool.errors import OTSU, STRICT, InputError, Kind, Message, VorotoolWarning, option, warn
 from vorotool.geometry.numbers import finite_double
 from vorotool.geometry.points.raster import Raster
 
@@ -225,7 +224,8 @@ def numbered_components(values: NDArray[Any], connectivity: int = 8) -> NDArray[
     [[1, 0, 2], [1, 0, 2]]
     """
     components = np.empty(values.shape, np.uint32)
-    _core.label_images.label_components((values != 0).view(np.uint8), connectivity == 8, components, None)
+    foreground = np.ascontiguousarray(values != 0).view(np.uint8)
+    _core.label_images.label_components(foreground, connectivity == 8, components, None)
     return components
 
 
@@ -253,7 +253,7 @@ def report_no_foreground(*, strict: bool) -> None:
     if strict:
         raise InputError(f"the image has no foreground: use {_INVERT} or {_SOME_THRESHOLD}, or leave out {STRICT}")
     message = Message(f"the image has no foreground: use {_INVERT} or {_SOME_THRESHOLD}", Kind.NO_FOREGROUND)
-    warnings.warn(VorotoolWarning(message), stacklevel=3)
+    warn(VorotoolWarning(message))
 
 
 def refuse_distances() -> None:

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from typing import Any, Literal, get_args
+from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +18,7 @@ from vorotool.engines.tessellation.raster_objects import (
     numbered_components,
     report_no_foreground,
 )
-from vorotool.errors import NO_PROPERTIES, STRICT, InputError, LimitError, UsageError, VorotoolWarning, option
+from vorotool.errors import NO_PROPERTIES, STRICT, InputError, LimitError, UsageError, option, warn
 from vorotool.geometry.arguments.images import as_raster
 from vorotool.geometry.arguments.points import as_points
 from vorotool.geometry.curves.inverse_functions import hypotenuse
@@ -28,6 +27,9 @@ from vorotool.geometry.pixel_frame import Frame
 from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.points.seed_set import FINEST_SCALE, SeedSet
 from vorotool.geometry.row_index import index_of_rows
+
+if TYPE_CHECKING:
+    from vorotool.typing import ImageLike, PointsLike
 
 _CENTROIDS = option("--seeds centroids", 'mode="centroids"')
 
@@ -43,7 +45,7 @@ CHUNK = 1 << 22
 """Pixels that are counted at a time."""
 
 
-def seeds_from_points(points: Any, *, strict: bool = False, check: Check = None) -> SeedSet:
+def seeds_from_points(points: PointsLike, *, strict: bool = False, check: Check = None) -> SeedSet:
     """Put points on the lattice of seeds.
 
     Parameters
@@ -133,11 +135,7 @@ def _report_snapped(points: PointSet, moved: NDArray[np.bool_], largest: float, 
             f"point {row + 1} is ({points.xy[row, 0]}, {points.xy[row, 1]}): seeds lie on multiples of 1/256 pixel "
             f"({count} such points); round them or leave out {STRICT}"
         )
-    warnings.warn(
-        f"{count} of {len(points)} seeds moved to the nearest 1/256 pixel, by at most {largest:.6f} pixels",
-        VorotoolWarning,
-        stacklevel=4,
-    )
+    warn(f"{count} of {len(points)} seeds moved to the nearest 1/256 pixel, by at most {largest:.6f} pixels")
 
 
 def _coarsest_scale(lattice: NDArray[np.int64]) -> int:
@@ -147,7 +145,7 @@ def _coarsest_scale(lattice: NDArray[np.int64]) -> int:
 
 
 def seeds_from_raster(
-    raster: Any,
+    raster: ImageLike,
     *,
     mode: SeedMode | None = None,
     connectivity: int = 8,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from numpy.typing import NDArray
 
@@ -19,17 +19,23 @@ from vorotool.engines.tessellation.propagation import PropagatedRows
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.engines.tessellation.verify_tessellation import verify_label_image
 from vorotool.errors import UsageError
+from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.numbers import shown_number, whole_number
 from vorotool.geometry.pixel_frame import MAX_PIXELS, Frame
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.geometry.progress import Progress
 
+if TYPE_CHECKING:
+    from numpy.typing import DTypeLike
+
+    from vorotool.typing import SeedsLike
+
 Method = Literal["exact", "propagation"]
 
 
 def tessellate(
-    seeds: Any,
+    seeds: SeedsLike,
     *,
     shape: tuple[int, int] | None = None,
     window: tuple[int, int, int, int] | None = None,
@@ -37,7 +43,7 @@ def tessellate(
     method: Method = "exact",
     passes: int = 2,
     max_distance: float | Fraction | None = None,
-    dtype: Any = None,
+    dtype: DTypeLike | None = None,
     out: NDArray[Any] | None = None,
     threads: int = 0,
     max_pixels: int = MAX_PIXELS,
@@ -103,7 +109,7 @@ def tessellate(
         if len(made) or made.is_empty_image:
             require_memory(frame or default_frame(made), max_pixels)
 
-    seed_set = as_seeds(seeds, image=image, check=require_frame)
+    seed_set = as_seeds(seeds, image=image, max_pixels=max_pixels, check=require_frame)
     rows = labelled_rows(
         seed_set,
         frame,
@@ -195,6 +201,7 @@ def verify_tessellation(image: LabelImage, *, max_distance: float | Fraction | N
     --------
     >>> verify_tessellation(tessellate([[0, 0], [2, 1]], shape=(2, 3)))
     """
+    check_value(image, "image", LabelImage)
     if not isinstance(image, LabelImage) or image.seeds is None or image.frame is None:
         raise UsageError("the label image carries no seeds: make it with vorotool.tessellate")
     limit = squared_limit(max_distance, image.seeds.scale)

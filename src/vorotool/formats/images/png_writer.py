@@ -26,7 +26,7 @@ LARGEST_SIDE = 2**31 - 1
 _UP = 2
 _ZLIB_HEADER = b"\x78\x01"
 _EMPTY_LAST_BLOCK = b"\x03\x00"
-_GREY, _RGB, _PALETTE = 0, 2, 3
+_GREY, _RGB, _PALETTE, _RGBA = 0, 2, 3, 6
 
 
 def write_png(
@@ -37,6 +37,7 @@ def write_png(
     bit_depth: int = 16,
     palette: NDArray[np.uint8] | None = None,
     rgb: bool = False,
+    has_alpha: bool = False,
     threads: int = 0,
 ) -> None:
     r"""Write a grey, palette or RGB PNG from bands of rows, in bounded memory.
@@ -58,6 +59,8 @@ def write_png(
         Colours; the values are then indices below k.
     rgb : bool
         Write red, green and blue of 8 bits each, whatever ``bit_depth`` is.
+    has_alpha : bool
+        With ``rgb`` rows have a fourth value a pixel, how opaque it is; of a palette the first colour is nothing.
     threads : int
         0 for all processors.
 
@@ -82,11 +85,13 @@ def write_png(
     bit_depth = 8 if rgb else bit_depth
     _check_kind(bit_depth, palette)
     out.write(SIGNATURE)
-    colour_type = _RGB if rgb else _GREY if palette is None else _PALETTE
+    colour_type = (_RGBA if has_alpha else _RGB) if rgb else _GREY if palette is None else _PALETTE
     _write_chunk(out, b"IHDR", struct.pack(">IIBBBBB", width, height, bit_depth, colour_type, 0, 0, 0))
     if palette is not None:
         _write_chunk(out, b"PLTE", np.ascontiguousarray(palette).tobytes())
-    values = (height, 3 * width) if rgb else shape
+        if has_alpha:
+            _write_chunk(out, b"tRNS", b"\0")
+    values = (height, (4 if has_alpha else 3) * width) if rgb else shape
     packed = blocks(
         bands,
         values,

@@ -129,7 +129,7 @@ def array_metadata(name: str, made: dict[str, Any]) -> ZarrMetadata:
     try:
         metadata = _version_2(made) if made["zarr_format"] == 2 else _version_3(made)
     except InputError as error:
-        raise InputError(f"{name}: {error}") from None
+        raise InputError(f"{name}: {error.marked}") from None
     except (KeyError, TypeError, ValueError, OverflowError, struct.error) as error:
         missing = f"there is no {error}" if isinstance(error, KeyError) else str(error)
         raise InputError(f"{name} cannot be read as Zarr: {missing}; is its metadata damaged?") from None

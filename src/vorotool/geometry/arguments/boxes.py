@@ -38,7 +38,7 @@ def as_box(source: Any, name: str) -> Box:
     try:
         return Box.of_size(*as_extent(source, name))
     except UsageError as error:
-        raise InputError(str(error)) from None
+        raise InputError(error.marked) from None
 
 
 def as_extent(source: Any, name: str) -> Extent:

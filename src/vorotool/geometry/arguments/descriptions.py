@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from os import PathLike
 from typing import Any
@@ -30,7 +30,7 @@ def naming(name: str) -> Iterator[None]:
     try:
         yield
     except InputError as error:
-        raise InputError(f"invalid {name}: {error}") from None
+        raise InputError(f"invalid {name}: {error.marked}") from None
 
 
 def unexpected(value: Any, expected: str) -> InputError:
@@ -92,11 +92,13 @@ def column_names(value: Any) -> list[Any] | None:
     (['x', 'y'], None)
     """
     fields = getattr(getattr(value, "dtype", None), "names", None)
-    if fields:
+    if isinstance(fields, tuple):
         return list(fields)
+    if hasattr(value, "dims"):  # of xarray, whose axes may have any name
+        return None
     names = getattr(value, "column_names", None)  # pyarrow, whose columns are arrays
     names = getattr(value, "columns", None) if names is None else names
-    if names is None or callable(names) or not hasattr(value, "__getitem__"):
+    if not isinstance(names, Iterable) or not hasattr(value, "__getitem__") or isinstance(value, type):
         return None
     return list(names)
 

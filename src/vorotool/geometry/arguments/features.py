@@ -19,6 +19,9 @@ SIMPLE_TYPES = ("Point", "LineString", "Polygon")
 GEOMETRY_TYPES = frozenset({*SIMPLE_TYPES, *(f"Multi{kind}" for kind in SIMPLE_TYPES), "GeometryCollection"})
 FEATURE_TYPES = frozenset({"Feature", "FeatureCollection"})
 
+MOST_LEVELS = 100
+"""Of brackets in well-known text, as in files."""
+
 
 @dataclass(frozen=True, eq=False)
 class HeldFeatures:
@@ -168,6 +171,10 @@ def _of_texts(texts: Sequence[Any], *, is_alone: bool = False) -> HeldFeatures:
     import shapely
 
     plain = [without_number(text.strip()) if isinstance(text, str) else (text, 0) for text in texts]
+    for number, text in enumerate(texts, 1):
+        if _is_deep(text):  # shapely would take each level apart in a call of its own
+            place = "the text" if is_alone else f"item {number}"
+            raise InputError(f"brackets of {place} are nested more than {MOST_LEVELS} deep; check the brackets")
     with np.errstate(all="ignore"):  # numbers beyond the largest double are found later
         geometry = shapely.from_wkt(np.array([text for text, _ in plain], dtype=object), on_invalid="ignore")
     wrong = [k for k, text in enumerate(texts) if text is not None and geometry[k] is None]
@@ -181,6 +188,14 @@ def _of_texts(texts: Sequence[Any], *, is_alone: bool = False) -> HeldFeatures:
     if len(numbers) > 1:
         raise InputError(f"geometry is in EPSG:{numbers[0]} and EPSG:{numbers[1]}: bring all into one system")
     return HeldFeatures(list(geometry), crs=crs_member(f"EPSG:{numbers[0]}") if numbers else None, is_map=True)
+
+
+def _is_deep(text: Any) -> bool:
+    if text is None or text.count("(" if isinstance(text, str) else b"(") <= MOST_LEVELS:
+        return False
+    data = np.frombuffer(text.encode() if isinstance(text, str) else text, dtype=np.uint8)
+    steps = np.equal(data, ord("(")).astype(np.int32) - np.equal(data, ord(")"))
+    return bool(steps.cumsum().max() > MOST_LEVELS)
 
 
 def _of_geojson(document: Any) -> HeldFeatures | None:
@@ -230,8 +245,8 @@ def crs_of(crs: Any) -> Any:
     >>> crs_of(None) is None
     True
     """
-    if crs is None:
-        return None
+    if crs is None or isinstance(crs, str):
+        return member_of_text(crs)
     found = crs.to_authority()
     return member_of_text(":".join(found) if found else crs.to_wkt())
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -10,7 +11,6 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError
 from vorotool.geometry.arguments.features import crs_of
 from vorotool.geometry.coordinate_names import plain_name
-from vorotool.geometry.crs import member_of_text
 from vorotool.geometry.length_units import ratio
 from vorotool.geometry.pixel_grid import ALIKE, PixelGrid, map_grid
 
@@ -29,7 +29,8 @@ def grid_of(image: Any) -> PixelGrid | None:
     Returns
     -------
     PixelGrid
-        Of a map: the first pixel, and what one column and one row go on, in the unit that both coordinates have.
+        The sides of a pixel in the unit that both coordinates have. Of a map also where the first pixel is; an image
+        whose rows go down from 0, as those of microscopes do, is none.
 
     Raises
     ------
@@ -43,8 +44,10 @@ def grid_of(image: Any) -> PixelGrid | None:
         return None
     x, dx = _even(image.coords[columns], columns)
     y, dy = _even(image.coords[rows], rows)
-    transform = (dx, 0.0, x - dx / 2, 0.0, dy, y - dy / 2)
-    return map_grid(transform, unit=_unit(image, rows, columns), crs=_crs(image))
+    unit, crs = _unit(image, rows, columns), _crs(image)
+    if crs is None and dx > 0 and dy > 0 and all(first in (0, step / 2) for first, step in ((x, dx), (y, dy))):
+        return PixelGrid(Fraction(dx), Fraction(dy), unit)
+    return map_grid((dx, 0.0, x - dx / 2, 0.0, dy, y - dy / 2), unit=unit, crs=crs)
 
 
 def _even(coordinate: Any, name: Any) -> tuple[float, float]:
@@ -78,4 +81,4 @@ def _crs(image: Any) -> Any:
     """Give the system that the image names, as rioxarray and CF put it into a coordinate without axes."""
     described = image.coords["spatial_ref"].attrs if "spatial_ref" in image.coords else image.attrs
     given = described.get("crs_wkt") or described.get("crs")
-    return member_of_text(given) if given is None or isinstance(given, str) else crs_of(given)
+    return crs_of(given)

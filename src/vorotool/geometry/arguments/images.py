@@ -12,6 +12,7 @@ from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.geometry.arguments.descriptions import column_names, described, naming, refuse_paths, unexpected
 from vorotool.geometry.arguments.grids import grid_of
 from vorotool.geometry.coordinates import MOST_AXES
+from vorotool.geometry.numbers import real_number
 from vorotool.geometry.pixel_frame import MAX_PIXELS
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.raster import Raster
@@ -54,11 +55,14 @@ def is_image(source: Any, name: str, image: bool | None = None) -> bool:
         return True
     if image is not None:
         return bool(image)
-    shape, kind = getattr(source, "shape", None), _kind(source)
-    if not isinstance(shape, tuple) or len(shape) < 2 or kind not in "biuf" or column_names(source) is not None:
+    if hasattr(source, "__array_interface__") and not hasattr(source, "shape"):  # of Pillow
+        source = np.asarray(source)
+    shape = getattr(source, "shape", None)
+    if not isinstance(shape, tuple) or len(shape) < 2 or column_names(source) is not None:
         return False
-    if len(shape) > 2 or kind == "b":
-        return True
+    kind = _kind(source)
+    if len(shape) > 2 or kind not in "iuf":
+        return kind in "biuf"
     if kind != "f":
         return 0 not in shape and shape[1] not in POINT_WIDTHS
     if min(shape) > MOST_AXES:
@@ -147,11 +151,11 @@ def as_label_image(source: Any, name: str, components: Callable[[NDArray[Any]], 
 
 
 def _kind(source: Any) -> str:
-    """Give the kind of the numbers of an array; a blank of what is none."""
+    """Give the kind of the numbers of an array."""
     try:
         return np.dtype(getattr(source, "dtype", "O")).kind
-    except TypeError:  # a type that NumPy does not have
-        return " "
+    except TypeError:  # a type of another library
+        return np.asarray(source).dtype.kind
 
 
 def _has_axes(source: Any) -> bool:
@@ -182,7 +186,7 @@ def _check_shape(source: Any, name: str, *, is_grey: bool, max_pixels: int) -> N
     if len(shape) not in (2, 3):
         raise unexpected(source, EXPECTED)
     pixels = shape[0] * shape[1]
-    if pixels > max_pixels and not isinstance(source, np.ndarray):
+    if not isinstance(source, np.ndarray) and pixels > real_number(max_pixels, "max_pixels"):
         raise LimitError(
             f"{name} has {shape[1]} x {shape[0]} = {pixels} pixels, more than max_pixels {max_pixels}: the command "
             "line reads images of TIFF, NPY and Zarr band by band"

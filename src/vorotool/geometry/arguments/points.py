@@ -13,6 +13,7 @@ from vorotool.geometry.arguments.descriptions import described, naming, refuse_p
 from vorotool.geometry.arguments.features import HeldFeatures, held_features, is_shapely, joined_parts
 from vorotool.geometry.arguments.tables import is_table, points_of_table
 from vorotool.geometry.coordinates import MOST_AXES, number_array
+from vorotool.geometry.numbers import pair_of_doubles
 from vorotool.geometry.points.conversion import part_numbers, single_points
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.point_set import PointSet
@@ -51,6 +52,29 @@ def as_points(source: Any, name: str = "points") -> PointSet:
         return source
     with naming(name):
         return _points_of(source, name)
+
+
+def as_place(source: Any, name: str) -> tuple[float, float]:
+    """Give one place: of two numbers, or of a point in any form.
+
+    Raises
+    ------
+    InputError
+        If it is another number of points.
+    UsageError
+        If these are no two finite numbers.
+
+    Examples
+    --------
+    >>> as_place("POINT (3 4)", "start"), as_place([1, 2], "start")
+    ((3.0, 4.0), (1.0, 2.0))
+    """
+    if not (isinstance(source, str | Mapping | PointSet) or is_shapely(source) or hasattr(source, "crs")):
+        return pair_of_doubles(source, name)
+    points = as_points(source, name)
+    if len(points) != 1:
+        raise InputError(f"invalid {name}: expected one point, but got {len(points)}")
+    return float(points.xy[0, 0]), float(points.xy[0, 1])
 
 
 def _points_of(source: Any, name: str) -> PointSet:

@@ -158,7 +158,8 @@ def _polygons_of(item: Any, place: str, name: str) -> list[list[Part]]:
     elif "line" in item:
         parts = [(LINE, _ring(item["line"], f"the line of {place}", name))]
     elif "shell" in item:
-        holes = (_ring(hole, f"hole {i} of {place}", name) for i, hole in enumerate(item.get("holes") or (), 1))
+        inner = _listed(item.get("holes"), f"holes of {place}")
+        holes = (_ring(hole, f"hole {i} of {place}", name) for i, hole in enumerate(inner, 1))
         parts = [(SHELL, _ring(item["shell"], f"the shell of {place}", name)), *((HOLE, h) for h in holes if len(h))]
     else:
         raise InputError(f"{place} has neither shell nor line; expected {EXPECTED}")
@@ -170,11 +171,21 @@ def _rings_of(kind: str, coordinates: Any, place: str) -> list[list[Part]]:
     if kind == "Point":
         raise InputError(f"{place} is or holds a Point: give polygons or lines")
     if kind == "LineString":
-        return [[(LINE, _flat_ring(coordinates, f"the line of {place}"))]]
-    rings = [_flat_ring(ring, f"ring {number} of {place}") for number, ring in enumerate(coordinates, 1)]
+        line = _flat_ring(coordinates, f"the line of {place}")
+        return [[(LINE, line)]] if len(line) else []
+    given = _listed(coordinates, f"coordinates of {place}")
+    rings = [_flat_ring(ring, f"ring {number} of {place}") for number, ring in enumerate(given, 1)]
     if not rings or not len(rings[0]):
         return []
     return [[(HOLE if number else SHELL, ring) for number, ring in enumerate(rings) if len(ring)]]
+
+
+def _listed(rings: Any, what: str) -> list[Any]:
+    if rings is None:
+        return []
+    if isinstance(rings, str | bytes) or not isinstance(rings, Iterable):
+        raise InputError(f"{what} are {described(rings)}: give a list of rings")
+    return list(rings)
 
 
 def _flat_ring(positions: Any, place: str) -> NDArray[np.float64]:

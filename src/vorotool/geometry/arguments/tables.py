@@ -71,6 +71,9 @@ def points_of_table(table: Any, name: str) -> PointSet:
     if chosen is None:
         raise _unknown(table, names, columns, name)
     x, y, *label = chosen
+    for place in chosen:
+        if not hasattr(columns[place], "__len__"):
+            raise InputError(f"the column {texts[place]} is {described(columns[place])}, and no list of numbers")
     lengths = {len(columns[place]) for place in chosen}
     if len(lengths) > 1:
         raise InputError(f"the columns {texts[x]} and {texts[y]} differ in length")

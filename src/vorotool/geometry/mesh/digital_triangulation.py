@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError
 from vorotool.geometry.checks import check_as_long
 from vorotool.geometry.mesh.triangulation import ALL, Triangulation, lengths_of
+from vorotool.geometry.row_index import check_index
 from vorotool.geometry.values import Graph, Pictured, Tabular, Value, WithParts, counted, placed
 
 
@@ -90,6 +91,7 @@ class DigitalTriangulation(Value, Tabular, WithParts, Graph, Pictured):
             object.__setattr__(self, name, array)
         check_as_long(self, "labels", "points")
         check_as_long(self, "at_four", "triangles")
+        check_index(self.index, len(self.points), "site")
 
     def __len__(self) -> int:
         return len(self.triangles)

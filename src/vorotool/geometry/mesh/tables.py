@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation
+from vorotool.geometry.arguments.values import check_value
+from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation, DigitalTriangulation
 from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.table import Computed, Lookup, Table
 
@@ -30,6 +31,7 @@ def edge_table(mesh: AnyTriangulation) -> Table:
     >>> table["label_a"].tolist(), table["label_b"].tolist(), table["length"].tolist()
     ([1, 1, 2], [3, 2, 3], [3.0, 4.0, 5.0])
     """
+    check_value(mesh, "mesh", Triangulation, DigitalTriangulation)
     return Table({**end_columns(mesh, mesh.edges), "length": Computed(mesh.edge_lengths, len(mesh.edges))})
 
 
@@ -59,6 +61,7 @@ def triangle_table(mesh: AnyTriangulation) -> Table:
     >>> {name: column.tolist() for name, column in triangle_table(delaunay([[0, 0], [4, 0], [0, 3]])).items()}
     {'label_a': [1], 'label_b': [2], 'label_c': [3]}
     """
+    check_value(mesh, "mesh", Triangulation, DigitalTriangulation)
     labels = mesh.label_array
     return Table({f"label_{name}": Lookup(labels, mesh.triangles[:, k]) for k, name in enumerate("abc")})
 
@@ -84,6 +87,7 @@ def point_table(mesh: Triangulation) -> Table:
     >>> point_table(delaunay([[0, 0], [4, 0], [0, 3], [1, 1]]))["neighbours"].tolist()
     [3, 3, 3, 3]
     """
+    check_value(mesh, "mesh", Triangulation)
     count = len(mesh.points)
     is_duplicate = mesh.first != np.arange(count)
     on_hull = np.zeros(count, dtype=bool)

@@ -13,6 +13,7 @@ from vorotool.errors import InputError
 from vorotool.geometry.checks import whole_numbers
 from vorotool.geometry.pixel_frame import Frame
 from vorotool.geometry.pixel_grid import PixelGrid
+from vorotool.geometry.row_index import check_index
 from vorotool.geometry.values import Geometric, Pictured, Tabular, Value, counted
 
 FINEST_SCALE = 256
@@ -94,6 +95,8 @@ class SeedSet(Value, Tabular, Geometric, Pictured):
             sites = np.stack([self.x[chosen], self.y[chosen]], axis=1) / self.scale
             object.__setattr__(self, "sites", sites)
             object.__setattr__(self, "site_labels", labels)
+        assert self.sites is not None
+        check_index(self.index, len(self.sites), "site")
 
     def __len__(self) -> int:
         return len(self.x)

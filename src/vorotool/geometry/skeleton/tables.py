@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.parallel import in_chunks
 from vorotool.geometry.polygons.conversion import to_shapely
 from vorotool.geometry.polygons.polygon_set import PolygonSet
@@ -37,6 +38,7 @@ def arc_table(skeleton: Skeleton) -> Table:
     >>> arc_table(skeleton_exact([[0, 0], [4, 0], [0, 3]]))["r1"].tolist()
     [1.0, 1.0, 1.0]
     """
+    check_value(skeleton, "skeleton", Skeleton)
     source, target = np.ascontiguousarray(skeleton.arcs.T)
     x, y = np.ascontiguousarray(skeleton.vertices.T)
     cx, cy = np.ascontiguousarray(skeleton.control.T)
@@ -89,6 +91,7 @@ def element_table(skeleton: Skeleton) -> Table:
     >>> table["label_a"].tolist(), table["label_b"].tolist()
     ([1, 1, 2, 1, 2, 3], [3, 2, 3, None, None, None])
     """
+    check_value(skeleton, "skeleton", Skeleton)
     sites = skeleton.site_table
     is_edge = sites.kind == EDGE
     ends = skeleton.site_ends
@@ -161,6 +164,7 @@ def branch_table(skeleton: Skeleton, *, threads: int = 0) -> Table:
     >>> branch_table(skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]]))["kind"].tolist().count("inner")
     1
     """
+    check_value(skeleton, "skeleton", Skeleton)
     start = _branch_starts(skeleton)
     if not len(start):
         empty: NDArray[Any] = np.empty(0)
@@ -234,6 +238,7 @@ def polygon_table(skeleton: Skeleton, *, columns: Mapping[str, Any] | None = Non
     >>> [table[name].tolist() for name in ("area", "ends", "junctions", "cycles", "width_max")]
     [[8.0], [4], [2], [0], [2.0]]
     """
+    check_value(skeleton, "skeleton", Skeleton)
     polygons, count = skeleton.polygons, len(skeleton.polygons)
     is_inside = skeleton.side == INTERIOR
     inside: Any = slice(None) if is_inside.all() else np.flatnonzero(is_inside)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from vorotool.geometry.curves.inverse_functions import PI, cosine_and_sine
 from vorotool.geometry.extras import needed
 from vorotool.render.canvas.layers import Arcs, Curves, Layer, Lines, Page, Points, Polygons, Texts
 
@@ -50,8 +50,10 @@ def draw_on_axes(ax: Axes, layers: Iterable[Layer], page: Page, **style: Any) ->
         if isinstance(layer, Texts):
             _write_texts(ax, layer)
         elif isinstance(layer, Points):
-            size = (2 * layer.radius * POINTS_A_PX) ** 2
-            ax.scatter(*layer.points.T, **{"s": size, "c": layer.colour, "linewidths": 0, "label": layer.name, **style})
+            side = 2 * layer.radius * POINTS_A_PX
+            ax.scatter(
+                *layer.points.T, **{"s": side * side, "c": layer.colour, "linewidths": 0, "label": layer.name, **style}
+            )
         elif isinstance(layer, Polygons):
             _fill(ax, layer, style)
         else:
@@ -130,11 +132,14 @@ def settle_axes(ax: Axes, *, y_up: bool, is_geographic: bool) -> None:
     >>> from matplotlib.figure import Figure
     >>> ax = Figure().add_subplot()
     >>> settle_axes(ax, y_up=False, is_geographic=False)
-    >>> ax.get_aspect(), ax.get_ylim()[0] > ax.get_ylim()[1]
+    >>> ax.get_aspect(), bool(ax.yaxis_inverted())
     (1.0, True)
     """
     ax.autoscale_view()
     if ax.yaxis_inverted() == y_up:
         ax.invert_yaxis()
     middle = sum(ax.get_ylim()) / 2
-    ax.set_aspect(1 / math.cos(math.radians(middle)) if is_geographic and abs(middle) < 89 else 1.0)
+    if is_geographic and abs(middle) < 89:
+        ax.set_aspect(1 / float(cosine_and_sine(abs(middle) / 180 * PI)[0]))
+    else:
+        ax.set_aspect(1.0)

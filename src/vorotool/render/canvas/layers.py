@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,11 +13,11 @@ from vorotool.geometry.box import bounds
 from vorotool.geometry.curves.circular_arcs import chords_of
 from vorotool.geometry.curves.flatten import polylines
 from vorotool.geometry.ragged import following, owners
-from vorotool.render.canvas.palettes import INK, SEED, WHITE
+from vorotool.render.canvas.palettes import INK, SEED
 from vorotool.render.canvas.styles import PictureStyle
 
 MARGIN = 0.02
-"""Of the larger side of the data, on each side of the page."""
+"""Of the larger side of the data, on each side of the page, where nothing else says."""
 
 TALLEST = 4
 """A page is at most so many times as high as wide: narrower data are drawn smaller."""
@@ -118,6 +118,8 @@ class Polygons:
         Of the outlines, in px.
     is_alone : (p,) bool array, optional
         Polygons that are paths of their own in SVG in any case, since others lie over them.
+    is_sheer : bool
+        Half of what lies beneath is seen through the fills, as it is over an image in any case.
     """
 
     name: str
@@ -131,6 +133,7 @@ class Polygons:
     edge: str | None = None
     width: float = 1.5
     is_alone: NDArray[np.bool_] | None = None
+    is_sheer: bool = False
 
     @property
     def ring_limits(self) -> NDArray[np.int64]:
@@ -154,12 +157,18 @@ class Polygons:
 
 @dataclass(frozen=True, eq=False)
 class Points:
-    """Discs of one radius, in px."""
+    """Discs of one radius, in px; those with a halo, a colour, have an edge around them."""
 
     name: str
     points: NDArray[np.float64]
     colour: str = SEED
     radius: float = 2.5
+    halo: str | None = None
+
+    @property
+    def edge(self) -> float:
+        """Width of the halo, in px."""
+        return min(1.0, self.radius)
 
 
 @dataclass(frozen=True, eq=False)
@@ -178,6 +187,8 @@ class Texts:
         Colour of an edge around the letters, which sets them off from what they lie on; in PNG there always is one.
     is_centred : bool
         Write them on the points instead, as names of what is around these.
+    is_led : bool
+        They begin at the points, and are not in the middle over them.
     """
 
     name: str
@@ -187,6 +198,7 @@ class Texts:
     size: float = 12.0
     halo: str | None = None
     is_centred: bool = False
+    is_led: bool = False
 
     def lowered(self, y: NDArray[np.float64], capital: float) -> NDArray[np.float64]:
         """Give the px from the top at which the letters stand, for points at these.
@@ -273,27 +285,6 @@ def name_size(page: Page, count: int) -> float:
 Layer = Lines | Curves | Polygons | Points | Texts | Arcs
 
 
-def with_halos(layers: Sequence[Layer]) -> list[Layer]:
-    """Put a white edge of up to 1 px beneath each layer of lines, so that they show on dark and on light ground.
-
-    Examples
-    --------
-    >>> line = Lines("edges", np.zeros((2, 2)), np.array([[0, 1]], dtype=np.int32))
-    >>> [(layer.name, layer.colour, layer.width) for layer in with_halos([line])]
-    [('edges-halo', '#ffffff', 3.5), ('edges', '#222222', 1.5)]
-    """
-    made: list[Layer] = []
-    for layer in layers:
-        if isinstance(layer, Lines | Curves | Arcs):
-            width = layer.width + min(2.0, 2 * layer.width)  # lines that are fine, as there are many, leave room
-            wider = replace(layer, name=f"{layer.name}-halo", width=width)
-            made.append(
-                replace(wider, edge=WHITE, fill=None) if isinstance(wider, Arcs) else replace(wider, colour=WHITE)
-            )
-        made.append(layer)
-    return made
-
-
 def bounds_of(layers: Iterable[Layer]) -> tuple[float, float, float, float]:
     """Smallest box that holds the points of layers: least x, least y, largest x, largest y.
 
@@ -320,6 +311,10 @@ class Page:
         Of the page, in px. The height follows from the bounds.
     y_up : bool
         Draw y upwards.
+    aspect : float
+        Px of a unit of y for each px of a unit of x.
+    margin : float
+        Of the larger side of the data, on each side of the page.
 
     Attributes
     ----------
@@ -338,14 +333,22 @@ class Page:
     style = PictureStyle()
     decimals = 2
 
-    def __init__(self, bounds: tuple[float, float, float, float], *, width: int, y_up: bool) -> None:
-        self.bounds = bounds
+    def __init__(
+        self,
+        bounds: tuple[float, float, float, float],
+        *,
+        width: int,
+        y_up: bool,
+        aspect: float = 1.0,
+        margin: float = MARGIN,
+    ) -> None:
+        self.bounds, self.aspect = bounds, aspect
         box = np.array(bounds, dtype=np.float64)
         self._exponent = int(np.frexp(np.abs(box).max())[1])  # a power of two keeps differences within range
         low, high = np.ldexp(box, -self._exponent).reshape(2, 2)
         span = high - low
-        margin = MARGIN * (span.max() or 1.0)
-        across, down = span + 2 * margin
+        sides = span * (1.0, aspect)
+        across, down = sides + 2 * margin * (sides.max() or 1.0)
         self.scale = float(min(width / across, TALLEST * width / down))  # px a unit of the scaled data
         self.width, self.height = width, max(1, round(float(down * self.scale)))
         self.y_up, self._middle = y_up, low + span / 2
@@ -368,18 +371,18 @@ class Page:
 
     def place(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """(n, 2) px from the left and from the top."""
-        scale = np.array([self.scale, -self.scale if self.y_up else self.scale])
+        scale = np.array([self.scale, (-self.scale if self.y_up else self.scale) * self.aspect])
         centre = np.array([self.width / 2, self.height / 2])
         placed: NDArray[np.float64] = (np.ldexp(points, -self._exponent) - self._middle - self._rest) * scale + centre
         return placed
 
     def length(self, distance: float) -> float:
-        """Px of a distance."""
+        """Px of a distance along x."""
         return float(np.ldexp(distance, -self._exponent) * self.scale)
 
     def distance(self, length: float) -> float:
-        """Give a length in px as one of the data."""
-        return float(np.ldexp(length / self.scale, self._exponent))
+        """Give a length in px as one of the data, which is no longer than that in any direction."""
+        return float(np.ldexp(length / (self.scale * max(self.aspect, 1.0)), self._exponent))
 
     def spacing(self, count: int) -> float:
         """Distance in px between neighbours of so many points, spread evenly over the page."""

@@ -9,7 +9,7 @@ and the order were set by hand. A test computes the distances again.
 from __future__ import annotations
 
 import colorsys
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -46,8 +46,8 @@ CELLS = (
 )
 """Cell colours in the order in which they are used: few classes get the most distinct ones."""
 
-MOST_CLASSES = 253
-"""Colour classes that fit in a byte beside none, line and seed."""
+LARGEST_PALETTE = 256
+"""Colours whose numbers fit in a byte."""
 
 _GOLDEN_ANGLE = 0.381966011250105  # of a turn: successive hues never come close soon
 
@@ -61,9 +61,11 @@ LINE_ON_PAPER = _triples([WHITE, LINE])
 
 
 class PicturePalette(NamedTuple):
-    """Colours of a palette picture: 0 is white for no label, c is colour class c, then line and seed.
+    """Colours of a palette picture: 0 is the ground, for no label, c is colour class c, then line and seed.
 
-    The halo of letters and lines, last, is white as well; -1 if there are none.
+    The halo of letters and lines is white; -1 where there are none. Borders of cells, letters and filled objects have
+    entries of their own where their colours are chosen. What is opaque hides an image beneath; ``has_halos`` says
+    whether discs have an edge, too.
     """
 
     colours: NDArray[np.uint8]
@@ -71,6 +73,16 @@ class PicturePalette(NamedTuple):
     seed: int
     bit_depth: int
     halo: int = -1
+    border: int = -1
+    ink: int = -1
+    object: int = -1
+    has_halos: bool = False
+
+    @property
+    def opaque(self) -> list[int]:
+        """Entries of lines, seeds and letters."""
+        found = {self.line, self.seed, self.halo, self.border, self.ink} - {-1}
+        return sorted(found)
 
 
 def cell_colour(colour_class: int) -> str:
@@ -91,8 +103,22 @@ def cell_colour(colour_class: int) -> str:
     return "#" + "".join(f"{round(255 * channel):02x}" for channel in rgb)
 
 
-def picture_palette(classes: int, *, has_halo: bool = False) -> PicturePalette:
+def picture_palette(
+    classes: int, *, has_halo: bool = False, has_halos: bool = False, chosen: Mapping[str, str] | None = None
+) -> PicturePalette:
     """Palette for pictures with colour classes 1 to ``classes``; the same for all that need at most 12.
+
+    Parameters
+    ----------
+    classes : int
+        Colour classes of the cells.
+    has_halo : bool
+        Letters, lines or borders have a white edge, or are white.
+    has_halos : bool
+        Discs have one as well.
+    chosen : mapping of str to str, optional
+        Other colours of "ground", "diagram", "seeds", "objects", "labels", and of "cells", which is that of their
+        borders.
 
     Raises
     ------
@@ -105,9 +131,23 @@ def picture_palette(classes: int, *, has_halo: bool = False) -> PicturePalette:
     >>> palette.colours.shape, palette.line, palette.seed, palette.bit_depth
     ((15, 3), 13, 14, 4)
     """
-    if classes > MOST_CLASSES - has_halo:
-        raise LimitError(f"{classes} colour classes: a palette picture has at most {MOST_CLASSES}, use {AS_SVG}")
+    chosen = chosen or {}
     count = max(classes, len(CELLS))
-    names = [*(cell_colour(c) for c in range(count + 1)), LINE, SEED, *([WHITE] if has_halo else [])]
-    halo = count + 3 if has_halo else -1
-    return PicturePalette(_triples(names), count + 1, count + 2, 4 if len(names) <= 16 else 8, halo)
+    names = [*(cell_colour(c) for c in range(count + 1)), chosen.get("diagram", LINE), chosen.get("seeds", SEED)]
+    names[0] = chosen.get("ground", names[0])
+    if has_halo:
+        names.append(WHITE)
+    halo, line, seed = (count + 3 if has_halo else -1), count + 1, count + 2
+    own = {}
+    for layer, usual in (("cells", halo), ("labels", line), ("objects", seed)):
+        own[layer] = usual
+        if layer in chosen or (layer == "labels" and "diagram" in chosen) or (layer == "objects" and has_halos):
+            own[layer] = len(names)
+            names.append(chosen.get(layer, LINE if layer == "labels" else names[seed]))
+    if len(names) > LARGEST_PALETTE:
+        most = LARGEST_PALETTE - (len(names) - count)
+        raise LimitError(f"{classes} colour classes: a palette picture has at most {most}, use {AS_SVG}")
+    depth = 4 if len(names) <= 16 else 8
+    return PicturePalette(
+        _triples(names), line, seed, depth, halo, own["cells"], own["labels"], own["objects"], has_halos
+    )

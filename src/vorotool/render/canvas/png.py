@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 from vorotool.errors import LimitError, option
 from vorotool.geometry.ragged import owners, ranges
 from vorotool.products.formats import AS_SVG
-from vorotool.render.canvas.glyphs import HEIGHT, text_cells
+from vorotool.render.canvas.glyphs import ADVANCE, HEIGHT, text_cells
 from vorotool.render.canvas.layers import Arcs, Curves, Layer, Lines, Page, Points, Polygons, Texts
 from vorotool.render.canvas.palettes import WHITE
+from vorotool.render.canvas.pixel_page import PixelPage
 
 FINE = 4
 """Pixels of the drawing a pixel of the picture, each way: 16 shades."""
@@ -48,7 +49,7 @@ def check_picture_size(page: Page, max_pixels: int) -> None:
         )
 
 
-def layer_bands(layers: Iterable[Layer], page: Page) -> Iterator[NDArray[np.uint8]]:
+def layer_bands(layers: Iterable[Layer], page: Page, *, insets: Iterable[Layer] = ()) -> Iterator[NDArray[np.uint8]]:
     """Draw layers from below, over the page's image if it has one.
 
     Parameters
@@ -57,11 +58,14 @@ def layer_bands(layers: Iterable[Layer], page: Page) -> Iterator[NDArray[np.uint
         What to draw; at most 254 colours together.
     page : Page
         Where it lies.
+    insets : iterable of Layer
+        What lies over these, in px of the page.
 
     Yields
     ------
-    (rows, 3 W) uint8 array
-        Red, green and blue of each pixel, in bands from top to bottom.
+    (rows, 3 W) or (rows, 4 W) uint8 array
+        Red, green and blue of each pixel, in bands from top to bottom; where the page has no ground, how opaque it is,
+        too.
 
     Examples
     --------
@@ -71,7 +75,9 @@ def layer_bands(layers: Iterable[Layer], page: Page) -> Iterator[NDArray[np.uint
     """
     canvas = _Canvas(page)
     for layer in layers:
-        canvas.draw(layer)
+        canvas.draw(layer, page)
+    for inset in insets:
+        canvas.draw(inset, PixelPage(page))
     return canvas.bands()
 
 
@@ -83,12 +89,12 @@ class _Canvas:
         self.indices = np.zeros((page.height * FINE, page.width * FINE), np.uint8)  # 0: nothing
         self.colours: dict[str, int] = {}
 
-    def draw(self, layer: Layer) -> None:
+    def draw(self, layer: Layer, page: Page) -> None:
         if isinstance(layer, Arcs):
-            layer = layer.chords(self.page.distance(FLATNESS / FINE))
-        places = self.page.place(layer.points) * FINE
+            layer = layer.chords(page.distance(FLATNESS / FINE))
+        places = page.place(layer.points) * FINE
         if isinstance(layer, Polygons):
-            self._fill(layer, places)
+            self._fill(layer, places, is_sheer=layer.is_sheer or page.backdrop is not None)
             if layer.edge is not None:
                 self._stroke(places, layer.sides(), layer.width, self._colour(layer.edge))
         elif isinstance(layer, Lines):
@@ -97,14 +103,17 @@ class _Canvas:
             lines = layer.flattened(places, FLATNESS)
             self._stroke(*lines, layer.width, self._colour(layer.colour))
         elif isinstance(layer, Points):
+            if layer.halo is not None:
+                self._discs(places, (layer.radius + layer.edge) * FINE, self._colour(layer.halo))
             self._discs(places, layer.radius * FINE, self._colour(layer.colour))
         elif isinstance(layer, Texts):
             self._write(layer, places)
 
     def bands(self) -> Iterator[NDArray[np.uint8]]:
-        """Means of the colours of FINE x FINE pixels; where nothing is drawn, that is white or the image."""
-        backdrop = self.page.backdrop
-        names = [(self.page.style.ground or WHITE) if backdrop is None else NOTHING, *self.colours]
+        """Means of the colours of FINE x FINE pixels; where nothing is drawn, that of the ground or the image."""
+        backdrop, ground = self.page.backdrop, self.page.style.ground
+        has_alpha = backdrop is None and ground is None
+        names = [NOTHING if backdrop is not None or ground is None else ground, *self.colours]
         palette = np.array([list(bytes.fromhex(name[1:])) for name in names], dtype=np.uint16)
         for top in range(0, self.page.height, BAND_ROWS):
             fine = self.indices[top * FINE : (top + BAND_ROWS) * FINE]
@@ -117,7 +126,7 @@ class _Canvas:
                 bare[:, :, 0] += part == 0
             if backdrop is not None:
                 sums += bare * backdrop.pixels[top : top + rows]
-            yield ((sums + FINE**2 // 2) // FINE**2).astype(np.uint8).reshape(rows, -1)
+            yield (_with_alpha(sums, FINE**2 - bare) if has_alpha else _means(sums, FINE**2)).reshape(rows, -1)
 
     def _colour(self, name: str) -> int:
         number = self.colours.setdefault(name, len(self.colours) + 1)
@@ -125,7 +134,7 @@ class _Canvas:
             raise LimitError(f"a PNG picture has at most {MOST_COLOURS} colours: use {AS_SVG}")
         return number
 
-    def _fill(self, layer: Polygons, places: NDArray[np.float64]) -> None:
+    def _fill(self, layer: Polygons, places: NDArray[np.float64], *, is_sheer: bool) -> None:
         """Fill each polygon by the even-odd rule: rows of pixels between crossings of its sides, in pairs."""
         classes = np.array([self._colour(name) for name in layer.colours], dtype=np.uint8)
         polygon = layer.polygon_of_ring
@@ -138,11 +147,17 @@ class _Canvas:
         while start < len(corner_limits) - 1:  # some whole polygons at a time
             stop = max(start + 1, int(np.searchsorted(corner_limits, corner_limits[start] + _ITEMS, "right")) - 1)
             part = slice(corner_limits[start], corner_limits[stop])
-            self._fill_part(places, sides[part], owner[part], fills)
+            self._fill_part(places, sides[part], owner[part], fills, is_sheer=is_sheer)
             start = stop
 
     def _fill_part(
-        self, places: NDArray[np.float64], sides: NDArray[np.int32], owner: NDArray[np.int64], fills: NDArray[np.uint8]
+        self,
+        places: NDArray[np.float64],
+        sides: NDArray[np.int32],
+        owner: NDArray[np.int64],
+        fills: NDArray[np.uint8],
+        *,
+        is_sheer: bool,
     ) -> None:
         a, b = places[sides[:, 0]], places[sides[:, 1]]
         height = self.indices.shape[0]
@@ -153,7 +168,7 @@ class _Canvas:
         x = a[side, 0] + (row + 0.5 - a[side, 1]) * slope
         order = np.lexsort((x, row, owner[side]))
         row, x, of = row[order], np.ceil(x[order] - 0.5), owner[side][order]
-        self._set_rows(row[::2], x[::2], x[1::2], fills[of[::2]], every_other=self.page.backdrop is not None)
+        self._set_rows(row[::2], x[::2], x[1::2], fills[of[::2]], every_other=is_sheer)
 
     def _stroke(self, places: NDArray[np.float64], pairs: NDArray[np.int32], width: float, value: int) -> None:
         """Draw lines as runs of pixels across them: a column of pixels where they are flat, else a row."""
@@ -192,7 +207,10 @@ class _Canvas:
         """Write texts, each cell of a glyph a square of pixels; halos first, so that they cover no letter."""
         cell = max(2, round(CAPITAL * layer.size * FINE / HEIGHT))
         foot = layer.lowered(places[:, 1] / FINE, CAPITAL) * FINE - cell * (HEIGHT - 1) / 2
-        corner = np.floor(np.stack([places[:, 0], foot], axis=1) - cell / 2).astype(np.int64)
+        left = places[:, 0]
+        if layer.is_led:
+            left = left + cell * ADVANCE * np.array([len(text) for text in layer.texts]) / 2
+        corner = np.floor(np.stack([left, foot], axis=1) - cell / 2).astype(np.int64)
         ink, halo = self._colour(layer.colour), self._colour(layer.halo or WHITE)
         for begin in range(0, len(layer.texts), _TEXTS):
             owner, cells, is_ink = text_cells(layer.texts[begin : begin + _TEXTS])
@@ -244,6 +262,15 @@ class _Canvas:
                 run, x = run[chosen], x[chosen]
             drawing[row[begin:end][run], x] = values if isinstance(values, int) else values[begin:end][run]
             begin = end
+
+
+def _means(sums: NDArray[np.uint16], counts: NDArray[np.uint16] | int) -> NDArray[np.uint8]:
+    return ((sums + counts // 2) // counts).astype(np.uint8)
+
+
+def _with_alpha(sums: NDArray[np.uint16], drawn: NDArray[np.uint16]) -> NDArray[np.uint8]:
+    """Means of what is drawn alone, and how much of each pixel that is."""
+    return np.concatenate([_means(sums, np.maximum(drawn, np.uint16(1))), _means(255 * drawn, FINE**2)], axis=2)
 
 
 def _expanded(first: NDArray[np.int64], counts: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:

@@ -9,7 +9,7 @@ from math import isfinite
 import numpy as np
 
 from vorotool.errors import UsageError, option
-from vorotool.render.canvas.layers import MARGIN, Arcs, Layer, Page, Points, Polygons, Texts
+from vorotool.render.canvas.layers import MARGIN, Arcs, Curves, Layer, Lines, Page, Points, Polygons, Texts
 from vorotool.render.canvas.styles import PictureStyle
 
 PX = 96 / 25.4
@@ -87,11 +87,14 @@ def styled_layers(layers: Iterable[Layer], style: PictureStyle) -> list[Layer]:
     >>> [layer.colour for layer in styled_layers([Points("sites", np.zeros((1, 2)))], red)]
     ['#ff0000']
     """
-    return [_styled(layer, *style.of(layer.name)) for layer in layers]
+    made = [_styled(layer, *style.of(layer.name)) for layer in layers]
+    return [layer for layer in made if not (isinstance(layer, Lines | Curves) and layer.width == 0)]
 
 
 def _styled(layer: Layer, colour: str | None, width: float | None) -> Layer:
-    if width is not None and not isinstance(layer, Points | Texts):
+    if width == 0 and isinstance(layer, Polygons):
+        layer = replace(layer, edge=None)
+    elif width is not None and not isinstance(layer, Points | Texts):
         layer = replace(layer, width=width)
     if colour is None:
         return layer

@@ -4,11 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from vorotool.render.canvas.palettes import WHITE
 
 DRAWN_AS = {"lines": "polygons", "centerline": "skeleton", "diagram": "skeleton"}
 """Names of layers in pictures that are chosen by another name, if not by their own."""
+
+
+class ScaleBar(NamedTuple):
+    """What the length of a scale bar is written in: so many of a unit are one of the data."""
+
+    factor: float
+    unit: str | None
 
 
 @dataclass(frozen=True)
@@ -23,6 +31,12 @@ class PictureStyle:
         Of layers, by their names.
     widths : mapping of str to float
         Of the lines of layers, in px.
+    has_legend : bool
+        Names of the layers stand in a corner, each with its colour.
+    scale_bar : ScaleBar, optional
+        A length stands in another one.
+    label_by : str, optional
+        Column of properties that names objects, instead of their ids.
 
     Examples
     --------
@@ -33,8 +47,21 @@ class PictureStyle:
     ground: str | None = WHITE
     colours: Mapping[str, str] = field(default_factory=dict)
     widths: Mapping[str, float] = field(default_factory=dict)
+    has_legend: bool = False
+    scale_bar: ScaleBar | None = None
+    label_by: str | None = None
 
     def of(self, layer: str) -> tuple[str | None, float | None]:
         """Give colour and width of a layer, None where they are left to what draws it."""
         other = DRAWN_AS.get(layer, layer)
         return self.colours.get(layer, self.colours.get(other)), self.widths.get(layer, self.widths.get(other))
+
+    @property
+    def has_insets(self) -> bool:
+        """Whether there is anything in the corners."""
+        return self.has_legend or self.scale_bar is not None
+
+    def width_of(self, layer: str, usual: float = 1.0) -> float:
+        """Give the width of a layer's lines, or a usual one."""
+        chosen = self.of(layer)[1]
+        return usual if chosen is None else chosen

@@ -14,6 +14,7 @@ from vorotool import _core
 from vorotool.geometry.curves.inverse_functions import hypotenuse
 from vorotool.geometry.xml_text import xml_characters
 from vorotool.render.canvas.layers import Arcs, Backdrop, Curves, Layer, Lines, Page, Points, Polygons, Texts
+from vorotool.render.canvas.pixel_page import PixelPage
 
 PATH_ROWS = 4096
 """Lines or polygons of one path: viewers slow down with longer ones, and with many elements."""
@@ -33,7 +34,9 @@ DASH = 6
 """Px: of broken lines, and between."""
 
 
-def write_layers_svg(out: BinaryIO, layers: Iterable[Layer], page: Page, *, threads: int = 0) -> None:
+def write_layers_svg(
+    out: BinaryIO, layers: Iterable[Layer], page: Page, *, insets: Iterable[Layer] = (), threads: int = 0
+) -> None:
     """Draw layers from below, each a group with its name for an id; strokes keep their width when it is scaled.
 
     Parameters
@@ -44,6 +47,8 @@ def write_layers_svg(out: BinaryIO, layers: Iterable[Layer], page: Page, *, thre
         What to draw.
     page : Page
         Where it lies.
+    insets : iterable of Layer
+        What lies over these, in px of the page.
     threads : int
         0 for all.
 
@@ -61,7 +66,10 @@ def write_layers_svg(out: BinaryIO, layers: Iterable[Layer], page: Page, *, thre
     if page.backdrop is not None:
         out.write(image_element(page.backdrop))
     for layer in layers:
-        for part in _parts(layer, page, threads):
+        for part in layer_parts(layer, page, threads):
+            out.write(part)
+    for inset in insets:
+        for part in layer_parts(inset, PixelPage(page), threads):
             out.write(part)
     out.write(b"</svg>\n")
 
@@ -78,12 +86,13 @@ def halo_style(colour: str, size: float) -> str:
     return f'stroke="{colour}" stroke-width="{HALO * size:.3g}" stroke-linejoin="round" paint-order="stroke"'
 
 
-def fill_style(backdrop: Backdrop | None) -> str:
-    """Attribute of a group whose areas the image shows through, if there is one."""
-    return "" if backdrop is None else ' fill-opacity="0.5"'
+def fill_style(backdrop: Backdrop | None, *, is_sheer: bool = False) -> str:
+    """Attribute of a group whose areas the image shows through, if there is one, or in any case."""
+    return "" if backdrop is None and not is_sheer else ' fill-opacity="0.5"'
 
 
-def _parts(layer: Layer, page: Page, threads: int) -> Iterator[bytes]:
+def layer_parts(layer: Layer, page: Page, threads: int) -> Iterator[bytes]:
+    """Give the group of a layer, piece by piece."""
     if isinstance(layer, Arcs):
         return _arcs(layer, page)
     x, y = np.ascontiguousarray(np.round(page.place(layer.points), page.decimals).T + 0.0)  # no -0
@@ -92,7 +101,7 @@ def _parts(layer: Layer, page: Page, threads: int) -> Iterator[bytes]:
     if isinstance(layer, Curves):
         return _curves(layer, x, y, threads)
     if isinstance(layer, Polygons):
-        return _polygons(layer, x, y, fill_style(page.backdrop), threads)
+        return _polygons(layer, x, y, fill_style(page.backdrop, is_sheer=layer.is_sheer), threads)
     return _points(layer, x, y, threads) if isinstance(layer, Points) else _texts(layer, x, y, threads)
 
 
@@ -183,17 +192,25 @@ def _openings(layer: Polygons) -> tuple[list[str], NDArray[np.int32]]:
 
 def _points(layer: Points, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iterator[bytes]:
     if len(x) > MOST_ELEMENTS:
-        yield from _dots(layer, x, y, threads)
+        if layer.halo is not None:
+            yield from _dots(f"{layer.name}-halo", layer.halo, layer.radius + layer.edge, x, y, threads)
+        yield from _dots(layer.name, layer.colour, layer.radius, x, y, threads)
         return
-    yield f'<g id="{_escaped(layer.name)}" fill="{layer.colour}">\n'.encode()
+    halo = "" if layer.halo is None else f" {edge_style(layer.halo, layer.edge)}"
+    yield f'<g id="{_escaped(layer.name)}" fill="{layer.colour}"{halo}>\n'.encode()
     radius = f'" r="{layer.radius:.3g}"/>\n'
     yield from _rows([x, y], ('<circle cx="', '" cy="', radius), threads)
     yield b"</g>\n"
 
 
-def _dots(layer: Points, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iterator[bytes]:
+def edge_style(colour: str, width: float) -> str:
+    """Attributes of discs that have an edge around them."""
+    return f'stroke="{colour}" stroke-width="{2 * width:.3g}" paint-order="stroke"'
+
+
+def _dots(name: str, colour: str, radius: float, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iterator[bytes]:
     """Lines of no length with round ends are discs."""
-    yield f'<g id="{_escaped(layer.name)}" fill="none" {_stroke(layer.colour, 2 * layer.radius)}>\n'.encode()
+    yield f'<g id="{_escaped(name)}" fill="none" {_stroke(colour, 2 * radius)}>\n'.encode()
     for rows in _chunks(len(x), PATH_ROWS):
         yield f"<path {_UNSCALED} d=".encode() + b'"'
         yield from _rows([x[rows], y[rows]], ("M", " ", "h0"), threads)
@@ -204,7 +221,8 @@ def _dots(layer: Points, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iter
 def _texts(layer: Texts, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iterator[bytes]:
     font = f'font-family="Helvetica, Arial, sans-serif" font-size="{layer.size:g}"'
     halo = "" if layer.halo is None else f" {halo_style(layer.halo, layer.size)}"
-    yield f'<g id="{_escaped(layer.name)}" text-anchor="middle" {font} fill="{layer.colour}"{halo}>\n'.encode()
+    anchor = "start" if layer.is_led else "middle"
+    yield f'<g id="{_escaped(layer.name)}" text-anchor="{anchor}" {font} fill="{layer.colour}"{halo}>\n'.encode()
     texts = [_escaped(text) for text in layer.texts]
     y = np.round(layer.lowered(y, CAPITAL), DECIMALS)
     for rows in _chunks(len(x), SLICE_ROWS):
@@ -222,8 +240,9 @@ def _arcs(layer: Arcs, page: Page) -> Iterator[bytes]:
     for k, (x, y) in enumerate(end.tolist()):
         command = "L"
         if is_arc[k]:
-            radius = _short(page.length(radii[k]), page.decimals + 1)
-            command = f"A{radius} {radius} 0 0 {sweeps[k]} "
+            across = page.length(radii[k])
+            radius, other = (_short(each, page.decimals + 1) for each in (across, across * page.aspect))
+            command = f"A{radius} {other} 0 0 {sweeps[k]} "
         commands.append(f"{command}{_short(x, page.decimals)} {_short(y, page.decimals)}")
     paths = []
     for first, last in zip(layer.rings[:-1].tolist(), layer.rings[1:].tolist(), strict=True):

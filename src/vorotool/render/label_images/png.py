@@ -17,7 +17,7 @@ from vorotool.render.canvas.glyphs import text_cells
 from vorotool.render.canvas.layers import Backdrop
 from vorotool.render.canvas.palettes import PicturePalette
 
-LAYERS = ("cells", "diagram", "seeds", "labels")
+LAYERS = ("cells", "diagram", "objects", "seeds", "labels")
 
 
 def picture_bands(
@@ -27,8 +27,9 @@ def picture_bands(
     palette: PicturePalette,
     colour_of_label: NDArray[Any],
     diagram: Iterable[NDArray[np.bool_]] | None = None,
-    halo: Iterable[NDArray[np.bool_]] | None = None,
+    marks: Sequence[tuple[int, NDArray[np.bool_]]] = (),
     seeds: SeedSet | None = None,
+    outlines: NDArray[np.bool_] | None = None,
     frame: Frame | None = None,
     names: Names | None = None,
     layers: Iterable[str] = LAYERS,
@@ -47,16 +48,18 @@ def picture_bands(
         Colour class by label; entry 0, for no label, is 0.
     diagram : iterable of (rows, W) bool arrays, optional
         The pixels to draw black, in the same bands as the labels.
-    halo : iterable of (rows, W) bool arrays, optional
-        The pixels around the diagram to draw white, likewise.
+    marks : sequence of (int, (H, W) bool array)
+        Palette indices, and the pixels that have them, from below: over the cells and beneath the diagram.
     seeds : SeedSet, optional
         Drawn as discs.
+    outlines : (H, W) bool array, optional
+        Outermost pixels of the objects that are the seeds: drawn instead of discs.
     frame : Frame, optional
         Where the image lies; by default pixel (0, 0) is at the origin.
     names : Names, optional
         Of the regions.
     layers : iterable of str
-        Which of "cells", "diagram", "seeds", "labels" to draw; one without data is left out.
+        Which of "cells", "diagram", "objects", "seeds", "labels" to draw; one without data is left out.
 
     Yields
     ------
@@ -80,17 +83,21 @@ def picture_bands(
     wanted = checked_layers(layers, LAYERS)
     classes = np.asarray(colour_of_label).astype(np.uint8)
     masks = iter(diagram) if diagram is not None and "diagram" in wanted else None
-    edges = iter(halo) if halo is not None and masks is not None else None
-    discs = _Discs(seeds, frame or Frame(0, 0, shape[1], shape[0])) if seeds and "seeds" in wanted else None
+    has_discs = bool(seeds) and outlines is None and "seeds" in wanted
+    discs = _Discs(seeds, frame or Frame(0, 0, shape[1], shape[0])) if seeds and has_discs else None
     letters = _Letters(names, palette) if names is not None and "labels" in wanted else None
     top = 0
     for labels in bands:
         picture = classes[labels] if "cells" in wanted else np.zeros(labels.shape, np.uint8)
-        if edges is not None:
-            picture[next(edges)] = palette.halo
+        for value, pixels in marks:
+            picture[pixels[top : top + len(labels)]] = value
         if masks is not None:
             picture[next(masks)] = palette.line
+        if outlines is not None and "seeds" in wanted:
+            picture[outlines[top : top + len(labels)]] = palette.seed
         if discs is not None:
+            if palette.has_halos:
+                discs.draw(picture, top, palette.halo, wider=1.0)
             discs.draw(picture, top, palette.seed)
         if letters is not None:
             letters.draw(picture, top)
@@ -130,14 +137,13 @@ def over_image(
     height, width = made.shape[:2]
     left, right = (min(max(x, 0), width) for x in (frame.x, frame.x + frame.width))
     row = frame.y
-    lines = [number for number in (palette.line, palette.seed, palette.halo) if number >= 0]
     for band in bands:
         top, bottom = (min(max(y, 0), height) for y in (row, row + len(band)))
         index = band[top - row : bottom - row, left - frame.x : right - frame.x]
         beneath = made[top:bottom, left:right]
         colour = palette.colours[index]
         mixed = ((beneath.astype(np.uint16) + colour + 1) // 2).astype(np.uint8)
-        is_line = np.isin(index, lines)
+        is_line = np.isin(index, palette.opaque)
         beneath[...] = np.where(is_line[..., None], colour, np.where(index[..., None] > 0, mixed, beneath))
         row += len(band)
     return made.reshape(height, -1)
@@ -159,6 +165,30 @@ def around(lines: NDArray[np.bool_]) -> NDArray[np.bool_]:
         grown[back] |= made[step]
         made = grown
     return made & ~lines
+
+
+def widened(lines: NDArray[np.bool_], width: float) -> NDArray[np.bool_]:
+    """Make lines of a pixel so many pixels wide, to the nearest whole number; of none there is nothing.
+
+    Examples
+    --------
+    >>> widened(np.array([[False, False, False, True]]), 2).tolist()
+    [[False, False, True, True]]
+    """
+    if width == 0:
+        return np.zeros_like(lines)
+    made = lines
+    for number in range(1, max(1, round(width))):
+        grown = made.copy()
+        if number % 2:  # to the left and above first, then to the right and below
+            grown[:-1] |= made[1:]
+            made = grown.copy()
+            made[:, :-1] |= grown[:, 1:]
+        else:
+            grown[1:] |= made[:-1]
+            made = grown.copy()
+            made[:, 1:] |= grown[:, :-1]
+    return made
 
 
 def checked_layers(layers: Iterable[str], known: tuple[str, ...]) -> frozenset[str]:
@@ -204,7 +234,7 @@ class _Letters:
         x, y = (names.places[owner] + cells).T
         order = np.lexsort((is_ink, y))
         self.x, self.y = x[order], y[order]
-        self.value = np.where(is_ink[order], palette.line, palette.halo).astype(np.uint8)
+        self.value = np.where(is_ink[order], palette.ink, palette.halo).astype(np.uint8)
 
     def draw(self, picture: NDArray[np.uint8], top: int) -> None:
         """Set the pixels of a band; what is outside is left out."""
@@ -224,16 +254,17 @@ class _Discs:
         order = np.argsort(y, kind="stable")
         self.x, self.y = x[order], y[order]
 
-    def draw(self, picture: NDArray[np.uint8], top: int, value: int) -> None:
+    def draw(self, picture: NDArray[np.uint8], top: int, value: int, *, wider: float = 0.0) -> None:
         """Set the pixels whose centres lie in a disc; the smallest discs still mark the nearest pixel."""
         rows, width = picture.shape
-        reach = math.ceil(self.radius) + 1
+        radius = self.radius + wider
+        reach = math.ceil(radius) + 1
         first, last = np.searchsorted(self.y, [top - reach, top + rows + reach])
         x, y = self.x[first:last], self.y[first:last]
         self._set(picture, np.floor(x + 0.5), np.floor(x + 0.5), np.floor(y + 0.5) - top, value)
         for offset in range(-reach, reach + 1):
             row = np.floor(y) + offset
-            square = self.radius * self.radius - np.square(row - y)
+            square = radius * radius - np.square(row - y)
             half = np.sqrt(np.maximum(square, 0.0))
             hit = square >= 0
             left, right = np.ceil(x - half)[hit], np.floor(x + half)[hit]

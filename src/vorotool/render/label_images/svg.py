@@ -13,15 +13,21 @@ from numpy.typing import NDArray
 from vorotool.errors import LimitError
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.products.formats import AS_PNG
-from vorotool.render.canvas.layers import Backdrop
+from vorotool.render.canvas.halos import halo_width
+from vorotool.render.canvas.layers import Backdrop, Layer, Page
 from vorotool.render.canvas.palettes import EDGE, FAINT, INK, SEED, WHITE, cell_colour
-from vorotool.render.canvas.svg import CAPITAL, fill_style, halo_style, image_element
+from vorotool.render.canvas.pixel_page import PixelPage
+from vorotool.render.canvas.styles import PictureStyle
+from vorotool.render.canvas.svg import CAPITAL, edge_style, fill_style, halo_style, image_element, layer_parts
 from vorotool.render.label_images.crack_outline import Loop, crack_loops
 from vorotool.render.label_images.png import Names, checked_layers, disc_radius
 
-LAYERS = ("cells", "labels", "seeds")
+LAYERS = ("cells", "labels", "objects", "seeds")
 MOST_PIXELS = 1_000_000
 MOST_NUMBERED = 40
+LINE_WIDTH = 1.5
+"""Px."""
+
 _MARGIN = 0.02
 
 
@@ -34,13 +40,16 @@ def write_label_svg(
     layers: Iterable[str] = LAYERS,
     backdrop: Backdrop | None = None,
     names: Names | None = None,
+    objects: NDArray[np.integer] | None = None,
+    style: PictureStyle | None = None,
+    insets: Iterable[Layer] = (),
 ) -> None:
     """Draw a label image with one path a label, and numbers in the pixels of images of at most 40 x 40.
 
     In larger ones a name is written in each region instead.
 
-    Seeds are discs or, where there are numbers, bold underlined numbers, as in the paper's Figures 1
-    and 2.
+    Seeds are discs, outlines of objects or, where there are numbers, bold underlined numbers, as in the paper's
+    Figures 1 and 2.
 
     Parameters
     ----------
@@ -53,11 +62,17 @@ def write_label_svg(
     width : int
         Width of the picture in px.
     layers : iterable of str
-        Which of "cells", "labels", "seeds" to draw; each is a named group.
+        Which of "cells", "labels", "objects", "seeds" to draw; each is a named group.
     backdrop : Backdrop, optional
         An image to draw over, at its size: cells are half see-through then.
     names : Names, optional
-        Of the regions of an image that is larger than 40 x 40.
+        Of the regions, instead of numbers in the pixels of an image of at most 40 x 40.
+    objects : (H, W) integer array, optional
+        The labels of the objects that are the seeds: drawn as outlines, filled ones in their own layer.
+    style : PictureStyle, optional
+        Ground, colours and widths of lines.
+    insets : iterable of Layer
+        What lies over all, in px of the page.
 
     Raises
     ------
@@ -76,11 +91,12 @@ def write_label_svg(
     """
     check_size(image.shape)
     wanted = checked_layers(layers, LAYERS)
-    page = _Page(image, width, backdrop)
-    numbered = "labels" in wanted and has_numbers(image.shape)
+    page = _Page(image, width, backdrop, style or PictureStyle())
+    numbered = "labels" in wanted and has_numbers(image.shape) and names is None
     size = f'width="{page.width}" height="{page.height}"'
     parts = [f'<svg xmlns="http://www.w3.org/2000/svg" {size} viewBox="0 0 {page.width} {page.height}">']
-    parts.append(f'<rect {size} fill="{WHITE}"/>')
+    if page.style.ground is not None:
+        parts.append(f'<rect {size} fill="{page.style.ground}"/>')
     if backdrop is not None:
         parts.append(image_element(backdrop).decode().rstrip())
         assert image.frame is not None  # LabelImage has filled it in
@@ -89,12 +105,16 @@ def write_label_svg(
         parts += _cells(page, colour_of_label)
     if numbered:
         parts += _numbers(page, "seeds" in wanted)
-    if "seeds" in wanted and image.seeds is not None and not numbered:
+    if objects is not None:
+        parts += _outlines(page, objects, wanted)
+    elif "seeds" in wanted and image.seeds is not None and not numbered:
         parts += _discs(page)
     if "labels" in wanted and names is not None and not numbered:
         parts += _names(page, names)
     if backdrop is not None:
         parts.append("</g>")
+    paper = PixelPage(Page((0.0, 0.0, 1.0, 1.0), width=page.width, y_up=False))
+    parts += [b"".join(layer_parts(inset, paper, 1)).decode().rstrip() for inset in insets]
     out.write(("\n".join([*parts, "</svg>"]) + "\n").encode())
 
 
@@ -103,8 +123,8 @@ def has_numbers(shape: tuple[int, int]) -> bool:
     return max(shape) <= MOST_NUMBERED
 
 
-def check_size(shape: tuple[int, int]) -> None:
-    """Refuse an image that is too large for a picture with a path a label.
+def check_size(shape: tuple[int, int], fmt: str = "SVG") -> None:
+    """Refuse an image that is too large for a picture with a path a label, as SVG or on a page.
 
     Raises
     ------
@@ -116,7 +136,7 @@ def check_size(shape: tuple[int, int]) -> None:
     >>> check_size((1000, 1000))
     """
     if shape[0] * shape[1] > MOST_PIXELS:
-        raise LimitError(f"{shape[1]} x {shape[0]} pixels are too many for SVG, at most {MOST_PIXELS}: use {AS_PNG}")
+        raise LimitError(f"{shape[1]} x {shape[0]} pixels are too many for {fmt}, at most {MOST_PIXELS}: use {AS_PNG}")
 
 
 class _Page:
@@ -125,10 +145,10 @@ class _Page:
     Over another image it has that one's size.
     """
 
-    def __init__(self, image: LabelImage, width: int, backdrop: Backdrop | None) -> None:
+    def __init__(self, image: LabelImage, width: int, backdrop: Backdrop | None, style: PictureStyle) -> None:
         rows, columns = image.shape
         margin = _MARGIN * max(rows, columns)
-        self.image, self.width, self.backdrop = image, width, backdrop
+        self.image, self.width, self.backdrop, self.style = image, width, backdrop, style
         if backdrop is not None:
             self.height, self.width = backdrop.pixels.shape[:2]
             self.scale, self.offset = 1.0, 0.0
@@ -162,14 +182,50 @@ def _short(value: float) -> str:
 
 def _cells(page: _Page, colour_of_label: NDArray[Any] | Mapping[int, int]) -> Iterator[str]:
     # page coordinates, not a transform: not every renderer knows strokes that do not scale
-    corners = [page.corner(index) for index in range(max(page.image.shape) + 1)]
     style = fill_style(page.backdrop)
-    yield f'<g id="cells" fill-rule="evenodd"{style} stroke="{EDGE}" stroke-width="1.5" stroke-linejoin="round">'
-    for label, loops in crack_loops(page.image.labels):
+    yield f'<g id="cells" fill-rule="evenodd"{style}{_stroke(page, "cells", EDGE)}>'
+    for label, path in _paths(page, page.image.labels):
         colour = cell_colour(int(colour_of_label[label]))
-        path = "".join(_loop_path(loop, corners) for loop in loops)
         yield f'<path id="cell-{label}" fill="{colour}" vector-effect="non-scaling-stroke" d="{path}"/>'
     yield "</g>"
+
+
+def _outlines(page: _Page, objects: NDArray[np.integer], wanted: Iterable[str]) -> Iterator[str]:
+    """Objects filled, and their outlines; over an image with a white edge beneath these."""
+    paths = list(_paths(page, objects))
+    colour = page.style.of("seeds")[0] or SEED
+    if "objects" in wanted:
+        fill = page.style.of("objects")[0] or colour
+        yield f'<g id="objects" fill="{fill}" fill-rule="evenodd"{fill_style(page.backdrop)}>'
+        yield from (f'<path id="object-{label}" d="{path}"/>' for label, path in paths)
+        yield "</g>"
+    if "seeds" not in wanted or page.style.width_of("seeds", LINE_WIDTH) == 0:
+        return
+    if page.backdrop is not None:
+        yield f'<g id="seeds-halo" fill="none"{_stroke(page, "seeds", WHITE, wider=True)}>'
+        yield from (f'<path vector-effect="non-scaling-stroke" d="{path}"/>' for _, path in paths)
+        yield "</g>"
+    yield f'<g id="seeds" fill="none"{_stroke(page, "seeds", colour)}>'
+    yield from (f'<path id="seed-{label}" vector-effect="non-scaling-stroke" d="{path}"/>' for label, path in paths)
+    yield "</g>"
+
+
+def _stroke(page: _Page, layer: str, usual: str, *, wider: bool = False) -> str:
+    """Attributes of the lines of a layer; wider ones are the edge of those."""
+    colour, width = page.style.of(layer)
+    width = LINE_WIDTH if width is None else width
+    if width == 0:
+        return ""
+    if wider:
+        colour, width = usual, halo_width(width)
+    return f' stroke="{colour or usual}" stroke-width="{width:.3g}" stroke-linejoin="round"'
+
+
+def _paths(page: _Page, labels: NDArray[np.integer]) -> Iterator[tuple[int, str]]:
+    """Each label, and its outline in the coordinates of the page."""
+    corners = [page.corner(index) for index in range(max(labels.shape) + 1)]
+    for label, loops in crack_loops(labels):
+        yield label, "".join(_loop_path(loop, corners) for loop in loops)
 
 
 def _loop_path(loop: Loop, corners: list[str]) -> str:
@@ -190,11 +246,11 @@ def _numbers(page: _Page, mark_seeds: bool) -> Iterator[str]:
     digits = len(str(int(labels.max())))
     size = page.scale * min(0.5, 1.3 / max(digits, 1))
     style = f'text-anchor="middle" font-family="Helvetica, Arial, sans-serif" font-size="{_short(size)}"'
-    yield f'<g id="labels" {style} fill="{INK}">'
+    yield f'<g id="labels" {style} fill="{page.style.of("labels")[0] or INK}">'
     yield from _texts(page, ~marked, size, "")
     yield "</g>"
     if mark_seeds:
-        yield f'<g id="seeds" {style} fill="{SEED}" font-weight="bold">'
+        yield f'<g id="seeds" {style} fill="{page.style.of("seeds")[0] or SEED}" font-weight="bold">'
         yield from _texts(page, marked, size, ' text-decoration="underline"')
         yield "</g>"
 
@@ -213,7 +269,7 @@ def _names(page: _Page, names: Names) -> Iterator[str]:
     spacing = math.sqrt(page.width * page.height / max(len(names.texts), 1))
     size = min(max(spacing / 4, 6.0), 16.0)
     style = f'text-anchor="middle" font-family="Helvetica, Arial, sans-serif" font-size="{_short(size)}"'
-    yield f'<g id="labels" {style} fill="{INK}" {halo_style(WHITE, size)}>'
+    yield f'<g id="labels" {style} fill="{page.style.of("labels")[0] or INK}" {halo_style(WHITE, size)}>'
     for text, (column, row) in zip(names.texts, names.places.tolist(), strict=True):
         x, y = page.place(column, row + CAPITAL * size / page.scale / 2)
         yield f'<text x="{x}" y="{y}">{escape(text)}</text>'
@@ -223,7 +279,8 @@ def _names(page: _Page, names: Names) -> Iterator[str]:
 def _discs(page: _Page) -> Iterator[str]:
     places = page.seeds()
     radius = min(max(disc_radius(page.image.shape, len(places)) * page.scale, 1.2), 4.0)
-    yield f'<g id="seeds" fill="{SEED}">'
+    halo = "" if page.backdrop is None else f" {edge_style(WHITE, min(1.0, radius))}"
+    yield f'<g id="seeds" fill="{page.style.of("seeds")[0] or SEED}"{halo}>'
     for x, y in places.tolist():
         across, down = page.place(x, y)
         yield f'<circle cx="{across}" cy="{down}" r="{_short(radius)}"/>'

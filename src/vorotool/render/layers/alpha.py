@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 from vorotool.geometry.alpha.complex import CLASSES
 from vorotool.geometry.alpha.hull import AlphaHull
 from vorotool.geometry.alpha.shape import AlphaShape
-from vorotool.render.canvas.layers import Arcs, Layer, Lines, Page, Points, Polygons, Texts
-from vorotool.render.canvas.palettes import BOUNDARY, CELLS, FAINT, INK, PALE, SINGULAR, WHITE
+from vorotool.render.canvas.layers import Arcs, Layer, Lines, Page, Points, Polygons
+from vorotool.render.canvas.palettes import BOUNDARY, CELLS, FAINT, INK, PALE, SINGULAR
 from vorotool.render.label_images.png import checked_layers
+from vorotool.render.layers.mesh import site_names
 
 LAYERS = ("polygons", "delaunay", "interior", "boundary", "singular", "hull", "points", "labels")
 """From below."""
@@ -62,8 +63,7 @@ def alpha_layers(shape: AlphaShape, page: Page, layers: Iterable[str], *, hull: 
     if hull is not None:
         made["hull"] = Arcs("hull", hull.start, hull.end, hull.centre, hull.ring_start, CELLS[4], INK, width)
     if "labels" in wanted:
-        texts = [str(label) for label in shape.family.mesh.label_array.tolist()]
-        made["labels"] = Texts("labels", points, texts, size=min(max(spacing / 4, 2.0), 16.0), halo=WHITE)
+        made["labels"] = site_names(shape.family.mesh, page)
     return [made[name] for name in LAYERS if name in wanted]
 
 

@@ -6,8 +6,10 @@ from collections.abc import Iterable
 
 import numpy as np
 
+from vorotool.geometry.mesh.cells import CellSet
 from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation
 from vorotool.render.canvas.layers import Layer, Lines, Page, Points, Polygons, Texts, bounds_of
+from vorotool.render.canvas.names import column_texts, without_empty
 from vorotool.render.canvas.palettes import CELLS, INK, WHITE
 from vorotool.render.label_images.png import checked_layers
 
@@ -49,9 +51,24 @@ def mesh_layers(mesh: AnyTriangulation, page: Page, layers: Iterable[str]) -> li
         "points": Points("points", mesh.points, radius=min(max(spacing / 12, 0.3), 4.0)),
     }
     if "labels" in wanted:
-        texts = [str(label) for label in mesh.label_array.tolist()]
-        made["labels"] = Texts("labels", mesh.points, texts, size=min(max(spacing / 4, 2.0), 16.0), halo=WHITE)
+        made["labels"] = site_names(mesh, page)
     return [made[name] for name in LAYERS if name in wanted]
+
+
+def site_names(sites: AnyTriangulation | CellSet, page: Page) -> Texts:
+    """Ids of the sites beside these, or what the column says that the page is to have.
+
+    Examples
+    --------
+    >>> from vorotool import delaunay
+    >>> mesh = delaunay([[0, 0], [4, 0], [0, 3]])
+    >>> site_names(mesh, mesh_page(mesh)).texts
+    ['1', '2', '3']
+    """
+    points = sites.sites if isinstance(sites, CellSet) else sites.points
+    texts = column_texts(sites.properties, page.style.label_by, sites.label_array.tolist())
+    size = min(max(page.spacing(len(points)) / 4, 2.0), 16.0)
+    return without_empty(Texts("labels", points, texts, size=size, halo=WHITE))
 
 
 def mesh_page(

@@ -10,9 +10,9 @@ from vorotool.geometry.skeleton.offsets import Offsets
 from vorotool.render.canvas.layers import Arcs, Layer, Page, Points, bounds_of
 from vorotool.render.canvas.palettes import RESULT
 from vorotool.render.label_images.png import checked_layers
-from vorotool.render.layers.polygons import polygon_layers
+from vorotool.render.layers.polygons import names_of_features, polygon_layers
 
-LAYERS = ("polygons", "offset")
+LAYERS = ("polygons", "offset", "labels")
 """From below."""
 
 _FINE = 2.0**-10
@@ -29,7 +29,7 @@ def offset_layers(offsets: Offsets, page: Page, layers: Iterable[str]) -> list[L
     page : Page
         Where it will be drawn.
     layers : iterable of str
-        Which of "polygons", "offset".
+        Which of "polygons", "offset", "labels" (of the polygons).
 
     Raises
     ------
@@ -41,7 +41,7 @@ def offset_layers(offsets: Offsets, page: Page, layers: Iterable[str]) -> list[L
     >>> from vorotool import offset
     >>> made = offset([[0, 0], [4, 0], [0, 3]], 1)
     >>> [layer.name for layer in offset_layers(made, offset_page(made), LAYERS)]
-    ['polygons', 'offset']
+    ['polygons', 'offset', 'labels']
     """
     wanted = checked_layers(layers, LAYERS)
     width = min(max(page.spacing(max(len(offsets.site), 1)) / 16, 0.2), 1.5)
@@ -57,6 +57,8 @@ def offset_layers(offsets: Offsets, page: Page, layers: Iterable[str]) -> list[L
         offsets.piece_distance > 0,
     )
     made: dict[str, list[Layer]] = {"polygons": polygon_layers(offsets.polygons, width), "offset": [curves]}
+    if "labels" in wanted:
+        made["labels"] = [names_of_features(offsets.polygons, page)]
     return [layer for name in LAYERS if name in wanted for layer in made[name]]
 
 

@@ -12,7 +12,7 @@ from vorotool.render.canvas.palettes import FAINT, RESULT, SEED
 from vorotool.render.label_images.png import checked_layers
 from vorotool.render.layers.skeleton import skeleton_layers, skeleton_page
 
-LAYERS = ("polygons", "skeleton", "transects", "points")
+LAYERS = ("polygons", "skeleton", "transects", "points", "labels")
 """From below."""
 
 
@@ -26,7 +26,7 @@ def skeleton_point_layers(points: SkeletonPoints, page: Page, layers: Iterable[s
     page : Page
         Where it will be drawn.
     layers : iterable of str
-        Which of "polygons", "skeleton", "transects", "points".
+        Which of "polygons", "skeleton", "transects", "points", "labels" (of the polygons).
 
     Raises
     ------
@@ -50,6 +50,8 @@ def skeleton_point_layers(points: SkeletonPoints, page: Page, layers: Iterable[s
         made.append(Lines("transects", ends, pairs, RESULT, min(max(spacing / 24, 0.2), 1.5)))
     if "points" in wanted:
         made.append(Points("points", points.xy, SEED, min(max(spacing / 16, 0.3), 3.0)))
+    if "labels" in wanted:
+        made += skeleton_layers(points.skeleton, page, ["labels"])
     return made
 
 

@@ -10,11 +10,12 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.ragged import starts_of
-from vorotool.render.canvas.layers import Layer, Lines, Page, Points, Polygons, bounds_of
-from vorotool.render.canvas.palettes import FAINT, LIGHT, RESULT
+from vorotool.render.canvas.layers import Layer, Lines, Page, Points, Polygons, Texts, bounds_of, name_size
+from vorotool.render.canvas.names import column_texts, without_empty
+from vorotool.render.canvas.palettes import FAINT, LIGHT, RESULT, WHITE
 from vorotool.render.label_images.png import checked_layers
 
-SHAPE_LAYERS = ("shape",)
+SHAPE_LAYERS = ("shape", "labels")
 
 
 def polygon_layers(
@@ -98,17 +99,67 @@ def shape_layers(polygons: PolygonSet, page: Page, layers: Iterable[str]) -> lis
     page : Page
         Where it will be drawn.
     layers : iterable of str
-        "shape", if at all.
+        Which of "shape", "labels" (ids of the features, or what a column says).
 
     Raises
     ------
     UsageError
         If a layer is unknown.
     """
-    if "shape" not in checked_layers(layers, SHAPE_LAYERS):
-        return []
+    wanted = checked_layers(layers, SHAPE_LAYERS)
     width = min(max(page.spacing(max(len(polygons.xy), 1)) / 16, 0.2), 1.5)
-    return polygon_layers(polygons, width, name="shape", edge=RESULT)
+    made = polygon_layers(polygons, width, name="shape", edge=RESULT) if "shape" in wanted else []
+    return [*made, names_of_features(polygons, page)] if "labels" in wanted else made
+
+
+def feature_names(polygons: PolygonSet, page: Page) -> list[str]:
+    """Ids of the features, else their numbers from 0, or what the column says that the page is to have.
+
+    Examples
+    --------
+    >>> box = PolygonSet([[0, 0], [4, 0], [0, 3]], [0, 3], [0], [0], properties={"name": ["Huron"]})
+    >>> page = polygon_page(box)
+    >>> feature_names(box, page)
+    ['0']
+    """
+    assert polygons.feature is not None  # PolygonSet has filled it in
+    _, first = np.unique(polygons.feature, return_index=True)
+    ids = [None] * len(polygons) if polygons.ids is None else polygons.ids
+    names = [index if ids[index] is None else ids[index] for index in first.tolist()]
+    columns = polygons.properties if page.style.label_by is not None else {}
+    chosen = {name: [values[index] for index in first.tolist()] for name, values in columns.items()}
+    return column_texts(chosen, page.style.label_by, names)
+
+
+def names_of_features(polygons: PolygonSet, page: Page) -> Texts:
+    """Names of features: inside the largest polygon, in the middle of the longest line, on the first point.
+
+    Examples
+    --------
+    >>> box = PolygonSet([[0, 0], [4, 0], [4, 4], [0, 4]], [0, 4], [0], [0], ids=["a"])
+    >>> names = names_of_features(box, polygon_page(box))
+    >>> names.texts, names.points.tolist()
+    (['a'], [[2.0, 2.0]])
+    """
+    import shapely
+
+    from vorotool.geometry.polygons.conversion import to_shapely
+
+    assert polygons.feature is not None  # PolygonSet has filled it in
+    shapes = np.asarray(to_shapely(polygons), dtype=object)
+    measure = np.where(polygons.is_line, shapely.length(shapes), shapely.area(shapes))
+    order = np.lexsort((np.arange(len(shapes)), -measure, polygons.is_line, polygons.feature))
+    _, best = np.unique(polygons.feature[order], return_index=True)
+    chosen, is_line = shapes[order[best]], polygons.is_line[order[best]]
+    inside = np.empty(len(chosen), dtype=object)
+    inside[is_line] = shapely.line_interpolate_point(chosen[is_line], 0.5, normalized=True)
+    inside[~is_line] = shapely.point_on_surface(chosen[~is_line])
+    places = np.stack([shapely.get_x(inside), shapely.get_y(inside)], axis=1)
+    has_none = np.isnan(places).any(axis=1)  # of a polygon without area
+    corners = polygons.xy[polygons.ring_start[polygons.polygon_start[:-1]]]
+    places[has_none] = corners[order[best]][has_none]
+    names = feature_names(polygons, page)
+    return without_empty(Texts("labels", places, names, size=name_size(page, len(names)), halo=WHITE, is_centred=True))
 
 
 def polygon_page(polygons: PolygonSet, *, width: int = 1000, y_up: bool | None = None) -> Page:

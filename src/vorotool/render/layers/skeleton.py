@@ -12,9 +12,10 @@ from vorotool.geometry.skeleton.centerline import Centerlines
 from vorotool.geometry.skeleton.skeleton import EDGE, INTERIOR, Skeleton
 from vorotool.geometry.skeleton.tables import site_labels
 from vorotool.render.canvas.layers import Curves, Layer, Lines, Page, Points, Texts, bounds_of, name_size
+from vorotool.render.canvas.names import without_empty
 from vorotool.render.canvas.palettes import INK, RESULT, SEED, WHITE
 from vorotool.render.label_images.png import checked_layers
-from vorotool.render.layers.polygons import polygon_layers
+from vorotool.render.layers.polygons import feature_names, polygon_layers
 
 LAYERS = ("polygons", "elements", "points", "skeleton", "exact", "nodes", "labels")
 """From below."""
@@ -190,9 +191,8 @@ def _names(skeleton: Skeleton, page: Page) -> Texts:
     order = np.lexsort((nodes, -skeleton.radius[nodes], of))
     found, best = np.unique(of[order], return_index=True)
     places[found] = skeleton.vertices[nodes[order][best]]
-    ids = [None] * len(polygons) if polygons.ids is None else polygons.ids
-    names = [str(index if ids[index] is None else ids[index]) for index in first.tolist()]
-    return Texts("labels", places, names, size=name_size(page, len(names)), halo=WHITE, is_centred=True)
+    names = feature_names(polygons, page)
+    return without_empty(Texts("labels", places, names, size=name_size(page, len(names)), halo=WHITE, is_centred=True))
 
 
 def _arcs(skeleton: Skeleton, name: str, colour: str, width: float) -> Curves:

@@ -1,0 +1,86 @@
+"""Labels that grow into the background, as `skimage.segmentation.expand_labels` has them."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.engines.peers.arguments import pixel_side, plane
+from vorotool.engines.tessellation.frames import require_memory
+from vorotool.engines.tessellation.seeding import seeds_from_raster
+from vorotool.engines.tessellation.tessellator import Tessellator
+from vorotool.errors import InputError, UsageError
+from vorotool.geometry.numbers import real_number, shown_number
+from vorotool.geometry.pixel_frame import MAX_PIXELS, Frame
+
+if TYPE_CHECKING:
+    from vorotool.typing import ImageLike, Spacing
+
+
+def expand_labels(
+    labels: ImageLike,
+    distance: float | Fraction = 1,
+    *,
+    spacing: Spacing | None = None,
+    threads: int = 0,
+    max_pixels: int = MAX_PIXELS,
+) -> NDArray[Any]:
+    """Give each background pixel the label that is nearest to it, up to a distance.
+
+    As `skimage.segmentation.expand_labels`: labels do not grow into each other. Whether a pixel is within the distance
+    is decided exactly, and of several labels at one distance the smallest has the pixel; scikit-image compares rounded
+    distances, and gives a tie to any of them.
+
+    Parameters
+    ----------
+    labels : (H, W) array of integers or booleans
+        0 is background. Labels are from 1 to 4294967295.
+    distance : float or Fraction
+        How far labels grow, between centres of pixels, this distance included; ``inf`` fills all the background.
+    spacing : float or pair of equal floats, optional
+        The side of a pixel in the unit of `distance`, by default 1.
+    threads : int
+        0 uses all.
+    max_pixels : int
+        Larger images are refused before memory is taken.
+
+    Returns
+    -------
+    (H, W) array
+        Labels, of the type of the input.
+
+    Raises
+    ------
+    InputError
+        If the labels are no image, not integers, or out of range.
+    LimitError
+        If the image has more than `max_pixels` pixels.
+    UsageError
+        If the distance is below 0 or none, or pixels are not square.
+
+    References
+    ----------
+    Melkemi and Vandorpe, "Voronoi Diagrams and Applications", section 2.1.
+
+    Examples
+    --------
+    >>> expand_labels([[7, 0, 0, 0, 2]]).tolist(), expand_labels([[7, 0, 0, 0, 2]], 2).tolist()
+    ([[7, 7, 0, 2, 2]], [[7, 7, 2, 2, 2]])
+    """
+    side, values = pixel_side(spacing), plane(labels, "labels")
+    limit = real_number(distance, "distance")
+    if not limit >= 0:
+        raise UsageError(f"invalid distance {shown_number(distance)}: expected a number from 0")
+    if values.dtype.kind == "f":
+        raise InputError(f"invalid labels: expected integers or booleans, but got {values.dtype}; round them first")
+    if not values.size or not values.any():
+        return values.copy()
+    height, width = values.shape
+    require_memory(Frame(0, 0, width, height), max_pixels)
+    most = None if limit == float("inf") else Fraction(limit) / side
+    seeds = seeds_from_raster(values.astype(np.uint8) if values.dtype == bool else values, mode="labels")
+    grown = Tessellator(seeds, max_distance=most, threads=threads).labels(dtype=np.uint32)
+    return grown.astype(values.dtype)

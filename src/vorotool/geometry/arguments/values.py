@@ -1,0 +1,55 @@
+"""Values of the library as arguments: what is none is refused by name, with what makes one."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from vorotool.errors import InputError
+from vorotool.geometry.arguments.descriptions import described
+
+_MAKERS = {
+    "LabelImage": "tessellate",
+    "Triangulation": "delaunay",
+    "DigitalTriangulation": "digital_triangulation",
+    "CellSet": "voronoi_cells",
+    "AlphaComplex": "alpha_complex",
+    "AlphaShape": "alpha_shape",
+    "PlanarGraph": "planar_graph",
+    "Skeleton": "skeleton_exact",
+    "Offsets": "offset",
+}
+"""The function that makes a value of each type."""
+
+
+def check_value(value: Any, name: str, *types: type) -> None:
+    """Refuse what is not of a type of the library.
+
+    Parameters
+    ----------
+    value : object
+        What the caller gave.
+    name : str
+        Of the parameter.
+    *types : type
+        Those that it may have.
+
+    Raises
+    ------
+    InputError
+        With the function that makes such a value.
+
+    Examples
+    --------
+    >>> from vorotool import Skeleton
+    >>> check_value([[0, 0], [4, 0], [0, 3]], "skeleton", Skeleton)
+    Traceback (most recent call last):
+    vorotool.errors.InputError: invalid skeleton: expected a Skeleton of vorotool.skeleton_exact, but got a list
+    """
+    if isinstance(value, types):
+        return
+    expected = " or ".join(f"{_article(each.__name__)} of vorotool.{_MAKERS[each.__name__]}" for each in types)
+    raise InputError(f"invalid {name}: expected {expected}, but got {described(value)}")
+
+
+def _article(name: str) -> str:
+    return f"{'an' if name[0] in 'AO' else 'a'} {name}"

@@ -1,0 +1,150 @@
+"""Animations: results that grow, each frame computed as a picture of its own would be."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from fractions import Fraction
+from pathlib import PurePath
+from typing import TYPE_CHECKING, Any, BinaryIO, Protocol
+
+from vorotool.errors import LimitError, UsageError
+from vorotool.products.formats import ANIMATIONS
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from vorotool.jobs.run_log import Run
+    from vorotool.jobs.targets import Target
+    from vorotool.render.canvas.layers import Layer, Page
+
+FRAMES, FPS = 40, 10.0
+"""Where they are not chosen."""
+
+MOST_PIXELS = 1 << 28
+"""Of all frames together."""
+
+
+class Animated(Protocol):
+    """Options of what can be an animation."""
+
+    @property
+    def animate(self) -> bool:
+        """Whether it is to be one."""
+
+    @property
+    def frames(self) -> int | None:
+        """How many pictures it has."""
+
+    @property
+    def fps(self) -> float | None:
+        """How many of them are shown a second."""
+
+
+def animated(options: dict[str, Any]) -> dict[str, Any]:
+    """Give the options of a command with the format that ``--animate`` stands for, where no other is chosen.
+
+    Examples
+    --------
+    >>> animated({"animate": True, "format": None, "output": "growing.png"})["format"]
+    'apng'
+    """
+    if not options["animate"] or options["format"] is not None:
+        return options
+    ending = PurePath(options["output"] or "").suffix.lower()
+    chosen = {"": "gif", ".png": "apng"}.get(ending)
+    return options if chosen is None else {**options, "format": chosen}
+
+
+def check_animation(o: Animated, targets: Sequence[Target]) -> None:
+    """Refuse what no animation would show.
+
+    Raises
+    ------
+    UsageError
+        If an output is none, or no output is one.
+    """
+    moving = [target for target in targets if target.fmt in ANIMATIONS]
+    if o.animate and len(moving) < len(targets):
+        raise UsageError("--animate is for GIF, APNG and WebP: use -f gif, -f apng or -f webp, or leave it out")
+    for name, value in (("frames", o.frames), ("fps", o.fps)):
+        if value is not None and not moving:
+            raise UsageError(f"--{name} is for animations: use -f gif, -f apng or -f webp, or leave it out")
+
+
+def parts_of_whole(o: Animated, *, has_nothing: bool = False) -> list[Fraction]:
+    """Give how far a result has grown in each frame, up to 1; from 0 where nothing can be shown.
+
+    Examples
+    --------
+    >>> from types import SimpleNamespace
+    >>> [str(part) for part in parts_of_whole(SimpleNamespace(frames=4))]
+    ['1/4', '1/2', '3/4', '1']
+    """
+    count = o.frames or FRAMES
+    if has_nothing:
+        return [Fraction(k, max(count - 1, 1)) for k in range(count)]
+    return [Fraction(k, count) for k in range(1, count + 1)]
+
+
+def check_size(o: Animated, shape: tuple[int, int]) -> None:
+    """Refuse more pixels than can be shown.
+
+    Raises
+    ------
+    LimitError
+        If there are.
+    """
+    count = o.frames or FRAMES
+    if count * shape[0] * shape[1] > MOST_PIXELS:
+        raise LimitError(
+            f"{count} frames of {shape[1]} x {shape[0]} pixels are too many, at most {MOST_PIXELS} pixels: use fewer "
+            "--frames, or a smaller --width"
+        )
+
+
+def write_frames(
+    out: BinaryIO,
+    run: Run,
+    o: Animated,
+    fmt: str,
+    values: Sequence[Fraction],
+    draw: Callable[[Fraction], NDArray[np.uint8]],
+) -> None:
+    """Draw each frame and write them.
+
+    Parameters
+    ----------
+    out : binary file
+        Where to write.
+    run : Run
+        Shows how far it is.
+    o : options
+        With the frames a second.
+    fmt : str
+        Format of the animation.
+    values : sequence of Fraction
+        How far the result has grown in each frame.
+    draw : callable
+        Gives the (H, W, 3) pixels of a frame.
+    """
+    from vorotool.formats.images.animation_writer import write_animation
+
+    progress = run.progress("animate")
+
+    def frames() -> Iterator[NDArray[np.uint8]]:
+        for number, value in enumerate(values):
+            yield draw(value)
+            if progress is not None:
+                progress((number + 1) / len(values))
+
+    write_animation(out, frames(), fmt=fmt, fps=o.fps or FPS)
+
+
+def layer_pixels(layers: Sequence[Layer], page: Page) -> NDArray[np.uint8]:
+    """(H, W, 3) red, green and blue of a picture of layers."""
+    import numpy as np
+
+    from vorotool.jobs.pictures import picture_bands
+
+    return np.concatenate(list(picture_bands(layers, page))).reshape(page.height, page.width, -1)[:, :, :3]

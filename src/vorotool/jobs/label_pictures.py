@@ -1,0 +1,356 @@
+"""Pictures of label images, as SVG and PNG."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.geometry.points.label_image import LabelImage
+
+if TYPE_CHECKING:
+    from vorotool.geometry.points.seed_set import SeedSet
+    from vorotool.geometry.table import Table
+    from vorotool.render.canvas.layers import Backdrop, Layer, Page
+    from vorotool.render.canvas.styles import PictureStyle
+    from vorotool.render.label_images.png import Names
+
+BAND_ROWS = 256
+"""Rows of a picture that are composed at a time."""
+
+LARGEST_TABLE = 1 << 20
+"""Entries that a table of colours by label may have in any case; beyond, it must be mostly used."""
+
+LEAST_SPACING = 6.0
+"""Pixels between the middles of cells, below which borders in PNG would hide them."""
+
+
+@dataclass(frozen=True, eq=False)
+class LabelPicture:
+    """A label image, and how it is drawn.
+
+    Parameters
+    ----------
+    image : LabelImage
+        With seeds, if these are drawn.
+    colours : pair of (k,) integer arrays
+        The labels that occur, increasing, and the colour class of each: what `region_colours` gives.
+    layers : sequence of str
+        Of cells, diagram (PNG), objects, seeds and labels.
+    style : PictureStyle
+        Ground, colours and widths of lines.
+    width : int
+        Pixels across an SVG.
+    y_up : bool
+        Draw the last row on top.
+    backdrop : Backdrop, optional
+        The image, whose size the picture has.
+    texts : mapping of int to str, optional
+        Written on regions instead of their labels; on those that are not in it nothing is.
+    threads : int
+        0 uses all.
+    """
+
+    image: LabelImage
+    colours: tuple[NDArray[Any], NDArray[Any]]
+    layers: Sequence[str]
+    style: PictureStyle
+    width: int = 1000
+    y_up: bool = False
+    backdrop: Backdrop | None = None
+    texts: Mapping[int, str] | None = None
+    threads: int = 0
+
+    def write(self, out: BinaryIO, fmt: str) -> None:
+        """Draw it as SVG, or as a palette PNG of its own size, or over an image.
+
+        Parameters
+        ----------
+        out : binary file
+            Where to write.
+        fmt : {"png", "svg"}
+            Kind of picture.
+        """
+        picture = replace(self, image=self.image.flipped()) if self.y_up else self
+        if fmt == "svg":
+            _write_svg(out, picture)
+        else:
+            _write_png(out, picture)
+
+    def pixels(self) -> NDArray[np.uint8]:
+        """(H, W, 3) red, green and blue of the PNG."""
+        picture = replace(self, image=self.image.flipped()) if self.y_up else self
+        return _pixels(picture, _Marks(picture))
+
+    @property
+    def shows_borders(self) -> bool:
+        """Whether cells are wide enough for borders of a pixel."""
+        labelled = int(np.count_nonzero(self.image.labels))
+        return labelled >= LEAST_SPACING**2 * len(self.colours[0])
+
+
+def write_label_page(
+    out: BinaryIO,
+    labels: NDArray[Any],
+    colours: tuple[NDArray[Any], NDArray[Any]],
+    table: Table,
+    more: Mapping[str, Sequence[Any]] | None = None,
+    *,
+    y_up: bool,
+) -> None:
+    """Write a page that names the region that is pointed at, with its row of a table.
+
+    Parameters
+    ----------
+    out : binary file
+        Receives UTF-8.
+    labels : (H, W) integer array
+        0 is no label.
+    colours : pair of (k,) integer arrays
+        The labels that occur, increasing, and the colour class of each.
+    table : Table
+        A row a label, by its column ``label``.
+    more : mapping of str to sequence, optional
+        Further columns, in the order of the colours.
+    y_up : bool
+        The last row is on top.
+    """
+    from vorotool.render.pages.cells_html import shapes_of_labels, write_cells_html
+
+    rows = {int(label): row for row, label in enumerate(table["label"])}
+    chosen = [rows[int(label)] for label in colours[0]]
+    columns = {name: [table[name][row] for row in chosen] for name in table if name != "label"}
+    write_cells_html(out, shapes_of_labels(labels, y_up=y_up), colours[1], columns | dict(more or {}))
+
+
+def default_layers(image: LabelImage, layers: Sequence[str]) -> tuple[str, ...]:
+    """Layers of a picture for which none are chosen: numbers in the pixels of small images, but no names in others."""
+    from vorotool.render.label_images.svg import has_numbers
+
+    return tuple(layer for layer in layers if layer != "labels" or has_numbers(image.shape))
+
+
+def site_texts(seeds: SeedSet, column: str) -> dict[int, str]:
+    """Give what a column of the sites writes on the region of each label.
+
+    Examples
+    --------
+    >>> from vorotool.geometry.points.seed_set import SeedSet
+    >>> seeds = SeedSet(np.array([0, 5]), np.array([0, 1]), np.array([1, 2]), properties={"town": ["Ulm", None]})
+    >>> site_texts(seeds, "town")
+    {1: 'Ulm', 2: ''}
+    """
+    from vorotool.render.canvas.names import column_texts
+
+    assert seeds.site_labels is not None  # SeedSet has filled it in
+    return dict(zip(seeds.site_labels.tolist(), column_texts(seeds.properties, column, ()), strict=True))
+
+
+def _names(picture: LabelPicture) -> Names | None:
+    """Names of regions, deep inside their objects or themselves."""
+    if "labels" not in picture.layers:
+        return None
+    from vorotool.engines.label_images.label_places import name_places
+    from vorotool.render.label_images.png import Names
+
+    labels, places = name_places(picture.image, threads=picture.threads)
+    if picture.texts is None:
+        return Names([str(label) for label in labels.tolist()], places)
+    texts = [picture.texts.get(label, "") for label in labels.tolist()]
+    named = [k for k, text in enumerate(texts) if text]
+    return Names([texts[k] for k in named], places[named])
+
+
+def _objects(picture: LabelPicture) -> LabelImage | None:
+    """The objects that are the seeds, if they are drawn."""
+    if not {"objects", "seeds"} & set(picture.layers):
+        return None
+    from vorotool.engines.label_images.label_places import seed_objects
+
+    return seed_objects(picture.image)
+
+
+def _write_svg(out: BinaryIO, picture: LabelPicture) -> None:
+    from vorotool.render.label_images.svg import has_numbers, write_label_svg
+
+    is_numbered = "labels" in picture.layers and has_numbers(picture.image.shape) and picture.texts is None
+    objects = None if is_numbered else _objects(picture)
+    write_label_svg(
+        out,
+        picture.image,
+        colour_of_label=dict(zip(picture.colours[0].tolist(), picture.colours[1].tolist(), strict=True)),
+        width=picture.width,
+        layers=picture.layers,
+        backdrop=picture.backdrop,
+        names=None if is_numbered else _names(picture),
+        objects=None if objects is None else objects.labels,
+        style=picture.style,
+        insets=_insets(picture, _page(picture), has_outlines=objects is not None),
+    )
+
+
+def _page(picture: LabelPicture) -> Page:
+    """Where pixels are on an SVG."""
+    from vorotool.render.canvas.layers import ImagePage, Page
+
+    if picture.backdrop is not None:
+        return ImagePage(picture.backdrop)
+    rows, columns = picture.image.shape
+    return Page((0.0, 0.0, float(columns), float(rows)), width=picture.width, y_up=False)
+
+
+def _insets(picture: LabelPicture, page: Page, *, has_outlines: bool) -> list[Layer]:
+    """The legend and the scale bar, if they are asked for."""
+    from vorotool.render.canvas.insets import insets
+    from vorotool.render.canvas.layers import Lines, Points, Polygons
+    from vorotool.render.canvas.palettes import CELLS, EDGE, LINE, SEED
+
+    page.style = picture.style
+    nowhere, none = np.empty((0, 2)), np.empty((0, 2), np.int32)
+    corners, rings = np.empty(0, np.int32), np.zeros(1, np.int64)
+
+    def colour(layer: str, usual: str) -> str:
+        return picture.style.of(layer)[0] or usual
+
+    seeds = colour("seeds", SEED)
+    made: dict[str, Layer] = {
+        "cells": Polygons("cells", nowhere, corners, rings, colours=CELLS[:1], edge=colour("cells", EDGE)),
+        "diagram": Lines("diagram", nowhere, none, colour("diagram", LINE)),
+        "objects": Polygons("objects", nowhere, corners, rings, colours=[colour("objects", seeds)]),
+        "seeds": Lines("seeds", nowhere, none, seeds) if has_outlines else Points("seeds", nowhere, seeds),
+    }
+    return insets([layer for name, layer in made.items() if name in picture.layers], page)
+
+
+def _write_png(out: BinaryIO, picture: LabelPicture) -> None:
+    from vorotool.formats.images.png_writer import write_png
+
+    threads, marks = picture.threads, _Marks(picture)
+    if picture.backdrop is not None or picture.style.has_insets:
+        pixels = _pixels(picture, marks)
+        write_png(out, [pixels.reshape(len(pixels), -1)], pixels.shape[:2], rgb=True, threads=threads)
+        return
+    palette, has_alpha = marks.palette, picture.style.ground is None
+    bands, depth = _indexed(picture, marks), palette.bit_depth
+    write_png(
+        out, bands, picture.image.shape, bit_depth=depth, palette=palette.colours, has_alpha=has_alpha, threads=threads
+    )
+
+
+def _indexed(picture: LabelPicture, marks: _Marks) -> Iterator[NDArray[np.uint8]]:
+    """Rows of palette indices, in bands from top to bottom."""
+    from vorotool.render.label_images.png import picture_bands
+
+    image = picture.image
+    number, colour_of_number = _numbering(*picture.colours)
+    starts = range(0, image.shape[0], BAND_ROWS)
+    return picture_bands(
+        (number(image.labels[row : row + BAND_ROWS]) for row in starts),
+        shape=image.shape,
+        palette=marks.palette,
+        colour_of_label=colour_of_number,
+        diagram=None if marks.diagram is None else (marks.diagram[row : row + BAND_ROWS] for row in starts),
+        marks=marks.below,
+        seeds=image.seeds,
+        outlines=marks.outlines,
+        frame=image.frame,
+        names=marks.names,
+        layers=picture.layers,
+    )
+
+
+def _pixels(picture: LabelPicture, marks: _Marks) -> NDArray[np.uint8]:
+    """(H, W, 3) red, green and blue, with the image beneath, and a legend and a scale bar over them."""
+    from vorotool.render.canvas.layers import Backdrop, ImagePage
+    from vorotool.render.canvas.png import layer_bands
+    from vorotool.render.label_images.png import over_image
+
+    bands, backdrop = _indexed(picture, marks), picture.backdrop
+    if backdrop is None:
+        pixels: NDArray[np.uint8] = marks.palette.colours[np.concatenate(list(bands))]
+    else:
+        assert picture.image.frame is not None  # LabelImage has filled it in
+        pixels = over_image(bands, backdrop, marks.palette, picture.image.frame).reshape(backdrop.pixels.shape)
+    if not picture.style.has_insets:
+        return pixels
+    page = ImagePage(Backdrop(pixels, bytes))
+    over = _insets(picture, page, has_outlines=marks.outlines is not None)
+    drawn: NDArray[np.uint8] = np.concatenate(list(layer_bands([], page, insets=over)))
+    return drawn.reshape(pixels.shape)
+
+
+class _Marks:
+    """What is drawn over the cells of a PNG, pixel by pixel, and in which colours.
+
+    Parameters
+    ----------
+    picture : LabelPicture
+        With everything that is chosen.
+    """
+
+    def __init__(self, picture: LabelPicture) -> None:
+        from vorotool.engines.label_images.label_places import outermost_pixels
+        from vorotool.render.canvas.palettes import picture_palette
+        from vorotool.render.label_images.png import around, widened
+
+        layers, style, over = picture.layers, picture.style, picture.backdrop is not None
+        objects, self.names = _objects(picture), _names(picture)
+        borders = _borders(picture)
+        self.diagram = self._lines(picture) if "diagram" in layers else None
+        self.outlines: NDArray[np.bool_] | None = None
+        if objects is not None and "seeds" in layers:
+            self.outlines = widened(outermost_pixels(objects), style.width_of("seeds"))
+        lines = [each for each in (self.diagram, self.outlines) if each is not None]
+        halo = around(np.logical_or.reduce(lines)) if over and lines else None
+        chosen = {layer: colour for layer, colour in style.colours.items() if layer in layers}
+        if style.ground is not None:
+            chosen["ground"] = style.ground
+        self.palette = picture_palette(
+            int(picture.colours[1].max(initial=0)),
+            has_halo=over or self.names is not None or borders is not None,
+            has_halos=over,
+            chosen=chosen,
+        )
+        below = [(self.palette.border, borders), (self.palette.object, None), (self.palette.halo, halo)]
+        if objects is not None and "objects" in layers:
+            below[1] = (self.palette.object, objects.labels != 0)
+        self.below = [(value, pixels) for value, pixels in below if pixels is not None]
+
+    @staticmethod
+    def _lines(picture: LabelPicture) -> NDArray[np.bool_]:
+        from vorotool.engines.label_images.regions import voronoi_diagram
+        from vorotool.render.label_images.png import widened
+
+        diagram = voronoi_diagram(picture.image, threads=picture.threads).view(bool)
+        return widened(diagram, picture.style.width_of("diagram"))
+
+
+def _borders(picture: LabelPicture) -> NDArray[np.bool_] | None:
+    """Borders between cells: a pixel wide, if cells are not too small for that, or as is chosen."""
+    from vorotool.engines.label_images.regions import voronoi_diagram
+    from vorotool.render.label_images.png import widened
+
+    chosen = picture.style.of("cells")[1]
+    if "cells" not in picture.layers or chosen == 0 or not len(picture.colours[0]):
+        return None
+    if chosen is None and not picture.shows_borders:
+        return None
+    return widened(
+        voronoi_diagram(picture.image, threads=picture.threads).view(bool), 1.0 if chosen is None else chosen
+    )
+
+
+def _numbering(
+    labels: NDArray[Any], classes: NDArray[Any]
+) -> tuple[Callable[[NDArray[Any]], NDArray[Any]], NDArray[Any]]:
+    """Numbers that a table of colours is indexed by: the labels, or their ranks from 1 where labels are sparse."""
+    largest = int(labels.max(initial=0))
+    if largest > 4 * len(labels) + LARGEST_TABLE:
+        known = np.append(0, labels)
+        return lambda band: np.searchsorted(known, band), np.append(0, classes)
+    by_label = np.zeros(largest + 1, classes.dtype)
+    by_label[labels] = classes
+    return np.asarray, by_label

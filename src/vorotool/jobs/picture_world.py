@@ -1,0 +1,216 @@
+"""Where what is drawn lies: units of lengths, longitude and latitude, the frame of an image, and columns of names."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING, Any
+
+from vorotool.errors import UsageError
+from vorotool.geometry.crs import crs_text, is_geographic
+from vorotool.geometry.length_units import unit_name
+from vorotool.jobs.picture_style import Looks, World
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from vorotool.geometry.mesh.cells import CellSet
+    from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation
+    from vorotool.geometry.pixel_frame import Frame
+    from vorotool.geometry.points.point_set import PointSet
+    from vorotool.geometry.points.seed_set import SeedSet
+    from vorotool.geometry.polygons.polygon_set import PolygonSet
+    from vorotool.jobs.options import JobOptions, SiteOptions
+    from vorotool.jobs.run_log import Run
+    from vorotool.jobs.units import PixelSize
+    from vorotool.render.canvas.styles import ScaleBar
+
+STEEPEST = 89.0
+"""Degrees of latitude beyond which the world is drawn as at this one: the poles have no aspect."""
+
+
+def world_of(
+    run: Run | None,
+    looks: Looks,
+    *,
+    crs: Any = None,
+    unit: str | None = None,
+    bounds: tuple[float, float, float, float] | None = None,
+    frame: Frame | None = None,
+    size: PixelSize | None = None,
+) -> World:
+    """Tell where what is drawn lies.
+
+    Parameters
+    ----------
+    run : Run, optional
+        Takes a note why there is no scale bar.
+    looks : Looks
+        What is chosen of pictures.
+    crs : object, optional
+        The coordinate reference system of points or polygons.
+    unit : str, optional
+        That the input names.
+    bounds : (x, y, x, y), optional
+        The least and the largest coordinates.
+    frame : Frame, optional
+        Of the image that the data come from, whose pixels their coordinates are.
+    size : PixelSize, optional
+        The side of a pixel, or of a unit of the input.
+    """
+    is_angular = is_geographic(crs) and frame is None
+    aspect = aspect_at((bounds[1] + bounds[3]) / 2) if is_angular and bounds is not None else 1.0
+    bar = None
+    if looks.has_scale_bar:
+        if is_angular or (size is not None and is_geographic(size.crs)):
+            if run is not None:
+                run.note("there is no scale bar: the length of a degree of longitude differs from place to place")
+        else:
+            bar = _scale_bar(crs, unit, size, is_image=frame is not None)
+    return World(bar, unit, aspect, None if frame is None else _sides(frame))
+
+
+def world_of_sites(run: Run, o: SiteOptions, mesh: AnyTriangulation, sites: PointSet | SeedSet) -> World:
+    """Tell where sites lie that are points, or objects of an image.
+
+    Parameters
+    ----------
+    run : Run
+        Takes notes.
+    o : SiteOptions
+        With the size of pixels.
+    mesh : triangulation
+        Of the sites.
+    sites : PointSet or SeedSet
+        What was read.
+    """
+    from vorotool.geometry.points.seed_set import SeedSet
+
+    frame = sites.frame if isinstance(sites, SeedSet) else None
+    return world_of(run, o.looks, crs=mesh.crs, bounds=_bounds_of(mesh.points), frame=frame, size=o.pixel_size)
+
+
+def world_of_polygons(
+    run: Run, o: JobOptions, polygons: PolygonSet, *, frame: Frame | None = None, size: PixelSize | None = None
+) -> World:
+    """Tell where polygons and lines lie, or outlines of an image with a frame."""
+    sides = _bounds_of(polygons.xy)
+    return world_of(run, o.looks, crs=polygons.crs, unit=polygons.unit, bounds=sides, frame=frame, size=size)
+
+
+def world_of_value(value: Any, looks: Looks) -> World:
+    """Tell where a value of the library lies, and refuse a column that it has not.
+
+    Parameters
+    ----------
+    value : value of the library
+        Other than a label image.
+    looks : Looks
+        What is chosen of pictures.
+    """
+    from vorotool.geometry.mesh.cells import CellSet
+    from vorotool.geometry.polygons.polygon_set import PolygonSet
+
+    inner = _input_of(value)
+    check_column(looks.label_by, inner.properties, "label_by")
+    if isinstance(inner, PolygonSet):
+        return world_of(None, looks, crs=inner.crs, unit=inner.unit, bounds=_bounds_of(inner.xy))
+    points = inner.sites if isinstance(inner, CellSet) else inner.points
+    return world_of(None, looks, crs=inner.crs, bounds=_bounds_of(points))
+
+
+def _input_of(value: Any) -> AnyTriangulation | CellSet | PolygonSet:
+    """What of a value has the coordinate reference system and the columns of its input."""
+    from vorotool.geometry.alpha.hull import AlphaHull
+    from vorotool.geometry.alpha.shape import AlphaShape
+    from vorotool.geometry.skeleton.centerline import Centerlines
+    from vorotool.geometry.skeleton.offsets import Offsets
+    from vorotool.geometry.skeleton.points_along import SkeletonPoints
+    from vorotool.geometry.skeleton.skeleton import Skeleton
+
+    inside: list[tuple[Any, Callable[[Any], Any]]] = [
+        (AlphaHull, lambda hull: hull.shape.family.mesh),
+        (AlphaShape, lambda shape: shape.family.mesh),
+        (Centerlines, lambda lines: lines.path.polygons),
+        (SkeletonPoints, lambda points: points.skeleton.polygons),
+        ((Skeleton, Offsets), lambda of: of.polygons),
+    ]
+    found: AnyTriangulation | CellSet | PolygonSet = next(
+        (get(value) for kind, get in inside if isinstance(value, kind)), value
+    )
+    return found
+
+
+def _bounds_of(points: NDArray[np.float64]) -> tuple[float, float, float, float]:
+    from vorotool.geometry.box import bounds
+
+    if not len(points):
+        return (0.0, 0.0, 0.0, 0.0)
+    low, high = bounds(points)
+    return (float(low[0]), float(low[1]), float(high[0]), float(high[1]))
+
+
+def aspect_at(latitude: float) -> float:
+    """Give how much longer a degree of latitude is than one of longitude, on a sphere.
+
+    Examples
+    --------
+    >>> aspect_at(0.0), round(aspect_at(60.0), 12), aspect_at(90) == aspect_at(-89)
+    (1.0, 2.0, True)
+    """
+    from math import pi
+
+    from vorotool.geometry.curves.inverse_functions import cosine_and_sine
+
+    nearest = min(max(latitude, -STEEPEST), STEEPEST)
+    return 1.0 / float(cosine_and_sine(nearest * pi / 180.0)[0])
+
+
+def _scale_bar(crs: Any, unit: str | None, size: PixelSize | None, *, is_image: bool) -> ScaleBar:
+    from vorotool.render.canvas.styles import ScaleBar
+
+    if size is not None and not size.is_auto:
+        return ScaleBar(float(size.factor), None if size.unit is None else unit_name(size.unit))
+    return ScaleBar(1.0, "px" if is_image else unit or _unit_of(crs))
+
+
+def _unit_of(crs: Any) -> str | None:
+    """Unit of a system of a map, if it names one and pyproj, which knows it, is there."""
+    text = crs_text(crs)
+    if text is None:
+        return None
+    try:
+        import pyproj
+    except ImportError:
+        return None
+    try:
+        axes = pyproj.CRS.from_user_input(text).axis_info
+    except pyproj.exceptions.CRSError:
+        return None
+    return unit_name(axes[0].unit_name) if axes else None
+
+
+def _sides(frame: Frame) -> tuple[float, float, float, float]:
+    """The outer sides of the pixels, whose centres are at integers."""
+    left, low = frame.x - 0.5, frame.y - 0.5
+    return (left, low, left + frame.width, low + frame.height)
+
+
+def check_column(label_by: str | None, columns: Iterable[str], option: str = "--label-by") -> None:
+    """Refuse a column that the input has not.
+
+    Raises
+    ------
+    UsageError
+        If it is none; those that there are are named.
+
+    Examples
+    --------
+    >>> check_column("name", ["name"])
+    """
+    known = list(columns)
+    if label_by is None or label_by in known:
+        return
+    if not known:
+        raise UsageError(f"invalid {option} {label_by!r}: the input has no columns of properties; leave it out")
+    raise UsageError(f"invalid {option} {label_by!r}: expected a column of the input, {', '.join(known)}")

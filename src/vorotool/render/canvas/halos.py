@@ -1,0 +1,44 @@
+"""White edges of lines and points, which show on dark and on light ground with them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from vorotool.render.canvas.layers import Arcs, Curves, Layer, Lines, Points
+from vorotool.render.canvas.palettes import WHITE
+
+
+def halo_width(width: float) -> float:
+    """Give the width of a line with a white edge of up to 1 px on both sides: many fine lines leave no more room.
+
+    Examples
+    --------
+    >>> halo_width(1.5), halo_width(0.25)
+    (3.5, 0.75)
+    """
+    return width + min(2.0, 2 * width)
+
+
+def with_halos(layers: Sequence[Layer]) -> list[Layer]:
+    """Put a white edge beneath each layer of lines and of points, so that they show on dark and on light ground.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> line = Lines("edges", np.zeros((2, 2)), np.array([[0, 1]], dtype=np.int32))
+    >>> [(layer.name, layer.colour, layer.width) for layer in with_halos([line])]
+    [('edges-halo', '#ffffff', 3.5), ('edges', '#222222', 1.5)]
+    """
+    made: list[Layer] = []
+    for layer in layers:
+        name = f"{layer.name}-halo"
+        if isinstance(layer, Arcs):
+            made.append(replace(layer, name=name, width=halo_width(layer.width), edge=WHITE, fill=None))
+        elif isinstance(layer, Lines | Curves):
+            made.append(replace(layer, name=name, width=halo_width(layer.width), colour=WHITE))
+        elif isinstance(layer, Points):
+            made.append(replace(layer, halo=WHITE))
+            continue
+        made.append(layer)
+    return made

@@ -1,0 +1,157 @@
+"""The legend and the scale bar of a picture: layers in px of its page."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+from decimal import Decimal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import UsageError, option
+from vorotool.render.canvas.layers import Arcs, Curves, Layer, Lines, Page, Points, Polygons, Texts
+from vorotool.render.canvas.palettes import FAINT, INK, WHITE
+from vorotool.render.canvas.styles import ScaleBar
+
+LETTERS = 1 / 60
+"""Size of letters, as a part of the page's width."""
+
+LEAST, LARGEST = 10.0, 16.0
+"""Size of letters in px."""
+
+ADVANCE = 0.62
+"""From one letter to the next, as a part of their size."""
+
+LONGEST = 0.25
+"""Of a scale bar, as a part of the page's width."""
+
+
+def insets(layers: Sequence[Layer], page: Page) -> list[Layer]:
+    """Make the legend and the scale bar that the style of a page asks for.
+
+    Parameters
+    ----------
+    layers : sequence of Layer
+        What is drawn on the page.
+    page : Page
+        With its style.
+
+    Returns
+    -------
+    list of Layer
+        In px of the page.
+
+    Raises
+    ------
+    UsageError
+        If no length fits as a scale bar.
+
+    Examples
+    --------
+    >>> page = Page((0, 0, 100, 50), width=1000, y_up=True)
+    >>> page.style = replace(page.style, scale_bar=ScaleBar(1.0, "m"))
+    >>> [layer.texts for layer in insets([], page) if isinstance(layer, Texts)]
+    [['20 m']]
+    """
+    style = page.style
+    made: list[Layer] = []
+    if style.has_legend:
+        made += _legend(layers, page)
+    if style.scale_bar is not None:
+        made += _scale_bar(style.scale_bar, page)
+    return made
+
+
+def rounded_length(longest: float) -> float:
+    """Give the largest length of 1, 2 or 5 times a power of ten that is at most so long.
+
+    Examples
+    --------
+    >>> rounded_length(49.9), rounded_length(0.05), rounded_length(1999)
+    (20.0, 0.05, 1000.0)
+    """
+    power = Decimal(longest).adjusted()
+    return max(length for k in (power - 1, power, power + 1) for length in _lengths(k) if length <= longest)
+
+
+def _lengths(power: int) -> Iterable[float]:
+    return (float(f"{number}e{power}") for number in (1, 2, 5))
+
+
+def _size(page: Page) -> float:
+    return min(max(page.width * LETTERS, LEAST), LARGEST)
+
+
+def _box(name: str, low: tuple[float, float], high: tuple[float, float], fill: str, edge: str | None) -> Polygons:
+    corners = np.array([[low[0], low[1]], [high[0], low[1]], [high[0], high[1]], [low[0], high[1]]])
+    return Polygons(name, corners, np.arange(4, dtype=np.int32), np.array([0, 4]), colours=[fill], edge=edge, width=1.0)
+
+
+def _line(name: str, places: NDArray[np.float64], colour: str, width: float) -> Lines:
+    pairs = np.stack([np.arange(len(places) - 1), np.arange(1, len(places))], axis=1).astype(np.int32)
+    return Lines(name, places, pairs, colour, width)
+
+
+def _legend(layers: Sequence[Layer], page: Page) -> list[Layer]:
+    """A box in the upper right corner with a row for each layer that is no text, the topmost first."""
+    shown = [layer for layer in reversed(layers) if not isinstance(layer, Texts)]
+    if not shown:
+        return []
+    size = _size(page)
+    row, gap = 1.6 * size, 0.6 * size
+    longest = max(len(layer.name) for layer in shown)
+    across, down = 2 * gap + 2.4 * size + ADVANCE * size * longest, 2 * gap + row * len(shown)
+    left, top = page.width - across - gap, gap
+    made: list[Layer] = [_box("legend", (left, top), (left + across, top + down), WHITE, FAINT)]
+    for number, layer in enumerate(shown):
+        middle = top + gap + row * (number + 0.5)
+        made += _sample(layer, left + gap, middle, size)
+    places = np.array([[left + gap + 2.4 * size, top + gap + row * (k + 0.5)] for k in range(len(shown))])
+    names = [layer.name for layer in shown]
+    return [*made, Texts("legend-names", places, names, size=size, is_centred=True, is_led=True)]
+
+
+def _sample(layer: Layer, left: float, middle: float, size: float) -> list[Layer]:
+    """A small piece of a layer, as wide as two letters are high."""
+    name, right = f"legend-{layer.name}", left + 2 * size
+    ends = np.array([[left, middle], [right, middle]])
+    if isinstance(layer, Points):
+        return [replace(layer, name=name, points=ends.mean(axis=0, keepdims=True), radius=max(layer.radius, 2.0))]
+    if isinstance(layer, Polygons) or (isinstance(layer, Arcs) and layer.fill is not None):
+        fill = layer.fill if isinstance(layer, Arcs) else _fill(layer)
+        low, high = (left, middle - 0.5 * size), (right, middle + 0.5 * size)
+        return [_box(name, low, high, fill or WHITE, FAINT if layer.edge in (None, WHITE) else layer.edge)]
+    if isinstance(layer, Curves):
+        control = np.array([-1], dtype=np.int32)
+        pairs = np.array([[0, 1]], dtype=np.int32)
+        return [replace(layer, name=name, points=ends, pairs=pairs, control=control, width=max(layer.width, 1.0))]
+    assert isinstance(layer, Lines | Arcs)  # texts have no row
+    colour = layer.edge if isinstance(layer, Arcs) else layer.colour
+    return [_line(name, ends, colour, max(layer.width, 1.0))]
+
+
+def _fill(layer: Polygons) -> str:
+    """The first colour that is used."""
+    return layer.colours[0 if layer.colour_of is None or not len(layer.colour_of) else int(layer.colour_of[0])]
+
+
+def _scale_bar(bar: ScaleBar, page: Page) -> list[Layer]:
+    """A line with serifs in the lower left corner, and its length over it, both with a white edge."""
+    size = _size(page)
+    unit = page.length(1.0) / bar.factor  # px of a unit of the bar
+    longest = LONGEST * page.width / unit if unit > 0 else 0.0
+    if not 0 < longest < float("inf"):
+        raise UsageError(f"no length fits as a scale bar: leave out {option('--scale-bar', 'scale_bar=True')}")
+    length = rounded_length(longest)
+    left, low, serif = 2 * size, page.height - 2 * size, 0.3 * size
+    right = left + length * unit
+    places = np.array([[left, low - serif], [left, low], [right, low], [right, low - serif]])
+    lines = _line("scale-bar", places, INK, 2.0)
+    over = np.array([[(left + right) / 2, low - 1.1 * size]])
+    name = f"{length:.10g} {bar.unit}" if bar.unit else f"{length:.10g}"
+    return [
+        replace(lines, name="scale-bar-halo", colour=WHITE, width=5.0),
+        lines,
+        Texts("scale-bar-length", over, [name], size=size, halo=WHITE, is_centred=True),
+    ]

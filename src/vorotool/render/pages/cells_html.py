@@ -1,0 +1,172 @@
+"""A page that shows cells or labels, with the id and the values of the one that is pointed at: one file, by itself."""
+
+from __future__ import annotations
+
+import json
+from base64 import b64encode
+from collections.abc import Mapping, Sequence
+from math import isfinite
+from pathlib import Path
+from typing import Any, BinaryIO, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, DTypeLike, NDArray
+
+from vorotool.errors import LimitError
+from vorotool.geometry.mesh.cells import CellSet
+from vorotool.geometry.ragged import starts_of
+from vorotool.products.formats import AS_SVG
+from vorotool.render.canvas.palettes import cell_colour
+from vorotool.render.label_images.crack_outline import crack_loops
+
+MOST_CELLS, MOST_VERTICES = 100_000, 3_000_000
+"""Some 30 MB of data: browsers draw so many in about a second."""
+
+PAGE = "cells_page.html"
+_PLACE = "/*DATA*/null"
+
+
+class Shapes(NamedTuple):
+    """Outlines of cells or of labels.
+
+    Parameters
+    ----------
+    xy : (n, 2) float64 array
+        Vertices.
+    rings : (r + 1,) integer array
+        Where each ring begins among them, and n.
+    shapes : (k + 1,) integer array
+        Where each shape begins among the rings, and r.
+    ids : sequence of str
+        One a shape.
+    bounds : (x, y, x, y)
+        What the page shows.
+    y_up : bool
+        y goes upwards.
+    """
+
+    xy: NDArray[np.float64]
+    rings: NDArray[np.integer]
+    shapes: NDArray[np.integer]
+    ids: Sequence[str]
+    bounds: tuple[float, float, float, float]
+    y_up: bool = False
+
+
+def shapes_of_cells(cells: CellSet, *, y_up: bool | None = None) -> Shapes:
+    """Give the outlines of cells.
+
+    Examples
+    --------
+    >>> from vorotool import voronoi_cells
+    >>> shapes_of_cells(voronoi_cells([[1, 1], [3, 1]], frame=(0, 0, 4, 2))).shapes.tolist()
+    [0, 1, 2]
+    """
+    rings, polygons, of_cells = cells.nesting
+    ids = [str(label) for label in cells.label_array.tolist()]
+    up = cells.y_up if y_up is None else y_up
+    return Shapes(cells.coordinates, rings, np.asarray(polygons)[np.asarray(of_cells)], ids, cells.frame.sides, up)
+
+
+def shapes_of_labels(labels: NDArray[Any], *, y_up: bool = False) -> Shapes:
+    """Give the outlines of the labels of an image along the cracks between its pixels; 0 is none.
+
+    Examples
+    --------
+    >>> shapes = shapes_of_labels(np.array([[7, 7, 2]]))
+    >>> shapes.ids, shapes.xy[:4].tolist()
+    (['2', '7'], [[2.0, 0.0], [3.0, 0.0], [3.0, 1.0], [2.0, 1.0]])
+    """
+    found = list(crack_loops(labels))
+    loops = [loop for _, own in found for loop in own]
+    xy = np.array([place for loop in loops for place in loop], dtype=np.float64).reshape(-1, 2)
+    ids = [str(label) for label, _ in found]
+    rings = starts_of(np.array([len(loop) for loop in loops], dtype=np.int64))
+    shapes = starts_of(np.array([len(own) for _, own in found], dtype=np.int64))
+    height, width = labels.shape
+    return Shapes(xy, rings, shapes, ids, (0.0, 0.0, float(width), float(height)), y_up)
+
+
+def write_cells_html(out: BinaryIO, shapes: Shapes, classes: ArrayLike, columns: Mapping[str, Sequence[Any]]) -> None:
+    """Write a page on which the cell that is pointed at is named, with its values.
+
+    It is opened from a file as well as from a server, works without a network, on light and on dark ground, and shows
+    the cell that its address ends with (``page.html#id=10``).
+
+    Parameters
+    ----------
+    out : binary file
+        Receives UTF-8.
+    shapes : Shapes
+        Outlines.
+    classes : (k,) integer array
+        Colour class of each, from 1.
+    columns : mapping of str to sequence
+        Values of each, such as areas: numbers, texts, or None.
+
+    Raises
+    ------
+    LimitError
+        If there are more than 100 000 cells, or 3 000 000 vertices.
+
+    Examples
+    --------
+    >>> import io
+    >>> out = io.BytesIO()
+    >>> write_cells_html(out, shapes_of_labels(np.array([[7, 7, 2]])), [1, 2], {"area": [1, 2]})
+    >>> out.getvalue()[:15]
+    b'<!DOCTYPE html>'
+    """
+    check_html_size(len(shapes.ids), len(shapes.xy))
+    page = Path(__file__).with_name(PAGE).read_text(encoding="utf-8")
+    before, after = page.split(_PLACE)
+    text = json.dumps(_data(shapes, np.asarray(classes), columns), separators=(",", ":"), allow_nan=False)
+    out.write(f"{before}{text.replace('<', chr(92) + 'u003c')}{after}".encode())  # no text ends the script
+
+
+def check_html_size(cells: int, vertices: int = 0) -> None:
+    """Refuse a page that no browser would draw.
+
+    Raises
+    ------
+    LimitError
+        If there are too many cells or vertices.
+    """
+    for count, most, what in ((cells, MOST_CELLS, "cells"), (vertices, MOST_VERTICES, "vertices of cells")):
+        if count > most:
+            raise LimitError(f"{count} {what} are too many for a page, at most {most}: use {AS_SVG} or png")
+
+
+def _data(shapes: Shapes, classes: NDArray[Any], columns: Mapping[str, Sequence[Any]]) -> dict[str, Any]:
+    """Arrays as the page decodes them; coordinates from the upper left corner, in parts of the larger side."""
+    box = np.array(shapes.bounds, dtype=np.float64)
+    exponent = int(np.frexp(np.abs(box).max(initial=0.0))[1])
+    low, high = np.ldexp(box, -exponent).reshape(2, 2)
+    points, span = np.ldexp(shapes.xy, -exponent), high - low
+    size = float(span.max()) or 1.0
+    y = (high[1] - points[:, 1]) if shapes.y_up else (points[:, 1] - low[1])
+    return {
+        "width": float(span[0]) / size or 1e-9,
+        "height": float(span[1]) / size or 1e-9,
+        "xy": _packed(np.stack([points[:, 0] - low[0], y], axis=1) / size, "<f4"),
+        "rings": _packed(shapes.rings, "<i4"),
+        "shapes": _packed(shapes.shapes, "<i4"),
+        "classes": _packed(classes, "<i4"),
+        "colours": [cell_colour(number) for number in range(int(classes.max(initial=0)) + 1)],
+        "ids": list(shapes.ids),
+        "columns": [{"name": name, "values": [_json_value(each) for each in own]} for name, own in columns.items()],
+    }
+
+
+def _json_value(value: Any) -> Any:
+    """Numbers and texts as JSON has them; what is missing or no number is None."""
+    if value is np.ma.masked:
+        return None
+    value = value.item() if isinstance(value, np.generic) else value
+    if isinstance(value, float):
+        return value if isfinite(value) else None
+    return value if value is None or isinstance(value, bool | int | str) else str(value)
+
+
+def _packed(values: NDArray[Any], dtype: DTypeLike) -> str:
+    return b64encode(np.ascontiguousarray(values, dtype=dtype).tobytes()).decode()

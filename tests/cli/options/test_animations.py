@@ -1,0 +1,157 @@
+"""``--animate``, ``--frames``, ``--fps``: each frame is the picture that a run of its own draws."""
+
+from fractions import Fraction
+from math import isqrt
+
+import numpy as np
+import pytest
+from PIL import Image, ImageSequence
+
+import vorotool
+from vorotool.jobs.animations import MOST_PIXELS
+
+SHAPES = "[[[0, 0], [40, 0], [40, 30], [0, 30]], [[50, 0], [60, 0], [55, 9]]]"
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    rng = np.random.default_rng(7)
+    np.savetxt(tmp_path / "dots.csv", rng.integers(0, 60, (12, 2)), fmt="%d", delimiter=",")
+    (tmp_path / "shapes.json").write_text(SHAPES)
+    return tmp_path
+
+
+def frames_of(path):
+    """Frames, each as often as its time says."""
+    with Image.open(path) as image:
+        found = [
+            (np.asarray(frame.convert("RGB")), frame.info.get("duration")) for frame in ImageSequence.Iterator(image)
+        ]
+    shortest = min((time for _, time in found if time), default=None)
+    return [pixels for pixels, time in found for _ in range(round(time / shortest) if time else 1)]
+
+
+def pixels(path):
+    with Image.open(path) as image:
+        return np.asarray(image.convert("RGB"))
+
+
+@pytest.mark.parametrize("fmt", ["gif", "apng", "webp"])
+def test_cells_grow(run, folder, fmt):
+    style = ["--size", "60x60", "--what", "colour", "--line-width", "cells=0"]
+    done = run("tessellate", "dots.csv", *style, "-o", f"out.{fmt}", "--frames", "5", "--fps", "4")
+    assert done.code == 0, done.err
+    found = frames_of(f"out.{fmt}")
+    assert len(found) == 5
+    points = np.loadtxt("dots.csv", delimiter=",")
+    y, x = np.mgrid[:60, :60]
+    squares = np.min((x[..., None] - points[:, 0]) ** 2 + (y[..., None] - points[:, 1]) ** 2, axis=2).astype(int)
+    farthest = isqrt(squares.max()) + 1
+    assert run("tessellate", "dots.csv", *style, "-o", "whole.png").code == 0
+    whole, seeds = pixels("whole.png"), found[0]
+    for number, frame in enumerate(found):
+        reached = squares <= (Fraction(number, 4) * farthest) ** 2
+        is_seed = (seeds != 255).any(axis=2)
+        np.testing.assert_array_equal(frame, np.where((reached | is_seed)[..., None], whole, 255))
+
+
+def test_cells_grow_up_to_a_distance(run, folder):
+    style = ["--size", "60x60", "--what", "colour", "--max-distance", "6.5", "--line-width", "cells=0"]
+    assert run("tessellate", "dots.csv", *style, "-o", "out.gif", "--frames", "3").code == 0
+    assert run("tessellate", "dots.csv", *style, "-o", "last.png").code == 0
+    np.testing.assert_array_equal(frames_of("out.gif")[-1] == 255, pixels("last.png") == 255)
+
+
+def test_shapes_grow(run, folder):
+    style = ["--what", "polygons", "--width", "200"]
+    assert run("alphashape", "dots.csv", "-r", "12", *style, "-o", "out.apng", "--frames", "6").code == 0
+    found = frames_of("out.apng")
+    for number in range(6):
+        r = str(float(Fraction(12) * (number + 1) / 6))
+        assert run("alphashape", "dots.csv", "-r", r, *style, "-o", "one.png", "-q").code == 0
+        np.testing.assert_array_equal(found[number], pixels("one.png"))
+
+
+def test_offsets_grow(run, folder):
+    command = ["skeleton-exact", "shapes.json", "--what", "offset", "--width", "200"]
+    done = run(*command, "-d", "-8,4", "--animate", "-o", "out.png", "--frames", "4", "--line-width", "offset=1")
+    assert done.code == 0, done.err
+    found = frames_of("out.png")
+    assert len(found) == 4
+    assert run(*command, "-d", "-8,4", "-o", "last.png", "--line-width", "offset=1").code == 0
+    np.testing.assert_array_equal(found[-1], pixels("last.png"))
+    for number, frame in enumerate(found):  # a brute-force check of one curve: the left side moves out
+        distance = 4 * (number + 1) / 4
+        scale = 200 / ((60 + 8) * 1.04)
+        column = (0.02 * 68 + 4 - distance) * scale
+        row = frame[frame.shape[0] // 2].astype(int)
+        assert abs(int(np.flatnonzero(np.abs(row - 255).sum(axis=1) > 60)[0]) - column) <= 1.5
+
+
+def test_what_animate_stands_for(run, folder):
+    command = ["tessellate", "dots.csv", "--size", "20x20", "--what", "colour", "--animate", "--frames", "2"]
+    for name, kind in (("a.gif", b"GIF89a"), ("a.png", b"\x89PNG"), ("a.webp", b"RIFF"), ("a", b"GIF89a")):
+        assert run(*command, "-o", name).code == 0
+        assert (folder / name).read_bytes().startswith(kind)
+    assert b"acTL" in (folder / "a.png").read_bytes()
+    many = run(*command, "--out-dir", "out")
+    assert many.code == 0
+    assert [path.name for path in (folder / "out").iterdir()] == ["dots.gif"]
+
+
+def test_many_colours_share_a_palette(run, folder):
+    rng = np.random.default_rng(1)
+    Image.fromarray(rng.integers(0, 256, (60, 60, 3), dtype=np.uint8)).save("photo.png")
+    style = ["--size", "60x60", "--what", "colour", "--layers", "seeds", "--overlay", "photo.png"]
+    assert run("tessellate", "dots.csv", *style, "-o", "out.gif", "--frames", "2").code == 0
+    difference = np.abs(frames_of("out.gif")[0].astype(int) - pixels("photo.png"))
+    assert difference.mean() < 40  # 256 colours for 3600
+
+
+def test_time_of_frames(run, folder):
+    style = ["--size", "30x30", "--what", "colour", "--frames", "3", "--fps", "2"]
+    assert run("tessellate", "dots.csv", *style, "-o", "out.gif").code == 0
+    with Image.open("out.gif") as image:
+        assert (image.info["duration"], image.info["loop"]) == (500, 0)
+
+
+REFUSED = [
+    (
+        ["tessellate", "dots.csv", "--what", "colour", "--animate", "-o", "a.svg"],
+        2,
+        "--animate is for GIF, APNG and WebP",
+    ),
+    (["tessellate", "dots.csv", "--what", "colour", "--frames", "3", "-o", "a.png"], 2, "--frames is for animations"),
+    (["tessellate", "dots.csv", "--what", "colour", "--fps", "3", "-o", "a.png"], 2, "--fps is for animations"),
+    (["tessellate", "dots.csv", "--what", "colour", "--frames", "1", "-o", "a.gif"], 2, "1 is not in the range"),
+    (["tessellate", "dots.csv", "--what", "labels", "-o", "a.gif"], 2, "labels cannot be written as gif"),
+    (
+        ["tessellate", "dots.csv", "--what", "colour", "--method", "propagation", "-o", "a.gif"],
+        2,
+        "animations are of the exact tessellation",
+    ),
+    (
+        ["alphashape", "dots.csv", "-r", "9", "--method", "digital", "-o", "a.gif"],
+        2,
+        "--method digital has no animation",
+    ),
+    (["skeleton-exact", "shapes.json", "-o", "a.gif"], 2, "skeleton cannot be written as gif: use --what offset"),
+    (
+        ["tessellate", "dots.csv", "--what", "colour", "--size", "6000x6000", "-o", "a.gif"],
+        5,
+        f"40 frames of 6000 x 6000 pixels are too many, at most {MOST_PIXELS} pixels",
+    ),
+]
+
+
+@pytest.mark.parametrize(("command", "code", "message"), REFUSED)
+def test_what_is_refused(run, folder, command, code, message):
+    done = run(*command)
+    assert (done.code, message in done.err) == (code, True), done.err
+    assert not list(folder.glob("a.*"))
+
+
+def test_the_library_has_none(folder):
+    with pytest.raises(vorotool.UsageError, match="cannot be written as 'gif'"):
+        vorotool.write(vorotool.tessellate([[1, 1]], shape=(3, 3)), "a.gif", what="colour")

@@ -1,0 +1,261 @@
+"""``--label-by``, ``--legend``, ``--scale-bar``, ``--aspect``, ``--extent``: what is drawn, and what is refused."""
+
+import json
+import math
+import re
+import xml.etree.ElementTree as ET
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import vorotool
+from vorotool.render.canvas.insets import rounded_length
+
+NS = "{http://www.w3.org/2000/svg}"
+BOX = [[0, 0], [40, 0], [40, 30], [0, 30], [0, 0]]
+
+
+def feature(coordinates, **properties):
+    return {
+        "type": "Feature",
+        "properties": properties,
+        "geometry": {"type": "Polygon", "coordinates": [coordinates]},
+    }
+
+
+def shifted(x):
+    return [[a + x, b] for a, b in BOX]
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    features = [feature(BOX, name="Huron & <co>", depth=2.0), feature(shifted(60), name=None, depth=7.5)]
+    (tmp_path / "shapes.geojson").write_text(json.dumps({"type": "FeatureCollection", "features": features}))
+    (tmp_path / "dots.csv").write_text("x,y,town\n0,0,Ulm\n9,0,\n9,7,Bern\n2,8,Genf\n")
+    (tmp_path / "world.csv").write_text("lon,lat\n0,60\n10,60\n10,64\n0,64\n5,61\n")
+    labels = np.zeros((50, 100), np.uint8)
+    labels[10:20, 20:40], labels[30:45, 60:70] = 4, 9
+    Image.fromarray(labels).save(tmp_path / "labels.png")
+    return tmp_path
+
+
+def read(path, mode="RGB"):
+    with Image.open(path) as image:
+        return np.asarray(image.convert(mode))
+
+
+def groups(text):
+    return {group.get("id"): group for group in ET.fromstring(text).iter(f"{NS}g")}
+
+
+def texts(text, name="labels"):
+    return [each.text for each in groups(text)[name]]
+
+
+NAMED = [
+    (["skeleton-exact", "shapes.geojson"], "name", ["Huron & <co>"]),
+    (["skeleton-exact", "shapes.geojson", "--what", "offset", "-d", "-2"], "depth", ["2", "7.5"]),
+    (["skeleton-exact", "shapes.geojson", "--what", "points", "--every", "9"], "depth", ["2", "7.5"]),
+    (["draw", "shapes.geojson"], "depth", ["2", "7.5"]),
+    (["delaunay", "dots.csv"], "town", ["Ulm", "Bern", "Genf"]),
+    (["delaunay", "dots.csv", "--what", "cells"], "town", ["Ulm", "Bern", "Genf"]),
+    (["alphashape", "dots.csv", "-r", "9"], "town", ["Ulm", "Bern", "Genf"]),
+    (["tessellate", "dots.csv", "--size", "10x10"], "town", ["Ulm", "Bern", "Genf"]),
+]
+
+
+@pytest.mark.parametrize(("command", "column", "expected"), NAMED)
+def test_objects_are_named_by_a_column(run, folder, command, column, expected):
+    done = run(*command, "-f", "svg", "-q", "--label-by", column)
+    assert done.code == 0, done.err
+    assert sorted(texts(done.out)) == sorted(expected)
+    assert groups(done.out)["labels"].get("paint-order") == "stroke"
+    plain = [*command, "-q", "--what", "colour"] if command[0] == "tessellate" else [*command, "-q"]
+    assert run(*plain, "-o", "plain.png").code == 0
+    assert run(*plain, "--label-by", column, "-o", "named.png").code == 0
+    assert Path("plain.png").read_bytes() != Path("named.png").read_bytes()
+
+
+def test_names_lie_in_their_polygons(run, folder):
+    ring = [[0, 0], [9, 0], [9, 9], [8, 9], [8, 1], [0, 1], [0, 0]]  # the centroid is outside
+    Path("bent.geojson").write_text(json.dumps(feature(ring, name="L")))
+    done = run("draw", "bent.geojson", "--label-by", "name", "-f", "svg")
+    (text,) = groups(done.out)["labels"]
+    x, y = float(text.get("x")), float(text.get("y")) - 0.36 * 16
+    scale = 1000 / (9 + 2 * 0.18)
+    x, y = x / scale - 0.18, 9.18 - y / scale
+    assert (0 < x < 9 and 0 < y < 1) or (8 < x < 9 and 0 < y < 9)
+
+
+def test_ids_of_shapes(run, folder):
+    done = run("draw", "shapes.geojson", "--layers", "shape,labels", "-f", "svg")
+    assert texts(done.out) == ["0", "1"]
+
+
+def test_legend_has_a_row_a_layer(run, folder):
+    done = run("delaunay", "dots.csv", "--layers", "cells,edges,points,labels", "--legend", "-f", "svg")
+    assert done.code == 0, done.err
+    assert texts(done.out, "legend-names") == ["points", "edges", "cells"]
+    found = groups(done.out)
+    assert found["legend-points"].get("fill") == found["points"].get("fill")
+    assert found["legend-edges"].get("stroke") == found["edges"].get("stroke")
+    drawn = run("tessellate", "labels.png", "-f", "svg", "--what", "colour", "--legend", "--color", "seeds=red", "-q")
+    assert texts(drawn.out, "legend-names") == ["seeds", "cells"]
+    assert groups(drawn.out)["legend-seeds"].get("stroke") == "#ff0000"
+
+
+def test_legends_of_png_are_opaque(run, folder):
+    Image.new("L", (300, 200), 0).save("dark.png")
+    Image.fromarray(np.pad(read("labels.png", "L"), ((0, 150), (0, 200)))).save("large.png")
+    for options in (["--overlay", "dark.png"], []):
+        done = run("tessellate", "large.png", "--what", "colour", "--legend", "-o", "out.png", "-q", *options)
+        assert done.code == 0, done.err
+        pixels = read("out.png")
+        assert pixels.shape == (200, 300, 3)
+        assert (pixels[8:12, -60:-9] == 255).all()
+
+
+def bar_of(text):
+    """Length in px, and what is written over it."""
+    found = groups(text)
+    numbers = [float(number) for number in re.findall(r"[\d.]+", found["scale-bar"][0].get("d"))]
+    return max(numbers[0::2]) - min(numbers[0::2]), found["scale-bar-length"][0].text
+
+
+BARS = [
+    (["delaunay", "dots.csv"], 1000 / (9 * 1.04), "2"),
+    (["delaunay", "dots.csv", "--pixel-size", "3mm"], 1000 / (9 * 1.04) / 3, "5 mm"),
+    (["skeleton-exact", "labels.png", "--pixel-size", "0.325um"], 10 / 0.325, "5 µm"),
+    (["skeleton-exact", "labels.png"], 10, "20 px"),
+    (["tessellate", "labels.png", "--what", "colour", "--pixel-size", "0.5um"], 1000 / 104 / 0.5, "10 µm"),
+    (["draw", "labels.png"], 1000 / 104, "20 px"),
+]
+
+
+@pytest.mark.parametrize(("command", "unit", "name"), BARS)
+def test_scale_bars_are_as_long_as_they_say(run, folder, command, unit, name):
+    done = run(*command, "-f", "svg", "--scale-bar", "-q")
+    assert done.code == 0, done.err
+    length, written = bar_of(done.out)
+    assert written == name
+    assert length == pytest.approx(float(name.split()[0]) * unit, abs=0.02)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_rounded_lengths(seed):
+    longest = 10 ** np.random.default_rng(seed).uniform(-30, 30)
+    length = rounded_length(longest)
+    digits = f"{length:e}".rstrip("0")
+    assert re.match(r"[125]\.0*e", digits)
+    assert longest / 2.5 < length * (1 + 1e-12)
+    assert length <= longest
+
+
+def test_longitude_and_latitude_have_no_bar_and_an_aspect(run, folder):
+    done = run("delaunay", "world.csv", "-f", "svg", "--scale-bar")
+    assert done.code == 0
+    assert "there is no scale bar: the length of a degree of longitude differs" in done.err
+    assert "scale-bar" not in groups(done.out)
+    root = ET.fromstring(done.out)
+    aspect = 1 / math.cos(math.radians(62))
+    across, down = 10 * 1.04, 4 * aspect + 0.02 * 2 * 10
+    assert int(root.get("height")) == round(1000 * down / across)
+    square = ET.fromstring(run("delaunay", "world.csv", "-f", "svg", "--aspect", "1").out)
+    assert int(square.get("height")) == round(1000 * 4.4 / 10.4)
+    assert run("delaunay", "world.csv", "-o", "out.png", "-q").code == 0
+    with Image.open("out.png") as image:
+        assert image.size == (1000, int(root.get("height")))
+    mesh = vorotool.read("world.csv", geometry="points")
+    vorotool.write(vorotool.delaunay(mesh), "out.svg")
+    assert Path("out.svg").read_text() == run("delaunay", "world.csv", "-f", "svg").out
+
+
+def test_arcs_follow_the_aspect(run, folder):
+    """Rounded corners of offsets are elliptical: twice as high as wide."""
+    done = run("skeleton-exact", "shapes.geojson", "--what", "offset", "-d", "5", "--aspect", "2", "-f", "svg", "-q")
+    assert done.code == 0, done.err
+    radii = {tuple(map(float, pair)) for pair in re.findall(r"A([\d.]+) ([\d.]+) 0 0", done.out)}
+    ((across, down),) = radii
+    assert down == pytest.approx(2 * across, rel=1e-4)
+    root = ET.fromstring(done.out)
+    assert across == pytest.approx(5 * 1000 / (110 + 0.04 * 110), rel=1e-3)
+    assert int(root.get("height")) == round(1000 * (80 + 4.4) / 114.4)
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        ["skeleton-exact"],
+        ["skeleton-approx", "--step", "1"],
+        ["delaunay", "--seeds", "pixels"],
+        ["alphashape", "-r", "9"],
+    ],
+)
+def test_results_of_images_have_their_frame(run, folder, command):
+    done = run(command[0], "labels.png", *command[1:], "-f", "svg", "-q")
+    assert done.code == 0, done.err
+    assert ET.fromstring(done.out).get("viewBox") == "0 0 1000 500"
+    if command[0] == "delaunay":
+        circles = [(float(x), float(y)) for x, y in re.findall(r'cx="([\d.]+)" cy="([\d.]+)"', done.out)]
+        expected = {(10 * x + 5.0, 10 * y + 5.0) for y, x in np.argwhere(read("labels.png", "L"))}
+        assert set(circles) == expected
+    data = run(command[0], "labels.png", *command[1:], "-f", "svg", "-q", "--extent", "data")
+    assert ET.fromstring(data.out).get("viewBox") != "0 0 1000 500"
+
+
+REFUSED = [
+    (
+        ["draw", "shapes.geojson", "-f", "svg", "--label-by", "river"],
+        "'river': expected a column of the input, name, depth",
+    ),
+    (
+        ["delaunay", "dots.csv", "-f", "svg", "--label-by", "x"],
+        "invalid --label-by 'x': expected a column of the input",
+    ),
+    (["draw", "labels.png", "-f", "svg", "--label-by", "x"], "the input has no columns of properties; leave it out"),
+    (["delaunay", "dots.csv", "-f", "csv", "--label-by", "town"], "--label-by is for pictures"),
+    (["delaunay", "dots.csv", "-f", "csv", "--legend"], "--legend is for pictures"),
+    (["delaunay", "dots.csv", "-f", "csv", "--scale-bar"], "--scale-bar is for pictures"),
+    (["delaunay", "dots.csv", "-f", "svg", "--aspect", "0"], "'0': expected a number from 0.001 to 1000"),
+    (["delaunay", "dots.csv", "-f", "svg", "--aspect", "nan"], "'nan': expected a number from"),
+    (["draw", "labels.png", "-f", "svg", "--aspect", "2"], "--aspect is for pictures of lines and areas"),
+    (
+        ["draw", "shapes.geojson", "-f", "svg", "--aspect", "2", "--overlay", "labels.png"],
+        "leave out --overlay or --aspect",
+    ),
+    (["draw", "shapes.geojson", "-f", "svg", "--aspect", "2", "--scale", "2"], "leave out --aspect or --scale"),
+    (["skeleton-exact", "labels.png", "-f", "svg", "--extent", "all"], "'all' is not one of 'image', 'data'"),
+]
+
+
+@pytest.mark.parametrize(("command", "message"), REFUSED)
+def test_what_is_refused(run, folder, command, message):
+    done = run(*command)
+    assert done.code == 2
+    assert message in done.err
+    assert not done.out
+
+
+def test_the_library_draws_alike(run, folder):
+    points = vorotool.read("dots.csv", geometry="points")
+    options = {"label_by": "town", "legend": True, "scale_bar": True}
+    given = ["--label-by", "town", "--legend", "--scale-bar"]
+    vorotool.write(vorotool.delaunay(points), "library.svg", **options)
+    assert run("delaunay", "dots.csv", "-o", "command.svg", *given).code == 0
+    assert Path("library.svg").read_text() == Path("command.svg").read_text()
+    seeds = vorotool.tessellate(points, shape=(60, 80))
+    vorotool.write(seeds, "library.svg", what="colour", **options)
+    done = run("tessellate", "dots.csv", "--size", "80x60", "--what", "colour", "-o", "command.svg", *given, "--y-down")
+    assert done.code == 0, done.err
+    assert Path("library.svg").read_text() == Path("command.svg").read_text()
+    skeleton = vorotool.skeleton_exact(vorotool.read("shapes.geojson"))
+    vorotool.write(skeleton, "library.svg", label_by="depth")
+    assert texts(Path("library.svg").read_text()) == ["2", "7.5"]
+    for value in (skeleton, seeds):
+        with pytest.raises(vorotool.UsageError, match="invalid label_by 'river': expected a column of the input"):
+            vorotool.write(value, "out.svg", label_by="river")
+    with pytest.raises(vorotool.UsageError, match="legend is for pictures"):
+        vorotool.write(skeleton, "out.json", legend=True)

@@ -1,0 +1,197 @@
+"""Pictures of label images: borders, outlines of objects, colours, widths and ground, as PNG and SVG."""
+
+import re
+import xml.etree.ElementTree as ET
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image, ImageColor
+from skimage.draw import disk
+from skimage.segmentation import find_boundaries
+
+import vorotool
+from vorotool.render.canvas.palettes import CELLS, SEED
+
+NS = "{http://www.w3.org/2000/svg}"
+PALETTE = {tuple(ImageColor.getrgb(name)) for name in CELLS}
+WHITE, VIOLET = (255, 255, 255), ImageColor.getrgb(SEED)
+
+
+@pytest.fixture
+def nuclei(tmp_path):
+    """Eight discs of 60 x 80 pixels, of which two touch."""
+    labels = np.zeros((60, 80), np.uint8)
+    for number, (y, x) in enumerate([(10, 10), (10, 32), (12, 62), (33, 18), (33, 29), (30, 60), (50, 12), (48, 50)]):
+        labels[disk((y, x), 6, shape=labels.shape)] = number + 1
+    Image.fromarray(labels).save(tmp_path / "labels.png")
+    return labels
+
+
+def pixels(path="out.png", mode="RGB"):
+    return np.asarray(Image.open(path).convert(mode))
+
+
+def is_colour(image, colour):
+    return (image == np.array(colour)).all(axis=2)
+
+
+def outermost(labels):
+    """Brute force: pixels of objects with a side on another label, or on the side of the image."""
+    padded = np.pad(labels.astype(int), 1, constant_values=-1)
+    sides = [padded[1:-1, :-2], padded[1:-1, 2:], padded[:-2, 1:-1], padded[2:, 1:-1]]
+    return (labels > 0) & np.logical_or.reduce([side != labels for side in sides])
+
+
+def test_cells_have_borders_of_a_pixel(run, nuclei):
+    done = run("tessellate", "labels.png", "--what", "colour", "--layers", "cells", "-o", "out.png")
+    assert done.code == 0, done.err
+    cells = vorotool.tessellate(vorotool.seeds_from_raster(nuclei)).labels
+    right, below = np.zeros((2, *cells.shape), bool)
+    right[:, :-1], below[:-1] = cells[:, :-1] < cells[:, 1:], cells[:-1] < cells[1:]
+    right[:, 1:] |= cells[:, 1:] < cells[:, :-1]
+    below[1:] |= cells[1:] < cells[:-1]
+    found = is_colour(pixels(), WHITE)
+    np.testing.assert_array_equal(found, right | below)
+    assert not (found & ~find_boundaries(cells, connectivity=1, mode="thick")).any()
+    plain = run(
+        "tessellate", "labels.png", "--what", "colour", "--layers", "cells", "--line-width", "cells=0", "-o", "b.png"
+    )
+    assert plain.code == 0
+    assert not is_colour(pixels("b.png"), WHITE).any()
+
+
+def test_small_cells_have_none(run, tmp_path):
+    rng = np.random.default_rng(5)
+    np.savetxt(tmp_path / "dots.csv", rng.permutation(1600)[:200, None] // [[40, 1]] % 40, fmt="%d", delimiter=",")
+    done = run("tessellate", "dots.csv", "--size", "40x40", "--what", "colour", "--layers", "cells", "-o", "out.png")
+    assert done.code == 0, done.err
+    assert not is_colour(pixels(), WHITE).any()
+
+
+@pytest.mark.parametrize("seeds", ["labels", "components"])
+def test_objects_are_outlines(run, nuclei, seeds):
+    done = run("tessellate", "labels.png", "--what", "colour", "--seeds", seeds, "-o", "out.png")
+    assert done.code == 0, done.err
+    objects = vorotool.seeds_from_raster(nuclei, mode=seeds)
+    labels = np.zeros(nuclei.shape, int)
+    labels[objects.y, objects.x] = objects.labels
+    np.testing.assert_array_equal(is_colour(pixels(), VIOLET), outermost(labels))
+    filled = run("tessellate", "labels.png", "--what", "colour", "--layers", "cells,objects", "-o", "out.png")
+    assert filled.code == 0
+    np.testing.assert_array_equal(is_colour(pixels(), VIOLET), nuclei > 0)
+
+
+def test_one_path_an_object(run, nuclei):
+    done = run("tessellate", "labels.png", "-f", "svg", "--layers", "cells,objects,seeds", "--seeds", "labels")
+    assert done.code == 0, done.err
+    groups = {group.get("id"): group for group in ET.fromstring(done.out).iter(f"{NS}g")}
+    assert [path.get("id") for path in groups["seeds"]] == [f"seed-{k}" for k in range(1, 9)]
+    assert [path.get("id") for path in groups["objects"]] == [f"object-{k}" for k in range(1, 9)]
+    assert groups["seeds"].get("fill") == "none"
+    assert "circle" not in done.out
+    for path in groups["seeds"]:  # the box of each outline is that of its object
+        numbers = re.findall(r"([MHV])([\d. ]+)", path.get("d"))
+        across = [float(text.split()[0]) for kind, text in numbers if kind in "MH"]
+        columns = np.flatnonzero((nuclei == int(path.get("id")[5:])).any(axis=0))
+        scale = 1000 / (80 + 0.04 * 80)
+        expected = [(columns[0] + 1.6) * scale, (columns[-1] + 2.6) * scale]
+        assert [min(across), max(across)] == pytest.approx(expected, abs=0.02)
+
+
+def test_pixels_as_seeds_stay_discs(run, nuclei):
+    done = run("tessellate", "labels.png", "-f", "svg", "--layers", "seeds", "--seeds", "centroids")
+    assert done.out.count("<circle") == 8
+
+
+def test_neighbours_that_touch_differ(run, nuclei):
+    assert run("draw", "labels.png", "-o", "out.png").code == 0
+    image = pixels()
+    colours = {tuple(image[y, x]) for y, x in ((33, 18), (33, 29))}
+    assert len(colours) == 2
+    assert colours <= PALETTE
+
+
+@pytest.mark.parametrize("command", [["draw", "labels.png"], ["tessellate", "labels.png", "--what", "colour"]])
+def test_looks_of_png(run, nuclei, command):
+    style = ["--color", "cells=navy", "--line-width", "cells=3", "--background", "#102030"]
+    done = run(*command, "--layers", "cells", *style, "-o", "out.png")
+    assert done.code == 0, done.err
+    image = pixels()
+    thin = run(*command, "--layers", "cells", "--color", "cells=navy", "-o", "thin.png")
+    assert thin.code == 0
+    wide, narrow = is_colour(image, ImageColor.getrgb("navy")), is_colour(pixels("thin.png"), ImageColor.getrgb("navy"))
+    grown = np.zeros_like(wide)
+    for y, x in np.argwhere(narrow):
+        grown[max(y - 1, 0) : y + 2, max(x - 1, 0) : x + 2] = True
+    np.testing.assert_array_equal(wide, grown)
+    np.testing.assert_array_equal(is_colour(image, (0x10, 0x20, 0x30)), (nuclei == 0) & ~wide & (command[0] == "draw"))
+
+
+def test_nothing_beneath(run, nuclei):
+    assert run("draw", "labels.png", "--background", "none", "-o", "out.png").code == 0
+    np.testing.assert_array_equal(pixels(mode="RGBA")[:, :, 3] == 0, nuclei == 0)
+    assert run("draw", "labels.png", "--background", "none", "-o", "out.svg").code == 0
+    assert "<rect" not in Path("out.svg").read_text()
+    shapes = run("skeleton-exact", "labels.png", "--seeds", "labels", "--background", "none", "-o", "out.png", "-q")
+    assert shapes.code == 0, shapes.err
+    alpha = pixels(mode="RGBA")[:, :, 3]
+    assert alpha[0, 0] == 0
+    assert {0, 255} < set(np.unique(alpha).tolist())
+
+
+def test_looks_of_svg(run, nuclei):
+    style = ["--color", "cells=red", "--color", "seeds=lime", "--line-width", "seeds=2.5", "--line-width", "cells=0"]
+    done = run("tessellate", "labels.png", "-f", "svg", "--layers", "cells,seeds", "--background", "black", *style)
+    groups = {group.get("id"): group for group in ET.fromstring(done.out).iter(f"{NS}g")}
+    assert groups["cells"].get("stroke") is None
+    assert (groups["seeds"].get("stroke"), groups["seeds"].get("stroke-width")) == ("#00ff00", "2.5")
+    assert '<rect width="1000"' in done.out
+    assert 'fill="#000000"' in done.out
+
+
+@pytest.mark.parametrize("ground", [0, 255])
+@pytest.mark.parametrize("what", [["--what", "diagram", "--layers", "diagram,seeds"], ["--what", "colour"]])
+def test_lines_show_on_any_ground(run, nuclei, ground, what):
+    """Each line has white or dark pixels beside it, whatever the image is."""
+    Image.new("L", (80, 60), ground).save("ground.png")
+    done = run("tessellate", "labels.png", *what, "--overlay", "ground.png", "-o", "out.png")
+    assert done.code == 0, done.err
+    image = pixels()
+    dark = is_colour(image, VIOLET) | is_colour(image, (0, 0, 0)) & (ground > 0)
+    white = is_colour(image, WHITE)
+    for y, x in np.argwhere(is_colour(image, VIOLET)):
+        around = (slice(max(y - 1, 0), y + 2), slice(max(x - 1, 0), x + 2))
+        assert white[around].any()
+        assert dark[around].any()
+
+
+def test_the_library_draws_alike(run, nuclei):
+    image = vorotool.tessellate(vorotool.seeds_from_raster(nuclei))
+    looks = {"color": {"seeds": "red", "cells": "#00f"}, "line_width": {"seeds": 2}, "background": "none"}
+    given = ["--color", "seeds=red", "--color", "cells=#00f", "--line-width", "seeds=2", "--background", "none"]
+    for name in ("out.svg", "out.png"):
+        vorotool.write(image, f"library-{name}", what="colour", **looks)
+        assert run("tessellate", "labels.png", "--what", "colour", *given, "-o", name).code == 0
+        assert Path(name).read_bytes() == Path(f"library-{name}").read_bytes()
+    mesh = vorotool.delaunay([[0, 0], [4, 0], [0, 3]])
+    vorotool.write(mesh, "mesh.svg", color={"edges": "teal"}, line_width={"edges": 0.5}, background="none")
+    assert 'stroke="#008080" stroke-width="0.5"' in Path("mesh.svg").read_text()
+
+
+@pytest.mark.parametrize(
+    ("looks", "message"),
+    [
+        ({"color": {"seed": "red"}}, "invalid color of 'seed': expected a layer of the picture, cells, seeds"),
+        ({"color": {"seeds": "reddish"}}, "invalid color of seeds 'reddish': expected a colour such as"),
+        ({"line_width": {"seeds": -1}}, "invalid line_width of seeds -1.0: expected a number of px"),
+        ({"background": 3}, "invalid background 3: expected a colour"),
+    ],
+)
+def test_the_library_refuses(tmp_path, looks, message):
+    image = vorotool.tessellate([[1, 1], [5, 3]], shape=(50, 60))
+    with pytest.raises(vorotool.UsageError, match=message):
+        vorotool.write(image, tmp_path / "out.svg", **looks)
+    with pytest.raises(vorotool.UsageError, match=r"background is for pictures: use fmt='svg'"):
+        vorotool.write(image, tmp_path / "out.npy", background="red")
+    assert not list(tmp_path.iterdir())

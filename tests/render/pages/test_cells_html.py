@@ -1,0 +1,197 @@
+"""The page of cells and labels: its data, and what a real browser shows of it where there is one."""
+
+import io
+import json
+import re
+import shutil
+import subprocess
+from base64 import b64decode
+from html import unescape
+
+import numpy as np
+import pytest
+import shapely
+from PIL import Image
+
+import vorotool
+from vorotool import LimitError, voronoi_cells
+from vorotool.render.canvas.palettes import CELLS
+from vorotool.render.pages.cells_html import (
+    MOST_CELLS,
+    check_html_size,
+    shapes_of_cells,
+    shapes_of_labels,
+    write_cells_html,
+)
+
+BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+needs_browser = pytest.mark.skipif(
+    BROWSER is None, reason="no chromium: the page is not shown (apt-get install chromium)"
+)
+LABELS = np.array([[1, 1, 2, 2], [1, 0, 3, 2], [3, 3, 3, 12]])
+
+
+def page_of(shapes, classes, columns):
+    out = io.BytesIO()
+    write_cells_html(out, shapes, classes, columns)
+    return out.getvalue().decode()
+
+
+def data_of(page):
+    return json.loads(re.search(r"const data = (.*);\n", page)[1])
+
+
+def unpacked(text, dtype):
+    return np.frombuffer(b64decode(text), dtype)
+
+
+def polygons_of(data):
+    """The shapes of a page as shapely sees them, by id."""
+    xy = unpacked(data["xy"], "<f4").reshape(-1, 2).astype(float)
+    rings, shapes = unpacked(data["rings"], "<i4"), unpacked(data["shapes"], "<i4")
+    found = {}
+    for number, name in enumerate(data["ids"]):
+        own = [xy[rings[k] : rings[k + 1]] for k in range(shapes[number], shapes[number + 1])]
+        area = shapely.Polygon()
+        for ring in own:
+            area = area.symmetric_difference(shapely.Polygon(ring))
+        found[name] = area
+    return found
+
+
+def test_labels_are_outlined():
+    shapes = shapes_of_labels(LABELS)
+    found = polygons_of(data_of(page_of(shapes, [1, 2, 3, 4], {"area": [3, 3, 4, 1]})))
+    counts = {str(label): int((label == LABELS).sum()) for label in (1, 2, 3, 12)}
+    assert {name: round(area.area * 16, 5) for name, area in found.items()} == counts
+    for (y, x), label in np.ndenumerate(LABELS):
+        inside = [name for name, area in found.items() if area.contains(shapely.Point((x + 0.5) / 4, (y + 0.5) / 4))]
+        assert inside == ([str(label)] if label else [])
+
+
+@pytest.mark.parametrize("y_up", [False, True])
+def test_cells_are_outlined(y_up):
+    points = np.random.default_rng(3).uniform(0, 50, (30, 2))
+    cells = voronoi_cells(points, frame=(0, 0, 50, 30))
+    data = data_of(page_of(shapes_of_cells(cells, y_up=y_up), np.ones(30, int), {}))
+    found = polygons_of(data)
+    for cell, area in zip(cells.to_shapely(), found.values(), strict=True):
+        assert area.area * 2500 == pytest.approx(cell.area, abs=1e-3)
+    site = next(k for k, cell in enumerate(cells.to_shapely()) if cell.area > 0)
+    x, y = cells.to_shapely()[site].centroid.coords[0]
+    assert found[str(site + 1)].contains(shapely.Point(x / 50, ((30 - y) if y_up else y) / 50))
+
+
+def test_values_of_all_kinds():
+    masked = np.ma.masked_array([1.5, 2.5], mask=[False, True])
+    columns = {"area": masked, "name": ["</script><b>", None], "size": [float("nan"), np.int64(3)]}
+    page = page_of(shapes_of_labels(np.array([[1, 2]])), [1, 2], columns)
+    assert page.count("</script>") == 1
+    assert [each["values"] for each in data_of(page)["columns"]] == [[1.5, None], ["</script><b>", None], [None, 3]]
+
+
+@pytest.mark.parametrize("labels", [np.zeros((3, 4), int), np.array([[5]]), np.ones((2, 9), np.uint8)])
+def test_few_cells(labels):
+    names = [str(label) for label in np.unique(labels[labels > 0])]
+    data = data_of(page_of(shapes_of_labels(labels), np.ones(len(names), int), {}))
+    assert data["ids"] == names
+    assert data["colours"][1:] == list(CELLS[: bool(names)])
+
+
+def test_too_many():
+    with pytest.raises(LimitError, match="100001 cells are too many for a page"):
+        check_html_size(MOST_CELLS + 1)
+
+
+def test_nothing_is_loaded_from_elsewhere():
+    page = page_of(shapes_of_labels(LABELS), [1, 2, 3, 4], {})
+    assert not re.search(r"(src|href)\s*=|https?:|@import|url\(", page)
+
+
+def browse(*arguments):
+    """Run the browser without a network."""
+    options = ("--headless", "--no-sandbox", "--disable-gpu", "--host-resolver-rules=MAP * ~NOTFOUND")
+    return subprocess.run(
+        [BROWSER, *options, "--virtual-time-budget=5000", *arguments], capture_output=True, check=True, timeout=120
+    ).stdout.decode()
+
+
+@needs_browser
+def test_the_browser_names_a_cell(tmp_path):
+    path = tmp_path / "page.html"
+    path.write_text(
+        page_of(shapes_of_labels(LABELS), [1, 2, 3, 4], {"area": [3, 3, 4, 1], "name": ["a", "b", "<c>", ""]})
+    )
+    document = browse("--dump-dom", f"{path.as_uri()}#id=3")
+    cells = [unescape(text) for text in re.findall("<td>([^<]*)</td>", document)]
+    assert cells == ["id", "3", "area", "4", "name", "<c>"]
+    assert 'data-shown="3"' in document
+    assert "4 cells" in document
+
+
+@needs_browser
+@pytest.mark.parametrize(("scheme", "ground"), [(1, 255), (0, 0x16)])
+def test_the_browser_draws_on_light_and_dark_ground(tmp_path, scheme, ground):
+    path, picture = tmp_path / "page.html", tmp_path / "page.png"
+    path.write_text(page_of(shapes_of_labels(LABELS), [1, 2, 3, 4], {}))
+    browse(
+        f"--screenshot={picture}",
+        "--window-size=1000,600",
+        f"--blink-settings=preferredColorScheme={scheme}",
+        path.as_uri(),
+    )
+    with Image.open(picture) as image:
+        pixels = np.asarray(image.convert("RGB"))
+    assert pixels[2, 2, 0] == ground
+    # the canvas is 1000 - 320 wide; the image is 4 : 3 with a margin of 20
+    side = (680 - 40) / 4
+    top = (600 - 3 * side) / 2
+    for (y, x), label in np.ndenumerate(LABELS):
+        seen = pixels[round(top + (y + 0.5) * side), round(20 + (x + 0.5) * side)]
+        number = {0: None, 1: 0, 2: 1, 3: 2, 12: 3}[int(label)]
+        if number is None:
+            assert seen[0] == ground
+        else:
+            assert "#" + bytes(seen.tolist()).hex() == CELLS[number]
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Image.fromarray(LABELS.astype(np.uint8)).save("labels.png")
+    (tmp_path / "dots.csv").write_text("x,y,town\n2,2,Ulm\n9,3,\n5,8,Bern\n")
+    return tmp_path
+
+
+def command(*arguments):
+    from vorotool.cli.main import main
+
+    with pytest.raises(SystemExit) as end:
+        main(list(arguments))
+    return end.value.code
+
+
+def values_of(path):
+    data = data_of((path).read_text(encoding="utf-8"))
+    return data["ids"], {each["name"]: each["values"] for each in data["columns"]}
+
+
+def test_pages_of_commands(folder, capsys):
+    assert command("draw", "labels.png", "-o", "draw.html") == 0
+    ids, columns = values_of(folder / "draw.html")
+    assert (ids, columns["area"]) == (["1", "2", "3", "12"], [3, 3, 4, 1])
+    assert command("tessellate", "dots.csv", "--size", "12x10", "-o", "tessellate.html", "--y-up") == 0
+    ids, columns = values_of(folder / "tessellate.html")
+    labels = vorotool.tessellate(vorotool.read("dots.csv", geometry="points"), shape=(10, 12)).labels
+    assert columns["area"] == [int((labels == int(name)).sum()) for name in ids]
+    assert columns["town"] == ["Ulm", "", "Bern"]
+    assert command("delaunay", "dots.csv", "--what", "cells", "--pixel-size", "2mm", "-o", "cells.html") == 0
+    ids, columns = values_of(folder / "cells.html")
+    cells = voronoi_cells(vorotool.read("dots.csv", geometry="points"))
+    np.testing.assert_allclose(columns["area"], [4 * cell.area for cell in cells.to_shapely()])
+    assert columns["unit"] == ["mm"] * 3
+    (folder / "box.json").write_text("[[[0, 0], [4, 0], [0, 3]]]")
+    assert command("draw", "box.json", "-o", "box.html") == 2
+    assert "a page is of cells or labels, but the input is polygons or lines" in capsys.readouterr().err
+    assert command("draw", "labels.png", "-o", "no.html", "--legend") == 2
+    assert "--legend is for pictures" in capsys.readouterr().err

@@ -1,0 +1,83 @@
+"""What counts from 0 and what from 1, as the reference of the library states it."""
+
+import io
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import vorotool
+from vorotool.products.registry import parts_of
+from vorotool.products.writing import write_product
+
+MESH = vorotool.delaunay([[0, 0], [4, 0], [0, 3], [5, 5]])
+SKELETON = vorotool.skeleton_exact([[0, 0], [4, 0], [0, 3]])
+IMAGE = vorotool.tessellate([[0, 0], [2, 1]], shape=(2, 3))
+SHAPE = vorotool.alpha_shape(MESH.points, r=3)
+
+
+def written(value, what, fmt):
+    out = io.BytesIO()
+    write_product(out, value, parts_of(value)[what], fmt)
+    return out.getvalue()
+
+
+def test_index_arrays_of_values_count_from_0():
+    assert MESH.edges.min() == MESH.triangles.min() == MESH.hull.min() == 0
+    assert SHAPE.edges.min() == SKELETON.arcs.min() == SKELETON.polygon.min() == 0
+    assert SKELETON.sites.max() == len(SKELETON.site_table) - 1
+
+
+def test_labels_count_from_1_and_0_is_none():
+    assert sorted(set(IMAGE.labels.ravel().tolist())) == [1, 2]
+    far = vorotool.tessellate([[0, 0]], shape=(1, 9), max_distance=2)
+    assert far.labels.tolist() == [[1, 1, 1, 0, 0, 0, 0, 0, 0]]
+
+
+@pytest.mark.parametrize(
+    "table",
+    [
+        vorotool.edge_table(MESH),
+        vorotool.triangle_table(MESH),
+        vorotool.point_table(MESH),
+        vorotool.site_table(MESH),
+        vorotool.region_table(IMAGE),
+        vorotool.neighbour_table(IMAGE),
+        vorotool.arc_table(SKELETON),
+        vorotool.branch_table(SKELETON),
+        vorotool.polygon_table(SKELETON),
+        vorotool.element_table(SKELETON),
+    ],
+)
+def test_columns_of_labels_count_from_1_and_all_others_from_0(table):
+    columns = vorotool.table(table)
+    for name, values in columns.items():
+        if "label" in name:
+            assert np.ma.compressed(values).min(initial=1) == 1, name
+        elif name in ("source_index", "polygon", "arc", "branch", "element"):
+            assert values.min() == 0, name
+
+
+@pytest.mark.parametrize(("what", "expected"), [("edges", MESH.edges + 1), ("triangles", MESH.triangles + 1)])
+def test_npz_has_the_columns_of_the_tables(what, expected):
+    with np.load(io.BytesIO(written(MESH, what, "npz"))) as arrays:
+        assert np.array_equal(np.stack([arrays[name] for name in arrays if name.startswith("label")], axis=1), expected)
+
+
+def test_npz_of_a_skeleton_has_its_index_arrays():
+    with np.load(io.BytesIO(written(SKELETON, "skeleton", "npz"))) as arrays:
+        assert np.array_equal(np.stack([arrays["arc_source"], arrays["arc_target"]], axis=1), SKELETON.arcs)
+        assert np.array_equal(np.stack([arrays["arc_site_a"], arrays["arc_site_b"]], axis=1), SKELETON.sites)
+
+
+def test_formats_of_others_number_from_1():
+    rows = [line.split() for line in written(MESH, "triangles", "ele").decode().splitlines()[1:]]
+    assert np.array_equal(np.array(rows, int)[:, 1:], MESH.triangles + 1)
+    assert [row[0] for row in rows] == ["1", "2"]
+    faces = [line.split()[1:] for line in written(MESH, "triangles", "obj").decode().splitlines() if line[0] == "f"]
+    assert np.array_equal(np.array(faces, int), MESH.triangles + 1)
+
+
+def test_the_reference_states_it():
+    page = (Path(__file__).parents[2] / "docs" / "reference" / "python" / "index.md").read_text(encoding="utf-8")
+    assert "## What counts from 0, and what from 1" in page
