@@ -9,6 +9,8 @@
 #include "bindings/support/arrays.hpp"
 #include "bindings/support/monitor.hpp"
 #include "core/base/indices.hpp"
+#include "core/graphs/boundary_cycles.hpp"
+#include "core/graphs/connected_components.hpp"
 #include "core/graphs/graph_colouring.hpp"
 #include "core/graphs/longest_paths.hpp"
 
@@ -73,6 +75,20 @@ auto colour_graph(std::size_t vertices, Vector<const std::uint32_t> a, Vector<co
   return to_numpy(run_interruptible(progress, core::graphs::colour_graph, vertices, edges));
 }
 
+auto connected_components(const IndexRows& edges, std::size_t vertices) {
+  const std::span<const IndexPair> pairs = rows<IndexPair>(edges);
+  core::base::check_range(pairs, 0, vertices, "a vertex is out of range");
+  return to_numpy(core::graphs::connected_components(pairs, vertices));
+}
+
+auto boundary_cycles(const Indices& next, const Indices& tail, std::size_t vertices) {
+  if (next.size() != tail.size()) throw std::invalid_argument("each half-edge must have a tail");
+  core::base::check_range(view(next), 0, next.size(), "a half-edge is out of range");
+  core::base::check_range(view(tail), 0, vertices, "a vertex is out of range");
+  core::graphs::BoundaryCycles cycles = core::graphs::boundary_cycles(view(next), view(tail), vertices);
+  return std::make_tuple(to_numpy(std::move(cycles.start)), to_numpy(std::move(cycles.half_edge)));
+}
+
 }  // namespace
 
 void bind_graphs(nb::module_& room) {
@@ -82,6 +98,10 @@ void bind_graphs(nb::module_& room) {
   room.def("path_from", &path_from, "arcs"_a, "length"_a, "nodes"_a, "first"_a, "last"_a, "progress"_a.none(),
            "Arcs of the shortest path, and the node that each leads to; with last -1 to the farthest leaf.");
   room.def("colour_graph", &colour_graph, "vertices"_a, "a"_a, "b"_a, "progress"_a.none());
+  room.def("connected_components", &connected_components, "edges"_a, "vertices"_a,
+           "The smallest vertex that each is connected with.");
+  room.def("boundary_cycles", &boundary_cycles, "next"_a, "tail"_a, "vertices"_a,
+           "Where the cycles begin that pass no vertex twice, and the half-edges along them.");
 }
 
 }  // namespace vorotool::bindings

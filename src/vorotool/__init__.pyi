@@ -137,6 +137,12 @@ from vorotool.engines.tessellation.tessellate import (
 from vorotool.engines.tessellation.tessellate import (
     verify_tessellation as verify_tessellation,
 )
+from vorotool.engines.voronoi.verify_voronoi import (
+    verify_voronoi as verify_voronoi,
+)
+from vorotool.engines.voronoi.voronoi import (
+    voronoi as voronoi,
+)
 from vorotool.errors import (
     InputError as InputError,
 )
@@ -256,6 +262,9 @@ from vorotool.geometry.skeleton.tables import (
 )
 from vorotool.geometry.table import (
     Table as Table,
+)
+from vorotool.geometry.voronoi.voronoi_map import (
+    VoronoiMap as VoronoiMap,
 )
 from vorotool.jobs.writing import (
     to_geojson as to_geojson,

@@ -26,9 +26,9 @@ METHODS = {
     "to_geopandas": {"Raster", "Table", "DigitalComparison", "CriticalValues"},
     "__geo_interface__": {"Raster", "Table", "DigitalComparison", "CriticalValues"},
     "to_pandas": {"Raster"},
-    "plot": {"Table", "DigitalComparison", "CriticalValues"},
-    "_repr_svg_": {"Table", "DigitalComparison", "CriticalValues"},
-    "_repr_html_": {"DigitalComparison", "CriticalValues"},
+    "plot": {"Table", "DigitalComparison", "CriticalValues", "VoronoiMap"},
+    "_repr_svg_": {"Table", "DigitalComparison", "CriticalValues", "VoronoiMap"},
+    "_repr_html_": {"DigitalComparison", "CriticalValues", "VoronoiMap"},
 }
 """The types without a method."""
 ONLY = {

@@ -46,8 +46,6 @@ engines/digital -> engines/common, engines/delaunay, engines/label_images, engin
     geometry/arguments, geometry/curves, geometry/mesh, geometry/points, typing
 engines/features -> engines/arrangement, geometry, geometry/polygons, geometry/skeleton
 formats/polygons -> formats/io, formats/parsing, formats/points, formats/text, geometry, geometry/polygons
-geometry/any -> geometry, geometry/alpha, geometry/curves, geometry/mesh, geometry/points, geometry/polygons,
-    geometry/skeleton, products
 render/layers -> geometry, geometry/alpha, geometry/mesh, geometry/polygons, geometry/skeleton, render/canvas,
     render/label_images
 render/pages -> geometry, geometry/alpha, geometry/curves, geometry/mesh, geometry/skeleton, products, render/canvas,
@@ -71,6 +69,12 @@ engines/peers -> engines, engines/delaunay, engines/from_skeleton, engines/label
     engines/tessellation, geometry, geometry/arguments, geometry/mesh, typing
 engines/centerlines -> engines/from_skeleton, engines/pruning, engines/skeleton, geometry, geometry/arguments,
     geometry/polygons, geometry/skeleton, typing
+geometry/voronoi -> geometry, geometry/curves, geometry/polygons, products
+render ->
+engines/voronoi -> engines/arrangement, engines/common, engines/segment_voronoi, engines/skeleton, geometry,
+    geometry/arguments, geometry/curves, geometry/polygons, geometry/skeleton, geometry/voronoi
+geometry/any -> geometry, geometry/alpha, geometry/curves, geometry/mesh, geometry/points, geometry/polygons,
+    geometry/skeleton, geometry/voronoi, products
 jobs -> batch, engines, engines/alpha, engines/arrangement, engines/centerlines, engines/delaunay, engines/digital,
     engines/features, engines/from_skeleton, engines/label_images, engines/offsets, engines/pruning,
     engines/sampled_skeleton, engines/segment_voronoi, engines/skeleton, engines/tessellation, formats,
@@ -81,7 +85,6 @@ cli/options -> engines/offsets, engines/pruning, geometry, jobs, products
 cli/batch -> batch, cli/options, formats/io, geometry, jobs, products
 cli/commands -> cli/batch, cli/options, jobs, products
 cli -> cli/commands, jobs
-render ->
 """
 """Rooms of the package from below, and what each may import; `errors` and `signals` are for all."""
 

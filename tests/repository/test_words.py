@@ -81,7 +81,6 @@ triangle_rings vertex_triangles
 used_polygons repaired_polygons
 verify_labels verify_tessellation
 vertex_numbers vertex_merging
-voronoi_map combinatorial_map
 wide_integer fixed_integer
 """.splitlines()
     if line

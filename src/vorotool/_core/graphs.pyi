@@ -19,3 +19,11 @@ def path_from(arcs: numpy.typing.NDArray[numpy.int32], length: numpy.typing.NDAr
     """
 
 def colour_graph(vertices: int, a: numpy.typing.NDArray[numpy.uint32], b: numpy.typing.NDArray[numpy.uint32], progress: Callable[[float], object] | None) -> numpy.typing.NDArray[numpy.uint32]: ...
+
+def connected_components(edges: numpy.typing.NDArray[numpy.int32], vertices: int) -> numpy.typing.NDArray[numpy.int32]:
+    """The smallest vertex that each is connected with."""
+
+def boundary_cycles(next: numpy.typing.NDArray[numpy.int32], tail: numpy.typing.NDArray[numpy.int32], vertices: int) -> tuple[numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32]]:
+    """
+    Where the cycles begin that pass no vertex twice, and the half-edges along them.
+    """

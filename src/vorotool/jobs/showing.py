@@ -67,7 +67,9 @@ def _features(value: Any) -> dict[str, Any]:
 
     features = features_of(value)
     columns = {name: _json_values(column) for name, column in features.columns.items()}
-    shapes = [None if text is None else orjson.loads(text) for text in shapely.to_geojson(features.geometry)]
+    there = ~shapely.is_empty(features.geometry)
+    texts = zip(shapely.to_geojson(features.geometry), there, strict=True)
+    shapes = [orjson.loads(text) if text is not None and is_there else None for text, is_there in texts]
     rows = zip(*columns.values(), strict=True)
     made: dict[str, Any] = {
         "type": "FeatureCollection",

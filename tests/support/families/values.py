@@ -93,6 +93,7 @@ def example_values():
         "Centerlines": vorotool.centerline(vorotool.prune(skeleton, angle=60)),
         "SkeletonPoints": vorotool.points_along(skeleton, every=3),
         "Offsets": vorotool.offset(polygons, [-1, 2]),
+        "VoronoiMap": vorotool.voronoi(polygons),
     }
 
 
@@ -116,6 +117,7 @@ def empty_values():
             triangle,
             **{name: getattr(triangle, name)[:0] for name in (*ARCS, "vertices", "radius")},
         ),
+        "no cells": vorotool.voronoi([]),
         "no labels": vorotool.LabelImage(np.zeros((3, 4), np.uint8)),
         "one pixel": vorotool.LabelImage(np.ones((1, 1), np.uint8)),
         "one grey": vorotool.Raster(np.full((2, 2), 7.5)),

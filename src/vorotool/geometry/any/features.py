@@ -35,6 +35,9 @@ from vorotool.geometry.skeleton.points_along import SkeletonPoints
 from vorotool.geometry.skeleton.skeleton import Skeleton
 from vorotool.geometry.skeleton.tables import ids_of
 from vorotool.geometry.table import Table
+from vorotool.geometry.voronoi.shapes import cell_polygons
+from vorotool.geometry.voronoi.tables import cell_table
+from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 from vorotool.products.formats import resolved
 
 Rows = NDArray[np.integer]
@@ -312,6 +315,11 @@ def _of_offsets(offsets: Offsets, flatten: float | None = None) -> Features:
     return Features(to_shapely(shapes), _with_polygons(columns, polygons, of), polygons, of)
 
 
+def _of_voronoi(cells: VoronoiMap, flatten: float | None = None) -> Features:
+    geometry = cell_polygons(cells, checked_flatten(flatten, cells.polygons))
+    return Features(geometry, cell_table(cells), cells, _every(len(cells)))
+
+
 # ---- label images --------------------------------------------------------------------------------
 @dataclass(frozen=True, eq=False)
 class _Map:
@@ -393,4 +401,5 @@ _MAKERS: dict[type, Callable[..., Features]] = {
     Centerlines: _of_centerlines,
     SkeletonPoints: _of_points_along,
     Offsets: _of_offsets,
+    VoronoiMap: _of_voronoi,
 }

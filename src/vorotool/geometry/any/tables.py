@@ -31,6 +31,7 @@ from vorotool.geometry.skeleton.points_along import SkeletonPoints
 from vorotool.geometry.skeleton.skeleton import Skeleton
 from vorotool.geometry.skeleton.tables import arc_table
 from vorotool.geometry.table import Table
+from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 from vorotool.products.formats import resolved
 
 
@@ -135,6 +136,10 @@ def _of_offsets(offsets: Offsets) -> IndexedTable:
     )
 
 
+def _of_voronoi(cells: VoronoiMap) -> IndexedTable:
+    return IndexedTable(cells.table, cells, np.arange(len(cells)))
+
+
 def _of_features(value: Any) -> IndexedTable:
     features = features_of(value)
     return IndexedTable(features.columns, features.source, features.item)
@@ -164,5 +169,6 @@ _MAKERS: dict[type, Callable[[Any], IndexedTable]] = {
     Centerlines: _of_centerlines,
     SkeletonPoints: _of_points_along,
     Offsets: _of_offsets,
+    VoronoiMap: _of_voronoi,
     CriticalValues: _of_values,
 }

@@ -93,7 +93,7 @@ def _polygons_in(source: Any, name: str) -> PolygonSet:
         return _of_features(held)
     if is_table(source) and not isinstance(source, Mapping):
         raise unexpected(source, EXPECTED)
-    if isinstance(source, Mapping) or _is_ring(source):
+    if isinstance(source, Mapping) or is_ring(source):
         source = [source]
     if not isinstance(source, Iterable) or getattr(source, "ndim", 1) == 0:
         raise unexpected(source, EXPECTED)
@@ -111,7 +111,7 @@ def _of_features(held: HeldFeatures) -> PolygonSet:
     return polygons_of_geometry(held.geometry, described_by)
 
 
-def _is_ring(source: Any) -> bool:
+def is_ring(source: Any) -> bool:
     """Whether this is an array or a list of pairs of numbers."""
     if isinstance(source, np.ndarray):
         return source.ndim == 2

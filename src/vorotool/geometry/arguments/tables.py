@@ -27,7 +27,7 @@ ROWS_FIRST = ("y", "lat", "north", "row", "r", "i")
 NO_TABLE = frozenset({"type", "shell", "line", "coordinates"})
 """Members of a mapping that is a geometry."""
 
-_MISSING_TYPES = ("NAType", "NaTType")
+MISSING_TYPES = ("NAType", "NaTType")
 
 
 def is_table(value: Any) -> bool:
@@ -148,7 +148,7 @@ def _plain_array(column: Any) -> NDArray[Any]:
     if isinstance(array, np.ma.MaskedArray):
         return np.where(np.ma.getmaskarray(array), np.nan, array.data) if np.ma.is_masked(array) else array.data
     if array.dtype.kind == "O":
-        values = [np.nan if each is None or type(each).__name__ in _MISSING_TYPES else each for each in array.tolist()]
+        values = [np.nan if each is None or type(each).__name__ in MISSING_TYPES else each for each in array.tolist()]
         made = np.empty(len(values), dtype=object)
         made[:] = values
         return made

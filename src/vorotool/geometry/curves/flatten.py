@@ -44,7 +44,7 @@ def checked_flatten(tolerance: float | None, polygons: PolygonSet) -> float:
 
 
 def polylines(
-    source: Floats, control: Floats, target: Floats, is_curve: NDArray[np.bool_], tolerance: float
+    source: Floats, control: Floats, target: Floats, is_curve: NDArray[np.bool_], tolerance: float | Floats
 ) -> tuple[Floats, Indices]:
     """Parabolas as polylines, divided evenly in their parameter, and straight lines as they are.
 
@@ -54,7 +54,7 @@ def polylines(
         Control points of quadratic Bézier curves; the middle one of a straight line is not looked at.
     is_curve : (k,) bool array
         Whether each is no straight line.
-    tolerance : float
+    tolerance : float, or (k,) float64 array
         How far a polyline may be from its curve.
 
     Returns

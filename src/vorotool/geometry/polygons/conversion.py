@@ -12,13 +12,15 @@ from vorotool.errors import InputError
 from vorotool.geometry.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet, set_of_rings
 from vorotool.geometry.ragged import starts_of, within
 
-_LINESTRING, _LINEARRING, _POLYGON = 1, 2, 3  # type numbers of GEOS
+_POINT, _LINESTRING, _LINEARRING, _POLYGON, _MULTIPOINT = 0, 1, 2, 3, 4  # type numbers of GEOS
 _COLLECTIONS = (5, 6, 7)  # MultiLineString, MultiPolygon, GeometryCollection
 
 
 def polygons_of_geometry(
     geometry: Sequence[Any] | NDArray[np.object_],
     described: Callable[[NDArray[np.int64]], Mapping[str, Any]] | None = None,
+    *,
+    takes_points: bool = False,
 ) -> PolygonSet:
     """Polygons and lines of shapely geometry, one feature an item; rings and lines keep their direction.
 
@@ -29,11 +31,13 @@ def polygons_of_geometry(
     described : callable, optional
         ``described(items)`` gives further fields of the `PolygonSet` for the items that its polygons come from; by
         default these are their features.
+    takes_points : bool
+        A point is taken for a line of one vertex.
 
     Raises
     ------
     InputError
-        If a geometry is a point or holds one, or a coordinate is not finite.
+        If a geometry is a point or holds one, and none is taken, or a coordinate is not finite.
 
     Examples
     --------
@@ -45,13 +49,15 @@ def polygons_of_geometry(
     import shapely
 
     parts, owners = np.array(geometry, dtype=object), np.arange(len(geometry))
-    while np.isin(shapely.get_type_id(parts), _COLLECTIONS).any():
+    collections = (*_COLLECTIONS, *([_MULTIPOINT] if takes_points else []))
+    while np.isin(shapely.get_type_id(parts), collections).any():
         parts, index = shapely.get_parts(parts, return_index=True)
         owners = owners[index]
     there = ~(shapely.is_empty(parts) | shapely.is_missing(parts))
     parts, owners = parts[there], owners[there]
     kinds = shapely.get_type_id(parts)
-    bad = np.flatnonzero(~np.isin(kinds, (_LINESTRING, _LINEARRING, _POLYGON)))
+    taken = (_LINESTRING, _LINEARRING, _POLYGON, *([_POINT] if takes_points else []))
+    bad = np.flatnonzero(~np.isin(kinds, taken))
     if bad.size:
         at = int(bad[0])
         raise InputError(f"item {owners[at] + 1} is or holds a {parts[at].geom_type}: give polygons or lines")
@@ -61,7 +67,7 @@ def polygons_of_geometry(
     rings = np.concatenate([rings, parts[lines]])[order]
     polygons = np.concatenate([polygons, lines])[order]
     first = np.diff(polygons, prepend=-1) > 0
-    ring_kinds = np.where(first, np.where(kinds[polygons] == _LINESTRING, LINE, SHELL), HOLE)
+    ring_kinds = np.where(first, np.where(np.isin(kinds[polygons], (_POINT, _LINESTRING)), LINE, SHELL), HOLE)
     fields = {"feature": owners} if described is None else described(owners)
     return set_of_rings(
         shapely.get_coordinates(rings), shapely.get_num_coordinates(rings), ring_kinds, polygons, **fields

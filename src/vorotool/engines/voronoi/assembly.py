@@ -1,0 +1,210 @@
+"""The planar map of cut borders and their frame: arcs, and the rings of each cell."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool import _core
+from vorotool.engines.voronoi.frame_cut import CutBorders
+from vorotool.engines.voronoi.frame_ring import OUTSIDE, FrameRing
+from vorotool.errors import VerificationError
+from vorotool.geometry.curves.bezier import areas_beside
+from vorotool.geometry.ragged import owners, ranges, starts_of
+
+Indices = NDArray[np.int64]
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Arcs:
+    """Arcs of a planar map, from the vertex with the smaller number each.
+
+    Parameters
+    ----------
+    vertices : (v, 2) float64 array
+        Places.
+    radius : (v,) float64 array
+        Distances from the nearest sites there; NaN at corners of the frame that no border ends at.
+    ends : (a, 2) int64 array
+        Source and target.
+    control : (a, 2) float64 array
+        NaN of straight lines.
+    sites, parts : (a, 2) int64 array
+        Left and right; `OUTSIDE` on the far side of the frame.
+    order : (a, 2) int64 array
+        Rising counter-clockwise around source and target.
+    """
+
+    vertices: Floats
+    radius: Floats
+    ends: Indices
+    control: Floats
+    sites: Indices
+    parts: Indices
+    order: Indices
+
+
+def arcs_of(cut: CutBorders, ring: FrameRing, sites: Indices, parts: Indices, order: Indices) -> Arcs:
+    """Put borders and the frame together, and number vertices and arcs by where they are.
+
+    Vertices of the diagram come first, then those on the frame along it.
+
+    Parameters
+    ----------
+    cut, ring : CutBorders, FrameRing
+        What was cut, and its frame.
+    sites, parts, order : (c, 2) int64 array
+        Of the borders.
+    """
+    nodes = len(ring.nodes)
+    after = np.roll(ring.nodes, -1)
+    beyond = np.full(nodes, OUTSIDE)
+    ends = np.concatenate([cut.ends, np.stack([ring.nodes, after], axis=1)])
+    control = np.concatenate([cut.control, np.full((nodes, 2), np.nan)])
+    both_sites = np.concatenate([sites, np.stack([ring.sides[:, 0], beyond], axis=1)])
+    both_parts = np.concatenate([parts, np.stack([ring.sides[:, 1], beyond], axis=1)])
+    inner = np.where(ring.rank > 0, ring.rank, order)
+    last = len(cut.ends) + 2  # after all that ends at a node from inside
+    orders = np.concatenate([inner, np.stack([np.zeros(nodes, dtype=np.int64), np.full(nodes, last)], axis=1)])
+    places = np.concatenate([cut.places, ring.corners])
+    radius = np.concatenate([cut.radius, np.full(len(ring.corners), np.nan)])
+    number = np.full(len(places), -1, dtype=np.int64)
+    used = np.zeros(len(places), dtype=bool)
+    used[cut.ends] = True
+    used[ring.nodes] = False
+    kept = np.concatenate([np.flatnonzero(used), ring.nodes])
+    number[kept] = np.arange(len(kept))
+    ends = number[ends]
+    turned = ends[:, 0] > ends[:, 1]
+    for each in (ends, both_sites, both_parts, orders):
+        each[turned] = each[turned, ::-1]
+    sorting = _by_ends(ends, control)
+    return Arcs(
+        places[kept],
+        radius[kept],
+        ends[sorting],
+        control[sorting],
+        both_sites[sorting],
+        both_parts[sorting],
+        orders[sorting],
+    )
+
+
+def _by_ends(ends: Indices, control: Floats) -> Indices:
+    """The order of arcs by their ends; those between the same two by their control points."""
+    key = ends[:, 0] * (int(ends.max(initial=0)) + 1) + ends[:, 1]
+    sorting = np.argsort(key, kind="stable")
+    again = np.flatnonzero(np.diff(key[sorting]) == 0)
+    if again.size:  # few arcs have both ends in common
+        alike = np.union1d(again, again + 1)
+        arc = sorting[alike]
+        sorting[alike] = arc[np.lexsort((control[arc, 1], control[arc, 0], key[arc]))]
+    return sorting
+
+
+@dataclass(frozen=True, eq=False)
+class Rings:
+    """Rings of a planar map without double points.
+
+    Parameters
+    ----------
+    start : (r + 1,) int64 array
+        Where each begins in `half_edge`.
+    half_edge : (h,) int64 array
+        Along each: 2 k along arc k, 2 k + 1 back.
+    site, part : (r,) int64 array
+        On the left.
+    area : (r,) float64 array
+        Above 0 of shells.
+    """
+
+    start: Indices
+    half_edge: Indices
+    site: Indices
+    part: Indices
+    area: Floats
+
+    def __getitem__(self, chosen: NDArray[np.bool_]) -> Rings:
+        """Some of the rings."""
+        sizes = np.diff(self.start)[chosen]
+        half_edge = self.half_edge[ranges(self.start[:-1][chosen], sizes)]
+        return Rings(starts_of(sizes), half_edge, self.site[chosen], self.part[chosen], self.area[chosen])
+
+
+def rings_of(arcs: Arcs) -> Rings:
+    """Go around every face of a map, with the face on the left; the rings of the outside are left out.
+
+    Raises
+    ------
+    VerificationError
+        If an arc has another site on its left than the one before it.
+    """
+    tail = arcs.ends.ravel()
+    order = arcs.order.ravel()
+    least = int(order.min(initial=0))
+    out = np.argsort(tail * (int(order.max(initial=0)) - least + 1) + (order - least), kind="stable")
+    first = np.flatnonzero(np.diff(tail[out], prepend=-1))
+    before = np.roll(out, 1)
+    before[first] = out[np.append(first[1:], len(out)) - 1] if len(first) else before[first]
+    clockwise = np.empty(len(out), dtype=np.int64)
+    clockwise[out] = before
+    after = clockwise[np.arange(len(out)) ^ 1]
+    start, half_edge = _core.graphs.boundary_cycles(after.astype(np.int32), tail.astype(np.int32), len(arcs.vertices))
+    site, part = arcs.sites.ravel()[half_edge], arcs.parts.ravel()[half_edge]
+    row, begin = owners(np.diff(start)), start[:-1]
+    if (site != site[begin][row]).any():
+        raise VerificationError("borders do not close around a cell: a defect of vorotool, please report it")
+    centre = arcs.vertices.mean(axis=0) if len(arcs.vertices) else np.zeros(2)
+    source, target = arcs.vertices[arcs.ends[:, 0]], arcs.vertices[arcs.ends[:, 1]]
+    beside = areas_beside(source, arcs.control, target, centre)[half_edge >> 1]
+    area = np.bincount(row, np.where(half_edge & 1, -beside, beside), minlength=len(begin)).astype(np.float64)
+    rings = Rings(start.astype(np.int64), half_edge.astype(np.int64), site[begin], part[begin], area)
+    return rings[site[begin] != OUTSIDE]
+
+
+@dataclass(frozen=True, eq=False)
+class Cells:
+    """Cells as rings in rows.
+
+    Parameters
+    ----------
+    ring_arcs : (k,) int32 array
+        Arcs along each ring, from 1; below 0 against their direction.
+    ring_start, polygon_start, cell_start : int64 array
+        Where each ring begins there, each polygon among the rings, each cell among the polygons.
+    """
+
+    ring_arcs: NDArray[np.int32]
+    ring_start: Indices
+    polygon_start: Indices
+    cell_start: Indices
+
+
+def cells_of(rings: Rings, shell: Indices, count: int) -> Cells:
+    """Put rings into polygons, and polygons into cells.
+
+    Parameters
+    ----------
+    rings : Rings
+        Sorted by their smallest half-edges.
+    shell : (r,) int64 array
+        The ring around each hole; of a shell its own number.
+    count : int
+        Cells.
+    """
+    is_hole = shell != np.arange(len(shell))
+    sorting = np.lexsort((np.arange(len(shell)), is_hole, shell, rings.site[shell]))
+    sizes = np.diff(rings.start)[sorting]
+    half_edge = rings.half_edge[ranges(rings.start[:-1][sorting], sizes)]
+    arc = (half_edge >> 1) + 1
+    first = np.flatnonzero(~is_hole[sorting])
+    of_site = np.bincount(rings.site[sorting[first]], minlength=count)
+    return Cells(
+        np.where(half_edge & 1, -arc, arc).astype(np.int32),
+        starts_of(sizes),
+        np.append(first, len(sorting)),
+        starts_of(of_site),
+    )

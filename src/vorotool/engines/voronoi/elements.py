@@ -1,0 +1,184 @@
+"""What belongs to which site: points, open segments and faces of the planar graph of all sites."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.engines.arrangement.flat_rings import flat_holes, with_flat_shells_as_lines
+from vorotool.engines.arrangement.planar_graph import (
+    MOST_VERTICES,
+    arranged,
+    placed_vertices,
+    report_repairs,
+)
+from vorotool.errors import LimitError
+from vorotool.geometry.magnitude import check_magnitude
+from vorotool.geometry.polygons.planar_graph import PlanarGraph
+from vorotool.geometry.polygons.polygon_set import LINE, PolygonSet, set_of_rings
+from vorotool.geometry.progress import Progress
+from vorotool.geometry.ragged import owners, ranges
+
+NOBODY = np.int32(2**31 - 1)
+"""A site after all others, while the smallest is looked for."""
+
+_FAULTS = ("repeated_vertices", "idle_segments", "empty_polygons")
+
+Sites = NDArray[np.int32]
+
+
+@dataclass(frozen=True, eq=False)
+class OwnedGraph:
+    """A planar graph, and the site that has each of its elements.
+
+    Of several sites the smallest has an element.
+
+    Parameters
+    ----------
+    graph : PlanarGraph
+        Of all sites together.
+    element : (n + m,) int32 array
+        The site on whose boundary each point and open segment is.
+    face : (f,) int32 array
+        The site that covers each face; -1 where none does.
+    """
+
+    graph: PlanarGraph
+    element: Sites
+    face: Sites
+
+
+def owned_graph(polygons: PolygonSet, site: Sites, *, threads: int = 0, progress: Progress = None) -> OwnedGraph:
+    """Put polygons and lines into one planar graph, and tell whose its elements are.
+
+    A polygon without inside, on the lattice or as it is given, is the line along its shell.
+
+    Parameters
+    ----------
+    polygons : PolygonSet
+        Points are lines of one vertex.
+    site : (p,) int32 array
+        Of each polygon.
+    threads, progress
+        As of `vorotool.planar_graph`, as are errors.
+
+    Warns
+    -----
+    RepairWarning
+        If vertices are repeated, or an edge or a polygon bounds nothing. That edges meet is no fault of sites.
+
+    Examples
+    --------
+    >>> from vorotool.geometry.arguments.polygons import as_polygons
+    >>> squares = as_polygons([[[0, 0], [2, 0], [2, 2], [0, 2]], [[2, 0], [4, 0], [4, 2], [2, 2]]])
+    >>> owned = owned_graph(squares, np.array([0, 1], dtype=np.int32))
+    >>> owned.face.tolist(), sorted(owned.element.tolist())
+    ([-1, 0, 1], [0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1])
+    """
+    graph = _graph(polygons, threads, progress)
+    given = graph.polygons
+    assert given is not None
+    return OwnedGraph(graph, _element_owners(graph, given, site), _face_owners(graph, site))
+
+
+def _graph(polygons: PolygonSet, threads: int, progress: Progress) -> PlanarGraph:
+    given = with_flat_shells_as_lines(polygons)
+    check_magnitude(given.xy)
+    if len(given.xy) > MOST_VERTICES:
+        raise LimitError(f"there are {len(given.xy)} vertices, more than {MOST_VERTICES}: split the polygons")
+    placement = placed_vertices(given, threads=threads, progress=progress)
+    made = arranged(given, placement, progress=progress)
+    found = {name: each if name in _FAULTS else (0, -1, -1) for name, each in made.found.items()}
+    report_repairs(given, found, made.graph.scale, strict=False, stacklevel=5)
+    is_empty = ~given.is_line
+    is_empty[made.graph.face_polygon] = False
+    if is_empty.any():
+        given = _as_lines(given, is_empty)
+        made = arranged(given, placed_vertices(given, threads=threads, progress=progress), progress=progress)
+    return made.graph
+
+
+def _as_lines(polygons: PolygonSet, chosen: NDArray[np.bool_]) -> PolygonSet:
+    """Take the shells of some polygons for closed lines, without their holes."""
+    is_first = np.diff(polygons.ring_polygon, prepend=-1) > 0
+    ring = np.flatnonzero(is_first | ~chosen[polygons.ring_polygon])
+    polygon = polygons.ring_polygon[ring]
+    size = np.diff(polygons.ring_start)[ring] + chosen[polygon]
+    taken = ranges(polygons.ring_start[ring], size)
+    ends = np.cumsum(size) - 1
+    closed = chosen[polygon]
+    taken[ends[closed]] = polygons.ring_start[ring[closed]]
+    kind = np.where(closed, LINE, polygons.ring_kind[ring])
+    lines = set_of_rings(polygons.xy[taken], size, kind, polygon)
+    return replace(
+        polygons, xy=lines.xy, ring_start=lines.ring_start, ring_kind=lines.ring_kind, ring_polygon=lines.ring_polygon
+    )
+
+
+def _face_owners(graph: PlanarGraph, site: Sites) -> Sites:
+    owner = np.full(graph.faces, -1, dtype=np.int32)
+    if len(graph.face_polygon):
+        covered = np.flatnonzero(graph.is_inside)
+        owner[covered] = np.minimum.reduceat(site[graph.face_polygon], graph.face_start[covered])
+    return owner
+
+
+def _element_owners(graph: PlanarGraph, given: PolygonSet, site: Sites) -> Sites:
+    count = len(graph.points)
+    owner = np.full(count + len(graph), NOBODY, dtype=np.int32)
+    if len(graph):
+        is_part, polygon = _bounding_sources(graph, given)
+        least = np.where(is_part, site[polygon], NOBODY)
+        owner[count:] = np.minimum.reduceat(least, graph.source_start[:-1])
+        for end in graph.segments.T:
+            np.minimum.at(owner, end, owner[count:])
+    point, of_polygon = _lone_places(graph, given)
+    np.minimum.at(owner, point, site[of_polygon])
+    return owner
+
+
+def _bounding_sources(graph: PlanarGraph, given: PolygonSet) -> tuple[NDArray[np.bool_], NDArray[np.int32]]:
+    """Of each source edge of a segment, whether its polygon is bounded there, and the polygon.
+
+    A spike of one polygon may lie along an edge of another one: it bounds nothing.
+    """
+    ring = np.searchsorted(given.ring_start, graph.source_edge, side="right") - 1
+    polygon = given.ring_polygon[ring]
+    is_part = np.ones(len(ring), dtype=bool)
+    several = graph.source_count > 1
+    doubtful = np.flatnonzero(np.repeat(several, graph.source_count))
+    if doubtful.size:
+        assert graph.vertices is not None
+        is_thin = np.equal(given.ring_kind, LINE) | flat_holes(given, graph.vertices)
+        doubtful = doubtful[~is_thin[ring[doubtful]]]
+        segment = np.repeat(np.arange(len(graph)), graph.source_count)[doubtful]
+        polygons = max(len(given), 1)
+        inside = owners(np.diff(graph.face_start)) * polygons + graph.face_polygon
+        left, right = (face.astype(np.int64) * polygons + polygon[doubtful] for face in graph.segment_faces[segment].T)
+        is_part[doubtful] = np.isin(left, inside) | np.isin(right, inside)
+    return is_part, polygon
+
+
+def _lone_places(graph: PlanarGraph, given: PolygonSet) -> tuple[NDArray[np.int64], NDArray[np.int32]]:
+    """Points that are a whole line or hole, and the polygons that these are of."""
+    assert graph.vertices is not None
+    places = _packed(graph.vertices)
+    starts = given.ring_start[:-1]
+    if not len(starts):
+        return np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int32)
+    is_one = np.minimum.reduceat(places, starts) == np.maximum.reduceat(places, starts)
+    is_one &= np.equal(given.ring_kind, LINE)
+    order = np.argsort(_packed(graph.points), kind="stable")
+    known = _packed(graph.points)[order]
+    at = np.searchsorted(known, places[starts[is_one]])
+    point = np.concatenate([order[at], graph.point_holes[:, 0]])
+    return point, np.concatenate([given.ring_polygon[is_one], graph.point_holes[:, 2]])
+
+
+def _packed(places: NDArray[np.int32]) -> NDArray[np.int64]:
+    """One number a place of the lattice."""
+    x, y = places.astype(np.int64).T
+    packed: NDArray[np.int64] = x * 2**32 + y
+    return packed

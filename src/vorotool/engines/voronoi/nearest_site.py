@@ -1,0 +1,109 @@
+"""The site that has one place, found without a diagram: exactly, by fractions."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.engines.voronoi.elements import NOBODY, OwnedGraph
+
+Exact = tuple[Fraction, Fraction]
+
+MARGIN = 2.0**-40
+"""Of the largest coordinate, by which rounding may make an element seem nearer or farther than it is."""
+
+
+def site_at(owned: OwnedGraph, place: tuple[float, float]) -> int:
+    """Give the site that covers a place in input units, else the one nearest to it, the smallest of several.
+
+    Parameters
+    ----------
+    owned : OwnedGraph
+        Of all sites, of which there is one with places at least.
+    place : (float, float)
+        In input units.
+
+    Examples
+    --------
+    >>> from vorotool.engines.voronoi.elements import owned_graph
+    >>> from vorotool.geometry.arguments.sites import as_sites
+    >>> sites = as_sites(["POINT (0 0)", "POLYGON ((2 0, 4 0, 4 2, 2 2, 2 0))"])
+    >>> owned = owned_graph(sites.polygons, sites.site)
+    >>> [site_at(owned, (x, 1.0)) for x in (0.0, 1.5, 2.5)]
+    [0, 1, 1]
+    """
+    graph = owned.graph
+    first = int(owned.element[0])
+    if (owned.element == first).all() and np.isin(owned.face, (first, -1)).all():
+        return first
+    exact = tuple((Fraction(c) - Fraction(o)) / Fraction(graph.scale) for c, o in zip(place, graph.origin, strict=True))
+    at: Exact = (exact[0], exact[1])
+    covering = int(owned.face[_face_at(owned, at)])
+    return covering if covering >= 0 else _nearest(owned, at)
+
+
+def _face_at(owned: OwnedGraph, at: Exact) -> int:
+    """The face of the graph that a place is in or at the border of: that below the first segment above it."""
+    graph = owned.graph
+    if not len(graph):
+        return 0
+    x = graph.points[:, 0][graph.segments]
+    low, high = x.min(axis=1), x.max(axis=1)
+    value = float(at[0])
+    near = np.flatnonzero((low <= value + 1) & (high >= value - 1))
+    best: tuple[Fraction, Fraction, int] | None = None
+    for k in near.tolist():
+        (ax, ay), (bx, by) = graph.points[graph.segments[k]].tolist()
+        is_right = ax < bx
+        if not is_right:
+            (ax, ay), (bx, by) = (bx, by), (ax, ay)
+        if not ax <= at[0] < bx:
+            continue
+        slope = Fraction(by - ay, bx - ax)
+        height = ay + slope * (at[0] - ax)
+        # of segments that leave one point to the right the lowest has the lowest slope
+        if height >= at[1] and (best is None or (height, slope) < best[:2]):
+            best = (height, slope, int(graph.segment_faces[k, 1 if is_right else 0]))
+    return 0 if best is None else best[2]
+
+
+def _nearest(owned: OwnedGraph, at: Exact) -> int:
+    graph, count = owned.graph, len(owned.graph.points)
+    place = np.array([float(at[0]), float(at[1])])
+    points = graph.points.astype(np.float64)
+    squared = np.concatenate([_squared(points - place), _squared_of_segments(points, graph.segments, place)])
+    least = float(np.sqrt(squared.min()))
+    margin = MARGIN * (float(np.abs(place).max()) + float(np.abs(points).max()) + 1)
+    candidates = np.flatnonzero(np.sqrt(squared) <= least + margin)
+    found = [(_exact_distance(graph, int(k), at), int(owned.element[k])) for k in candidates.tolist()]
+    assert count
+    return min((each for each in found if each[1] != NOBODY), key=lambda each: each)[1]
+
+
+def _squared(way: NDArray[np.float64]) -> NDArray[np.float64]:
+    squared: NDArray[np.float64] = (way * way).sum(axis=1)
+    return squared
+
+
+def _squared_of_segments(points: NDArray[np.float64], segments: Any, place: NDArray[np.float64]) -> NDArray[np.float64]:
+    a, b = points[segments[:, 0]], points[segments[:, 1]]
+    way = b - a
+    t = ((place - a) * way).sum(axis=1) / _squared(way)
+    return _squared(a + t.clip(0, 1)[:, None] * way - place)
+
+
+def _exact_distance(graph: Any, element: int, at: Exact) -> Fraction:
+    """The square of the distance, exactly."""
+    count = len(graph.points)
+    ends = [element, element] if element < count else graph.segments[element - count]
+    (ax, ay), (bx, by) = graph.points[ends].tolist()
+    u, v = bx - ax, by - ay
+    x, y = at[0] - ax, at[1] - ay
+    length = u * u + v * v
+    t = min(max(Fraction(x * u + y * v) / length, Fraction(0)), Fraction(1)) if length else Fraction(0)
+    dx, dy = x - t * u, y - t * v
+    squared: Fraction = dx * dx + dy * dy
+    return squared

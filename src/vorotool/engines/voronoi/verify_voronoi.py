@@ -1,0 +1,244 @@
+"""Check of Voronoi maps: by their arrays alone, and by distances from the input."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.engines.common.faults import fail, first_wrong
+from vorotool.geometry.polygons.conversion import to_shapely
+from vorotool.geometry.ragged import owners
+from vorotool.geometry.voronoi.voronoi_map import OUTSIDE, VoronoiMap
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+AREA = 1e-12
+"""By how much the areas of all cells may differ from that of the frame, as a part of it."""
+
+MOVE = 2.0**-27
+"""Of the extent: what vertices are moved by on a lattice of 31 bits is less, and so is what distances change by."""
+
+ROUNDING = 2.0**-44
+"""Of the largest coordinate: the rounding of places and distances."""
+
+_ALONG = (0.0, 0.25, 0.5, 0.75, 1.0)
+"""Where borders are looked at, in the parameter of their Bezier curves."""
+
+_SEED = 20
+
+
+def verify_voronoi(cells: VoronoiMap, *, places: int = 1000) -> None:
+    """Check a Voronoi map, with nothing that it was made by.
+
+    Every side of an arc is passed by one ring of its cell, rings are closed, shells go counter-clockwise and holes
+    clockwise, and the areas of all cells add up to that of the frame. Along borders both sites are equally far, and
+    none is nearer; at random places the site of the cell is the nearest one, and the first of those that cover the
+    place, or that have the vertex which it is nearest to. What the lattice moves is allowed for.
+
+    Parameters
+    ----------
+    cells : VoronoiMap
+        However it was made.
+    places : int
+        Random places in the frame, and as many borders.
+
+    Raises
+    ------
+    VerificationError
+        Naming the first fault.
+
+    Examples
+    --------
+    >>> from dataclasses import replace
+    >>> from vorotool import voronoi
+    >>> cells = voronoi([[0, 0], [4, 0], [0, 4]])
+    >>> verify_voronoi(cells)
+    >>> verify_voronoi(replace(cells, radius=cells.radius + 1))
+    Traceback (most recent call last):
+        ...
+    vorotool.errors.VerificationError: vertex 1 at (2.0, -0.4) is 2.039607805437114 from its sites, but is said to be 3
+    """
+    _check_rings(cells)
+    _check_areas(cells)
+    if len(cells) and len(cells.polygons):
+        sites = _SitePlaces(cells)
+        random = np.random.default_rng(_SEED)
+        _check_borders(cells, sites, random, places)
+        _check_places(cells, sites, random, places)
+
+
+# ---- arrays ------------------------------------------------------------------------------------------
+def _check_rings(cells: VoronoiMap) -> None:
+    arcs = len(cells.arcs)
+    low, high = cells.arcs.T
+    at = first_wrong((low < 0) | (high >= len(cells.vertices)) | (low >= high))
+    if at is not None:
+        fail(f"arc {at} is from vertex {low[at]} to {high[at]}: the first must be the smaller one")
+    signed = cells.ring_arcs.astype(np.int64)
+    at = first_wrong((signed == 0) | (np.abs(signed) > arcs))
+    if at is not None:
+        fail(f"a ring passes arc {signed[at]}, which does not exist")
+    arc, is_back = np.abs(signed) - 1, signed < 0
+    ring = owners(np.diff(cells.ring_start))
+    cell = cells.cell_of_polygon[owners(np.diff(cells.polygon_start))][ring]
+    at = first_wrong(cells.sites[arc, is_back.astype(int)] != cell)
+    if at is not None:
+        fail(f"ring {ring[at]} of cell {cell[at]} passes arc {arc[at]}, whose side is of {cells.sites[arc[at]]}")
+    passed = np.bincount(2 * arc + is_back, minlength=2 * arcs)
+    at = first_wrong(passed != (cells.sites.ravel() != OUTSIDE))
+    if at is not None:
+        fail(f"arc {at // 2} is passed {passed[at]} times with its {('left', 'right')[at % 2]} side")
+    begin = np.where(is_back, high[arc], low[arc])
+    end = np.where(is_back, low[arc], high[arc])
+    after = np.arange(1, len(arc) + 1)
+    after[cells.ring_start[1:] - 1] = cells.ring_start[:-1]
+    at = first_wrong(end != begin[after])
+    if at is not None:
+        fail(f"ring {ring[at]} goes on at vertex {begin[after[at]]}, but arc {arc[at]} ends at {end[at]}")
+
+
+def _check_areas(cells: VoronoiMap) -> None:
+    """Areas by the trapezoids below curves: another sum than that of the map."""
+    _, _, w, h = cells.frame
+    source, target = cells.vertices[cells.arcs[:, 0]], cells.vertices[cells.arcs[:, 1]]
+    control = np.where(cells.is_parabola[:, None], cells.control, (source + target) / 2)
+    y0, y1, y2 = (places[:, 1] - cells.frame[1] for places in (source, control, target))
+    first, second = control[:, 0] - source[:, 0], target[:, 0] - control[:, 0]
+    # the integral of y dx: of products of Bernstein polynomials of degrees 2 and 1
+    below = (first * (3 * y0 + 2 * y1 + y2) + second * (y0 + 2 * y1 + 3 * y2)) / 6
+    arc, is_back = np.abs(cells.ring_arcs.astype(np.int64)) - 1, cells.ring_arcs < 0
+    area = -np.bincount(
+        owners(np.diff(cells.ring_start)),
+        np.where(is_back, -below[arc], below[arc]),
+        minlength=len(cells.ring_start) - 1,
+    )
+    slack = AREA * w * h
+    at = first_wrong(np.where(cells.is_hole, area > slack, area < -slack))
+    if at is not None:
+        fail(f"ring {at} has the area {area[at]}: shells go counter-clockwise, holes clockwise")
+    total = float(area.sum())
+    if len(cells.cell_start) > 1 and len(cells.polygons) and abs(total - w * h) > max(slack * 8, 0):
+        fail(f"the cells have an area of {total}, but the frame one of {w * h}")
+
+
+# ---- distances ---------------------------------------------------------------------------------------
+class _SitePlaces:
+    """The sites as geometry of shapely, and how far distances may be off."""
+
+    def __init__(self, cells: VoronoiMap) -> None:
+        import shapely
+
+        given = cells.polygons
+        parts = shapely.make_valid(to_shapely(given))
+        single = given.is_line & (np.diff(given.ring_start)[given.polygon_start[:-1]] == 1)
+        first = given.ring_start[given.polygon_start[:-1]][single]
+        parts[single] = shapely.points(given.xy[first])
+        order = np.argsort(cells.polygon_site, kind="stable")
+        self.numbers, rows = np.unique(cells.polygon_site[order], return_inverse=True)
+        self.geometry = shapely.geometrycollections(parts[order], indices=rows)
+        self.row = np.full(len(cells), -1)
+        self.row[self.numbers] = np.arange(len(self.numbers))
+        self.tree = shapely.STRtree(self.geometry)
+        extent = float(np.ptp(given.xy, axis=0).max())
+        largest = float(max(np.abs(given.xy).max(), np.abs(cells.vertices).max(initial=0)))
+        self.tolerance = MOVE * extent + ROUNDING * largest
+        self.corners = {tuple(place) for place in given.xy.tolist()}
+
+    def distances(self, site: NDArray[Any], places: Floats) -> Floats:
+        """Of each place from one site."""
+        import shapely
+
+        made: Floats = shapely.distance(self.geometry[self.row[site]], shapely.points(places))
+        return made
+
+    def least(self, places: Floats) -> Floats:
+        """Of each place from the nearest site."""
+        import shapely
+
+        found, distance = self.tree.query_nearest(shapely.points(places), return_distance=True, all_matches=False)
+        least = np.empty(len(places))
+        least[found[0]] = distance
+        return least
+
+
+def _check_borders(cells: VoronoiMap, sites: _SitePlaces, random: np.random.Generator, count: int) -> None:
+    border = np.flatnonzero(cells.is_border)
+    if len(border) > count:
+        border = np.sort(random.choice(border, count, replace=False))
+    for end in (0, 1):
+        vertex = cells.arcs[border, end]
+        least = sites.least(cells.vertices[vertex])
+        at = first_wrong(~(np.abs(least - cells.radius[vertex]) <= sites.tolerance))
+        if at is not None:
+            k = int(vertex[at])
+            place = tuple(cells.vertices[k].tolist())
+            fail(f"vertex {k} at {place} is {least[at]} from its sites, but is said to be {cells.radius[k]}")
+    source, target = cells.vertices[cells.arcs[border, 0]], cells.vertices[cells.arcs[border, 1]]
+    control = np.where(cells.is_parabola[border, None], cells.control[border], (source + target) / 2)
+    far = control - source
+    slack = sites.tolerance + ROUNDING * np.sqrt((far * far).sum(axis=1))
+    for t in _ALONG:
+        place = (1 - t) * (1 - t) * source + 2 * t * (1 - t) * control + t * t * target
+        least = sites.least(place)
+        for hand in (0, 1):
+            site = cells.sites[border, hand]
+            distance = sites.distances(site, place)
+            at = first_wrong(~(distance <= least + slack))
+            if at is not None:
+                fail(
+                    f"arc {border[at]} at {tuple(place[at].tolist())} is {distance[at]} from site {site[at]}, "
+                    f"but another one is {least[at]} from there"
+                )
+
+
+def _check_places(cells: VoronoiMap, sites: _SitePlaces, random: np.random.Generator, count: int) -> None:
+    import shapely
+
+    x, y, w, h = cells.frame
+    places = np.array([x, y]) + random.random((count, 2)) * np.array([w, h])
+    points = shapely.points(places)
+    shapes = cells.to_shapely(flatten=max(w, h) * 2.0**-20)
+    place, cell = shapely.STRtree(shapes).query(points, predicate="within")
+    least = sites.least(places)
+    distance = sites.distances(cell, places[place])
+    near = max(w, h) * 2.0**-20 + sites.tolerance  # lines instead of parabolas
+    at = first_wrong(~(distance <= least[place] + 2 * near))
+    if at is not None:
+        fail(
+            f"{tuple(places[place[at]].tolist())} is {distance[at]} from site {cell[at]}, whose cell it is in, "
+            f"but another one is {least[place[at]]} from there"
+        )
+    _check_ties(cells, sites, places[place], cell, shapes, near)
+
+
+def _check_ties(
+    cells: VoronoiMap, sites: _SitePlaces, places: Floats, cell: Indices, shapes: NDArray[Any], near: float
+) -> None:
+    """Where several sites cover a place, or have the vertex that it is nearest to, it belongs to the first."""
+    import shapely
+
+    points = shapely.points(places)
+    place, row = sites.tree.query_nearest(points, all_matches=True)
+    earlier = sites.numbers[row] < cell[place]
+    for at, other in zip(place[earlier].tolist(), row[earlier].tolist(), strict=True):
+        both = sites.geometry[[other, sites.row[cell[at]]]]
+        feet = shapely.get_coordinates(shapely.shortest_line(points[at], both)).reshape(2, 2, 2)[:, 1].tolist()
+        is_corner = feet[0] == feet[1] and tuple(feet[0]) in sites.corners
+        is_covered = min(_depth(each, points[at]) for each in both) > near
+        if (is_corner or is_covered) and shapely.distance(shapely.boundary(shapes[cell[at]]), points[at]) > near:
+            fail(
+                f"{tuple(places[at].tolist())} is in cell {cell[at]}, but site {sites.numbers[other]} is as near and "
+                "comes first"
+            )
+
+
+def _depth(geometry: Any, point: Any) -> float:
+    """How far a place is from the boundary of the polygons that cover it; 0 if none does."""
+    import shapely
+
+    parts = shapely.get_parts(shapely.get_parts(geometry))
+    covering = parts[shapely.covers(parts, point) & (shapely.area(parts) > 0)]
+    return float(shapely.distance(shapely.boundary(covering), point).max(initial=0))

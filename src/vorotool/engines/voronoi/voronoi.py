@@ -1,0 +1,174 @@
+"""The Voronoi diagram of points, lines and polygons (paper, sections 1 and 3.2)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, unwanted_sides
+from vorotool.engines.skeleton.exact import Frame, default_frame
+from vorotool.engines.voronoi.assembly import Arcs, Rings, arcs_of, cells_of, rings_of
+from vorotool.engines.voronoi.borders import borders_of
+from vorotool.engines.voronoi.elements import OwnedGraph, owned_graph
+from vorotool.engines.voronoi.frame_cut import cut_borders
+from vorotool.engines.voronoi.frame_ring import OUTSIDE, UNKNOWN, frame_ring
+from vorotool.engines.voronoi.holes import shells_of
+from vorotool.engines.voronoi.nearest_site import site_at
+from vorotool.errors import UsageError
+from vorotool.geometry.arguments.sites import as_sites
+from vorotool.geometry.checks import checked_threads
+from vorotool.geometry.magnitude import check_lengths
+from vorotool.geometry.progress import Progress
+from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
+
+
+def voronoi(
+    sites: Any,
+    *,
+    by: Any = None,
+    frame: Frame | None = None,
+    threads: int = 0,
+    progress: Progress = None,
+) -> VoronoiMap:
+    """Compute the Voronoi diagram of points, lines and polygons: for each the places that are nearest to it.
+
+    All sites are placed on a lattice of 31 bits and cut where they meet. From there on every decision is exact: the
+    Voronoi diagram of the vertices and open edges is made, and of its edges those between different sites are kept.
+    Polygons are filled: what is inside is at distance 0. Of sites that are equally near to a whole region, as where
+    polygons overlap or share a corner, the first has it; its cell may leave nothing for another one. A polygon is what
+    lies inside its rings by the even-odd rule; one without inside is a line.
+
+    Parameters
+    ----------
+    sites : PolygonSet, PointSet, shapely geometry, GeoSeries, (n, 2) array-like, or a list of these
+        Each feature is a site, with all its parts; an array has a point in each row.
+    by : str or sequence, optional
+        Values that join features into sites: a column of the input, or one value a feature. Sites are numbered by first
+        appearance.
+    frame : (x, y, w, h), optional
+        Rectangle that cells are cut by; by default the bounds and a tenth of their larger side around them.
+    threads : int
+        0 uses all.
+    progress : callable, optional
+        Called with the fraction done of each step.
+
+    Returns
+    -------
+    VoronoiMap
+        With a cell for each site, in order; some may be empty.
+
+    Raises
+    ------
+    InputError
+        If `sites` are none, or a coordinate is not finite.
+    UsageError
+        If the frame is none, or `by` is no column.
+    LimitError
+        If there are too many vertices.
+
+    Warns
+    -----
+    RepairWarning
+        If vertices are repeated, or an edge or a polygon bounds nothing.
+
+    References
+    ----------
+    Melkemi and Vandorpe, "Voronoi Diagrams and Applications", sections 1 and 3.2.
+
+    Examples
+    --------
+    >>> wall_and_tree = voronoi(["LINESTRING (0 0, 4 0)", "POINT (2 2)"], frame=(0, 0, 4, 4))
+    >>> wall_and_tree.areas.round(6).tolist(), wall_and_tree.neighbours["border_length"].round(6).tolist()
+    ([5.333333, 10.666667], [4.591174])
+    """
+    _check_frame(frame)
+    threads = checked_threads(threads)
+    given = as_sites(sites, by)
+    owned = owned_graph(given.polygons, given.site, threads=threads, progress=progress)
+    frame = default_frame(given.polygons) if frame is None else frame
+    arcs, rings = _map(owned, frame, threads, progress)
+    cells = cells_of(rings, shells_of(rings, arcs), given.count)
+    return VoronoiMap(
+        arcs.vertices,
+        arcs.radius,
+        arcs.ends.astype(np.int32),
+        arcs.sites.astype(np.int32),
+        arcs.control,
+        cells.ring_arcs,
+        cells.ring_start,
+        cells.polygon_start,
+        cells.cell_start,
+        frame,
+        given.polygons,
+        given.site,
+        given.ids,
+        given.properties,
+        given.index,
+    )
+
+
+def _check_frame(frame: Frame | None) -> None:
+    if frame is None:
+        return
+    if not (len(frame) == 4 and np.isfinite(frame).all() and frame[2] > 0 and frame[3] > 0):
+        raise UsageError(f"invalid frame {frame}: expected X, Y, W, H, the last two above 0")
+    check_lengths(frame, "frame's coordinate")
+
+
+def _map(owned: OwnedGraph, frame: Frame, threads: int, progress: Progress) -> tuple[Arcs, Rings]:
+    graph = owned.graph
+    unwanted = _unwanted(owned)
+    diagram = segment_voronoi(graph.points, graph.segments, unwanted=unwanted, threads=threads, progress=progress)
+    borders = borders_of(owned, diagram, threads=threads)
+    cut = cut_borders(borders, graph, frame)
+    sites, parts, order = (of[cut.piece].astype(np.int64) for of in (borders.sites, borders.parts, borders.order))
+    ring = frame_ring(cut, sites, parts, order, _corners(frame))
+    arcs = arcs_of(cut, ring, sites, parts, order)
+    rings = rings_of(arcs)
+    unknown = rings.site == UNKNOWN
+    if unknown.any():
+        found = _of_frame(owned, frame, rings)
+        arcs.sites[arcs.sites == UNKNOWN], arcs.parts[arcs.parts == UNKNOWN] = found
+        rings.site[unknown], rings.part[unknown] = found
+        if found[0] == OUTSIDE:  # there are no sites
+            return arcs, rings[~unknown]
+    return arcs, rings
+
+
+def _corners(frame: Frame) -> NDArray[np.float64]:
+    """Counter-clockwise from the smallest."""
+    x, y, w, h = frame
+    return np.array([[x, y], [x + w, y], [x + w, y + h], [x, y + h]])
+
+
+def _unwanted(owned: OwnedGraph) -> NDArray[np.uint8] | None:
+    """Tell where the diagram is not needed: in covered faces; None where all of it is.
+
+    It is where a point without segments may be in any face, and where two sites part in the middle of a straight line:
+    the edge between them there may lead through the line.
+    """
+    graph, count = owned.graph, len(owned.graph.points)
+    degree = np.bincount(graph.segments.ravel(), minlength=count)
+    if (owned.face < 0).all() or (degree == 0).any():
+        return None
+    least, most = np.full(count, count + len(graph)), np.full(count, -1)
+    for end in graph.segments.T:
+        np.minimum.at(least, end, owned.element[count:])
+        np.maximum.at(most, end, owned.element[count:])
+    if ((degree == 2) & (least != most)).any():
+        return None
+    return unwanted_sides(graph, owned.face < 0)
+
+
+def _of_frame(owned: OwnedGraph, frame: Frame, rings: Rings) -> tuple[int, int]:
+    """Site and part along a frame that no border meets: those of what has no shell but the frame."""
+    if not len(owned.graph.points):
+        return OUTSIDE, OUTSIDE
+    is_shell = rings.area > 0
+    open_holes = np.flatnonzero(~is_shell & ~np.isin(rings.part, rings.part[is_shell]))
+    if open_holes.size:
+        return int(rings.site[open_holes[0]]), int(rings.part[open_holes[0]])
+    x, y, w, h = frame
+    return site_at(owned, (x + w / 2, y + h / 2)), OUTSIDE

@@ -1,0 +1,175 @@
+"""Sites of Voronoi diagrams from whatever a caller holds: points, lines and polygons, each feature a site."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from math import isnan
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import InputError, UsageError
+from vorotool.geometry.arguments.descriptions import naming
+from vorotool.geometry.arguments.features import held_features
+from vorotool.geometry.arguments.points import as_points
+from vorotool.geometry.arguments.polygons import as_polygons, is_ring
+from vorotool.geometry.arguments.tables import MISSING_TYPES, is_table
+from vorotool.geometry.points.point_set import PointSet
+from vorotool.geometry.points.seed_set import SeedSet
+from vorotool.geometry.polygons.conversion import polygons_of_geometry
+from vorotool.geometry.polygons.polygon_set import LINE, PolygonSet
+from vorotool.geometry.row_index import index_of_rows
+
+
+@dataclass(frozen=True, eq=False)
+class Sites:
+    """Sites of a Voronoi diagram, and what the input says of them.
+
+    Parameters
+    ----------
+    polygons : PolygonSet
+        Polygons, lines, and points, which are lines of one vertex.
+    site : (p,) int32 array
+        That each polygon is a part of.
+    count : int
+        Sites, those without polygons too.
+    ids : list, optional
+        Their names: the values that they were joined by, or those of the input.
+    properties : dict of str to list
+        Further columns of the input, one value a site; none of sites that were joined.
+    index : pandas Index, array or sequence, optional
+        What the input calls them, unless they were joined.
+    """
+
+    polygons: PolygonSet
+    site: NDArray[np.int32]
+    count: int
+    ids: list[Any] | None = None
+    properties: dict[str, list[Any]] = field(default_factory=dict)
+    index: Any = None
+
+
+def as_sites(source: Any, by: Any = None, name: str = "sites") -> Sites:
+    """Give the sites of whatever holds points, lines and polygons.
+
+    Parameters
+    ----------
+    source : object
+        What `as_polygons` takes, with points among the geometry, or what `as_points` takes: an (n, 2) array is n
+        points. Each feature is a site; one without geometry is a site without places.
+    by : str or sequence, optional
+        Values that join features: a column of the input, or one value a feature. Sites are numbered by first
+        appearance.
+    name : str
+        Of the parameter, for messages.
+
+    Raises
+    ------
+    InputError
+        If it is none of these, or there is not one value a feature, or one is missing.
+    UsageError
+        If there is no such column.
+
+    Examples
+    --------
+    >>> three = as_sites(["POINT (0 0)", "LINESTRING (1 0, 2 0)", "POINT (4 0)"], by=["a", "b", "a"])
+    >>> three.site.tolist(), three.count, three.ids
+    ([0, 1, 0], 2, ['a', 'b'])
+    """
+    with naming(name):
+        features = _features(source, name)
+    if by is None:
+        return features
+    number, values = _first_appearances(_values(features, by))
+    return Sites(features.polygons, number[features.site], len(values), values)
+
+
+def _features(source: Any, name: str) -> Sites:
+    if isinstance(source, Iterator):
+        source = list(source)
+    if isinstance(source, PolygonSet):
+        return _of_polygons(source)
+    if isinstance(source, PointSet | SeedSet):
+        return _of_points(as_points(source, name))
+    held = held_features(source)
+    if held is not None:
+        items = np.empty(len(held.items), dtype=object)
+        items[:] = [_shapely_of(item) for item in held.items]
+        made = polygons_of_geometry(items, lambda own: {"feature": own, **held.described(own)}, takes_points=True)
+        assert made.feature is not None
+        return Sites(made, made.feature, len(items), held.ids, held.properties, held.index)
+    if is_ring(source) or (is_table(source) and not isinstance(source, PolygonSet)):
+        return _of_points(as_points(source, name))
+    return _of_polygons(as_polygons(source, name))
+
+
+def _shapely_of(item: Any) -> Any:
+    """Geometry of shapely for an object of GeoJSON."""
+    if not isinstance(item, Mapping):
+        return item
+    from shapely.geometry import shape
+
+    return shape(item)
+
+
+def _of_points(points: PointSet) -> Sites:
+    """Sites that are a point each."""
+    count = len(points)
+    polygons = PolygonSet(
+        points.xy,
+        np.arange(count + 1),
+        np.full(count, LINE, dtype=np.int8),
+        np.arange(count, dtype=np.int32),
+        properties=points.properties,
+        y_up=points.y_up,
+        crs=points.crs,
+        index=points.index,
+    )
+    return _of_polygons(polygons)
+
+
+def _of_polygons(polygons: PolygonSet) -> Sites:
+    """Sites that are the features of polygons; each is described by its first part."""
+    feature = polygons.feature
+    assert feature is not None
+    count = int(feature.max(initial=-1)) + 1
+    first = np.searchsorted(feature, np.arange(count))
+    row = np.where(feature[first] == np.arange(count), first, -1) if count else first
+    rows = row.tolist()
+
+    def chosen(column: Any) -> list[Any]:
+        return [column[at] if at >= 0 else None for at in rows]
+
+    properties = {key: chosen(column) for key, column in polygons.properties.items()}
+    ids = None if polygons.ids is None else chosen(polygons.ids)
+    return Sites(polygons, feature, count, ids, properties, index_of_rows(polygons.index, row))
+
+
+def _values(features: Sites, by: Any) -> list[Any]:
+    """The value of each feature."""
+    if isinstance(by, str):
+        if by not in features.properties:
+            names = ", ".join(features.properties) or "there is none"
+            raise UsageError(f"invalid by {by!r}: expected a column of the sites ({names}), or one value a feature")
+        by = features.properties[by]
+    values = by.tolist() if hasattr(by, "tolist") else list(by)
+    if len(values) != features.count:
+        raise InputError(f"invalid by: expected one value a feature, {features.count}, but got {len(values)}")
+    missing = [k for k, value in enumerate(values) if _is_missing(value)]
+    if missing:
+        raise InputError(f"invalid by: feature {missing[0]} has no value ({len(missing)} such features): fill it in")
+    return values
+
+
+def _is_missing(value: Any) -> bool:
+    return value is None or type(value).__name__ in MISSING_TYPES or (isinstance(value, float) and isnan(value))
+
+
+def _first_appearances(values: list[Any]) -> tuple[NDArray[np.int32], list[Any]]:
+    """The number of each value, and the values in order."""
+    numbers: dict[Any, int] = {}
+    for value in values:
+        numbers.setdefault(value, len(numbers))
+    return np.array([numbers[value] for value in values], dtype=np.int32), list(numbers)

@@ -1,0 +1,1 @@
+"""Voronoi diagrams of points, lines and polygons: planar maps of cells."""

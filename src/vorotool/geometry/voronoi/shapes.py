@@ -1,0 +1,126 @@
+"""Cells of a Voronoi map as polygons, with polylines instead of parabolas."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.geometry.curves.flatten import polylines
+from vorotool.geometry.ragged import owners, starts_of, within
+from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+PART_OF_RADIUS = 0.25
+"""How far a polyline may be from its parabola, as a part of the smallest distance of that from the sites."""
+
+_BEND_OF_TWO = 10
+"""A parabola that may be off by its second difference over this is divided in two: more than 4, at most 16."""
+
+
+def flattened_arcs(cells: VoronoiMap, tolerance: float) -> tuple[Floats, Indices]:
+    """Give each arc as a polyline, from its source to its target.
+
+    A chord of a parabola lies in the sector of the cell between the focus and the parabola as long as it is nearer to
+    the parabola than the focus is. So polylines cross neither sites nor each other, whatever the tolerance.
+
+    Parameters
+    ----------
+    cells : VoronoiMap
+        With the arcs.
+    tolerance : float
+        How far polylines may be from parabolas; where these come nearer to sites, a fourth of that distance.
+
+    Returns
+    -------
+    points : (n, 2) float64 array
+        Places along each arc, its ends included.
+    start : (a + 1,) int64 array
+        Where the places of each arc begin.
+
+    Examples
+    --------
+    >>> from vorotool import voronoi
+    >>> cells = voronoi(["LINESTRING (0 0, 4 0)", "POINT (2 2)"], frame=(0, 0, 4, 4))
+    >>> int(np.diff(flattened_arcs(cells, 1.0)[1]).max())
+    3
+    """
+    source, target = cells.vertices[cells.arcs[:, 0]], cells.vertices[cells.arcs[:, 1]]
+    most = np.minimum(tolerance, PART_OF_RADIUS * _least_radii(source, cells.control, target))
+    paired = _in_pairs(cells)
+    bend = (source - 2 * cells.control + target)[paired]
+    most[paired] = np.fmin(most[paired], np.sqrt((bend * bend).sum(axis=1)) / _BEND_OF_TWO)
+    return polylines(source, cells.control, target, cells.is_parabola, most)
+
+
+def _in_pairs(cells: VoronoiMap) -> Indices:
+    """Arcs of rings of two: of one piece each they would hold nothing."""
+    first = cells.ring_start[:-1][np.diff(cells.ring_start) == 2]
+    arcs: Indices = np.abs(cells.ring_arcs[np.concatenate([first, first + 1])].astype(np.int64)) - 1
+    return arcs
+
+
+def _least_radii(source: Floats, control: Floats, target: Floats) -> Floats:
+    """(a,) the least distance of parabolas from their foci, as their Bezier curves tell; infinity of lines.
+
+    It is (t^2 + h^2) / (2 h), with t along the directrix from the axis, which the curve goes along evenly.
+    """
+    least = np.full(len(source), np.inf)
+    first, second = control - source, target - control
+    bend = second - first
+    size = np.sqrt((bend * bend).sum(axis=1))
+    bent = np.flatnonzero(size > 0)
+    axis = bend[bent] / size[bent][:, None]
+    half = np.abs(first[bent, 0] * axis[:, 1] - first[bent, 1] * axis[:, 0])
+    height = 2 * half * half / size[bent]
+    slopes = [(way[bent] * axis).sum(axis=1) / np.where(half > 0, half, 1) for way in (first, second)]
+    nearest = np.where(slopes[0] * slopes[1] < 0, 0, np.minimum(np.abs(slopes[0]), np.abs(slopes[1])))
+    least[bent] = np.where(half > 0, height * (1 + nearest * nearest) / 2, np.inf)
+    return least
+
+
+def cell_polygons(cells: VoronoiMap, tolerance: float) -> NDArray[Any]:
+    """(s,) each cell as a polygon or multipolygon of shapely; what two cells share is the same in both, bit for bit.
+
+    Parameters
+    ----------
+    cells : VoronoiMap
+        Empty cells are empty polygons.
+    tolerance : float
+        As of `flattened_arcs`.
+
+    Examples
+    --------
+    >>> from vorotool import voronoi
+    >>> [cell.area for cell in cell_polygons(voronoi([[0, 0], [4, 0]], frame=(0, 0, 4, 2)), 1.0)]
+    [4.0, 4.0]
+    """
+    import shapely
+
+    points, start = flattened_arcs(cells, tolerance)
+    arc, is_back = np.abs(cells.ring_arcs.astype(np.int64)) - 1, cells.ring_arcs < 0
+    sizes = np.diff(start)[arc] - 1
+    row = owners(sizes)
+    step = within(sizes)
+    taken = np.where(is_back[row], start[arc + 1][row] - 1 - step, start[arc][row] + step)
+    ring_start = starts_of(sizes)[cells.ring_start]
+    lengths = np.diff(ring_start) + 1
+    closed = np.repeat(ring_start[:-1], lengths) + within(lengths)
+    ends = np.cumsum(lengths) - 1
+    closed[ends] = ring_start[:-1]
+    polygons = shapely.from_ragged_array(
+        shapely.GeometryType.POLYGON, points[taken[closed]], (starts_of(lengths), cells.polygon_start)
+    )
+    made = np.empty(len(cells), dtype=object)
+    made[:] = shapely.Polygon()
+    count = cells.components
+    single = count == 1
+    made[single] = polygons[cells.cell_start[:-1][single]]
+    several = np.flatnonzero(count > 1)
+    if several.size:
+        chosen = np.isin(cells.cell_of_polygon, several)
+        made[several] = shapely.multipolygons(polygons[chosen], indices=owners(count[several]))
+    return made

@@ -1,0 +1,222 @@
+"""The Voronoi diagram of points, lines and polygons: a planar map of cells."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import InputError
+from vorotool.geometry.checks import set_array
+from vorotool.geometry.curves.bezier import areas_beside, lengths_of
+from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.ragged import divides, owners
+from vorotool.geometry.table import Table
+from vorotool.geometry.values import Curved, Tabular, Value, counted, placed
+from vorotool.products.formats import resolved
+
+OUTSIDE = -1
+"""The site on the far side of the frame."""
+
+_TABLES = "geometry.voronoi.tables"
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class VoronoiMap(Value, Tabular, Curved):
+    """Cells of sites in a frame: all places nearest to each site, inside its polygons at distance 0.
+
+    Of sites that are equally near to a whole region the smallest has it. Cells are bounded by arcs, straight lines or
+    parabolas, which two cells share, or a cell and the outside of the frame. Each arc leads from the vertex with the
+    smaller number to the other one.
+
+    Parameters
+    ----------
+    vertices : (v, 2) float64 array
+        Where arcs end, in input units: those inside, then those along the frame.
+    radius : (v,) float64 array
+        Distance of a vertex from the nearest sites; NaN at corners of the frame at which no border ends.
+    arcs : (a, 2) int32 array
+        Source and target, the first below the second.
+    sites : (a, 2) int32 array
+        Left and right, from source to target; -1 outside of the frame.
+    control : (a, 2) float64 array
+        Control point of a quadratic Bezier curve, which each parabola is; NaN of straight lines.
+    ring_arcs : (k,) int32 array
+        The arcs along each ring, counted from 1, below 0 against their direction. The cell is on the left: shells go
+        counter-clockwise, holes clockwise.
+    ring_start : (r + 1,) int64 array
+        Where each ring begins in `ring_arcs`.
+    polygon_start : (q + 1,) int64 array
+        The first ring of each polygon, its shell, and r.
+    cell_start : (s + 1,) int64 array
+        The first polygon of each cell, and q. Cell i is of site i; it may be empty, or of several polygons.
+    frame : (x, y, w, h)
+        The rectangle that cells were cut by.
+    polygons : PolygonSet
+        The input; points are lines of one vertex.
+    polygon_site : (p,) int32 array
+        The site that each polygon is a part of.
+    ids : list, optional
+        The input's name of each site, or the value that its features were joined by.
+    properties : dict of str to list
+        Further columns of the input, one value a site.
+    index : pandas Index, array or sequence, optional
+        What the input calls each site, as a data frame its rows.
+
+    Raises
+    ------
+    InputError
+        If an array has another shape.
+
+    Examples
+    --------
+    >>> from vorotool import voronoi
+    >>> cells = voronoi([[0, 0], [4, 0], [0, 4]], frame=(-2, -2, 8, 8))
+    >>> cells.areas.tolist(), len(cells), cells.edges["length"].tolist()[:1]
+    ([16.0, 24.0, 24.0], 3, [4.0])
+    """
+
+    vertices: Floats
+    radius: Floats
+    arcs: NDArray[np.int32]
+    sites: NDArray[np.int32]
+    control: Floats
+    ring_arcs: NDArray[np.int32]
+    ring_start: NDArray[np.int64]
+    polygon_start: NDArray[np.int64]
+    cell_start: NDArray[np.int64]
+    frame: tuple[float, float, float, float]
+    polygons: PolygonSet
+    polygon_site: NDArray[np.int32]
+    ids: Sequence[Any] | None = None
+    properties: dict[str, Any] = field(default_factory=dict)
+    index: Any = None
+
+    def __post_init__(self) -> None:
+        arcs, vertices = len(self.arcs), len(self.vertices)
+        for name, dtype, shape in (
+            ("vertices", np.float64, (vertices, 2)),
+            ("radius", np.float64, (vertices,)),
+            ("arcs", np.int32, (arcs, 2)),
+            ("sites", np.int32, (arcs, 2)),
+            ("control", np.float64, (arcs, 2)),
+            ("ring_arcs", np.int32, (len(self.ring_arcs),)),
+            ("ring_start", np.int64, (len(self.ring_start),)),
+            ("polygon_start", np.int64, (len(self.polygon_start),)),
+            ("cell_start", np.int64, (len(self.cell_start),)),
+            ("polygon_site", np.int32, (len(self.polygons),)),
+        ):
+            set_array(self, name, dtype, shape)
+        for name, last, least in (
+            ("ring_start", len(self.ring_arcs), 1),
+            ("polygon_start", len(self.ring_start) - 1, 1),
+            ("cell_start", len(self.polygon_start) - 1, 0),
+        ):
+            if not divides(getattr(self, name), last, least=least):
+                raise InputError(f"{name} must rise from 0 to {last}")
+
+    def __len__(self) -> int:
+        """Give the number of cells, empty ones too."""
+        return len(self.cell_start) - 1
+
+    @property
+    def crs(self) -> Any:
+        """The coordinate reference system of the input."""
+        return self.polygons.crs
+
+    @cached_property
+    def is_parabola(self) -> NDArray[np.bool_]:
+        """(a,) whether each arc is a parabola."""
+        return ~np.isnan(self.control[:, 0])
+
+    @cached_property
+    def is_border(self) -> NDArray[np.bool_]:
+        """(a,) whether each arc is between two cells; others are of the frame."""
+        is_border: NDArray[np.bool_] = (self.sites != OUTSIDE).all(axis=1)
+        return is_border
+
+    @cached_property
+    def length(self) -> Floats:
+        """(a,) lengths of the arcs."""
+        return lengths_of(self.vertices[self.arcs[:, 0]], self.control, self.vertices[self.arcs[:, 1]])
+
+    @cached_property
+    def cell_of_polygon(self) -> NDArray[np.int64]:
+        """(q,) the cell that each polygon is of."""
+        return owners(np.diff(self.cell_start))
+
+    @cached_property
+    def is_hole(self) -> NDArray[np.bool_]:
+        """(r,) whether each ring is a hole."""
+        is_hole = np.ones(len(self.ring_start) - 1, dtype=bool)
+        is_hole[self.polygon_start[:-1]] = False
+        return is_hole
+
+    @cached_property
+    def areas(self) -> Floats:
+        """(s,) areas of the cells, with the true curves."""
+        x, y, w, h = self.frame
+        centre = np.array([x + w / 2, y + h / 2])
+        beside = areas_beside(self.vertices[self.arcs[:, 0]], self.control, self.vertices[self.arcs[:, 1]], centre)
+        total = np.zeros(len(self))
+        for hand, sign in ((0, 1), (1, -1)):
+            inner = self.sites[:, hand] != OUTSIDE
+            total += sign * np.bincount(self.sites[inner, hand], beside[inner], minlength=len(self))
+        return total
+
+    @cached_property
+    def perimeters(self) -> Floats:
+        """(s,) lengths of all that bounds the cells, the frame too."""
+        total = np.zeros(len(self))
+        for hand in (0, 1):
+            inner = self.sites[:, hand] != OUTSIDE
+            total += np.bincount(self.sites[inner, hand], self.length[inner], minlength=len(self))
+        return total
+
+    @cached_property
+    def components(self) -> NDArray[np.int64]:
+        """(s,) number of polygons of each cell."""
+        return np.diff(self.cell_start)
+
+    @property
+    def edges(self) -> Table:
+        """The borders between cells; see `vorotool.geometry.voronoi.tables.border_table`."""
+        made: Table = resolved(f"{_TABLES}:border_table")(self)
+        return made
+
+    @property
+    def neighbours(self) -> Table:
+        """Pairs of cells that share a border; see `vorotool.geometry.voronoi.tables.neighbour_table`."""
+        made: Table = resolved(f"{_TABLES}:neighbour_table")(self)
+        return made
+
+    @property
+    def table(self) -> Table:
+        """One row a cell; see `vorotool.geometry.voronoi.tables.cell_table`."""
+        made: Table = resolved(f"{_TABLES}:cell_table")(self)
+        return made
+
+    def rings_of(self, cell: int) -> list[list[NDArray[np.int32]]]:
+        """The arcs along the rings of each polygon of a cell."""
+        polygons = range(*self.cell_start[cell : cell + 2].tolist())
+        return [
+            [
+                self.ring_arcs[self.ring_start[ring] : self.ring_start[ring + 1]]
+                for ring in range(*self.polygon_start[polygon : polygon + 2].tolist())
+            ]
+            for polygon in polygons
+        ]
+
+    def _summary(self) -> str:
+        sizes = (
+            counted(len(self), "cell"),
+            counted(len(self.arcs), "arc"),
+            counted(len(self.vertices), "vertex", "vertices"),
+        )
+        return placed(", ".join(sizes), self.polygons.crs, self.polygons.unit)

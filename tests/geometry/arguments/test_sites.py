@@ -1,0 +1,98 @@
+"""Sites from whatever a caller holds: points, lines and polygons, and what is known of each."""
+
+import geopandas
+import numpy as np
+import pandas
+import pytest
+import shapely
+
+from vorotool import PointSet, PolygonSet
+from vorotool.errors import InputError, UsageError
+from vorotool.geometry.arguments.sites import as_sites
+
+MIXED = [
+    shapely.Point(0, 0),
+    shapely.LineString([(1, 0), (2, 0)]),
+    None,
+    shapely.MultiPoint([(5, 5), (6, 6)]),
+    shapely.box(8, 8, 9, 9),
+    shapely.Polygon(),
+]
+KINDS = [2, 2, 2, 2, 0]
+SITE = [0, 1, 3, 3, 4]
+
+
+def forms():
+    frame = geopandas.GeoDataFrame({"name": list("abcdef")}, geometry=MIXED, index=list("uvwxyz"), crs="EPSG:2056")
+    yield "list", MIXED
+    yield "iterator", iter(MIXED)
+    yield "array", np.array(MIXED, dtype=object)
+    yield "series", frame.geometry
+    yield "frame", frame
+    yield "WKT", [None if each is None else each.wkt for each in MIXED]
+    yield "GeoJSON", [None if each is None else shapely.geometry.mapping(each) for each in MIXED]
+
+
+@pytest.mark.parametrize(("name", "source"), list(forms()))
+def test_mixed_geometry(name, source):
+    sites = as_sites(source)
+    assert sites.polygons.ring_kind.tolist() == KINDS, name
+    assert (sites.site.tolist(), sites.count) == (SITE, 6)
+    assert sites.polygons.ring(0).tolist() == [[0, 0]]
+    assert sites.polygons.ring(2).tolist() == [[5, 5]]
+
+
+def test_what_is_known_of_features():
+    frame = dict(forms())["frame"]
+    sites = as_sites(frame)
+    assert sites.index.tolist() == list("uvwxyz")
+    assert sites.properties == {"name": list("abcdef")}
+    joined = as_sites(frame, by="name")
+    assert (joined.ids, joined.index, joined.properties) == (list("abcdef"), None, {})
+    with pytest.raises(UsageError, match=r"invalid by 'x': expected a column of the sites \(name\)"):
+        as_sites(frame, by="x")
+
+
+@pytest.mark.parametrize(
+    "source",
+    [
+        [[2, 1], [7, 5]],
+        np.array([[2, 1], [7, 5]]),
+        PointSet([[2, 1], [7, 5]]),
+        pandas.DataFrame({"x": [2, 7], "y": [1, 5]}),
+        {"x": [2, 7], "y": [1, 5]},
+        ["POINT (2 1)", "POINT (7 5)"],
+    ],
+)
+def test_points(source):
+    sites = as_sites(source)
+    assert sites.polygons.xy.tolist() == [[2, 1], [7, 5]]
+    assert sites.polygons.ring_kind.tolist() == [2, 2]
+    assert (sites.site.tolist(), sites.count) == ([0, 1], 2)
+
+
+def test_polygon_sets_and_mappings():
+    mixed = as_sites([{"line": [[0, 0], [1, 1]]}, {"shell": [[0, 0], [9, 0], [0, 9]]}])
+    assert mixed.count == 2
+    parts = PolygonSet(
+        [[0, 0], [1, 1], [5, 5]], [0, 1, 2, 3], [2, 2, 2], [0, 1, 2], feature=[0, 0, 2], ids=["a", "b", "c"]
+    )
+    sites = as_sites(parts)
+    assert (sites.count, sites.ids) == (3, ["a", None, "c"])
+
+
+@pytest.mark.parametrize("source", [7, "POINT 1", "sites.geojson", {"a": 1}, [["a", "b"]], np.zeros((3, 3))])
+def test_what_is_no_site(source):
+    with pytest.raises(InputError, match="sites"):
+        as_sites(source)
+
+
+def test_values_that_join():
+    points = [[0, 0], [1, 0], [2, 0]]
+    for by in (["b", "a", "b"], np.array([3, 1, 3]), pandas.Series([2.5, 1, 2.5]), pandas.Categorical(["z", "q", "z"])):
+        sites = as_sites(points, by)
+        assert (sites.site.tolist(), sites.count) == ([0, 1, 0], 2)
+    with pytest.raises(InputError, match="feature 2 has no value"):
+        as_sites(points, [1.0, 2.0, np.nan])
+    with pytest.raises(InputError, match="one value a feature, 3, but got 1"):
+        as_sites(points, ["a"])
