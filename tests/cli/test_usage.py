@@ -58,7 +58,7 @@ import pytest
         (["tessellate", "dots.csv", "--what", "table", "-f", "npz", "-o", "a", "--precision", "3"], ["--precision"]),
         (
             ["tessellate", "missing.csv", "-o", "a.svg", "--layers", "diagram"],
-            ["--layers diagram: a picture in SVG has cells, labels, seeds"],
+            ["--layers diagram: a picture in SVG has cells, labels, objects, seeds"],
         ),
         (
             ["tessellate", "dots.csv", "-o", "a.png", "--input-format", "xyz"],
