@@ -91,7 +91,7 @@ def _graph(polygons: PolygonSet, threads: int, progress: Progress) -> PlanarGrap
     placement = placed_vertices(given, threads=threads, progress=progress)
     made = arranged(given, placement, progress=progress)
     found = {name: each if name in _FAULTS else (0, -1, -1) for name, each in made.found.items()}
-    report_repairs(given, found, made.graph.scale, strict=False, stacklevel=5)
+    report_repairs(given, found, made.graph.scale, strict=False)
     is_empty = ~given.is_line
     is_empty[made.graph.face_polygon] = False
     if is_empty.any():
