@@ -72,7 +72,7 @@ engines/centerlines -> engines/from_skeleton, engines/pruning, engines/skeleton,
 geometry/voronoi -> geometry, geometry/curves, geometry/polygons, products
 render ->
 engines/voronoi -> engines/arrangement, engines/common, engines/segment_voronoi, engines/skeleton, geometry,
-    geometry/arguments, geometry/curves, geometry/polygons, geometry/skeleton, geometry/voronoi
+    geometry/arguments, geometry/curves, geometry/polygons, geometry/skeleton, geometry/voronoi, typing
 geometry/any -> geometry, geometry/alpha, geometry/curves, geometry/mesh, geometry/points, geometry/polygons,
     geometry/skeleton, geometry/voronoi, products
 jobs -> batch, engines, engines/alpha, engines/arrangement, engines/centerlines, engines/delaunay, engines/digital,

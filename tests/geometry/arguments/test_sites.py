@@ -81,9 +81,9 @@ def test_polygon_sets_and_mappings():
     assert (sites.count, sites.ids) == (3, ["a", None, "c"])
 
 
-@pytest.mark.parametrize("source", [7, "POINT 1", "sites.geojson", {"a": 1}, [["a", "b"]], np.zeros((3, 3))])
+@pytest.mark.parametrize("source", [None, 7, "POINT 1", "sites.geojson", {"a": 1}, [["a", "b"]], np.zeros((3, 3))])
 def test_what_is_no_site(source):
-    with pytest.raises(InputError, match="sites"):
+    with pytest.raises(InputError, match=r"^invalid sites: (?!invalid)"):
         as_sites(source)
 
 

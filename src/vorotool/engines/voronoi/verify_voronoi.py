@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.common.faults import fail, first_wrong
+from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.polygons.conversion import to_shapely
 from vorotool.geometry.ragged import owners
 from vorotool.geometry.voronoi.voronoi_map import OUTSIDE, VoronoiMap
@@ -47,6 +48,8 @@ def verify_voronoi(cells: VoronoiMap, *, places: int = 1000) -> None:
 
     Raises
     ------
+    InputError
+        If it is no Voronoi map.
     VerificationError
         Naming the first fault.
 
@@ -56,11 +59,11 @@ def verify_voronoi(cells: VoronoiMap, *, places: int = 1000) -> None:
     >>> from vorotool import voronoi
     >>> cells = voronoi([[0, 0], [4, 0], [0, 4]])
     >>> verify_voronoi(cells)
-    >>> verify_voronoi(replace(cells, radius=cells.radius + 1))
+    >>> verify_voronoi(replace(cells, frame=(0, 0, 1, 1)))
     Traceback (most recent call last):
-        ...
-    vorotool.errors.VerificationError: vertex 1 at (2.0, -0.4) is 2.039607805437114 from its sites, but is said to be 3
+    vorotool.errors.VerificationError: the cells have an area of 23.04, but the frame one of 1
     """
+    check_value(cells, "cells", VoronoiMap)
     _check_rings(cells)
     _check_areas(cells)
     if len(cells) and len(cells.polygons):

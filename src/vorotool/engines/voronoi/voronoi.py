@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, unwanted_sides
 from vorotool.engines.skeleton.exact import Frame, default_frame
@@ -17,18 +17,22 @@ from vorotool.engines.voronoi.frame_ring import OUTSIDE, UNKNOWN, frame_ring
 from vorotool.engines.voronoi.holes import shells_of
 from vorotool.engines.voronoi.nearest_site import site_at
 from vorotool.errors import UsageError
+from vorotool.geometry.arguments.boxes import as_extent
 from vorotool.geometry.arguments.sites import as_sites
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.magnitude import check_lengths
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 
+if TYPE_CHECKING:
+    from vorotool.typing import FrameLike, PointsLike, PolygonsLike
+
 
 def voronoi(
-    sites: Any,
+    sites: PointsLike | PolygonsLike,
     *,
-    by: Any = None,
-    frame: Frame | None = None,
+    by: str | ArrayLike | None = None,
+    frame: FrameLike | None = None,
     threads: int = 0,
     progress: Progress = None,
 ) -> VoronoiMap:
@@ -42,12 +46,12 @@ def voronoi(
 
     Parameters
     ----------
-    sites : PolygonSet, PointSet, shapely geometry, GeoSeries, (n, 2) array-like, or a list of these
+    sites : PolygonSet, PointSet, (n, 2) array-like, data frame, or geometry of shapely, geopandas, GeoJSON or WKT
         Each feature is a site, with all its parts; an array has a point in each row.
     by : str or sequence, optional
         Values that join features into sites: a column of the input, or one value a feature. Sites are numbered by first
         appearance.
-    frame : (x, y, w, h), optional
+    frame : Box or (x, y, w, h), optional
         Rectangle that cells are cut by; by default the bounds and a tenth of their larger side around them.
     threads : int
         0 uses all.
@@ -62,9 +66,9 @@ def voronoi(
     Raises
     ------
     InputError
-        If `sites` are none, or a coordinate is not finite.
+        If `sites` or the frame are none, or a coordinate is not finite.
     UsageError
-        If the frame is none, or `by` is no column.
+        If the sides of the frame are not above 0, or `by` is no column.
     LimitError
         If there are too many vertices.
 
@@ -83,12 +87,12 @@ def voronoi(
     >>> wall_and_tree.areas.round(6).tolist(), wall_and_tree.neighbours["border_length"].round(6).tolist()
     ([5.333333, 10.666667], [4.591174])
     """
-    _check_frame(frame)
+    given_frame = None if frame is None else _checked_frame(frame)
     threads = checked_threads(threads)
     given = as_sites(sites, by)
     owned = owned_graph(given.polygons, given.site, threads=threads, progress=progress)
-    frame = default_frame(given.polygons) if frame is None else frame
-    arcs, rings = _map(owned, frame, threads, progress)
+    extent = given_frame or default_frame(given.polygons)
+    arcs, rings = _map(owned, extent, threads, progress)
     cells = cells_of(rings, shells_of(rings, arcs), given.count)
     return VoronoiMap(
         arcs.vertices,
@@ -100,7 +104,7 @@ def voronoi(
         cells.ring_start,
         cells.polygon_start,
         cells.cell_start,
-        frame,
+        extent,
         given.polygons,
         given.site,
         given.ids,
@@ -109,12 +113,12 @@ def voronoi(
     )
 
 
-def _check_frame(frame: Frame | None) -> None:
-    if frame is None:
-        return
-    if not (len(frame) == 4 and np.isfinite(frame).all() and frame[2] > 0 and frame[3] > 0):
-        raise UsageError(f"invalid frame {frame}: expected X, Y, W, H, the last two above 0")
-    check_lengths(frame, "frame's coordinate")
+def _checked_frame(frame: FrameLike) -> Frame:
+    extent = as_extent(frame, "frame")
+    if not (np.isfinite(extent).all() and extent[2] > 0 and extent[3] > 0):
+        raise UsageError(f"invalid frame {extent}: expected X, Y, W, H, the last two above 0")
+    check_lengths(extent, "frame's coordinate")
+    return extent
 
 
 def _map(owned: OwnedGraph, frame: Frame, threads: int, progress: Progress) -> tuple[Arcs, Rings]:

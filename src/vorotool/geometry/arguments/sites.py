@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from math import isnan
 from typing import Any
@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError, UsageError
-from vorotool.geometry.arguments.descriptions import naming
-from vorotool.geometry.arguments.features import held_features
+from vorotool.geometry.arguments.descriptions import naming, unexpected
+from vorotool.geometry.arguments.features import HeldFeatures, held_features
 from vorotool.geometry.arguments.points import as_points
 from vorotool.geometry.arguments.polygons import as_polygons, is_ring
 from vorotool.geometry.arguments.tables import MISSING_TYPES, is_table
@@ -21,6 +21,10 @@ from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.geometry.polygons.conversion import polygons_of_geometry
 from vorotool.geometry.polygons.polygon_set import LINE, PolygonSet
 from vorotool.geometry.row_index import index_of_rows
+
+EXPECTED = (
+    "points, lines or polygons of shapely, geopandas, GeoJSON or WKT, an (n, 2) array of points, or a list of these"
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,8 +82,7 @@ def as_sites(source: Any, by: Any = None, name: str = "sites") -> Sites:
     >>> three.site.tolist(), three.count, three.ids
     ([0, 1, 0], 2, ['a', 'b'])
     """
-    with naming(name):
-        features = _features(source, name)
+    features = _features(source, name)
     if by is None:
         return features
     number, values = _first_appearances(_values(features, by))
@@ -93,16 +96,23 @@ def _features(source: Any, name: str) -> Sites:
         return _of_polygons(source)
     if isinstance(source, PointSet | SeedSet):
         return _of_points(as_points(source, name))
-    held = held_features(source)
-    if held is not None:
-        items = np.empty(len(held.items), dtype=object)
-        items[:] = [_shapely_of(item) for item in held.items]
-        made = polygons_of_geometry(items, lambda own: {"feature": own, **held.described(own)}, takes_points=True)
-        assert made.feature is not None
-        return Sites(made, made.feature, len(items), held.ids, held.properties, held.index)
-    if is_ring(source) or (is_table(source) and not isinstance(source, PolygonSet)):
+    with naming(name):
+        held = held_features(source)
+        if held is not None:
+            return _of_held(held)
+        if not isinstance(source, Iterable) or getattr(source, "ndim", 1) == 0:
+            raise unexpected(source, EXPECTED)
+    if is_ring(source) or is_table(source):
         return _of_points(as_points(source, name))
     return _of_polygons(as_polygons(source, name))
+
+
+def _of_held(held: HeldFeatures) -> Sites:
+    items = np.empty(len(held.items), dtype=object)
+    items[:] = [_shapely_of(item) for item in held.items]
+    made = polygons_of_geometry(items, lambda own: {"feature": own, **held.described(own)}, takes_points=True)
+    assert made.feature is not None
+    return Sites(made, made.feature, len(items), held.ids, held.properties, held.index)
 
 
 def _shapely_of(item: Any) -> Any:

@@ -17,6 +17,7 @@ _MAKERS = {
     "PlanarGraph": "planar_graph",
     "Skeleton": "skeleton_exact",
     "Offsets": "offset",
+    "VoronoiMap": "voronoi",
 }
 """The function that makes a value of each type."""
 
