@@ -310,3 +310,18 @@ def test_read_only_and_foreign_bytes():
     expected = voronoi(places.tolist())
     for form in (places, places.astype(">f8"), np.asfortranarray(places), np.repeat(places, 2, axis=0)[::2]):
         assert voronoi(form) == expected
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_small_things_far_from_the_origin_and_from_each_other(seed):
+    random = np.random.default_rng(seed)
+    sites = []
+    for kind in random.integers(0, 3, 20).tolist():
+        place = random.random(2) * 10.0 ** -random.integers(0, 9)
+        xy = place + random.normal(size=(3, 2)) * 10.0 ** -random.uniform(0, 9)
+        sites.append((shapely.Point(xy[0]), shapely.LineString(xy[:2]), shapely.Polygon(xy))[kind])
+    assert_is_coverage(quietly(sites))
+    far = [shapely.transform(each, lambda xy: 100 * xy + [2.6e6, 1.2e6]) for each in sites]
+    cells = quietly(far)
+    assert shapely.coverage_is_valid(cells.to_shapely())
+    verify_voronoi(cells, places=100)

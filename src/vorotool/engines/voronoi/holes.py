@@ -15,7 +15,8 @@ def shells_of(rings: Rings, arcs: Arcs) -> Indices:
     """(r,) the shell around each hole; of a shell its own number.
 
     What is joined in the plane has one number in `Rings.part`: a hole belongs to the shell of its part. Only where a
-    frame has cut that into several is it looked for by places.
+    frame has cut that into several is it looked for by places. A ring that is alone in its part is a shell, even one so
+    thin that rounding leaves no area in it.
 
     Parameters
     ----------
@@ -31,7 +32,8 @@ def shells_of(rings: Rings, arcs: Arcs) -> Indices:
     sorting = shells[np.argsort(rings.part[shells], kind="stable")]
     first = np.searchsorted(rings.part[sorting], rings.part[holes])
     last = np.searchsorted(rings.part[sorting], rings.part[holes], side="right")
-    shell[holes] = sorting[np.minimum(first, len(sorting) - 1)]
+    held = last > first
+    shell[holes[held]] = sorting[first[held]]
     for at in np.flatnonzero(last - first > 1).tolist():
         shell[holes[at]] = _around(int(holes[at]), sorting[first[at] : last[at]], rings, arcs)
     return shell

@@ -173,6 +173,7 @@ def _of_frame(owned: OwnedGraph, frame: Frame, rings: Rings) -> tuple[int, int]:
     is_shell = rings.area > 0
     open_holes = np.flatnonzero(~is_shell & ~np.isin(rings.part, rings.part[is_shell]))
     if open_holes.size:
-        return int(rings.site[open_holes[0]]), int(rings.part[open_holes[0]])
+        widest = open_holes[rings.area[open_holes].argmin()]
+        return int(rings.site[widest]), int(rings.part[widest])
     x, y, w, h = frame
     return site_at(owned, (x + w / 2, y + h / 2)), OUTSIDE
