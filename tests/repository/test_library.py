@@ -81,8 +81,10 @@ def test_arrays_are_taken_for_images():
             function(np.ones((2, 2)))
     with pytest.raises(InputError, match=r"^invalid raster: expected an image"):
         vorotool.seeds_from_raster([["a", "b"]])
-    with pytest.raises(UsageError, match="no seeds"):
+    with pytest.raises(InputError, match=r"^invalid image: expected a LabelImage of vorotool\.tessellate"):
         vorotool.verify_tessellation(image)
+    with pytest.raises(UsageError, match="no seeds"):
+        vorotool.verify_tessellation(vorotool.LabelImage(np.array(image)))
     with pytest.raises(InputError, match="is a list"):
         vorotool.voronoi_diagram(image, out=[[0] * 3] * 2)
 
