@@ -286,6 +286,7 @@ def warn(message: VorotoolWarning | str, category: type[VorotoolWarning] = Vorot
     Examples
     --------
     >>> with warnings.catch_warnings(record=True) as said:
+    ...     warnings.simplefilter("always")
     ...     warn("2 seeds were moved")
     >>> str(said[0].message)
     '2 seeds were moved'

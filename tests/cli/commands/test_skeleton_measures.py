@@ -176,7 +176,7 @@ def test_pictures(run, folder):
         (["--what", "offset", "-d", "1", "-f", "graphml"], "offset cannot be written as graphml: use --what skeleton"),
         (
             ["--what", "offset", "-d", "1", "-f", "svg", "--layers", "nodes"],
-            "a picture of offset in SVG has polygons, offset;",
+            "a picture of offset in SVG has polygons, offset, labels;",
         ),
         (
             ["-f", "svg", "--layers", "offset"],

@@ -200,7 +200,7 @@ def seeds_from_raster(
 
     Examples
     --------
-    >>> seeds_from_raster(Raster(np.array([[1, 0, 1], [0, 0, 1]]))).labels.tolist()
+    >>> seeds_from_raster(np.array([[1, 0, 1], [0, 0, 1]])).labels.tolist()
     [1, 2, 2]
     """
     if connectivity not in (4, 8):
