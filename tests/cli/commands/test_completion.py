@@ -29,7 +29,7 @@ LINES = {
     "vorotool tessellate --what labels,ta": "labels,table",
     "vorotool tessellate --what = dist": "distance distance2",
     "vorotool tessellate --what table -f ": "csv tsv json npz jsonl gpkg parquet",
-    "vorotool delaunay --what = cells --format ": "geojson csv tsv json npz wkt jsonl gpkg fgb shp parquet dxf svg png html",
+    "vorotool delaunay --what = cells -f ": "geojson csv tsv json npz wkt jsonl gpkg fgb shp parquet dxf svg png html",
     "vorotool tessellate --clu": "--cluster",
     "vorotool skeleton-exact --prune = angle = 30 --sid": "--side",
     "vorotool skeleton-exact --prune s": "scale=",
