@@ -325,3 +325,13 @@ def test_small_things_far_from_the_origin_and_from_each_other(seed):
     cells = quietly(far)
     assert shapely.coverage_is_valid(cells.to_shapely())
     verify_voronoi(cells, places=100)
+
+
+def test_a_border_that_leaves_the_frame_where_it_ends():
+    """The vertex of the diagram is inside by one rounding only, and its border leads out of the frame."""
+    sites = [
+        *("LINESTRING (4 7, 2 0)", "POLYGON ((4 4, 4 7, 2 7, 2 4, 4 4))", "POLYGON ((5 5, 5 8, 3 8, 3 5, 5 5))"),
+        *("LINESTRING (2 3, 7 5)", "POINT (4 2)"),
+    ]
+    for order in (sites, sites[::-1]):
+        verify_voronoi(voronoi(order))

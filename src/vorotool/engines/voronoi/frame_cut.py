@@ -220,9 +220,13 @@ class _Cutter:
         cuts = self._cuts(curve, own)
         stops = [curve.first, *(t for t, _ in cuts), curve.last]
         inside = [self._is_inside(curve, a, b) for a, b in pairwise(stops)]
-        for end, at in ((own[0], 0), (own[1], -1)):  # rounding does not part an end inside from its piece
-            if end >= 0 and self.side[end] == -1:
-                inside[at] = True
+        for end, at in ((own[0], 0), (own[1], -1)):
+            if end >= 0 and self.side[end] == -1 and not inside[at]:  # as far as doubles tell it leaves the frame there
+                t = stops[at]
+                where = 0 if at == 0 else len(cuts)
+                cuts.insert(where, (t, self.box.nearest_side(curve.place(t))))
+                stops.insert(where + 1, t)
+                inside.insert(0 if at == 0 else len(inside), True)
         begin = None
         for k, is_inside in enumerate([*inside, False]):
             if is_inside and begin is None:
