@@ -7,18 +7,23 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, unwanted_sides
+from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi
 from vorotool.engines.skeleton.exact import Frame, default_frame
 from vorotool.engines.voronoi.assembly import Arcs, Rings, arcs_of, cells_of, rings_of
-from vorotool.engines.voronoi.borders import borders_of
+from vorotool.engines.voronoi.borders import borders_of, unwanted_of
+from vorotool.engines.voronoi.cuts.cut_arguments import GivenCuts, frame_of, given_cuts
+from vorotool.engines.voronoi.cuts.cut_map import CutMap, cut_map
+from vorotool.engines.voronoi.cuts.joint_graph import joint_graph
+from vorotool.engines.voronoi.cuts.local_diagrams import local_diagrams
+from vorotool.engines.voronoi.cuts.regions import regions_of
 from vorotool.engines.voronoi.elements import OwnedGraph, owned_graph
 from vorotool.engines.voronoi.frame_cut import cut_borders
 from vorotool.engines.voronoi.frame_ring import OUTSIDE, UNKNOWN, frame_ring
 from vorotool.engines.voronoi.holes import shells_of
 from vorotool.engines.voronoi.nearest_site import site_at
-from vorotool.errors import UsageError
+from vorotool.errors import InputError, UsageError
 from vorotool.geometry.arguments.boxes import as_extent
-from vorotool.geometry.arguments.sites import as_sites
+from vorotool.geometry.arguments.sites import Sites, as_sites
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.magnitude import check_lengths
 from vorotool.geometry.progress import Progress
@@ -32,7 +37,9 @@ def voronoi(
     sites: PointsLike | PolygonsLike,
     *,
     by: str | ArrayLike | None = None,
+    clip: PolygonsLike | None = None,
     frame: FrameLike | None = None,
+    enclosures: PolygonsLike | None = None,
     threads: int = 0,
     progress: Progress = None,
 ) -> VoronoiMap:
@@ -51,8 +58,15 @@ def voronoi(
     by : str or sequence, optional
         Values that join features into sites: a column of the input, or one value a feature. Sites are numbered by first
         appearance.
+    clip : PolygonSet, geometry of shapely, geopandas, GeoJSON or WKT, optional
+        Polygons that cells are cut by: a place in one of them is shared out. Sites outside count as well.
     frame : Box or (x, y, w, h), optional
-        Rectangle that cells are cut by; by default the bounds and a tenth of their larger side around them.
+        Rectangle that cells are cut by; by default the bounds and a tenth of their larger side around them, with a clip
+        nothing else.
+    enclosures : PolygonSet, geometry of shapely, geopandas, GeoJSON or WKT, optional
+        Lines, and polygons for the lines around them, which cut the plane. Each face is shared out among the sites that
+        meet its inside, by distances to the whole site; one that no site meets is nobody's. The default frame is
+        around them too. A site that meets several faces has a part in each.
     threads : int
         0 uses all.
     progress : callable, optional
@@ -66,11 +80,14 @@ def voronoi(
     Raises
     ------
     InputError
-        If `sites` or the frame are none, or a coordinate is not finite.
+        If `sites`, the frame, the clip or the enclosures are none, a coordinate is not finite, the clip has no area, or
+        a coordinate reference system is another one.
     UsageError
         If the sides of the frame are not above 0, or `by` is no column.
     LimitError
         If there are too many vertices.
+    VerificationError
+        If a cut runs so close to a border that doubles do not tell them apart.
 
     Warns
     -----
@@ -90,9 +107,15 @@ def voronoi(
     given_frame = None if frame is None else _checked_frame(frame)
     threads = checked_threads(threads)
     given = as_sites(sites, by)
-    owned = owned_graph(given.polygons, given.site, threads=threads, progress=progress)
-    extent = given_frame or default_frame(given.polygons)
-    arcs, rings = _map(owned, extent, threads, progress)
+    cuts = given_cuts(clip, enclosures, given.polygons.crs)
+    if cuts.are_there:
+        made, extent = _cut_map(given, cuts, given_frame, threads, progress)
+        arcs, rings, is_cut = made.arcs, made.rings, made.is_cut
+    else:
+        extent = given_frame or default_frame(given.polygons)
+        owned = owned_graph(given.polygons, given.site, threads=threads, progress=progress)
+        arcs, rings = _map(owned, extent, threads, progress)
+        is_cut = (arcs.sites == OUTSIDE).any(axis=1)
     cells = cells_of(rings, shells_of(rings, arcs), given.count)
     return VoronoiMap(
         arcs.vertices,
@@ -101,7 +124,7 @@ def voronoi(
         arcs.sites.astype(np.int32),
         arcs.control,
         np.full(arcs.control.shape, np.nan),
-        (arcs.sites == OUTSIDE).any(axis=1),
+        is_cut,
         cells.ring_arcs,
         cells.ring_start,
         cells.polygon_start,
@@ -112,6 +135,8 @@ def voronoi(
         given.ids,
         given.properties,
         given.index,
+        clip=cuts.clip,
+        enclosures=cuts.enclosures,
     )
 
 
@@ -123,9 +148,22 @@ def _checked_frame(frame: FrameLike) -> Frame:
     return extent
 
 
+def _cut_map(
+    given: Sites, cuts: GivenCuts, frame: Frame | None, threads: int, progress: Progress
+) -> tuple[CutMap, Frame]:
+    """The map between cuts, and the bounds of what is shared out."""
+    frame = cuts.frame_for(given.polygons, frame)
+    joint = joint_graph(given.polygons, frame, cuts.clip, cuts.enclosures, threads=threads, progress=progress)
+    if cuts.clip is not None and not joint.clips:
+        raise InputError("the clip has no area: give polygons that have one")
+    regions = regions_of(joint, given.site, given.count)
+    local = local_diagrams(joint.sites, given.site, given.count, regions, threads=threads, progress=progress)
+    return cut_map(local, regions.edges), frame_of(regions.edges, frame, cuts.clip)
+
+
 def _map(owned: OwnedGraph, frame: Frame, threads: int, progress: Progress) -> tuple[Arcs, Rings]:
     graph = owned.graph
-    unwanted = _unwanted(owned)
+    unwanted = unwanted_of(owned)
     diagram = segment_voronoi(graph.points, graph.segments, unwanted=unwanted, threads=threads, progress=progress)
     borders = borders_of(owned, diagram, threads=threads)
     cut = cut_borders(borders, graph, frame)
@@ -147,25 +185,6 @@ def _corners(frame: Frame) -> NDArray[np.float64]:
     """Counter-clockwise from the smallest."""
     x, y, w, h = frame
     return np.array([[x, y], [x + w, y], [x + w, y + h], [x, y + h]])
-
-
-def _unwanted(owned: OwnedGraph) -> NDArray[np.uint8] | None:
-    """Tell where the diagram is not needed: in covered faces; None where all of it is.
-
-    It is where a point without segments may be in any face, and where two sites part in the middle of a straight line:
-    the edge between them there may lead through the line.
-    """
-    graph, count = owned.graph, len(owned.graph.points)
-    degree = np.bincount(graph.segments.ravel(), minlength=count)
-    if (owned.face < 0).all() or (degree == 0).any():
-        return None
-    least, most = np.full(count, count + len(graph)), np.full(count, -1)
-    for end in graph.segments.T:
-        np.minimum.at(least, end, owned.element[count:])
-        np.maximum.at(most, end, owned.element[count:])
-    if ((degree == 2) & (least != most)).any():
-        return None
-    return unwanted_sides(graph, owned.face < 0)
 
 
 def _of_frame(owned: OwnedGraph, frame: Frame, rings: Rings) -> tuple[int, int]:
