@@ -92,7 +92,8 @@ def regions_of(joint: JointGraph, site: NDArray[np.int32], count: int) -> Region
     if len(joint.of_enclosures):
         is_line = _has_source(graph, joint.of_enclosures)
         face = _parted(graph, _faces(graph, is_line), is_line, shared)
-        pairs = _meetings(joint, site, face, is_line)
+        left, right = face[graph.segment_faces].T
+        pairs = _meetings(joint, site, face, is_line & (left != right))
         pairs = pairs[np.isin(pairs[:, 0], face[shared])]
         # regions are the faces that a site meets
         met, number = np.unique(pairs[:, 0], return_inverse=True)
