@@ -12,6 +12,7 @@ from vorotool.engines.voronoi.cuts.cut_curves import FAR, CutCurves, cut_curves
 from vorotool.engines.voronoi.cuts.joint_graph import packed
 from vorotool.engines.voronoi.cuts.local_diagrams import LocalDiagrams
 from vorotool.engines.voronoi.cuts.regions import CutEdges
+from vorotool.geometry.voronoi.voronoi_map import OUTSIDE
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -28,7 +29,7 @@ class Crossings:
     Parameters
     ----------
     pieces : (k,) int64 array
-        Pieces of borders that may be cut, ascending; walls are none of them.
+        Pieces of borders that may be cut, and circular arcs, ascending; walls are none of them.
     curves : CutCurves
         That these are on.
     node : (v,) int64 array
@@ -112,7 +113,7 @@ def crossings_of(local: LocalDiagrams, edges: CutEdges) -> Crossings:
     tree = shapely.STRtree(shapely.linestrings(np.stack([lines.source, lines.target], axis=1)))
     region = local.region
     _draw_places(local, edges, lines, tree, region, (node, edge, far))
-    is_wall = borders.elements[:, 0] == borders.elements[:, 1]
+    is_wall = (borders.elements[:, 0] == borders.elements[:, 1]) & (borders.sites[:, 1] != OUTSIDE)
     rows, cut, pieces, curves = _pairs(local, edges, tree, np.flatnonzero(~is_wall), region)
     stops, anchors = _stops_at_corners(borders.ends[pieces], curves, lines, edges, (rows, cut), (node, edge, count))
     row, at, t = _roots(curves, lines, (rows, cut), anchors)
@@ -181,19 +182,21 @@ def _pairs(
     h = np.where(is_bent, curves.height, 1)
     size = np.sqrt((curves.way * curves.way).sum(axis=1))
     most = np.where(is_bent, np.sqrt(h * (2 * FAR + h)), (FAR + np.abs(curves.base).max(axis=1)) / size)
-    low, high = np.maximum(low, -most), np.minimum(high, most)
+    low, high = np.maximum(low, -most), np.minimum(high, most)  # no circle has one beyond 1
     held = np.flatnonzero(low <= high)
     low, high, bent = low[held], high[held], is_bent[held]
     ends = [curves[held].place(low), curves[held].place(high)]
     shapes = shapely.linestrings(np.stack(ends, axis=1))
     hull = np.stack([ends[0], curves[held].control(low, high), ends[1], ends[0]], axis=1)
     shapes[bent] = shapely.polygons(hull[bent])
+    is_round = curves.round[held] > 0
+    shapes[is_round] = shapely.polygons(curves[held[is_round]].hull(low[is_round], high[is_round]))
     row, edge = tree.query(shapes, predicate="dwithin", distance=4 * SLACK)
     row = held[row]
     own = (edges.regions[edge] == region[pieces[row]][:, None]).any(axis=1)
     row, edge = row[own], edge[own]
-    used, row = np.unique(row, return_inverse=True)
-    return row.reshape(-1), edge, pieces[used], curves[used]
+    used = np.union1d(row, np.flatnonzero(curves.round > 0))
+    return np.searchsorted(used, row), edge, pieces[used], curves[used]
 
 
 def _stops_at_corners(

@@ -1,4 +1,4 @@
-"""The curves of borders, many at once, with parameters along them: straight lines and parabolas."""
+"""The curves of borders, many at once, with parameters along them: straight lines, parabolas, circles."""
 
 from __future__ import annotations
 
@@ -23,16 +23,19 @@ FAR = 2.0**34
 class CutCurves:
     """Curves on the lattice, from one parameter to another.
 
-    A line is base + t way. On a parabola t goes along the directrix from below the focus, as of `Parabolas`.
+    A line is base + t way. On a parabola t goes along the directrix from below the focus, as of `Parabolas`; on a
+    circle it is the tangent of half the angle from the middle of the arc, as of `CircularArc`.
 
     Parameters
     ----------
     base : (k, 2) float64 array
-        A place of a line; the focus of a parabola.
+        A place of a line; the focus of a parabola; the centre of a circle.
     way : (k, 2) float64 array
-        Along a line; the unit vector along a directrix.
+        Along a line; the unit vector along a directrix, or to the middle of a circular arc.
     height : (k,) float64 array
-        Of the focus above the directrix; 0 of lines.
+        Of the focus above the directrix; 0 of others.
+    round : (k,) float64 array
+        Radius of a circle; 0 of others.
     first, last : (k,) float64 array
         Parameters at source and target, which may be infinite.
     origin : (k, 2) float64 array
@@ -44,6 +47,7 @@ class CutCurves:
     base: Floats
     way: Floats
     height: Floats
+    round: Floats
     first: Floats
     last: Floats
     origin: Floats
@@ -59,7 +63,14 @@ class CutCurves:
         h = np.where(is_bent, self.height, 1)
         up = np.where(is_bent, (t * t - h * h) / (2 * h), 0)
         across = np.stack([-self.way[:, 1], self.way[:, 0]], axis=1)
-        made: Floats = self.base + t[:, None] * self.way + up[:, None] * across
+        along, beside = t, up
+        if self.round.any():
+            is_round = self.round > 0
+            finite = np.where(is_round, t, 0)
+            square = 1 + finite * finite
+            along = np.where(is_round, self.round * (1 - finite * finite) / square, t)
+            beside = np.where(is_round, self.round * 2 * finite / square, up)
+        made: Floats = self.base + along[:, None] * self.way + beside[:, None] * across
         return made
 
     def tangent(self, t: Floats) -> Floats:
@@ -67,7 +78,9 @@ class CutCurves:
         is_bent = self.height > 0
         slope = np.where(is_bent, t / np.where(is_bent, self.height, 1), 0)
         across = np.stack([-self.way[:, 1], self.way[:, 0]], axis=1)
-        made: Floats = self.way + slope[:, None] * across
+        is_round = self.round > 0
+        along, beside = np.where(is_round, -2 * t, 1), np.where(is_round, 1 - t * t, slope)
+        made: Floats = along[:, None] * self.way + beside[:, None] * across
         return made
 
     def radius(self, t: Floats) -> Floats:
@@ -91,9 +104,20 @@ class CutCurves:
 
     def depth(self, t0: Floats, t1: Floats) -> Floats:
         """(k,) how far a curve is from its chord at most; 0 of lines."""
+        cosine = (1 + t0 * t1) / np.sqrt((1 + t0 * t0) * (1 + t1 * t1))
         control = self.control(t0, t1)
         bend = np.nan_to_num(self.place(t0) - 2 * control + self.place(t1))
-        made: Floats = np.sqrt((bend * bend).sum(axis=1)) / 4
+        made: Floats = np.where(self.round > 0, self.round * (1 - cosine), np.sqrt((bend * bend).sum(axis=1)) / 4)
+        return made
+
+    def hull(self, t0: Floats, t1: Floats) -> Floats:
+        """(k, 5, 2) closed rings of tangents and a chord around circular arcs."""
+        a, b, middle = (self.place(t) - self.base for t in (t0, t1, (t0 + t1) / 2))
+        square = (self.round * self.round)[:, None]
+        corners = [
+            (one + middle) * square / (square + (one * middle).sum(axis=1)[:, None]) for one in (a, b)
+        ]
+        made: Floats = np.stack([a, corners[0], corners[1], b, a], axis=1) + self.base[:, None]
         return made
 
     def meets(self, place: Floats, normal: Floats, slack: float) -> Floats:
@@ -107,10 +131,15 @@ class CutCurves:
         h = np.where(is_bent, self.height, 1)
         a = np.where(is_bent, across / (2 * h), 0)
         b = (normal * self.way).sum(axis=1)
-        c = (normal * (self.base - place)).sum(axis=1) - np.where(is_bent, h * across / 2, 0)
+        far = (normal * (self.base - place)).sum(axis=1)
+        c = far - np.where(is_bent, h * across / 2, 0)
+        is_round = self.round > 0
+        a, c = np.where(is_round, far - self.round * b, a), np.where(is_round, far + self.round * b, c)
+        b = np.where(is_round, 2 * self.round * across, b)
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
             discriminant = b * b - 4 * a * c
             touches = (np.abs(discriminant) <= 4 * np.abs(a) * slack) & (a != 0)
+            touches = np.where(is_round, np.abs(np.abs(far) - self.round) <= slack, touches)
             q = -(b + np.copysign(np.sqrt(np.maximum(discriminant, 0)), b)) / 2
             roots = np.stack([c / q, q / a], axis=1)
             roots[discriminant < 0] = np.nan
@@ -130,7 +159,13 @@ class CutCurves:
         slope = along / h
         of_bent = np.abs(beside - (along * along - h * h) / (2 * h)) / np.sqrt(1 + slope * slope)
         t = np.where(is_bent, along, along / squared)
-        return t, np.where(is_bent, of_bent, np.abs(beside) / np.sqrt(squared))
+        miss = np.where(is_bent, of_bent, np.abs(beside) / np.sqrt(squared))
+        is_round = np.flatnonzero(self.round > 0)
+        size = np.sqrt((offset[is_round] ** 2).sum(axis=1))
+        ahead = size + along[is_round]
+        t[is_round] = np.where(ahead > 0, beside[is_round] / np.where(ahead > 0, ahead, 1), np.inf)
+        miss[is_round] = np.abs(size - self.round[is_round])
+        return t, miss
 
 
 def cut_curves(borders: Borders, graph: PlanarGraph, pieces: Indices) -> CutCurves:
@@ -177,7 +212,26 @@ def cut_curves(borders: Borders, graph: PlanarGraph, pieces: Indices) -> CutCurv
     height[is_parabola] = parabolas.height
     first[is_parabola] = parabolas.parameter(borders.places[source], borders.radius[source])
     last[is_parabola] = parabolas.parameter(borders.places[target], borders.radius[target])
-    return CutCurves(base, way, height, first, last, *_measured_from(graph, elements))
+    radius = np.zeros(len(pieces))
+    _take_circles(borders, pieces, (base, way, radius, first, last))
+    return CutCurves(base, way, height, radius, first, last, *_measured_from(graph, elements))
+
+
+def _take_circles(borders: Borders, pieces: Indices, curves: tuple[Floats, ...]) -> None:
+    """Write the circles among pieces, counter-clockwise, into arrays of base, way, radius, first and last."""
+    base, way, radius, first, last = curves
+    chosen = np.flatnonzero(~np.isnan(borders.center[pieces, 0]))
+    center = borders.center[pieces[chosen]]
+    a, b = (borders.places[end] - center for end in borders.ends[pieces[chosen]].T)
+    chord = b - a
+    is_short = ((a * b).sum(axis=1) > 0)[:, None]
+    middle = np.where(is_short, a + b, np.stack([chord[:, 1], -chord[:, 0]], axis=1))
+    middle /= np.sqrt((middle * middle).sum(axis=1))[:, None]
+    size = np.sqrt((a * a).sum(axis=1))
+    base[chosen], way[chosen], radius[chosen] = center, middle, size
+    for place, where in ((a, first), (b, last)):
+        beside = middle[:, 0] * place[:, 1] - middle[:, 1] * place[:, 0]
+        where[chosen] = beside / (size + (middle * place).sum(axis=1))
 
 
 def _ends(graph: PlanarGraph, element: Indices) -> tuple[Indices, Indices]:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.voronoi.assembly import Arcs, Rings, by_ends, cycles_of, rings_of
+from vorotool.engines.voronoi.assembly import Arcs, Rings, by_ends, cycles_of, rings_of, without_lost
 from vorotool.engines.voronoi.curves import controls_of
 from vorotool.engines.voronoi.cuts.around_places import order_around, quarters
 from vorotool.engines.voronoi.cuts.crossings import crossings_of
@@ -17,6 +17,7 @@ from vorotool.engines.voronoi.cuts.overlay import UNKNOWN, Overlay
 from vorotool.engines.voronoi.cuts.regions import CutEdges
 from vorotool.errors import VerificationError
 from vorotool.geometry.ragged import owners
+from vorotool.geometry.voronoi.voronoi_map import OUTSIDE
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -34,14 +35,17 @@ class CutMap:
         Whether each is along a cut.
     rings : Rings
         Of the cells.
+    frame : (x, y, w, h)
+        Bounds of what is shared out.
     """
 
     arcs: Arcs
     is_cut: NDArray[np.bool_]
     rings: Rings
+    frame: tuple[float, float, float, float]
 
 
-def cut_map(local: LocalDiagrams, edges: CutEdges) -> CutMap:
+def cut_map(local: LocalDiagrams, edges: CutEdges, frame: tuple[float, float, float, float]) -> CutMap:
     """Put the borders of all regions between the cuts, and tell whose each side of each cut is.
 
     Where a site has both sides of an enclosure, there is no arc.
@@ -52,6 +56,8 @@ def cut_map(local: LocalDiagrams, edges: CutEdges) -> CutMap:
         With the borders.
     edges : CutEdges
         The cuts.
+    frame : (x, y, w, h)
+        Bounds of what is shared out.
 
     Raises
     ------
@@ -62,10 +68,10 @@ def cut_map(local: LocalDiagrams, edges: CutEdges) -> CutMap:
     sites, order = _sites_and_order(overlay)
     arcs = _with_all_sites(overlay, sites, order)
     count = len(overlay.pieces.piece)
-    is_cut = np.arange(len(arcs.ends)) >= count
+    is_cut = (np.arange(len(arcs.ends)) >= count) | (arcs.sites == OUTSIDE).any(axis=1)
     kept = np.flatnonzero(arcs.sites[:, 0] != arcs.sites[:, 1])
     made, sorting = _numbered(arcs, kept, overlay)
-    return CutMap(made, is_cut[kept][sorting], rings_of(made))
+    return CutMap(made, is_cut[kept][sorting], rings_of(made), frame)
 
 
 def _ends_of(overlay: Overlay) -> Indices:
@@ -149,7 +155,9 @@ def _with_all_sites(overlay: Overlay, sites: Indices, order: Indices) -> Arcs:
     bent = np.flatnonzero(pieces.row >= 0)
     own[bent] = overlay.found.curves[pieces.row[bent]].control(*pieces.t[bent].T)
     control[: len(own)] = graph.coordinates(own)
-    return Arcs(places, radius, ends, control, sites, sites, order)
+    center = np.full((len(ends), 2), np.nan)
+    center[: len(own)] = graph.coordinates(overlay.local.borders.center[pieces.piece])
+    return Arcs(places, radius, ends, control, center, sites, sites, order)
 
 
 def _found_by_places(overlay: Overlay, rings: Indices, start: Indices, half_edge: Indices) -> Indices:
@@ -187,16 +195,19 @@ def _numbered(arcs: Arcs, kept: Indices, overlay: Overlay) -> tuple[Arcs, Indice
     chosen = np.concatenate([np.flatnonzero(used & ~is_cut), along[used[along]]])
     number = np.full(len(arcs.vertices), -1, dtype=np.int64)
     number[chosen] = np.arange(len(chosen))
-    ends, sites, order, control = number[arcs.ends[kept]], arcs.sites[kept], arcs.order[kept], arcs.control[kept]
+    ends, sites, order = number[arcs.ends[kept]], arcs.sites[kept], arcs.order[kept]
+    control = arcs.control[kept]
+    center = without_lost(arcs.center[kept], arcs.vertices[chosen][ends], sites[:, 0] != OUTSIDE)
     turned = ends[:, 0] > ends[:, 1]
     for each in (ends, sites, order):
         each[turned] = each[turned, ::-1]
-    sorting = by_ends(ends, control)
+    sorting = by_ends(ends, control, center)
     made = Arcs(
         arcs.vertices[chosen],
         arcs.radius[chosen],
         ends[sorting],
         control[sorting],
+        center[sorting],
         sites[sorting],
         sites[sorting],
         order[sorting],

@@ -55,7 +55,8 @@ class LocalDiagrams:
 
 
 def local_diagrams(
-    sites: PlanarGraph, site: Sites, count: int, regions: Regions, *, threads: int = 0, progress: Progress = None
+    sites: PlanarGraph, site: Sites, count: int, regions: Regions, *, limit: float | None = None,
+    threads: int = 0, progress: Progress = None,
 ) -> LocalDiagrams:
     """Make the diagram of each region.
 
@@ -69,19 +70,22 @@ def local_diagrams(
         Of sites.
     regions : Regions
         With the sites of each.
+    limit : float, optional
+        How far from its site a place may be, in input units.
     threads, progress
         As of `vorotool.voronoi`.
     """
     given = sites.polygons
     assert given is not None
+    level = np.inf if limit is None else limit / sites.scale
     if regions.count == 1 and len(regions.site) == count:
         owned = owners_of(sites, site)
         graph = owned.graph
         diagram = segment_voronoi(
-            graph.points, graph.segments, unwanted=unwanted_of(owned), threads=threads, progress=progress
+            graph.points, graph.segments, unwanted=unwanted_of(owned) if limit is None else None, threads=threads, progress=progress
         )
         none = np.zeros(len(graph.points), dtype=np.int64), np.zeros(len(graph), dtype=np.int64)
-        return LocalDiagrams(owned, *none, borders_of(owned, diagram, threads=threads), given, site)
+        return LocalDiagrams(owned, *none, borders_of(owned, diagram, level=level, threads=threads), given, site)
     parts = [*_graphs_of_regions(sites, site, count, regions)]
     points, segments = (
         np.repeat(np.arange(len(parts)), sizes)
@@ -91,7 +95,7 @@ def local_diagrams(
     diagram = segment_voronoi_of_groups(
         owned.graph.points, owned.graph.segments, np.concatenate([points, segments]), threads=1, progress=progress
     )
-    return LocalDiagrams(owned, points, segments, borders_of(owned, diagram, threads=threads), given, site)
+    return LocalDiagrams(owned, points, segments, borders_of(owned, diagram, level=level, threads=threads), given, site)
 
 
 def _graphs_of_regions(sites: PlanarGraph, site: Sites, count: int, regions: Regions) -> Iterator[OwnedGraph]:

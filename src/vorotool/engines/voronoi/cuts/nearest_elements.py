@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from vorotool.engines.voronoi.cuts.local_diagrams import LocalDiagrams
 from vorotool.engines.voronoi.elements import NOBODY
 from vorotool.geometry.polygons.conversion import to_shapely
+from vorotool.geometry.voronoi.voronoi_map import OUTSIDE
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -33,7 +34,10 @@ class NearestElements:
         self.trees: dict[int, tuple[Any, Indices]] = {}
 
     def sites(self, places: Floats, region: int) -> Indices:
-        """(k,) the smallest of the sites that cover each place on the lattice, else of those nearest to it."""
+        """(k,) the smallest of the sites that cover each place on the lattice, else of those nearest to it.
+
+        What is beyond the limit of distance is `OUTSIDE`.
+        """
         import shapely
 
         points = shapely.points(places)
@@ -42,9 +46,10 @@ class NearestElements:
         place, row = covers.query(points, predicate="within")
         np.minimum.at(covered, place, of_polygon[row])
         tree, site = self._tree(region)
-        place, row = tree.query_nearest(points, all_matches=True)
+        (place, row), distance = tree.query_nearest(points, all_matches=True, return_distance=True)
         least = np.full(len(places), NOBODY, dtype=np.int64)
         np.minimum.at(least, place, site[row])
+        least[place[distance > self.local.borders.level]] = OUTSIDE
         return np.where(covered < NOBODY, covered, least)
 
     @cached_property

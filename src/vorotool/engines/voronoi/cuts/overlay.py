@@ -15,12 +15,13 @@ from vorotool.engines.voronoi.cuts.joint_graph import packed
 from vorotool.engines.voronoi.cuts.local_diagrams import LocalDiagrams
 from vorotool.engines.voronoi.cuts.regions import NOBODY, CutEdges, faces_of_sides
 from vorotool.geometry.ragged import owners, starts_of
+from vorotool.geometry.voronoi.voronoi_map import OUTSIDE
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
-OUTSIDE, UNKNOWN = -1, -2
-"""Sites of what nobody has, and of what is not known yet."""
+UNKNOWN = -2
+"""The site of what is not known yet."""
 
 
 @dataclass(frozen=True, eq=False)
