@@ -101,6 +101,8 @@ def voronoi(
         arcs.ends.astype(np.int32),
         arcs.sites.astype(np.int32),
         arcs.control,
+        np.full(arcs.control.shape, np.nan),
+        (arcs.sites == OUTSIDE).any(axis=1),
         cells.ring_arcs,
         cells.ring_start,
         cells.polygon_start,
