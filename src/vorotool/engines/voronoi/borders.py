@@ -100,6 +100,30 @@ def borders_of(owned: OwnedGraph, diagram: SegmentVoronoiDiagram, *, threads: in
     )
 
 
+def ridges_of(owned: OwnedGraph, diagram: SegmentVoronoiDiagram, *, threads: int = 0) -> Borders:
+    """Choose the edges between elements of one site, in the open: the distance from it has its maxima along these.
+
+    Edges between a segment and its own end are none: across these the distance is smooth.
+
+    Parameters
+    ----------
+    owned, diagram, threads
+        As of `borders_of`.
+
+    Returns
+    -------
+    Borders
+        With one site on both sides; parts and order are 0.
+    """
+    graph = owned.graph
+    edge, faces = _core.skeleton.skeleton_edges(core_diagram(diagram, graph.segment_faces), threads, None)
+    elements = diagram.edge_sites[edge].astype(np.int64)
+    sites = owned.element[_own_ends(graph, diagram).alias[elements]]
+    chosen = (sites[:, 0] == sites[:, 1]) & (owned.face[faces] < 0)
+    ends, none = diagram.edges[edge[chosen]].astype(np.int64), np.zeros((np.count_nonzero(chosen), 2), dtype=np.int64)
+    return Borders(ends, elements[chosen], sites[chosen], none, none, diagram.vertices, diagram.radius)
+
+
 # ---- edges between a segment and its own end --------------------------------------------------------
 @dataclass(frozen=True, eq=False)
 class _OwnEnds:

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, unwanted_sides
 from vorotool.engines.skeleton.exact import Frame, default_frame
 from vorotool.engines.voronoi.assembly import Arcs, Rings, arcs_of, cells_of, rings_of
 from vorotool.engines.voronoi.borders import borders_of
+from vorotool.engines.voronoi.diagram import diagram_of
 from vorotool.engines.voronoi.elements import OwnedGraph, owned_graph
 from vorotool.engines.voronoi.frame_cut import cut_borders
 from vorotool.engines.voronoi.frame_ring import OUTSIDE, UNKNOWN, frame_ring
@@ -126,9 +126,7 @@ def _checked_frame(frame: FrameLike) -> Frame:
 
 def _map(owned: OwnedGraph, frame: Frame, threads: int, progress: Progress) -> tuple[Arcs, Rings]:
     graph = owned.graph
-    unwanted = _unwanted(owned)
-    diagram = segment_voronoi(graph.points, graph.segments, unwanted=unwanted, threads=threads, progress=progress)
-    borders = borders_of(owned, diagram, threads=threads)
+    borders = borders_of(owned, diagram_of(owned, threads=threads, progress=progress), threads=threads)
     cut = cut_borders(borders, graph, frame)
     sites, parts, order = (of[cut.piece].astype(np.int64) for of in (borders.sites, borders.parts, borders.order))
     ring = frame_ring(cut, sites, parts, order, _corners(frame))
@@ -148,25 +146,6 @@ def _corners(frame: Frame) -> NDArray[np.float64]:
     """Counter-clockwise from the smallest."""
     x, y, w, h = frame
     return np.array([[x, y], [x + w, y], [x + w, y + h], [x, y + h]])
-
-
-def _unwanted(owned: OwnedGraph) -> NDArray[np.uint8] | None:
-    """Tell where the diagram is not needed: in covered faces; None where all of it is.
-
-    It is where a point without segments may be in any face, and where two sites part in the middle of a straight line:
-    the edge between them there may lead through the line.
-    """
-    graph, count = owned.graph, len(owned.graph.points)
-    degree = np.bincount(graph.segments.ravel(), minlength=count)
-    if (owned.face < 0).all() or (degree == 0).any():
-        return None
-    least, most = np.full(count, count + len(graph)), np.full(count, -1)
-    for end in graph.segments.T:
-        np.minimum.at(least, end, owned.element[count:])
-        np.maximum.at(most, end, owned.element[count:])
-    if ((degree == 2) & (least != most)).any():
-        return None
-    return unwanted_sides(graph, owned.face < 0)
 
 
 def _of_frame(owned: OwnedGraph, frame: Frame, rings: Rings) -> tuple[int, int]:

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import cache
+from threading import Lock
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.table import Lookup, Table
+from vorotool.geometry.table import Computed, Lookup, Table
+from vorotool.geometry.voronoi.site_shapes import site_distances
 from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 
 KINDS = ["line", "parabola", "circle"]
@@ -93,7 +97,8 @@ def neighbour_table(cells: VoronoiMap) -> Table:
     Returns
     -------
     Table
-        ``label_a, label_b, border_length``: labels from 1, the smaller first.
+        ``label_a, label_b, border_length, distance``: labels from 1, the smaller first; the distance is that between
+        the two sites, 0 where they touch.
 
     Examples
     --------
@@ -104,7 +109,8 @@ def neighbour_table(cells: VoronoiMap) -> Table:
     """
     pairs, length = neighbour_pairs(cells)
     low, high = np.ascontiguousarray(pairs.T) + 1
-    return Table({"label_a": low, "label_b": high, "border_length": length})
+    distance = _when_asked(lambda: site_distances(cells, pairs), len(pairs))
+    return Table({"label_a": low, "label_b": high, "border_length": length, "distance": distance})
 
 
 def cell_table(cells: VoronoiMap) -> Table:
@@ -118,8 +124,10 @@ def cell_table(cells: VoronoiMap) -> Table:
     Returns
     -------
     Table
-        ``label, id, area, perimeter, neighbours, components``, and the columns of the input: label i is that of cell
-        i - 1, there is an id if the input has some, and components are the polygons of a cell.
+        ``label, id, area, perimeter, neighbours, own_area, max_distance, components``, and the columns of the input:
+        label i is that of cell i - 1, and there is an id if the input has some. The own area is what the cell has of
+        the polygons of its site, the distance the largest from the site within the cell, NaN of an empty one, and
+        components are its polygons.
 
     Examples
     --------
@@ -135,6 +143,19 @@ def cell_table(cells: VoronoiMap) -> Table:
         "area": cells.areas,
         "perimeter": cells.perimeters,
         "neighbours": np.bincount(pairs.ravel(), minlength=len(cells)),
+        "own_area": _when_asked(lambda: cells.own_areas, len(cells)),
+        "max_distance": _when_asked(lambda: cells.reaches, len(cells)),
         "components": cells.components,
     }
     return Table(columns).with_properties(cells.properties)
+
+
+def _when_asked(function: Callable[[], NDArray[np.float64]], size: int) -> Computed:
+    """A column that is computed as a whole, once, by the first thread that asks for rows of it."""
+    lock, once = Lock(), cache(function)
+
+    def rows_of(rows: slice) -> NDArray[np.float64]:
+        with lock:
+            return once()[rows]
+
+    return Computed(rows_of, size)

@@ -23,6 +23,7 @@ OUTSIDE = -1
 """The site of what belongs to no cell: the far side of the frame, or of another cut."""
 
 _TABLES = "geometry.voronoi.tables"
+_MEASURES = "engines.voronoi.measures"
 
 Floats = NDArray[np.float64]
 
@@ -203,6 +204,18 @@ class VoronoiMap(Value, Tabular, Curved):
             inner = self.sites[:, hand] != OUTSIDE
             total += np.bincount(self.sites[inner, hand], self.length[inner], minlength=len(self))
         return total
+
+    @cached_property
+    def own_areas(self) -> Floats:
+        """(s,) areas of the site's own polygons that cells have; see `vorotool.engines.voronoi.measures.own_areas`."""
+        made: Floats = resolved(f"{_MEASURES}:own_areas")(self)
+        return made
+
+    @cached_property
+    def reaches(self) -> Floats:
+        """(s,) largest distances of cells from their sites; see `vorotool.engines.voronoi.measures.reaches`."""
+        made: Floats = resolved(f"{_MEASURES}:reaches")(self)
+        return made
 
     @cached_property
     def components(self) -> NDArray[np.int64]:
