@@ -176,6 +176,14 @@ _SKELETONS = (
 )
 
 
+# ---- voronoi -------------------------------------------------------------------------------------
+_MAP_LAYERS = _pictures("cells edges objects labels")
+_VORONOI = (
+    _product("cells", "VoronoiMap", "", None, _MAP_LAYERS, "cells objects", is_curved=True),
+    _product("edges", "VoronoiMap", "", None, _MAP_LAYERS, "edges objects", is_curved=True),
+)
+
+
 def _beside_exact(product: Product) -> Product:
     """Beside approximate skeletons pictures can show exact ones."""
     shown = {fmt: (*layers, "exact") for fmt, layers in _ARCS.items()}
@@ -198,6 +206,7 @@ _BY_COMMAND: dict[str, Sequence[Product]] = {
     "alphashape": _ALPHASHAPE,
     "skeleton-exact": _SKELETONS,
     "skeleton-approx": tuple(map(_beside_exact, _SKELETONS)),
+    "voronoi": _VORONOI,
     "draw": (_drawn(),),
 }
 PRODUCTS = {command: {each.what: each for each in products} for command, products in _BY_COMMAND.items()}

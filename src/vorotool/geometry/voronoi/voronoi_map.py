@@ -16,7 +16,7 @@ from vorotool.geometry.curves.bezier import areas_beside, lengths_of
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.ragged import divides, owners
 from vorotool.geometry.table import Table
-from vorotool.geometry.values import Curved, Tabular, Value, counted, placed
+from vorotool.geometry.values import Curved, Graph, Pictured, Tabular, Value, counted, placed
 from vorotool.products.formats import resolved
 
 OUTSIDE = -1
@@ -29,7 +29,7 @@ Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class VoronoiMap(Value, Tabular, Curved):
+class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
     """Cells of sites in a frame: all places nearest to each site, inside its polygons at distance 0.
 
     Of sites that are equally near to a whole region the smallest has it. Cells are bounded by arcs, straight lines,
