@@ -18,11 +18,13 @@ from vorotool.geometry.numbers import checked_tolerance
 from vorotool.products.inputs import NAMES_WITH, known_input_format
 
 if TYPE_CHECKING:
+    from vorotool.geometry.arguments.sites import Sites
     from vorotool.geometry.points.point_set import PointSet
     from vorotool.geometry.points.raster import Raster
     from vorotool.geometry.polygons.polygon_set import PolygonSet
     from vorotool.geometry.skeleton.offsets import Offsets
     from vorotool.geometry.skeleton.skeleton import Skeleton
+    from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 
 
 @contextmanager
@@ -39,7 +41,7 @@ def opened(
     Parameters
     ----------
     path, geometry, input_format, page, layer
-        As of `vorotool.read`.
+        As of `vorotool.read`; the geometry may be ``sites``, too, which are points, lines and polygons.
 
     Examples
     --------
@@ -47,8 +49,6 @@ def opened(
     ...     print(len(source.read()), source.rows())
     53 None
     """
-    if geometry not in NAMES_WITH:
-        raise UsageError(f"invalid geometry {geometry!r}: expected points or polygons, or none")
     said = known_input_format(input_format, NAMES_WITH[geometry])
     if not isinstance(path, str | PathLike):
         raise InputError(f"{path!r} is no path: give the name of a file; arrays need not be read")
@@ -93,7 +93,7 @@ class Opened:
         join_tolerance: float | None = None,
         told: Callable[[str], None] = no_note,
         **options: Any,
-    ) -> PointSet | PolygonSet | Raster | Skeleton | Offsets:
+    ) -> PointSet | PolygonSet | Sites | Raster | Skeleton | Offsets | VoronoiMap:
         """Read all, with the options of `vorotool.read` that are not about opening it.
 
         ``told`` is called with the format, before what is in it is read.
@@ -115,7 +115,8 @@ class Opened:
         content = replace(read_source(self.name), layer=self.layer)
         holds, source = recognised(content, self.geometry, self.said, given.columns)
         told(source.format)
-        value: PointSet | PolygonSet | Raster | Skeleton | Offsets = read_recognised(holds, source, given)
+        value: PointSet | PolygonSet | Sites | Raster | Skeleton | Offsets | VoronoiMap
+        value = read_recognised(holds, source, given)
         return value
 
 

@@ -13,7 +13,7 @@ from vorotool.jobs.options import (
     ComputingOptions,
     JobOptions,
     SiteOptions,
-    SkeletonOptions,
+    ShapeOptions,
     TessellationOptions,
     TriangulationOptions,
 )
@@ -86,8 +86,8 @@ def read_opened(
         note=run.note,
         crs=o.input_crs,
         to_crs=o.crs,
-        flatten=o.flatten if isinstance(o, SkeletonOptions) else None,
-        join_tolerance=o.join_tolerance if isinstance(o, SkeletonOptions) else None,
+        flatten=o.flatten if isinstance(o, ShapeOptions) else None,
+        join_tolerance=o.join_tolerance if isinstance(o, ShapeOptions) else None,
     )
     if not isinstance(value, PointSet | PolygonSet | Raster):  # which is read where no geometry is asked for
         raise InputError(

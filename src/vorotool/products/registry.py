@@ -177,10 +177,21 @@ _SKELETONS = (
 
 
 # ---- voronoi -------------------------------------------------------------------------------------
+_MAP = Writer("formats.results.voronoi:write_voronoi", ("fmt", "what", *_LINES[1:]))
 _MAP_LAYERS = _pictures("cells edges objects labels")
 _VORONOI = (
-    _product("cells", "VoronoiMap", "", None, _MAP_LAYERS, "cells objects", is_curved=True),
-    _product("edges", "VoronoiMap", "", None, _MAP_LAYERS, "edges objects", is_curved=True),
+    _product(
+        "cells",
+        "VoronoiMap",
+        "geojson csv tsv json npz wkt",
+        _MAP,
+        _MAP_LAYERS,
+        "cells objects",
+        is_curved=True,
+    ),
+    _product("edges", "VoronoiMap", f"{_TABLES} geojson wkt", _MAP, _MAP_LAYERS, "edges objects", is_curved=True),
+    _product("neighbours", "VoronoiMap", _TABLES, _MAP),
+    _product("table", "VoronoiMap", _TABLES, _MAP),
 )
 
 
@@ -204,9 +215,9 @@ _BY_COMMAND: dict[str, Sequence[Product]] = {
     "tessellate": _TESSELLATE,
     "delaunay": _DELAUNAY,
     "alphashape": _ALPHASHAPE,
+    "voronoi": _VORONOI,
     "skeleton-exact": _SKELETONS,
     "skeleton-approx": tuple(map(_beside_exact, _SKELETONS)),
-    "voronoi": _VORONOI,
     "draw": (_drawn(),),
 }
 PRODUCTS = {command: {each.what: each for each in products} for command, products in _BY_COMMAND.items()}

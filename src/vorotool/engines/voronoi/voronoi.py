@@ -28,14 +28,14 @@ from vorotool.geometry.progress import Progress
 from vorotool.geometry.voronoi.voronoi_map import OUTSIDE, VoronoiMap
 
 if TYPE_CHECKING:
-    from vorotool.typing import FrameLike, PointsLike, PolygonsLike
+    from vorotool.typing import FrameLike, ImageLike, PointsLike, PolygonsLike
 
 _BITS = 30
 """Steps of a lattice that a limit around a single place is counted in, as bits: as many as others have."""
 
 
 def voronoi(
-    sites: PointsLike | PolygonsLike,
+    sites: PointsLike | PolygonsLike | ImageLike,
     *,
     by: str | ArrayLike | None = None,
     frame: FrameLike | None = None,
@@ -53,8 +53,9 @@ def voronoi(
 
     Parameters
     ----------
-    sites : PolygonSet, PointSet, (n, 2) array-like, data frame, or geometry of shapely, geopandas, GeoJSON or WKT
-        Each feature is a site, with all its parts; an array has a point in each row.
+    sites : PolygonSet, PointSet, (n, 2) array-like, data frame, geometry of shapely, geopandas, GeoJSON or WKT, image
+        Each feature is a site, with all its parts; an array has a point in each row. Of a mask or a label image each
+        object is one, which its outline bounds, in coordinates of the map where the image lies on one.
     by : str or sequence, optional
         Values that join features into sites: a column of the input, or one value a feature. Sites are numbered by first
         appearance.

@@ -42,8 +42,9 @@ def border_table(cells: VoronoiMap) -> Table:
     Returns
     -------
     Table
-        ``arc, label_a, label_b, kind, x0, y0, r0, x1, y1, r1, cx, cy, length``: the labels of the cells, from 1, the
-        smaller first; the ends with the distances from both sites there; the control point of a parabola.
+        ``label_a, label_b, kind, x0, y0, x1, y1, cx, cy, length, arc, r0, r1``: the labels of the cells, from 1, the
+        smaller first; the ends; the control point of a parabola; the number of the arc, from 0; the distances from both
+        sites at the ends, which do not exist on enclosures.
 
     Examples
     --------
@@ -58,19 +59,19 @@ def border_table(cells: VoronoiMap) -> Table:
     cx, cy = np.ascontiguousarray(cells.control[arc].T)
     return Table(
         {
-            "arc": arc,
             "label_a": low + 1,
             "label_b": high + 1,
             "kind": Lookup(KINDS, kinds_of(cells)[arc]),
             "x0": Lookup(x, source),
             "y0": Lookup(y, source),
-            "r0": Lookup(cells.radius, source),
             "x1": Lookup(x, target),
             "y1": Lookup(y, target),
-            "r1": Lookup(cells.radius, target),
             "cx": cx,
             "cy": cy,
             "length": cells.length[arc],
+            "arc": arc,
+            "r0": cells.radius[source],
+            "r1": cells.radius[target],
         }
     )
 
