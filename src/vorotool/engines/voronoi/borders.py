@@ -186,8 +186,18 @@ def ridges_of(owned: OwnedGraph, diagram: SegmentVoronoiDiagram, *, threads: int
     elements = diagram.edge_sites[edge].astype(np.int64)
     sites = owned.element[_own_ends(graph, diagram).alias[elements]]
     chosen = (sites[:, 0] == sites[:, 1]) & (owned.face[faces] < 0)
-    ends, none = diagram.edges[edge[chosen]].astype(np.int64), np.zeros((np.count_nonzero(chosen), 2), dtype=np.int64)
-    return Borders(ends, elements[chosen], sites[chosen], none, none, diagram.vertices, diagram.radius)
+    none = np.zeros((np.count_nonzero(chosen), 2), dtype=np.int64)
+    return Borders(
+        diagram.edges[edge[chosen]].astype(np.int64),
+        elements[chosen],
+        sites[chosen],
+        none,
+        none,
+        diagram.vertices,
+        diagram.radius,
+        np.full(none.shape, np.nan),
+        np.inf,
+    )
 
 
 # ---- edges between a segment and its own end --------------------------------------------------------

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from vorotool.geometry.box import bounds
 from vorotool.geometry.curves.circular_arcs import chords_of
 from vorotool.geometry.curves.flatten import polylines
-from vorotool.geometry.curves.mixed import mixed_polylines
+from vorotool.geometry.curves.mixed_arcs import MixedArcs
 from vorotool.geometry.ragged import following, owners, starts_of, within
 from vorotool.render.canvas.palettes import INK, SEED
 from vorotool.render.canvas.styles import PictureStyle
@@ -89,7 +89,8 @@ class Curves:
         control, is_bent = self.points[self.control], self.control >= 0
         if self.centre is None or self.is_left is None:
             return polylines(source, control, target, is_bent, tolerance)
-        return mixed_polylines(source, control, target, is_bent, self.centre, self.is_left, tolerance)
+        control = np.where(is_bent[:, None], control, np.nan)
+        return MixedArcs(source, target, control, self.centre, self.is_left).polylines(tolerance)
 
     def chords(self, tolerance: float) -> Lines:
         """Straight lines instead of the curves, which are off by no more than a length of the data."""

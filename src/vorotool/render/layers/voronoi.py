@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.geometry.curves.circular_arcs import middles_of
-from vorotool.geometry.ragged import owners, starts_of, within
+from vorotool.geometry.ragged import within
 from vorotool.geometry.voronoi.site_shapes import site_shapes
 from vorotool.geometry.voronoi.tables import neighbour_pairs
 from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
@@ -55,10 +54,10 @@ def voronoi_layers(cells: VoronoiMap, page: Page, layers: Iterable[str]) -> list
     width = min(max(spacing / 24, 0.1), 1.5)
     made: dict[str, list[Layer]] = {}
     if wanted & {"cells", "edges"}:
-        sides = _Sides(cells)
+        curves = replace(_curves(cells), width=width)
+        made["edges"] = [curves]
         if "cells" in wanted:
-            made["cells"] = [_filled(cells, sides, width)]
-        made["edges"] = [replace(sides.curves, name="edges", width=width)]
+            made["cells"] = [_filled(cells, curves, width)]
     if "objects" in wanted:
         made["objects"] = _objects(cells, width, min(max(spacing / 12, 0.3), 4.0))
     if "labels" in wanted:
@@ -85,69 +84,18 @@ def map_colours(cells: VoronoiMap) -> NDArray[np.uint32]:
     return _core.graphs.colour_graph(len(cells), a, b, None)
 
 
-class _Sides:
-    """The arcs of a map as curves, of which none is more than half a circle: longer ones are divided in two.
-
-    Attributes
-    ----------
-    curves : Curves
-        All of them.
-    first : (a + 1,) int64 array
-        The first curve of each arc.
-    """
-
-    def __init__(self, cells: VoronoiMap) -> None:
-        source, target = (cells.vertices[end] for end in cells.arcs.T)
-        self.is_left = cells.sites[:, 0] >= 0  # the centre is on the inner side
-        middles, is_long = _long_arcs(cells, source, target, self.is_left)
-        pieces = 1 + is_long
-        self.first = starts_of(pieces)
-        arc = owners(pieces)
-        control = np.flatnonzero(cells.is_parabola)
-        vertices, bends = len(cells.vertices), len(control)
-        number = np.full(len(cells.arcs), -1, dtype=np.int32)
-        number[control] = vertices + np.arange(bends)
-        pairs = cells.arcs[arc].astype(np.int32)
-        inner = vertices + bends + np.arange(len(middles), dtype=np.int32)
-        before = self.first[:-1][is_long]
-        pairs[before, 1], pairs[before + 1, 0] = inner, inner
-        self.curves = Curves(
-            "cells",
-            np.concatenate([cells.vertices, cells.control[control], middles]),
-            pairs,
-            number[arc],
-            INK,
-            centre=cells.center[arc] if cells.is_circle.any() else None,
-            is_left=self.is_left[arc] if cells.is_circle.any() else None,
-        )
-
-    def along(self, ring_arcs: NDArray[np.int32], ring_start: Indices) -> tuple[NDArray[np.int32], Indices]:
-        """Curves along rings of arcs, counted from 1, below 0 against their direction; and where each ring begins."""
-        arc, is_back = np.abs(ring_arcs.astype(np.int64)) - 1, ring_arcs < 0
-        pieces = self.first[arc + 1] - self.first[arc]
-        row, step = owners(pieces), within(pieces)
-        number = np.where(is_back[row], self.first[arc + 1][row] - step, self.first[arc][row] + step + 1)
-        return np.where(is_back[row], -number, number).astype(np.int32), starts_of(pieces)[ring_start]
+def _curves(cells: VoronoiMap) -> Curves:
+    """All arcs, with their control points after the vertices."""
+    bent = np.flatnonzero(cells.is_parabola)
+    control = np.full(len(cells.arcs), -1, dtype=np.int32)
+    control[bent] = len(cells.vertices) + np.arange(len(bent))
+    points = np.concatenate([cells.vertices, cells.control[bent]])
+    circles = (cells.center, cells.mixed_arcs.is_left) if cells.is_circle.any() else (None, None)
+    return Curves("edges", points, cells.arcs, control, INK, centre=circles[0], is_left=circles[1])
 
 
-def _long_arcs(
-    cells: VoronoiMap, source: NDArray[np.float64], target: NDArray[np.float64], is_left: NDArray[np.bool_]
-) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    """(k, 2) middles of arcs of more than half a circle, and (a,) which these are."""
-    u, v = source - cells.center, target - cells.center
-    cross = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
-    is_long = np.where(is_left, cross < 0, cross > 0)  # NaN of what is no circle
-    begin, end = (
-        np.where(is_left[:, None], source, target)[is_long],
-        np.where(is_left[:, None], target, source)[is_long],
-    )
-    return middles_of(begin, end, cells.center[is_long], np.ones(len(begin), dtype=bool)), is_long
-
-
-def _filled(cells: VoronoiMap, sides: _Sides, width: float) -> CurvedPolygons:
-    along, rings = sides.along(cells.ring_arcs, cells.ring_start)
-    side, is_back = np.abs(along) - 1, along < 0
-    corners = np.where(is_back, sides.curves.pairs[side, 1], sides.curves.pairs[side, 0])
+def _filled(cells: VoronoiMap, curves: Curves, width: float) -> CurvedPolygons:
+    arc, is_back = np.abs(cells.ring_arcs) - 1, cells.ring_arcs < 0
     colours = map_colours(cells)
     cell = cells.cell_of_polygon
     part = within(cells.components) + 1
@@ -158,17 +106,17 @@ def _filled(cells: VoronoiMap, sides: _Sides, width: float) -> CurvedPolygons:
     ]
     return CurvedPolygons(
         "cells",
-        sides.curves.points,
-        corners,
-        rings,
+        curves.points,
+        cells.arcs[arc, is_back.astype(int)],
+        cells.ring_start,
         cells.polygon_start,
         [cell_colour(c) for c in range(int(colours.max(initial=0)) + 1)],
         colours[cell],
         ids,
         EDGE,
         width,
-        curves=sides.curves,
-        along=along,
+        curves=curves,
+        along=cells.ring_arcs,
     )
 
 
