@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from os import PathLike
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, cast
 
 from vorotool.geometry.pixel_frame import MAX_PIXELS
 
@@ -35,7 +35,7 @@ def read(
     flatten: float | None = None,
     join_tolerance: float | None = None,
 ) -> PointSet | PolygonSet | Raster | Skeleton | Offsets | VoronoiMap:
-    """Read points, polygons and lines, an image, or a skeleton, offset curves or a Voronoi map that was written as JSON.
+    """Read points, polygons and lines, an image, or a skeleton, offset curves or a Voronoi map as JSON has them.
 
     A plain JSON list of pairs holds points, unless ``geometry`` is polygons. GeoJSON and WKT hold either points or
     polygons and lines: what their first geometry is.
@@ -98,7 +98,7 @@ def read(
     if geometry not in (None, "points", "polygons"):
         raise UsageError(f"invalid geometry {geometry!r}: expected points or polygons, or none")
     with opened(path, geometry=geometry, input_format=input_format, page=page, layer=layer) as source:
-        return source.read(
+        value = source.read(
             columns=columns,
             max_pixels=max_pixels,
             max_sites=max_sites,
@@ -110,3 +110,4 @@ def read(
             flatten=flatten,
             join_tolerance=join_tolerance,
         )
+    return cast("PointSet | PolygonSet | Raster | Skeleton | Offsets | VoronoiMap", value)

@@ -24,6 +24,7 @@ from vorotool.geometry.points.raster import Raster
 from vorotool.geometry.polygons.polygon_set import HOLE, PolygonSet
 from vorotool.geometry.skeleton.offsets import Offsets
 from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 from vorotool.jobs.inputs import refuse
 from vorotool.jobs.options import ReadingOptions
 from vorotool.jobs.run_log import tell
@@ -202,6 +203,18 @@ def _of_offsets(value: Offsets, note: Callable[[str], None]) -> Description:
         **_of_places(np.concatenate([value.start, value.end]), value.polygons),
         "columns": _column_types(value.polygons.properties),
         "commands": list(TAKEN_BY["offsets"]),
+    }
+
+
+@_told_of.register
+def _of_map(value: VoronoiMap, note: Callable[[str], None]) -> Description:
+    return {
+        "kind": "Voronoi map",
+        "cells": len(value),
+        "arcs": len(value.arcs),
+        **_of_places(value.vertices, value.polygons),
+        "columns": _column_types(value.properties),
+        "commands": list(TAKEN_BY["voronoi"]),
     }
 
 

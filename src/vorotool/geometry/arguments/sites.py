@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError, UsageError
+from vorotool.errors import InputError, UsageError, option
 from vorotool.geometry.arguments.descriptions import naming, unexpected
 from vorotool.geometry.arguments.features import HeldFeatures, held_features
 from vorotool.geometry.arguments.images import as_raster, is_image
@@ -26,6 +26,7 @@ from vorotool.geometry.polygons.polygon_set import LINE, PolygonSet
 from vorotool.geometry.row_index import index_of_rows
 from vorotool.products.formats import resolved
 
+_BY = option("--by", "by")
 EXPECTED = (
     "points, lines or polygons of shapely, geopandas, GeoJSON or WKT, an (n, 2) array of points, a list of these, or a "
     "mask or label image"
@@ -70,8 +71,8 @@ def as_sites(source: Any, by: Any = None, name: str = "sites") -> Sites:
         points. Each feature is a site; one without geometry is a site without places. Of a mask or a label image each
         object is one, by its outline.
     by : str or sequence, optional
-        Values that join features: a column of the input, or one value a feature. Sites are numbered by first
-        appearance.
+        Values that join features: a column of the input, its ids by the name ``id``, or one value a feature. Sites are
+        numbered by first appearance.
     name : str
         Of the parameter, for messages.
 
@@ -188,16 +189,18 @@ def _of_polygons(polygons: PolygonSet) -> Sites:
 def _values(features: Sites, by: Any) -> list[Any]:
     """The value of each feature."""
     if isinstance(by, str):
-        if by not in features.properties:
-            names = ", ".join(features.properties) or "there is none"
-            raise UsageError(f"invalid by {by!r}: expected a column of the sites ({names}), or one value a feature")
-        by = features.properties[by]
+        columns = features.properties if features.ids is None else {"id": features.ids, **features.properties}
+        if by not in columns:
+            names = ", ".join(columns) or "there is none"
+            more = option("", ", or one value a feature")
+            raise UsageError(f"invalid {_BY} {by!r}: expected a column of the sites ({names}){more}")
+        by = columns[by]
     values = by.tolist() if hasattr(by, "tolist") else list(by)
     if len(values) != features.count:
-        raise InputError(f"invalid by: expected one value a feature, {features.count}, but got {len(values)}")
+        raise InputError(f"invalid {_BY}: expected one value a feature, {features.count}, but got {len(values)}")
     missing = [k for k, value in enumerate(values) if _is_missing(value)]
     if missing:
-        raise InputError(f"invalid by: feature {missing[0]} has no value ({len(missing)} such features): fill it in")
+        raise InputError(f"invalid {_BY}: feature {missing[0]} has no value ({len(missing)} such features): fill it in")
     return values
 
 
