@@ -178,9 +178,18 @@ _SKELETONS = (
 
 # ---- voronoi -------------------------------------------------------------------------------------
 _MAP = Writer("formats.results.voronoi:write_voronoi", ("fmt", "what", *_LINES[1:]))
+_MAP_LAYERS = _pictures("cells edges objects labels")
 _VORONOI = (
-    _product("cells", "VoronoiMap", "geojson csv tsv json npz wkt", _MAP, is_curved=True),
-    _product("edges", "VoronoiMap", f"{_TABLES} geojson wkt", _MAP, is_curved=True),
+    _product(
+        "cells",
+        "VoronoiMap",
+        "geojson csv tsv json npz wkt",
+        _MAP,
+        _MAP_LAYERS,
+        "cells objects",
+        is_curved=True,
+    ),
+    _product("edges", "VoronoiMap", f"{_TABLES} geojson wkt", _MAP, _MAP_LAYERS, "edges objects", is_curved=True),
     _product("neighbours", "VoronoiMap", _TABLES, _MAP),
     _product("table", "VoronoiMap", _TABLES, _MAP),
 )

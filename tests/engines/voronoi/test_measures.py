@@ -13,7 +13,7 @@ from vorotool.errors import RepairWarning
 
 BOX = shapely.box(0, 0, 10, 10)
 FRAME = (-10.0, -10.0, 30.0, 30.0)
-STEP = 0.4
+STEP = 0.6
 
 
 def quietly(sites, **options):
@@ -42,7 +42,7 @@ def assert_measured(sites, cells):
         assert found - 1e-6 <= reach <= found + STEP
 
 
-@pytest.mark.parametrize("seed", range(30))
+@pytest.mark.parametrize("seed", range(18))
 def test_mixed_sites(seed):
     random = np.random.default_rng(seed)
     grid = [None, 10, 4][seed % 3]
@@ -52,6 +52,16 @@ def test_mixed_sites(seed):
         corner = random.uniform(-20, 60, 2)
         frame = (*(corner.round() if grid else corner).tolist(), 50.0, 37.0)
     assert_measured(sites, quietly(sites, frame=frame))
+
+
+@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("limit", [1.0, 5, 20])
+def test_limited_sites(seed, limit):
+    random = np.random.default_rng(seed)
+    sites = mixed_sites(random, 6, [None, 4][seed % 2])
+    cells = quietly(sites, max_distance=limit)
+    assert np.nanmax(cells.reaches) <= limit
+    assert_measured(sites, cells)
 
 
 def test_houses_have_their_own_area():
@@ -137,6 +147,11 @@ def test_nothing_is_computed_for_shapes():
     cells.to_shapely()
     assert "reaches" not in vars(cells)
     assert cells.to_geopandas()["max_distance"].tolist() == cells.reaches.tolist()
+
+
+def test_a_court_is_cut_where_its_middle_is_too_far():
+    for limit, reach in ((3, 2), (2, 2), (1.5, 1.5)):
+        assert voronoi([COURT], frame=(0, 0, 4, 4), max_distance=limit).reaches.tolist() == [reach]
 
 
 def test_repairs_are_told_once():

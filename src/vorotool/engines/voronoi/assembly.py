@@ -9,10 +9,11 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.voronoi.frame_cut import CutBorders
-from vorotool.engines.voronoi.frame_ring import OUTSIDE, FrameRing
+from vorotool.engines.voronoi.frame_ring import FrameRing
 from vorotool.errors import VerificationError
-from vorotool.geometry.curves.bezier import areas_beside
+from vorotool.geometry.curves.mixed_arcs import MixedArcs
 from vorotool.geometry.ragged import owners, ranges, starts_of
+from vorotool.geometry.voronoi.voronoi_map import OUTSIDE
 
 Indices = NDArray[np.int64]
 Floats = NDArray[np.float64]
@@ -30,10 +31,10 @@ class Arcs:
         Distances from the nearest sites there; NaN at corners of the frame that no border ends at.
     ends : (a, 2) int64 array
         Source and target.
-    control : (a, 2) float64 array
-        NaN of straight lines.
+    control, center : (a, 2) float64 array
+        Control points of parabolas, and centres of circular arcs; NaN of others.
     sites, parts : (a, 2) int64 array
-        Left and right; `OUTSIDE` on the far side of the frame.
+        Left and right; `OUTSIDE` of what belongs to nobody.
     order : (a, 2) int64 array
         Rising counter-clockwise around source and target.
     """
@@ -42,15 +43,22 @@ class Arcs:
     radius: Floats
     ends: Indices
     control: Floats
+    center: Floats
     sites: Indices
     parts: Indices
     order: Indices
+
+    def mixed(self) -> MixedArcs:
+        """The arcs with their ends."""
+        source, target = self.vertices[self.ends[:, 0]], self.vertices[self.ends[:, 1]]
+        return MixedArcs(source, target, self.control, self.center, self.sites[:, 0] != OUTSIDE)
 
 
 def arcs_of(cut: CutBorders, ring: FrameRing, sites: Indices, parts: Indices, order: Indices) -> Arcs:
     """Put borders and the frame together, and number vertices and arcs by where they are.
 
-    Vertices of the diagram come first, then those on the frame along it.
+    Vertices of the diagram come first, then those on the frame along it. Of the frame, what has nobody inside is left
+    out.
 
     Parameters
     ----------
@@ -59,13 +67,15 @@ def arcs_of(cut: CutBorders, ring: FrameRing, sites: Indices, parts: Indices, or
     sites, parts, order : (c, 2) int64 array
         Of the borders.
     """
-    nodes = len(ring.nodes)
-    after = np.roll(ring.nodes, -1)
+    along = np.flatnonzero(ring.sides[:, 0] != OUTSIDE)
+    nodes = len(along)
     beyond = np.full(nodes, OUTSIDE)
-    ends = np.concatenate([cut.ends, np.stack([ring.nodes, after], axis=1)])
-    control = np.concatenate([cut.control, np.full((nodes, 2), np.nan)])
-    both_sites = np.concatenate([sites, np.stack([ring.sides[:, 0], beyond], axis=1)])
-    both_parts = np.concatenate([parts, np.stack([ring.sides[:, 1], beyond], axis=1)])
+    ends = np.concatenate([cut.ends, np.stack([ring.nodes, np.roll(ring.nodes, -1)], axis=1)[along]])
+    control, center = (np.concatenate([of, np.full((nodes, 2), np.nan)]) for of in (cut.control, cut.center))
+    both_sites, both_parts = (
+        np.concatenate([of, np.stack([inner, beyond], axis=1)])
+        for of, inner in zip((sites, parts), ring.sides[along].T, strict=True)
+    )
     inner = np.where(ring.rank > 0, ring.rank, order)
     last = len(cut.ends) + 2  # after all that ends at a node from inside
     orders = np.concatenate([inner, np.stack([np.zeros(nodes, dtype=np.int64), np.full(nodes, last)], axis=1)])
@@ -73,35 +83,57 @@ def arcs_of(cut: CutBorders, ring: FrameRing, sites: Indices, parts: Indices, or
     radius = np.concatenate([cut.radius, np.full(len(ring.corners), np.nan)])
     number = np.full(len(places), -1, dtype=np.int64)
     used = np.zeros(len(places), dtype=bool)
-    used[cut.ends] = True
-    used[ring.nodes] = False
-    kept = np.concatenate([np.flatnonzero(used), ring.nodes])
+    used[ends] = True
+    on_frame = ring.nodes[used[ring.nodes]]
+    used[on_frame] = False
+    kept = np.concatenate([np.flatnonzero(used), on_frame])
     number[kept] = np.arange(len(kept))
     ends = number[ends]
     turned = ends[:, 0] > ends[:, 1]
     for each in (ends, both_sites, both_parts, orders):
         each[turned] = each[turned, ::-1]
-    sorting = _by_ends(ends, control)
+    sorting = _by_ends(ends, control, center)
+    places = places[kept]
     return Arcs(
-        places[kept],
+        places,
         radius[kept],
         ends[sorting],
         control[sorting],
+        _without_lost(center, places[ends], both_sites[:, 0] != OUTSIDE)[sorting],
         both_sites[sorting],
         both_parts[sorting],
         orders[sorting],
     )
 
 
-def _by_ends(ends: Indices, control: Floats) -> Indices:
-    """The order of arcs by their ends; those between the same two by their control points."""
+def _without_lost(center: Floats, ends: Floats, is_left: NDArray[np.bool_]) -> Floats:
+    """(a, 2) centres of arcs of at most half a circle, but for those of which rounding leaves nothing: these are lines.
+
+    Parameters
+    ----------
+    center : (a, 2) float64 array
+        Of circular arcs; NaN of others.
+    ends : (a, 2, 2) float64 array
+        Places of source and target.
+    is_left : (a,) bool array
+        Whether they go counter-clockwise.
+    """
+    a, b = ends[:, 0] - center, ends[:, 1] - center
+    cross = np.where(is_left, 1, -1) * (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
+    is_lost = ((a * b).sum(axis=1) > 0) & (cross <= 0)
+    made: Floats = np.where(is_lost[:, None], np.nan, center)
+    return made
+
+
+def _by_ends(ends: Indices, control: Floats, center: Floats) -> Indices:
+    """The order of arcs by their ends; those between the same two by their control points and centres."""
     key = ends[:, 0] * (int(ends.max(initial=0)) + 1) + ends[:, 1]
     sorting = np.argsort(key, kind="stable")
     again = np.flatnonzero(np.diff(key[sorting]) == 0)
     if again.size:  # few arcs have both ends in common
         alike = np.union1d(again, again + 1)
         arc = sorting[alike]
-        sorting[alike] = arc[np.lexsort((control[arc, 1], control[arc, 0], key[arc]))]
+        sorting[alike] = arc[np.lexsort((*center[arc].T[::-1], *control[arc].T[::-1], key[arc]))]
     return sorting
 
 
@@ -158,8 +190,7 @@ def rings_of(arcs: Arcs) -> Rings:
     if (site != site[begin][row]).any():
         raise VerificationError("borders do not close around a cell: a defect of vorotool, please report it")
     centre = arcs.vertices.mean(axis=0) if len(arcs.vertices) else np.zeros(2)
-    source, target = arcs.vertices[arcs.ends[:, 0]], arcs.vertices[arcs.ends[:, 1]]
-    beside = areas_beside(source, arcs.control, target, centre)[half_edge >> 1]
+    beside = arcs.mixed().areas_beside(centre)[half_edge >> 1]
     area = np.bincount(row, np.where(half_edge & 1, -beside, beside), minlength=len(begin)).astype(np.float64)
     rings = Rings(start.astype(np.int64), half_edge.astype(np.int64), site[begin], part[begin], area)
     return rings[site[begin] != OUTSIDE]

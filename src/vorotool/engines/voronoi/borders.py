@@ -11,10 +11,12 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.engines.segment_voronoi.segment_voronoi import core_diagram
 from vorotool.engines.voronoi.elements import OwnedGraph
+from vorotool.engines.voronoi.limits import STEP, Limit
 from vorotool.errors import VerificationError
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.ragged import ranges, within
 from vorotool.geometry.skeleton.segment_voronoi import SegmentVoronoiDiagram
+from vorotool.geometry.voronoi.voronoi_map import OUTSIDE
 
 Indices = NDArray[np.int64]
 
@@ -42,9 +44,13 @@ class Borders:
     order : (b, 2) int64 array
         Of the piece among those that leave its source, and its target: rising counter-clockwise.
     places : (v, 2) float64 array
-        On the lattice: vertices of the diagram, then points that are none.
+        On the lattice: vertices of the diagram, then points that are none, then nodes of the limit.
     radius : (v,) float64 array
         There.
+    center : (b, 2) float64 array
+        Of circular arcs along the limit, on the lattice; NaN of other pieces.
+    level : float
+        The limit on the lattice; infinity without one.
     """
 
     ends: Indices
@@ -54,9 +60,13 @@ class Borders:
     order: Indices
     places: NDArray[np.float64]
     radius: NDArray[np.float64]
+    center: NDArray[np.float64]
+    level: float
 
 
-def borders_of(owned: OwnedGraph, diagram: SegmentVoronoiDiagram, *, threads: int = 0) -> Borders:
+def borders_of(
+    owned: OwnedGraph, diagram: SegmentVoronoiDiagram, *, level: float = np.inf, threads: int = 0
+) -> Borders:
     """Choose the borders among the edges of a diagram and the segments of its graph.
 
     Nothing is decided by coordinates but where a point lies on a straight line between two others, which is exact.
@@ -66,22 +76,26 @@ def borders_of(owned: OwnedGraph, diagram: SegmentVoronoiDiagram, *, threads: in
     owned : OwnedGraph
         Of all sites.
     diagram : SegmentVoronoiDiagram
-        Of its points and segments; vertices in covered faces may be left out.
+        Of its points and segments; vertices in covered faces may be left out if there is no limit.
+    level : float
+        The limit of distance on the lattice: pieces end there, and others run along it.
     threads : int
         0 uses all.
     """
     graph, element = owned.graph, owned.element
     own = _own_ends(graph, diagram)
     pieces, faces = _edges_with_faces(graph, diagram, own, threads)
+    limit = _limit(owned, diagram, own, pieces, faces, level) if np.isfinite(level) else None
     alike = own.alias[diagram.edge_sites[pieces.edge]]
-    free = owned.face[faces] < 0
+    is_kept = owned.face[faces] < 0
+    if limit is not None:
+        is_kept &= limit.is_near(pieces.edge, pieces.point >= 0)
     sites = element[alike]
     parts = _parts_of_elements(graph, alike, faces)
-    is_border = sites[:, 0] != sites[:, 1]
-    is_border &= free
+    is_border = is_kept & (sites[:, 0] != sites[:, 1])
     walls, wall_sites, wall_parts = _sides_of_segments(owned)
     count = len(graph.points) + 2 * len(graph) + graph.faces
-    joined = np.concatenate([parts[free & ~is_border], wall_parts[~walls]]).astype(np.int32)
+    joined = np.concatenate([parts[is_kept & ~is_border], wall_parts[~walls]]).astype(np.int32)
     root = _core.graphs.connected_components(joined, count)
     chosen, wall = pieces[is_border], np.flatnonzero(walls)
     middles = chosen.point[chosen.point >= 0]
@@ -89,14 +103,66 @@ def borders_of(owned: OwnedGraph, diagram: SegmentVoronoiDiagram, *, threads: in
     ends = np.concatenate([nodes.ends_of_edges(chosen), nodes.of_point[graph.segments[wall]]])
     pairs = diagram.edge_sites[chosen.edge].astype(np.int64)
     elements = np.concatenate([pairs, np.repeat(wall[:, None] + len(graph.points), 2, axis=1)])
-    return Borders(
+    borders = Borders(
         ends,
         elements,
         np.concatenate([sites[is_border], wall_sites[wall]]),
         root[np.concatenate([parts[is_border], wall_parts[wall]])].astype(np.int64),
-        nodes.order(ends, elements),
+        nodes.order(ends, elements, None if limit is None else limit.vertices()),
         nodes.places,
         nodes.radius,
+        np.full(ends.shape, np.nan),
+        level,
+    )
+    return borders if limit is None else _limited(borders, owned, limit, chosen, own, nodes, root)
+
+
+# ---- the limit of distance --------------------------------------------------------------------------
+def _limit(
+    owned: OwnedGraph,
+    diagram: SegmentVoronoiDiagram,
+    own: _OwnEnds,
+    pieces: _Pieces,
+    faces: NDArray[np.int32],
+    level: float,
+) -> Limit:
+    edge_faces = np.empty((len(diagram.edges), 2), dtype=np.int32)
+    edge_faces[pieces.edge] = faces[:, None]
+    edge_faces[own.edge] = own.faces
+    is_own = np.zeros(len(diagram.edges), dtype=bool)
+    is_own[own.edge] = True
+    return Limit(owned.graph, diagram, level, edge_faces, is_own, owned.face < 0)
+
+
+def _limited(
+    borders: Borders,
+    owned: OwnedGraph,
+    limit: Limit,
+    pieces: _Pieces,
+    own: _OwnEnds,
+    nodes: _Nodes,
+    root: NDArray[np.int32],
+) -> Borders:
+    """Borders up to a limit, edges first, and the arcs along it."""
+    edges, first = len(pieces.edge), len(borders.places)
+    arcs = limit.arcs(first, nodes.ranks)
+    is_half = pieces.point >= 0
+    has_end = np.stack([~is_half | pieces.is_first, ~is_half | ~pieces.is_first], axis=1)
+    ends, order = borders.ends.copy(), STEP * borders.order
+    ends[:edges], order[:edges] = limit.cut(ends[:edges], order[:edges], pieces.edge, has_end, first)
+    element = own.alias[arcs.element]
+    beyond = np.full(len(element), OUTSIDE)
+    part = root[_parts_of_elements(owned.graph, element[:, None], arcs.face)[:, 0]]
+    return Borders(
+        np.concatenate([ends, arcs.ends]),
+        np.concatenate([borders.elements, np.repeat(arcs.element[:, None], 2, axis=1)]),
+        np.concatenate([borders.sites, np.stack([owned.element[element], beyond], axis=1)]).astype(np.int32),
+        np.concatenate([borders.parts, np.stack([part, beyond], axis=1)]),
+        np.concatenate([order, arcs.order]),
+        np.concatenate([borders.places, arcs.places]),
+        np.concatenate([borders.radius, np.full(len(arcs.places), limit.level)]),
+        np.concatenate([borders.center, arcs.center]),
+        limit.level,
     )
 
 
@@ -120,8 +186,18 @@ def ridges_of(owned: OwnedGraph, diagram: SegmentVoronoiDiagram, *, threads: int
     elements = diagram.edge_sites[edge].astype(np.int64)
     sites = owned.element[_own_ends(graph, diagram).alias[elements]]
     chosen = (sites[:, 0] == sites[:, 1]) & (owned.face[faces] < 0)
-    ends, none = diagram.edges[edge[chosen]].astype(np.int64), np.zeros((np.count_nonzero(chosen), 2), dtype=np.int64)
-    return Borders(ends, elements[chosen], sites[chosen], none, none, diagram.vertices, diagram.radius)
+    none = np.zeros((np.count_nonzero(chosen), 2), dtype=np.int64)
+    return Borders(
+        diagram.edges[edge[chosen]].astype(np.int64),
+        elements[chosen],
+        sites[chosen],
+        none,
+        none,
+        diagram.vertices,
+        diagram.radius,
+        np.full(none.shape, np.nan),
+        np.inf,
+    )
 
 
 # ---- edges between a segment and its own end --------------------------------------------------------
@@ -289,7 +365,7 @@ class _Nodes:
         ends[half, 1] = np.where(first, middle, ends[half, 1])
         return ends
 
-    def order(self, ends: Indices, elements: Indices) -> Indices:
+    def order(self, ends: Indices, elements: Indices, crowded: Indices | None = None) -> Indices:
         """(b, 2) numbers that rise counter-clockwise among the pieces that leave a place.
 
         Around a vertex of the diagram its sites follow each other counter-clockwise: a piece between two of them comes
@@ -298,18 +374,20 @@ class _Nodes:
         order = np.zeros((len(ends), 2), dtype=np.int64)
         vertices = len(self.diagram)
         busy = np.append(np.bincount(ends[ends >= 0], minlength=len(self.places)) > 2, False)  # none at infinity
+        if crowded is not None:  # others end there as well
+            busy[crowded] = True
         for end in (0, 1):
             at = ends[:, end]
             is_wall = elements[:, 0] == elements[:, 1]
             right = elements[:, 1 - end]
             chosen = np.flatnonzero((at >= 0) & (at < vertices) & busy[at])
-            rank = self._ranks(at[chosen], right[chosen])
+            rank = self.ranks(at[chosen], right[chosen])
             order[chosen, end] = 2 * rank + ~is_wall[chosen]
             chosen = np.flatnonzero((at >= vertices) & busy[at])
             order[chosen, end] = self._order_in_line(at[chosen], elements[chosen, end], right[chosen], is_wall[chosen])
         return order
 
-    def _ranks(self, vertex: Indices, element: Indices) -> Indices:
+    def ranks(self, vertex: Indices, element: Indices) -> Indices:
         """The place of elements among the sites of vertices."""
         start, sites = self.diagram.vertex_start, self.diagram.vertex_sites
         rank = np.full(len(vertex), -1, dtype=np.int64)

@@ -11,17 +11,21 @@ from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.segment_voronoi import SegmentVoronoiDiagram
 
 
-def diagram_of(owned: OwnedGraph, *, threads: int = 0, progress: Progress = None) -> SegmentVoronoiDiagram:
-    """Make the diagram of the points and segments of a graph; vertices in covered faces may be left out.
+def diagram_of(
+    owned: OwnedGraph, *, is_whole: bool = False, threads: int = 0, progress: Progress = None
+) -> SegmentVoronoiDiagram:
+    """Make the diagram of the points and segments of a graph.
 
     Parameters
     ----------
     owned : OwnedGraph
         Of all sites.
+    is_whole : bool
+        With all vertices; else those in covered faces may be left out.
     threads, progress
         As of `vorotool.voronoi`.
     """
-    graph, unwanted = owned.graph, _unwanted(owned)
+    graph, unwanted = owned.graph, None if is_whole else _unwanted(owned)
     return segment_voronoi(graph.points, graph.segments, unwanted=unwanted, threads=threads, progress=progress)
 
 

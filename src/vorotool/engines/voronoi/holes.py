@@ -6,7 +6,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.voronoi.assembly import Arcs, Rings
-from vorotool.geometry.curves.flatten import polylines
 
 Indices = NDArray[np.int64]
 
@@ -55,8 +54,6 @@ def _outline(ring: int, rings: Rings, arcs: Arcs) -> NDArray[np.float64]:
     """Places along a ring, close enough to tell what is in it."""
     half_edge = rings.half_edge[rings.start[ring] : rings.start[ring + 1]]
     arc, is_back = half_edge >> 1, (half_edge & 1).astype(bool)
-    ends = np.where(is_back[:, None], arcs.ends[arc, ::-1], arcs.ends[arc])
-    source, target = arcs.vertices[ends[:, 0]], arcs.vertices[ends[:, 1]]
-    control = arcs.control[arc]
-    tolerance = float(np.ptp(source, axis=0).max()) * 2.0**-20
-    return polylines(source, control, target, ~np.isnan(control[:, 0]), tolerance)[0]
+    along = arcs.mixed()[arc].reversed(is_back)
+    tolerance = float(np.ptp(np.concatenate([along.source, along.target]), axis=0).max()) * 2.0**-20
+    return along.polylines(tolerance)[0]

@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.geometry.checks import set_array
-from vorotool.geometry.curves.bezier import areas_beside, lengths_of
+from vorotool.geometry.curves.mixed_arcs import MixedArcs
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.ragged import divides, owners
 from vorotool.geometry.table import Table
-from vorotool.geometry.values import Curved, Tabular, Value, counted, placed
+from vorotool.geometry.values import Curved, Graph, Pictured, Tabular, Value, counted, placed
 from vorotool.products.formats import resolved
 
 OUTSIDE = -1
@@ -29,7 +29,7 @@ Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class VoronoiMap(Value, Tabular, Curved):
+class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
     """Cells of sites in a frame: all places nearest to each site, inside its polygons at distance 0.
 
     Of sites that are equally near to a whole region the smallest has it. Cells are bounded by arcs, straight lines,
@@ -168,9 +168,15 @@ class VoronoiMap(Value, Tabular, Curved):
         return is_border
 
     @cached_property
+    def mixed_arcs(self) -> MixedArcs:
+        """The arcs with their ends, for measures and polylines."""
+        source, target = self.vertices[self.arcs[:, 0]], self.vertices[self.arcs[:, 1]]
+        return MixedArcs(source, target, self.control, self.center, self.sites[:, 0] != OUTSIDE)
+
+    @cached_property
     def length(self) -> Floats:
         """(a,) lengths of the arcs."""
-        return lengths_of(self.vertices[self.arcs[:, 0]], self.control, self.vertices[self.arcs[:, 1]])
+        return self.mixed_arcs.lengths()
 
     @cached_property
     def cell_of_polygon(self) -> NDArray[np.int64]:
@@ -189,7 +195,7 @@ class VoronoiMap(Value, Tabular, Curved):
         """(s,) areas of the cells, with the true curves."""
         x, y, w, h = self.frame
         centre = np.array([x + w / 2, y + h / 2])
-        beside = areas_beside(self.vertices[self.arcs[:, 0]], self.control, self.vertices[self.arcs[:, 1]], centre)
+        beside = self.mixed_arcs.areas_beside(centre)
         total = np.zeros(len(self))
         for hand, sign in ((0, 1), (1, -1)):
             inner = self.sites[:, hand] != OUTSIDE
@@ -198,7 +204,7 @@ class VoronoiMap(Value, Tabular, Curved):
 
     @cached_property
     def perimeters(self) -> Floats:
-        """(s,) lengths of all that bounds the cells, the frame too."""
+        """(s,) lengths of all that bounds the cells, cuts too."""
         total = np.zeros(len(self))
         for hand in (0, 1):
             inner = self.sites[:, hand] != OUTSIDE
