@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +18,9 @@ from vorotool.geometry.ragged import divides, owners
 from vorotool.geometry.table import Table
 from vorotool.geometry.values import Curved, Graph, Pictured, Tabular, Value, counted, placed
 from vorotool.products.formats import resolved
+
+if TYPE_CHECKING:
+    import pandas
 
 OUTSIDE = -1
 """The site of what belongs to no cell: the far side of the frame, or of another cut."""
@@ -245,6 +248,36 @@ class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
         """One row a cell; see `vorotool.geometry.voronoi.tables.cell_table`."""
         made: Table = resolved(f"{_TABLES}:cell_table")(self)
         return made
+
+    def to_adjacency(self, *, weight: Literal["border_length", "distance"] = "border_length") -> pandas.DataFrame:
+        """Give the pairs of neighbours as libpysal takes them, which needs pandas.
+
+        ``libpysal.graph.Graph.from_adjacency(cells.to_adjacency())`` is their graph, with the names of the rows of
+        `to_geopandas`.
+
+        Parameters
+        ----------
+        weight : {"border_length", "distance"}
+            What the weight of a pair is.
+
+        Returns
+        -------
+        pandas.DataFrame
+            ``focal, neighbor, weight``: each pair both ways, by what the input's index calls them, else by numbers from
+            0; a cell without neighbours once, with itself and the weight 0.
+
+        Raises
+        ------
+        UsageError
+            If pandas is not installed, or the weight is something else.
+
+        Examples
+        --------
+        >>> from vorotool import voronoi
+        >>> voronoi([[0, 0], [4, 0]], frame=(0, 0, 4, 2)).to_adjacency().values.tolist()
+        [[0.0, 1.0, 2.0], [1.0, 0.0, 2.0]]
+        """
+        return resolved("geometry.any.frames:adjacency")(self, weight)
 
     def rings_of(self, cell: int) -> list[list[NDArray[np.int32]]]:
         """The arcs along the rings of each polygon of a cell."""
