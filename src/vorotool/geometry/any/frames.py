@@ -7,13 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from vorotool.errors import UsageError
 from vorotool.geometry.any.features import features_of
 from vorotool.geometry.any.tables import indexed_table
 from vorotool.geometry.crs import crs_text
 from vorotool.geometry.extras import needed
 from vorotool.geometry.row_index import index_of_rows
-from vorotool.geometry.voronoi.site_shapes import site_distances
 from vorotool.geometry.voronoi.tables import neighbour_pairs
 from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 
@@ -53,7 +51,7 @@ def to_geopandas(value: Any, **options: Any) -> Any:
     return geopandas.GeoDataFrame(frame, geometry=name, crs=crs_text(getattr(features.source, "crs", None)))
 
 
-def adjacency(cells: VoronoiMap, weight: str) -> Any:
+def adjacency(cells: VoronoiMap) -> Any:
     """Give pairs of neighbours both ways as a data frame, cells without any with themselves.
 
     See `vorotool.VoronoiMap.to_adjacency`.
@@ -61,18 +59,15 @@ def adjacency(cells: VoronoiMap, weight: str) -> Any:
     Examples
     --------
     >>> from vorotool import voronoi
-    >>> adjacency(voronoi([[0, 0], [4, 0], [4, 0]], frame=(0, 0, 4, 2)), "border_length").values.tolist()
+    >>> adjacency(voronoi([[0, 0], [4, 0], [4, 0]], frame=(0, 0, 4, 2))).values.tolist()
     [[0.0, 1.0, 2.0], [1.0, 0.0, 2.0], [2.0, 2.0, 0.0]]
     """
     pandas = needed("pandas", "frames", "data frames")
     pairs, length = neighbour_pairs(cells)
-    if weight not in ("border_length", "distance"):
-        raise UsageError(f"invalid weight {weight!r}: expected 'border_length' or 'distance'")
-    own = length if weight == "border_length" else site_distances(cells, pairs)
     lone = np.setdiff1d(np.arange(len(cells)), pairs)
     focal = np.concatenate([pairs[:, 0], pairs[:, 1], lone])
     neighbour = np.concatenate([pairs[:, 1], pairs[:, 0], lone])
-    weights = np.concatenate([own, own, np.zeros(len(lone))])
+    weights = np.concatenate([length, length, np.zeros(len(lone))])
     order = np.lexsort((neighbour, focal))
     index = _index(pandas, cells, np.arange(len(cells)))
     names = pandas.RangeIndex(len(cells)) if index is None else index

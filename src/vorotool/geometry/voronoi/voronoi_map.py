@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -249,27 +249,22 @@ class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
         made: Table = resolved(f"{_TABLES}:cell_table")(self)
         return made
 
-    def to_adjacency(self, *, weight: Literal["border_length", "distance"] = "border_length") -> pandas.DataFrame:
+    def to_adjacency(self) -> pandas.DataFrame:
         """Give the pairs of neighbours as libpysal takes them, which needs pandas.
 
         ``libpysal.graph.Graph.from_adjacency(cells.to_adjacency())`` is their graph, with the names of the rows of
         `to_geopandas`.
 
-        Parameters
-        ----------
-        weight : {"border_length", "distance"}
-            What the weight of a pair is.
-
         Returns
         -------
         pandas.DataFrame
             ``focal, neighbor, weight``: each pair both ways, by what the input's index calls them, else by numbers from
-            0; a cell without neighbours once, with itself and the weight 0.
+            0, with the length of its border; a cell without neighbours once, with itself and the weight 0.
 
         Raises
         ------
         UsageError
-            If pandas is not installed, or the weight is something else.
+            If pandas is not installed.
 
         Examples
         --------
@@ -277,7 +272,7 @@ class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
         >>> voronoi([[0, 0], [4, 0]], frame=(0, 0, 4, 2)).to_adjacency().values.tolist()
         [[0.0, 1.0, 2.0], [1.0, 0.0, 2.0]]
         """
-        return resolved("geometry.any.frames:adjacency")(self, weight)
+        return resolved("geometry.any.frames:adjacency")(self)
 
     def rings_of(self, cell: int) -> list[list[NDArray[np.int32]]]:
         """The arcs along the rings of each polygon of a cell."""
