@@ -128,7 +128,7 @@ def test_pairs_as_libpysal_takes_them():
     graph = graphs.Graph.from_adjacency(everything.to_adjacency())
     assert graph.unique_ids.tolist() == everything.to_geopandas().index.tolist()
     assert graph.adjacency.loc["b"].to_dict() == pytest.approx({"a": 4.2, "c": 4.2})
-    assert graph.n_edges == everything.neighbours.rows + len(graph.isolates)
+    assert graph.n_edges == 2 * everything.neighbours.rows
 
 
 def test_geojson_has_a_feature_a_cell():
