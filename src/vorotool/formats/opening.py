@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from vorotool.errors import InputError, UsageError
 from vorotool.formats.images.band_reader import TiffRows, ZarrRows, open_tiff, open_zarr, read_rows
-from vorotool.formats.io.sources import read_source, reading
+from vorotool.formats.io.sources import Source, read_source, reading
 from vorotool.formats.parsing.reader_options import ReadOptions, no_note
 from vorotool.formats.recognition import read_recognised, recognised, refuse_for_images
 from vorotool.geometry.checks import checked_threads
@@ -69,6 +69,8 @@ class Opened:
         What must be in it, its format, its page and its layer, as far as the caller says; as of `read`.
     array : ZarrRows, optional
         The rows of a Zarr array, which is no file.
+    content : Source, optional
+        What is in it, if it has been read; streams are read once.
     """
 
     name: str
@@ -77,10 +79,15 @@ class Opened:
     page: int | None
     layer: str | None
     array: ZarrRows | None
+    content: Source | None = None
 
     def rows(self) -> ZarrRows | TiffRows | None:
         """Give an image that can be read band by band; None if it is none, or comes through a stream."""
         return self.array or open_tiff(self.name, self.said, self.page)
+
+    def fetched(self) -> Opened:
+        """Give the same with its content, so that it can be read again as something else."""
+        return self if self.array is not None else replace(self, content=read_source(self.name))
 
     def read(
         self,
@@ -112,8 +119,8 @@ class Opened:
             refuse_for_images(given, self.layer)
             told("zarr")
             return read_rows(self.array, max_pixels=given.max_pixels, note=given.note)
-        content = replace(read_source(self.name), layer=self.layer)
-        holds, source = recognised(content, self.geometry, self.said, given.columns)
+        content = read_source(self.name) if self.content is None else self.content
+        holds, source = recognised(replace(content, layer=self.layer), self.geometry, self.said, given.columns)
         told(source.format)
         value: PointSet | PolygonSet | Sites | Raster | Skeleton | Offsets | VoronoiMap
         value = read_recognised(holds, source, given)

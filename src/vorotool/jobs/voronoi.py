@@ -61,9 +61,8 @@ class VoronoiProducts:
         world = world_of_polygons(run, o, self.cells.polygons, frame=read.frame, size=o.pixel_size)
         self._styled = partial(styled_page, looks=o.looks, world=world)
 
-    def _made(self, sites: Any, cuts: dict[str, PolygonSet]) -> VoronoiMap:
+    def _made(self, sites: Any, cuts: dict[str, Any]) -> VoronoiMap:
         o = self.options
-        limit: dict[str, Any] = {} if o.max_distance is None else {"max_distance": o.max_distance}
         with self.run.phase("voronoi") as progress, warnings.catch_warnings():
             if o.strict:
                 warnings.simplefilter("error", RepairWarning)
@@ -74,7 +73,7 @@ class VoronoiProducts:
                     frame=o.frame,
                     threads=o.threads,
                     progress=progress,
-                    **limit,
+                    max_distance=o.max_distance,
                     **cuts,
                 )
             except RepairWarning as warning:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
@@ -34,6 +36,17 @@ def pairs_of_sites(rows: JsonRows, arcs: list[Any], count: int) -> NDArray[np.in
 
 def _is_index(value: Any, count: int) -> bool:
     return type(value) is int and 0 <= value < count
+
+
+@contextmanager
+def naming_values(name: str) -> Iterator[None]:
+    """Let what values say of their arrays begin with the name of the input."""
+    try:
+        yield
+    except InputError as error:
+        if str(error).startswith(name):
+            raise
+        raise InputError(f"{name}: {error.marked}") from error
 
 
 def check_map(name: str, cells: VoronoiMap) -> None:

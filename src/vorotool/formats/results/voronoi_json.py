@@ -15,7 +15,7 @@ from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions, no_note, shortened
 from vorotool.formats.polygons.json import write_items
 from vorotool.formats.results.json_reader import JsonRows, opened_rows, read_polygons_of
-from vorotool.formats.results.voronoi_checks import check_map, pairs_of_sites
+from vorotool.formats.results.voronoi_checks import check_map, naming_values, pairs_of_sites
 from vorotool.formats.text.json_writer import choice, integers, number_or_null, optional_pair, write_list
 from vorotool.formats.text.row_writer import Column, RowShape, write_rows
 from vorotool.formats.text.tables import json_text
@@ -181,13 +181,20 @@ def read_voronoi(source: Source, options: ReadOptions) -> VoronoiMap:
     True
     """
     rows = opened_rows(source, TYPE, VERSION, "Voronoi map")
+    with naming_values(rows.name):
+        made = _map(rows, options)
+    check_map(rows.name, made)
+    return made
+
+
+def _map(rows: JsonRows, options: ReadOptions) -> VoronoiMap:
     sites, vertices, arcs = (rows.list_of(name) for name in ("sites", "vertices", "arcs"))
     check_described(rows, "sites", sites)
     polygons, polygon_site = _polygons(rows, len(sites), options)
     x, y = (rows.numbers("vertices", vertices, name) for name in ("x", "y"))
     ends = [rows.indices("arcs", arcs, name, len(vertices)) for name in ("source", "target")]
     control, center = _curves(rows, arcs)
-    made = VoronoiMap(
+    return VoronoiMap(
         vertices=np.stack([x, y], axis=1),
         radius=rows.numbers("vertices", vertices, "r", optional=True),
         arcs=np.stack(ends, axis=1),
@@ -202,8 +209,6 @@ def read_voronoi(source: Source, options: ReadOptions) -> VoronoiMap:
         **read_described(rows.name, rows.document, options),
         **(named_rows(sites) if options.properties else {}),
     )
-    check_map(rows.name, made)
-    return made
 
 
 def read_sites(source: Source, options: ReadOptions) -> Sites:

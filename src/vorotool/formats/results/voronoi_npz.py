@@ -13,7 +13,7 @@ from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.npz_columns import npz_columns
 from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.formats.results.json_reader import JsonRows, opened_rows
-from vorotool.formats.results.voronoi_checks import check_map
+from vorotool.formats.results.voronoi_checks import check_map, naming_values
 from vorotool.formats.results.voronoi_json import (
     TYPE,
     VERSION,
@@ -110,7 +110,7 @@ def read_voronoi(source: Source, options: ReadOptions) -> VoronoiMap:
     about = opened_rows(Source(f"{source.name}, about", held.bytes("about"), "json"), TYPE, VERSION, "Voronoi map")
     sites = about.list_of("sites")
     check_described(about, "sites", sites)
-    try:
+    with naming_values(source.name):
         made = VoronoiMap(
             frame=read_frame(source.name, held.numbers("frame").tolist()),
             polygons=_polygons(held, about, options),
@@ -119,8 +119,6 @@ def read_voronoi(source: Source, options: ReadOptions) -> VoronoiMap:
             **read_described(source.name, about.document, options),
             **(named_rows(sites) if options.properties else {}),
         )
-    except InputError as error:  # of values, which know no files
-        raise error if str(error).startswith(source.name) else InputError(f"{source.name}: {error.marked}") from error
     if len(made) != len(sites):
         raise InputError(f"{source.name}: there are {len(made)} cells, but {len(sites)} sites; write it again")
     check_map(source.name, made)
