@@ -26,7 +26,6 @@ OUTSIDE = -1
 """The site of what belongs to no cell: the far side of the frame, or of another cut."""
 
 _TABLES = "geometry.voronoi.tables"
-_MEASURES = "engines.voronoi.measures"
 
 Floats = NDArray[np.float64]
 
@@ -217,13 +216,13 @@ class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
     @cached_property
     def own_areas(self) -> Floats:
         """(s,) areas of the site's own polygons that cells have; see `vorotool.engines.voronoi.measures.own_areas`."""
-        made: Floats = resolved(f"{_MEASURES}:own_areas")(self)
+        made: Floats = resolved("engines.voronoi.measures:own_areas")(self)
         return made
 
     @cached_property
     def reaches(self) -> Floats:
-        """(s,) largest distances of cells from their sites; see `vorotool.engines.voronoi.measures.reaches`."""
-        made: Floats = resolved(f"{_MEASURES}:reaches")(self)
+        """(s,) largest distances of cells from their sites; see `vorotool.engines.voronoi.reaches.reaches`."""
+        made: Floats = resolved("engines.voronoi.reaches:reaches")(self)
         return made
 
     @cached_property
