@@ -92,22 +92,22 @@ def arcs_of(cut: CutBorders, ring: FrameRing, sites: Indices, parts: Indices, or
     turned = ends[:, 0] > ends[:, 1]
     for each in (ends, both_sites, both_parts, orders):
         each[turned] = each[turned, ::-1]
-    sorting = _by_ends(ends, control, center)
+    sorting = by_ends(ends, control, center)
     places = places[kept]
     return Arcs(
         places,
         radius[kept],
         ends[sorting],
         control[sorting],
-        _without_lost(center, places[ends], both_sites[:, 0] != OUTSIDE)[sorting],
+        without_lost(center, places[ends], both_sites[:, 0] != OUTSIDE)[sorting],
         both_sites[sorting],
         both_parts[sorting],
         orders[sorting],
     )
 
 
-def _without_lost(center: Floats, ends: Floats, is_left: NDArray[np.bool_]) -> Floats:
-    """(a, 2) centres of arcs of at most half a circle, but for those of which rounding leaves nothing: these are lines.
+def without_lost(center: Floats, ends: Floats, is_left: NDArray[np.bool_]) -> Floats:
+    """Give centres of arcs of at most half a circle, but for those of which rounding leaves nothing: these are lines.
 
     Parameters
     ----------
@@ -125,8 +125,16 @@ def _without_lost(center: Floats, ends: Floats, is_left: NDArray[np.bool_]) -> F
     return made
 
 
-def _by_ends(ends: Indices, control: Floats, center: Floats) -> Indices:
-    """The order of arcs by their ends; those between the same two by their control points and centres."""
+def by_ends(ends: Indices, control: Floats, center: Floats) -> Indices:
+    """Give the order of arcs by their ends; those between the same two by their control points and centres.
+
+    Parameters
+    ----------
+    ends : (a, 2) int64 array
+        Source and target.
+    control, center : (a, 2) float64 array
+        NaN of those without.
+    """
     key = ends[:, 0] * (int(ends.max(initial=0)) + 1) + ends[:, 1]
     sorting = np.argsort(key, kind="stable")
     again = np.flatnonzero(np.diff(key[sorting]) == 0)
@@ -166,16 +174,25 @@ class Rings:
         return Rings(starts_of(sizes), half_edge, self.site[chosen], self.part[chosen], self.area[chosen])
 
 
-def rings_of(arcs: Arcs) -> Rings:
-    """Go around every face of a map, with the face on the left; the rings of the outside are left out.
+def cycles_of(ends: Indices, order: Indices, vertices: int) -> tuple[Indices, Indices]:
+    """Go around every face of a map, with the face on the left.
 
-    Raises
-    ------
-    VerificationError
-        If an arc has another site on its left than the one before it.
+    Parameters
+    ----------
+    ends, order : (a, 2) int64 array
+        As of `Arcs`.
+    vertices : int
+        Of the map.
+
+    Returns
+    -------
+    start : (r + 1,) int64 array
+        Where each ring begins in `half_edge`.
+    half_edge : (2 a,) int64 array
+        Along each: 2 k along arc k, 2 k + 1 back.
     """
-    tail = arcs.ends.ravel()
-    order = arcs.order.ravel()
+    tail = ends.ravel()
+    order = order.ravel()
     least = int(order.min(initial=0))
     out = np.argsort(tail * (int(order.max(initial=0)) - least + 1) + (order - least), kind="stable")
     first = np.flatnonzero(np.diff(tail[out], prepend=-1))
@@ -184,15 +201,27 @@ def rings_of(arcs: Arcs) -> Rings:
     clockwise = np.empty(len(out), dtype=np.int64)
     clockwise[out] = before
     after = clockwise[np.arange(len(out)) ^ 1]
-    start, half_edge = _core.graphs.boundary_cycles(after.astype(np.int32), tail.astype(np.int32), len(arcs.vertices))
+    start, half_edge = _core.graphs.boundary_cycles(after.astype(np.int32), tail.astype(np.int32), vertices)
+    return start.astype(np.int64), half_edge.astype(np.int64)
+
+
+def rings_of(arcs: Arcs) -> Rings:
+    """Go around every face of a map, with the face on the left; the rings of the outside are left out.
+
+    Raises
+    ------
+    VerificationError
+        If an arc has another site on its left than the one before it.
+    """
+    start, half_edge = cycles_of(arcs.ends, arcs.order, len(arcs.vertices))
     site, part = arcs.sites.ravel()[half_edge], arcs.parts.ravel()[half_edge]
     row, begin = owners(np.diff(start)), start[:-1]
     if (site != site[begin][row]).any():
         raise VerificationError("borders do not close around a cell: a defect of vorotool, please report it")
-    centre = arcs.vertices.mean(axis=0) if len(arcs.vertices) else np.zeros(2)
-    beside = arcs.mixed().areas_beside(centre)[half_edge >> 1]
+    first = arcs.vertices[arcs.ends.ravel()[half_edge[begin]]]  # near, so that small rings keep their sign
+    beside = arcs.mixed()[half_edge >> 1].areas_beside(first[row])
     area = np.bincount(row, np.where(half_edge & 1, -beside, beside), minlength=len(begin)).astype(np.float64)
-    rings = Rings(start.astype(np.int64), half_edge.astype(np.int64), site[begin], part[begin], area)
+    rings = Rings(start, half_edge, site[begin], part[begin], area)
     return rings[site[begin] != OUTSIDE]
 
 

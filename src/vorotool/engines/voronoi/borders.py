@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.segment_voronoi.segment_voronoi import core_diagram
+from vorotool.engines.segment_voronoi.segment_voronoi import core_diagram, unwanted_sides
 from vorotool.engines.voronoi.elements import OwnedGraph
 from vorotool.engines.voronoi.limits import STEP, Limit
 from vorotool.errors import VerificationError
@@ -93,7 +93,7 @@ def borders_of(
     sites = element[alike]
     parts = _parts_of_elements(graph, alike, faces)
     is_border = is_kept & (sites[:, 0] != sites[:, 1])
-    walls, wall_sites, wall_parts = _sides_of_segments(owned)
+    walls, wall_sites, wall_parts = sides_of_segments(owned)
     count = len(graph.points) + 2 * len(graph) + graph.faces
     joined = np.concatenate([parts[is_kept & ~is_border], wall_parts[~walls]]).astype(np.int32)
     root = _core.graphs.connected_components(joined, count)
@@ -166,15 +166,15 @@ def _limited(
     )
 
 
-def ridges_of(owned: OwnedGraph, diagram: SegmentVoronoiDiagram, *, threads: int = 0) -> Borders:
+def ridges_of(owned: OwnedGraph, diagram: SegmentVoronoiDiagram, *, level: float = np.inf, threads: int = 0) -> Borders:
     """Choose the edges between elements of one site, in the open: the distance from it has its maxima along these.
 
     Edges between a segment and its own end are none: across these the distance is smooth.
 
     Parameters
     ----------
-    owned, diagram, threads
-        As of `borders_of`.
+    owned, diagram, level, threads
+        As of `borders_of`; the level cuts none of them.
 
     Returns
     -------
@@ -196,8 +196,27 @@ def ridges_of(owned: OwnedGraph, diagram: SegmentVoronoiDiagram, *, threads: int
         diagram.vertices,
         diagram.radius,
         np.full(none.shape, np.nan),
-        np.inf,
+        level,
     )
+
+
+def unwanted_of(owned: OwnedGraph) -> NDArray[np.uint8] | None:
+    """Tell where the diagram is not needed: in covered faces; None where all of it is.
+
+    It is where a point without segments may be in any face, and where two sites part in the middle of a straight line:
+    the edge between them there may lead through the line.
+    """
+    graph, count = owned.graph, len(owned.graph.points)
+    degree = np.bincount(graph.segments.ravel(), minlength=count)
+    if (owned.face < 0).all() or (degree == 0).any():
+        return None
+    least, most = np.full(count, count + len(graph)), np.full(count, -1)
+    for end in graph.segments.T:
+        np.minimum.at(least, end, owned.element[count:])
+        np.maximum.at(most, end, owned.element[count:])
+    if ((degree == 2) & (least != most)).any():
+        return None
+    return unwanted_sides(graph, owned.face < 0)
 
 
 # ---- edges between a segment and its own end --------------------------------------------------------
@@ -319,8 +338,14 @@ def _parts_of_elements(graph: PlanarGraph, element: Indices, face: NDArray[np.in
     return parts
 
 
-def _sides_of_segments(owned: OwnedGraph) -> tuple[NDArray[np.bool_], NDArray[np.int32], Indices]:
-    """Of each segment whether it is a border, and left and right its sites and parts."""
+def sides_of_segments(owned: OwnedGraph) -> tuple[NDArray[np.bool_], NDArray[np.int32], Indices]:
+    """Of each segment whether it is a border, and left and right its sites and parts.
+
+    Parameters
+    ----------
+    owned : OwnedGraph
+        Of all sites.
+    """
     graph, count = owned.graph, len(owned.graph.points)
     covering = owned.face[graph.segment_faces]
     is_free = covering < 0

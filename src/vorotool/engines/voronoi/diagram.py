@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
-
-from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, unwanted_sides
+from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi
+from vorotool.engines.voronoi.borders import unwanted_of
 from vorotool.engines.voronoi.elements import OwnedGraph
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.segment_voronoi import SegmentVoronoiDiagram
@@ -25,24 +23,5 @@ def diagram_of(
     threads, progress
         As of `vorotool.voronoi`.
     """
-    graph, unwanted = owned.graph, None if is_whole else _unwanted(owned)
+    graph, unwanted = owned.graph, None if is_whole else unwanted_of(owned)
     return segment_voronoi(graph.points, graph.segments, unwanted=unwanted, threads=threads, progress=progress)
-
-
-def _unwanted(owned: OwnedGraph) -> NDArray[np.uint8] | None:
-    """Tell where the diagram is not needed: in covered faces; None where all of it is.
-
-    It is where a point without segments may be in any face, and where two sites part in the middle of a straight line:
-    the edge between them there may lead through the line.
-    """
-    graph, count = owned.graph, len(owned.graph.points)
-    degree = np.bincount(graph.segments.ravel(), minlength=count)
-    if (owned.face < 0).all() or (degree == 0).any():
-        return None
-    least, most = np.full(count, count + len(graph)), np.full(count, -1)
-    for end in graph.segments.T:
-        np.minimum.at(least, end, owned.element[count:])
-        np.maximum.at(most, end, owned.element[count:])
-    if ((degree == 2) & (least != most)).any():
-        return None
-    return unwanted_sides(graph, owned.face < 0)

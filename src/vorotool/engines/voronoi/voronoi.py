@@ -12,6 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 from vorotool.engines.skeleton.exact import Frame, default_frame
 from vorotool.engines.voronoi.assembly import Arcs, Rings, arcs_of, cells_of, rings_of
 from vorotool.engines.voronoi.borders import Borders, borders_of
+from vorotool.engines.voronoi.cuts.cut_arguments import given_cuts
+from vorotool.engines.voronoi.cuts.map_between_cuts import map_between_cuts
 from vorotool.engines.voronoi.diagram import diagram_of
 from vorotool.engines.voronoi.elements import OwnedGraph, owned_graph
 from vorotool.engines.voronoi.frame_cut import CutBorders, cut_borders
@@ -38,8 +40,10 @@ def voronoi(
     sites: PointsLike | PolygonsLike | ImageLike,
     *,
     by: str | ArrayLike | None = None,
+    clip: PolygonsLike | None = None,
     frame: FrameLike | None = None,
     max_distance: float | None = None,
+    enclosures: PolygonsLike | None = None,
     threads: int = 0,
     progress: Progress = None,
 ) -> VoronoiMap:
@@ -59,11 +63,18 @@ def voronoi(
     by : str or sequence, optional
         Values that join features into sites: a column of the input, or one value a feature. Sites are numbered by first
         appearance.
+    clip : PolygonSet, geometry of shapely, geopandas, GeoJSON or WKT, optional
+        Polygons that cells are cut by: a place in one of them is shared out. Sites outside count as well.
     frame : Box or (x, y, w, h), optional
-        Rectangle that cells are cut by; by default the bounds and a tenth of their larger side around them.
+        Rectangle that cells are cut by; by default the bounds and a tenth of their larger side around them, with a clip
+        nothing else.
     max_distance : float, optional
         How far from its site a place may be, in input units: what is farther from all sites belongs to none. Cells are
         bounded there by parallels of edges and by circular arcs.
+    enclosures : PolygonSet, geometry of shapely, geopandas, GeoJSON or WKT, optional
+        Lines, and polygons for the lines around them, which cut the plane. Each face is shared out among the sites that
+        meet its inside, by distances to the whole site; one that no site meets is nobody's. The default frame is
+        around them too. A site that meets several faces has a part in each.
     threads : int
         0 uses all.
     progress : callable, optional
@@ -77,11 +88,14 @@ def voronoi(
     Raises
     ------
     InputError
-        If `sites` or the frame are none, or a coordinate is not finite.
+        If `sites`, the frame, the clip or the enclosures are none, a coordinate is not finite, the clip has no area, or
+        a coordinate reference system is another one.
     UsageError
         If the sides of the frame or `max_distance` are not above 0, or `by` is no column.
     LimitError
         If there are too many vertices.
+    VerificationError
+        If a cut runs so close to a border that doubles do not tell them apart.
 
     Warns
     -----
@@ -104,9 +118,15 @@ def voronoi(
     limit = None if max_distance is None else _checked_limit(max_distance)
     threads = checked_threads(threads)
     given = as_sites(sites, by)
-    owned = owned_graph(given.polygons, given.site, threads=threads, progress=progress)
-    extent = given_frame or default_frame(given.polygons)
-    arcs, rings = _map(owned, extent, limit, threads, progress)
+    cuts = given_cuts(clip, enclosures, given.polygons.crs)
+    if cuts.are_there:
+        made = map_between_cuts(given, cuts, given_frame, limit, threads=threads, progress=progress)
+        arcs, rings, is_cut, extent = made.arcs, made.rings, made.is_cut, made.frame
+    else:
+        extent = given_frame or default_frame(given.polygons)
+        owned = owned_graph(given.polygons, given.site, threads=threads, progress=progress)
+        arcs, rings = _map(owned, extent, limit, threads, progress)
+        is_cut = (arcs.sites == OUTSIDE).any(axis=1)
     cells = cells_of(rings, shells_of(rings, arcs), given.count)
     return VoronoiMap(
         arcs.vertices,
@@ -115,7 +135,7 @@ def voronoi(
         arcs.sites.astype(np.int32),
         arcs.control,
         arcs.center,
-        (arcs.sites == OUTSIDE).any(axis=1),
+        is_cut,
         cells.ring_arcs,
         cells.ring_start,
         cells.polygon_start,
@@ -127,6 +147,8 @@ def voronoi(
         given.properties,
         given.index,
         max_distance=limit,
+        clip=cuts.clip,
+        enclosures=cuts.enclosures,
     )
 
 
