@@ -220,6 +220,64 @@ def test_a_limit_of_distance(run, mixed, folder):
     assert {arc["kind"] for arc in json.loads((folder / "a.json").read_text())["arcs"]} >= {"circle", "line"}
 
 
+@pytest.fixture
+def cuts(folder):
+    (folder / "clip.wkt").write_text("POLYGON ((-4 -4, 24 -4, 24 9, 10 16, -4 9, -4 -4), (1 1, 2 1, 2 2, 1 1))")
+    (folder / "streets.wkt").write_text("LINESTRING (-9 7, 30 7)\nLINESTRING (13 -9, 13 30)")
+    (folder / "far.geojson").write_text(
+        '{"type":"Polygon","coordinates":[[[90,90],[99,90],[99,99],[90,90]]],"crs":{"type":"name",'
+        '"properties":{"name":"EPSG:3857"}}}'
+    )
+    return folder
+
+
+def test_a_clip(run, mixed, cuts):
+    done = run("voronoi", mixed, "--clip", "clip.wkt", "--verify", "--stats", "s.json", "-o", "a.geojson")
+    assert done.code == 0
+    assert "clip.wkt names no coordinate reference system: it is taken to be in EPSG:2056" in done.err
+    clip = shapely.from_wkt((cuts / "clip.wkt").read_text())
+    shapes = [shape for shape in shapes_of((cuts / "a.geojson").read_text()) if shape is not None]
+    assert shapely.union_all(shapes).symmetric_difference(clip).area < 1e-9
+    assert json.loads((cuts / "s.json").read_text())["frame"] == [-4, -4, 28, 20]
+    both = run("voronoi", mixed, "-q", "--clip", "clip.wkt", "--frame", "0,0,9,9")
+    shapes = [shape for shape in shapes_of(both.out) if shape is not None]
+    assert shapely.union_all(shapes).symmetric_difference(clip.intersection(shapely.box(0, 0, 9, 9))).area < 1e-9
+
+
+def test_enclosures(run, mixed, cuts):
+    done = run("voronoi", mixed, "-q", "--enclosures", "streets.wkt", "--verify", "-o", "a.geojson")
+    assert done.code == 0
+    shapes = shapes_of((cuts / "a.geojson").read_text())
+    right = vorotool.voronoi(MIXED, enclosures=vorotool.read(cuts / "streets.wkt"))
+    assert is_equal(shapes, right.to_shapely())
+    street = shapely.LineString([(-9, 7), (30, 7)])
+    assert not any(shape.crosses(street) for shape in (shapes[0], shapes[3], shapes[5]))
+
+
+def test_all_cuts_together_are_kept_with_the_map(run, mixed, cuts):
+    options = ["--clip", "clip.wkt", "--enclosures", "streets.wkt", "--max-distance", "2.5", "-q", "--verify"]
+    for fmt in ("json", "npz"):
+        assert run("voronoi", mixed, *options, "-o", f"a.{fmt}").code == 0
+    cells = vorotool.read(cuts / "a.json")
+    assert cells == vorotool.read(cuts / "a.npz")
+    assert (cells.max_distance, len(cells.clip), len(cells.enclosures)) == (2.5, 1, 2)
+    rows = run("voronoi", mixed, *options, "--what", "edges").rows
+    assert "" in {row["r0"] for row in rows}  # along an enclosure there is no one distance
+    assert run("draw", "a.json", "-o", "a.svg").code == 0
+
+
+def test_cuts_of_images_on_maps_are_on_the_map(run, folder, labels):
+    (folder / "labels.pgw").write_text("2\n0\n0\n-2\n1001\n4999\n")
+    (folder / "clip.wkt").write_text("POLYGON ((1010 4950, 1100 4950, 1100 4990, 1010 4990, 1010 4950))")
+    done = run("voronoi", labels, "--clip", "clip.wkt", "-q", "--verify")
+    assert done.code == 0, done.err
+    shapes = [shape for shape in shapes_of(done.out) if shape is not None]
+    clip = shapely.from_wkt((folder / "clip.wkt").read_text())
+    assert shapely.union_all(shapes).symmetric_difference(clip).area < 1e-6
+    limited = run("voronoi", labels, "-q", "--max-distance", "3m", "--pixel-size", "2m", "--what", "table")
+    assert max(float(row["max_distance"]) for row in limited.rows) == pytest.approx(3)
+
+
 def test_lines_are_as_near_to_curves_as_asked(run, mixed):
     coarse, fine = (
         sum(shapely.get_num_coordinates(shapes_of(run("voronoi", mixed, "-q", "--flatten", size).out)))
@@ -387,11 +445,15 @@ def test_nothing_to_share_out(run, folder):
         (("--clip", "mask.pbm"), 3, "mask.pbm is an image: give --clip a file of polygons"),
         (("--clip", "line.wkt"), 3, "line.wkt holds no polygons: give --clip a file that does"),
         (("--enclosures", "mask.pbm"), 3, "mask.pbm is an image: give --enclosures a file of polygons"),
+        (("--clip", "far.geojson"), 3, "far.geojson is in EPSG:3857, but"),
+        (("--clip", "flat.wkt"), 3, "the clip has no area"),
+        (("--enclosures", "none.wkt"), 3, "none.wkt"),
         (("--input-format", "tiff2"), 2, "invalid --input-format"),
         (("--max-sites", "3"), 5, "more than the limit of 3"),
     ],
 )
-def test_bad_options(run, mixed, folder, options, code, words):
+def test_bad_options(run, mixed, folder, cuts, options, code, words):
+    (folder / "flat.wkt").write_text("POLYGON ((0 0, 1 1, 2 2, 0 0))")
     (folder / "line.wkt").write_text("LINESTRING (0 0, 1 1)")
     done = run("voronoi", mixed, "-q", *options)
     assert (done.code, words in done.err) == (code, True), done.err
