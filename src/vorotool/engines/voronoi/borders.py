@@ -166,6 +166,40 @@ def _limited(
     )
 
 
+def ridges_of(owned: OwnedGraph, diagram: SegmentVoronoiDiagram, *, level: float = np.inf, threads: int = 0) -> Borders:
+    """Choose the edges between elements of one site, in the open: the distance from it has its maxima along these.
+
+    Edges between a segment and its own end are none: across these the distance is smooth.
+
+    Parameters
+    ----------
+    owned, diagram, level, threads
+        As of `borders_of`; the level cuts none of them.
+
+    Returns
+    -------
+    Borders
+        With one site on both sides; parts and order are 0.
+    """
+    graph = owned.graph
+    edge, faces = _core.skeleton.skeleton_edges(core_diagram(diagram, graph.segment_faces), threads, None)
+    elements = diagram.edge_sites[edge].astype(np.int64)
+    sites = owned.element[_own_ends(graph, diagram).alias[elements]]
+    chosen = (sites[:, 0] == sites[:, 1]) & (owned.face[faces] < 0)
+    none = np.zeros((np.count_nonzero(chosen), 2), dtype=np.int64)
+    return Borders(
+        diagram.edges[edge[chosen]].astype(np.int64),
+        elements[chosen],
+        sites[chosen],
+        none,
+        none,
+        diagram.vertices,
+        diagram.radius,
+        np.full(none.shape, np.nan),
+        level,
+    )
+
+
 def unwanted_of(owned: OwnedGraph) -> NDArray[np.uint8] | None:
     """Tell where the diagram is not needed: in covered faces; None where all of it is.
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -55,8 +55,15 @@ class LocalDiagrams:
 
 
 def local_diagrams(
-    sites: PlanarGraph, site: Sites, count: int, regions: Regions, *, limit: float | None = None,
-    threads: int = 0, progress: Progress = None,
+    sites: PlanarGraph,
+    site: Sites,
+    count: int,
+    regions: Regions,
+    *,
+    limit: float | None = None,
+    pieces_of: Callable[..., Borders] = borders_of,
+    threads: int = 0,
+    progress: Progress = None,
 ) -> LocalDiagrams:
     """Make the diagram of each region.
 
@@ -72,6 +79,8 @@ def local_diagrams(
         With the sites of each.
     limit : float, optional
         How far from its site a place may be, in input units.
+    pieces_of : callable
+        Chooses pieces of the diagrams, as `borders_of` does.
     threads, progress
         As of `vorotool.voronoi`.
     """
@@ -82,10 +91,14 @@ def local_diagrams(
         owned = owners_of(sites, site)
         graph = owned.graph
         diagram = segment_voronoi(
-            graph.points, graph.segments, unwanted=unwanted_of(owned) if limit is None else None, threads=threads, progress=progress
+            graph.points,
+            graph.segments,
+            unwanted=unwanted_of(owned) if limit is None else None,
+            threads=threads,
+            progress=progress,
         )
         none = np.zeros(len(graph.points), dtype=np.int64), np.zeros(len(graph), dtype=np.int64)
-        return LocalDiagrams(owned, *none, borders_of(owned, diagram, level=level, threads=threads), given, site)
+        return LocalDiagrams(owned, *none, pieces_of(owned, diagram, level=level, threads=threads), given, site)
     parts = [*_graphs_of_regions(sites, site, count, regions)]
     points, segments = (
         np.repeat(np.arange(len(parts)), sizes)
@@ -95,7 +108,7 @@ def local_diagrams(
     diagram = segment_voronoi_of_groups(
         owned.graph.points, owned.graph.segments, np.concatenate([points, segments]), threads=1, progress=progress
     )
-    return LocalDiagrams(owned, points, segments, borders_of(owned, diagram, level=level, threads=threads), given, site)
+    return LocalDiagrams(owned, points, segments, pieces_of(owned, diagram, level=level, threads=threads), given, site)
 
 
 def _graphs_of_regions(sites: PlanarGraph, site: Sites, count: int, regions: Regions) -> Iterator[OwnedGraph]:
@@ -146,4 +159,3 @@ def _joined(parts: list[OwnedGraph], sites: PlanarGraph) -> OwnedGraph:
     none = np.empty(0, dtype=np.int32)
     element = np.concatenate([none, *(own for own, _ in elements), *(own for _, own in elements)])
     return OwnedGraph(graph, element, np.concatenate([none, *(part.face for part in parts)]))
-
