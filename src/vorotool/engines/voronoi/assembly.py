@@ -79,29 +79,28 @@ def arcs_of(cut: CutBorders, ring: FrameRing, sites: Indices, parts: Indices, or
     number[kept] = np.arange(len(kept))
     ends = number[ends]
     turned = ends[:, 0] > ends[:, 1]
-    for each in (ends, both_sites, both_parts, orders):
-        each[turned] = each[turned, ::-1]
-    sorting = _by_ends(ends, control)
+    sorting = _by_ends(np.where(turned[:, None], ends[:, ::-1], ends), control, len(kept))
+    pairs = 2 * sorting[:, None] + (np.arange(2) ^ turned[sorting][:, None])
     return Arcs(
         places[kept],
         radius[kept],
-        ends[sorting],
+        ends.ravel()[pairs],
         control[sorting],
-        both_sites[sorting],
-        both_parts[sorting],
-        orders[sorting],
+        both_sites.ravel()[pairs],
+        both_parts.ravel()[pairs],
+        orders.ravel()[pairs],
     )
 
 
-def _by_ends(ends: Indices, control: Floats) -> Indices:
+def _by_ends(ends: Indices, control: Floats, vertices: int) -> Indices:
     """The order of arcs by their ends; those between the same two by their control points."""
-    key = ends[:, 0] * (int(ends.max(initial=0)) + 1) + ends[:, 1]
-    sorting = np.argsort(key, kind="stable")
-    again = np.flatnonzero(np.diff(key[sorting]) == 0)
+    sorting = _core.graphs.arcs_by_ends(ends.astype(np.int32), vertices).astype(np.int64)
+    key = (ends[:, 0] * vertices + ends[:, 1])[sorting]
+    again = np.flatnonzero(key[1:] == key[:-1])
     if again.size:  # few arcs have both ends in common
         alike = np.union1d(again, again + 1)
         arc = sorting[alike]
-        sorting[alike] = arc[np.lexsort((control[arc, 1], control[arc, 0], key[arc]))]
+        sorting[alike] = arc[np.lexsort((control[arc, 1], control[arc, 0], key[alike]))]
     return sorting
 
 
@@ -142,17 +141,9 @@ def rings_of(arcs: Arcs) -> Rings:
     VerificationError
         If an arc has another site on its left than the one before it.
     """
-    tail = arcs.ends.ravel()
-    order = arcs.order.ravel()
-    least = int(order.min(initial=0))
-    out = np.argsort(tail * (int(order.max(initial=0)) - least + 1) + (order - least), kind="stable")
-    first = np.flatnonzero(np.diff(tail[out], prepend=-1))
-    before = np.roll(out, 1)
-    before[first] = out[np.append(first[1:], len(out)) - 1] if len(first) else before[first]
-    clockwise = np.empty(len(out), dtype=np.int64)
-    clockwise[out] = before
-    after = clockwise[np.arange(len(out)) ^ 1]
-    start, half_edge = _core.graphs.boundary_cycles(after.astype(np.int32), tail.astype(np.int32), len(arcs.vertices))
+    ends = arcs.ends.astype(np.int32)
+    after = _core.graphs.next_half_edges(ends, arcs.order, len(arcs.vertices))
+    start, half_edge = _core.graphs.boundary_cycles(after, ends.ravel(), len(arcs.vertices))
     site, part = arcs.sites.ravel()[half_edge], arcs.parts.ravel()[half_edge]
     row, begin = owners(np.diff(start)), start[:-1]
     if (site != site[begin][row]).any():
