@@ -1,13 +1,18 @@
 // Borders between sites of points, lines and polygons.
+#include <span>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include "bindings/rooms.hpp"
 #include "bindings/support/arrays.hpp"
 #include "bindings/support/monitor.hpp"
+#include "bindings/support/planar_graph.hpp"
 #include "bindings/support/segment_diagram.hpp"
 #include "core/base/indices.hpp"
 #include "core/base/parallel.hpp"
+#include "core/voronoi/border_curves.hpp"
+#include "core/voronoi/owners_at_points.hpp"
 #include "core/voronoi/site_borders.hpp"
 
 namespace vorotool::bindings {
@@ -34,6 +39,37 @@ Columns site_borders(const SegmentDiagram& input, const Indices& element_owner, 
   return result;
 }
 
+auto owners_at_points(const IndexRows& segments, const Indices& owner, std::size_t points) {
+  const auto pairs = rows<core::base::IndexPair>(segments);
+  if (owner.size() != pairs.size()) throw std::invalid_argument("each segment must have an owner");
+  core::base::check_range(pairs, 0, points, "an end of a segment is out of range");
+  core::voronoi::OwnersAtPoints made = core::voronoi::owners_at_points(pairs, view(owner), points);
+  return std::make_tuple(to_numpy(std::move(made.least)), to_numpy(std::move(made.most)));
+}
+
+using Numbers = Matrix<const std::int64_t>;
+
+void check_numbers(std::span<const std::int64_t> numbers, std::size_t end, const char* what) {
+  for (const std::int64_t number : numbers) {
+    if (number < -1 || number >= static_cast<std::int64_t>(end)) throw std::invalid_argument(what);
+  }
+}
+
+auto control_points(const PlanarGraph& graph, const Numbers& ends, const Numbers& elements,
+                    const Places& places, const Vector<const double>& radius, unsigned threads,
+                    const Progress& progress) {
+  const std::size_t size = ends.size() / 2;
+  if (elements.size() != ends.size() || radius.size() != places.shape(0)) {
+    throw std::invalid_argument("the arrays of borders have lengths that do not go together");
+  }
+  check_numbers(view(ends), radius.size(), "an end of a border is out of range");
+  check_numbers(view(elements), graph.view().site_count(), "an element of a border is out of range");
+  core::base::LargeArray<double> made = run_interruptible(
+      progress, core::voronoi::control_points, graph.view(), view(ends), view(elements),
+      rows<core::kernel::Point>(places), view(radius), core::base::resolve_threads(threads));
+  return to_numpy(std::move(made), {size, 2});
+}
+
 }  // namespace
 
 void bind_voronoi(nb::module_& room) {
@@ -41,6 +77,10 @@ void bind_voronoi(nb::module_& room) {
       "site_borders", &site_borders, "diagram"_a, "element_owner"_a, "face_owner"_a, "threads"_a,
       "progress"_a.none(),
       "Ends, elements, sites, parts and order of borders, and the points that became nodes after vertices.");
+  room.def("owners_at_points", &owners_at_points, "segments"_a, "owner"_a, "points"_a,
+           "The smallest and the largest owner of the segments that end at each point.");
+  room.def("control_points", &control_points, "graph"_a, "ends"_a, "elements"_a, "places"_a, "radius"_a,
+           "threads"_a, "progress"_a.none(), "Of the Bezier curves that borders are; NaN of straight lines.");
 }
 
 }  // namespace vorotool::bindings

@@ -6,6 +6,7 @@ from typing import Any
 import numpy
 import numpy.typing
 
+import vorotool._core.kernel
 import vorotool._core.segment_voronoi
 
 
@@ -13,3 +14,11 @@ def site_borders(diagram: vorotool._core.segment_voronoi.Diagram, element_owner:
     """
     Ends, elements, sites, parts and order of borders, and the points that became nodes after vertices.
     """
+
+def owners_at_points(segments: numpy.typing.NDArray[numpy.int32], owner: numpy.typing.NDArray[numpy.int32], points: int) -> tuple[numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32]]:
+    """
+    The smallest and the largest owner of the segments that end at each point.
+    """
+
+def control_points(graph: vorotool._core.kernel.PlanarGraph, ends: numpy.typing.NDArray[numpy.int64], elements: numpy.typing.NDArray[numpy.int64], places: numpy.typing.NDArray[numpy.float64], radius: numpy.typing.NDArray[numpy.float64], threads: int, progress: Callable[[float], object] | None) -> numpy.typing.NDArray[numpy.float64]:
+    """Of the Bezier curves that borders are; NaN of straight lines."""

@@ -77,18 +77,18 @@ def arcs_of(cut: CutBorders, ring: FrameRing, sites: Indices, parts: Indices, or
     used[ring.nodes] = False
     kept = np.concatenate([np.flatnonzero(used), ring.nodes])
     number[kept] = np.arange(len(kept))
-    ends = number[ends]
+    ends = number.take(ends)
     turned = ends[:, 0] > ends[:, 1]
     sorting = _by_ends(np.where(turned[:, None], ends[:, ::-1], ends), control, len(kept))
     pairs = 2 * sorting[:, None] + (np.arange(2) ^ turned[sorting][:, None])
     return Arcs(
-        places[kept],
+        places.take(kept, axis=0),
         radius[kept],
-        ends.ravel()[pairs],
-        control[sorting],
-        both_sites.ravel()[pairs],
-        both_parts.ravel()[pairs],
-        orders.ravel()[pairs],
+        ends.take(pairs),
+        control.take(sorting, axis=0),
+        both_sites.take(pairs),
+        both_parts.take(pairs),
+        orders.take(pairs),
     )
 
 
@@ -149,7 +149,7 @@ def rings_of(arcs: Arcs) -> Rings:
     if (site != site[begin][row]).any():
         raise VerificationError("borders do not close around a cell: a defect of vorotool, please report it")
     centre = arcs.vertices.mean(axis=0) if len(arcs.vertices) else np.zeros(2)
-    source, target = arcs.vertices[arcs.ends[:, 0]], arcs.vertices[arcs.ends[:, 1]]
+    source, target = (arcs.vertices.take(end, axis=0) for end in arcs.ends.T)
     beside = areas_beside(source, arcs.control, target, centre)[half_edge >> 1]
     area = np.bincount(row, np.where(half_edge & 1, -beside, beside), minlength=len(begin)).astype(np.float64)
     rings = Rings(start.astype(np.int64), half_edge.astype(np.int64), site[begin], part[begin], area)

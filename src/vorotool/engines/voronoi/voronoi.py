@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from vorotool import _core
 from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, unwanted_sides
 from vorotool.engines.skeleton.exact import Frame, default_frame
 from vorotool.engines.voronoi.assembly import Arcs, Rings, arcs_of, cells_of, rings_of
@@ -157,10 +158,7 @@ def _unwanted(owned: OwnedGraph) -> NDArray[np.uint8] | None:
     degree = np.bincount(graph.segments.ravel(), minlength=count)
     if (owned.face < 0).all() or (degree == 0).any():
         return None
-    least, most = np.full(count, count + len(graph)), np.full(count, -1)
-    for end in graph.segments.T:
-        np.minimum.at(least, end, owned.element[count:])
-        np.maximum.at(most, end, owned.element[count:])
+    least, most = _core.voronoi.owners_at_points(graph.segments, owned.element[count:], count)
     if ((degree == 2) & (least != most)).any():
         return None
     return unwanted_sides(graph, owned.face < 0)
