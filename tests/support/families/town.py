@@ -65,3 +65,12 @@ def _of(sizes):
 def _turned(xy, angle):
     cosine, sine = np.cos(angle), np.sin(angle)
     return np.stack([cosine * xy[:, 0] - sine * xy[:, 1], sine * xy[:, 0] + cosine * xy[:, 1]], axis=1)
+
+
+def polygons_of(xy, start):
+    """The houses as polygons of shapely."""
+    import shapely
+
+    closed = np.insert(xy, start[1:], xy[start[:-1]], axis=0)
+    houses = np.arange(len(start))
+    return shapely.from_ragged_array(shapely.GeometryType.POLYGON, closed, (start + houses, houses))
