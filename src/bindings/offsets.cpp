@@ -2,6 +2,8 @@
 #include <nanobind/stl/vector.h>
 
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -10,6 +12,7 @@
 #include "bindings/support/arrays.hpp"
 #include "bindings/support/monitor.hpp"
 #include "bindings/support/segment_diagram.hpp"
+#include "core/offsets/level_arcs.hpp"
 #include "core/offsets/offset_curves.hpp"
 
 namespace vorotool::bindings {
@@ -18,16 +21,23 @@ namespace {
 using core::base::Monitor;
 using core::offsets::OffsetCurves;
 
-// What the polygons of all parts must be for the core to index by them.
-void check(const core::segment_voronoi::build::DiagramView& diagram, const Indices& edge_face,
-           const Indices& face_polygon, const Indices& site_polygon, const Indices& site_feature) {
-  if (edge_face.size() != diagram.edges.size() || site_polygon.size() != diagram.site_count() ||
-      site_feature.size() != diagram.site_count()) {
-    throw std::invalid_argument("arrays of a domain do not go with the diagram");
+void check_faces(const core::segment_voronoi::build::DiagramView& diagram, const Indices& edge_face,
+                 const Indices& face_polygon) {
+  if (edge_face.size() != diagram.edges.size()) {
+    throw std::invalid_argument("faces of edges do not go with the diagram");
   }
   const std::size_t faces = face_polygon.size();
   core::base::check_range(view(edge_face), -1, faces, "the face of an edge is out of range");
   core::base::check_range(diagram.faces, 0, faces, "the face of a segment is out of range");
+}
+
+// What the polygons of all parts must be for the core to index by them.
+void check(const core::segment_voronoi::build::DiagramView& diagram, const Indices& edge_face,
+           const Indices& face_polygon, const Indices& site_polygon, const Indices& site_feature) {
+  if (site_polygon.size() != diagram.site_count() || site_feature.size() != diagram.site_count()) {
+    throw std::invalid_argument("arrays of a domain do not go with the diagram");
+  }
+  check_faces(diagram, edge_face, face_polygon);
 }
 
 Columns as_dict(OffsetCurves&& curves) {
@@ -64,12 +74,70 @@ auto offset_curves(const SegmentDiagram& input, const Indices& edge_face, const 
   return result;
 }
 
+// Crossings of a level in faces of which none covers anything.
+struct Crossings {
+  std::vector<std::int32_t> half_edge, across;
+  std::vector<std::int8_t> ending, arc;
+  std::vector<core::kernel::Point> place, middle;
+  std::vector<std::int32_t> circles;
+};
+
+enum Ending : std::int8_t { inside, at_vertex, touching };
+enum Arc : std::int8_t { ordinary, aligned, lost };
+
+Crossings crossings_of(const core::segment_voronoi::build::DiagramView& diagram,
+                       const core::offsets::PolygonFaces& domain, double distance, const Monitor& monitor) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const core::offsets::HalfEdges borders(diagram);
+  const core::offsets::LevelSet level(borders, distance);
+  core::offsets::OuterComponents far(borders, domain, level, monitor);
+  core::offsets::LevelCrossings crossings(borders, domain, level, far, monitor);
+  const core::offsets::LevelArcs arcs(borders, crossings, distance);
+  Crossings found;
+  for (const core::offsets::HalfEdge h : crossings.all()) {
+    const core::offsets::Piece piece{h, crossings.across_cell(h)};
+    const bool is_aligned = arcs.is_between_aligned(domain, piece);
+    found.half_edge.push_back(h);
+    found.across.push_back(static_cast<std::int32_t>(crossings.number(piece.last)));
+    found.ending.push_back(level.ends_at_head(h) ? at_vertex : level.touches(h) ? touching : inside);
+    found.arc.push_back(is_aligned ? aligned : arcs.is_lost(piece) ? lost : ordinary);
+    found.place.push_back(crossings.place(h));
+    found.middle.push_back(arcs.is_long(piece) ? arcs.middle(piece) : core::kernel::Point{nan, nan});
+  }
+  for (const auto& circle : arcs.circles(domain, level)) found.circles.push_back(circle.point);
+  return found;
+}
+
+Columns level_crossings(const SegmentDiagram& input, const Indices& edge_face, const Indices& face_polygon,
+                        double level, const Progress& progress) {
+  const core::segment_voronoi::build::DiagramView& diagram = input.view_with_faces();
+  const std::vector<std::int32_t> of_sites(diagram.site_count(), -1);
+  check_faces(diagram, edge_face, face_polygon);
+  Crossings made = run_interruptible(progress, [&](const Monitor& monitor) {
+    return crossings_of(diagram, {view(edge_face), view(face_polygon), of_sites, of_sites, true}, level,
+                        monitor);
+  });
+  Columns result;
+  result["half_edge"] = to_numpy(std::move(made.half_edge));
+  result["across"] = to_numpy(std::move(made.across));
+  result["ending"] = to_numpy(std::move(made.ending));
+  result["arc"] = to_numpy(std::move(made.arc));
+  result["place"] = two_columns(std::move(made.place));
+  result["middle"] = two_columns(std::move(made.middle));
+  result["circles"] = to_numpy(std::move(made.circles));
+  return result;
+}
+
 }  // namespace
 
 void bind_offsets(nb::module_& room) {
   room.def("offset_curves", &offset_curves, "diagram"_a, "edge_face"_a, "face_polygon"_a, "site_polygon"_a,
            "site_feature"_a, "distances"_a, "origin_x"_a, "origin_y"_a, "scale"_a, "progress"_a.none(),
            "Curves at each distance, which is positive outwards.");
+  room.def("level_crossings", &level_crossings, "diagram"_a, "edge_face"_a, "face_polygon"_a, "level"_a,
+           "progress"_a.none(),
+           "Where curves at a distance from all sites, in lattice units, cross edges of their diagram, and how "
+           "they go on from there.");
 }
 
 }  // namespace vorotool::bindings

@@ -4,12 +4,10 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numbers>
 #include <utility>
 
-#include "core/kernel/lattice.hpp"
-#include "core/numbers/elementary.hpp"
 #include "core/offsets/inner_components.hpp"
+#include "core/offsets/level_arcs.hpp"
 
 namespace vorotool::core::offsets {
 
@@ -20,18 +18,6 @@ using skeleton::LatticeToInput;
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-// From one direction to another, counter-clockwise and by at most half a turn.
-double angle(const Point& a, const Point& b) {
-  if (cross(a, b) > 0) return numbers::angle_of(dot(a, b), cross(a, b));
-  return dot(a, b) < 0 ? std::numbers::pi : 0;
-}
-
-// A piece of a curve, what is near on its left: across the cell to the right of the first half-edge, which is
-// to the left of the last one.
-struct Piece {
-  HalfEdge first, last;
-};
 
 // A ring of pieces, or the whole circle about a point.
 struct Ring {
@@ -53,10 +39,7 @@ class CurveMaker {
         far_(borders, domain, level_, monitor),
         crossings_(borders, domain, level_, far_, monitor),
         near_(borders, domain, level_, crossings_, monitor),
-        is_lone_(diagram_.points.size(), true) {
-    for (const auto& ends : diagram_.segments) {
-      for (const std::int32_t end : ends) is_lone_[static_cast<std::size_t>(end)] = false;
-    }
+        arcs_(borders, crossings_, distance / place.scale) {
     walk_rings();
     add_circles();
   }
@@ -96,22 +79,8 @@ class CurveMaker {
     }
   }
 
-  // About points without segments whose cells are around the whole curve.
   void add_circles() {
-    if (std::find(is_lone_.begin(), is_lone_.end(), true) == is_lone_.end()) return;
-    std::vector<HalfEdge> border(is_lone_.size(), no_edge);
-    std::vector<bool> is_free(is_lone_.begin(), is_lone_.end());
-    for (HalfEdge h = 0; h < borders_.size(); ++h) {
-      if (!diagram_.is_point(borders_.left(h))) continue;
-      const auto point = static_cast<std::size_t>(borders_.left(h));
-      border[point] = h;
-      if (!level_.is_edge_above(h)) is_free[point] = false;
-    }
-    for (std::size_t p = 0; p < is_free.size(); ++p) {
-      if (!is_free[p]) continue;
-      const HalfEdge h = border[p];
-      if (h == no_edge ? !domain_.is_outward : !domain_.holds(borders_, h)) continue;
-      const auto point = static_cast<std::int32_t>(p);
+    for (const auto& [point, h] : arcs_.circles(domain_, level_)) {
       add({{}, point}, h == no_edge ? -1 : borders_.tail(h), point,
           h == no_edge ? -1 : domain_.polygon_at(borders_, h));
     }
@@ -200,7 +169,7 @@ class CurveMaker {
   }
 
   void write_circle(std::int32_t point) {
-    const Point centre = place_(centre_of(point));
+    const Point centre = place_(arcs_.centre_of(point));
     const Point right{centre.x + distance_, centre.y}, left{centre.x - distance_, centre.y};
     write_piece(right, left, centre, point);
     write_piece(left, right, centre, point);
@@ -217,73 +186,28 @@ class CurveMaker {
       write_between(ring[domain_.is_outward ? i : ring.size() - 1 - i]);
   }
 
-  // Between two segments on one line, their common end has no arc; nor where rounding leaves nothing of it.
-  bool is_empty(const Piece& piece) {
-    const auto& [first, last] = piece;
-    const std::int32_t site = borders_.left(last);
-    if (!diagram_.is_point(site)) return false;
-    if (domain_.is_own_end(first) && domain_.is_own_end(last) &&
-        borders_.left(first) != borders_.right(last)) {
-      const kernel::LatticeSite one = diagram_.site(borders_.left(first)),
-                                other = diagram_.site(borders_.right(last));
-      if (core::kernel::cross(one.b - one.a, other.b - other.a) == 0) return true;
-    }
-    const Point a = crossings_.place(first) - centre_of(site), b = crossings_.place(last) - centre_of(site);
-    return dot(a, b) > 0 && cross(a, b) <= 0 && !(is_lone(site) && turn(piece) > std::numbers::pi);
+  bool is_empty(const Piece& piece) const {
+    return arcs_.is_between_aligned(domain_, piece) || arcs_.is_lost(piece);
   }
 
   void write_between(const Piece& piece) {
     const auto& [first, last] = piece;
-    const std::int32_t site = borders_.left(last);
+    const std::int32_t site = arcs_.site(piece);
     const Point start = place_(crossings_.place(first)), end = place_(crossings_.place(last));
     if (!diagram_.is_point(site)) {
       write_directed(start, end, {nan, nan}, site);
       return;
     }
-    const Point centre = place_(centre_of(site));
-    // only about points without segments arcs are over half a circle
-    if (!is_lone(site) || turn(piece) < 3) {
+    const Point centre = place_(arcs_.centre_of(site));
+    if (!arcs_.is_long(piece)) {
       write_directed(start, end, centre, site);
       return;
     }
-    const Point middle = place_(opposite(piece));
+    const Point middle = place_(arcs_.middle(piece));
     const std::pair<Point, Point> halves[2] = {{start, middle}, {middle, end}};
     for (const auto& half : {halves[domain_.is_outward ? 0 : 1], halves[domain_.is_outward ? 1 : 0]}) {
       write_directed(half.first, half.second, centre, site);
     }
-  }
-
-  // The middle of a long arc: across its chord, or where that is short away from its ends.
-  Point opposite(const Piece& piece) {
-    const Point centre = centre_of(borders_.left(piece.last));
-    const Point a = crossings_.place(piece.first) - centre, b = crossings_.place(piece.last) - centre;
-    const Point across = dot(a, b) > 0 ? Point{-a.x - b.x, -a.y - b.y} : Point{b.y - a.y, a.x - b.x};
-    const double part = distance_ / place_.scale / std::sqrt(dot(across, across));
-    return {centre.x + part * across.x, centre.y + part * across.y};
-  }
-
-  // How far the curve turns about a point of its own: as its cell does between both ends. Sums of rounded
-  // angles tell a small turn from a whole one.
-  double turn(const Piece& piece) {
-    const auto [first, last] = piece;
-    const Point centre = centre_of(borders_.left(last));
-    Point before = crossings_.place(first) - centre;
-    double sum = 0;
-    const auto go_to = [&](const Point& direction) {
-      sum += angle(before, direction);
-      before = direction;
-    };
-    HalfEdge h = first ^ 1;
-    do {
-      const std::int32_t head = borders_.head(h);
-      if (head < 0) go_to(borders_.way(h));
-      h = borders_.next(h);
-      const Point in =
-          head < 0 ? borders_.way(h) : centre - diagram_.vertices[static_cast<std::size_t>(head)];
-      go_to({-in.x, -in.y});
-    } while (h != last);
-    go_to(crossings_.place(last) - centre);
-    return sum;
   }
 
   void write_directed(const Point& start, const Point& end, const Point& centre, std::int32_t site) {
@@ -298,11 +222,6 @@ class CurveMaker {
     curves_.site.push_back(site);
   }
 
-  bool is_lone(std::int32_t point) const { return is_lone_[static_cast<std::size_t>(point)]; }
-  Point centre_of(std::int32_t point) const {
-    return {static_cast<double>(diagram_.point(point).x), static_cast<double>(diagram_.point(point).y)};
-  }
-
   const HalfEdges& borders_;
   const segment_voronoi::build::DiagramView& diagram_;
   const PolygonFaces& domain_;
@@ -313,7 +232,7 @@ class CurveMaker {
   OuterComponents far_;
   LevelCrossings crossings_;
   InnerComponents near_;
-  std::vector<bool> is_lone_;  // [n] whether no segment ends there
+  LevelArcs arcs_;
   std::vector<Ring> rings_;
   std::vector<RingSides> sides_;             // of the rings
   std::vector<std::int32_t> inner_polygon_;  // of the rings: the polygon around what is far, -1 outside

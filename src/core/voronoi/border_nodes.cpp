@@ -6,6 +6,7 @@
 
 #include "core/base/indices.hpp"
 #include "core/base/parallel.hpp"
+#include "core/voronoi/ring_ranks.hpp"
 
 namespace vorotool::core::voronoi {
 
@@ -16,15 +17,8 @@ namespace {
 
 constexpr std::int32_t none = -1;
 constexpr std::size_t grain = 1 << 15;  // borders a piece
-constexpr std::size_t few = 16;  // sites around a vertex that are gone through one by one: mostly three
 
-[[noreturn]] void fail() {
-  throw std::runtime_error("a border ends at a vertex that its element does not touch");
-}
-
-std::int64_t number_of(std::size_t rank, bool is_wall) {
-  return 2 * static_cast<std::int64_t>(rank) + (is_wall ? 0 : 1);
-}
+std::int64_t number_of(std::int64_t rank, bool is_wall) { return 2 * rank + (is_wall ? 0 : 1); }
 
 }  // namespace
 
@@ -92,56 +86,44 @@ std::int64_t BorderNodes::order_in_line(const End& end, const std::vector<std::i
 }
 
 void BorderNodes::put_in_order(std::span<const std::int64_t> ends, std::span<const std::int64_t> elements,
-                               std::span<std::int64_t> order, unsigned threads,
-                               const base::Monitor& monitor) const {
+                               std::span<const std::int32_t> crowded, std::span<std::int64_t> order,
+                               unsigned threads, const base::Monitor& monitor) const {
   const std::size_t vertices = diagram_.vertex_count(), borders = ends.size() / 2;
   std::vector<std::int32_t> degree(vertices + added_.size());
   for (const std::int64_t node : ends) {
     if (node >= 0) ++degree[static_cast<std::size_t>(node)];
   }
+  for (const std::int32_t vertex : crowded) degree[at(vertex)] += 3;
   const std::vector<std::int32_t> first = first_segments();
   std::vector<std::vector<End>> many(base::piece_count(borders, grain));
-  base::for_pieces(borders, grain, threads, monitor,
-                   [&](std::size_t piece, std::size_t begin, std::size_t last) {
-                     for (std::size_t k = 2 * begin; k < 2 * last; ++k) {
-                       order[k] = 0;
-                       const std::int64_t node = ends[k];
-                       if (node < 0 || degree[static_cast<std::size_t>(node)] <= 2) continue;
-                       const End end{k, node, static_cast<std::int32_t>(elements[k]),
-                                     static_cast<std::int32_t>(elements[k ^ 1])};
-                       if (static_cast<std::size_t>(node) >= vertices) {
-                         order[k] = order_in_line(end, first);
-                         continue;
-                       }
-                       const auto ring = diagram_.ring(static_cast<std::size_t>(node));
-                       if (ring.size() > few) {
-                         many[piece].push_back(end);
-                         continue;
-                       }
-                       const auto found = std::ranges::find(ring, end.right);
-                       if (found == ring.end()) fail();
-                       order[k] = number_of(static_cast<std::size_t>(found - ring.begin()), end.is_wall());
-                     }
-                   });
-  for (std::vector<End>& each : many) put_in_order_among_many(each, order);
-}
-
-// By one search a vertex, where many sites meet.
-void BorderNodes::put_in_order_among_many(std::vector<End>& many, std::span<std::int64_t> order) const {
-  std::ranges::stable_sort(many, {}, &End::node);
-  std::vector<std::pair<std::int32_t, std::size_t>> ranks;
-  std::int64_t node = none;
-  for (const End& end : many) {
-    if (end.node != node) {
-      node = end.node;
-      const auto ring = diagram_.ring(static_cast<std::size_t>(node));
-      ranks.clear();
-      for (std::size_t k = 0; k < ring.size(); ++k) ranks.emplace_back(ring[k], k);
-      std::ranges::sort(ranks);
+  base::for_pieces(
+      borders, grain, threads, monitor, [&](std::size_t piece, std::size_t begin, std::size_t last) {
+        for (std::size_t k = 2 * begin; k < 2 * last; ++k) {
+          order[k] = 0;
+          const std::int64_t node = ends[k];
+          if (node < 0 || degree[static_cast<std::size_t>(node)] <= 2) continue;
+          const End end{k, node, static_cast<std::int32_t>(elements[k]),
+                        static_cast<std::int32_t>(elements[k ^ 1])};
+          if (static_cast<std::size_t>(node) >= vertices) {
+            order[k] = order_in_line(end, first);
+          } else if (diagram_.ring(static_cast<std::size_t>(node)).size() > few_sites) {
+            many[piece].push_back(end);
+          } else {
+            order[k] =
+                number_of(rank_of(diagram_.ring(static_cast<std::size_t>(node)), end.right), end.is_wall());
+          }
+        }
+      });
+  for (const std::vector<End>& ends_of_piece : many) {
+    std::vector<std::int64_t> nodes, rights;
+    for (const End& end : ends_of_piece) {
+      nodes.push_back(end.node);
+      rights.push_back(end.right);
     }
-    const auto found = std::ranges::lower_bound(ranks, std::pair(end.right, std::size_t{0}));
-    if (found == ranks.end() || found->first != end.right) fail();
-    order[end.number] = number_of(found->second, end.is_wall());
+    const std::vector<std::int64_t> ranks = ranks_around(diagram_, nodes, rights);
+    for (std::size_t k = 0; k < ranks.size(); ++k) {
+      order[ends_of_piece[k].number] = number_of(ranks[k], ends_of_piece[k].is_wall());
+    }
   }
 }
 

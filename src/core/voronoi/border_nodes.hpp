@@ -24,14 +24,15 @@ class BorderNodes {
   const std::vector<std::int32_t>& added() const { return added_; }
 
   // Two numbers a border that rise counter-clockwise among those that leave its source, and its target; 0 where
-  // no more than two meet. Ends are -1 at infinity; `elements` are left and right, a wall has its segment twice.
+  // no more than two meet, unless it is `crowded`: others end there as well. Ends are -1 at infinity; `elements` are left and right, a wall has its segment twice.
   //
   // Around a vertex of the diagram its sites follow each other counter-clockwise: a border between two of them
   // comes after the one on its right, and a wall lies in the middle of its own sector.
   //
   // Throws std::runtime_error if a border ends at a vertex that its element does not touch.
   void put_in_order(std::span<const std::int64_t> ends, std::span<const std::int64_t> elements,
-                    std::span<std::int64_t> order, unsigned threads, const base::Monitor& monitor) const;
+                    std::span<const std::int32_t> crowded, std::span<std::int64_t> order, unsigned threads,
+                    const base::Monitor& monitor) const;
 
  private:
   struct End;  // of a border
@@ -40,7 +41,6 @@ class BorderNodes {
   void number_points();
   std::vector<std::int32_t> first_segments() const;
   std::int64_t order_in_line(const End& end, const std::vector<std::int32_t>& first) const;
-  void put_in_order_among_many(std::vector<End>& many, std::span<std::int64_t> order) const;
 
   const segment_voronoi::build::DiagramView& diagram_;
   std::span<const std::uint8_t> is_needed_;

@@ -31,10 +31,12 @@ struct Sides {
 class Chooser {
  public:
   Chooser(const DiagramView& diagram, std::span<const std::int32_t> element_owner,
-          std::span<const std::int32_t> face_owner, unsigned threads, const base::Monitor& monitor)
+          std::span<const std::int32_t> face_owner, const std::optional<Reach>& reach, unsigned threads,
+          const base::Monitor& monitor)
       : diagram_(diagram),
         element_owner_(element_owner),
         face_owner_(face_owner),
+        reach_(reach),
         threads_(threads),
         monitor_(monitor),
         kept_(skeleton::skeleton_edges(diagram, threads, monitor)),
@@ -53,9 +55,11 @@ class Chooser {
     write(made, nodes);
     for (std::size_t k = 0; k < size; ++k)
       made.parts[k] = parts_.find(static_cast<std::int32_t>(made.parts[k]));
-    nodes.put_in_order({made.ends.data(), size}, {made.elements.data(), size}, {made.order.data(), size},
+    nodes.put_in_order({made.ends.data(), size}, {made.elements.data(), size},
+                       reach_ ? reach_->crowded : std::span<const std::int32_t>(), {made.order.data(), size},
                        threads_, monitor_);
     made.added = nodes.added();
+    if (reach_) tell(made);
     return made;
   }
 
@@ -68,6 +72,11 @@ class Chooser {
   }
 
   bool is_covered(std::int32_t face) const { return face_owner_[at(face)] >= 0; }
+
+  // A half that ends at a point always is.
+  bool is_near(const Piece& piece) const {
+    return !reach_ || piece.point != none || reach_->is_near[at(piece.edge)] != 0;
+  }
 
   // In a face that no site covers.
   Sides sides(const Piece& piece) const {
@@ -113,7 +122,7 @@ class Chooser {
                      [&](std::size_t some, std::size_t begin, std::size_t end) {
                        for (std::size_t k = begin; k < end; ++k) {
                          const Piece each = piece(k);
-                         if (is_covered(each.face)) continue;
+                         if (is_covered(each.face) || !is_near(each)) continue;
                          const Sides beside = sides(each);
                          if (beside.is_border()) {
                            chosen[some].push_back(static_cast<std::int32_t>(k));
@@ -174,8 +183,21 @@ class Chooser {
     });
   }
 
+  void tell(SiteBorders& made) {
+    for (const std::int32_t k : pieces_) {
+      const Piece each = piece(at(k));
+      made.edge.push_back(each.edge);
+      made.point.push_back(each.point);
+      made.is_first.push_back(each.is_first ? 1 : 0);
+    }
+    made.alias = own_.alias;
+    const std::size_t parts = diagram_.site_count() + diagram_.segments.size() + face_owner_.size();
+    for (std::size_t k = 0; k < parts; ++k) made.root.push_back(parts_.find(static_cast<std::int32_t>(k)));
+  }
+
   const DiagramView& diagram_;
   std::span<const std::int32_t> element_owner_, face_owner_;
+  const std::optional<Reach>& reach_;
   unsigned threads_;
   const base::Monitor& monitor_;
   skeleton::SkeletonEdges kept_;
@@ -186,10 +208,28 @@ class Chooser {
 
 }  // namespace
 
+EdgeFaces edge_faces(const DiagramView& diagram, unsigned threads, const base::Monitor& monitor) {
+  const skeleton::SkeletonEdges kept = skeleton::skeleton_edges(diagram, threads, monitor);
+  const std::size_t count = diagram.edges.size();
+  EdgeFaces made{base::LargeArray<std::int32_t>(2 * count), base::LargeArray<std::uint8_t>(count)};
+  std::fill_n(made.is_own.data(), count, std::uint8_t{1});
+  for (std::size_t k = 0; k < kept.edge.size(); ++k) {
+    const std::size_t edge = at(kept.edge[k]);
+    made.is_own[edge] = 0;
+    made.faces[2 * edge] = made.faces[2 * edge + 1] = kept.face[k];
+  }
+  for (const Piece& each : own_ends(diagram, kept).pieces) {
+    const std::size_t edge = at(each.edge);
+    if (each.point == none || each.is_first) made.faces[2 * edge] = each.face;
+    if (each.point == none || !each.is_first) made.faces[2 * edge + 1] = each.face;
+  }
+  return made;
+}
+
 SiteBorders site_borders(const DiagramView& diagram, std::span<const std::int32_t> element_owner,
-                         std::span<const std::int32_t> face_owner, unsigned threads,
-                         const base::Monitor& monitor) {
-  return Chooser(diagram, element_owner, face_owner, threads, monitor).borders();
+                         std::span<const std::int32_t> face_owner, const std::optional<Reach>& reach,
+                         unsigned threads, const base::Monitor& monitor) {
+  return Chooser(diagram, element_owner, face_owner, reach, threads, monitor).borders();
 }
 
 }  // namespace vorotool::core::voronoi

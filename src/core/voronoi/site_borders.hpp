@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -23,8 +24,30 @@ struct SiteBorders {
   base::LargeArray<std::int32_t> sites;     // left and right
   std::vector<std::int32_t> added;          // points in the middle of straight lines that borders end in
 
+  // What is needed to go on with a limit of distance; empty without one.
+  std::vector<std::int32_t> edge;      // of each border that is one of the diagram: these come first
+  std::vector<std::int32_t> point;     // that it is a half of the edge up to, or -1
+  std::vector<std::uint8_t> is_first;  // whether it is the half towards the source
+  std::vector<std::int32_t> alias;     // [n] as of `OwnEnds`
+  std::vector<std::int32_t> root;      // of points, left and right sides of segments, faces: their part
+
   std::size_t size() const { return sites.size() / 2; }
 };
+
+// How far borders reach.
+struct Reach {
+  std::span<const std::uint8_t> is_near;  // [e] whether an edge is within a limit at all
+  std::span<const std::int32_t> crowded;  // vertices at which what runs along the limit ends as well
+};
+
+// In which face of the graph each edge is towards its source, and towards its target; whether it is between a segment
+// and its own end.
+struct EdgeFaces {
+  base::LargeArray<std::int32_t> faces;   // [2 e]
+  base::LargeArray<std::uint8_t> is_own;  // [e]
+};
+EdgeFaces edge_faces(const segment_voronoi::build::DiagramView& diagram, unsigned threads,
+                     const base::Monitor& monitor);
 
 // Of an owner of each element of the diagram's graph, and of each of its faces: -1 of those that no site
 // covers. Vertices in covered faces may be left out of the diagram.
@@ -34,7 +57,7 @@ struct SiteBorders {
 // Throws std::invalid_argument or std::runtime_error if the diagram is none.
 SiteBorders site_borders(const segment_voronoi::build::DiagramView& diagram,
                          std::span<const std::int32_t> element_owner,
-                         std::span<const std::int32_t> face_owner, unsigned threads,
-                         const base::Monitor& monitor);
+                         std::span<const std::int32_t> face_owner, const std::optional<Reach>& reach,
+                         unsigned threads, const base::Monitor& monitor);
 
 }  // namespace vorotool::core::voronoi

@@ -9,10 +9,11 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.voronoi.frame_cut import CutBorders
-from vorotool.engines.voronoi.frame_ring import OUTSIDE, FrameRing
+from vorotool.engines.voronoi.frame_ring import FrameRing
 from vorotool.errors import VerificationError
-from vorotool.geometry.curves.bezier import areas_beside
+from vorotool.geometry.curves.mixed_arcs import MixedArcs
 from vorotool.geometry.ragged import owners, ranges, starts_of
+from vorotool.geometry.voronoi.voronoi_map import OUTSIDE
 
 Indices = NDArray[np.int64]
 Floats = NDArray[np.float64]
@@ -30,10 +31,10 @@ class Arcs:
         Distances from the nearest sites there; NaN at corners of the frame that no border ends at.
     ends : (a, 2) int64 array
         Source and target.
-    control : (a, 2) float64 array
-        NaN of straight lines.
+    control, center : (a, 2) float64 array
+        Control points of parabolas, and centres of circular arcs; NaN of others.
     sites, parts : (a, 2) int64 array
-        Left and right; `OUTSIDE` on the far side of the frame.
+        Left and right; `OUTSIDE` of what belongs to nobody.
     order : (a, 2) int64 array
         Rising counter-clockwise around source and target.
     """
@@ -42,15 +43,22 @@ class Arcs:
     radius: Floats
     ends: Indices
     control: Floats
+    center: Floats
     sites: Indices
     parts: Indices
     order: Indices
+
+    def mixed(self) -> MixedArcs:
+        """The arcs with their ends."""
+        source, target = self.vertices[self.ends[:, 0]], self.vertices[self.ends[:, 1]]
+        return MixedArcs(source, target, self.control, self.center, self.sites[:, 0] != OUTSIDE)
 
 
 def arcs_of(cut: CutBorders, ring: FrameRing, sites: Indices, parts: Indices, order: Indices) -> Arcs:
     """Put borders and the frame together, and number vertices and arcs by where they are.
 
-    Vertices of the diagram come first, then those on the frame along it.
+    Vertices of the diagram come first, then those on the frame along it. Of the frame, what has nobody inside is left
+    out.
 
     Parameters
     ----------
@@ -59,13 +67,15 @@ def arcs_of(cut: CutBorders, ring: FrameRing, sites: Indices, parts: Indices, or
     sites, parts, order : (c, 2) int64 array
         Of the borders.
     """
-    nodes = len(ring.nodes)
-    after = np.roll(ring.nodes, -1)
+    along = np.flatnonzero(ring.sides[:, 0] != OUTSIDE)
+    nodes = len(along)
     beyond = np.full(nodes, OUTSIDE)
-    ends = np.concatenate([cut.ends, np.stack([ring.nodes, after], axis=1)])
-    control = np.concatenate([cut.control, np.full((nodes, 2), np.nan)])
-    both_sites = np.concatenate([sites, np.stack([ring.sides[:, 0], beyond], axis=1)])
-    both_parts = np.concatenate([parts, np.stack([ring.sides[:, 1], beyond], axis=1)])
+    ends = np.concatenate([cut.ends, np.stack([ring.nodes, np.roll(ring.nodes, -1)], axis=1)[along]])
+    control, center = (np.concatenate([of, np.full((nodes, 2), np.nan)]) for of in (cut.control, cut.center))
+    both_sites, both_parts = (
+        np.concatenate([of, np.stack([inner, beyond], axis=1)])
+        for of, inner in zip((sites, parts), ring.sides[along].T, strict=True)
+    )
     inner = np.where(ring.rank > 0, ring.rank, order)
     last = len(cut.ends) + 2  # after all that ends at a node from inside
     orders = np.concatenate([inner, np.stack([np.zeros(nodes, dtype=np.int64), np.full(nodes, last)], axis=1)])
@@ -73,34 +83,69 @@ def arcs_of(cut: CutBorders, ring: FrameRing, sites: Indices, parts: Indices, or
     radius = np.concatenate([cut.radius, np.full(len(ring.corners), np.nan)])
     number = np.full(len(places), -1, dtype=np.int64)
     used = np.zeros(len(places), dtype=bool)
-    used[cut.ends] = True
-    used[ring.nodes] = False
-    kept = np.concatenate([np.flatnonzero(used), ring.nodes])
+    used[ends] = True
+    on_frame = ring.nodes[used[ring.nodes]]
+    used[on_frame] = False
+    kept = np.concatenate([np.flatnonzero(used), on_frame])
     number[kept] = np.arange(len(kept))
     ends = number.take(ends)
     turned = ends[:, 0] > ends[:, 1]
-    sorting = _by_ends(np.where(turned[:, None], ends[:, ::-1], ends), control, len(kept))
+    sorting = by_ends(np.where(turned[:, None], ends[:, ::-1], ends), control, center)
     pairs = 2 * sorting[:, None] + (np.arange(2) ^ turned[sorting][:, None])
+    places, ends, both_sites = places.take(kept, axis=0), ends.take(pairs), both_sites.take(pairs)
     return Arcs(
-        places.take(kept, axis=0),
+        places,
         radius[kept],
-        ends.take(pairs),
+        ends,
         control.take(sorting, axis=0),
-        both_sites.take(pairs),
+        without_lost(center.take(sorting, axis=0), places, ends, both_sites[:, 0] != OUTSIDE),
+        both_sites,
         both_parts.take(pairs),
         orders.take(pairs),
     )
 
 
-def _by_ends(ends: Indices, control: Floats, vertices: int) -> Indices:
-    """The order of arcs by their ends; those between the same two by their control points."""
+def without_lost(center: Floats, places: Floats, ends: Indices, is_left: NDArray[np.bool_]) -> Floats:
+    """Give centres of arcs of at most half a circle, but for those of which rounding leaves nothing: these are lines.
+
+    Parameters
+    ----------
+    center : (a, 2) float64 array
+        Of circular arcs; NaN of others.
+    places : (v, 2) float64 array
+        Of vertices.
+    ends : (a, 2) int64 array
+        Source and target.
+    is_left : (a,) bool array
+        Whether they go counter-clockwise.
+    """
+    circular = np.flatnonzero(~np.isnan(center[:, 0]))
+    a, b = (places[end] - center[circular] for end in ends[circular].T)
+    cross = np.where(is_left[circular], 1, -1) * (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
+    is_lost = ((a * b).sum(axis=1) > 0) & (cross <= 0)
+    made = center.copy()
+    made[circular[is_lost]] = np.nan
+    return made
+
+
+def by_ends(ends: Indices, control: Floats, center: Floats) -> Indices:
+    """Give the order of arcs by their ends; those between the same two by their control points and centres.
+
+    Parameters
+    ----------
+    ends : (a, 2) int64 array
+        Source and target.
+    control, center : (a, 2) float64 array
+        NaN of those without.
+    """
+    vertices = int(ends.max(initial=-1)) + 1
     sorting = _core.graphs.arcs_by_ends(ends.astype(np.int32), vertices).astype(np.int64)
     key = (ends[:, 0] * vertices + ends[:, 1])[sorting]
     again = np.flatnonzero(key[1:] == key[:-1])
     if again.size:  # few arcs have both ends in common
         alike = np.union1d(again, again + 1)
         arc = sorting[alike]
-        sorting[alike] = arc[np.lexsort((control[arc, 1], control[arc, 0], key[alike]))]
+        sorting[alike] = arc[np.lexsort((*center[arc].T[::-1], *control[arc].T[::-1], key[alike]))]
     return sorting
 
 
@@ -133,6 +178,29 @@ class Rings:
         return Rings(starts_of(sizes), half_edge, self.site[chosen], self.part[chosen], self.area[chosen])
 
 
+def cycles_of(ends: Indices, order: Indices, vertices: int) -> tuple[Indices, Indices]:
+    """Go around every face of a map, with the face on the left.
+
+    Parameters
+    ----------
+    ends, order : (a, 2) int64 array
+        As of `Arcs`.
+    vertices : int
+        Of the map.
+
+    Returns
+    -------
+    start : (r + 1,) int64 array
+        Where each ring begins in `half_edge`.
+    half_edge : (2 a,) int64 array
+        Along each: 2 k along arc k, 2 k + 1 back.
+    """
+    pairs = ends.astype(np.int32)
+    after = _core.graphs.next_half_edges(pairs, order, vertices)
+    start, half_edge = _core.graphs.boundary_cycles(after, pairs.ravel(), vertices)
+    return start.astype(np.int64), half_edge.astype(np.int64)
+
+
 def rings_of(arcs: Arcs) -> Rings:
     """Go around every face of a map, with the face on the left; the rings of the outside are left out.
 
@@ -141,18 +209,15 @@ def rings_of(arcs: Arcs) -> Rings:
     VerificationError
         If an arc has another site on its left than the one before it.
     """
-    ends = arcs.ends.astype(np.int32)
-    after = _core.graphs.next_half_edges(ends, arcs.order, len(arcs.vertices))
-    start, half_edge = _core.graphs.boundary_cycles(after, ends.ravel(), len(arcs.vertices))
+    start, half_edge = cycles_of(arcs.ends, arcs.order, len(arcs.vertices))
     site, part = arcs.sites.ravel()[half_edge], arcs.parts.ravel()[half_edge]
     row, begin = owners(np.diff(start)), start[:-1]
     if (site != site[begin][row]).any():
         raise VerificationError("borders do not close around a cell: a defect of vorotool, please report it")
-    centre = arcs.vertices.mean(axis=0) if len(arcs.vertices) else np.zeros(2)
-    source, target = (arcs.vertices.take(end, axis=0) for end in arcs.ends.T)
-    beside = areas_beside(source, arcs.control, target, centre)[half_edge >> 1]
+    first = arcs.vertices[arcs.ends.ravel()[half_edge[begin]]]  # near, so that small rings keep their sign
+    beside = arcs.mixed()[half_edge >> 1].areas_beside(first[row])
     area = np.bincount(row, np.where(half_edge & 1, -beside, beside), minlength=len(begin)).astype(np.float64)
-    rings = Rings(start.astype(np.int64), half_edge.astype(np.int64), site[begin], part[begin], area)
+    rings = Rings(start, half_edge, site[begin], part[begin], area)
     return rings[site[begin] != OUTSIDE]
 
 

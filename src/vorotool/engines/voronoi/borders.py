@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.segment_voronoi.segment_voronoi import core_diagram
+from vorotool.engines.segment_voronoi.segment_voronoi import core_diagram, unwanted_sides
 from vorotool.engines.voronoi.elements import OwnedGraph
+from vorotool.engines.voronoi.limits import STEP, Limit
 from vorotool.errors import VerificationError
 from vorotool.geometry.skeleton.segment_voronoi import SegmentVoronoiDiagram
+from vorotool.geometry.voronoi.voronoi_map import OUTSIDE
 
 Indices = NDArray[np.int64]
 
@@ -36,9 +39,13 @@ class Borders:
     order : (b, 2) int64 array
         Of the piece among those that leave its source, and its target: rising counter-clockwise.
     places : (v, 2) float64 array
-        On the lattice: vertices of the diagram, then points that are none.
+        On the lattice: vertices of the diagram, then points that are none, then nodes of the limit.
     radius : (v,) float64 array
         There.
+    center : (b, 2) float64 array
+        Of circular arcs along the limit, on the lattice; NaN of other pieces.
+    level : float
+        The limit on the lattice; infinity without one.
     """
 
     ends: Indices
@@ -48,9 +55,13 @@ class Borders:
     order: Indices
     places: NDArray[np.float64]
     radius: NDArray[np.float64]
+    center: NDArray[np.float64]
+    level: float
 
 
-def borders_of(owned: OwnedGraph, diagram: SegmentVoronoiDiagram, *, threads: int = 0) -> Borders:
+def borders_of(
+    owned: OwnedGraph, diagram: SegmentVoronoiDiagram, *, level: float = np.inf, threads: int = 0
+) -> Borders:
     """Choose the borders among the edges of a diagram and the segments of its graph.
 
     Nothing is decided by coordinates but where a point lies on a straight line between two others, which is exact.
@@ -60,7 +71,9 @@ def borders_of(owned: OwnedGraph, diagram: SegmentVoronoiDiagram, *, threads: in
     owned : OwnedGraph
         Of all sites.
     diagram : SegmentVoronoiDiagram
-        Of its points and segments; vertices in covered faces may be left out.
+        Of its points and segments; vertices in covered faces may be left out if there is no limit.
+    level : float
+        The limit of distance on the lattice: pieces end there, and others run along it.
     threads : int
         0 uses all.
 
@@ -69,15 +82,103 @@ def borders_of(owned: OwnedGraph, diagram: SegmentVoronoiDiagram, *, threads: in
     VerificationError
         If a border ends where its elements are not.
     """
-    graph = owned.graph
-    whole = core_diagram(diagram, graph.segment_faces)
+    whole = core_diagram(diagram, owned.graph.segment_faces)
+    limit = None
+    if np.isfinite(level):
+        faces, is_own = _core.voronoi.edge_faces(whole, threads, None)
+        limit = Limit(owned.graph, diagram, level, faces, is_own.view(bool), owned.face < 0)
     try:
-        made = _core.voronoi.site_borders(whole, owned.element, owned.face, threads, None)
+        made = _core.voronoi.site_borders(whole, owned.element, owned.face, _reach(limit), threads, None)
+        added = made["added"]
+        borders = Borders(
+            *(made[name] for name in ("ends", "elements", "sites", "parts", "order")),
+            np.concatenate([diagram.vertices, owned.graph.points[added].astype(np.float64)]),
+            np.concatenate([diagram.radius, np.zeros(len(added))]),
+            np.full(made["ends"].shape, np.nan),
+            level,
+        )
+        return borders if limit is None else _limited(borders, owned, limit, made, whole)
     except RuntimeError as error:
         raise VerificationError(f"{error}: a defect of vorotool, please report it") from None
-    added = made.pop("added")
+
+
+# ---- the limit of distance --------------------------------------------------------------------------
+def _reach(limit: Limit | None) -> tuple[NDArray[np.uint8], NDArray[np.int32]] | None:
+    """Of each edge whether it is within the limit, and the vertices that ends of other pieces are at."""
+    if limit is None:
+        return None
+    count = len(limit.diagram.edges)
+    is_near = limit.is_near(np.arange(count), np.zeros(count, dtype=bool))
+    return is_near.view(np.uint8), limit.vertices().astype(np.int32)
+
+
+def _limited(
+    borders: Borders, owned: OwnedGraph, limit: Limit, made: dict[str, Any], whole: _core.segment_voronoi.Diagram
+) -> Borders:
+    """Borders up to a limit, edges first, and the arcs along it."""
+    edges, first = len(made["edge"]), len(borders.places)
+    arcs = limit.arcs(first, lambda vertex, element: _core.voronoi.ranks_around(whole, vertex, element))
+    is_first = made["is_first"].view(bool)
+    is_half = made["point"] >= 0
+    has_end = np.stack([~is_half | is_first, ~is_half | ~is_first], axis=1)
+    ends, order = borders.ends.copy(), STEP * borders.order
+    ends[:edges], order[:edges] = limit.cut(ends[:edges], order[:edges], made["edge"].astype(np.int64), has_end, first)
+    points = len(owned.graph.points)
+    element = np.where(arcs.element < points, made["alias"][np.minimum(arcs.element, points - 1)], arcs.element)
+    beyond = np.full(len(element), OUTSIDE)
+    part = made["root"][_parts_of_elements(owned, element, arcs.face)]
     return Borders(
-        **made,
-        places=np.concatenate([diagram.vertices, graph.points[added].astype(np.float64)]),
-        radius=np.concatenate([diagram.radius, np.zeros(len(added))]),
+        np.concatenate([ends, arcs.ends]),
+        np.concatenate([borders.elements, np.repeat(arcs.element[:, None], 2, axis=1)]),
+        np.concatenate([borders.sites, np.stack([owned.element[element], beyond], axis=1)]).astype(np.int32),
+        np.concatenate([borders.parts, np.stack([part, beyond], axis=1)]),
+        np.concatenate([order, arcs.order]),
+        np.concatenate([borders.places, arcs.places]),
+        np.concatenate([borders.radius, np.full(len(arcs.places), limit.level)]),
+        np.concatenate([borders.center, arcs.center]),
+        limit.level,
     )
+
+
+def unwanted_of(owned: OwnedGraph) -> NDArray[np.uint8] | None:
+    """Tell where the diagram is not needed: in covered faces; None where all of it is.
+
+    It is where a point without segments may be in any face, and where two sites part in the middle of a straight line:
+    the edge between them there may lead through the line.
+    """
+    graph, count = owned.graph, len(owned.graph.points)
+    degree = np.bincount(graph.segments.ravel(), minlength=count)
+    if (owned.face < 0).all() or (degree == 0).any():
+        return None
+    least, most = _core.voronoi.owners_at_points(graph.segments, owned.element[count:], count)
+    if ((degree == 2) & (least != most)).any():
+        return None
+    return unwanted_sides(graph, owned.face < 0)
+
+
+# ---- parts -----------------------------------------------------------------------------------------
+def _parts_of_elements(owned: OwnedGraph, element: Indices, face: NDArray[np.int32]) -> Indices:
+    """(k,) the part that elements are in a face: points come first, then left and right sides of segments."""
+    graph, count = owned.graph, len(owned.graph.points)
+    segment = np.maximum(element - count, 0)
+    sides = graph.segment_faces if len(graph) else np.zeros((1, 2), dtype=np.int32)
+    is_right = sides[segment, 0] != face
+    parts: Indices = np.where(element < count, element, count + 2 * segment + is_right)
+    return parts
+
+
+def sides_of_segments(owned: OwnedGraph) -> tuple[NDArray[np.bool_], NDArray[np.int32], Indices]:
+    """Of each segment whether it is a border, and left and right its sites and parts.
+
+    Parameters
+    ----------
+    owned : OwnedGraph
+        Of all sites.
+    """
+    graph, count = owned.graph, len(owned.graph.points)
+    covering = owned.face[graph.segment_faces]
+    is_free = covering < 0
+    sites = np.where(is_free, owned.element[count:, None], covering)
+    side = count + 2 * np.arange(len(graph))[:, None] + np.arange(2)
+    parts = np.where(is_free, side, count + 2 * len(graph) + graph.segment_faces.astype(np.int64))
+    return sites[:, 0] != sites[:, 1], sites, parts

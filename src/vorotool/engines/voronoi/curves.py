@@ -1,8 +1,8 @@
-"""The bisectors that borders run along, on the lattice: straight lines, and parabolas (paper, section 3.2)."""
+"""The curves of borders on the lattice: straight lines and parabolas (paper, section 3.2), circles along a limit."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +13,9 @@ from vorotool.geometry.polygons.planar_graph import PlanarGraph
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
+Place = tuple[float, float]
+
+INFINITY = float("inf")
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,6 +75,71 @@ def parabolas_of(graph: PlanarGraph, elements: Indices) -> tuple[NDArray[np.bool
     is_parabola[mixed[above]] = True
     high = np.abs(height[above]).astype(np.float64) / length
     return is_parabola, Parabolas(focus[above].astype(np.float64), along / length[:, None], high)
+
+
+@dataclass(frozen=True)
+class CircularArc:
+    """An arc of at most half a circle, counter-clockwise, by t: the tangent of half the angle from its middle.
+
+    Parameters
+    ----------
+    base : (float, float)
+        The centre, on the lattice.
+    middle : (float, float)
+        Unit vector to the middle of the arc.
+    radius : float
+        On the lattice.
+    first, last : float
+        From the one t to the other, larger one.
+    """
+
+    base: Place
+    middle: Place
+    radius: float
+    first: float
+    last: float
+
+    @classmethod
+    def between(cls, center: Place, source: Place, target: Place) -> CircularArc:
+        """Give the arc from a place to another one."""
+        a, b = ((place[0] - center[0], place[1] - center[1]) for place in (source, target))
+        x, y = b[1] - a[1], a[0] - b[0]  # across the chord, which tells more than the sum of both ends
+        if a[0] * b[0] + a[1] * b[1] > 0:
+            x, y = a[0] + b[0], a[1] + b[1]
+        radius, length = (float(np.sqrt(u * u + v * v)) for u, v in (a, (x, y)))
+        arc = cls(center, (x / length, y / length), radius, 0.0, 0.0)
+        return replace(arc, first=arc.parameter(*a), last=arc.parameter(*b))
+
+    @property
+    def size(self) -> float:
+        """How large its coordinates are beside those of the base."""
+        return self.radius
+
+    def parameter(self, x: float, y: float) -> float:
+        """The t of a direction."""
+        u, v = self.middle
+        along = self.radius + u * x + v * y
+        return (u * y - v * x) / along if along > 0 else INFINITY
+
+    def place(self, t: float) -> Place:
+        """Where it is at t."""
+        (x, y), (u, v) = self.base, self.middle
+        square = 1 + t * t
+        along, across = self.radius * (1 - t * t) / square, self.radius * 2 * t / square
+        return x + along * u - across * v, y + along * v + across * u
+
+    def meets(self, axis: int, value: float) -> list[float]:
+        """Where a coordinate has a value, at two t or none."""
+        offset = value - self.base[axis]
+        if abs(offset) > self.radius:
+            return []
+        root = float(np.sqrt((self.radius - offset) * (self.radius + offset)))
+        return [self.parameter(*((offset, other) if axis == 0 else (other, offset))) for other in (-root, root)]
+
+    def turn(self, axis: int) -> float:
+        """Where a coordinate is least or most along it."""
+        way = float(np.copysign(self.radius, self.middle[axis]))
+        return self.parameter(*((way, 0.0) if axis == 0 else (0.0, way)))
 
 
 def controls_of(borders: Borders, graph: PlanarGraph) -> Floats:

@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.voronoi.borders import Borders
-from vorotool.engines.voronoi.curves import controls_of, parabolas_of
+from vorotool.engines.voronoi.curves import INFINITY, CircularArc, controls_of, parabolas_of
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
+from vorotool.geometry.voronoi.voronoi_map import OUTSIDE
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -19,8 +20,6 @@ Place = tuple[float, float]
 
 SIDES = 4
 """Of a frame, counter-clockwise: least y, most x, most y, least x."""
-
-INFINITY = float("inf")
 
 TOUCH = 2.0**-48
 """Of the coordinates, by which a parabola may miss a side of the frame and still be taken to touch it."""
@@ -44,6 +43,8 @@ class CutBorders:
         The distance from the sites there, in input units.
     side : (v,) int64 array
         Of the frame, on which a place lies; -1 inside or outside.
+    center : (c, 2) float64 array
+        Of circular arcs, in input units; NaN of others.
     """
 
     piece: Indices
@@ -52,6 +53,7 @@ class CutBorders:
     places: Floats
     radius: Floats
     side: Indices
+    center: Floats
 
 
 class FrameBox:
@@ -134,6 +136,7 @@ def cut_borders(borders: Borders, graph: PlanarGraph, frame: tuple[float, float,
     corners = [padded[source], padded[target], graph.coordinates(control)]
     corners[2] = np.where(np.isnan(corners[2]), corners[0], corners[2])
     low, high = _reach(corners)
+    _extend_to_circles(low, high, corners, graph.coordinates(borders.center), borders.level * graph.scale)
     is_within = is_finite & _all_of(low >= box.low) & _all_of(high <= box.high)
     is_off = is_finite & ~(_all_of(low < box.high) & _all_of(high > box.low))
     kept, crossing = np.flatnonzero(is_within & ~is_off), np.flatnonzero(~is_within & ~is_off)
@@ -146,6 +149,23 @@ def _reach(corners: list[Floats]) -> tuple[Floats, Floats]:
     """Least and most coordinates of the triangles that pieces lie in."""
     a, b, c = corners
     return np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
+
+
+def _extend_to_circles(low: Floats, high: Floats, corners: list[Floats], center: Floats, radius: float) -> None:
+    """Add what circular arcs, counter-clockwise and of at most half a circle, reach beyond their ends."""
+    arc = np.flatnonzero(~np.isnan(center[:, 0]))
+    if not arc.size:
+        return
+    a, b = (place[arc] - center[arc] for place in corners[:2])
+    for axis, sign in ((0, -1), (1, -1), (0, 1), (1, 1)):
+        after_first = a[:, 1 - axis] * (sign if axis else -sign) >= 0
+        before_last = b[:, 1 - axis] * (-sign if axis else sign) >= 0
+        passed = arc[after_first & before_last]
+        reach = center[passed, axis] + sign * radius
+        if sign < 0:
+            low[passed, axis] = np.minimum(low[passed, axis], reach)
+        else:
+            high[passed, axis] = np.maximum(high[passed, axis], reach)
 
 
 def _all_of(pairs: NDArray[np.bool_]) -> NDArray[np.bool_]:
@@ -172,6 +192,11 @@ class _Curve:
     height: float
     first: float
     last: float
+
+    @property
+    def size(self) -> float:
+        """How large its coordinates are beside those of the base."""
+        return self.height
 
     def place(self, t: float) -> Place:
         """Where it is at t."""
@@ -235,7 +260,7 @@ class _Cutter:
                 yield self._part(piece, curve, (begin, k), stops, cuts, own)
                 begin = None
 
-    def _cuts(self, curve: _Curve, own: list[int]) -> list[tuple[float, int]]:
+    def _cuts(self, curve: _Curve | CircularArc, own: list[int]) -> list[tuple[float, int]]:
         """Parameters between the ends where a side of the frame is met, in order, and the side."""
         low, high = min(curve.first, curve.last), max(curve.first, curve.last)
         found = []
@@ -243,7 +268,7 @@ class _Cutter:
             axis, value = self.box.lattice_line(side)
             roots = curve.meets(axis, value)
             if not roots and (turn := curve.turn(axis)) is not None:
-                slack = TOUCH * (abs(value) + abs(curve.base[axis]) + curve.height)
+                slack = TOUCH * (abs(value) + abs(curve.base[axis]) + curve.size)
                 if abs(curve.place(turn)[axis] - value) <= slack:  # it touches the frame, as far as doubles tell
                     roots = [turn, turn]
             for end, t in zip(own, (curve.first, curve.last), strict=True):
@@ -252,7 +277,7 @@ class _Cutter:
             found += [(root, side) for root in roots if low < root < high]
         return sorted(found, reverse=curve.first > curve.last)
 
-    def _is_inside(self, curve: _Curve, a: float, b: float) -> bool:
+    def _is_inside(self, curve: _Curve | CircularArc, a: float, b: float) -> bool:
         if a == b or abs(a) == INFINITY or abs(b) == INFINITY:
             return False
         return self.box.holds(curve.place((a + b) / 2))
@@ -260,7 +285,7 @@ class _Cutter:
     def _part(
         self,
         piece: int,
-        curve: _Curve,
+        curve: _Curve | CircularArc,
         span: tuple[int, int],
         stops: list[float],
         cuts: list[tuple[float, int]],
@@ -277,16 +302,18 @@ class _Cutter:
             side = self.box.nearest_side(place) if is_own else cuts[k - 1][1]
             ends.append(self._new(piece, curve, stops[k], place, side))
         control = None
-        if curve.height:
+        if isinstance(curve, _Curve) and curve.height:
             t0, t1 = stops[first], stops[last]
             a, b = curve.place(t0), curve.place(t1)
             below = (t1 - t0) * (t1 - t0) / (4 * curve.height)
             control = ((a[0] + b[0]) / 2 + below * curve.way[1], (a[1] + b[1]) / 2 - below * curve.way[0])
         return _Part(piece, ends[0], ends[1], control)
 
-    def _new(self, piece: int, curve: _Curve, t: float, place: Place, side: int) -> int:
+    def _new(self, piece: int, curve: _Curve | CircularArc, t: float, place: Place, side: int) -> int:
         """The number of a new place on a side."""
-        if curve.height:
+        if self.borders.sites[piece, 1] == OUTSIDE:
+            radius = self.borders.level
+        elif isinstance(curve, _Curve) and curve.height:
             radius = (t * t + curve.height * curve.height) / (2 * curve.height)
         else:
             radius = self._distance(int(self.borders.elements[piece, 0]), place, piece)
@@ -311,12 +338,15 @@ class _Cutter:
         (ax, ay), (bx, by) = self.graph.points[ends].tolist()
         return (float(ax), float(ay)), (float(bx), float(by))
 
-    def _curve(self, piece: int) -> _Curve:
+    def _curve(self, piece: int) -> _Curve | CircularArc:
         """The curve that a piece is on."""
         borders = self.borders
         source, target = (int(end) for end in borders.ends[piece])
         if piece in self.parabolas:
             return self.parabolas[piece]
+        if not np.isnan(borders.center[piece, 0]):
+            places = borders.center[piece], borders.places[source], borders.places[target]
+            return CircularArc.between(*((float(x), float(y)) for x, y in places))
         if source >= 0 and target >= 0:
             a, b = borders.places[source].tolist(), borders.places[target].tolist()
             way = (b[0] - a[0], b[1] - a[1])
@@ -363,9 +393,10 @@ class _Cutter:
         """All pieces in the frame, whole ones first."""
         of_parts = np.array([part.control or (np.nan, np.nan) for part in parts]).reshape(-1, 2)
         own = self.borders.ends[kept]
+        pieces = np.concatenate([kept, np.array([part.piece for part in parts], dtype=np.int64)])
         new = np.array([place for place, _, _ in self.cuts]).reshape(-1, 2)
         return CutBorders(
-            np.concatenate([kept, np.array([part.piece for part in parts], dtype=np.int64)]),
+            pieces,
             np.concatenate(
                 [own, np.array([(part.source, part.target) for part in parts], dtype=np.int64).reshape(-1, 2)]
             ),
@@ -373,4 +404,5 @@ class _Cutter:
             np.concatenate([places, new]),
             self.graph.scale * np.concatenate([self.borders.radius, [radius for _, radius, _ in self.cuts]]),
             np.concatenate([self.sides, np.array([side for _, _, side in self.cuts], dtype=np.int64)]),
+            self.graph.coordinates(self.borders.center)[pieces],
         )

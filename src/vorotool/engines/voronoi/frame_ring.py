@@ -16,9 +16,6 @@ Indices = NDArray[np.int64]
 Floats = NDArray[np.float64]
 Pair = tuple[int, int]
 
-OUTSIDE = -1
-"""The site and the part on the far side of the frame."""
-
 UNKNOWN = -2
 """Those along a frame that no border meets."""
 
@@ -133,8 +130,13 @@ def _counter_clockwise(ends: list[Pair], cut: CutBorders, order: Indices, side: 
 
     def turned(each: Pair) -> float:
         arc, at = each
-        there = cut.control[arc] if not np.isnan(cut.control[arc, 0]) else cut.places[cut.ends[arc, 1 - at]]
-        x, y = (there - cut.places[cut.ends[arc, at]]).tolist()
+        here, there = cut.places[cut.ends[arc, at]], cut.places[cut.ends[arc, 1 - at]]
+        x, y = (there - here).tolist()
+        if not np.isnan(cut.control[arc, 0]):
+            x, y = (cut.control[arc] - here).tolist()
+        elif not np.isnan(cut.center[arc, 0]):  # counter-clockwise from its source
+            u, v = (here - cut.center[arc]).tolist()
+            x, y = (-v, u) if at == 0 else (v, -u)
         return -float(x * forward[0] + y * forward[1]) / float(np.sqrt(x * x + y * y))
 
     first = min(range(len(ends)), key=lambda k: turned(ends[k]))

@@ -6,7 +6,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.voronoi.assembly import Arcs, Rings
-from vorotool.geometry.curves.flatten import polylines
 
 Indices = NDArray[np.int64]
 
@@ -34,29 +33,39 @@ def shells_of(rings: Rings, arcs: Arcs) -> Indices:
     last = np.searchsorted(rings.part[sorting], rings.part[holes], side="right")
     held = last > first
     shell[holes[held]] = sorting[first[held]]
-    for at in np.flatnonzero(last - first > 1).tolist():
-        shell[holes[at]] = _around(int(holes[at]), sorting[first[at] : last[at]], rings, arcs)
+    several = np.flatnonzero(last - first > 1)
+    if several.size:
+        shell[holes[several]] = _around(holes[several], shells, rings, arcs)
     return shell
 
 
-def _around(hole: int, shells: Indices, rings: Rings, arcs: Arcs) -> int:
-    """The smallest of several shells that a place of a hole lies in."""
+def _around(holes: Indices, shells: Indices, rings: Rings, arcs: Arcs) -> Indices:
+    """For each hole the smallest shell of its part that lies around it.
+
+    A place in the hole tells, since one on it may be on several shells; what lies in the hole itself is smaller than it.
+    """
     import shapely
 
-    place = shapely.points(arcs.vertices[arcs.ends.ravel()[rings.half_edge[rings.start[hole]]]])
-    distances: list[tuple[float, float, int]] = []
-    for each in shells.tolist():
-        around = shapely.Polygon(_outline(each, rings, arcs))
-        distances.append((float(shapely.distance(around, place)), abs(float(rings.area[each])), each))
-    return min(distances)[2]
+    own = shells[np.isin(rings.part[shells], rings.part[holes])]
+    tree = shapely.STRtree([shapely.Polygon(_outline(each, rings, arcs)) for each in own.tolist()])
+    inner = np.array([shapely.Polygon(_outline(each, rings, arcs)) for each in holes.tolist()])
+    hole, row = tree.query(shapely.point_on_surface(inner), predicate="dwithin", distance=0.0)
+    shell = own[row]
+    fits = (rings.part[shell] == rings.part[holes[hole]]) & (rings.area[shell] >= -rings.area[holes[hole]])
+    hole, shell = hole[fits], shell[fits]
+    order = np.lexsort((shell, -rings.area[shell], hole))
+    found = np.full(len(holes), -1, dtype=np.int64)
+    found[hole[order]] = shell[order]  # the smallest comes last, and stays
+    for at in np.flatnonzero(found < 0).tolist():  # as far as doubles tell it lies in none: in the nearest
+        alike = np.flatnonzero(rings.part[own] == rings.part[holes[at]])
+        found[at] = own[alike[shapely.distance(tree.geometries[alike], inner[at]).argmin()]]
+    return found
 
 
 def _outline(ring: int, rings: Rings, arcs: Arcs) -> NDArray[np.float64]:
     """Places along a ring, close enough to tell what is in it."""
     half_edge = rings.half_edge[rings.start[ring] : rings.start[ring + 1]]
     arc, is_back = half_edge >> 1, (half_edge & 1).astype(bool)
-    ends = np.where(is_back[:, None], arcs.ends[arc, ::-1], arcs.ends[arc])
-    source, target = arcs.vertices[ends[:, 0]], arcs.vertices[ends[:, 1]]
-    control = arcs.control[arc]
-    tolerance = float(np.ptp(source, axis=0).max()) * 2.0**-20
-    return polylines(source, control, target, ~np.isnan(control[:, 0]), tolerance)[0]
+    along = arcs.mixed()[arc].reversed(is_back)
+    tolerance = float(np.ptp(np.concatenate([along.source, along.target]), axis=0).max()) * 2.0**-20
+    return along.polylines(tolerance)[0]

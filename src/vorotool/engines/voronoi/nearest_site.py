@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.voronoi.elements import NOBODY, OwnedGraph
+from vorotool.geometry.voronoi.voronoi_map import OUTSIDE
 
 Exact = tuple[Fraction, Fraction]
 
@@ -16,7 +17,7 @@ MARGIN = 2.0**-40
 """Of the largest coordinate, by which rounding may make an element seem nearer or farther than it is."""
 
 
-def site_at(owned: OwnedGraph, place: tuple[float, float]) -> int:
+def site_at(owned: OwnedGraph, place: tuple[float, float], level: float = np.inf) -> int:
     """Give the site that covers a place in input units, else the one nearest to it, the smallest of several.
 
     Parameters
@@ -25,6 +26,8 @@ def site_at(owned: OwnedGraph, place: tuple[float, float]) -> int:
         Of all sites, of which there is one with places at least.
     place : (float, float)
         In input units.
+    level : float
+        A distance on the lattice: `OUTSIDE` is given where all sites are farther away.
 
     Examples
     --------
@@ -37,12 +40,12 @@ def site_at(owned: OwnedGraph, place: tuple[float, float]) -> int:
     """
     graph = owned.graph
     first = int(owned.element[0])
-    if (owned.element == first).all() and np.isin(owned.face, (first, -1)).all():
+    if (owned.element == first).all() and np.isin(owned.face, (first, -1)).all() and not np.isfinite(level):
         return first
     exact = tuple((Fraction(c) - Fraction(o)) / Fraction(graph.scale) for c, o in zip(place, graph.origin, strict=True))
     at: Exact = (exact[0], exact[1])
     covering = int(owned.face[_face_at(owned, at)])
-    return covering if covering >= 0 else _nearest(owned, at)
+    return covering if covering >= 0 else _nearest(owned, at, level)
 
 
 def _face_at(owned: OwnedGraph, at: Exact) -> int:
@@ -70,7 +73,7 @@ def _face_at(owned: OwnedGraph, at: Exact) -> int:
     return 0 if best is None else best[2]
 
 
-def _nearest(owned: OwnedGraph, at: Exact) -> int:
+def _nearest(owned: OwnedGraph, at: Exact, level: float) -> int:
     graph, count = owned.graph, len(owned.graph.points)
     place = np.array([float(at[0]), float(at[1])])
     points = graph.points.astype(np.float64)
@@ -80,7 +83,8 @@ def _nearest(owned: OwnedGraph, at: Exact) -> int:
     candidates = np.flatnonzero(np.sqrt(squared) <= least + margin)
     found = [(_exact_distance(graph, int(k), at), int(owned.element[k])) for k in candidates.tolist()]
     assert count
-    return min((each for each in found if each[1] != NOBODY), key=lambda each: each)[1]
+    squared_distance, site = min(each for each in found if each[1] != NOBODY)
+    return OUTSIDE if np.isfinite(level) and squared_distance > Fraction(level) ** 2 else site
 
 
 def _squared(way: NDArray[np.float64]) -> NDArray[np.float64]:

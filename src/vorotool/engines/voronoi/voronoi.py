@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
+import math
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from vorotool import _core
-from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, unwanted_sides
+from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi
 from vorotool.engines.skeleton.exact import Frame, default_frame
 from vorotool.engines.voronoi.assembly import Arcs, Rings, arcs_of, cells_of, rings_of
-from vorotool.engines.voronoi.borders import borders_of
+from vorotool.engines.voronoi.borders import Borders, borders_of, unwanted_of
+from vorotool.engines.voronoi.cuts.cut_arguments import given_cuts
+from vorotool.engines.voronoi.cuts.map_between_cuts import map_between_cuts
 from vorotool.engines.voronoi.elements import OwnedGraph, owned_graph
-from vorotool.engines.voronoi.frame_cut import cut_borders
-from vorotool.engines.voronoi.frame_ring import OUTSIDE, UNKNOWN, frame_ring
+from vorotool.engines.voronoi.frame_cut import CutBorders, cut_borders
+from vorotool.engines.voronoi.frame_ring import UNKNOWN, frame_ring
 from vorotool.engines.voronoi.holes import shells_of
 from vorotool.engines.voronoi.nearest_site import site_at
 from vorotool.errors import UsageError
@@ -22,18 +25,26 @@ from vorotool.geometry.arguments.boxes import as_extent
 from vorotool.geometry.arguments.sites import as_sites
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.magnitude import check_lengths
+from vorotool.geometry.numbers import finite_double, shown_number
 from vorotool.geometry.progress import Progress
-from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
+from vorotool.geometry.skeleton.segment_voronoi import SegmentVoronoiDiagram
+from vorotool.geometry.voronoi.voronoi_map import OUTSIDE, VoronoiMap
 
 if TYPE_CHECKING:
     from vorotool.typing import FrameLike, PointsLike, PolygonsLike
+
+_BITS = 30
+"""Steps of a lattice that a limit around a single place is counted in, as bits: as many as others have."""
 
 
 def voronoi(
     sites: PointsLike | PolygonsLike,
     *,
     by: str | ArrayLike | None = None,
+    clip: PolygonsLike | None = None,
     frame: FrameLike | None = None,
+    max_distance: float | None = None,
+    enclosures: PolygonsLike | None = None,
     threads: int = 0,
     progress: Progress = None,
 ) -> VoronoiMap:
@@ -52,8 +63,18 @@ def voronoi(
     by : str or sequence, optional
         Values that join features into sites: a column of the input, or one value a feature. Sites are numbered by first
         appearance.
+    clip : PolygonSet, geometry of shapely, geopandas, GeoJSON or WKT, optional
+        Polygons that cells are cut by: a place in one of them is shared out. Sites outside count as well.
     frame : Box or (x, y, w, h), optional
-        Rectangle that cells are cut by; by default the bounds and a tenth of their larger side around them.
+        Rectangle that cells are cut by; by default the bounds and a tenth of their larger side around them, with a clip
+        nothing else.
+    max_distance : float, optional
+        How far from its site a place may be, in input units: what is farther from all sites belongs to none. Cells are
+        bounded there by parallels of edges and by circular arcs.
+    enclosures : PolygonSet, geometry of shapely, geopandas, GeoJSON or WKT, optional
+        Lines, and polygons for the lines around them, which cut the plane. Each face is shared out among the sites that
+        meet its inside, by distances to the whole site; one that no site meets is nobody's. The default frame is
+        around them too. A site that meets several faces has a part in each.
     threads : int
         0 uses all.
     progress : callable, optional
@@ -67,11 +88,14 @@ def voronoi(
     Raises
     ------
     InputError
-        If `sites` or the frame are none, or a coordinate is not finite.
+        If `sites`, the frame, the clip or the enclosures are none, a coordinate is not finite, the clip has no area, or
+        a coordinate reference system is another one.
     UsageError
-        If the sides of the frame are not above 0, or `by` is no column.
+        If the sides of the frame or `max_distance` are not above 0, or `by` is no column.
     LimitError
         If there are too many vertices.
+    VerificationError
+        If a cut runs so close to a border that doubles do not tell them apart.
 
     Warns
     -----
@@ -87,13 +111,22 @@ def voronoi(
     >>> wall_and_tree = voronoi(["LINESTRING (0 0, 4 0)", "POINT (2 2)"], frame=(0, 0, 4, 4))
     >>> wall_and_tree.areas.round(6).tolist(), wall_and_tree.neighbours["border_length"].round(6).tolist()
     ([5.333333, 10.666667], [4.591174])
+    >>> voronoi([[0, 0]], frame=(-2, 0, 4, 4), max_distance=1).areas.round(6).tolist()
+    [1.570796]
     """
     given_frame = None if frame is None else _checked_frame(frame)
+    limit = None if max_distance is None else _checked_limit(max_distance)
     threads = checked_threads(threads)
     given = as_sites(sites, by)
-    owned = owned_graph(given.polygons, given.site, threads=threads, progress=progress)
-    extent = given_frame or default_frame(given.polygons)
-    arcs, rings = _map(owned, extent, threads, progress)
+    cuts = given_cuts(clip, enclosures, given.polygons.crs)
+    if cuts.are_there:
+        made = map_between_cuts(given, cuts, given_frame, limit, threads=threads, progress=progress)
+        arcs, rings, is_cut, extent = made.arcs, made.rings, made.is_cut, made.frame
+    else:
+        extent = given_frame or default_frame(given.polygons)
+        owned = owned_graph(given.polygons, given.site, threads=threads, progress=progress)
+        arcs, rings = _map(owned, extent, limit, threads, progress)
+        is_cut = (arcs.sites == OUTSIDE).any(axis=1)
     cells = cells_of(rings, shells_of(rings, arcs), given.count)
     return VoronoiMap(
         arcs.vertices,
@@ -101,6 +134,8 @@ def voronoi(
         arcs.ends.astype(np.int32),
         arcs.sites.astype(np.int32),
         arcs.control,
+        arcs.center,
+        is_cut,
         cells.ring_arcs,
         cells.ring_start,
         cells.polygon_start,
@@ -111,6 +146,9 @@ def voronoi(
         given.ids,
         given.properties,
         given.index,
+        max_distance=limit,
+        clip=cuts.clip,
+        enclosures=cuts.enclosures,
     )
 
 
@@ -122,24 +160,57 @@ def _checked_frame(frame: FrameLike) -> Frame:
     return extent
 
 
-def _map(owned: OwnedGraph, frame: Frame, threads: int, progress: Progress) -> tuple[Arcs, Rings]:
-    graph = owned.graph
-    unwanted = _unwanted(owned)
-    diagram = segment_voronoi(graph.points, graph.segments, unwanted=unwanted, threads=threads, progress=progress)
+def _checked_limit(max_distance: float) -> float:
+    limit = finite_double(max_distance, "max_distance")
+    if limit <= 0:
+        raise UsageError(f"max_distance must be above 0, but is {shown_number(limit)}")
+    check_lengths([limit], "distance")
+    return limit
+
+
+def _map(owned: OwnedGraph, frame: Frame, limit: float | None, threads: int, progress: Progress) -> tuple[Arcs, Rings]:
+    if limit is not None:
+        owned = _on_fine_lattice(owned, limit)
+    diagram = _diagram(owned, unwanted_of(owned) if limit is None else None, threads, progress)
+    if limit is not None:
+        borders = borders_of(owned, diagram, level=limit / owned.graph.scale, threads=threads)
+        cut = cut_borders(borders, owned.graph, frame)
+        if (borders.sites[cut.piece] == OUTSIDE).any() or _is_beyond(owned, borders.level, frame):
+            return _cells_of(owned, borders, cut, frame)
     borders = borders_of(owned, diagram, threads=threads)
-    cut = cut_borders(borders, graph, frame)
+    return _cells_of(owned, borders, cut_borders(borders, owned.graph, frame), frame)
+
+
+def _is_beyond(owned: OwnedGraph, level: float, frame: Frame) -> bool:
+    """Whether the middle of a frame, and so all of it if no limit is there, is farther than that from all sites."""
+    x, y, w, h = frame
+    return not len(owned.graph.points) or site_at(owned, (x + w / 2, y + h / 2), level) == OUTSIDE
+
+
+def _on_fine_lattice(owned: OwnedGraph, limit: float) -> OwnedGraph:
+    """Give the lattice of a single place steps that a limit can be counted in."""
+    graph = owned.graph
+    if len(graph.points) != 1:
+        return owned
+    assert not graph.points.any()
+    return replace(owned, graph=replace(graph, scale=math.ldexp(1.0, math.frexp(limit)[1] - _BITS)))
+
+
+def _diagram(
+    owned: OwnedGraph, unwanted: NDArray[np.uint8] | None, threads: int, progress: Progress
+) -> SegmentVoronoiDiagram:
+    graph = owned.graph
+    return segment_voronoi(graph.points, graph.segments, unwanted=unwanted, threads=threads, progress=progress)
+
+
+def _cells_of(owned: OwnedGraph, borders: Borders, cut: CutBorders, frame: Frame) -> tuple[Arcs, Rings]:
     sites, parts, order = (of[cut.piece].astype(np.int64) for of in (borders.sites, borders.parts, borders.order))
     ring = frame_ring(cut, sites, parts, order, _corners(frame))
+    if (ring.sides == UNKNOWN).any():
+        inside = rings_of(arcs_of(cut, replace(ring, sides=np.full_like(ring.sides, OUTSIDE)), sites, parts, order))
+        ring.sides[:] = _of_frame(owned, borders.level, frame, inside)
     arcs = arcs_of(cut, ring, sites, parts, order)
-    rings = rings_of(arcs)
-    unknown = rings.site == UNKNOWN
-    if unknown.any():
-        found = _of_frame(owned, frame, rings)
-        arcs.sites[arcs.sites == UNKNOWN], arcs.parts[arcs.parts == UNKNOWN] = found
-        rings.site[unknown], rings.part[unknown] = found
-        if found[0] == OUTSIDE:  # there are no sites
-            return arcs, rings[~unknown]
-    return arcs, rings
+    return arcs, rings_of(arcs)
 
 
 def _corners(frame: Frame) -> NDArray[np.float64]:
@@ -148,23 +219,7 @@ def _corners(frame: Frame) -> NDArray[np.float64]:
     return np.array([[x, y], [x + w, y], [x + w, y + h], [x, y + h]])
 
 
-def _unwanted(owned: OwnedGraph) -> NDArray[np.uint8] | None:
-    """Tell where the diagram is not needed: in covered faces; None where all of it is.
-
-    It is where a point without segments may be in any face, and where two sites part in the middle of a straight line:
-    the edge between them there may lead through the line.
-    """
-    graph, count = owned.graph, len(owned.graph.points)
-    degree = np.bincount(graph.segments.ravel(), minlength=count)
-    if (owned.face < 0).all() or (degree == 0).any():
-        return None
-    least, most = _core.voronoi.owners_at_points(graph.segments, owned.element[count:], count)
-    if ((degree == 2) & (least != most)).any():
-        return None
-    return unwanted_sides(graph, owned.face < 0)
-
-
-def _of_frame(owned: OwnedGraph, frame: Frame, rings: Rings) -> tuple[int, int]:
+def _of_frame(owned: OwnedGraph, level: float, frame: Frame, rings: Rings) -> tuple[int, int]:
     """Site and part along a frame that no border meets: those of what has no shell but the frame."""
     if not len(owned.graph.points):
         return OUTSIDE, OUTSIDE
@@ -173,5 +228,7 @@ def _of_frame(owned: OwnedGraph, frame: Frame, rings: Rings) -> tuple[int, int]:
     if open_holes.size:
         widest = open_holes[rings.area[open_holes].argmin()]
         return int(rings.site[widest]), int(rings.part[widest])
+    if is_shell.any():  # with nobody around it
+        return OUTSIDE, OUTSIDE
     x, y, w, h = frame
-    return site_at(owned, (x + w / 2, y + h / 2)), OUTSIDE
+    return site_at(owned, (x + w / 2, y + h / 2), level), OUTSIDE

@@ -14,7 +14,7 @@ MOST_HALVINGS = 12
 
 
 def chords_of(
-    start: Floats, end: Floats, centre: Floats, is_left: NDArray[np.bool_], tolerance: float
+    start: Floats, end: Floats, centre: Floats, is_left: NDArray[np.bool_], tolerance: float | Floats
 ) -> tuple[Floats, NDArray[np.int64]]:
     """Replace arcs by chords between places on them, each at most a quarter of a circle.
 
@@ -24,7 +24,7 @@ def chords_of(
         Of arcs of at most half a circle; the centre of a straight line is NaN.
     is_left : (k,) bool array
         Whether each arc turns left: counter-clockwise, y upwards.
-    tolerance : float
+    tolerance : float, or (k,) float64 array
         How far a chord may be from its arc.
 
     Returns
@@ -68,7 +68,7 @@ def middles_of(start: Floats, end: Floats, centre: Floats, is_long: NDArray[np.b
     return np.asarray(centre + np.sqrt((u * u).sum(axis=1) / square)[:, None] * middle)
 
 
-def _halvings(start: Floats, end: Floats, centre: Floats, tolerance: float) -> NDArray[np.int64]:
+def _halvings(start: Floats, end: Floats, centre: Floats, tolerance: float | Floats) -> NDArray[np.int64]:
     """(k,) how often each arc is halved."""
     is_arc = ~np.isnan(centre[:, 0])
     a, b = np.where(is_arc[:, None], [start - centre, end - centre], 0)

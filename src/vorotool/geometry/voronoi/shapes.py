@@ -1,4 +1,4 @@
-"""Cells of a Voronoi map as polygons, with polylines instead of parabolas."""
+"""Cells of a Voronoi map as polygons, with polylines instead of curves."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.curves.flatten import polylines
 from vorotool.geometry.ragged import owners, starts_of, within
 from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 
@@ -15,7 +14,7 @@ Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 PART_OF_RADIUS = 0.25
-"""How far a polyline may be from its parabola, as a part of the smallest distance of that from the sites."""
+"""How far a polyline may be from its curve, as a part of the smallest distance of that from the sites."""
 
 _BEND_OF_TWO = 10
 """A parabola that may be off by its second difference over this is divided in two: more than 4, at most 16."""
@@ -25,14 +24,15 @@ def flattened_arcs(cells: VoronoiMap, tolerance: float) -> tuple[Floats, Indices
     """Give each arc as a polyline, from its source to its target.
 
     A chord of a parabola lies in the sector of the cell between the focus and the parabola as long as it is nearer to
-    the parabola than the focus is. So polylines cross neither sites nor each other, whatever the tolerance.
+    the parabola than the focus is; and that of a circular arc in the sector between the centre and the arc. So
+    polylines cross neither sites nor each other, whatever the tolerance.
 
     Parameters
     ----------
     cells : VoronoiMap
         With the arcs.
     tolerance : float
-        How far polylines may be from parabolas; where these come nearer to sites, a fourth of that distance.
+        How far polylines may be from curves; where these come nearer to sites, a fourth of that distance.
 
     Returns
     -------
@@ -48,12 +48,15 @@ def flattened_arcs(cells: VoronoiMap, tolerance: float) -> tuple[Floats, Indices
     >>> int(np.diff(flattened_arcs(cells, 1.0)[1]).max())
     3
     """
-    source, target = cells.vertices[cells.arcs[:, 0]], cells.vertices[cells.arcs[:, 1]]
-    most = np.minimum(tolerance, PART_OF_RADIUS * _least_radii(source, cells.control, target))
+    arcs = cells.mixed_arcs
+    most = np.minimum(tolerance, PART_OF_RADIUS * _least_radii(arcs.source, arcs.control, arcs.target))
+    if cells.max_distance is not None:
+        most[cells.is_circle] = min(tolerance, PART_OF_RADIUS * cells.max_distance)
     paired = _in_pairs(cells)
-    bend = (source - 2 * cells.control + target)[paired]
+    bend = (arcs.source - 2 * arcs.control + arcs.target)[paired]
     most[paired] = np.fmin(most[paired], np.sqrt((bend * bend).sum(axis=1)) / _BEND_OF_TWO)
-    return polylines(source, cells.control, target, cells.is_parabola, most)
+    most[paired] = np.minimum(most[paired], arcs[paired].sagittas() / 2)
+    return arcs.polylines(most)
 
 
 def _in_pairs(cells: VoronoiMap) -> Indices:

@@ -10,7 +10,21 @@ from numpy.typing import NDArray
 from vorotool.geometry.table import Lookup, Table
 from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 
-KINDS = ["line", "parabola"]
+KINDS = ["line", "parabola", "circle"]
+"""Of arcs."""
+
+
+def kinds_of(cells: VoronoiMap) -> NDArray[np.int32]:
+    """(a,) the kind of each arc, a number among `KINDS`.
+
+    Examples
+    --------
+    >>> from vorotool import voronoi
+    >>> kinds_of(voronoi([[0, 0]])).tolist()
+    [0, 0, 0, 0]
+    """
+    kinds: NDArray[np.int32] = np.where(cells.is_circle, 2, cells.is_parabola).astype(np.int32)
+    return kinds
 
 
 def border_table(cells: VoronoiMap) -> Table:
@@ -19,7 +33,7 @@ def border_table(cells: VoronoiMap) -> Table:
     Parameters
     ----------
     cells : VoronoiMap
-        Rows are in the order of its arcs; those of the frame are left out.
+        Rows are in the order of its arcs; those with one cell only are left out.
 
     Returns
     -------
@@ -43,7 +57,7 @@ def border_table(cells: VoronoiMap) -> Table:
             "arc": arc,
             "label_a": low + 1,
             "label_b": high + 1,
-            "kind": Lookup(KINDS, cells.is_parabola[arc].astype(np.int32)),
+            "kind": Lookup(KINDS, kinds_of(cells)[arc]),
             "x0": Lookup(x, source),
             "y0": Lookup(y, source),
             "r0": Lookup(cells.radius, source),

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.geometry.checks import set_array
-from vorotool.geometry.curves.bezier import areas_beside, lengths_of
+from vorotool.geometry.curves.mixed_arcs import MixedArcs
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.ragged import divides, owners
 from vorotool.geometry.table import Table
@@ -20,7 +20,7 @@ from vorotool.geometry.values import Curved, Tabular, Value, counted, placed
 from vorotool.products.formats import resolved
 
 OUTSIDE = -1
-"""The site on the far side of the frame."""
+"""The site of what belongs to no cell: the far side of the frame, or of another cut."""
 
 _TABLES = "geometry.voronoi.tables"
 
@@ -31,22 +31,29 @@ Floats = NDArray[np.float64]
 class VoronoiMap(Value, Tabular, Curved):
     """Cells of sites in a frame: all places nearest to each site, inside its polygons at distance 0.
 
-    Of sites that are equally near to a whole region the smallest has it. Cells are bounded by arcs, straight lines or
-    parabolas, which two cells share, or a cell and the outside of the frame. Each arc leads from the vertex with the
-    smaller number to the other one.
+    Of sites that are equally near to a whole region the smallest has it. Cells are bounded by arcs, straight lines,
+    parabolas or circular ones, which two cells share, or a cell and what belongs to none. Each arc leads from the
+    vertex with the smaller number to the other one.
 
     Parameters
     ----------
     vertices : (v, 2) float64 array
         Where arcs end, in input units: those inside, then those along the frame.
     radius : (v,) float64 array
-        Distance of a vertex from the nearest sites; NaN at corners of the frame at which no border ends.
+        Distance of a vertex from the nearest sites; NaN at corners of the frame at which no border ends, and on
+        enclosures.
     arcs : (a, 2) int32 array
         Source and target, the first below the second.
     sites : (a, 2) int32 array
-        Left and right, from source to target; -1 outside of the frame.
+        Left and right, from source to target; -1 of what belongs to no cell.
     control : (a, 2) float64 array
-        Control point of a quadratic Bezier curve, which each parabola is; NaN of straight lines.
+        Control point of a quadratic Bezier curve, which each parabola is; NaN of other arcs.
+    center : (a, 2) float64 array
+        Of the circle of each circular arc, a place of the site on its inner side: counter-clockwise around it where
+        that is on the left, else clockwise; NaN of other arcs.
+    is_cut : (a,) bool array
+        Whether each arc is along the frame, the clip, the limit of distance or an enclosure, instead of where two
+        sites are equally near.
     ring_arcs : (k,) int32 array
         The arcs along each ring, counted from 1, below 0 against their direction. The cell is on the left: shells go
         counter-clockwise, holes clockwise.
@@ -58,6 +65,12 @@ class VoronoiMap(Value, Tabular, Curved):
         The first polygon of each cell, and q. Cell i is of site i; it may be empty, or of several polygons.
     frame : (x, y, w, h)
         The rectangle that cells were cut by.
+    max_distance : float, optional
+        The limit of distance: what is farther from all sites belongs to none.
+    clip : PolygonSet, optional
+        What cells were cut by as well.
+    enclosures : PolygonSet, optional
+        Lines and polygons whose faces were shared out each by itself.
     polygons : PolygonSet
         The input; points are lines of one vertex.
     polygon_site : (p,) int32 array
@@ -87,11 +100,16 @@ class VoronoiMap(Value, Tabular, Curved):
     arcs: NDArray[np.int32]
     sites: NDArray[np.int32]
     control: Floats
+    center: Floats
+    is_cut: NDArray[np.bool_]
     ring_arcs: NDArray[np.int32]
     ring_start: NDArray[np.int64]
     polygon_start: NDArray[np.int64]
     cell_start: NDArray[np.int64]
     frame: tuple[float, float, float, float]
+    max_distance: float | None = field(default=None, kw_only=True)
+    clip: PolygonSet | None = field(default=None, kw_only=True)
+    enclosures: PolygonSet | None = field(default=None, kw_only=True)
     polygons: PolygonSet
     polygon_site: NDArray[np.int32]
     ids: Sequence[Any] | None = None
@@ -106,6 +124,8 @@ class VoronoiMap(Value, Tabular, Curved):
             ("arcs", np.int32, (arcs, 2)),
             ("sites", np.int32, (arcs, 2)),
             ("control", np.float64, (arcs, 2)),
+            ("center", np.float64, (arcs, 2)),
+            ("is_cut", np.bool_, (arcs,)),
             ("ring_arcs", np.int32, (len(self.ring_arcs),)),
             ("ring_start", np.int64, (len(self.ring_start),)),
             ("polygon_start", np.int64, (len(self.polygon_start),)),
@@ -136,15 +156,26 @@ class VoronoiMap(Value, Tabular, Curved):
         return ~np.isnan(self.control[:, 0])
 
     @cached_property
+    def is_circle(self) -> NDArray[np.bool_]:
+        """(a,) whether each arc is a circular one."""
+        return ~np.isnan(self.center[:, 0])
+
+    @cached_property
     def is_border(self) -> NDArray[np.bool_]:
-        """(a,) whether each arc is between two cells; others are of the frame."""
+        """(a,) whether each arc is between two cells; others are cuts."""
         is_border: NDArray[np.bool_] = (self.sites != OUTSIDE).all(axis=1)
         return is_border
 
     @cached_property
+    def mixed_arcs(self) -> MixedArcs:
+        """The arcs with their ends, for measures and polylines."""
+        source, target = self.vertices[self.arcs[:, 0]], self.vertices[self.arcs[:, 1]]
+        return MixedArcs(source, target, self.control, self.center, self.sites[:, 0] != OUTSIDE)
+
+    @cached_property
     def length(self) -> Floats:
         """(a,) lengths of the arcs."""
-        return lengths_of(self.vertices[self.arcs[:, 0]], self.control, self.vertices[self.arcs[:, 1]])
+        return self.mixed_arcs.lengths()
 
     @cached_property
     def cell_of_polygon(self) -> NDArray[np.int64]:
@@ -163,7 +194,7 @@ class VoronoiMap(Value, Tabular, Curved):
         """(s,) areas of the cells, with the true curves."""
         x, y, w, h = self.frame
         centre = np.array([x + w / 2, y + h / 2])
-        beside = areas_beside(self.vertices[self.arcs[:, 0]], self.control, self.vertices[self.arcs[:, 1]], centre)
+        beside = self.mixed_arcs.areas_beside(centre)
         total = np.zeros(len(self))
         for hand, sign in ((0, 1), (1, -1)):
             inner = self.sites[:, hand] != OUTSIDE
@@ -172,7 +203,7 @@ class VoronoiMap(Value, Tabular, Curved):
 
     @cached_property
     def perimeters(self) -> Floats:
-        """(s,) lengths of all that bounds the cells, the frame too."""
+        """(s,) lengths of all that bounds the cells, cuts too."""
         total = np.zeros(len(self))
         for hand in (0, 1):
             inner = self.sites[:, hand] != OUTSIDE

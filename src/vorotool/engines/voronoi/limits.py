@@ -1,0 +1,227 @@
+"""The limit of distance: where it crosses borders, and the arcs along it, parallels of segments and circles."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool import _core
+from vorotool.engines.segment_voronoi.segment_voronoi import core_diagram
+from vorotool.geometry.polygons.planar_graph import PlanarGraph
+from vorotool.geometry.skeleton.segment_voronoi import SegmentVoronoiDiagram
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+_INSIDE, _AT_VERTEX, _TOUCHING = range(3)
+"""Where the core says that a crossing is: inside an edge, at its lower end, where two parts only touch each other."""
+
+_ALIGNED, _LOST = 1, 2
+"""What the core says of arcs about points: between two segments in one line, or rounded away."""
+
+STEP = 4
+"""By which orders around places are apart, so that arcs of the limit come in between."""
+
+
+@dataclass(frozen=True, eq=False)
+class LimitArcs:
+    """Arcs of a limit, each in the cell of an element of the graph, which is on its left.
+
+    Parameters
+    ----------
+    ends : (k, 2) int64 array
+        Source and target: nodes.
+    element : (k,) int64 array
+        The point or segment that they are at the distance from.
+    face : (k,) int32 array
+        Of the graph, which they are in; that of circles around points is not told.
+    order : (k, 2) int64 array
+        Around source and target.
+    center : (k, 2) float64 array
+        On the lattice; NaN of straight lines. Circular arcs are at most half a circle.
+    places : (n, 2) float64 array
+        Those of new nodes.
+    """
+
+    ends: Indices
+    element: Indices
+    face: NDArray[np.int32]
+    order: Indices
+    center: Floats
+    places: Floats
+
+
+class Limit:
+    """The curves at one distance from all sites, by their crossings with the edges of a diagram.
+
+    Whether a vertex is beyond the limit is told by its radius, once for all that meets there. A half-edge crosses the
+    limit where it comes from beyond. Of the cell of one element what is within the limit is connected: it holds all
+    places between each of its places and the element.
+
+    Parameters
+    ----------
+    graph, diagram : PlanarGraph, SegmentVoronoiDiagram
+        The whole diagram of the graph.
+    level : float
+        The distance, in units of the lattice.
+    edge_faces : (e, 2) int32 array
+        The face of the graph that each edge is in towards its source, and towards its target.
+    is_own : (e,) bool array
+        Whether each edge is between a segment and its own end.
+    is_free : (f,) bool array
+        Whether nothing covers each face.
+    """
+
+    def __init__(
+        self,
+        graph: PlanarGraph,
+        diagram: SegmentVoronoiDiagram,
+        level: float,
+        edge_faces: NDArray[np.int32],
+        is_own: NDArray[np.bool_],
+        is_free: NDArray[np.bool_],
+    ) -> None:
+        self.graph, self.diagram, self.level, self.edge_faces = graph, diagram, level, edge_faces
+        found = _core.offsets.level_crossings(
+            core_diagram(diagram, graph.segment_faces),
+            np.where(is_own, -1, edge_faces[:, 0]).astype(np.int32),
+            np.where(is_free, -1, 0).astype(np.int32),
+            level,
+            None,
+        )
+        self.half_edge = found["half_edge"].astype(np.int64)
+        self.across = found["across"].astype(np.int64)
+        self.ending, self.arc, self.middle = found["ending"], found["arc"], found["middle"]
+        self.place = self._places(found["place"])
+        self.circles = found["circles"].astype(np.int64)
+        self.number = np.full(2 * len(diagram.edges), -1, dtype=np.int64)
+        self.number[self.half_edge] = np.arange(len(self.half_edge))
+
+    def _places(self, places: Floats) -> Floats:
+        """Of crossings; both ends of an arc that rounding leaves nothing of are at one place."""
+        for one in np.flatnonzero(self.arc == _LOST).tolist():
+            other = int(self.across[one])
+            kept, moved = (other, one) if self.ending[one] == _INSIDE else (one, other)
+            places[moved] = places[kept]
+        return places
+
+    # ---- borders -----------------------------------------------------------------------------------
+    def is_near(self, edge: Indices, is_half: NDArray[np.bool_]) -> NDArray[np.bool_]:
+        """(k,) whether more than a place of edges is within the limit; halves that end at a point always are."""
+        radius = np.append(self.diagram.radius, np.inf)  # that of -1, at infinity
+        is_far = (radius[self.diagram.edges[edge]] > self.level).all(axis=1) & (self.number[2 * edge] < 0)
+        ending = np.append(self.ending, _INSIDE)  # that of -1, no crossing
+        for hand in (0, 1):
+            is_far |= ending[self.number[2 * edge + hand]] != _INSIDE
+        near: NDArray[np.bool_] = ~is_far | is_half
+        return near
+
+    def nodes(self, first: int) -> tuple[Indices, Floats]:
+        """(c,) the node of each crossing, a vertex or counted from a first number on, and the places of the latter."""
+        edge, hand = self.half_edge >> 1, self.half_edge & 1
+        same = np.arange(len(edge))
+        touching = self.ending == _TOUCHING
+        same[touching] = self.number[2 * edge[touching]]
+        aligned = np.flatnonzero(self.arc == _ALIGNED)
+        same[self.across[aligned]] = aligned
+        at_vertex = self.ending == _AT_VERTEX
+        is_new = (same == np.arange(len(same))) & ~at_vertex
+        number = np.cumsum(is_new) - 1 + first
+        node = np.where(at_vertex, self.diagram.edges[edge, 1 - hand], number[same])
+        return node.astype(np.int64), self.place[is_new]
+
+    def vertices(self) -> Indices:
+        """Vertices of the diagram that crossings are at."""
+        edge, hand = self.half_edge >> 1, self.half_edge & 1
+        at = self.ending == _AT_VERTEX
+        return np.unique(self.diagram.edges[edge[at], 1 - hand[at]]).astype(np.int64)
+
+    def cut(
+        self, ends: Indices, order: Indices, edge: Indices, has_end: NDArray[np.bool_], first: int
+    ) -> tuple[Indices, Indices]:
+        """Move ends of pieces of edges from beyond the limit to their crossings.
+
+        Parameters
+        ----------
+        ends, order : (k, 2) int64 array
+            Source and target before, and the order around them.
+        edge : (k,) int64 array
+            Of the diagram.
+        has_end : (k, 2) bool array
+            Whether each piece goes up to the source and to the target of its edge.
+        first : int
+            The number of new nodes.
+        """
+        node, _ = self.nodes(first)
+        ends, order = ends.copy(), order.copy()
+        for hand in (0, 1):
+            crossing = self.number[2 * edge + hand]
+            cut = np.flatnonzero(has_end[:, hand] & (crossing >= 0))
+            ends[cut, hand] = node[crossing[cut]]
+            # before the arcs there; of two that come to one place beside the end of a segment, the left one is second
+            order[cut, hand] = -1 + (self.arc[crossing[cut]] == _ALIGNED)
+        return ends, order
+
+    # ---- arcs --------------------------------------------------------------------------------------
+    def arcs(self, first: int, rank: Callable[[Indices, Indices], Indices]) -> LimitArcs:
+        """Give the arcs between crossings, those over half a circle in two, and the whole circles.
+
+        Parameters
+        ----------
+        first : int
+            The number of new nodes.
+        rank : callable
+            Gives the place of elements among the sites around vertices.
+        """
+        node, places = self.nodes(first)
+        edge, hand = self.half_edge >> 1, self.half_edge & 1
+        coming, leaving = self._orders(node, rank)
+        is_long = ~np.isnan(self.middle[:, 0])
+        kept = np.flatnonzero((self.arc != _ALIGNED) & (is_long | (node != node[self.across])))
+        onward = self.across[kept]
+        element = self.diagram.edge_sites[edge, 1 - hand].astype(np.int64)[kept]
+        ends = np.stack([node[kept], node[onward]], axis=1)
+        order = np.stack([leaving[kept], coming[onward]], axis=1)
+        split = np.flatnonzero(is_long[kept])
+        middle = first + len(places) + np.arange(len(split))
+        second = np.stack([middle, ends[split, 1]], axis=1), np.stack([np.full(len(split), 1), order[split, 1]], axis=1)
+        ends[split, 1], order[split, 1] = middle, 0
+        around, of_circles = self._circles(first + len(places) + len(split))
+        element = np.concatenate([element, element[split], np.repeat(self.circles, 2)])
+        is_lost = np.zeros(len(element), dtype=bool)
+        is_lost[: len(kept)] = self.arc[kept] == _LOST
+        is_arc = (element < len(self.graph.points)) & ~is_lost
+        face = self.edge_faces[edge, hand][kept]
+        return LimitArcs(
+            np.concatenate([ends, second[0], around]),
+            element,
+            np.concatenate([face, face[split], np.zeros(len(around), dtype=np.int32)]),
+            np.concatenate([order, second[1], np.tile([[0, 1]], (len(around), 1))]),
+            np.where(is_arc[:, None], self.graph.points[np.where(is_arc, element, 0)], np.nan),
+            np.concatenate([places, self.middle[kept[split]], of_circles]),
+        )
+
+    def _orders(self, node: Indices, rank: Callable[[Indices, Indices], Indices]) -> tuple[Indices, Indices]:
+        """(c,) the orders around nodes of the arc that comes to each crossing, and of that which leaves it.
+
+        Looking towards what is near, an arc comes from the left and leaves to the right. Where two parts only touch
+        each other there are both of those from either side.
+        """
+        edge, hand = self.half_edge >> 1, self.half_edge & 1
+        is_other = (self.ending == _TOUCHING) & (hand == 1)
+        coming, leaving = np.where(is_other, 3, 1), np.where(is_other, 0, 2)
+        at = np.flatnonzero(self.ending == _AT_VERTEX)
+        far = STEP * (2 * rank(node[at], self.diagram.edge_sites[edge[at], hand[at]].astype(np.int64)) + 1)
+        coming[at], leaving[at] = far - 1, far + 1
+        return coming, leaving
+
+    def _circles(self, first: int) -> tuple[Indices, Floats]:
+        """(2 k, 2) ends of the halves of whole circles, and (2 k, 2) places of their nodes."""
+        right = first + 2 * np.arange(len(self.circles))
+        ends = np.stack([right, right + 1, right + 1, right], axis=1).reshape(-1, 2)
+        center = self.graph.points[self.circles].astype(np.float64)
+        aside = np.array([[self.level, 0.0], [-self.level, 0.0]])
+        return ends, (center[:, None] + aside).reshape(-1, 2)
