@@ -99,7 +99,7 @@ Crossings crossings_of(const core::segment_voronoi::build::DiagramView& diagram,
     const bool is_aligned = arcs.is_between_aligned(domain, piece);
     found.half_edge.push_back(h);
     found.across.push_back(static_cast<std::int32_t>(crossings.number(piece.last)));
-    found.ending.push_back(level.ends_at_head(h) ? at_vertex : level.touches(h) ? touching : inside);
+    found.ending.push_back(crossings.is_at_head(h) ? at_vertex : level.touches(h) ? touching : inside);
     found.arc.push_back(is_aligned ? aligned : arcs.is_lost(piece) ? lost : ordinary);
     found.place.push_back(crossings.place(h));
     found.middle.push_back(arcs.is_long(piece) ? arcs.middle(piece) : core::kernel::Point{nan, nan});

@@ -26,7 +26,7 @@ auto edge_faces(const SegmentDiagram& input, unsigned threads, const Progress& p
       run_interruptible(progress, core::voronoi::edge_faces, diagram, core::base::resolve_threads(threads));
   const std::size_t edges = diagram.edges.size();
   return std::make_tuple(to_numpy(std::move(made.faces), {edges, 2}),
-                         to_numpy(std::move(made.is_own), {edges}));
+                         to_numpy(std::move(made.is_own), {edges}), to_numpy(std::move(made.alias)));
 }
 
 using NearAndCrowded = std::pair<Vector<const std::uint8_t>, Indices>;
@@ -61,7 +61,6 @@ Columns site_borders(const SegmentDiagram& input, const Indices& element_owner, 
     result["edge"] = to_numpy(std::move(made.edge));
     result["point"] = to_numpy(std::move(made.point));
     result["is_first"] = to_numpy(std::move(made.is_first));
-    result["alias"] = to_numpy(std::move(made.alias));
     result["root"] = to_numpy(std::move(made.root));
   }
   return result;
@@ -114,7 +113,8 @@ void bind_voronoi(nb::module_& room) {
       "threads"_a, "progress"_a.none(),
       "Ends, elements, sites, parts and order of borders, and the points that became nodes after vertices.");
   room.def("edge_faces", &edge_faces, "diagram"_a, "threads"_a, "progress"_a.none(),
-           "In which face each edge begins and ends; whether it is between a segment and its own end.");
+           "In which face each edge begins and ends; whether it is between a segment and its own end; of "
+           "points the segment that has their cell.");
   room.def("ranks_around", &ranks_around, "diagram"_a, "vertex"_a, "site"_a,
            "The places of sites among those around vertices.");
   room.def("owners_at_points", &owners_at_points, "segments"_a, "owner"_a, "points"_a,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "core/base/disjoint_sets.hpp"
 #include "core/base/indices.hpp"
@@ -190,7 +191,6 @@ class Chooser {
       made.point.push_back(each.point);
       made.is_first.push_back(each.is_first ? 1 : 0);
     }
-    made.alias = own_.alias;
     const std::size_t parts = diagram_.site_count() + diagram_.segments.size() + face_owner_.size();
     for (std::size_t k = 0; k < parts; ++k) made.root.push_back(parts_.find(static_cast<std::int32_t>(k)));
   }
@@ -211,18 +211,20 @@ class Chooser {
 EdgeFaces edge_faces(const DiagramView& diagram, unsigned threads, const base::Monitor& monitor) {
   const skeleton::SkeletonEdges kept = skeleton::skeleton_edges(diagram, threads, monitor);
   const std::size_t count = diagram.edges.size();
-  EdgeFaces made{base::LargeArray<std::int32_t>(2 * count), base::LargeArray<std::uint8_t>(count)};
+  EdgeFaces made{base::LargeArray<std::int32_t>(2 * count), base::LargeArray<std::uint8_t>(count), {}};
   std::fill_n(made.is_own.data(), count, std::uint8_t{1});
   for (std::size_t k = 0; k < kept.edge.size(); ++k) {
     const std::size_t edge = at(kept.edge[k]);
     made.is_own[edge] = 0;
     made.faces[2 * edge] = made.faces[2 * edge + 1] = kept.face[k];
   }
-  for (const Piece& each : own_ends(diagram, kept).pieces) {
+  OwnEnds own = own_ends(diagram, kept);
+  for (const Piece& each : own.pieces) {
     const std::size_t edge = at(each.edge);
     if (each.point == none || each.is_first) made.faces[2 * edge] = each.face;
     if (each.point == none || !each.is_first) made.faces[2 * edge + 1] = each.face;
   }
+  made.alias = std::move(own.alias);
   return made;
 }
 

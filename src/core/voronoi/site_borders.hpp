@@ -28,7 +28,6 @@ struct SiteBorders {
   std::vector<std::int32_t> edge;      // of each border that is one of the diagram: these come first
   std::vector<std::int32_t> point;     // that it is a half of the edge up to, or -1
   std::vector<std::uint8_t> is_first;  // whether it is the half towards the source
-  std::vector<std::int32_t> alias;     // [n] as of `OwnEnds`
   std::vector<std::int32_t> root;      // of points, left and right sides of segments, faces: their part
 
   std::size_t size() const { return sites.size() / 2; }
@@ -45,6 +44,7 @@ struct Reach {
 struct EdgeFaces {
   base::LargeArray<std::int32_t> faces;   // [2 e]
   base::LargeArray<std::uint8_t> is_own;  // [e]
+  std::vector<std::int32_t> alias;        // [n] as of `OwnEnds`
 };
 EdgeFaces edge_faces(const segment_voronoi::build::DiagramView& diagram, unsigned threads,
                      const base::Monitor& monitor);

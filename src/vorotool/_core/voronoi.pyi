@@ -15,9 +15,9 @@ def site_borders(diagram: vorotool._core.segment_voronoi.Diagram, element_owner:
     Ends, elements, sites, parts and order of borders, and the points that became nodes after vertices.
     """
 
-def edge_faces(diagram: vorotool._core.segment_voronoi.Diagram, threads: int, progress: Callable[[float], object] | None) -> tuple[numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.uint8]]:
+def edge_faces(diagram: vorotool._core.segment_voronoi.Diagram, threads: int, progress: Callable[[float], object] | None) -> tuple[numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.uint8], numpy.typing.NDArray[numpy.int32]]:
     """
-    In which face each edge begins and ends; whether it is between a segment and its own end.
+    In which face each edge begins and ends; whether it is between a segment and its own end; of points the segment that has their cell.
     """
 
 def ranks_around(diagram: vorotool._core.segment_voronoi.Diagram, vertex: numpy.typing.NDArray[numpy.int64], site: numpy.typing.NDArray[numpy.int64]) -> numpy.typing.NDArray[numpy.int64]:

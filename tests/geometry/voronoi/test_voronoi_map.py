@@ -56,7 +56,8 @@ def test_digons_hold_something():
 
 def test_tables(cells):
     borders, rows = cells.edges, table(cells)
-    assert list(rows) == ["label", "area", "perimeter", "neighbours", "components"]
+    names = ["label", "area", "perimeter", "neighbours", "own_area", "max_distance", "components"]
+    assert list(rows) == names
     assert rows["neighbours"].tolist() == [1, 1]
     assert cells.neighbours.rows == 1
     assert cells.neighbours["border_length"][0] == pytest.approx(borders["length"].sum())

@@ -79,7 +79,7 @@ def arcs_of(cut: CutBorders, ring: FrameRing, sites: Indices, parts: Indices, or
     inner = np.where(ring.rank > 0, ring.rank, order)
     last = len(cut.ends) + 2  # after all that ends at a node from inside
     orders = np.concatenate([inner, np.stack([np.zeros(nodes, dtype=np.int64), np.full(nodes, last)], axis=1)])
-    places = np.concatenate([cut.places, ring.corners])
+    places = np.concatenate([ring.places, ring.corners])
     radius = np.concatenate([cut.radius, np.full(len(ring.corners), np.nan)])
     number = np.full(len(places), -1, dtype=np.int64)
     used = np.zeros(len(places), dtype=bool)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.segment_voronoi.segment_voronoi import core_diagram, unwanted_sides
+from vorotool.engines.segment_voronoi.segment_voronoi import core_diagram
 from vorotool.engines.voronoi.elements import OwnedGraph
 from vorotool.engines.voronoi.limits import STEP, Limit
 from vorotool.errors import VerificationError
@@ -85,19 +85,23 @@ def borders_of(
     whole = core_diagram(diagram, owned.graph.segment_faces)
     limit = None
     if np.isfinite(level):
-        faces, is_own = _core.voronoi.edge_faces(whole, threads, None)
+        faces, is_own, alias = _core.voronoi.edge_faces(whole, threads, None)
         limit = Limit(owned.graph, diagram, level, faces, is_own.view(bool), owned.face < 0)
     try:
         made = _core.voronoi.site_borders(whole, owned.element, owned.face, _reach(limit), threads, None)
         added = made["added"]
         borders = Borders(
-            *(made[name] for name in ("ends", "elements", "sites", "parts", "order")),
+            made["ends"],
+            made["elements"],
+            made["sites"],
+            made["parts"],
+            made["order"],
             np.concatenate([diagram.vertices, owned.graph.points[added].astype(np.float64)]),
             np.concatenate([diagram.radius, np.zeros(len(added))]),
             np.full(made["ends"].shape, np.nan),
             level,
         )
-        return borders if limit is None else _limited(borders, owned, limit, made, whole)
+        return borders if limit is None else _limited(borders, owned, limit, made | {"alias": alias}, whole)
     except RuntimeError as error:
         raise VerificationError(f"{error}: a defect of vorotool, please report it") from None
 
@@ -123,8 +127,7 @@ def _limited(
     has_end = np.stack([~is_half | is_first, ~is_half | ~is_first], axis=1)
     ends, order = borders.ends.copy(), STEP * borders.order
     ends[:edges], order[:edges] = limit.cut(ends[:edges], order[:edges], made["edge"].astype(np.int64), has_end, first)
-    points = len(owned.graph.points)
-    element = np.where(arcs.element < points, made["alias"][np.minimum(arcs.element, points - 1)], arcs.element)
+    element = _aliased(arcs.element, made["alias"])
     beyond = np.full(len(element), OUTSIDE)
     part = made["root"][_parts_of_elements(owned, element, arcs.face)]
     return Borders(
@@ -140,23 +143,49 @@ def _limited(
     )
 
 
-def unwanted_of(owned: OwnedGraph) -> NDArray[np.uint8] | None:
-    """Tell where the diagram is not needed: in covered faces; None where all of it is.
+def ridges_of(owned: OwnedGraph, diagram: SegmentVoronoiDiagram, *, threads: int = 0) -> Borders:
+    """Choose the edges between elements of one site, in the open: the distance from it has its maxima along these.
 
-    It is where a point without segments may be in any face, and where two sites part in the middle of a straight line:
-    the edge between them there may lead through the line.
+    Edges between a segment and its own end are none: across these the distance is smooth.
+
+    Parameters
+    ----------
+    owned, diagram, threads
+        As of `borders_of`.
+
+    Returns
+    -------
+    Borders
+        With one site on both sides; parts and order are 0.
     """
-    graph, count = owned.graph, len(owned.graph.points)
-    degree = np.bincount(graph.segments.ravel(), minlength=count)
-    if (owned.face < 0).all() or (degree == 0).any():
-        return None
-    least, most = _core.voronoi.owners_at_points(graph.segments, owned.element[count:], count)
-    if ((degree == 2) & (least != most)).any():
-        return None
-    return unwanted_sides(graph, owned.face < 0)
+    graph = owned.graph
+    faces, is_own, alias = _core.voronoi.edge_faces(core_diagram(diagram, graph.segment_faces), threads, None)
+    edge = np.flatnonzero(~is_own.view(bool))
+    elements = diagram.edge_sites[edge].astype(np.int64)
+    sites = owned.element[_aliased(elements, alias)]
+    chosen = (sites[:, 0] == sites[:, 1]) & (owned.face[faces[edge, 0]] < 0)
+    none = np.zeros((np.count_nonzero(chosen), 2), dtype=np.int64)
+    return Borders(
+        diagram.edges[edge[chosen]].astype(np.int64),
+        elements[chosen],
+        sites[chosen],
+        none,
+        none,
+        diagram.vertices,
+        diagram.radius,
+        np.full(none.shape, np.nan),
+        np.inf,
+    )
 
 
 # ---- parts -----------------------------------------------------------------------------------------
+def _aliased(element: Indices, alias: NDArray[np.int32]) -> Indices:
+    """Elements, but for points whose cells have no area their aliases, segments beside them."""
+    points = len(alias)
+    aliased: Indices = np.where(element < points, alias[np.minimum(element, points - 1)], element)
+    return aliased
+
+
 def _parts_of_elements(owned: OwnedGraph, element: Indices, face: NDArray[np.int32]) -> Indices:
     """(k,) the part that elements are in a face: points come first, then left and right sides of segments."""
     graph, count = owned.graph, len(owned.graph.points)

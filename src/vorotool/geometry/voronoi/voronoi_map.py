@@ -16,19 +16,20 @@ from vorotool.geometry.curves.mixed_arcs import MixedArcs
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.ragged import divides, owners
 from vorotool.geometry.table import Table
-from vorotool.geometry.values import Curved, Tabular, Value, counted, placed
+from vorotool.geometry.values import Curved, Graph, Pictured, Tabular, Value, counted, placed
 from vorotool.products.formats import resolved
 
 OUTSIDE = -1
 """The site of what belongs to no cell: the far side of the frame, or of another cut."""
 
 _TABLES = "geometry.voronoi.tables"
+_MEASURES = "engines.voronoi.measures"
 
 Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class VoronoiMap(Value, Tabular, Curved):
+class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
     """Cells of sites in a frame: all places nearest to each site, inside its polygons at distance 0.
 
     Of sites that are equally near to a whole region the smallest has it. Cells are bounded by arcs, straight lines,
@@ -209,6 +210,18 @@ class VoronoiMap(Value, Tabular, Curved):
             inner = self.sites[:, hand] != OUTSIDE
             total += np.bincount(self.sites[inner, hand], self.length[inner], minlength=len(self))
         return total
+
+    @cached_property
+    def own_areas(self) -> Floats:
+        """(s,) areas of the site's own polygons that cells have; see `vorotool.engines.voronoi.measures.own_areas`."""
+        made: Floats = resolved(f"{_MEASURES}:own_areas")(self)
+        return made
+
+    @cached_property
+    def reaches(self) -> Floats:
+        """(s,) largest distances of cells from their sites; see `vorotool.engines.voronoi.measures.reaches`."""
+        made: Floats = resolved(f"{_MEASURES}:reaches")(self)
+        return made
 
     @cached_property
     def components(self) -> NDArray[np.int64]:

@@ -9,9 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.arrangement.planar_graph import Placement, arranged
-from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, segment_voronoi_of_groups
-from vorotool.engines.voronoi.borders import Borders, borders_of, unwanted_of
+from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi_of_groups
+from vorotool.engines.voronoi.borders import Borders, borders_of
 from vorotool.engines.voronoi.cuts.regions import Regions
+from vorotool.engines.voronoi.diagram import diagram_of
 from vorotool.engines.voronoi.elements import OwnedGraph, owners_of
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.polygons.polygon_set import PolygonSet
@@ -55,8 +56,14 @@ class LocalDiagrams:
 
 
 def local_diagrams(
-    sites: PlanarGraph, site: Sites, count: int, regions: Regions, *, limit: float | None = None,
-    threads: int = 0, progress: Progress = None,
+    sites: PlanarGraph,
+    site: Sites,
+    count: int,
+    regions: Regions,
+    *,
+    limit: float | None = None,
+    threads: int = 0,
+    progress: Progress = None,
 ) -> LocalDiagrams:
     """Make the diagram of each region.
 
@@ -81,9 +88,7 @@ def local_diagrams(
     if regions.count == 1 and len(regions.site) == count:
         owned = owners_of(sites, site)
         graph = owned.graph
-        diagram = segment_voronoi(
-            graph.points, graph.segments, unwanted=unwanted_of(owned) if limit is None else None, threads=threads, progress=progress
-        )
+        diagram = diagram_of(owned, is_whole=limit is not None, threads=threads, progress=progress)
         none = np.zeros(len(graph.points), dtype=np.int64), np.zeros(len(graph), dtype=np.int64)
         return LocalDiagrams(owned, *none, borders_of(owned, diagram, level=level, threads=threads), given, site)
     parts = [*_graphs_of_regions(sites, site, count, regions)]
@@ -146,4 +151,3 @@ def _joined(parts: list[OwnedGraph], sites: PlanarGraph) -> OwnedGraph:
     none = np.empty(0, dtype=np.int32)
     element = np.concatenate([none, *(own for own, _ in elements), *(own for _, own in elements)])
     return OwnedGraph(graph, element, np.concatenate([none, *(part.face for part in parts)]))
-
