@@ -9,9 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.arrangement.planar_graph import Placement, arranged
-from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, segment_voronoi_of_groups
-from vorotool.engines.voronoi.borders import Borders, borders_of, unwanted_of
+from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi_of_groups
+from vorotool.engines.voronoi.borders import Borders, borders_of
 from vorotool.engines.voronoi.cuts.regions import Regions
+from vorotool.engines.voronoi.diagram import diagram_of
 from vorotool.engines.voronoi.elements import OwnedGraph, owners_of
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.polygons.polygon_set import PolygonSet
@@ -90,13 +91,7 @@ def local_diagrams(
     if regions.count == 1 and len(regions.site) == count:
         owned = owners_of(sites, site)
         graph = owned.graph
-        diagram = segment_voronoi(
-            graph.points,
-            graph.segments,
-            unwanted=unwanted_of(owned) if limit is None else None,
-            threads=threads,
-            progress=progress,
-        )
+        diagram = diagram_of(owned, is_whole=limit is not None, threads=threads, progress=progress)
         none = np.zeros(len(graph.points), dtype=np.int64), np.zeros(len(graph), dtype=np.int64)
         return LocalDiagrams(owned, *none, pieces_of(owned, diagram, level=level, threads=threads), given, site)
     parts = [*_graphs_of_regions(sites, site, count, regions)]
