@@ -185,14 +185,13 @@ void Tessellation::squared_distances(std::int32_t first, std::int32_t rows, Squa
   });
 }
 
-void Tessellation::distances(std::int32_t first, std::int32_t rows, float* out, unsigned threads,
-                             const Monitor& monitor) const {
-  const double pixel = 1.0 / frame_.steps;  // a power of two: exact
+void Tessellation::distances(std::int32_t first, std::int32_t rows, float* out, double square_of_step,
+                             unsigned threads, const Monitor& monitor) const {
   with_kernel(is_wide(), level_, [&]<class Arithmetic>(const RowKernel<Arithmetic>& kernel) {
     write_rows(sites_, frame_, kernel, first, rows, out, threads, monitor,
                [&](const Envelope<Arithmetic>& envelope, const PixelRow& pixels, float* row) {
                  for_each_square(envelope, pixels, [&](std::int32_t p, auto square) {
-                   row[p] = static_cast<float>(std::sqrt(static_cast<double>(square)) * pixel);
+                   row[p] = static_cast<float>(std::sqrt(static_cast<double>(square) * square_of_step));
                  });
                });
   });

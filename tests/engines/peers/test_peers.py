@@ -78,9 +78,9 @@ def test_spacing_scales_distances(spacing):
 @pytest.mark.parametrize(
     ("spacing", "words"),
     [
-        ((1, 2), "rectangular pixels are not taken yet"),
+        ((1, 2**0.5), "round the sides"),
         (0, "expected a number above 0"),
-        ((1, 1, 1), "two equal ones"),
+        ((1, 1, 1), "or two of them"),
         (float("nan"), "spacing is nan"),
         (-1, "expected a number above 0"),
         ("1", "spacing"),

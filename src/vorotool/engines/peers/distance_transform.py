@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.peers.arguments import pixel_side, plane
+from vorotool.engines.peers.arguments import plane
 from vorotool.engines.tessellation.frames import require_memory
 from vorotool.engines.tessellation.seeding import seeds_from_raster
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import InputError, UsageError
-from vorotool.geometry.numbers import nearest_double
 from vorotool.geometry.pixel_frame import MAX_PIXELS, Frame
+from vorotool.geometry.spacing import PixelSides, pixel_sides
 
 if TYPE_CHECKING:
     from vorotool.typing import ImageLike, Spacing
@@ -69,8 +68,8 @@ def distance_transform(
     ----------
     mask : (H, W) array
         Nonzero pixels are foreground.
-    spacing : float or pair of equal floats, optional
-        The side of a pixel, by default 1; SciPy's ``sampling``.
+    spacing : float or (height, width), optional
+        Sides of a pixel, by default 1; SciPy's ``sampling``. A float is the decimal number that it is written as.
     return_distances, return_indices : bool
         What is wanted.
     threads : int
@@ -92,7 +91,7 @@ def distance_transform(
     LimitError
         If it has more than `max_pixels` pixels.
     UsageError
-        If nothing is wanted, or pixels are not square.
+        If nothing is wanted, or the spacing is none.
 
     References
     ----------
@@ -107,15 +106,15 @@ def distance_transform(
     """
     if not (return_distances or return_indices):
         raise UsageError("return_distances and return_indices are both False: nothing is wanted, set one of them")
-    side, values = pixel_side(spacing), plane(mask, "mask")
-    sweep = _sweep(values, threads, max_pixels)
+    sides, values = pixel_sides(spacing), plane(mask, "mask")
+    sweep = _sweep(values, sides, threads, max_pixels)
     if not return_indices:
-        return _roots(sweep, values.shape, side)
+        return _roots(sweep, values.shape)
     indices = _nearest(sweep, values.shape)
-    return (_roots(sweep, values.shape, side), indices) if return_distances else indices
+    return (_roots(sweep, values.shape), indices) if return_distances else indices
 
 
-def _sweep(values: NDArray[Any], threads: int, max_pixels: int) -> Tessellator | None:
+def _sweep(values: NDArray[Any], sides: PixelSides, threads: int, max_pixels: int) -> Tessellator | None:
     """The tessellation whose seeds are the zero pixels; None of an image without pixels."""
     if not values.size:
         return None
@@ -124,17 +123,17 @@ def _sweep(values: NDArray[Any], threads: int, max_pixels: int) -> Tessellator |
     background = values == 0
     if not background.any():
         raise InputError("invalid mask: expected a zero pixel, but there is none, so that there are no distances to it")
-    return Tessellator(seeds_from_raster(background, mode="pixels"), threads=threads)
+    return Tessellator(seeds_from_raster(background, mode="pixels"), sides=sides, threads=threads)
 
 
-def _roots(sweep: Tessellator | None, shape: tuple[int, ...], side: Fraction) -> NDArray[np.float64]:
-    """Roots of squared distances in pixels, in the unit of the spacing."""
+def _roots(sweep: Tessellator | None, shape: tuple[int, ...]) -> NDArray[np.float64]:
+    """Roots of squared distances, in the unit of the spacing."""
     if sweep is None:
         return np.zeros(shape)
-    distances = np.sqrt(sweep.squared_distances().astype(np.float64))
-    if side != 1:
-        distances *= nearest_double(side)
-    return distances
+    squares = sweep.squared_distances().astype(np.float64)
+    if sweep.step != 1:
+        squares *= float(sweep.step**2)
+    return np.sqrt(squares)
 
 
 def _nearest(sweep: Tessellator | None, shape: tuple[int, ...]) -> NDArray[np.int32]:

@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.peers.arguments import pixel_side, plane
+from vorotool.engines.peers.arguments import plane
 from vorotool.engines.tessellation.frames import require_memory
 from vorotool.engines.tessellation.seeding import seeds_from_raster
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import InputError, UsageError
 from vorotool.geometry.numbers import real_number, shown_number
 from vorotool.geometry.pixel_frame import MAX_PIXELS, Frame
+from vorotool.geometry.spacing import as_decimal, pixel_sides
 
 if TYPE_CHECKING:
     from vorotool.typing import ImageLike, Spacing
@@ -40,8 +41,9 @@ def expand_labels(
         0 is background. Labels are from 1 to 4294967295.
     distance : float or Fraction
         How far labels grow, between centres of pixels, this distance included; ``inf`` fills all the background.
-    spacing : float or pair of equal floats, optional
-        The side of a pixel in the unit of `distance`, by default 1.
+    spacing : float or (height, width), optional
+        Sides of a pixel in the unit of `distance`, by default 1. With it floats are the decimal numbers that they are
+        written as: three pixels of 0.1 are within 0.3.
     threads : int
         0 uses all.
     max_pixels : int
@@ -59,7 +61,7 @@ def expand_labels(
     LimitError
         If the image has more than `max_pixels` pixels.
     UsageError
-        If the distance is below 0 or none, or pixels are not square.
+        If the distance is below 0 or none, or the spacing is none.
 
     References
     ----------
@@ -70,7 +72,7 @@ def expand_labels(
     >>> expand_labels([[7, 0, 0, 0, 2]]).tolist(), expand_labels([[7, 0, 0, 0, 2]], 2).tolist()
     ([[7, 7, 0, 2, 2]], [[7, 7, 2, 2, 2]])
     """
-    side, values = pixel_side(spacing), plane(labels, "labels")
+    sides, values = pixel_sides(spacing), plane(labels, "labels")
     limit = real_number(distance, "distance")
     if not limit >= 0:
         raise UsageError(f"invalid distance {shown_number(distance)}: expected a number from 0")
@@ -80,7 +82,8 @@ def expand_labels(
         return values.copy()
     height, width = values.shape
     require_memory(Frame(0, 0, width, height), max_pixels)
-    most = None if limit == float("inf") else Fraction(limit) / side
+    exact = Fraction if spacing is None else as_decimal
+    most = None if limit == float("inf") else exact(limit)
     seeds = seeds_from_raster(values.astype(np.uint8) if values.dtype == bool else values, mode="labels")
-    grown = Tessellator(seeds, max_distance=most, threads=threads).labels(dtype=np.uint32)
+    grown = Tessellator(seeds, max_distance=most, sides=sides, threads=threads).labels(dtype=np.uint32)
     return grown.astype(values.dtype)
