@@ -10,6 +10,7 @@
 #include "bindings/rooms.hpp"
 #include "bindings/support/arrays.hpp"
 #include "bindings/support/monitor.hpp"
+#include "bindings/support/simd.hpp"
 #include "core/tessellation/propagation.hpp"
 #include "core/tessellation/tessellation.hpp"
 #include "core/tessellation/verify_tessellation.hpp"
@@ -30,16 +31,6 @@ using Sides = std::pair<std::int32_t, std::int32_t>;     // of a pixel, along x 
 
 // Twice the steps of a pixel fit 32 bits.
 constexpr std::int32_t most_steps = std::int32_t{1} << 29;
-
-Simd simd_level(std::string_view name) {
-  for (const Simd level : {Simd::portable, Simd::avx2, Simd::avx512}) {
-    if (name == core::tessellation::name_of(level)) {
-      if (core::tessellation::supports(level)) return level;
-      throw std::invalid_argument(std::string(name) + " is not supported by this machine");
-    }
-  }
-  throw std::invalid_argument("unknown instruction set " + std::string(name));
-}
 
 Tessellation make_tessellation(const Integers& x, const Integers& y, const Labels& labels,
                                std::int64_t frame_x, std::int64_t frame_y, std::int32_t width,
