@@ -1,6 +1,7 @@
 #include "core/volumes/slab_sweep.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace vorotool::core::volumes {
 
@@ -10,14 +11,16 @@ using tessellation::PixelRow;
 using tessellation::RowKernel;
 
 template <class Arithmetic>
-SlabSweep<Arithmetic>::SlabSweep(const VolumeSites& sites, const VolumeFrame& frame,
+SlabSweep<Arithmetic>::SlabSweep(const VolumeSites& sites, const Coverage& coverage, const VolumeFrame& frame,
                                  const RowKernel<Arithmetic>& kernel)
     : sites_(sites),
+      coverage_(coverage),
       frame_(frame),
       kernel_(kernel),
       pixels_{frame.plane.width, frame.plane.middle_column(), frame.plane.pixel().x,
               sites.largest_coordinate <= exact_product_bound},
       wedge_(sites.sites.size()),
+      last_slice_(sites.sites.size()),
       next_(sites.sites.size()),
       of_row_(static_cast<std::size_t>(frame.plane.height), none),
       is_active_(sites.sites.size()),
@@ -51,11 +54,34 @@ void SlabSweep<Arithmetic>::start(std::int32_t first, std::int32_t last) {
   first_ = first;
   last_ = last;
   slice_ = first - 1;
-  std::fill(wedge_.begin(), wedge_.end(), Wedge{});
-  std::fill(is_active_.begin(), is_active_.end(), std::uint8_t{1});
   of_slice_.assign(static_cast<std::size_t>(last - first) + 1, none);
-  active_.resize(sites_.sites.size());
-  for (std::size_t s = 0; s < active_.size(); ++s) active_[s] = static_cast<std::int32_t>(s);
+  active_.clear();
+  // sites are sorted by z
+  const auto place = [&](std::int64_t z) {
+    const auto found = std::partition_point(sites_.sites.begin(), sites_.sites.end(),
+                                            [&](const Site& site) { return site.z < z; });
+    return static_cast<std::size_t>(found - sites_.sites.begin());
+  };
+  const auto reach = static_cast<std::int64_t>(coverage_.farthest()) + 1;
+  limit_by_reach(place(frame_.slice_z(first) - reach), place(frame_.slice_z(last) + reach + 1));
+}
+
+// Sites wait for the first slice within reach, and rows beyond it are not theirs.
+template <class Arithmetic>
+void SlabSweep<Arithmetic>::limit_by_reach(std::size_t from, std::size_t to) {
+  const double step = frame_.plane.pixel().y;
+  const double step_z = frame_.step_z();
+  for (std::size_t s = from; s < to; ++s) {
+    const Site& site = sites_.sites[s];
+    const double reach = coverage_.reach(site);
+    const double row = static_cast<double>(site.y) / step + frame_.plane.middle_row();
+    const double slice = static_cast<double>(site.z) / step_z + frame_.middle_slice();
+    wedge_[s] = {{row - reach / step, 0.0}, {row + reach / step, 0.0}};
+    const double last = std::floor(slice + reach / step_z + row_rounding);
+    last_slice_[s] = static_cast<std::int32_t>(std::clamp(last, -1.0, static_cast<double>(last_)));
+    const double first = std::ceil(slice - reach / step_z - row_rounding);
+    wait_for_slice(static_cast<std::int32_t>(s), std::max<double>(first_, first));
+  }
 }
 
 template <class Arithmetic>
@@ -84,6 +110,10 @@ void SlabSweep<Arithmetic>::wake_slice() {
 
 template <class Arithmetic>
 void SlabSweep<Arithmetic>::place_in_slice(std::int32_t site) {
+  if (last_slice_[static_cast<std::size_t>(site)] < slice_) {
+    wait_for_slice(site, Wedge::infinity);
+    return;
+  }
   const Wedge& wedge = wedge_[static_cast<std::size_t>(site)];
   const std::int32_t first = wedge.first_row(slice_, rows());
   if (first < rows() && first <= wedge.last_row(slice_, rows())) {
@@ -114,9 +144,7 @@ void SlabSweep<Arithmetic>::wait_for_slice(std::int32_t site, double slice) {
 template <class Arithmetic>
 void SlabSweep<Arithmetic>::put_aside(std::int32_t site, const Excess& excess) {
   Wedge& wedge = wedge_[static_cast<std::size_t>(site)];
-  const auto here = static_cast<double>(excess.here);
-  const auto a_row = static_cast<double>(excess.a_row);
-  const auto a_slice = static_cast<double>(excess.a_slice);
+  const auto [here, a_row, a_slice] = excess;
   if (a_row == 0) {
     wait_for_slice(site, a_slice < 0 ? slice_ + steps_to_zero(here, -a_slice) : Wedge::infinity);
     return;
@@ -141,29 +169,35 @@ void SlabSweep<Arithmetic>::insert_waiting() {
     if (column.site != none) {
       contest(s, column.site);
     } else {
-      column.site = s;
       if (!column.listed) fresh_.push_back(site_of(s).column);
-      column.listed = true;
+      settle(site_of(s).column, s);
     }
     is_stale_ = true;
     s = following;
   }
 }
 
+template <class Arithmetic>
+void SlabSweep<Arithmetic>::settle(std::int32_t column, std::int32_t site) {
+  const Site& of = site_of(site);
+  columns_[static_cast<std::size_t>(column)] = {of.x, of.y, of.z, of.label, site, true};
+}
+
 // Of two sites in one column the nearer one stays; at equal distance the smaller label.
 template <class Arithmetic>
 void SlabSweep<Arithmetic>::contest(std::int32_t site, std::int32_t other) {
   const Site& a = site_of(site);
-  const Site& b = site_of(other);
-  const auto square = [&](const Site& s) {
-    return int128{s.y - y_} * (s.y - y_) + int128{s.z - z_} * (s.z - z_);
+  const Column& b = columns_[static_cast<std::size_t>(a.column)];
+  const auto square = [&](std::int64_t y, std::int64_t z) {
+    return Measure{y - y_} * (y - y_) + Measure{z - z_} * (z - z_);
   };
-  const int128 rise = square(a) - square(b);
+  const Measure rise = square(a.y, a.z) - square(b.y, b.z);
   const bool wins = rise < 0 || (rise == 0 && a.label < b.label);
-  const int128 sign = wins ? -2 : 2;
-  const Excess excess{wins ? -rise : rise, -sign * (a.y - b.y) * frame_.plane.pixel().y,
-                      -sign * (a.z - b.z) * frame_.step_z()};
-  columns_[static_cast<std::size_t>(a.column)].site = wins ? site : other;
+  const double sign = wins ? -1 : 1;
+  const Excess excess{sign * static_cast<double>(rise),
+                      -2 * sign * static_cast<double>(a.y - b.y) * frame_.plane.pixel().y,
+                      -2 * sign * static_cast<double>(a.z - b.z) * frame_.step_z()};
+  if (wins) settle(a.column, site);
   put_aside(wins ? other : site, excess);
 }
 
@@ -194,7 +228,7 @@ void SlabSweep<Arithmetic>::rebuild_list() {
 
 template <class Arithmetic>
 void SlabSweep<Arithmetic>::write_entry(std::int32_t entry, std::int32_t column) {
-  const Site& site = site_of(columns_[static_cast<std::size_t>(column)].site);
+  const Column& site = columns_[static_cast<std::size_t>(column)];
   const auto x = static_cast<Value>(site.x);
   const auto dz = static_cast<Value>(site.z - z_);
   list_.x[entry] = x;
@@ -204,20 +238,18 @@ void SlabSweep<Arithmetic>::write_entry(std::int32_t entry, std::int32_t column)
 }
 
 template <class Arithmetic>
-auto SlabSweep<Arithmetic>::excess_between(std::int32_t site, std::int32_t left, std::int32_t right) const
+template <class Integer>
+auto SlabSweep<Arithmetic>::excess_between(const Column& i, const Column& a, const Column& b) const
     -> Excess {
-  const Site& i = site_of(site);
-  const Site& a = site_of(left);
-  const Site& b = site_of(right);
-  const auto f = [&](const Site& s) {
-    return int128{s.x} * s.x + int128{s.y - y_} * (s.y - y_) + int128{s.z - z_} * (s.z - z_);
+  const auto f = [&](const Column& s) {
+    return Integer{s.x} * s.x + Integer{s.y - y_} * (s.y - y_) + Integer{s.z - z_} * (s.z - z_);
   };
-  const int128 before = i.x - a.x;
-  const int128 after = b.x - i.x;
-  const int128 at = f(i);
-  return {(at - f(a)) * after + (at - f(b)) * before,
-          -2 * ((i.y - a.y) * after + (i.y - b.y) * before) * frame_.plane.pixel().y,
-          -2 * ((i.z - a.z) * after + (i.z - b.z) * before) * frame_.step_z()};
+  const Integer before = i.x - a.x;
+  const Integer after = b.x - i.x;
+  const Integer at = f(i);
+  return {static_cast<double>((at - f(a)) * after + (at - f(b)) * before),
+          -2 * static_cast<double>((i.y - a.y) * after + (i.y - b.y) * before) * frame_.plane.pixel().y,
+          -2 * static_cast<double>((i.z - a.z) * after + (i.z - b.z) * before) * frame_.step_z()};
 }
 
 template <class Arithmetic>
@@ -226,9 +258,11 @@ void SlabSweep<Arithmetic>::file_dead() {
     return columns_[static_cast<std::size_t>(order_[entry])];
   };
   for (std::int32_t k = 0; k < envelope_.dead_count; ++k) {
-    const std::int32_t site = column_of(envelope_.dead[k]).site;
-    put_aside(site, excess_between(site, column_of(envelope_.dead_left[k]).site,
-                                   column_of(envelope_.dead_right[k]).site));
+    const Column& dead = column_of(envelope_.dead[k]);
+    const Column& left = column_of(envelope_.dead_left[k]);
+    const Column& right = column_of(envelope_.dead_right[k]);
+    put_aside(dead.site, pixels_.products_exact ? excess_between<std::int64_t>(dead, left, right)
+                                                : excess_between<numbers::int128>(dead, left, right));
   }
   for (std::int32_t k = 0; k < envelope_.dead_count; ++k) column_of(envelope_.dead[k]).site = none;
   is_stale_ = is_stale_ || envelope_.dead_count > 0;

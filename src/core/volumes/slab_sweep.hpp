@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/tessellation/row_kernel.hpp"
+#include "core/volumes/coverage.hpp"
 #include "core/volumes/sleeping_line.hpp"
 #include "core/volumes/volume_sites.hpp"
 
@@ -22,7 +23,7 @@ class SlabSweep {
  public:
   using Envelope = tessellation::Envelope<Arithmetic>;
 
-  SlabSweep(const VolumeSites& sites, const VolumeFrame& frame,
+  SlabSweep(const VolumeSites& sites, const Coverage& coverage, const VolumeFrame& frame,
             const tessellation::RowKernel<Arithmetic>& kernel);
 
   // Prepares slices first ... last of the frame.
@@ -37,15 +38,17 @@ class SlabSweep {
  private:
   using Coordinate = typename Arithmetic::Coordinate;
   using Value = typename Arithmetic::Value;
-  using Integer = numbers::int128;
+  using Measure = typename Arithmetic::Integer;  // holds any squared distance
 
   // How much nearer others are than a seed, in some measure: above 0 where it is hidden, linear in row and slice.
   struct Excess {
-    Integer here, a_row, a_slice;
+    double here, a_row, a_slice;  // rounded, of the right signs
   };
 
   // The seed that a column has in the list, or the one that waits to be put there.
   struct Column {
+    std::int64_t x, y, z;
+    std::uint32_t label;
     std::int32_t site = none;
     bool listed = false;
   };
@@ -54,13 +57,16 @@ class SlabSweep {
   void make_room();
   void wake_slice();
   void place_in_slice(std::int32_t site);
+  void limit_by_reach(std::size_t from, std::size_t to);
   void insert_waiting();
   void contest(std::int32_t site, std::int32_t other);
   void put_aside(std::int32_t site, const Excess& excess);
   void wait_for_row(std::int32_t site, double row);
   void wait_for_slice(std::int32_t site, double slice);
   void file_dead();
-  Excess excess_between(std::int32_t site, std::int32_t left, std::int32_t right) const;
+  template <class Integer>
+  Excess excess_between(const Column& site, const Column& left, const Column& right) const;
+  void settle(std::int32_t column, std::int32_t site);
   void rebuild_list();
   void write_entry(std::int32_t entry, std::int32_t column);
 
@@ -68,16 +74,18 @@ class SlabSweep {
   std::int32_t rows() const { return frame_.plane.height; }
 
   const VolumeSites& sites_;
+  const Coverage& coverage_;
   const VolumeFrame frame_;
   const tessellation::RowKernel<Arithmetic> kernel_;
   tessellation::PixelRow pixels_;
 
-  std::vector<Wedge> wedge_;             // [sites]
-  std::vector<std::int32_t> next_;       // [sites] the next one that waits for the same row or slice
-  std::vector<std::int32_t> of_row_;     // [rows] the first site that waits for it
-  std::vector<std::int32_t> of_slice_;   // [slices of the slab]
-  std::vector<std::int32_t> active_;     // sites that may be nearest in the current slice
-  std::vector<std::uint8_t> is_active_;  // [sites]
+  std::vector<Wedge> wedge_;              // [sites]
+  std::vector<std::int32_t> last_slice_;  // [sites] within reach
+  std::vector<std::int32_t> next_;        // [sites] the next one that waits for the same row or slice
+  std::vector<std::int32_t> of_row_;      // [rows] the first site that waits for it
+  std::vector<std::int32_t> of_slice_;    // [slices of the slab]
+  std::vector<std::int32_t> active_;      // sites that may be nearest in the current slice
+  std::vector<std::uint8_t> is_active_;   // [sites]
 
   std::vector<Column> columns_;
   std::vector<std::int32_t> order_;  // listed columns, increasing

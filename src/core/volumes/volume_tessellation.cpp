@@ -36,9 +36,9 @@ std::int32_t slices_of_slab(const VolumeFrame& frame, std::size_t seeds, std::in
 
 // Calls emit(envelope, pixels, row buffer) for each row and copies the buffer to its place in `out`.
 template <class Arithmetic, class Voxel, class Emit>
-void write_slices(const VolumeSites& sites, const VolumeFrame& frame, const RowKernel<Arithmetic>& kernel,
-                  std::int32_t first, std::int32_t slices, Voxel* out, unsigned threads,
-                  const Monitor& monitor, Emit emit) {
+void write_slices(const VolumeSites& sites, const Coverage& coverage, const VolumeFrame& frame,
+                  const RowKernel<Arithmetic>& kernel, std::int32_t first, std::int32_t slices, Voxel* out,
+                  unsigned threads, const Monitor& monitor, Emit emit) {
   const auto width = static_cast<std::size_t>(frame.plane.width);
   const auto height = static_cast<std::size_t>(frame.plane.height);
   const std::size_t row_bytes = width * sizeof(Voxel);
@@ -48,7 +48,7 @@ void write_slices(const VolumeSites& sites, const VolumeFrame& frame, const RowK
   const auto write_slab = [&](std::size_t slab) {
     const std::int32_t from = static_cast<std::int32_t>(slab) * step;
     const std::int32_t to = std::min(slices, from + step);
-    SlabSweep<Arithmetic> sweep(sites, frame, kernel);
+    SlabSweep<Arithmetic> sweep(sites, coverage, frame, kernel);
     std::vector<Voxel> buffer(width + kernel_padding);
     sweep.start(first + from, first + to - 1);
     for (std::int32_t slice = from; slice < to; ++slice) {
@@ -75,7 +75,10 @@ void write_slices(const VolumeSites& sites, const VolumeFrame& frame, const RowK
 VolumeTessellation::VolumeTessellation(std::span<const std::int64_t> x, std::span<const std::int64_t> y,
                                        std::span<const std::int64_t> z, std::span<const std::uint32_t> label,
                                        const VolumeFrame& frame, tessellation::Simd level)
-    : frame_(frame), level_(level), sites_(prepare_sites(x, y, z, label, frame)) {}
+    : frame_(frame),
+      level_(level),
+      sites_(prepare_sites(x, y, z, label, frame)),
+      coverage_(sites_.sites, frame) {}
 
 template <class Label>
 void VolumeTessellation::labels(std::int32_t first, std::int32_t slices, Label* out,
@@ -84,7 +87,7 @@ void VolumeTessellation::labels(std::int32_t first, std::int32_t slices, Label* 
   tessellation::with_kernel(is_wide(), level_, [&]<class Arithmetic>(const RowKernel<Arithmetic>& kernel) {
     using Integer = typename Arithmetic::Integer;
     const Integer limit = most_squared ? tessellation::clamped<Integer>(*most_squared) : Integer{0};
-    write_slices(sites_, frame_, kernel, first, slices, out, threads, monitor,
+    write_slices(sites_, coverage_, frame_, kernel, first, slices, out, threads, monitor,
                  [&](const auto& envelope, const PixelRow& pixels, Label* row) {
                    fill_labels(kernel, envelope, row);
                    settle_ties(envelope, row);
@@ -97,7 +100,7 @@ template <class Square>
 void VolumeTessellation::squared_distances(std::int32_t first, std::int32_t slices, Square* out,
                                            unsigned threads, const Monitor& monitor) const {
   tessellation::with_kernel(is_wide(), level_, [&]<class Arithmetic>(const RowKernel<Arithmetic>& kernel) {
-    write_slices(sites_, frame_, kernel, first, slices, out, threads, monitor,
+    write_slices(sites_, coverage_, frame_, kernel, first, slices, out, threads, monitor,
                  [&](const auto& envelope, const PixelRow& pixels, Square* row) {
                    for_each_square(envelope, pixels, [&](std::int32_t p, auto square) {
                      row[p] = static_cast<Square>(square);

@@ -9,6 +9,7 @@
 #include "core/base/monitor.hpp"
 #include "core/numbers/int128.hpp"
 #include "core/tessellation/simd_level.hpp"
+#include "core/volumes/coverage.hpp"
 #include "core/volumes/volume_sites.hpp"
 
 namespace vorotool::core::volumes {
@@ -41,6 +42,7 @@ class VolumeTessellation {
   VolumeFrame frame_;
   tessellation::Simd level_;
   VolumeSites sites_;
+  Coverage coverage_;
 };
 
 }  // namespace vorotool::core::volumes
