@@ -17,5 +17,6 @@ from vorotool._core import (
     skeleton as skeleton,
     spatial as spatial,
     tessellation as tessellation,
-    text as text
+    text as text,
+    volumes as volumes
 )

@@ -7,11 +7,51 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError
+from vorotool.errors import InputError, LimitError, option
 from vorotool.geometry.arguments.images import as_raster
+from vorotool.geometry.numbers import real_number, shown_number
 
 if TYPE_CHECKING:
     from vorotool.typing import ImageLike
+
+
+def is_volume(values: Any) -> bool:
+    """Whether an array has three axes, of which the last one is not that of colours.
+
+    Examples
+    --------
+    >>> is_volume(np.zeros((4, 5, 6), bool)), is_volume(np.zeros((4, 5, 3), np.uint8))
+    (True, False)
+    """
+    shape = np.shape(values) if isinstance(values, list | tuple) else getattr(values, "shape", ())
+    is_colour = getattr(values, "dtype", None) == np.uint8 and shape[-1:] in ((3,), (4,))
+    return len(shape) == 3 and not is_colour
+
+
+def volume(values: Any, name: str, max_pixels: int) -> NDArray[Any]:
+    """Give a volume as a 3-D array of booleans or numbers.
+
+    Raises
+    ------
+    InputError
+        If its values are no numbers, or some are masked.
+    LimitError
+        If it has more than `max_pixels` voxels.
+
+    Examples
+    --------
+    >>> volume([[[0, 1]]], "mask", 9).shape
+    (1, 1, 2)
+    """
+    if np.ma.isMaskedArray(values) and np.ma.getmaskarray(values).any():
+        raise InputError(f"invalid {name}: expected a value in each voxel, but some are masked; fill them first")
+    array = np.asarray(values)
+    if array.dtype.kind not in "buif":
+        raise InputError(f"invalid {name}: expected booleans or numbers, but got {array.dtype}")
+    if array.size > real_number(max_pixels, "max_pixels"):
+        sides, most = " x ".join(map(str, array.shape)), option(f"--max-pixels {shown_number(max_pixels)}")
+        raise LimitError(f"the volume has {sides} = {array.size} voxels, more than {most}")
+    return array
 
 
 def plane(values: ImageLike, name: str) -> NDArray[Any]:
