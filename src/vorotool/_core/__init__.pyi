@@ -18,5 +18,6 @@ from vorotool._core import (
     spatial as spatial,
     tessellation as tessellation,
     text as text,
-    voronoi as voronoi
+    voronoi as voronoi,
+    volumes as volumes
 )
