@@ -18,6 +18,6 @@ from vorotool._core import (
     spatial as spatial,
     tessellation as tessellation,
     text as text,
-    voronoi as voronoi,
-    volumes as volumes
+    volumes as volumes,
+    voronoi as voronoi
 )
