@@ -26,7 +26,7 @@ def diagram_of(
     threads, progress
         As of `vorotool.voronoi`.
     """
-    graph, unwanted = owned.graph, None if is_whole else unwanted_of(owned)
+    graph, unwanted = owned.graph, None if is_whole else _unwanted(owned)
     return segment_voronoi(graph.points, graph.segments, unwanted=unwanted, threads=threads, progress=progress)
 
 
