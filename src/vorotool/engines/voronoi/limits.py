@@ -113,7 +113,7 @@ class Limit:
     def _lost(self, places: Floats) -> NDArray[np.bool_]:
         """Of each crossing, whether rounding leaves nothing of the arc from there."""
         step = np.abs(places - places[self.across]).max(axis=1)
-        largest = np.maximum(np.abs(places).max(axis=1), np.abs(self.graph.points).max())
+        largest = np.maximum(np.abs(places).max(axis=1), np.abs(self.graph.points).max(initial=0))
         is_short = (step <= ROUNDING * largest) & np.isnan(self.middle[:, 0]) & (self.arc != _ALIGNED)
         lost: NDArray[np.bool_] = is_short | (self.arc == _LOST)
         return lost
