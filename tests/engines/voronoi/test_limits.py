@@ -264,6 +264,14 @@ def test_limits_that_are_no_number(limit):
         voronoi([[0, 0], [1, 1]], max_distance=1e90)
 
 
+def test_limits_that_rounding_would_lose():
+    with pytest.raises(UsageError, match=r"max_distance is .*, too small beside the coordinates: use at least 1.5e-09"):
+        voronoi([[0, 0], [100, 1]], max_distance=1e-9)
+    small = voronoi([[0, 0], [100, 1]], max_distance=1.5e-9)
+    assert small.areas.tolist() == pytest.approx([ROUND * 2.25e-18] * 2, rel=1e-4)
+    verify_voronoi(small)
+
+
 def test_a_limit_without_sites():
     cells = voronoi([None, shapely.Polygon()], max_distance=1)
     assert cells.areas.tolist() == [0, 0]

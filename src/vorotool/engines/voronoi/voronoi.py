@@ -31,6 +31,9 @@ from vorotool.geometry.voronoi.voronoi_map import OUTSIDE, VoronoiMap
 if TYPE_CHECKING:
     from vorotool.typing import FrameLike, PointsLike, PolygonsLike
 
+LEAST = 2.0**-36
+"""Of the largest coordinate: smaller limits would be less than what the lattice moves sites by, or lost in rounding."""
+
 _BITS = 30
 """Steps of a lattice that a limit around a single place is counted in, as bits: as many as others have."""
 
@@ -79,7 +82,8 @@ def voronoi(
     InputError
         If `sites` or the frame are none, or a coordinate is not finite.
     UsageError
-        If the sides of the frame or `max_distance` are not above 0, or `by` is no column.
+        If the sides of the frame or `max_distance` are not above 0, that is too small beside the coordinates, or `by`
+        is no column.
     LimitError
         If there are too many vertices.
 
@@ -101,9 +105,9 @@ def voronoi(
     [1.570796]
     """
     given_frame = None if frame is None else _checked_frame(frame)
-    limit = None if max_distance is None else _checked_limit(max_distance)
     threads = checked_threads(threads)
     given = as_sites(sites, by)
+    limit = None if max_distance is None else _checked_limit(max_distance, given.polygons.xy)
     owned = owned_graph(given.polygons, given.site, threads=threads, progress=progress)
     extent = given_frame or default_frame(given.polygons)
     arcs, rings = _map(owned, extent, limit, threads, progress)
@@ -138,11 +142,16 @@ def _checked_frame(frame: FrameLike) -> Frame:
     return extent
 
 
-def _checked_limit(max_distance: float) -> float:
+def _checked_limit(max_distance: float, xy: NDArray[np.float64]) -> float:
     limit = finite_double(max_distance, "max_distance")
     if limit <= 0:
         raise UsageError(f"max_distance must be above 0, but is {shown_number(limit)}")
     check_lengths([limit], "distance")
+    least = LEAST * float(np.abs(xy).max(initial=0))
+    if limit < least:
+        raise UsageError(
+            f"max_distance is {shown_number(limit)}, too small beside the coordinates: use at least {least:.2g}"
+        )
     return limit
 
 
