@@ -31,8 +31,8 @@ from vorotool.geometry.voronoi.voronoi_map import OUTSIDE, VoronoiMap
 if TYPE_CHECKING:
     from vorotool.typing import FrameLike, PointsLike, PolygonsLike
 
-LEAST = 2.0**-36
-"""Of the largest coordinate: smaller limits would be less than what the lattice moves sites by, or lost in rounding."""
+LEAST = 2.0**-40
+"""Of the largest coordinate: smaller limits are less than what a lattice moves sites by, and near what is rounded."""
 
 _BITS = 30
 """Steps of a lattice that a limit around a single place is counted in, as bits: as many as others have."""
@@ -150,7 +150,7 @@ def _checked_limit(max_distance: float, xy: NDArray[np.float64]) -> float:
     least = LEAST * float(np.abs(xy).max(initial=0))
     if limit < least:
         raise UsageError(
-            f"max_distance is {shown_number(limit)}, too small beside the coordinates: use at least {least:.2g}"
+            f"max_distance is {shown_number(limit)}, too small beside the coordinates: use at least {1.1 * least:.2g}"
         )
     return limit
 
