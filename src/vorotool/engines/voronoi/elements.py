@@ -7,9 +7,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool import _core
 from vorotool.engines.arrangement.flat_rings import flat_holes, with_flat_shells_as_lines
 from vorotool.engines.arrangement.planar_graph import (
     MOST_VERTICES,
+    Placement,
     arranged,
     placed_vertices,
     report_repairs,
@@ -17,9 +19,9 @@ from vorotool.engines.arrangement.planar_graph import (
 from vorotool.errors import LimitError
 from vorotool.geometry.magnitude import check_magnitude
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
-from vorotool.geometry.polygons.polygon_set import LINE, PolygonSet, set_of_rings
+from vorotool.geometry.polygons.polygon_set import LINE, PolygonSet
 from vorotool.geometry.progress import Progress
-from vorotool.geometry.ragged import owners, ranges
+from vorotool.geometry.ragged import owners, ranges, starts_of
 
 NOBODY = np.int32(2**31 - 1)
 """A site after all others, while the smallest is looked for."""
@@ -77,7 +79,19 @@ def owned_graph(polygons: PolygonSet, site: Sites, *, threads: int = 0, progress
     >>> owned.face.tolist(), sorted(owned.element.tolist())
     ([-1, 0, 1], [0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1])
     """
-    graph = _graph(polygons, threads, progress)
+    return owners_of(_graph(polygons, threads, progress), site)
+
+
+def owners_of(graph: PlanarGraph, site: Sites) -> OwnedGraph:
+    """Tell whose the elements of a graph are.
+
+    Parameters
+    ----------
+    graph : PlanarGraph
+        Of all sites together, with its input.
+    site : (p,) int32 array
+        Of each polygon of that.
+    """
     given = graph.polygons
     assert given is not None
     return OwnedGraph(graph, _element_owners(graph, given, site), _face_owners(graph, site))
@@ -88,20 +102,39 @@ def _graph(polygons: PolygonSet, threads: int, progress: Progress) -> PlanarGrap
     check_magnitude(given.xy)
     if len(given.xy) > MOST_VERTICES:
         raise LimitError(f"there are {len(given.xy)} vertices, more than {MOST_VERTICES}: split the polygons")
-    placement = placed_vertices(given, threads=threads, progress=progress)
+    return graph_of_sites(given, placed_vertices(given, threads=threads, progress=progress), progress=progress)
+
+
+def graph_of_sites(given: PolygonSet, placement: Placement, *, progress: Progress = None) -> PlanarGraph:
+    """Make the graph of polygons and lines that are placed on a lattice; a polygon without inside there is a line.
+
+    Parameters
+    ----------
+    given : PolygonSet
+        Without flat shells.
+    placement : Placement
+        Of its vertices.
+    progress : callable, optional
+        Called with the fraction done.
+
+    Warns
+    -----
+    RepairWarning
+        As `owned_graph` does.
+    """
     made = arranged(given, placement, progress=progress)
     found = {name: each if name in _FAULTS else (0, -1, -1) for name, each in made.found.items()}
     report_repairs(given, found, made.graph.scale, strict=False)
     is_empty = ~given.is_line
     is_empty[made.graph.face_polygon] = False
     if is_empty.any():
-        given = _as_lines(given, is_empty)
-        made = arranged(given, placed_vertices(given, threads=threads, progress=progress), progress=progress)
+        given, taken = _as_lines(given, is_empty)
+        made = arranged(given, replace(placement, vertices=placement.vertices[taken]), progress=progress)
     return made.graph
 
 
-def _as_lines(polygons: PolygonSet, chosen: NDArray[np.bool_]) -> PolygonSet:
-    """Take the shells of some polygons for closed lines, without their holes."""
+def _as_lines(polygons: PolygonSet, chosen: NDArray[np.bool_]) -> tuple[PolygonSet, NDArray[np.int64]]:
+    """Take the shells of some polygons for closed lines, without their holes; give their vertices too."""
     is_first = np.diff(polygons.ring_polygon, prepend=-1) > 0
     ring = np.flatnonzero(is_first | ~chosen[polygons.ring_polygon])
     polygon = polygons.ring_polygon[ring]
@@ -111,10 +144,8 @@ def _as_lines(polygons: PolygonSet, chosen: NDArray[np.bool_]) -> PolygonSet:
     closed = chosen[polygon]
     taken[ends[closed]] = polygons.ring_start[ring[closed]]
     kind = np.where(closed, LINE, polygons.ring_kind[ring])
-    lines = set_of_rings(polygons.xy[taken], size, kind, polygon)
-    return replace(
-        polygons, xy=lines.xy, ring_start=lines.ring_start, ring_kind=lines.ring_kind, ring_polygon=lines.ring_polygon
-    )
+    lines = replace(polygons, xy=polygons.xy[taken], ring_start=starts_of(size), ring_kind=kind, ring_polygon=polygon)
+    return lines, taken
 
 
 def _face_owners(graph: PlanarGraph, site: Sites) -> Sites:
@@ -132,8 +163,7 @@ def _element_owners(graph: PlanarGraph, given: PolygonSet, site: Sites) -> Sites
         is_part, polygon = _bounding_sources(graph, given)
         least = np.where(is_part, site[polygon], NOBODY)
         owner[count:] = np.minimum.reduceat(least, graph.source_start[:-1])
-        for end in graph.segments.T:
-            np.minimum.at(owner, end, owner[count:])
+        owner[:count], _ = _core.voronoi.owners_at_points(graph.segments, owner[count:], count)
     point, of_polygon = _lone_places(graph, given)
     np.minimum.at(owner, point, site[of_polygon])
     return owner
@@ -144,7 +174,7 @@ def _bounding_sources(graph: PlanarGraph, given: PolygonSet) -> tuple[NDArray[np
 
     A spike of one polygon may lie along an edge of another one: it bounds nothing.
     """
-    ring = np.searchsorted(given.ring_start, graph.source_edge, side="right") - 1
+    ring = owners(np.diff(given.ring_start))[graph.source_edge]
     polygon = given.ring_polygon[ring]
     is_part = np.ones(len(ring), dtype=bool)
     several = graph.source_count > 1

@@ -33,21 +33,33 @@ def shells_of(rings: Rings, arcs: Arcs) -> Indices:
     last = np.searchsorted(rings.part[sorting], rings.part[holes], side="right")
     held = last > first
     shell[holes[held]] = sorting[first[held]]
-    for at in np.flatnonzero(last - first > 1).tolist():
-        shell[holes[at]] = _around(int(holes[at]), sorting[first[at] : last[at]], rings, arcs)
+    several = np.flatnonzero(last - first > 1)
+    if several.size:
+        shell[holes[several]] = _around(holes[several], shells, rings, arcs)
     return shell
 
 
-def _around(hole: int, shells: Indices, rings: Rings, arcs: Arcs) -> int:
-    """The smallest of several shells that a place of a hole lies in."""
+def _around(holes: Indices, shells: Indices, rings: Rings, arcs: Arcs) -> Indices:
+    """For each hole the smallest shell of its part that lies around it.
+
+    A place in the hole tells, since one on it may be on several shells; what lies in the hole itself is smaller than it.
+    """
     import shapely
 
-    place = shapely.points(arcs.vertices[arcs.ends.ravel()[rings.half_edge[rings.start[hole]]]])
-    distances: list[tuple[float, float, int]] = []
-    for each in shells.tolist():
-        around = shapely.Polygon(_outline(each, rings, arcs))
-        distances.append((float(shapely.distance(around, place)), abs(float(rings.area[each])), each))
-    return min(distances)[2]
+    own = shells[np.isin(rings.part[shells], rings.part[holes])]
+    tree = shapely.STRtree([shapely.Polygon(_outline(each, rings, arcs)) for each in own.tolist()])
+    inner = np.array([shapely.Polygon(_outline(each, rings, arcs)) for each in holes.tolist()])
+    hole, row = tree.query(shapely.point_on_surface(inner), predicate="dwithin", distance=0.0)
+    shell = own[row]
+    fits = (rings.part[shell] == rings.part[holes[hole]]) & (rings.area[shell] >= -rings.area[holes[hole]])
+    hole, shell = hole[fits], shell[fits]
+    order = np.lexsort((shell, -rings.area[shell], hole))
+    found = np.full(len(holes), -1, dtype=np.int64)
+    found[hole[order]] = shell[order]  # the smallest comes last, and stays
+    for at in np.flatnonzero(found < 0).tolist():  # as far as doubles tell it lies in none: in the nearest
+        alike = np.flatnonzero(rings.part[own] == rings.part[holes[at]])
+        found[at] = own[alike[shapely.distance(tree.geometries[alike], inner[at]).argmin()]]
+    return found
 
 
 def _outline(ring: int, rings: Rings, arcs: Arcs) -> NDArray[np.float64]:

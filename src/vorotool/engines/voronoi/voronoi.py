@@ -9,10 +9,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, unwanted_sides
 from vorotool.engines.skeleton.exact import Frame, default_frame
 from vorotool.engines.voronoi.assembly import Arcs, Rings, arcs_of, cells_of, rings_of
 from vorotool.engines.voronoi.borders import Borders, borders_of
+from vorotool.engines.voronoi.cuts.cut_arguments import given_cuts
+from vorotool.engines.voronoi.cuts.map_between_cuts import map_between_cuts
+from vorotool.engines.voronoi.diagram import diagram_of
 from vorotool.engines.voronoi.elements import OwnedGraph, owned_graph
 from vorotool.engines.voronoi.frame_cut import CutBorders, cut_borders
 from vorotool.engines.voronoi.frame_ring import UNKNOWN, frame_ring
@@ -25,11 +27,10 @@ from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.magnitude import check_lengths
 from vorotool.geometry.numbers import finite_double, shown_number
 from vorotool.geometry.progress import Progress
-from vorotool.geometry.skeleton.segment_voronoi import SegmentVoronoiDiagram
 from vorotool.geometry.voronoi.voronoi_map import OUTSIDE, VoronoiMap
 
 if TYPE_CHECKING:
-    from vorotool.typing import FrameLike, PointsLike, PolygonsLike
+    from vorotool.typing import FrameLike, ImageLike, PointsLike, PolygonsLike
 
 LEAST = 2.0**-40
 """Of the largest coordinate: smaller limits are less than what a lattice moves sites by, and near what is rounded."""
@@ -39,11 +40,13 @@ _BITS = 30
 
 
 def voronoi(
-    sites: PointsLike | PolygonsLike,
+    sites: PointsLike | PolygonsLike | ImageLike,
     *,
     by: str | ArrayLike | None = None,
+    clip: PolygonsLike | None = None,
     frame: FrameLike | None = None,
     max_distance: float | None = None,
+    enclosures: PolygonsLike | None = None,
     threads: int = 0,
     progress: Progress = None,
 ) -> VoronoiMap:
@@ -57,16 +60,24 @@ def voronoi(
 
     Parameters
     ----------
-    sites : PolygonSet, PointSet, (n, 2) array-like, data frame, or geometry of shapely, geopandas, GeoJSON or WKT
-        Each feature is a site, with all its parts; an array has a point in each row.
+    sites : PolygonSet, PointSet, (n, 2) array-like, data frame, geometry of shapely, geopandas, GeoJSON or WKT, image
+        Each feature is a site, with all its parts; an array has a point in each row. Of a mask or a label image each
+        object is one, which its outline bounds, in coordinates of the map where the image lies on one.
     by : str or sequence, optional
         Values that join features into sites: a column of the input, or one value a feature. Sites are numbered by first
         appearance.
+    clip : PolygonSet, geometry of shapely, geopandas, GeoJSON or WKT, optional
+        Polygons that cells are cut by: a place in one of them is shared out. Sites outside count as well.
     frame : Box or (x, y, w, h), optional
-        Rectangle that cells are cut by; by default the bounds and a tenth of their larger side around them.
+        Rectangle that cells are cut by; by default the bounds and a tenth of their larger side around them, with a clip
+        nothing else.
     max_distance : float, optional
         How far from its site a place may be, in input units: what is farther from all sites belongs to none. Cells are
         bounded there by parallels of edges and by circular arcs.
+    enclosures : PolygonSet, geometry of shapely, geopandas, GeoJSON or WKT, optional
+        Lines, and polygons for the lines around them, which cut the plane. Each face is shared out among the sites that
+        meet its inside, by distances to the whole site; one that no site meets is nobody's. The default frame is
+        around them too. A site that meets several faces has a part in each.
     threads : int
         0 uses all.
     progress : callable, optional
@@ -80,12 +91,15 @@ def voronoi(
     Raises
     ------
     InputError
-        If `sites` or the frame are none, or a coordinate is not finite.
+        If `sites`, the frame, the clip or the enclosures are none, a coordinate is not finite, the clip has no area, or
+        a coordinate reference system is another one.
     UsageError
         If the sides of the frame or `max_distance` are not above 0, that is too small beside the coordinates, or `by`
         is no column.
     LimitError
         If there are too many vertices.
+    VerificationError
+        If a cut runs so close to a border that doubles do not tell them apart.
 
     Warns
     -----
@@ -108,9 +122,15 @@ def voronoi(
     threads = checked_threads(threads)
     given = as_sites(sites, by)
     limit = None if max_distance is None else _checked_limit(max_distance, given.polygons.xy)
-    owned = owned_graph(given.polygons, given.site, threads=threads, progress=progress)
-    extent = given_frame or default_frame(given.polygons)
-    arcs, rings = _map(owned, extent, limit, threads, progress)
+    cuts = given_cuts(clip, enclosures, given.polygons.crs)
+    if cuts.are_there:
+        made = map_between_cuts(given, cuts, given_frame, limit, threads=threads, progress=progress)
+        arcs, rings, is_cut, extent = made.arcs, made.rings, made.is_cut, made.frame
+    else:
+        extent = given_frame or default_frame(given.polygons)
+        owned = owned_graph(given.polygons, given.site, threads=threads, progress=progress)
+        arcs, rings = _map(owned, extent, limit, threads, progress)
+        is_cut = (arcs.sites == OUTSIDE).any(axis=1)
     cells = cells_of(rings, shells_of(rings, arcs), given.count)
     return VoronoiMap(
         arcs.vertices,
@@ -119,7 +139,7 @@ def voronoi(
         arcs.sites.astype(np.int32),
         arcs.control,
         arcs.center,
-        (arcs.sites == OUTSIDE).any(axis=1),
+        is_cut,
         cells.ring_arcs,
         cells.ring_start,
         cells.polygon_start,
@@ -131,6 +151,8 @@ def voronoi(
         given.properties,
         given.index,
         max_distance=limit,
+        clip=cuts.clip,
+        enclosures=cuts.enclosures,
     )
 
 
@@ -158,7 +180,7 @@ def _checked_limit(max_distance: float, xy: NDArray[np.float64]) -> float:
 def _map(owned: OwnedGraph, frame: Frame, limit: float | None, threads: int, progress: Progress) -> tuple[Arcs, Rings]:
     if limit is not None:
         owned = _on_fine_lattice(owned, limit)
-    diagram = _diagram(owned, _unwanted(owned) if limit is None else None, threads, progress)
+    diagram = diagram_of(owned, is_whole=limit is not None, threads=threads, progress=progress)
     if limit is not None:
         borders = borders_of(owned, diagram, level=limit / owned.graph.scale, threads=threads)
         cut = cut_borders(borders, owned.graph, frame)
@@ -183,13 +205,6 @@ def _on_fine_lattice(owned: OwnedGraph, limit: float) -> OwnedGraph:
     return replace(owned, graph=replace(graph, scale=math.ldexp(1.0, int(np.frexp(limit)[1]) - _BITS)))
 
 
-def _diagram(
-    owned: OwnedGraph, unwanted: NDArray[np.uint8] | None, threads: int, progress: Progress
-) -> SegmentVoronoiDiagram:
-    graph = owned.graph
-    return segment_voronoi(graph.points, graph.segments, unwanted=unwanted, threads=threads, progress=progress)
-
-
 def _cells_of(owned: OwnedGraph, borders: Borders, cut: CutBorders, frame: Frame) -> tuple[Arcs, Rings]:
     sites, parts, order = (of[cut.piece].astype(np.int64) for of in (borders.sites, borders.parts, borders.order))
     ring = frame_ring(cut, sites, parts, order, _corners(frame))
@@ -207,25 +222,6 @@ def _corners(frame: Frame) -> NDArray[np.float64]:
     """Counter-clockwise from the smallest."""
     x, y, w, h = frame
     return np.array([[x, y], [x + w, y], [x + w, y + h], [x, y + h]])
-
-
-def _unwanted(owned: OwnedGraph) -> NDArray[np.uint8] | None:
-    """Tell where the diagram is not needed: in covered faces; None where all of it is.
-
-    It is where a point without segments may be in any face, and where two sites part in the middle of a straight line:
-    the edge between them there may lead through the line.
-    """
-    graph, count = owned.graph, len(owned.graph.points)
-    degree = np.bincount(graph.segments.ravel(), minlength=count)
-    if (owned.face < 0).all() or (degree == 0).any():
-        return None
-    least, most = np.full(count, count + len(graph)), np.full(count, -1)
-    for end in graph.segments.T:
-        np.minimum.at(least, end, owned.element[count:])
-        np.maximum.at(most, end, owned.element[count:])
-    if ((degree == 2) & (least != most)).any():
-        return None
-    return unwanted_sides(graph, owned.face < 0)
 
 
 def _of_frame(owned: OwnedGraph, level: float, frame: Frame, rings: Rings) -> tuple[int, int]:

@@ -19,8 +19,8 @@ def areas_beside(source: Floats, control: Floats, target: Floats, centre: Floats
     ----------
     source, control, target : (n, 2) float64 array
         Control points; the middle one is NaN of a straight line.
-    centre : (2,) float64 array
-        The place.
+    centre : (2,) or (n, 2) float64 array
+        The place, or one for each curve.
 
     Examples
     --------

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.geometry.ragged import owners, starts_of, within
+from vorotool.geometry.voronoi.flat_room import room_beside_cuts
 from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 
 Floats = NDArray[np.float64]
@@ -25,7 +26,8 @@ def flattened_arcs(cells: VoronoiMap, tolerance: float) -> tuple[Floats, Indices
 
     A chord of a parabola lies in the sector of the cell between the focus and the parabola as long as it is nearer to
     the parabola than the focus is; and that of a circular arc in the sector between the centre and the arc. So
-    polylines cross neither sites nor each other, whatever the tolerance.
+    polylines cross neither sites nor each other, whatever the tolerance. They do not pass corners of clips and
+    enclosures either.
 
     Parameters
     ----------
@@ -52,6 +54,7 @@ def flattened_arcs(cells: VoronoiMap, tolerance: float) -> tuple[Floats, Indices
     most = np.minimum(tolerance, PART_OF_RADIUS * _least_radii(arcs.source, arcs.control, arcs.target))
     if cells.max_distance is not None:
         most[cells.is_circle] = min(tolerance, PART_OF_RADIUS * cells.max_distance)
+    most = np.minimum(most, room_beside_cuts(cells))
     paired = _in_pairs(cells)
     bend = (arcs.source - 2 * arcs.control + arcs.target)[paired]
     most[paired] = np.fmin(most[paired], np.sqrt((bend * bend).sum(axis=1)) / _BEND_OF_TWO)
@@ -85,6 +88,39 @@ def _least_radii(source: Floats, control: Floats, target: Floats) -> Floats:
     return least
 
 
+def cell_rings(cells: VoronoiMap, tolerance: float) -> tuple[Floats, Indices]:
+    """Give the vertices of all rings of cells, the first of each not repeated.
+
+    Parameters
+    ----------
+    cells : VoronoiMap
+        With its rings.
+    tolerance : float
+        As of `flattened_arcs`.
+
+    Returns
+    -------
+    points : (n, 2) float64 array
+        Ring after ring; what two cells share is the same in both, bit for bit.
+    start : (r + 1,) int64 array
+        Where each ring begins.
+
+    Examples
+    --------
+    >>> from vorotool import voronoi
+    >>> points, start = cell_rings(voronoi([[0, 0], [4, 0]], frame=(0, 0, 4, 2)), 1.0)
+    >>> points[start[0] : start[1]].tolist()
+    [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]]
+    """
+    points, start = flattened_arcs(cells, tolerance)
+    arc, is_back = np.abs(cells.ring_arcs.astype(np.int64)) - 1, cells.ring_arcs < 0
+    sizes = np.diff(start)[arc] - 1
+    row = owners(sizes)
+    step = within(sizes)
+    taken = np.where(is_back[row], start[arc + 1][row] - 1 - step, start[arc][row] + step)
+    return points[taken], starts_of(sizes)[cells.ring_start]
+
+
 def cell_polygons(cells: VoronoiMap, tolerance: float) -> NDArray[Any]:
     """(s,) each cell as a polygon or multipolygon of shapely; what two cells share is the same in both, bit for bit.
 
@@ -103,19 +139,12 @@ def cell_polygons(cells: VoronoiMap, tolerance: float) -> NDArray[Any]:
     """
     import shapely
 
-    points, start = flattened_arcs(cells, tolerance)
-    arc, is_back = np.abs(cells.ring_arcs.astype(np.int64)) - 1, cells.ring_arcs < 0
-    sizes = np.diff(start)[arc] - 1
-    row = owners(sizes)
-    step = within(sizes)
-    taken = np.where(is_back[row], start[arc + 1][row] - 1 - step, start[arc][row] + step)
-    ring_start = starts_of(sizes)[cells.ring_start]
-    lengths = np.diff(ring_start) + 1
-    closed = np.repeat(ring_start[:-1], lengths) + within(lengths)
-    ends = np.cumsum(lengths) - 1
-    closed[ends] = ring_start[:-1]
+    points, start = cell_rings(cells, tolerance)
+    lengths = np.diff(start) + 1
+    closed = np.repeat(start[:-1], lengths) + within(lengths)
+    closed[np.cumsum(lengths) - 1] = start[:-1]
     polygons = shapely.from_ragged_array(
-        shapely.GeometryType.POLYGON, points[taken[closed]], (starts_of(lengths), cells.polygon_start)
+        shapely.GeometryType.POLYGON, points[closed], (starts_of(lengths), cells.polygon_start)
     )
     made = np.empty(len(cells), dtype=object)
     made[:] = shapely.Polygon()

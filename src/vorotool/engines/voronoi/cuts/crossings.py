@@ -1,0 +1,280 @@
+"""Where borders meet cuts: each place once, in doubles, however many pieces and edges pass through it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.engines.voronoi.cuts.cut_curves import FAR, CutCurves, cut_curves
+from vorotool.engines.voronoi.cuts.joint_graph import packed
+from vorotool.engines.voronoi.cuts.local_diagrams import LocalDiagrams
+from vorotool.engines.voronoi.cuts.regions import CutEdges
+from vorotool.geometry.voronoi.voronoi_map import OUTSIDE
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+SLACK = 2.0**-12
+"""Of a step of the lattice: a place is on an edge that it misses by less. It is a thousand times what the coordinates
+there, below 2^30, are rounded by, and what is drawn to an edge so moves by 2^-43 of the extent."""
+
+
+@dataclass(frozen=True, eq=False)
+class Crossings:
+    """The places of a map that is cut: those of borders, then the ends of cut edges, then where both meet inside.
+
+    Parameters
+    ----------
+    pieces : (k,) int64 array
+        Pieces of borders that may be cut, and circular arcs, ascending; walls are none of them.
+    curves : CutCurves
+        That these are on.
+    node : (v,) int64 array
+        Of each place that which stands for it: others are at the same place.
+    edge : (v,) int64 array
+        The cut edge inside which a place lies; -1 of others.
+    far : (v,) float64 array
+        How far along it, on the lattice.
+    stop_row, stop_node : (s,) int64 array
+        Where pieces pass through places on cuts: rows of `pieces`, and places.
+    stop_t : (s,) float64 array
+        The parameters there.
+    radius : (v,) float64 array
+        Distances from sites, on the lattice; NaN where no border is.
+    """
+
+    pieces: Indices
+    curves: CutCurves
+    node: Indices
+    edge: Indices
+    far: Floats
+    stop_row: Indices
+    stop_node: Indices
+    stop_t: Floats
+    radius: Floats
+
+
+class EdgeLines:
+    """Cut edges as straight lines on the lattice.
+
+    Parameters
+    ----------
+    edges : CutEdges
+        Whose they are.
+    """
+
+    def __init__(self, edges: CutEdges) -> None:
+        self.source, self.target = edges.points[edges.ends[:, 0]], edges.points[edges.ends[:, 1]]
+        way = self.target - self.source
+        self.length = np.sqrt((way * way).sum(axis=1))
+        self.forward = way / self.length[:, None]
+        self.normal = np.stack([-self.forward[:, 1], self.forward[:, 0]], axis=1)
+
+    def along(self, edge: Indices, places: Floats) -> Floats:
+        """(k,) how far along edges places are."""
+        far: Floats = (self.forward[edge] * (places - self.source[edge])).sum(axis=1)
+        return far
+
+    def beside(self, edge: Indices, places: Floats) -> Floats:
+        """(k,) how far from the lines of edges."""
+        near: Floats = np.abs((self.normal[edge] * (places - self.source[edge])).sum(axis=1))
+        return near
+
+    def place(self, edges: CutEdges, edge: Indices, far: Floats) -> Floats:
+        """(k, 2) places along edges in input units; between ends of one coordinate they have that too."""
+        a, b = edges.places[edges.ends[edge, 0]], edges.places[edges.ends[edge, 1]]
+        part = (far / self.length[edge])[:, None]
+        made: Floats = np.where(part < 1 / 2, a + part * (b - a), b - (1 - part) * (b - a))
+        return made
+
+
+def crossings_of(local: LocalDiagrams, edges: CutEdges) -> Crossings:
+    """Find where borders meet the cut edges of their region.
+
+    Places are drawn to ends of edges, and to edges, that they miss by less than `SLACK`. What passes through a place
+    that is known does not meet the edges there again.
+
+    Parameters
+    ----------
+    local : LocalDiagrams
+        With the borders.
+    edges : CutEdges
+        All edges.
+    """
+    import shapely
+
+    borders, lines = local.borders, EdgeLines(edges)
+    count, corners = len(borders.places), len(edges.points)
+    node = np.arange(count + corners)
+    edge, far = np.full(count + corners, -1, dtype=np.int64), np.zeros(count + corners)
+    tree = shapely.STRtree(shapely.linestrings(np.stack([lines.source, lines.target], axis=1)))
+    region = local.region
+    _draw_places(local, edges, lines, tree, region, (node, edge, far))
+    is_wall = (borders.elements[:, 0] == borders.elements[:, 1]) & (borders.sites[:, 1] != OUTSIDE)
+    rows, cut, pieces, curves = _pairs(local, edges, tree, np.flatnonzero(~is_wall), region)
+    stops, anchors = _stops_at_corners(borders.ends[pieces], curves, lines, edges, (rows, cut), (node, edge, count))
+    row, at, t = _roots(curves, lines, (rows, cut), anchors)
+    inner = lines.along(at, curves[row].place(t))
+    beyond = [inner <= SLACK, inner >= lines.length[at] - SLACK]
+    new = np.flatnonzero(~(beyond[0] | beyond[1]))
+    number = np.empty(len(row), dtype=np.int64)
+    for end, hit in enumerate(beyond):
+        number[hit] = count + edges.ends[at[hit], end]
+    number[new] = len(node) + np.arange(len(new))
+    node = np.concatenate([node, number[new]])
+    edge, far = np.concatenate([edge, at[new]]), np.concatenate([far, inner[new]])
+    stop_row, stop_node = np.concatenate([stops[0], row]), np.concatenate([stops[1], number])
+    stop_t = np.concatenate([stops[2], t])
+    _join_along_edges(node, edge, far)
+    radius = np.concatenate([borders.radius, np.full(len(node) - count, np.nan)])
+    radius[stop_node] = curves[stop_row].radius(stop_t)
+    drawn = np.flatnonzero(node[:count] != np.arange(count))
+    radius[node[drawn]] = borders.radius[drawn]
+    return Crossings(pieces, curves, node, edge, far, stop_row, node[stop_node], stop_t, radius)
+
+
+def _draw_places(
+    local: LocalDiagrams, edges: CutEdges, lines: EdgeLines, tree: Any, region: Indices, drawn: tuple[Any, ...]
+) -> None:
+    """Tell which places of borders are at ends of cut edges or on these; places of sites are so exactly or not."""
+    import shapely
+
+    node, edge, far = drawn
+    borders = local.borders
+    count = len(borders.places)
+    of_place = np.full(count, -1, dtype=np.int64)
+    for end in borders.ends.T:
+        of_place[end[end >= 0]] = region[end >= 0]
+    is_site = (borders.radius == 0) & (of_place >= 0)
+    corner = packed(edges.points.astype(np.int64))
+    order = np.argsort(corner)
+    sites = np.flatnonzero(is_site)
+    wanted = packed(borders.places[sites].astype(np.int64))
+    at = np.searchsorted(corner[order], wanted).clip(max=len(order) - 1)
+    same = corner[order[at]] == wanted
+    node[sites[same]] = count + order[at[same]]
+    free = np.flatnonzero((of_place >= 0) & ~is_site & (np.abs(borders.places) < FAR).all(axis=1))
+    point, near = tree.query(shapely.points(borders.places[free]), predicate="dwithin", distance=SLACK)
+    point = free[point]
+    own = (edges.regions[near] == of_place[point][:, None]).any(axis=1)
+    point, near = point[own], near[own]
+    along = lines.along(near, borders.places[point])
+    miss = lines.beside(near, borders.places[point])
+    sorting = np.argsort(-miss, kind="stable")  # the nearest comes last, and stays
+    edge[point[sorting]], far[point[sorting]] = near[sorting], along[sorting]
+    for end, is_at in ((0, along <= SLACK), (1, along >= lines.length[near] - SLACK)):
+        node[point[is_at]] = count + edges.ends[near[is_at], end]
+    edge[:count][node[:count] >= count] = -1
+
+
+def _pairs(
+    local: LocalDiagrams, edges: CutEdges, tree: Any, pieces: Indices, region: Indices
+) -> tuple[Indices, Indices, Indices, CutCurves]:
+    """Pieces and the cut edges of their region that they come near to, and the curves of all such pieces."""
+    import shapely
+
+    curves = cut_curves(local.borders, local.owned.graph, pieces)
+    low, high = curves.between(*_boxes(edges, region[pieces]))
+    held = np.flatnonzero(low <= high)
+    low, high, bent = low[held], high[held], curves.height[held] > 0
+    ends = [curves[held].place(low), curves[held].place(high)]
+    shapes = shapely.linestrings(np.stack(ends, axis=1))
+    hull = np.stack([ends[0], curves[held].control(low, high), ends[1], ends[0]], axis=1)
+    shapes[bent] = shapely.polygons(hull[bent])
+    is_round = curves.round[held] > 0
+    shapes[is_round] = shapely.polygons(curves[held[is_round]].hull(low[is_round], high[is_round]))
+    row, edge = tree.query(shapes, predicate="dwithin", distance=4 * SLACK)
+    row = held[row]
+    own = (edges.regions[edge] == region[pieces[row]][:, None]).any(axis=1)
+    row, edge = row[own], edge[own]
+    used = np.union1d(row, np.flatnonzero(curves.round > 0))
+    return np.searchsorted(used, row), edge, pieces[used], curves[used]
+
+
+def _boxes(edges: CutEdges, region: Indices) -> tuple[Floats, Floats]:
+    """(k, 2) least and most coordinates of cut edges around regions."""
+    edge, hand = np.nonzero(edges.regions >= 0)
+    number = edges.regions[edge, hand]
+    count = int(max(number.max(initial=0), region.max(initial=0))) + 1
+    low, high = np.full((count, 2), np.inf), np.full((count, 2), -np.inf)
+    for end in (0, 1):
+        places = edges.points[edges.ends[edge, end]]
+        np.minimum.at(low, number, places)
+        np.maximum.at(high, number, places)
+    return low[region] - 1, high[region] + 1
+
+
+def _stops_at_corners(
+    ends: Indices,
+    curves: CutCurves,
+    lines: EdgeLines,
+    edges: CutEdges,
+    pairs: tuple[Indices, Indices],
+    known: tuple[Indices, Indices, int],
+) -> tuple[tuple[Indices, Indices, Floats], tuple[Indices, Floats]]:
+    """Where pieces pass through ends of cut edges, and for pairs where they are known to meet: number, parameter."""
+    (row, cut), (node, edge, count) = pairs, known
+    own = np.where(ends >= 0, node[ends], -1)
+    low, high = np.minimum(curves.first, curves.last), np.maximum(curves.first, curves.last)
+    anchors: list[tuple[Indices, Floats]] = []
+    stops: list[tuple[Indices, Indices, Floats]] = []
+    for end, t in ((0, curves.first), (1, curves.last)):
+        at = own[row, end]
+        on_edge = (at >= 0) & (edge[at] == cut)
+        is_corner = (at[:, None] == count + edges.ends[cut]).any(axis=1)
+        hit = np.flatnonzero(on_edge | is_corner)
+        anchors.append((hit, t[row[hit]]))
+    for end, corner in ((0, lines.source), (1, lines.target)):
+        t, miss = curves[row].nearest(corner[cut])
+        at = count + edges.ends[cut, end]
+        is_own = (own[row] == at[:, None]).any(axis=1)
+        hit = np.flatnonzero((miss <= SLACK) & (t > low[row]) & (t < high[row]) & ~is_own)
+        anchors.append((hit, t[hit]))
+        stops.append((row[hit], at[hit], t[hit]))
+    found = tuple(np.concatenate(each) for each in zip(*stops, strict=True))
+    _, first = np.unique(np.stack(found[:2], axis=1), axis=0, return_index=True)
+    joined = tuple(np.concatenate(each) for each in zip(*anchors, strict=True))
+    return tuple(each[first] for each in found), joined  # type: ignore[return-value]
+
+
+def _roots(
+    curves: CutCurves, lines: EdgeLines, pairs: tuple[Indices, Indices], anchors: tuple[Indices, Floats]
+) -> tuple[Indices, Indices, Floats]:
+    """Where else pieces meet edges: rows, edges and parameters."""
+    row, cut = pairs
+    if not len(row):
+        return row, cut, np.empty(0)
+    own = curves[row]
+    roots = own.meets(lines.source[cut], lines.normal[cut], SLACK)
+    order = np.argsort(anchors[0], kind="stable")
+    pair, t = anchors[0][order], anchors[1][order]
+    while pair.size:  # one anchor of each pair at a time takes the root nearest to it
+        is_first = np.diff(pair, prepend=-1) != 0
+        at = pair[is_first]
+        gap = np.abs(roots[at] - t[is_first][:, None])
+        gap[np.isnan(gap)] = np.inf
+        roots[at, gap.argmin(axis=1)] = np.nan
+        pair, t = pair[~is_first], t[~is_first]
+    low, high = np.minimum(own.first, own.last), np.maximum(own.first, own.last)
+    found, which = np.nonzero((roots > low[:, None]) & (roots < high[:, None]))
+    t = roots[found, which]
+    far = lines.along(cut[found], own[found].place(t))
+    is_on = (far > -SLACK) & (far < lines.length[cut[found]] + SLACK)
+    return row[found[is_on]], cut[found[is_on]], t[is_on]
+
+
+def _join_along_edges(node: Indices, edge: Indices, far: Floats) -> None:
+    """Let one place stand for all that follow each other within the slack along an edge."""
+    inner = np.flatnonzero(edge >= 0)
+    order = inner[np.lexsort((inner, far[inner], edge[inner]))]
+    if not order.size:
+        return
+    follows = np.zeros(len(order), dtype=bool)
+    follows[1:] = (edge[order[1:]] == edge[order[:-1]]) & (np.diff(far[order]) <= SLACK)
+    group = np.cumsum(~follows) - 1
+    least = np.full(int(group[-1]) + 1, len(node), dtype=np.int64)
+    np.minimum.at(least, group, order)
+    node[order] = least[group]

@@ -1,0 +1,126 @@
+"""Clips and enclosures as they are given, and the bounds of what they share out."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from vorotool.engines.skeleton.exact import default_frame
+from vorotool.engines.voronoi.cuts.regions import CutEdges
+from vorotool.errors import InputError
+from vorotool.geometry.arguments.polygons import as_polygons
+from vorotool.geometry.box import bounds
+from vorotool.geometry.crs import crs_name, same_crs
+from vorotool.geometry.polygons.polygon_set import PolygonSet
+
+Frame = tuple[float, float, float, float]
+
+
+@dataclass(frozen=True, eq=False)
+class GivenCuts:
+    """What cells are cut by, beside a frame.
+
+    Parameters
+    ----------
+    clip, enclosures : PolygonSet, optional
+        Each in the coordinate reference system of the sites.
+    """
+
+    clip: PolygonSet | None
+    enclosures: PolygonSet | None
+
+    @property
+    def are_there(self) -> bool:
+        """Whether there is one of them."""
+        return self.clip is not None or self.enclosures is not None
+
+    def frame_for(self, sites: PolygonSet, frame: Frame | None) -> Frame | None:
+        """Give the frame that was given; without a clip that around the sites and enclosures."""
+        if frame is not None or self.clip is not None:
+            return frame
+        if self.enclosures is None or not len(self.enclosures.xy):
+            return default_frame(sites)
+        xy = np.concatenate([sites.xy, self.enclosures.xy])
+        return default_frame(
+            replace(
+                self.enclosures,
+                xy=xy,
+                ring_start=[0, len(xy)],
+                ring_kind=[0],
+                ring_polygon=[0],
+                ids=None,
+                feature=None,
+                properties={},
+                index=None,
+            )
+        )
+
+
+def given_cuts(clip: Any, enclosures: Any, crs: Any) -> GivenCuts:
+    """Take polygons to clip by, and lines and polygons that enclose.
+
+    Parameters
+    ----------
+    clip, enclosures : object
+        What `as_polygons` takes, or None.
+    crs : object
+        The coordinate reference system of the sites.
+
+    Raises
+    ------
+    InputError
+        If they are none, the clip has no area, or a coordinate reference system is another one.
+
+    Examples
+    --------
+    >>> given_cuts(["LINESTRING (0 0, 4 0)"], None, None)
+    Traceback (most recent call last):
+    vorotool.errors.InputError: the clip has no polygon: give polygons that have an area
+    """
+    made = []
+    for name, source in (("clip", clip), ("enclosures", enclosures)):
+        given = None if source is None else as_polygons(source, name)
+        if given is not None:
+            given = _in_crs(given, crs, name)
+        made.append(given)
+    if made[0] is not None and made[0].is_line.all():
+        raise InputError("the clip has no polygon: give polygons that have an area")
+    return GivenCuts(*made)
+
+
+def _in_crs(given: PolygonSet, crs: Any, name: str) -> PolygonSet:
+    """The same in a system; what names none is taken to be in it."""
+    if crs is None or given.crs is None:
+        return given if crs is None or given.crs is crs else replace(given, crs=crs)
+    if not same_crs(given.crs, crs):
+        raise InputError(
+            f"the {name} and the sites are in different coordinate reference systems, {crs_name(given.crs)} and "
+            f"{crs_name(crs)}: reproject one of them"
+        )
+    return given
+
+
+def frame_of(edges: CutEdges, frame: Frame | None, clip: PolygonSet | None) -> Frame:
+    """Give the bounds of what is shared out; of nothing those of what was given.
+
+    Parameters
+    ----------
+    edges : CutEdges
+        Around it.
+    frame : (x, y, w, h), optional
+        That was given.
+    clip : PolygonSet, optional
+        That was given.
+    """
+    places = edges.places
+    if not len(places):
+        if frame is not None:
+            return frame
+        assert clip is not None
+        places = clip.xy
+    low, high = bounds(places)
+    x, y = low.tolist()
+    w, h = (high - low).tolist()
+    return (x, y, w, h)

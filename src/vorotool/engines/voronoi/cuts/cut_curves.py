@@ -1,0 +1,286 @@
+"""The curves of borders, many at once, with parameters along them: straight lines, parabolas, circles."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.engines.voronoi.borders import Borders
+from vorotool.engines.voronoi.curves import parabolas_of
+from vorotool.geometry.polygons.planar_graph import PlanarGraph
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+FAR = 2.0**34
+"""Beyond all that is on the lattice: ends that are farther away tell less of a line than its two elements do."""
+
+
+@dataclass(frozen=True, eq=False)
+class CutCurves:
+    """Curves on the lattice, from one parameter to another.
+
+    A line is base + t way. On a parabola t goes along the directrix from below the focus, as of `Parabolas`; on a
+    circle it is the tangent of half the angle from the middle of the arc, as of `CircularArc`.
+
+    Parameters
+    ----------
+    base : (k, 2) float64 array
+        A place of a line; the focus of a parabola; the centre of a circle.
+    way : (k, 2) float64 array
+        Along a line; the unit vector along a directrix, or to the middle of a circular arc.
+    height : (k,) float64 array
+        Of the focus above the directrix; 0 of others.
+    round : (k,) float64 array
+        Radius of a circle; 0 of others.
+    first, last : (k,) float64 array
+        Parameters at source and target, which may be infinite.
+    origin : (k, 2) float64 array
+        A place of an element of each line, which distances are measured from; NaN where that is a segment.
+    line : (k, 3) float64 array
+        Normal form of the segment that distances are measured from otherwise.
+    """
+
+    base: Floats
+    way: Floats
+    height: Floats
+    round: Floats
+    first: Floats
+    last: Floats
+    origin: Floats
+    line: Floats
+
+    def __getitem__(self, rows: NDArray[Any]) -> CutCurves:
+        """Some of the curves, which may be repeated."""
+        return CutCurves(*(getattr(self, name)[rows] for name in self.__dataclass_fields__))
+
+    def place(self, t: Floats) -> Floats:
+        """(k, 2) where each is at its parameter."""
+        is_bent = self.height > 0
+        h = np.where(is_bent, self.height, 1)
+        up = np.where(is_bent, (t * t - h * h) / (2 * h), 0)
+        across = np.stack([-self.way[:, 1], self.way[:, 0]], axis=1)
+        along, beside = t, up
+        if self.round.any():
+            is_round = self.round > 0
+            finite = np.where(is_round, t, 0)
+            square = 1 + finite * finite
+            along = np.where(is_round, self.round * (1 - finite * finite) / square, t)
+            beside = np.where(is_round, self.round * 2 * finite / square, up)
+        made: Floats = self.base + along[:, None] * self.way + beside[:, None] * across
+        return made
+
+    def tangent(self, t: Floats) -> Floats:
+        """(k, 2) the direction at a parameter, towards rising ones."""
+        is_bent = self.height > 0
+        slope = np.where(is_bent, t / np.where(is_bent, self.height, 1), 0)
+        across = np.stack([-self.way[:, 1], self.way[:, 0]], axis=1)
+        is_round = self.round > 0
+        along, beside = np.where(is_round, -2 * t, 1), np.where(is_round, 1 - t * t, slope)
+        made: Floats = along[:, None] * self.way + beside[:, None] * across
+        return made
+
+    def radius(self, t: Floats) -> Floats:
+        """(k,) the distance from both sites at a parameter."""
+        h = np.where(self.height > 0, self.height, 1)
+        place = self.place(t)
+        offset = place - self.origin
+        of_line = np.abs((place * self.line[:, :2]).sum(axis=1) - self.line[:, 2])
+        straight = np.where(np.isnan(self.origin[:, 0]), of_line, np.sqrt((offset * offset).sum(axis=1)))
+        made: Floats = np.where(self.height > 0, (t * t + h * h) / (2 * h), straight)
+        return made
+
+    def control(self, t0: Floats, t1: Floats) -> Floats:
+        """(k, 2) where the tangents at two parameters meet; NaN of lines."""
+        is_bent = self.height > 0
+        below = (t1 - t0) ** 2 / (4 * np.where(is_bent, self.height, 1))
+        down = np.stack([self.way[:, 1], -self.way[:, 0]], axis=1)
+        made = (self.place(t0) + self.place(t1)) / 2 + below[:, None] * down
+        made[~is_bent] = np.nan
+        return made
+
+    def depth(self, t0: Floats, t1: Floats) -> Floats:
+        """(k,) how far a curve is from its chord at most; 0 of lines."""
+        cosine = (1 + t0 * t1) / np.sqrt((1 + t0 * t0) * (1 + t1 * t1))
+        control = self.control(t0, t1)
+        bend = np.nan_to_num(self.place(t0) - 2 * control + self.place(t1))
+        made: Floats = np.where(self.round > 0, self.round * (1 - cosine), np.sqrt((bend * bend).sum(axis=1)) / 4)
+        return made
+
+    def hull(self, t0: Floats, t1: Floats) -> Floats:
+        """(k, 5, 2) closed rings of tangents and a chord around circular arcs."""
+        a, b, middle = (self.place(t) - self.base for t in (t0, t1, (t0 + t1) / 2))
+        square = (self.round * self.round)[:, None]
+        corners = [(one + middle) * square / (square + (one * middle).sum(axis=1)[:, None]) for one in (a, b)]
+        made: Floats = np.stack([a, corners[0], corners[1], b, a], axis=1) + self.base[:, None]
+        return made
+
+    def meets(self, place: Floats, normal: Floats, slack: float) -> Floats:
+        """(k, 2) parameters where each meets a straight line; NaN where it does not.
+
+        Where it comes as near to the line as the slack without crossing it, or crosses it no deeper, it touches it:
+        there is one parameter then.
+        """
+        across = normal[:, 1] * self.way[:, 0] - normal[:, 0] * self.way[:, 1]
+        is_bent = self.height > 0
+        h = np.where(is_bent, self.height, 1)
+        a = np.where(is_bent, across / (2 * h), 0)
+        b = (normal * self.way).sum(axis=1)
+        far = (normal * (self.base - place)).sum(axis=1)
+        c = far - np.where(is_bent, h * across / 2, 0)
+        is_round = self.round > 0
+        a, c = np.where(is_round, far - self.round * b, a), np.where(is_round, far + self.round * b, c)
+        b = np.where(is_round, 2 * self.round * across, b)
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+            discriminant = b * b - 4 * a * c
+            touches = (np.abs(discriminant) <= 4 * np.abs(a) * slack) & (a != 0)
+            touches = np.where(is_round, np.abs(np.abs(far) - self.round) <= slack, touches)
+            q = -(b + np.copysign(np.sqrt(np.maximum(discriminant, 0)), b)) / 2
+            roots = np.stack([c / q, q / a], axis=1)
+            roots[discriminant < 0] = np.nan
+            roots[touches, 0] = (-b / (2 * a))[touches]
+            roots[touches, 1] = np.nan
+        roots[~np.isfinite(roots)] = np.nan
+        return roots
+
+    def between(self, least: Floats, most: Floats) -> tuple[Floats, Floats]:
+        """(k,) parameters between which each may be in a box, the larger one first where it is in none."""
+        low, high = np.minimum(self.first, self.last), np.maximum(self.first, self.last)
+        corner = np.maximum(np.abs(least - self.base), np.abs(most - self.base))
+        reach = np.sqrt((corner * corner).sum(axis=1))  # of the farthest corner
+        is_bent = self.height > 0
+        square = self.height * (2 * reach - self.height)
+        side = np.sqrt(np.maximum(square, 0))
+        with np.errstate(divide="ignore", invalid="ignore"):
+            far = [(each - self.base) / self.way for each in (least, most)]
+        is_along = self.way == 0
+        is_in = (least <= self.base) & (self.base <= most)
+        first = np.where(is_along, np.where(is_in, -np.inf, np.inf), np.minimum(*far)).max(axis=1)
+        last = np.where(is_along, np.where(is_in, np.inf, -np.inf), np.maximum(*far)).min(axis=1)
+        is_line = ~is_bent & (self.round == 0)
+        first = np.where(is_line, first, np.where(is_bent, np.where(square < 0, np.inf, -side), -1.0))
+        last = np.where(is_line, last, np.where(is_bent, side, 1.0))
+        return np.maximum(low, first), np.minimum(high, last)
+
+    def nearest(self, place: Floats) -> tuple[Floats, Floats]:
+        """(k,) the parameter where each comes nearest to a place close to it, and about how near."""
+        is_bent = self.height > 0
+        h = np.where(is_bent, self.height, 1)
+        offset = place - self.base
+        along = (offset * self.way).sum(axis=1)
+        beside = self.way[:, 0] * offset[:, 1] - self.way[:, 1] * offset[:, 0]
+        squared = (self.way * self.way).sum(axis=1)
+        slope = along / h
+        of_bent = np.abs(beside - (along * along - h * h) / (2 * h)) / np.sqrt(1 + slope * slope)
+        t = np.where(is_bent, along, along / squared)
+        miss = np.where(is_bent, of_bent, np.abs(beside) / np.sqrt(squared))
+        is_round = np.flatnonzero(self.round > 0)
+        size = np.sqrt((offset[is_round] ** 2).sum(axis=1))
+        ahead = size + along[is_round]
+        t[is_round] = np.where(ahead > 0, beside[is_round] / np.where(ahead > 0, ahead, 1), np.inf)
+        miss[is_round] = np.abs(size - self.round[is_round])
+        return t, miss
+
+
+def cut_curves(borders: Borders, graph: PlanarGraph, pieces: Indices) -> CutCurves:
+    """Give the curves that some pieces of borders, none of them walls, are on.
+
+    Parameters
+    ----------
+    borders : Borders
+        In the whole plane.
+    graph : PlanarGraph
+        Whose they are.
+    pieces : (k,) int64 array
+        Numbers of pieces.
+    """
+    elements, ends = borders.elements[pieces], borders.ends[pieces]
+    count = len(graph.points)
+    places = np.concatenate([borders.places, [[np.inf, np.inf]]])
+    a, b = places[ends[:, 0]], places[ends[:, 1]]
+    size = np.abs(np.stack([a, b])).max(axis=2)
+    is_near_first = size[0] <= size[1]
+    base, way = np.where(is_near_first[:, None], a, b), b - a
+    first = np.where(is_near_first, 0.0, -1.0)
+    last = first + 1
+    corners = graph.points.astype(np.float64)
+    of = [_ends(graph, element) for element in elements.T]
+    knows = ((elements < count).any(axis=1)) & _are_apart(elements, graph)
+    chosen = np.flatnonzero((size.max(axis=0) > FAR) & knows)
+    (la, lb), (ra, rb) = ((corners[one[chosen]], corners[other[chosen]]) for one, other in of)
+    across = la + lb - ra - rb
+    straight = np.stack([across[:, 1], -across[:, 0]], axis=1)
+    left_is_point, right_is_point = (elements[chosen] < count).T
+    p, q = np.where(left_is_point[:, None], la, ra), np.where(right_is_point[:, None], ra, la)
+    middle = (p + q) / 2
+    base[chosen], way[chosen] = middle, straight
+    squared = (straight * straight).sum(axis=1)
+    for end, where, infinite in ((a, first, -np.inf), (b, last, np.inf)):
+        is_finite = np.isfinite(end[chosen, 0])
+        offset = np.where(is_finite[:, None], end[chosen] - middle, 0)
+        where[chosen] = np.where(is_finite, (offset * straight).sum(axis=1) / squared, infinite)
+    height = np.zeros(len(pieces))
+    is_parabola, parabolas = parabolas_of(graph, elements)
+    source, target = ends[is_parabola].T
+    base[is_parabola], way[is_parabola] = parabolas.focus, parabolas.way
+    height[is_parabola] = parabolas.height
+    first[is_parabola] = parabolas.parameter(borders.places[source], borders.radius[source])
+    last[is_parabola] = parabolas.parameter(borders.places[target], borders.radius[target])
+    radius = np.zeros(len(pieces))
+    _take_circles(borders, pieces, (base, way, radius, first, last))
+    return CutCurves(base, way, height, radius, first, last, *_measured_from(graph, elements))
+
+
+def _take_circles(borders: Borders, pieces: Indices, curves: tuple[Floats, ...]) -> None:
+    """Write the circles among pieces, counter-clockwise, into arrays of base, way, radius, first and last."""
+    base, way, radius, first, last = curves
+    chosen = np.flatnonzero(~np.isnan(borders.center[pieces, 0]))
+    center = borders.center[pieces[chosen]]
+    a, b = (borders.places[end] - center for end in borders.ends[pieces[chosen]].T)
+    chord = b - a
+    is_short = ((a * b).sum(axis=1) > 0)[:, None]
+    middle = np.where(is_short, a + b, np.stack([chord[:, 1], -chord[:, 0]], axis=1))
+    middle /= np.sqrt((middle * middle).sum(axis=1))[:, None]
+    size = np.sqrt((a * a).sum(axis=1))
+    base[chosen], way[chosen], radius[chosen] = center, middle, size
+    for place, where in ((a, first), (b, last)):
+        beside = middle[:, 0] * place[:, 1] - middle[:, 1] * place[:, 0]
+        where[chosen] = beside / (size + (middle * place).sum(axis=1))
+
+
+def _ends(graph: PlanarGraph, element: Indices) -> tuple[Indices, Indices]:
+    """Points at the ends of elements, of a point itself twice."""
+    count = len(graph.points)
+    segment = np.maximum(element - count, 0)
+    ends = graph.segments[segment] if len(graph) else np.zeros((len(element), 2), dtype=np.int64)
+    point = np.minimum(element, max(count - 1, 0))
+    is_point = element < count
+    return np.where(is_point, point, ends[:, 0]), np.where(is_point, point, ends[:, 1])
+
+
+def _are_apart(elements: Indices, graph: PlanarGraph) -> NDArray[np.bool_]:
+    """Whether two elements have a straight bisector that they tell: two points, or a segment and its end."""
+    count = len(graph.points)
+    low, high = np.sort(elements, axis=1).T
+    first, second = _ends(graph, high)
+    told: NDArray[np.bool_] = (high < count) | ((low < count) & ((first == low) | (second == low)))
+    return told
+
+
+def _measured_from(graph: PlanarGraph, elements: Indices) -> tuple[Floats, Floats]:
+    """A point to measure distances from where one of two elements is one, else the line along the first segment."""
+    count = len(graph.points)
+    low = elements.min(axis=1)
+    is_point = low < count
+    points = graph.points.astype(np.float64)
+    origin = np.full((len(elements), 2), np.nan)
+    origin[is_point] = points[low[is_point]]
+    line = np.zeros((len(elements), 3))
+    one, other = _ends(graph, low[~is_point])
+    way = points[other] - points[one]
+    normal = np.stack([-way[:, 1], way[:, 0]], axis=1) / np.sqrt((way * way).sum(axis=1))[:, None]
+    line[~is_point] = np.column_stack([normal, (normal * points[one]).sum(axis=1)])
+    return origin, line

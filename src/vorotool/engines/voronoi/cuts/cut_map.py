@@ -1,0 +1,215 @@
+"""The planar map of borders and cuts: arcs with the site on each side, and the rings of cells."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.engines.voronoi.assembly import Arcs, Rings, by_ends, cycles_of, rings_of, without_lost
+from vorotool.engines.voronoi.curves import controls_of
+from vorotool.engines.voronoi.cuts.around_places import order_around, quarters
+from vorotool.engines.voronoi.cuts.crossings import crossings_of
+from vorotool.engines.voronoi.cuts.local_diagrams import LocalDiagrams
+from vorotool.engines.voronoi.cuts.nearest_elements import NearestElements
+from vorotool.engines.voronoi.cuts.overlay import UNKNOWN, Overlay
+from vorotool.engines.voronoi.cuts.regions import CutEdges
+from vorotool.errors import VerificationError
+from vorotool.geometry.ragged import owners
+from vorotool.geometry.voronoi.voronoi_map import OUTSIDE
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+
+@dataclass(frozen=True, eq=False)
+class CutMap:
+    """Cells between borders and cuts.
+
+    Parameters
+    ----------
+    arcs : Arcs
+        Those inside regions and those along cuts; a part is a site.
+    is_cut : (a,) bool array
+        Whether each is along a cut.
+    rings : Rings
+        Of the cells.
+    frame : (x, y, w, h)
+        Bounds of what is shared out.
+    """
+
+    arcs: Arcs
+    is_cut: NDArray[np.bool_]
+    rings: Rings
+    frame: tuple[float, float, float, float]
+
+
+def cut_map(local: LocalDiagrams, edges: CutEdges, frame: tuple[float, float, float, float]) -> CutMap:
+    """Put the borders of all regions between the cuts, and tell whose each side of each cut is.
+
+    Where a site has both sides of an enclosure, there is no arc.
+
+    Parameters
+    ----------
+    local : LocalDiagrams
+        With the borders.
+    edges : CutEdges
+        The cuts.
+    frame : (x, y, w, h)
+        Bounds of what is shared out.
+
+    Raises
+    ------
+    VerificationError
+        If borders and cuts are in no order as far as doubles tell.
+    """
+    overlay = Overlay(local, edges, crossings_of(local, edges))
+    sites, order = _sites_and_order(overlay)
+    arcs = _with_all_sites(overlay, sites, order)
+    count = len(overlay.pieces.piece)
+    is_cut = (np.arange(len(arcs.ends)) >= count) | (arcs.sites == OUTSIDE).any(axis=1)
+    kept = np.flatnonzero(arcs.sites[:, 0] != arcs.sites[:, 1])
+    made, sorting = _numbered(arcs, kept, overlay)
+    return CutMap(made, is_cut[kept][sorting], rings_of(made), frame)
+
+
+def _ends_of(overlay: Overlay) -> Indices:
+    return np.concatenate([overlay.pieces.ends, overlay.cuts.ends])
+
+
+def _sites_and_order(overlay: Overlay) -> tuple[Indices, Indices]:
+    """(a, 2) sites, not all known, and the order around source and target."""
+    borders, pieces, cuts = overlay.local.borders, overlay.pieces, overlay.cuts
+    sites = np.concatenate([borders.sites[pieces.piece].astype(np.int64), cuts.sites])
+    order = np.concatenate([borders.order[pieces.piece], np.zeros_like(cuts.ends)])
+    is_cut = np.zeros(len(overlay.found.node), dtype=bool)
+    is_cut[cuts.ends] = True
+    ends = _ends_of(overlay)
+    half = np.flatnonzero(is_cut[ends.ravel()])
+    own = overlay.region[pieces.piece][:, None]
+    regions = np.concatenate([np.repeat(own, 2, axis=1), overlay.edges.regions[cuts.edge]])
+    left = np.column_stack([regions.ravel()[half], sites.ravel()[half]])
+    right = np.column_stack([regions.ravel()[half ^ 1], sites.ravel()[half ^ 1]])
+    order.reshape(-1)[half] = order_around(ends.ravel()[half], quarters(_directions(overlay))[half], left, right)
+    return sites, order
+
+
+def _directions(overlay: Overlay) -> Floats:
+    """(2 a, 2) the directions in which arcs leave source and target."""
+    borders, pieces, found = overlay.local.borders, overlay.pieces, overlay.found
+    own = borders.ends[pieces.piece]
+    places = np.concatenate([borders.places, np.full((1, 2), np.nan)])  # that of -1, at infinity
+    control = controls_of(borders, overlay.local.owned.graph)[pieces.piece]
+    ways = np.zeros((len(own), 2, 2))
+    for end in (0, 1):
+        here, there = places[own[:, end]], places[own[:, 1 - end]]
+        ways[:, end] = np.where(np.isnan(control), there, control) - here
+    bent = np.flatnonzero(pieces.row >= 0)
+    curves, t = found.curves[pieces.row[bent]], pieces.t[bent]
+    forward = np.sign(t[:, 1] - t[:, 0])[:, None]
+    ways[bent, 0] = forward * curves.tangent(t[:, 0])
+    ways[bent, 1] = -forward * curves.tangent(t[:, 1])
+    along = overlay.lines.forward[overlay.cuts.edge]
+    return np.concatenate([ways.reshape(-1, 2), np.stack([along, -along], axis=1).reshape(-1, 2)])
+
+
+def _places(overlay: Overlay) -> tuple[Floats, Floats]:
+    """Of all places where they are in input units, and their distances from sites."""
+    local, edges, found = overlay.local, overlay.edges, overlay.found
+    graph, count = local.owned.graph, overlay.count
+    inner = np.flatnonzero(found.edge >= 0)
+    places = np.full((len(found.node), 2), np.nan)
+    places[:count] = graph.coordinates(local.borders.places).reshape(-1, 2)
+    places[count : count + len(edges.places)] = edges.places
+    places[inner] = overlay.lines.place(edges, found.edge[inner], found.far[inner])
+    radius = graph.scale * found.radius
+    enclosure = edges.is_enclosure[overlay.cuts.edge]
+    radius[overlay.cuts.ends[enclosure]] = np.nan
+    return places, radius
+
+
+def _with_all_sites(overlay: Overlay, sites: Indices, order: Indices) -> Arcs:
+    """Arcs of which every side is known, by the arcs around the same face, or by a place in it."""
+    places, radius = _places(overlay)
+    ends = _ends_of(overlay)
+    start, half_edge = cycles_of(ends, order, len(places))
+    around = sites.ravel()[half_edge]
+    begin = start[:-1]
+    if len(begin):
+        most = np.maximum.reduceat(around, begin)
+        least = np.minimum.reduceat(np.where(around == UNKNOWN, np.iinfo(np.int64).max, around), begin)
+        if ((most != least) & (most != UNKNOWN)).any():
+            raise VerificationError(
+                "borders and cuts do not close around a cell, as far as doubles tell: move the clip, the enclosures or "
+                "the frame a little"
+            )
+        row = owners(np.diff(start))
+        unknown = np.flatnonzero(most == UNKNOWN)
+        if unknown.size:
+            most[unknown] = _found_by_places(overlay, unknown, start, half_edge)
+        sites.reshape(-1)[half_edge] = most[row]
+    graph, pieces = overlay.local.owned.graph, overlay.pieces
+    control = np.full((len(ends), 2), np.nan)
+    own = controls_of(overlay.local.borders, graph)[pieces.piece]
+    bent = np.flatnonzero(pieces.row >= 0)
+    own[bent] = overlay.found.curves[pieces.row[bent]].control(*pieces.t[bent].T)
+    control[: len(own)] = graph.coordinates(own)
+    center = np.full((len(ends), 2), np.nan)
+    center[: len(own)] = graph.coordinates(overlay.local.borders.center[pieces.piece])
+    return Arcs(places, radius, ends, control, center, sites, sites, order)
+
+
+def _found_by_places(overlay: Overlay, rings: Indices, start: Indices, half_edge: Indices) -> Indices:
+    """(r,) the site of each of some rings of cuts alone: nearest to the middles of most of its length."""
+    nearest = NearestElements(overlay.local)
+    first = 2 * len(overlay.pieces.piece)
+    cuts, edges, lines = overlay.cuts, overlay.edges, overlay.lines
+    made = np.empty(len(rings), dtype=np.int64)
+    sizes = np.diff(start)[rings]
+    half = half_edge[np.repeat(start[rings] - np.cumsum(sizes) + sizes, sizes) + np.arange(int(sizes.sum()))] - first
+    ring = owners(sizes)
+    edge, hand = cuts.edge[half >> 1], half & 1
+    region = edges.regions[edge, hand]
+    a, b = (edges.points[edges.ends[edge, k]] for k in (0, 1))
+    site = np.empty(len(half), dtype=np.int64)
+    for each in np.unique(region).tolist():
+        own = np.flatnonzero(region == each)
+        site[own] = nearest.sites(((a + b) / 2)[own], each)
+    length = lines.length[edge]
+    pairs, row = np.unique(np.stack([ring, site], axis=1), axis=0, return_inverse=True)
+    total = np.bincount(row.reshape(-1), length, minlength=len(pairs))
+    order = np.lexsort((-pairs[:, 1], total, pairs[:, 0]))
+    made[pairs[order, 0]] = pairs[order, 1]  # the longest comes last, and stays
+    return made
+
+
+def _numbered(arcs: Arcs, kept: Indices, overlay: Overlay) -> tuple[Arcs, Indices]:
+    """Some arcs, with vertices and arcs numbered by where they are, and the order of these."""
+    is_cut = np.zeros(len(arcs.vertices), dtype=bool)
+    is_cut[overlay.cuts.ends] = True
+    used = np.zeros(len(arcs.vertices), dtype=bool)
+    used[arcs.ends[kept]] = True
+    along = overlay.cuts.ends.ravel()
+    along = along[np.sort(np.unique(along, return_index=True)[1])]
+    chosen = np.concatenate([np.flatnonzero(used & ~is_cut), along[used[along]]])
+    number = np.full(len(arcs.vertices), -1, dtype=np.int64)
+    number[chosen] = np.arange(len(chosen))
+    ends, sites, order = number[arcs.ends[kept]], arcs.sites[kept], arcs.order[kept]
+    control = arcs.control[kept]
+    center = without_lost(arcs.center[kept], arcs.vertices[chosen], ends, sites[:, 0] != OUTSIDE)
+    turned = ends[:, 0] > ends[:, 1]
+    for each in (ends, sites, order):
+        each[turned] = each[turned, ::-1]
+    sorting = by_ends(ends, control, center)
+    made = Arcs(
+        arcs.vertices[chosen],
+        arcs.radius[chosen],
+        ends[sorting],
+        control[sorting],
+        center[sorting],
+        sites[sorting],
+        sites[sorting],
+        order[sorting],
+    )
+    return made, sorting

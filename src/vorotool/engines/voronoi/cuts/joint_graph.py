@@ -1,0 +1,180 @@
+"""One planar graph of sites and of what cuts their cells: where they meet is decided in whole numbers."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.engines.arrangement.flat_rings import with_flat_shells_as_lines
+from vorotool.engines.arrangement.planar_graph import MOST_VERTICES, Placement, arranged, placed_vertices
+from vorotool.engines.voronoi.elements import graph_of_sites
+from vorotool.errors import LimitError
+from vorotool.geometry.magnitude import check_magnitude
+from vorotool.geometry.polygons.planar_graph import PlanarGraph
+from vorotool.geometry.polygons.polygon_set import LINE, SHELL, PolygonSet
+from vorotool.geometry.progress import Progress
+from vorotool.geometry.ragged import owners, ranges, starts_of
+
+Frame = tuple[float, float, float, float]
+Indices = NDArray[np.int64]
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class JointGraph:
+    """The planar graph of sites, a frame, clips and enclosures together.
+
+    Parameters
+    ----------
+    graph : PlanarGraph
+        Of all; its polygons are those of the sites first, then the frame, the clips and the enclosures.
+    of_clip, of_enclosures : range
+        Their polygons; no polygon is of a clip that was not given.
+    frame : int
+        The polygon of the frame; -1 without.
+    sites : PlanarGraph
+        Of the sites alone, on the same lattice, with a vertex wherever one of the others meets them.
+    """
+
+    graph: PlanarGraph
+    of_clip: range
+    of_enclosures: range
+    frame: int
+    sites: PlanarGraph
+
+    @property
+    def clips(self) -> bool:
+        """Whether a clip covers any face."""
+        polygon = self.graph.face_polygon
+        return bool(((polygon >= self.of_clip.start) & (polygon < self.of_clip.stop)).any())
+
+
+def joint_graph(
+    polygons: PolygonSet,
+    frame: Frame | None,
+    clip: PolygonSet | None,
+    enclosures: PolygonSet | None,
+    *,
+    threads: int = 0,
+    progress: Progress = None,
+) -> JointGraph:
+    """Put sites and cuts on one lattice, and cut all where they meet.
+
+    Parameters
+    ----------
+    polygons : PolygonSet
+        Of the sites.
+    frame : (x, y, w, h), optional
+        In input units.
+    clip, enclosures : PolygonSet, optional
+        Lines of a clip are left out; polygons among enclosures are taken for the lines around them.
+    threads, progress
+        As of `vorotool.planar_graph`, as are errors.
+    """
+    given = with_flat_shells_as_lines(polygons)
+    parts = [given]
+    if frame is not None:
+        parts.append(_box(frame))
+    if clip is not None:
+        parts.append(_without_lines(clip))
+    if enclosures is not None:
+        parts.append(_as_closed_lines(enclosures))
+    joined = _joined(parts)
+    check_magnitude(joined.xy)
+    if len(joined.xy) > MOST_VERTICES:
+        raise LimitError(f"there are {len(joined.xy)} vertices, more than {MOST_VERTICES}: split the polygons")
+    placement = placed_vertices(joined, threads=threads, progress=progress)
+    graph = arranged(joined, placement, progress=progress).graph
+    noded, vertices = _noded(given, graph)
+    of_sites = Placement(vertices, placement.origin, placement.exponent, placement.largest_move)
+    first = len(given) + (frame is not None)
+    second = first + (len(parts[1 + (frame is not None)]) if clip is not None else 0)
+    return JointGraph(
+        graph,
+        range(first, second),
+        range(second, len(joined)),
+        len(given) if frame is not None else -1,
+        graph_of_sites(noded, of_sites, progress=progress),
+    )
+
+
+def _box(frame: Frame) -> PolygonSet:
+    x, y, w, h = frame
+    corners = np.array([[x, y], [x + w, y], [x + w, y + h], [x, y + h]])
+    return _rings(corners, np.array([4]), np.array([SHELL]), np.array([0]))
+
+
+def _rings(xy: Floats, sizes: Indices, kinds: NDArray[np.integer], polygons: NDArray[np.integer]) -> PolygonSet:
+    return PolygonSet(xy, starts_of(sizes), kinds.astype(np.int8), polygons.astype(np.int32))
+
+
+def _without_lines(clip: PolygonSet) -> PolygonSet:
+    """The polygons among polygons and lines."""
+    ring = np.flatnonzero(~clip.is_line[clip.ring_polygon])
+    sizes = np.diff(clip.ring_start)[ring]
+    number = np.cumsum(~clip.is_line) - 1
+    return _rings(
+        clip.xy[ranges(clip.ring_start[ring], sizes)], sizes, clip.ring_kind[ring], number[clip.ring_polygon[ring]]
+    )
+
+
+def _as_closed_lines(enclosures: PolygonSet) -> PolygonSet:
+    """Each ring of polygons and lines as a line of its own."""
+    closes = (np.asarray(enclosures.ring_kind) != LINE).astype(np.int64)
+    own = np.diff(enclosures.ring_start)
+    sizes = own + closes
+    taken = ranges(enclosures.ring_start[:-1], sizes)
+    ends = np.cumsum(sizes) - 1
+    taken[ends[closes > 0]] = enclosures.ring_start[:-1][closes > 0]
+    return _rings(enclosures.xy[taken], sizes, np.full(len(own), LINE), np.arange(len(own)))
+
+
+def _joined(parts: list[PolygonSet]) -> PolygonSet:
+    first = np.cumsum([0, *(len(part) for part in parts)])
+    return _rings(
+        np.concatenate([part.xy for part in parts]),
+        np.concatenate([np.diff(part.ring_start) for part in parts]),
+        np.concatenate([part.ring_kind for part in parts]),
+        np.concatenate([part.ring_polygon + at for part, at in zip(parts, first.tolist(), strict=False)]),
+    )
+
+
+def packed(places: NDArray[np.integer]) -> Indices:
+    """One number a place of the lattice."""
+    x, y = places.astype(np.int64).T
+    made: Indices = x * 2**32 + y
+    return made
+
+
+def _noded(given: PolygonSet, graph: PlanarGraph) -> tuple[PolygonSet, NDArray[np.int32]]:
+    """Polygons with a vertex wherever a graph cuts their edges, and all vertices on its lattice.
+
+    They have the place of the lattice as coordinates: these are of a graph, not of the input.
+    """
+    assert graph.vertices is not None
+    vertices, count = graph.vertices, len(given.xy)
+    segment = owners(graph.source_count)
+    of_sites = graph.source_edge < count
+    edge = np.repeat(graph.source_edge[of_sites].astype(np.int64), 2)
+    place = graph.points[graph.segments[segment[of_sites]].ravel()].astype(np.int64)
+    a = vertices[:count].astype(np.int64)
+    after = given.following
+    along = a[after] - a
+    inner = (place != a[edge]).any(axis=1) & (place != a[after[edge]]).any(axis=1)
+    edge, place = edge[inner], place[inner]
+    offset = place - a[edge]
+    far = offset[:, 0] * along[edge, 0] + offset[:, 1] * along[edge, 1]
+    order = np.lexsort((place[:, 1], place[:, 0], far, edge))
+    edge, place, far = edge[order], place[order], far[order]
+    again = np.zeros(len(edge), dtype=bool)
+    again[1:] = (edge[1:] == edge[:-1]) & (place[1:] == place[:-1]).all(axis=1)
+    edge, place = edge[~again], place[~again]
+    rank = np.concatenate([np.zeros(count, dtype=np.int64), 1 + np.arange(len(edge))])
+    sorting = np.lexsort((rank, np.concatenate([np.arange(count), edge])))
+    all_places = np.concatenate([a, place])[sorting].astype(np.int32)
+    ring = np.searchsorted(given.ring_start, edge, side="right") - 1
+    sizes = np.diff(given.ring_start) + np.bincount(ring, minlength=len(given.ring_kind))
+    noded = _rings(all_places.astype(np.float64), sizes, given.ring_kind, given.ring_polygon)
+    return noded, all_places

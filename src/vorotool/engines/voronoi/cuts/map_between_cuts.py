@@ -1,0 +1,52 @@
+"""The Voronoi map between cuts, from what is given to its arcs and rings."""
+
+from __future__ import annotations
+
+from vorotool.engines.voronoi.cuts.cut_arguments import Frame, GivenCuts, frame_of
+from vorotool.engines.voronoi.cuts.cut_map import CutMap, cut_map
+from vorotool.engines.voronoi.cuts.joint_graph import joint_graph
+from vorotool.engines.voronoi.cuts.local_diagrams import local_diagrams
+from vorotool.engines.voronoi.cuts.regions import regions_of
+from vorotool.errors import InputError
+from vorotool.geometry.arguments.sites import Sites
+from vorotool.geometry.progress import Progress
+
+
+def map_between_cuts(
+    given: Sites,
+    cuts: GivenCuts,
+    frame: Frame | None,
+    limit: float | None,
+    *,
+    threads: int = 0,
+    progress: Progress = None,
+) -> CutMap:
+    """Make the diagrams of all regions that a frame, a clip and enclosures leave, in one map.
+
+    Parameters
+    ----------
+    given : Sites
+        Points, lines and polygons.
+    cuts : GivenCuts
+        A clip, enclosures, or both.
+    frame : (x, y, w, h), optional
+        That was given.
+    limit : float, optional
+        How far from its site a place may be, in input units.
+    threads, progress
+        As of `vorotool.voronoi`.
+
+    Raises
+    ------
+    InputError
+        If the clip has no area.
+    """
+    frame = cuts.frame_for(given.polygons, frame)
+    joint = joint_graph(given.polygons, frame, cuts.clip, cuts.enclosures, threads=threads, progress=progress)
+    if cuts.clip is not None and not joint.clips:
+        raise InputError("the clip has no area: give polygons that have one")
+    regions = regions_of(joint, given.site, given.count)
+    local = local_diagrams(
+        joint.sites, given.site, given.count, regions, limit=limit, threads=threads, progress=progress
+    )
+    return cut_map(local, regions.edges, frame_of(regions.edges, frame, cuts.clip))

@@ -1,0 +1,78 @@
+"""The sites of what no border is in: by the distances of places there."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.engines.voronoi.cuts.local_diagrams import LocalDiagrams
+from vorotool.engines.voronoi.elements import NOBODY
+from vorotool.geometry.polygons.conversion import to_shapely
+from vorotool.geometry.voronoi.voronoi_map import OUTSIDE
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+
+class NearestElements:
+    """Finds the sites that places of a region are nearest to.
+
+    Parameters
+    ----------
+    local : LocalDiagrams
+        With the elements of all regions.
+    """
+
+    def __init__(self, local: LocalDiagrams) -> None:
+        self.local = local
+        graph = local.owned.graph
+        degree = np.bincount(graph.segments.ravel(), minlength=len(graph.points))
+        self.lone = np.flatnonzero(degree == 0)
+        self.trees: dict[int, tuple[Any, Indices]] = {}
+
+    def sites(self, places: Floats, region: int) -> Indices:
+        """(k,) the smallest of the sites that cover each place on the lattice, else of those nearest to it.
+
+        What is beyond the limit of distance is `OUTSIDE`.
+        """
+        import shapely
+
+        points = shapely.points(places)
+        shapes, of_polygon = self._polygons
+        covered = np.full(len(places), NOBODY, dtype=np.int64)
+        row, place = shapely.STRtree(points).query(shapes, predicate="contains")
+        np.minimum.at(covered, place, of_polygon[row])
+        tree, site = self._tree(region)
+        (place, row), distance = tree.query_nearest(points, all_matches=True, return_distance=True)
+        least = np.full(len(places), NOBODY, dtype=np.int64)
+        np.minimum.at(least, place, site[row])
+        least[place[distance > self.local.borders.level]] = OUTSIDE
+        return np.where(covered < NOBODY, covered, least)
+
+    @cached_property
+    def _polygons(self) -> tuple[Any, Indices]:
+        """Polygons that have an inside, and the site of each."""
+        import shapely
+
+        shapes = shapely.make_valid(to_shapely(self.local.polygons))
+        kept = np.flatnonzero(shapely.area(shapes) > 0)
+        return shapes[kept], self.local.site[kept].astype(np.int64)
+
+    def _tree(self, region: int) -> tuple[Any, Indices]:
+        import shapely
+
+        if region not in self.trees:
+            local, graph = self.local, self.local.owned.graph
+            count = len(graph.points)
+            points = self.lone[local.point_region[self.lone] == region]
+            segments = np.flatnonzero(local.segment_region == region)
+            places = graph.points.astype(np.float64)
+            shapes = np.concatenate(
+                [shapely.points(places[points]), shapely.linestrings(places[graph.segments[segments]])]
+            )
+            site = local.owned.element[np.concatenate([points, count + segments])].astype(np.int64)
+            self.trees[region] = shapely.STRtree(shapes), site
+        return self.trees[region]

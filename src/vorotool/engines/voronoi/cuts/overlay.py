@@ -1,0 +1,303 @@
+"""Borders in pieces between cuts, and cuts in pieces between borders."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool import _core
+from vorotool.engines.voronoi.borders import sides_of_segments
+from vorotool.engines.voronoi.curves import controls_of
+from vorotool.engines.voronoi.cuts.crossings import SLACK, Crossings, EdgeLines
+from vorotool.engines.voronoi.cuts.joint_graph import packed
+from vorotool.engines.voronoi.cuts.local_diagrams import LocalDiagrams
+from vorotool.engines.voronoi.cuts.regions import NOBODY, CutEdges, faces_of_sides
+from vorotool.geometry.ragged import owners, starts_of
+from vorotool.geometry.voronoi.voronoi_map import OUTSIDE
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+UNKNOWN = -2
+"""The site of what is not known yet."""
+
+
+@dataclass(frozen=True, eq=False)
+class Pieces:
+    """Parts of borders between places.
+
+    Parameters
+    ----------
+    piece : (k,) int64 array
+        Of the borders.
+    ends : (k, 2) int64 array
+        Source and target; -1 at infinity.
+    t : (k, 2) float64 array
+        Their parameters; NaN of pieces that are whole.
+    row : (k,) int64 array
+        Of `Crossings.pieces`; -1 of those that are not among them.
+    """
+
+    piece: Indices
+    ends: Indices
+    t: Floats
+    row: Indices
+
+    def __getitem__(self, chosen: NDArray[np.bool_]) -> Pieces:
+        """Some of them."""
+        return Pieces(self.piece[chosen], self.ends[chosen], self.t[chosen], self.row[chosen])
+
+
+@dataclass(frozen=True, eq=False)
+class CutPieces:
+    """Parts of cut edges between places.
+
+    Parameters
+    ----------
+    edge : (k,) int64 array
+        That each is a part of.
+    ends : (k, 2) int64 array
+        Source and target, along it.
+    sites : (k, 2) int64 array
+        Left and right, where walls and borders along them tell; `OUTSIDE` where nobody has it, else `UNKNOWN`.
+    """
+
+    edge: Indices
+    ends: Indices
+    sites: Indices
+
+
+def pieces_between(local: LocalDiagrams, found: Crossings) -> Pieces:
+    """Cut borders at all places where they meet cuts; what has no length is left out.
+
+    Parameters
+    ----------
+    local : LocalDiagrams
+        With the borders.
+    found : Crossings
+        The places.
+    """
+    borders = local.borders
+    ends = np.where(borders.ends >= 0, found.node[borders.ends], -1)
+    whole = np.ones(len(ends), dtype=bool)
+    whole[found.pieces] = False
+    kept = np.flatnonzero(whole)
+    row = np.arange(len(found.pieces))
+    curves = found.curves
+    rows = np.concatenate([row, found.stop_row, row])
+    nodes = np.concatenate([ends[found.pieces, 0], found.stop_node, ends[found.pieces, 1]])
+    t = np.concatenate([curves.first, found.stop_t, curves.last])
+    rank = np.concatenate([np.zeros(len(row)), np.ones(len(found.stop_row)), np.full(len(row), 2)])
+    forward = np.where(curves.first <= curves.last, 1.0, -1.0)
+    order = np.lexsort((forward[rows] * t, rank, rows))
+    rows, nodes, t = rows[order], nodes[order], t[order]
+    is_next = np.flatnonzero(rows[1:] == rows[:-1])
+    a, b = nodes[is_next], nodes[is_next + 1]
+    is_next = is_next[(a != b) | (a < 0)]
+    parts = np.stack([nodes[is_next], nodes[is_next + 1]], axis=1)
+    long = ends[kept, 0] != ends[kept, 1]
+    long |= ends[kept, 0] < 0
+    kept = kept[long]
+    return Pieces(
+        np.concatenate([kept, found.pieces[rows[is_next]]]),
+        np.concatenate([ends[kept], parts]),
+        np.concatenate([np.full((len(kept), 2), np.nan), np.stack([t[is_next], t[is_next + 1]], axis=1)]),
+        np.concatenate([np.full(len(kept), -1), rows[is_next]]),
+    )
+
+
+def cut_pieces(edges: CutEdges, found: Crossings, count: int) -> CutPieces:
+    """Divide cut edges at all places where borders meet them.
+
+    Parameters
+    ----------
+    edges : CutEdges
+        All of them.
+    found : Crossings
+        The places.
+    count : int
+        Places of borders.
+    """
+    number = np.arange(len(edges.ends))
+    inner = np.flatnonzero((found.edge >= 0) & (found.node == np.arange(len(found.node))))
+    edge = np.concatenate([number, found.edge[inner], number])
+    nodes = np.concatenate([count + edges.ends[:, 0], inner, count + edges.ends[:, 1]])
+    far = np.concatenate([np.full(len(number), -np.inf), found.far[inner], np.full(len(number), np.inf)])
+    order = np.lexsort((far, edge))
+    edge, nodes = edge[order], nodes[order]
+    is_next = np.flatnonzero(edge[1:] == edge[:-1])
+    edge = edge[is_next]
+    sites = np.where(edges.regions[edge] == NOBODY, OUTSIDE, UNKNOWN)
+    return CutPieces(edge, np.stack([nodes[is_next], nodes[is_next + 1]], axis=1), sites)
+
+
+class Overlay:
+    """Parts of borders and cuts put together.
+
+    Parameters
+    ----------
+    local : LocalDiagrams
+        With the borders.
+    edges : CutEdges
+        The cuts.
+    found : Crossings
+        Where they meet.
+    """
+
+    def __init__(self, local: LocalDiagrams, edges: CutEdges, found: Crossings) -> None:
+        self.local, self.edges, self.found = local, edges, found
+        self.count = len(local.borders.places)
+        self.lines = EdgeLines(edges)
+        self.cuts = cut_pieces(edges, found, self.count)
+        self.region = local.region
+        pieces = pieces_between(local, found)
+        self._tell_walls()
+        along = self._along(pieces)
+        self._tell_borders(pieces, along)
+        pieces = pieces[along < 0]
+        self.pieces = pieces[self._is_kept(pieces)]
+
+    # ---- what lies along cuts ---------------------------------------------------------------------------
+    def _tell_walls(self) -> None:
+        """Note the sites beside cuts that are walls."""
+        local, edges = self.local, self.edges
+        graph = local.owned.graph
+        if not len(graph):
+            return
+        key = np.sort(packed(edges.points.astype(np.int64))[edges.ends], axis=1)
+        walls = np.sort(packed(graph.points)[graph.segments].reshape(-1, 2), axis=1)
+        corners, number = np.unique(np.concatenate([key, walls]).ravel(), return_inverse=True)
+        number = number.reshape(-1, 2)
+        pair = number[:, 0] * len(corners) + number[:, 1]
+        of_edge, of_wall = pair[: len(key)], pair[len(key) :]
+        chosen = np.flatnonzero(np.isin(of_wall, of_edge))
+        order = np.argsort(of_edge)
+        edge = order[np.searchsorted(of_edge[order], of_wall[chosen])]
+        _, sites, _ = sides_of_segments(local.owned)
+        same = (graph.points[graph.segments[chosen, 0]] == edges.points[edges.ends[edge, 0]]).all(axis=1)
+        told = np.full((len(edges.ends), 2), UNKNOWN, dtype=np.int64)
+        for hand in (0, 1):
+            own = edges.regions[edge, hand] == local.segment_region[chosen]
+            told[edge[own], hand] = np.where(same, sites[chosen, hand], sites[chosen, 1 - hand])[own]
+        self.cuts.sites[:] = np.where(self.cuts.sites == UNKNOWN, told[self.cuts.edge], self.cuts.sites)
+
+    def _along(self, pieces: Pieces) -> Indices:
+        """(k,) the cut edge that a part of a border runs along; -1 where it does not."""
+        found, ends = self.found, self.edges.ends
+        a, b = pieces.ends.T
+        straight = np.ones(len(a), dtype=bool)
+        bent = np.flatnonzero(pieces.row >= 0)
+        curves = found.curves[pieces.row[bent]]
+        finite = np.isfinite(pieces.t[bent]).all(axis=1)
+        t = np.where(finite[:, None], pieces.t[bent], 0)
+        straight[bent] = finite & (curves.depth(t[:, 0], t[:, 1]) <= SLACK)
+        edge = np.full(len(a), -1, dtype=np.int64)
+        corners = len(self.edges.points)
+
+        def inside(node: Indices) -> Indices:
+            return np.where(node >= 0, found.edge[node], -1)
+
+        def corner(node: Indices) -> Indices:
+            is_corner = (node >= self.count) & (node < self.count + corners)
+            return np.where(is_corner, node - self.count, -1)
+
+        for one, other in ((a, b), (b, a)):
+            own = inside(one)
+            hit = own >= 0
+            hit &= (inside(other) == own) | ((corner(other)[:, None] == ends[own]).any(axis=1) & (corner(other) >= 0))
+            edge[hit] = own[hit]
+        both = np.flatnonzero((corner(a) >= 0) & (corner(b) >= 0))
+        low, high = np.sort(np.stack([corner(a)[both], corner(b)[both]]), axis=0)
+        least, most = np.sort(ends, axis=1).T
+        key = least * corners + most
+        order = np.argsort(key)
+        at = np.searchsorted(key[order], low * corners + high).clip(max=len(key) - 1)
+        same = key[order[at]] == low * corners + high
+        edge[both[same]] = order[at[same]]
+        edge[~straight] = -1
+        region = self.region[pieces.piece]
+        edge[(self.edges.regions[edge] != region[:, None]).all(axis=1)] = -1
+        return edge
+
+    def _far(self, node: Indices, edge: Indices) -> Floats:
+        """How far along an edge a place on it is."""
+        is_inner = self.found.edge[node] == edge
+        is_source = node == self.count + self.edges.ends[edge, 0]
+        far: Floats = np.where(is_inner, self.found.far[node], np.where(is_source, 0, self.lines.length[edge]))
+        return far
+
+    def _tell_borders(self, pieces: Pieces, along: Indices) -> None:
+        """Note the sites beside cuts that borders run along."""
+        chosen = np.flatnonzero(along >= 0)
+        if not chosen.size:
+            return
+        edge = along[chosen]
+        first, last = (self._far(node, edge) for node in pieces.ends[chosen].T)
+        piece = pieces.piece[chosen]
+        sites, region = self.local.borders.sites[piece], self.region[piece]
+        cuts = self.cuts
+        start = np.searchsorted(cuts.edge, np.arange(len(self.edges.ends) + 1))
+        sizes = start[edge + 1] - start[edge]
+        row = owners(sizes)
+        part = np.arange(int(sizes.sum())) + np.repeat(start[edge] - starts_of(sizes)[:-1], sizes)
+        middle = (self._far(cuts.ends[part, 0], edge[row]) + self._far(cuts.ends[part, 1], edge[row])) / 2
+        held = (middle > np.minimum(first, last)[row]) & (middle < np.maximum(first, last)[row])
+        row, part = row[held], part[held]
+        turned = first[row] > last[row]
+        for hand in (0, 1):
+            own = (self.edges.regions[edge[row], hand] == region[row]) & (cuts.sites[part, hand] == UNKNOWN)
+            told = np.where(turned, sites[row, 1 - hand], sites[row, hand])
+            cuts.sites[part[own], hand] = told[own]
+
+    # ---- what lies in its region ------------------------------------------------------------------------
+    def _is_kept(self, pieces: Pieces) -> NDArray[np.bool_]:
+        """Whether parts of borders are in their region: all that hangs together between cuts is, or is not."""
+        import shapely
+
+        count, nodes = len(pieces.piece), len(self.found.node)
+        is_cut = np.zeros(nodes + 1, dtype=bool)
+        is_cut[self.cuts.ends] = True
+        is_cut[-1] = True  # at infinity
+        piece, end = np.nonzero(~is_cut[pieces.ends])
+        pairs = np.stack([piece, count + pieces.ends[piece, end]], axis=1)
+        root = _core.graphs.connected_components(pairs.astype(np.int32), count + nodes)[:count]
+        _, group = np.unique(root, return_inverse=True)
+        group = group.reshape(-1)
+        groups = int(group.max(initial=-1)) + 1
+        middle, length = self._middles(pieces)
+        reaches = np.zeros(groups, dtype=bool)
+        reaches[group[(pieces.ends < 0).any(axis=1)]] = True
+        order = np.lexsort((length, group))
+        longest = order[np.append(np.diff(group[order]) > 0, True)] if count else order
+        names, shapes = faces_of_sides(np.stack([self.lines.source, self.lines.target], axis=1), self.edges.regions)
+        at = longest[~reaches[group[longest]]]
+        row, place = shapely.STRtree(shapely.points(middle[at])).query(shapes, predicate="intersects")
+        inside = np.zeros(groups, dtype=bool)
+        held = names[row] == self.region[pieces.piece[at[place]]]
+        inside[group[at[place[held]]]] = True
+        kept: NDArray[np.bool_] = inside[group]
+        return kept
+
+    def _middles(self, pieces: Pieces) -> tuple[Floats, Floats]:
+        """Places in the middle of parts of borders, and how far their ends are apart."""
+        places = np.concatenate([self.local.borders.places, self.edges.points])
+        middle, length = np.zeros((len(pieces.piece), 2)), np.zeros(len(pieces.piece))
+        bent = np.flatnonzero(pieces.row >= 0)
+        curves = self.found.curves[pieces.row[bent]]
+        t = np.where(np.isfinite(pieces.t[bent]), pieces.t[bent], 0)
+        middle[bent] = curves.place(t.mean(axis=1))
+        length[bent] = _norm(curves.place(t[:, 1]) - curves.place(t[:, 0]))
+        plain = np.flatnonzero((pieces.row < 0) & (pieces.ends >= 0).all(axis=1))
+        a, b = (places[node] for node in pieces.ends[plain].T)
+        control = controls_of(self.local.borders, self.local.owned.graph)[pieces.piece[plain]]
+        control = np.where(np.isnan(control), (a + b) / 2, control)
+        middle[plain] = (a + 2 * control + b) / 4
+        length[plain] = _norm(b - a)
+        return middle, length
+
+
+def _norm(way: Floats) -> Floats:
+    size: Floats = np.sqrt((way * way).sum(axis=1))
+    return size

@@ -1,0 +1,253 @@
+"""What is shared out: regions between cuts, and the sites that each is shared among."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool import _core
+from vorotool.engines.voronoi.cuts.joint_graph import JointGraph, packed
+from vorotool.geometry.polygons.planar_graph import PlanarGraph
+from vorotool.geometry.ragged import owners, starts_of
+
+Indices = NDArray[np.int64]
+Floats = NDArray[np.float64]
+
+NOBODY = -1
+"""The region of what no cell may have."""
+
+
+@dataclass(frozen=True, eq=False)
+class CutEdges:
+    """Segments between regions, on the lattice.
+
+    Parameters
+    ----------
+    points : (n, 2) float64 array
+        Their ends there.
+    places : (n, 2) float64 array
+        In input units.
+    ends : (m, 2) int64 array
+        Source and target, numbers of points.
+    regions : (m, 2) int64 array
+        Left and right, two different ones; `NOBODY` where nothing is shared out.
+    is_enclosure : (m,) bool array
+        Whether an enclosure runs along it.
+    """
+
+    points: Floats
+    places: Floats
+    ends: Indices
+    regions: Indices
+    is_enclosure: NDArray[np.bool_]
+
+
+@dataclass(frozen=True, eq=False)
+class Regions:
+    """Regions, and which sites each is shared among.
+
+    Parameters
+    ----------
+    edges : CutEdges
+        All that is between them.
+    count : int
+        Of regions.
+    start : (count + 1,) int64 array
+        Where the sites of each begin in `site`.
+    site : int64 array
+        Ascending for each region.
+    """
+
+    edges: CutEdges
+    count: int
+    start: Indices
+    site: Indices
+
+    def sites_of(self, region: int) -> Indices:
+        """The sites that a region is shared among."""
+        return self.site[self.start[region] : self.start[region + 1]]
+
+
+def regions_of(joint: JointGraph, site: NDArray[np.int32], count: int) -> Regions:
+    """Find the faces of enclosures, or the whole, within the frame and the clip.
+
+    An end of an enclosure with one face on both sides cuts nothing, unless it reaches the frame or the clip: what it
+    parts there are faces of their own. A face is shared among the sites that meet its inside, without enclosures the
+    only one among all; where there are none it is nobody's.
+
+    Parameters
+    ----------
+    joint : JointGraph
+        Of everything.
+    site : (p,) int32 array
+        Of each polygon of the sites.
+    count : int
+        Of sites.
+    """
+    graph = joint.graph
+    shared = _is_shared_out(joint)
+    if len(joint.of_enclosures):
+        is_line = _has_source(graph, joint.of_enclosures)
+        face = _parted(graph, _faces(graph, is_line), is_line, shared)
+        left, right = face[graph.segment_faces].T
+        pairs = _meetings(joint, site, face, is_line & (left != right))
+        pairs = pairs[np.isin(pairs[:, 0], face[shared])]
+        # regions are the faces that a site meets
+        met, number = np.unique(pairs[:, 0], return_inverse=True)
+        pairs[:, 0] = number.reshape(-1)
+        at = np.searchsorted(met, face).clip(max=max(len(met) - 1, 0))
+        region = np.where(met[at] == face, at, NOBODY) if len(met) else np.full(graph.faces, NOBODY)
+    else:
+        is_line = np.zeros(len(graph), dtype=bool)
+        met = np.zeros(min(count, 1), dtype=np.int64)
+        region = np.full(graph.faces, 0 if len(joint.sites.points) else NOBODY, dtype=np.int64)
+        pairs = np.stack([np.zeros(count, dtype=np.int64), np.arange(count)], axis=1)
+    region[~shared] = NOBODY
+    sides = region[graph.segment_faces.astype(np.int64)].reshape(-1, 2)
+    cut = np.flatnonzero(sides[:, 0] != sides[:, 1])
+    used, ends = np.unique(graph.segments[cut].ravel().astype(np.int64), return_inverse=True)
+    edges = CutEdges(
+        graph.points[used].astype(np.float64).reshape(-1, 2),
+        graph.coordinates(graph.points[used]).reshape(-1, 2),
+        ends.reshape(-1, 2).astype(np.int64),
+        sides[cut],
+        is_line[cut],
+    )
+    sizes = np.bincount(pairs[:, 0], minlength=len(met))
+    return Regions(edges, len(met), starts_of(sizes), pairs[np.lexsort((pairs[:, 1], pairs[:, 0])), 1])
+
+
+def _has_source(graph: PlanarGraph, polygons: range) -> NDArray[np.bool_]:
+    """(m,) whether an edge of some polygons runs along each segment."""
+    given = graph.polygons
+    assert given is not None
+    first = given.ring_start[np.searchsorted(given.ring_polygon, [polygons.start, polygons.stop])]
+    is_source = (graph.source_edge >= first[0]) & (graph.source_edge < first[1])
+    has: NDArray[np.bool_] = np.bincount(owners(graph.source_count)[is_source], minlength=len(graph)) > 0
+    return has
+
+
+def _faces(graph: PlanarGraph, is_line: NDArray[np.bool_]) -> Indices:
+    """(f,) the faces between some segments: the smallest face of the graph in each."""
+    joined = graph.segment_faces[~is_line].astype(np.int32)
+    root: Indices = _core.graphs.connected_components(joined, graph.faces).astype(np.int64)
+    return root
+
+
+def _parted(graph: PlanarGraph, face: Indices, is_line: NDArray[np.bool_], shared: NDArray[np.bool_]) -> Indices:
+    """(f,) the faces once more, those in parts that a line with open ends divides together with the frame or a clip."""
+    left, right = graph.segment_faces.T
+    is_inner = shared[left] & shared[right]
+    joined = graph.segment_faces[~is_line & is_inner].astype(np.int32)
+    part = _core.graphs.connected_components(joined, graph.faces).astype(np.int64)
+    divides = is_line & is_inner & (face[left] == face[right]) & (part[left] != part[right])
+    is_parted = np.isin(face, face[left[divides]])
+    return np.where(is_parted, np.where(shared, graph.faces + part, 2 * graph.faces), face)
+
+
+def _is_shared_out(joint: JointGraph) -> NDArray[np.bool_]:
+    """(f,) whether each face is in the frame and in a clip, where they are given."""
+    graph = joint.graph
+    face = owners(np.diff(graph.face_start))
+    shared = np.ones(graph.faces, dtype=bool)
+    for polygons in (range(joint.frame, joint.frame + 1) if joint.frame >= 0 else None, joint.of_clip or None):
+        if polygons is not None:
+            is_in = (graph.face_polygon >= polygons.start) & (graph.face_polygon < polygons.stop)
+            shared &= np.bincount(face[is_in], minlength=graph.faces) > 0
+    shared[0] = False
+    return shared
+
+
+def _meetings(joint: JointGraph, site: NDArray[np.int32], face: Indices, is_line: NDArray[np.bool_]) -> Indices:
+    """(k, 2) faces of enclosures and sites that meet their inside, each pair once."""
+    graph = joint.graph
+    given = graph.polygons
+    assert given is not None
+    # what polygons cover
+    covered, polygon = face[owners(np.diff(graph.face_start))], graph.face_polygon
+    own = polygon < len(site)
+    pairs = [np.stack([covered[own], site[polygon[own]]], axis=1)]
+    # what open segments of sites lie in
+    ring = np.searchsorted(given.ring_start, graph.source_edge, side="right") - 1
+    polygon, segment = given.ring_polygon[ring], owners(graph.source_count)
+    own = (polygon < len(site)) & ~is_line[segment]
+    pairs += [np.stack([face[side], site[polygon[own]]], axis=1) for side in graph.segment_faces[segment[own]].T]
+    pairs.append(_meetings_of_points(joint, site, face, is_line))
+    return np.unique(np.concatenate(pairs).astype(np.int64), axis=0)
+
+
+def _meetings_of_points(
+    joint: JointGraph, site: NDArray[np.int32], face: Indices, is_line: NDArray[np.bool_]
+) -> Indices:
+    """(k, 2) the same of sites that are places, unless an enclosure runs through these."""
+    import shapely
+
+    graph = joint.graph
+    given = graph.polygons
+    assert given is not None
+    assert graph.vertices is not None
+    keys = packed(graph.vertices)
+    starts = given.ring_start[:-1]
+    is_one = np.minimum.reduceat(keys, starts) == np.maximum.reduceat(keys, starts)
+    is_one &= given.ring_polygon < len(site)
+    lone = np.flatnonzero(is_one)
+    if not lone.size:
+        return np.empty((0, 2), dtype=np.int64)
+    on_line = np.unique(packed(graph.points[graph.segments[is_line].ravel()]))
+    lone = lone[~np.isin(keys[starts[lone]], on_line)]
+    places = graph.vertices[starts[lone]].astype(np.float64)
+    sides = face[graph.segment_faces].reshape(-1, 2)
+    boundary = np.flatnonzero(sides[:, 0] != sides[:, 1])
+    sides = sides[boundary]
+    found = np.full(len(lone), face[0], dtype=np.int64)
+    names, shapes = faces_of_sides(graph.points[graph.segments[boundary]].astype(np.float64), sides)
+    row, at = shapely.STRtree(shapely.points(places)).query(shapes, predicate="intersects")
+    found[at] = names[row]
+    return np.stack([found, site[given.ring_polygon[lone]]], axis=1)
+
+
+def faces_of_sides(lines: Floats, sides: Indices) -> tuple[Indices, NDArray[Any]]:
+    """Give the faces between segments as polygons of shapely, and the region that each is a part of.
+
+    Parameters
+    ----------
+    lines : (m, 2, 2) float64 array
+        Segments between regions, which meet at common ends only; whole numbers.
+    sides : (m, 2) int64 array
+        The region left and right of each.
+
+    Returns
+    -------
+    names : (r,) int64 array
+        The regions.
+    shapes : (r,) array
+        Polygons, with holes.
+
+    Examples
+    --------
+    >>> square = np.array([[[0, 0], [2, 0]], [[2, 0], [2, 2]], [[2, 2], [0, 0]]], dtype=float)
+    >>> names, shapes = faces_of_sides(square, np.array([[4, -1]] * 3))
+    >>> names.tolist(), shapes[0].area
+    ([4], 2.0)
+    """
+    import shapely
+
+    shapes = np.asarray(shapely.get_parts(shapely.polygonize(shapely.linestrings(lines))))
+    if not len(shapes):
+        return np.empty(0, dtype=np.int64), shapes
+    shells = shapely.get_exterior_ring(shapes)
+    places, ring = shapely.get_coordinates(shells, return_index=True)
+    first = np.searchsorted(ring, np.arange(len(shapes)))
+    wanted = np.stack([places[first], places[first + 1]], axis=1)
+    ways = np.concatenate([lines, lines[:, ::-1]])
+    key = packed(np.concatenate([ways, wanted]).reshape(-1, 2).astype(np.int64))
+    _, number = np.unique(key, return_inverse=True)
+    pair = number.reshape(-1, 2).astype(np.int64) @ np.array([len(key), 1])
+    order = np.argsort(pair[: len(ways)])
+    row = order[np.searchsorted(pair[order], pair[len(ways) :])]
+    is_right = (row >= len(lines)) == shapely.is_ccw(shells)
+    names: Indices = sides[row % len(lines), is_right.astype(np.int64)]
+    return names, shapes
