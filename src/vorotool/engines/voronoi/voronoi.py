@@ -32,6 +32,9 @@ from vorotool.geometry.voronoi.voronoi_map import OUTSIDE, VoronoiMap
 if TYPE_CHECKING:
     from vorotool.typing import FrameLike, ImageLike, PointsLike, PolygonsLike
 
+LEAST = 2.0**-40
+"""Of the largest coordinate: smaller limits are less than what a lattice moves sites by, and near what is rounded."""
+
 _BITS = 30
 """Steps of a lattice that a limit around a single place is counted in, as bits: as many as others have."""
 
@@ -91,7 +94,8 @@ def voronoi(
         If `sites`, the frame, the clip or the enclosures are none, a coordinate is not finite, the clip has no area, or
         a coordinate reference system is another one.
     UsageError
-        If the sides of the frame or `max_distance` are not above 0, or `by` is no column.
+        If the sides of the frame or `max_distance` are not above 0, that is too small beside the coordinates, or `by`
+        is no column.
     LimitError
         If there are too many vertices.
     VerificationError
@@ -115,9 +119,9 @@ def voronoi(
     [1.570796]
     """
     given_frame = None if frame is None else _checked_frame(frame)
-    limit = None if max_distance is None else _checked_limit(max_distance)
     threads = checked_threads(threads)
     given = as_sites(sites, by)
+    limit = None if max_distance is None else _checked_limit(max_distance, given.polygons.xy)
     cuts = given_cuts(clip, enclosures, given.polygons.crs)
     if cuts.are_there:
         made = map_between_cuts(given, cuts, given_frame, limit, threads=threads, progress=progress)
@@ -160,11 +164,16 @@ def _checked_frame(frame: FrameLike) -> Frame:
     return extent
 
 
-def _checked_limit(max_distance: float) -> float:
+def _checked_limit(max_distance: float, xy: NDArray[np.float64]) -> float:
     limit = finite_double(max_distance, "max_distance")
     if limit <= 0:
         raise UsageError(f"max_distance must be above 0, but is {shown_number(limit)}")
     check_lengths([limit], "distance")
+    least = LEAST * float(np.abs(xy).max(initial=0))
+    if limit < least:
+        raise UsageError(
+            f"max_distance is {shown_number(limit)}, too small beside the coordinates: use at least {1.1 * least:.2g}"
+        )
     return limit
 
 
@@ -193,7 +202,7 @@ def _on_fine_lattice(owned: OwnedGraph, limit: float) -> OwnedGraph:
     if len(graph.points) != 1:
         return owned
     assert not graph.points.any()
-    return replace(owned, graph=replace(graph, scale=math.ldexp(1.0, math.frexp(limit)[1] - _BITS)))
+    return replace(owned, graph=replace(graph, scale=math.ldexp(1.0, int(np.frexp(limit)[1]) - _BITS)))
 
 
 def _cells_of(owned: OwnedGraph, borders: Borders, cut: CutBorders, frame: Frame) -> tuple[Arcs, Rings]:
