@@ -26,6 +26,11 @@ class LevelCrossings {
     return static_cast<std::size_t>(number_[static_cast<std::size_t>(h)]);
   }
   kernel::Point& place(HalfEdge h) { return places_[number(h)]; }
+  // Whether that is where the half-edge ends, as far as doubles tell.
+  bool is_at_head(HalfEdge h) const {
+    const std::int32_t head = borders_.head(h);
+    return head >= 0 && places_[number(h)] == borders_.diagram().vertices[static_cast<std::size_t>(head)];
+  }
 
   // From which half-edge at the same place the curve that comes along one goes on: the same, but where what
   // is far touches itself.

@@ -20,6 +20,10 @@ Point from(const kernel::LatticePoint& p, const Point& way, double distance) {
   return {p.x + part * way.x, p.y + part * way.y};
 }
 
+Point middle_of(const LatticeSite& left, const LatticeSite& right) {
+  return {(static_cast<double>(left.a.x) + right.a.x) / 2, (static_cast<double>(left.a.y) + right.a.y) / 2};
+}
+
 }  // namespace
 
 double LevelSet::minimum(HalfEdge h) const {
@@ -37,8 +41,7 @@ double LevelSet::minimum(HalfEdge h) const {
 
 double LevelSet::minimum_between_points(HalfEdge h, const LatticeSite& left, const LatticeSite& right) const {
   const Point way = borders_.way(h);
-  const Point middle{(static_cast<double>(left.a.x) + right.a.x) / 2,
-                     (static_cast<double>(left.a.y) + right.a.y) / 2};
+  const Point middle = middle_of(left, right);
   const auto along = [&](std::int32_t vertex) {
     const Point place = end(vertex).place;
     return dot(place - middle, way);
@@ -57,7 +60,17 @@ Point LevelSet::crossing(HalfEdge h) const {
   if (!arc.is_parabola) return crossing_between_segments(h);
   // the focus is to the left of growing parameters; towards the minimum, which is at 0
   const double h0 = arc.parabola.h, t = std::sqrt(h0) * std::sqrt(std::max(0.0, 2 * level_ - h0));
-  return arc.parabola.place(left.is_point() ? -t : t);
+  const double sign = left.is_point() ? 1 : -1;
+  if (is_beyond_head(h, -t, [&](const skeleton::ArcEnd& end) { return sign * arc.parabola.parameter(end); }))
+    return end(borders_.head(h)).place;
+  return arc.parabola.place(-sign * t);
+}
+
+// Where the clearance hardly changes, rounding may put a crossing beyond the end that it comes before. Parameters
+// grow along the half-edge.
+template <class Parameter>
+bool LevelSet::is_beyond_head(HalfEdge h, double crossing, const Parameter& parameter) const {
+  return !is_above(borders_.head(h)) && crossing >= parameter(end(borders_.head(h)));
 }
 
 // Towards the middle of the points.
@@ -65,8 +78,12 @@ Point LevelSet::crossing_between_points(HalfEdge h, const LatticeSite& left, con
   const Point way = borders_.way(h);
   const double length = norm(way), half = length / 4;
   const double back = std::sqrt(std::max(0.0, level_ - half)) * std::sqrt(level_ + half) / length;
-  return {(static_cast<double>(left.a.x) + right.a.x) / 2 - back * way.x,
-          (static_cast<double>(left.a.y) + right.a.y) / 2 - back * way.y};
+  const Point middle = middle_of(left, right);
+  if (is_beyond_head(h, -back, [&](const skeleton::ArcEnd& end) {
+        return dot(end.place - middle, way) / (length * length);
+      }))
+    return end(borders_.head(h)).place;
+  return {middle.x - back * way.x, middle.y - back * way.y};
 }
 
 // The clearance grows evenly; from the nearer end, since the other one may be far away.

@@ -50,6 +50,8 @@ class LevelSet {
   kernel::Point crossing_between_points(HalfEdge h, const kernel::LatticeSite& left,
                                         const kernel::LatticeSite& right) const;
   kernel::Point crossing_between_segments(HalfEdge h) const;
+  template <class Parameter>
+  bool is_beyond_head(HalfEdge h, double crossing, const Parameter& parameter) const;
   kernel::Point beside_end(const kernel::LatticeSite& left, const kernel::LatticeSite& right) const;
   skeleton::ArcEnd end(std::int32_t vertex) const {
     const auto v = static_cast<std::size_t>(vertex);

@@ -79,7 +79,7 @@ def arcs_of(cut: CutBorders, ring: FrameRing, sites: Indices, parts: Indices, or
     inner = np.where(ring.rank > 0, ring.rank, order)
     last = len(cut.ends) + 2  # after all that ends at a node from inside
     orders = np.concatenate([inner, np.stack([np.zeros(nodes, dtype=np.int64), np.full(nodes, last)], axis=1)])
-    places = np.concatenate([cut.places, ring.corners])
+    places = np.concatenate([ring.places, ring.corners])
     radius = np.concatenate([cut.radius, np.full(len(ring.corners), np.nan)])
     number = np.full(len(places), -1, dtype=np.int64)
     used = np.zeros(len(places), dtype=bool)
@@ -118,11 +118,12 @@ def without_lost(center: Floats, ends: Floats, is_left: NDArray[np.bool_]) -> Fl
     is_left : (a,) bool array
         Whether they go counter-clockwise.
     """
-    a, b = ends[:, 0] - center, ends[:, 1] - center
-    cross = np.where(is_left, 1, -1) * (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
+    arc = np.flatnonzero(~np.isnan(center[:, 0]))
+    a, b = ends[arc, 0] - center[arc], ends[arc, 1] - center[arc]
+    cross = np.where(is_left[arc], 1, -1) * (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
     is_lost = ((a * b).sum(axis=1) > 0) & (cross <= 0)
-    made: Floats = np.where(is_lost[:, None], np.nan, center)
-    return made
+    center[arc[is_lost]] = np.nan
+    return center
 
 
 def by_ends(ends: Indices, control: Floats, center: Floats) -> Indices:

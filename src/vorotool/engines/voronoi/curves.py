@@ -123,10 +123,12 @@ class CircularArc:
         return self.radius
 
     def parameter(self, x: float, y: float) -> float:
-        """The t of a direction."""
+        """The t of a place on the circle, relative to its centre."""
         u, v = self.middle
-        along = self.radius + u * x + v * y
-        return (u * y - v * x) / along if along > 0 else INFINITY
+        along, across = u * x + v * y, u * y - v * x
+        if along >= 0:
+            return across / (self.radius + along)
+        return (self.radius - along) / across if across else INFINITY
 
     def place(self, t: float) -> Place:
         """Where it is at t."""

@@ -89,6 +89,17 @@ class FrameBox:
         side[is_out] = -2
         return side
 
+    def attract(self, places: Floats, chosen: NDArray[np.bool_]) -> None:
+        """Move those of some places to the sides that rounding alone may keep off: cells would touch themselves there.
+
+        They are where a limit crosses borders, which may be just on a side.
+        """
+        moved = places[chosen]
+        for side in (self.low, self.high):
+            near = np.abs(moved - side) <= TOUCH * np.abs(moved).max(axis=1, keepdims=True)
+            np.copyto(moved, side, where=near)
+        places[chosen] = moved
+
     def lattice_line(self, side: int) -> tuple[int, float]:
         """Which coordinate a side holds constant, and its value on the lattice."""
         bound = self.least if side in (0, 3) else self.most
@@ -128,6 +139,8 @@ def cut_borders(borders: Borders, graph: PlanarGraph, frame: tuple[float, float,
     """
     box = FrameBox(frame, graph)
     places = graph.coordinates(borders.places).reshape(-1, 2)
+    if np.isfinite(borders.level):
+        box.attract(places, borders.radius == borders.level)
     side = box.side_of(places)
     padded = np.concatenate([places, [[np.nan, np.nan]]])  # that of -1, at infinity
     control = controls_of(borders, graph)

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
-from itertools import groupby, permutations
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import groupby, pairwise, permutations
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +21,9 @@ UNKNOWN = -2
 
 _FORWARD = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))
 """Along each side, counter-clockwise."""
+
+ROUNDING = 2.0**-48
+"""Of the largest coordinate of a frame, by which places along it may be off."""
 
 _MOST_TIES = 6
 """Borders that end at one place of a frame as far as doubles tell, all orders of which are tried."""
@@ -41,12 +44,15 @@ class FrameRing:
         Of the source and target of cut borders on the frame: from 1 on counter-clockwise around their node.
     corners : (m, 2) float64 array
         Places of the corners where no border ends.
+    places : (v, 2) float64 array
+        Those of the cut borders; where rounding has put some along the frame in another order, they are exchanged.
     """
 
     nodes: Indices
     sides: Indices
     rank: Indices
     corners: Floats
+    places: Floats
 
 
 @dataclass(frozen=True)
@@ -84,12 +90,18 @@ def frame_ring(cut: CutBorders, sites: Indices, parts: Indices, order: Indices, 
     free = [k for k in range(SIDES) if _position(corners[k], k, corners) not in taken]
     nodes += [_Node(len(cut.places) + i, _position(corners[k], k, corners)) for i, k in enumerate(free)]
     nodes.sort(key=lambda node: (node.position, node.number))
-    ring = _in_order(nodes)
+    ring = _in_order(nodes, ROUNDING * float(np.abs(corners).max()))
+    place = {node.position: cut.places[node.number] for node in nodes if node.after is not None}
+    places = cut.places.copy()
+    for node in ring:
+        if node.after is not None:
+            places[node.number] = place[node.position]
     return FrameRing(
         np.array([node.number for node in ring], dtype=np.int64),
         np.array(_sides(ring), dtype=np.int64),
         rank,
         corners[free],
+        places,
     )
 
 
@@ -111,21 +123,27 @@ def _nodes_of_borders(
     sorting = np.argsort(node, kind="stable")
     for number, group in groupby(sorting.tolist(), key=lambda k: int(node[k])):
         position = _position(cut.places[number], int(cut.side[number]), corners)
-        around = _counter_clockwise([(int(arc[k]), int(end[k])) for k in group], cut, order, position[0])
-        for k, (each, at) in enumerate(around):
-            rank[each, at] = k + 1
-        (first, at_first), (last, at_last) = around[0], around[-1]
+        ends = sorted(((int(arc[k]), int(end[k])) for k in group), key=lambda each: int(order[each]))
         # what leaves a node has at its source the left hand on its left, at its target the other way round
-        after = int(sites[first, 1 - at_first]), int(parts[first, 1 - at_first])
-        before = int(sites[last, at_last]), int(parts[last, at_last])
-        yield _Node(number, position, before, after)
+        right, left = (
+            [(int(sites[each, at ^ hand]), int(parts[each, at ^ hand])) for each, at in ends] for hand in (1, 0)
+        )
+        begin = _first_from_frame(ends, cut, position[0], _possible_firsts(left, right))
+        for k, (each, at) in enumerate(ends[begin:] + ends[:begin]):
+            rank[each, at] = k + 1
+        yield _Node(number, position, left[begin - 1], right[begin])
 
 
-def _counter_clockwise(ends: list[Pair], cut: CutBorders, order: Indices, side: int) -> list[Pair]:
-    """Ends of borders at one place in order, from the side of the frame that begins or goes on there."""
-    if len(ends) == 1:
-        return ends
-    ends = sorted(ends, key=lambda each: int(order[each]))
+def _possible_firsts(left: list[Pair], right: list[Pair]) -> list[int]:
+    """Which of those that leave a place counter-clockwise may be the first: between all others sides agree."""
+    parted = [k for k in range(len(left)) if left[k - 1] != right[k]]
+    return parted if len(parted) == 1 else [*range(len(left))]
+
+
+def _first_from_frame(ends: list[Pair], cut: CutBorders, side: int, possible: list[int]) -> int:
+    """Which end of borders at one place is the first one from the side of the frame that begins or goes on there."""
+    if len(possible) == 1:
+        return possible[0]
     forward = _FORWARD[side]
 
     def turned(each: Pair) -> float:
@@ -139,26 +157,45 @@ def _counter_clockwise(ends: list[Pair], cut: CutBorders, order: Indices, side: 
             x, y = (-v, u) if at == 0 else (v, -u)
         return -float(x * forward[0] + y * forward[1]) / float(np.sqrt(x * x + y * y))
 
-    first = min(range(len(ends)), key=lambda k: turned(ends[k]))
-    return ends[first:] + ends[:first]
+    return min(possible, key=lambda k: turned(ends[k]))
 
 
-def _in_order(nodes: list[_Node]) -> list[_Node]:
-    """Nodes of which those at one position are put so that the sites between them agree."""
-    groups = [[*group] for _, group in groupby(nodes, key=lambda node: node.position)]
+def _in_order(nodes: list[_Node], slack: float) -> list[_Node]:
+    """Nodes of which those at one position, as far as doubles tell, are put so that the sites between them agree."""
+    groups = _together(nodes, slack)
+    last = next((group for group in reversed(groups) if any(node.after for node in group)), [])
+    rings = [_from(node.after, groups) for node in last] or [nodes]
+    return next((ring for ring in rings if _agree(None, [node for node in ring if node.after] * 2)), rings[0])
+
+
+def _from(before: Pair | None, groups: list[list[_Node]]) -> list[_Node]:
+    """Nodes in an order that agrees with what the frame comes from to the first one."""
     ring: list[_Node] = []
     for group in groups:
         bound = [node for node in group if node.after is not None]
         free = [node for node in group if node.after is None]
         if 1 < len(bound) <= _MOST_TIES:
-            before = next((node.after for node in reversed(ring) if node.after is not None), None)
-            fitting = [each for each in permutations(bound) if _agree(before, each)]
-            bound = [*fitting[0]] if fitting else bound
+            positions = [node.position for node in bound]
+            fitting = next((each for each in permutations(bound) if _agree(before, each)), bound)
+            bound = [replace(node, position=at) for node, at in zip(fitting, positions, strict=True)]
         ring += [*free, *bound]
+        before = bound[-1].after if bound else before
     return ring
 
 
-def _agree(before: Pair | None, nodes: tuple[_Node, ...]) -> bool:
+def _together(nodes: list[_Node], slack: float) -> list[list[_Node]]:
+    """Nodes along the frame in groups that are nearer to each other than rounding moves them."""
+    groups = [[nodes[0]]]
+    for last, node in pairwise(nodes):
+        (side, at), (next_side, next_at) = last.position, node.position
+        if side == next_side and next_at - at <= slack:
+            groups[-1].append(node)
+        else:
+            groups.append([node])
+    return groups
+
+
+def _agree(before: Pair | None, nodes: Sequence[_Node]) -> bool:
     for node in nodes:
         if before is not None and node.before != before:
             return False
