@@ -10,8 +10,8 @@ from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 
 Floats = NDArray[np.float64]
 
-FINEST = 2.0**-30
-"""Of the size of an arc: corners that are nearer to it than a step of the lattice do not make polylines finer."""
+FINEST = 2.0**-32
+"""Of the extent: corners that are nearer to an arc than a step of the lattice do not make polylines finer."""
 
 
 def room_beside_cuts(cells: VoronoiMap) -> Floats:
@@ -39,17 +39,14 @@ def room_beside_cuts(cells: VoronoiMap) -> Floats:
     import shapely
 
     corner = np.unique(cells.arcs[cells.is_cut])
-    hulls = _hulls(arcs[curved])
-    row, at = shapely.STRtree(shapely.points(cells.vertices[corner])).query(
-        shapely.polygons(hulls), predicate="intersects"
-    )
+    hulls = shapely.polygons(_hulls(arcs[curved]))
+    row, at = shapely.STRtree(shapely.points(cells.vertices[corner])).query(hulls, predicate="intersects")
     arc, vertex = curved[row], corner[at]
     inner = (cells.arcs[arc] != vertex[:, None]).all(axis=1)
     arc, vertex = arc[inner], vertex[inner]
     place = cells.vertices[vertex]
     near = np.where(cells.is_circle[arc], _from_circles(arcs[arc], place), _from_parabolas(arcs[arc], place))
-    size = np.ptp(hulls, axis=1).max(axis=1)[row[inner]]
-    np.minimum.at(room, arc, np.maximum(near / 2, FINEST * size))
+    np.minimum.at(room, arc, np.maximum(near / 2, FINEST * max(cells.frame[2:])))
     return room
 
 
