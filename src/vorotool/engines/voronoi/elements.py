@@ -143,9 +143,7 @@ def _as_lines(polygons: PolygonSet, chosen: NDArray[np.bool_]) -> tuple[PolygonS
     closed = chosen[polygon]
     taken[ends[closed]] = polygons.ring_start[ring[closed]]
     kind = np.where(closed, LINE, polygons.ring_kind[ring])
-    lines = replace(
-        polygons, xy=polygons.xy[taken], ring_start=starts_of(size), ring_kind=kind, ring_polygon=polygon
-    )
+    lines = replace(polygons, xy=polygons.xy[taken], ring_start=starts_of(size), ring_kind=kind, ring_polygon=polygon)
     return lines, taken
 
 

@@ -43,8 +43,19 @@ class GivenCuts:
         if self.enclosures is None or not len(self.enclosures.xy):
             return default_frame(sites)
         xy = np.concatenate([sites.xy, self.enclosures.xy])
-        return default_frame(replace(self.enclosures, xy=xy, ring_start=[0, len(xy)], ring_kind=[0], ring_polygon=[0],
-            ids=None, feature=None, properties={}, index=None))
+        return default_frame(
+            replace(
+                self.enclosures,
+                xy=xy,
+                ring_start=[0, len(xy)],
+                ring_kind=[0],
+                ring_polygon=[0],
+                ids=None,
+                feature=None,
+                properties={},
+                index=None,
+            )
+        )
 
 
 def given_cuts(clip: Any, enclosures: Any, crs: Any) -> GivenCuts:

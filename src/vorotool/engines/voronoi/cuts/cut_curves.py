@@ -114,9 +114,7 @@ class CutCurves:
         """(k, 5, 2) closed rings of tangents and a chord around circular arcs."""
         a, b, middle = (self.place(t) - self.base for t in (t0, t1, (t0 + t1) / 2))
         square = (self.round * self.round)[:, None]
-        corners = [
-            (one + middle) * square / (square + (one * middle).sum(axis=1)[:, None]) for one in (a, b)
-        ]
+        corners = [(one + middle) * square / (square + (one * middle).sum(axis=1)[:, None]) for one in (a, b)]
         made: Floats = np.stack([a, corners[0], corners[1], b, a], axis=1) + self.base[:, None]
         return made
 

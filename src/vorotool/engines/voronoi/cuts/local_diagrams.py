@@ -55,8 +55,14 @@ class LocalDiagrams:
 
 
 def local_diagrams(
-    sites: PlanarGraph, site: Sites, count: int, regions: Regions, *, limit: float | None = None,
-    threads: int = 0, progress: Progress = None,
+    sites: PlanarGraph,
+    site: Sites,
+    count: int,
+    regions: Regions,
+    *,
+    limit: float | None = None,
+    threads: int = 0,
+    progress: Progress = None,
 ) -> LocalDiagrams:
     """Make the diagram of each region.
 
@@ -82,7 +88,11 @@ def local_diagrams(
         owned = owners_of(sites, site)
         graph = owned.graph
         diagram = segment_voronoi(
-            graph.points, graph.segments, unwanted=unwanted_of(owned) if limit is None else None, threads=threads, progress=progress
+            graph.points,
+            graph.segments,
+            unwanted=unwanted_of(owned) if limit is None else None,
+            threads=threads,
+            progress=progress,
         )
         none = np.zeros(len(graph.points), dtype=np.int64), np.zeros(len(graph), dtype=np.int64)
         return LocalDiagrams(owned, *none, borders_of(owned, diagram, level=level, threads=threads), given, site)
@@ -146,4 +156,3 @@ def _joined(parts: list[OwnedGraph], sites: PlanarGraph) -> OwnedGraph:
     none = np.empty(0, dtype=np.int32)
     element = np.concatenate([none, *(own for own, _ in elements), *(own for _, own in elements)])
     return OwnedGraph(graph, element, np.concatenate([none, *(part.face for part in parts)]))
-

@@ -271,9 +271,7 @@ class Overlay:
         reaches[group[(pieces.ends < 0).any(axis=1)]] = True
         order = np.lexsort((length, group))
         longest = order[np.append(np.diff(group[order]) > 0, True)] if count else order
-        names, shapes = faces_of_sides(
-            np.stack([self.lines.source, self.lines.target], axis=1), self.edges.regions
-        )
+        names, shapes = faces_of_sides(np.stack([self.lines.source, self.lines.target], axis=1), self.edges.regions)
         at = longest[~reaches[group[longest]]]
         row, place = shapely.STRtree(shapely.points(middle[at])).query(shapes, predicate="intersects")
         inside = np.zeros(groups, dtype=bool)
