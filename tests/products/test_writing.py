@@ -30,6 +30,7 @@ def values():
         vorotool.offset(SQUARE, -1),
         vorotool.rebuild(skeleton),
         vorotool.points_along(skeleton, every=1),
+        vorotool.voronoi(POINTS),
     ]
     return {type(value).__name__: value for value in found}
 
