@@ -258,7 +258,7 @@ def test_enclosures(run, mixed, cuts):
 
 
 def test_all_cuts_together_are_kept_with_the_map(run, mixed, cuts):
-    options = ["--clip", "clip.wkt", "--enclosures", "streets.wkt", "--max-distance", "2.5", "-q"]
+    options = ["--clip", "clip.wkt", "--enclosures", "streets.wkt", "--max-distance", "2.5", "-q", "--verify"]
     for fmt in ("json", "npz"):
         assert run("voronoi", mixed, *options, "-o", f"a.{fmt}").code == 0
     cells = vorotool.read(cuts / "a.json")
