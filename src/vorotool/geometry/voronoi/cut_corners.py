@@ -96,7 +96,7 @@ def _feet(arcs: MixedArcs, place: Floats) -> Floats:
 def _along(arcs: MixedArcs, arc: Indices, place: Floats) -> Floats:
     """(k,) numbers that rise along arcs: across the axis of a parabola, the half angle on a circle."""
     own = arcs[arc]
-    key = np.nan_to_num((_axes(own) * (place - own.source)).sum(axis=1))
+    key: Floats = np.nan_to_num((_axes(own) * (place - own.source)).sum(axis=1))
     circle = np.flatnonzero(own.is_circle)
     round_arcs = own[circle]
     middle, offset = _middles(round_arcs), place[circle] - round_arcs.center

@@ -138,21 +138,25 @@ def _joined(parts: list[OwnedGraph], sites: PlanarGraph) -> OwnedGraph:
     points = np.cumsum([0, *(len(graph.points) for graph in graphs)])
     faces = np.cumsum([0, *(graph.faces for graph in graphs)])
     count = int(points[-1])
-    segments = np.concatenate([np.empty((0, 2), dtype=np.int32), *(g.segments + at for g, at in zip(graphs, points))])
-    sides = np.concatenate([np.empty((0, 2), dtype=np.int32), *(g.segment_faces + at for g, at in zip(graphs, faces))])
+    segments = np.concatenate(
+        [np.empty((0, 2), dtype=np.int32), *(g.segments + at for g, at in zip(graphs, points, strict=False))]
+    )
+    sides = np.concatenate(
+        [np.empty((0, 2), dtype=np.int32), *(g.segment_faces + at for g, at in zip(graphs, faces, strict=False))]
+    )
     elements = [np.split(part.element, [len(part.graph.points)]) for part in parts]
+    none = np.empty(0, dtype=np.int32)
     graph = PlanarGraph(
         np.concatenate([np.empty((0, 2), dtype=np.int32), *(g.points for g in graphs)]),
         segments,
-        np.full(count, -1),
-        np.zeros(len(segments) + 1),
-        np.empty(0),
+        np.full(count, -1, dtype=np.int32),
+        np.zeros(len(segments) + 1, dtype=np.int32),
+        none,
         sides,
-        np.zeros(int(faces[-1]) + 1),
-        np.empty(0),
+        np.zeros(int(faces[-1]) + 1, dtype=np.int32),
+        none,
         origin=sites.origin,
         scale=sites.scale,
     )
-    none = np.empty(0, dtype=np.int32)
     element = np.concatenate([none, *(own for own, _ in elements), *(own for _, own in elements)])
     return OwnedGraph(graph, element, np.concatenate([none, *(part.face for part in parts)]))

@@ -190,7 +190,7 @@ class Overlay:
         straight = np.ones(len(a), dtype=bool)
         bent = np.flatnonzero(pieces.row >= 0)
         curves = found.curves[pieces.row[bent]]
-        finite = np.isfinite(pieces.t[bent]).all(axis=1)
+        finite: NDArray[np.bool_] = np.isfinite(pieces.t[bent]).all(axis=1)
         t = np.where(finite[:, None], pieces.t[bent], 0)
         straight[bent] = finite & (curves.depth(t[:, 0], t[:, 1]) <= SLACK)
         edge = np.full(len(a), -1, dtype=np.int64)
