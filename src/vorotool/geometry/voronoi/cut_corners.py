@@ -149,7 +149,7 @@ def _from_parabolas(arcs: MixedArcs, place: Floats) -> Floats:
     with np.errstate(divide="ignore", invalid="ignore"):
         u, w = _cross(b - place, c - place) / double, _cross(a - place, b - place) / double
         rise = (2 * _size(c - a) + 4 * (_size(c - b) + _size(b - a))) / np.abs(double)
-        near: Floats = np.abs((1 - u - w) ** 2 - 4 * u * w) / rise
+        near: Floats = np.abs((1 - u - w) * (1 - u - w) - 4 * u * w) / rise
     return np.where(np.isfinite(near), near, 0)
 
 

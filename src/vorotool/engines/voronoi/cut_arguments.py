@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from vorotool.engines.skeleton.exact import default_frame
-from vorotool.engines.voronoi.cuts.regions import CutEdges
+from vorotool.engines.voronoi.regions import CutEdges
 from vorotool.errors import InputError
 from vorotool.geometry.arguments.polygons import as_polygons
 from vorotool.geometry.box import bounds

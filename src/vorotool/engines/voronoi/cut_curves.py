@@ -96,7 +96,7 @@ class CutCurves:
     def control(self, t0: Floats, t1: Floats) -> Floats:
         """(k, 2) where the tangents at two parameters meet; NaN of lines."""
         is_bent = self.height > 0
-        below = (t1 - t0) ** 2 / (4 * np.where(is_bent, self.height, 1))
+        below = (t1 - t0) * (t1 - t0) / (4 * np.where(is_bent, self.height, 1))
         down = np.stack([self.way[:, 1], -self.way[:, 0]], axis=1)
         made: Floats = (self.place(t0) + self.place(t1)) / 2 + below[:, None] * down
         made[~is_bent] = np.nan
@@ -178,7 +178,7 @@ class CutCurves:
         t = np.where(is_bent, along, along / squared)
         miss = np.where(is_bent, of_bent, np.abs(beside) / np.sqrt(squared))
         is_round = np.flatnonzero(self.round > 0)
-        size = np.sqrt((offset[is_round] ** 2).sum(axis=1))
+        size = np.sqrt((offset[is_round] * offset[is_round]).sum(axis=1))
         ahead = size + along[is_round]
         t[is_round] = np.where(ahead > 0, beside[is_round] / np.where(ahead > 0, ahead, 1), np.inf)
         miss[is_round] = np.abs(size - self.round[is_round])

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from vorotool.engines.arrangement.planar_graph import Placement, arranged
 from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, segment_voronoi_of_groups
 from vorotool.engines.voronoi.borders import Borders, borders_of, unwanted_of
-from vorotool.engines.voronoi.cuts.regions import Regions
 from vorotool.engines.voronoi.elements import OwnedGraph, owners_of
+from vorotool.engines.voronoi.regions import Regions
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.progress import Progress
@@ -114,11 +114,12 @@ def _graphs_of_regions(sites: PlanarGraph, site: Sites, count: int, regions: Reg
     assert sites.vertices is not None
     order = np.argsort(site, kind="stable")
     start = np.searchsorted(site[order], np.arange(count + 1))
+    above, below = sites.scale.as_integer_ratio()  # a power of two
     for region in range(regions.count):
         own = regions.sites_of(region)
         polygon = np.sort(order[ranges(start[own], np.diff(start)[own])])
         part, vertices = _chosen(given, polygon, sites.vertices)
-        placement = Placement(vertices, sites.origin, int(np.log2(sites.scale)), 0.0)
+        placement = Placement(vertices, sites.origin, above.bit_length() - below.bit_length(), 0.0)
         yield owners_of(arranged(part, placement).graph, site[polygon])
 
 
