@@ -30,7 +30,7 @@ def values():
         vorotool.offset(SQUARE, -1),
         vorotool.rebuild(skeleton),
         vorotool.points_along(skeleton, every=1),
-        vorotool.voronoi(POINTS),
+        vorotool.voronoi(SQUARE),
     ]
     return {type(value).__name__: value for value in found}
 
