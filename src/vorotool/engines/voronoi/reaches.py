@@ -8,14 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.voronoi.borders import ridges_of
-from vorotool.engines.voronoi.cuts.crossings import crossings_of
-from vorotool.engines.voronoi.cuts.cut_arguments import given_cuts
-from vorotool.engines.voronoi.cuts.joint_graph import joint_graph
-from vorotool.engines.voronoi.cuts.local_diagrams import local_diagrams
-from vorotool.engines.voronoi.cuts.regions import regions_of
+from vorotool.engines.voronoi.crossings import crossings_of
+from vorotool.engines.voronoi.cut_arguments import given_cuts
 from vorotool.engines.voronoi.diagram import diagram_of
 from vorotool.engines.voronoi.frame_cut import cut_borders
+from vorotool.engines.voronoi.joint_graph import joint_graph
+from vorotool.engines.voronoi.local_diagrams import local_diagrams
 from vorotool.engines.voronoi.measures import graph_again
+from vorotool.engines.voronoi.regions import regions_of
 from vorotool.errors import RepairWarning
 from vorotool.geometry.curves.flatten import checked_flatten
 from vorotool.geometry.voronoi.shapes import cell_polygons

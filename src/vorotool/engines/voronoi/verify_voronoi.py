@@ -41,11 +41,12 @@ def verify_voronoi(cells: VoronoiMap, *, places: int = 1000) -> None:
     """Check a Voronoi map, with nothing that it was made by.
 
     Every side of an arc is passed by one ring of its cell, rings are closed, shells go counter-clockwise and holes
-    clockwise, and the areas of all cells add up to that of the frame, or of the clip in it, if neither a limit nor
-    enclosures leave places to nobody. Along borders both sites are equally far, and none is nearer; along the limit of distance the site is as far as that, and no other one
-    nearer. At random places the site of the cell is the nearest one, not beyond the limit, and the first of those that
-    cover the place, or that have the vertex which it is nearest to; where there is no cell, all sites are beyond it.
-    With enclosures only the sites that meet the same face count. What the lattice moves is allowed for.
+    clockwise, and the areas of all cells add up to that of the frame, or of the clip in it, unless a limit or
+    enclosures leave places to nobody. Along borders both sites are equally far, and none is nearer; along the limit of
+    distance the site is as far as that, and no other one nearer. At random places the site of the cell is the nearest
+    one, not beyond the limit, and the first of those that cover the place, or that have the vertex which it is nearest
+    to; where there is no cell, all sites are beyond it. With enclosures only the sites that meet the same face count,
+    and cells stay in the faces that their sites meet. What the lattice moves is allowed for.
 
     Parameters
     ----------

@@ -12,13 +12,13 @@ from numpy.typing import ArrayLike, NDArray
 from vorotool.engines.skeleton.exact import Frame, default_frame
 from vorotool.engines.voronoi.assembly import Arcs, Rings, arcs_of, cells_of, rings_of
 from vorotool.engines.voronoi.borders import Borders, borders_of
-from vorotool.engines.voronoi.cuts.cut_arguments import given_cuts
-from vorotool.engines.voronoi.cuts.map_between_cuts import map_between_cuts
+from vorotool.engines.voronoi.cut_arguments import given_cuts
 from vorotool.engines.voronoi.diagram import diagram_of
 from vorotool.engines.voronoi.elements import OwnedGraph, owned_graph
 from vorotool.engines.voronoi.frame_cut import CutBorders, cut_borders
 from vorotool.engines.voronoi.frame_ring import UNKNOWN, frame_ring
 from vorotool.engines.voronoi.holes import shells_of
+from vorotool.engines.voronoi.map_between_cuts import map_between_cuts
 from vorotool.engines.voronoi.nearest_site import site_at
 from vorotool.errors import UsageError
 from vorotool.geometry.arguments.boxes import as_extent
