@@ -91,7 +91,7 @@ def local_diagrams(
     if regions.count == 1 and len(regions.site) == count:
         owned = owners_of(sites, site)
         diagram = diagram_of(owned, is_whole=limit is not None, threads=threads, progress=progress)
-        none = (np.zeros(size, dtype=np.int64) for size in (len(owned.graph.points), len(owned.graph)))
+        none = (np.zeros(len(owned.graph.points), dtype=np.int64), np.zeros(len(owned.graph), dtype=np.int64))
         return LocalDiagrams(owned, *none, pieces_of(owned, diagram, level=level, threads=threads), given, site)
     parts = [*_graphs_of_regions(sites, site, count, regions)]
     points, segments = (
