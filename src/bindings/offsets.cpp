@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -12,13 +11,14 @@
 #include "bindings/support/arrays.hpp"
 #include "bindings/support/monitor.hpp"
 #include "bindings/support/segment_diagram.hpp"
-#include "core/offsets/level_arcs.hpp"
+#include "core/offsets/level_map.hpp"
 #include "core/offsets/offset_curves.hpp"
 
 namespace vorotool::bindings {
 namespace {
 
 using core::base::Monitor;
+using core::offsets::LevelMap;
 using core::offsets::OffsetCurves;
 
 void check_faces(const core::segment_voronoi::build::DiagramView& diagram, const Indices& edge_face,
@@ -74,48 +74,14 @@ auto offset_curves(const SegmentDiagram& input, const Indices& edge_face, const 
   return result;
 }
 
-// Crossings of a level in faces of which none covers anything.
-struct Crossings {
-  std::vector<std::int32_t> half_edge, across;
-  std::vector<std::int8_t> ending, arc;
-  std::vector<core::kernel::Point> place, middle;
-  std::vector<std::int32_t> circles;
-};
-
-enum Ending : std::int8_t { inside, at_vertex, touching };
-enum Arc : std::int8_t { ordinary, aligned, lost };
-
-Crossings crossings_of(const core::segment_voronoi::build::DiagramView& diagram,
-                       const core::offsets::PolygonFaces& domain, double distance, const Monitor& monitor) {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  const core::offsets::HalfEdges borders(diagram);
-  const core::offsets::LevelSet level(borders, distance);
-  core::offsets::OuterComponents far(borders, domain, level, monitor);
-  core::offsets::LevelCrossings crossings(borders, domain, level, far, monitor);
-  const core::offsets::LevelArcs arcs(borders, crossings, distance);
-  Crossings found;
-  for (const core::offsets::HalfEdge h : crossings.all()) {
-    const core::offsets::Piece piece{h, crossings.across_cell(h)};
-    const bool is_aligned = arcs.is_between_aligned(domain, piece);
-    found.half_edge.push_back(h);
-    found.across.push_back(static_cast<std::int32_t>(crossings.number(piece.last)));
-    found.ending.push_back(crossings.is_at_head(h) ? at_vertex : level.touches(h) ? touching : inside);
-    found.arc.push_back(is_aligned ? aligned : arcs.is_lost(piece) ? lost : ordinary);
-    found.place.push_back(crossings.place(h));
-    found.middle.push_back(arcs.is_long(piece) ? arcs.middle(piece) : core::kernel::Point{nan, nan});
-  }
-  for (const auto& circle : arcs.circles(domain, level)) found.circles.push_back(circle.point);
-  return found;
-}
-
 Columns level_crossings(const SegmentDiagram& input, const Indices& edge_face, const Indices& face_polygon,
                         double level, const Progress& progress) {
   const core::segment_voronoi::build::DiagramView& diagram = input.view_with_faces();
   const std::vector<std::int32_t> of_sites(diagram.site_count(), -1);
   check_faces(diagram, edge_face, face_polygon);
-  Crossings made = run_interruptible(progress, [&](const Monitor& monitor) {
-    return crossings_of(diagram, {view(edge_face), view(face_polygon), of_sites, of_sites, true}, level,
-                        monitor);
+  LevelMap made = run_interruptible(progress, [&](const Monitor& monitor) {
+    const core::offsets::PolygonFaces domain{view(edge_face), view(face_polygon), of_sites, of_sites, true};
+    return core::offsets::level_map(core::offsets::HalfEdges(diagram), domain, level, monitor);
   });
   Columns result;
   result["half_edge"] = to_numpy(std::move(made.half_edge));
@@ -134,10 +100,11 @@ void bind_offsets(nb::module_& room) {
   room.def("offset_curves", &offset_curves, "diagram"_a, "edge_face"_a, "face_polygon"_a, "site_polygon"_a,
            "site_feature"_a, "distances"_a, "origin_x"_a, "origin_y"_a, "scale"_a, "progress"_a.none(),
            "Curves at each distance, which is positive outwards.");
-  room.def("level_crossings", &level_crossings, "diagram"_a, "edge_face"_a, "face_polygon"_a, "level"_a,
-           "progress"_a.none(),
-           "Where curves at a distance from all sites, in lattice units, cross edges of their diagram, and how "
-           "they go on from there.");
+  room.def(
+      "level_crossings", &level_crossings, "diagram"_a, "edge_face"_a, "face_polygon"_a, "level"_a,
+      "progress"_a.none(),
+      "Where curves at a distance from all sites, in lattice units, cross edges of their diagram, and how "
+      "they go on from there.");
 }
 
 }  // namespace vorotool::bindings

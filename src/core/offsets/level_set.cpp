@@ -79,7 +79,9 @@ Point LevelSet::crossing_between_points(HalfEdge h, const LatticeSite& left, con
   const double length = norm(way), half = length / 4;
   const double back = std::sqrt(std::max(0.0, level_ - half)) * std::sqrt(level_ + half) / length;
   const Point middle = middle_of(left, right);
-  if (is_beyond_head(h, -back, [&](const skeleton::ArcEnd& end) { return dot(end.place - middle, way) / (length * length); }))
+  if (is_beyond_head(h, -back, [&](const skeleton::ArcEnd& end) {
+        return dot(end.place - middle, way) / (length * length);
+      }))
     return end(borders_.head(h)).place;
   return {middle.x - back * way.x, middle.y - back * way.y};
 }

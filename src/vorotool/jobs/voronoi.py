@@ -24,7 +24,7 @@ from vorotool.jobs.pictures import Drawing, drawing_of, write_layers
 from vorotool.jobs.pixel_sizes import placed_backdrop
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
-from vorotool.jobs.units import in_units, length_in_units
+from vorotool.jobs.units import in_units, length_in_units, unit_columns
 from vorotool.jobs.voronoi_input import read_cuts, read_sites
 from vorotool.products.formats import PICTURES
 from vorotool.products.registry import PRODUCTS
@@ -85,6 +85,10 @@ class VoronoiProducts:
             from vorotool.render.canvas.png import check_picture_size
 
             check_picture_size(self._drawing(target.what).page, self.options.max_pixels)
+        if target.fmt == "html":
+            from vorotool.render.pages.cells_html import check_html_size
+
+            check_html_size(len(self.cells), len(self.cells.ring_arcs))
         if target.what in ("edges", "neighbours") and not self.cells.is_border.any():
             count = len(self.cells)
             self.run.warn(Message(f"there are no {target.what} of {count} site{'s' * (count != 1)}", Kind.EMPTY_RESULT))
@@ -100,6 +104,8 @@ class VoronoiProducts:
             if target.fmt in PICTURES:
                 drawing = self._drawing(target.what)
                 write_layers(out, drawing.layers, drawing.page, fmt=target.fmt, threads=o.threads)
+            elif target.fmt == "html":
+                self._write_page(out)
             else:
                 self._write_data(out, target)
 
@@ -115,6 +121,15 @@ class VoronoiProducts:
             threads=o.threads,
             path=target.path,
         )
+
+    def _write_page(self, out: BinaryIO) -> None:
+        from vorotool.render.layers.voronoi import map_colours
+        from vorotool.render.pages.cells_html import shapes_of_map, write_cells_html
+
+        cells = in_units(self.options.pixel_size, self.cells)
+        shapes = shapes_of_map(cells, y_up=self.options.y_up)
+        columns = {name: column for name, column in cells.table.items() if name not in ("label", "id")}
+        write_cells_html(out, shapes, map_colours(cells), columns | unit_columns(self.options.pixel_size, len(cells)))
 
     def _drawing(self, what: str) -> Drawing:
         o = self.options

@@ -187,6 +187,7 @@ _VORONOI = (
         _MAP,
         _MAP_LAYERS,
         "cells objects",
+        has_page=True,
         is_curved=True,
     ),
     _product("edges", "VoronoiMap", f"{_TABLES} geojson wkt", _MAP, _MAP_LAYERS, "edges objects", is_curved=True),

@@ -64,6 +64,18 @@ def test_limited_sites(seed, limit):
     assert_measured(sites, cells)
 
 
+@pytest.mark.parametrize("seed", range(12))
+def test_cut_sites(seed):
+    random = np.random.default_rng(seed)
+    sites = mixed_sites(random, 6, [None, 4][seed % 2])
+    discs = shapely.buffer(shapely.points(random.random((2, 2)) * 100), random.uniform(20, 60, 2), quad_segs=3)
+    streets = shapely.linestrings(random.random((4, 2, 2)) * 140 - 20)
+    clip = [None, discs, discs][seed % 3]
+    enclosures = [streets, None, streets][seed % 3]
+    limit = [None, 8][seed % 2]
+    assert_measured(sites, quietly(sites, clip=clip, enclosures=enclosures, max_distance=limit))
+
+
 def test_houses_have_their_own_area():
     houses = row_houses(4, 7)
     cells = voronoi(houses)
@@ -152,6 +164,27 @@ def test_nothing_is_computed_for_shapes():
 def test_a_court_is_cut_where_its_middle_is_too_far():
     for limit, reach in ((3, 2), (2, 2), (1.5, 1.5)):
         assert voronoi([COURT], frame=(0, 0, 4, 4), max_distance=limit).reaches.tolist() == [reach]
+
+
+def test_what_an_enclosure_keeps_apart():
+    """Behind the walls nobody else takes part: a court open below reaches the middle of the lower one."""
+    walls = shapely.LineString([(-6, 0), (6, 0), (6, 6), (-6, 6), (-6, 0)])
+    sites = [shapely.LineString([(-4, 1), (-4, 5), (4, 5), (4, 1)]), shapely.Point(0, -1)]
+    apart = voronoi(sites, enclosures=[walls])
+    assert apart.reaches[0] == pytest.approx(17**0.5)  # at (0, 0), from the ends of both arms
+    together = voronoi(sites, frame=apart.frame)
+    assert together.areas[0] != pytest.approx(apart.areas[0])
+    assert_measured(sites, apart)
+    assert_measured(sites, together)
+
+
+@pytest.mark.parametrize("clip", [[(-1, -1), (11, -1), (11, 11), (-1, 11)], [(0, 0), (10, 0), (10, 10), (0, 10)]])
+def test_a_clip_is_as_a_frame(clip):
+    sites = mixed_sites(np.random.default_rng(11), 5)
+    low, high = np.min(clip, axis=0) * 5, np.max(clip, axis=0) * 5
+    cut, framed = quietly(sites, clip=[5 * np.array(clip)]), quietly(sites, frame=(*low, *(high - low)))
+    np.testing.assert_allclose(cut.own_areas, framed.own_areas, atol=1e-6)
+    np.testing.assert_allclose(cut.reaches, framed.reaches, atol=1e-6)
 
 
 def test_repairs_are_told_once():

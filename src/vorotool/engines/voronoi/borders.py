@@ -143,15 +143,15 @@ def _limited(
     )
 
 
-def ridges_of(owned: OwnedGraph, diagram: SegmentVoronoiDiagram, *, threads: int = 0) -> Borders:
+def ridges_of(owned: OwnedGraph, diagram: SegmentVoronoiDiagram, *, level: float = np.inf, threads: int = 0) -> Borders:
     """Choose the edges between elements of one site, in the open: the distance from it has its maxima along these.
 
     Edges between a segment and its own end are none: across these the distance is smooth.
 
     Parameters
     ----------
-    owned, diagram, threads
-        As of `borders_of`.
+    owned, diagram, level, threads
+        As of `borders_of`; the level cuts none of them.
 
     Returns
     -------
@@ -174,7 +174,7 @@ def ridges_of(owned: OwnedGraph, diagram: SegmentVoronoiDiagram, *, threads: int
         diagram.vertices,
         diagram.radius,
         np.full(none.shape, np.nan),
-        np.inf,
+        level,
     )
 
 

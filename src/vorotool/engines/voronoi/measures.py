@@ -1,4 +1,4 @@
-"""Measures of cells that the sites tell: how much of a cell is its site's own, and how far it reaches."""
+"""How much of each cell is its site's own."""
 
 from __future__ import annotations
 
@@ -7,10 +7,7 @@ import warnings
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.voronoi.borders import ridges_of
-from vorotool.engines.voronoi.diagram import diagram_of
 from vorotool.engines.voronoi.elements import OwnedGraph, owned_graph
-from vorotool.engines.voronoi.frame_cut import cut_borders
 from vorotool.errors import RepairWarning
 from vorotool.geometry.curves.flatten import checked_flatten
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
@@ -20,17 +17,13 @@ from vorotool.geometry.voronoi.voronoi_map import OUTSIDE, VoronoiMap
 
 Floats = NDArray[np.float64]
 
-_TIE = 2.0**-40
-"""By which a distance may be above the limit and be the limit, as a part of it: rounding is less."""
 
-
-def _owned(cells: VoronoiMap) -> OwnedGraph:
+def graph_again(cells: VoronoiMap) -> OwnedGraph:
     """The graph that cells were made from; what was repaired has been reported then."""
     with warnings.catch_warnings(action="ignore", category=RepairWarning):
         return owned_graph(cells.polygons, cells.polygon_site)
 
 
-# ---- own areas ---------------------------------------------------------------------------------------
 def own_areas(cells: VoronoiMap) -> Floats:
     """(s,) the area of its site's own polygons that each cell has: what no smaller site covers, nor a cut takes away.
 
@@ -46,7 +39,7 @@ def own_areas(cells: VoronoiMap) -> Floats:
     >>> own_areas(voronoi(squares)).tolist(), own_areas(voronoi(squares, frame=(0, 0, 3, 1))).tolist()
     ([4.0, 4.0], [2.0, 1.0])
     """
-    owned = _owned(cells)
+    owned = graph_again(cells)
     made: Floats = np.zeros(len(cells))
     covered = owned.face >= 0
     np.add.at(made, owned.face[covered], _face_areas(owned.graph, cells.frame)[covered])
@@ -107,55 +100,3 @@ def _cut_to_cells(areas: Floats, cells: VoronoiMap) -> None:
     shapes = cell_polygons(cells, checked_flatten(None, cells.polygons))[at]
     of_sites = shapely.union_all(site_shapes(cells)[at][:, None], axis=1)
     areas[at] = shapely.area(shapely.intersection(shapes, of_sites))
-
-
-# ---- reaches -----------------------------------------------------------------------------------------
-def reaches(cells: VoronoiMap) -> Floats:
-    """(s,) the largest distance that a place of each cell has from its site; NaN of empty cells.
-
-    It is at a vertex of the cell, or where three elements of the site itself are equally far, as in the middle of a
-    court, or where an edge between two of them meets a cut.
-
-    Parameters
-    ----------
-    cells : VoronoiMap
-        However it was made.
-
-    Examples
-    --------
-    >>> from vorotool import voronoi
-    >>> reaches(voronoi([[0, 0], [4, 0]], frame=(0, 0, 4, 1))).round(6).tolist()
-    [2.236068, 2.236068]
-    >>> court = "LINESTRING (0 0, 4 0, 4 4, 0 4, 0 0)"
-    >>> reaches(voronoi([court], frame=(0, 0, 4, 4))).tolist()
-    [2.0]
-    """
-    made = np.full(len(cells), -np.inf)
-    _reach_of_vertices(made, cells)
-    _reach_of_ridges(made, cells)
-    made[cells.components == 0] = np.nan
-    return made
-
-
-def _reach_of_vertices(reach: Floats, cells: VoronoiMap) -> None:
-    import shapely
-
-    site, vertex = np.tile(cells.sites, 2).ravel(), np.repeat(cells.arcs, 2, axis=1).ravel()
-    inner = site != OUTSIDE
-    site, vertex = site[inner], vertex[inner]
-    radius = cells.radius[vertex]
-    unknown = np.isnan(radius)
-    if unknown.any():
-        shapes = site_shapes(cells)[site[unknown]]
-        radius[unknown] = shapely.distance(shapes, shapely.points(cells.vertices[vertex[unknown]]))
-    np.maximum.at(reach, site, radius)
-
-
-def _reach_of_ridges(reach: Floats, cells: VoronoiMap) -> None:
-    owned = _owned(cells)
-    ridges = ridges_of(owned, diagram_of(owned))
-    cut = cut_borders(ridges, owned.graph, cells.frame)
-    site, radius = ridges.sites[cut.piece, 0], cut.radius[cut.ends]
-    limit = np.inf if cells.max_distance is None else cells.max_distance
-    radius[radius > limit * (1 + _TIE)] = -np.inf
-    np.maximum.at(reach, np.repeat(site, 2), np.minimum(radius, limit).ravel())

@@ -11,6 +11,7 @@ from vorotool.engines.common.faults import fail, first_wrong
 from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.polygons.conversion import to_shapely
 from vorotool.geometry.ragged import owners
+from vorotool.geometry.voronoi.shapes import flattened_arcs
 from vorotool.geometry.voronoi.voronoi_map import OUTSIDE, VoronoiMap
 
 Floats = NDArray[np.float64]
@@ -28,6 +29,9 @@ ROUNDING = 2.0**-44
 _ALONG = (0.0, 0.25, 0.5, 0.75, 1.0)
 """Where borders are looked at, in the parameter of their Bezier curves."""
 
+_FINE = 2.0**-20
+"""Of the extent: how near to curves the lines are that places are looked up in."""
+
 _SEED = 20
 
 
@@ -35,9 +39,11 @@ def verify_voronoi(cells: VoronoiMap, *, places: int = 1000) -> None:
     """Check a Voronoi map, with nothing that it was made by.
 
     Every side of an arc is passed by one ring of its cell, rings are closed, shells go counter-clockwise and holes
-    clockwise, and the areas of all cells add up to that of the frame. Along borders both sites are equally far, and
-    none is nearer; at random places the site of the cell is the nearest one, and the first of those that cover the
-    place, or that have the vertex which it is nearest to. What the lattice moves is allowed for.
+    clockwise, and the areas of all cells add up to that of the frame, if nothing else cuts them. Along borders both
+    sites are equally far, and none is nearer; along the limit of distance the site is as far as that, and no other one
+    nearer. At random places the site of the cell is the nearest one, not beyond the limit, and the first of those that
+    cover the place, or that have the vertex which it is nearest to; where there is no cell, all sites are beyond it.
+    What the lattice moves is allowed for.
 
     Parameters
     ----------
@@ -70,6 +76,8 @@ def verify_voronoi(cells: VoronoiMap, *, places: int = 1000) -> None:
         sites = _SitePlaces(cells)
         random = np.random.default_rng(_SEED)
         _check_borders(cells, sites, random, places)
+        if cells.max_distance is not None:
+            _check_limit(cells, sites, cells.max_distance)
         _check_places(cells, sites, random, places)
 
 
@@ -112,6 +120,7 @@ def _check_areas(cells: VoronoiMap) -> None:
     first, second = control[:, 0] - source[:, 0], target[:, 0] - control[:, 0]
     # the integral of y dx: of products of Bernstein polynomials of degrees 2 and 1
     below = (first * (3 * y0 + 2 * y1 + y2) + second * (y0 + 2 * y1 + 3 * y2)) / 6
+    below[cells.is_circle] = _below_circles(cells, source, target)
     arc, is_back = np.abs(cells.ring_arcs.astype(np.int64)) - 1, cells.ring_arcs < 0
     area = -np.bincount(
         owners(np.diff(cells.ring_start)),
@@ -120,12 +129,30 @@ def _check_areas(cells: VoronoiMap) -> None:
     )
     largest = float(np.abs(cells.vertices).max(initial=0))
     slack = AREA * w * h + ROUNDING * largest * (w + h)
+    if cells.is_circle.any() and cells.max_distance is not None:
+        slack += ROUNDING * cells.max_distance * (cells.max_distance + largest)
     at = first_wrong(np.where(cells.is_hole, area > slack, area < -slack))
     if at is not None:
         fail(f"ring {at} has the area {area[at]}: shells go counter-clockwise, holes clockwise")
     total = float(area.sum())
-    if len(cells.cell_start) > 1 and len(cells.polygons) and abs(total - w * h) > slack:
+    if not (len(cells.cell_start) > 1 and len(cells.polygons)):
+        return
+    is_whole = cells.max_distance is None and cells.clip is None and cells.enclosures is None
+    if total - w * h > slack or (is_whole and w * h - total > slack):
         fail(f"the cells have an area of {total}, but the frame one of {w * h}")
+
+
+def _below_circles(cells: VoronoiMap, source: Floats, target: Floats) -> Floats:
+    """The integral of y dx along circular arcs, y from the frame's."""
+    center = cells.center[cells.is_circle]
+    a, b = source[cells.is_circle] - center, target[cells.is_circle] - center
+    first, last = np.arctan2(a[:, 1], a[:, 0]), np.arctan2(b[:, 1], b[:, 0])
+    is_left = cells.sites[cells.is_circle, 0] != OUTSIDE
+    turn = np.where(is_left, np.mod(last - first, 2 * np.pi), -np.mod(first - last, 2 * np.pi))
+    square = (a * a).sum(axis=1)
+    high = center[:, 1] - cells.frame[1]
+    below: Floats = high * (b[:, 0] - a[:, 0]) - (square * turn - b[:, 0] * b[:, 1] + a[:, 0] * a[:, 1]) / 2
+    return below
 
 
 # ---- distances ---------------------------------------------------------------------------------------
@@ -169,7 +196,7 @@ class _SitePlaces:
 
 
 def _check_borders(cells: VoronoiMap, sites: _SitePlaces, random: np.random.Generator, count: int) -> None:
-    border = np.flatnonzero(cells.is_border)
+    border = np.flatnonzero(cells.is_border & ~cells.is_cut)
     if len(border) > count:
         border = np.sort(random.choice(border, count, replace=False))
     for end in (0, 1):
@@ -198,24 +225,68 @@ def _check_borders(cells: VoronoiMap, sites: _SitePlaces, random: np.random.Gene
                 )
 
 
+def _check_limit(cells: VoronoiMap, sites: _SitePlaces, limit: float) -> None:
+    """Along what is cut, but not by the frame, the site is as far as the limit, and none is nearer."""
+    x, y, w, h = cells.frame
+    source, target = cells.vertices[cells.arcs[:, 0]], cells.vertices[cells.arcs[:, 1]]
+    sides = np.array([x, y, x + w, y + h])
+    is_along = ((np.tile(source, 2) == sides) & (np.tile(target, 2) == sides)).any(axis=1)
+    is_limit = cells.is_circle
+    if cells.clip is None and cells.enclosures is None:
+        is_limit = is_limit | (cells.is_cut & ~is_along)
+    arc = np.flatnonzero(is_limit)
+    site = cells.sites[arc].max(axis=1)
+    points, start = flattened_arcs(cells, max(w, h) * _FINE)
+    inner = points[(start[arc] + start[arc + 1] - 1) // 2]
+    middle = np.where(cells.is_circle[arc, None], inner, (source[arc] + target[arc]) / 2)
+    for place in (source[arc], middle, target[arc]):
+        distance, least = sites.distances(site, place), sites.least(place)
+        slack = sites.tolerance
+        at = first_wrong(~((np.abs(distance - limit) <= slack) & (least >= distance - slack)))
+        if at is not None:
+            fail(
+                f"arc {arc[at]} at {tuple(place[at].tolist())} is {distance[at]} from site {site[at]}, and {least[at]} "
+                f"from the nearest one, but is along the limit of {limit}"
+            )
+
+
 def _check_places(cells: VoronoiMap, sites: _SitePlaces, random: np.random.Generator, count: int) -> None:
     import shapely
 
     x, y, w, h = cells.frame
     places = np.array([x, y]) + random.random((count, 2)) * np.array([w, h])
     points = shapely.points(places)
-    shapes = cells.to_shapely(flatten=max(w, h) * 2.0**-20)
+    shapes = cells.to_shapely(flatten=max(w, h) * _FINE)
     place, cell = shapely.STRtree(shapes).query(points, predicate="within")
     least = sites.least(places)
     distance = sites.distances(cell, places[place])
-    near = max(w, h) * 2.0**-20 + sites.tolerance  # lines instead of parabolas
+    near = max(w, h) * _FINE + sites.tolerance  # lines instead of curves
     at = first_wrong(~(distance <= least[place] + 2 * near))
     if at is not None:
         fail(
             f"{tuple(places[place[at]].tolist())} is {distance[at]} from site {cell[at]}, whose cell it is in, "
             f"but another one is {least[place[at]]} from there"
         )
+    if cells.max_distance is not None:
+        _check_reach(cells, places, least, place, near)
     _check_ties(cells, sites, places[place], cell, shapes, near)
+
+
+def _check_reach(cells: VoronoiMap, places: Floats, least: Floats, held: Indices, near: float) -> None:
+    """Places in cells are within the limit; those in none are beyond it, if nothing else cuts cells."""
+    limit = cells.max_distance
+    assert limit is not None
+    is_held = np.zeros(len(places), dtype=bool)
+    is_held[held] = True
+    is_wrong = is_held & (least > limit + near)
+    if cells.clip is None and cells.enclosures is None:
+        is_wrong |= ~is_held & (least < limit - near)
+    at = first_wrong(is_wrong)
+    if at is not None:
+        fail(
+            f"{tuple(places[at].tolist())} is {least[at]} from the nearest site, and in {'a' if is_held[at] else 'no'} "
+            f"cell: the limit is {limit}"
+        )
 
 
 def _check_ties(

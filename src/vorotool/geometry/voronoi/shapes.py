@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.geometry.ragged import owners, starts_of, within
+from vorotool.geometry.voronoi.flat_room import room_beside_cuts
 from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 
 Floats = NDArray[np.float64]
@@ -25,7 +26,8 @@ def flattened_arcs(cells: VoronoiMap, tolerance: float) -> tuple[Floats, Indices
 
     A chord of a parabola lies in the sector of the cell between the focus and the parabola as long as it is nearer to
     the parabola than the focus is; and that of a circular arc in the sector between the centre and the arc. So
-    polylines cross neither sites nor each other, whatever the tolerance.
+    polylines cross neither sites nor each other, whatever the tolerance. They do not pass corners of clips and
+    enclosures either.
 
     Parameters
     ----------
@@ -52,6 +54,7 @@ def flattened_arcs(cells: VoronoiMap, tolerance: float) -> tuple[Floats, Indices
     most = np.minimum(tolerance, PART_OF_RADIUS * _least_radii(arcs.source, arcs.control, arcs.target))
     if cells.max_distance is not None:
         most[cells.is_circle] = min(tolerance, PART_OF_RADIUS * cells.max_distance)
+    most = np.minimum(most, room_beside_cuts(cells))
     paired = _in_pairs(cells)
     bend = (arcs.source - 2 * arcs.control + arcs.target)[paired]
     most[paired] = np.fmin(most[paired], np.sqrt((bend * bend).sum(axis=1)) / _BEND_OF_TWO)

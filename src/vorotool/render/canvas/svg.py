@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
+from vorotool.geometry.curves.circular_arcs import middles_of
 from vorotool.geometry.curves.inverse_functions import hypotenuse
 from vorotool.geometry.xml_text import xml_characters
 from vorotool.render.canvas.layers import (
@@ -172,13 +173,28 @@ class _Commands:
         if curves.centre is None or curves.is_left is None:
             return
         is_round = ~np.isnan(curves.centre[:, 0])
-        way = (curves.points[curves.pairs[:, 0]] - curves.centre)[is_round]
-        radii, number = np.unique(hypotenuse(*way.T), return_inverse=True)
+        centre, is_left = curves.centre[is_round], curves.is_left[is_round]
+        source, target = (curves.points[end][is_round] for end in curves.pairs.T)
+        radii, number = np.unique(hypotenuse(*(source - centre).T), return_inverse=True)
         for radius in map(page.length, radii.tolist()):
             sides = " ".join(_short(side, page.decimals + 1) for side in (radius, radius * page.aspect))
             self.texts += [f"A{sides} 0 0 {sweep} " for sweep in (0, 1)]
-        sweeps = curves.is_left[is_round] != page.y_up  # 1 is clockwise as seen
-        self.before_ends[:, is_round] = 4 + 2 * number + np.stack([sweeps, ~sweeps])
+        sweeps = is_left != page.y_up  # 1 is clockwise as seen
+        numbers = 4 + 2 * number + np.stack([sweeps, ~sweeps])
+        is_wide = ((source - centre) * (target - centre)).sum(axis=1) < 0
+        if is_wide.any():
+            first, last = np.where(is_left[:, None], [source, target], [target, source])[:, is_wide]
+            middles = page.place(middles_of(first, last, centre[is_wide], np.zeros(len(first), dtype=bool)))
+            numbers[:, is_wide] = [self._halves(each, middles, page.decimals) for each in numbers[:, is_wide]]
+        self.before_ends[:, is_round] = numbers
+
+    def _halves(self, commands: NDArray[Any], middles: NDArray[np.float64], decimals: int) -> NDArray[Any]:
+        """Add two arcs for each that is over a quarter: rounded ends alone would not tell well where its centre is."""
+        first = len(self.texts)
+        for command, (x, y) in zip(commands.tolist(), middles.tolist(), strict=True):
+            arc = self.texts[command]
+            self.texts.append(f"{arc}{_short(x, decimals)} {_short(y, decimals)}{arc}")
+        return first + np.arange(len(commands))
 
 
 def _polygons(layer: Polygons, x: NDArray[Any], y: NDArray[Any], style: str, threads: int) -> Iterator[bytes]:

@@ -177,14 +177,9 @@ def _pairs(
     import shapely
 
     curves = cut_curves(local.borders, local.owned.graph, pieces)
-    low, high = np.minimum(curves.first, curves.last), np.maximum(curves.first, curves.last)
-    is_bent = curves.height > 0
-    h = np.where(is_bent, curves.height, 1)
-    size = np.sqrt((curves.way * curves.way).sum(axis=1))
-    most = np.where(is_bent, np.sqrt(h * (2 * FAR + h)), (FAR + np.abs(curves.base).max(axis=1)) / size)
-    low, high = np.maximum(low, -most), np.minimum(high, most)  # no circle has one beyond 1
+    low, high = curves.between(*_boxes(edges, region[pieces]))
     held = np.flatnonzero(low <= high)
-    low, high, bent = low[held], high[held], is_bent[held]
+    low, high, bent = low[held], high[held], curves.height[held] > 0
     ends = [curves[held].place(low), curves[held].place(high)]
     shapes = shapely.linestrings(np.stack(ends, axis=1))
     hull = np.stack([ends[0], curves[held].control(low, high), ends[1], ends[0]], axis=1)
@@ -197,6 +192,19 @@ def _pairs(
     row, edge = row[own], edge[own]
     used = np.union1d(row, np.flatnonzero(curves.round > 0))
     return np.searchsorted(used, row), edge, pieces[used], curves[used]
+
+
+def _boxes(edges: CutEdges, region: Indices) -> tuple[Floats, Floats]:
+    """(k, 2) least and most coordinates of cut edges around regions."""
+    edge, hand = np.nonzero(edges.regions >= 0)
+    number = edges.regions[edge, hand]
+    count = int(max(number.max(initial=0), region.max(initial=0))) + 1
+    low, high = np.full((count, 2), np.inf), np.full((count, 2), -np.inf)
+    for end in (0, 1):
+        places = edges.points[edges.ends[edge, end]]
+        np.minimum.at(low, number, places)
+        np.maximum.at(high, number, places)
+    return low[region] - 1, high[region] + 1
 
 
 def _stops_at_corners(

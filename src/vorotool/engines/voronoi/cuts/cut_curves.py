@@ -146,6 +146,25 @@ class CutCurves:
         roots[~np.isfinite(roots)] = np.nan
         return roots
 
+    def between(self, least: Floats, most: Floats) -> tuple[Floats, Floats]:
+        """(k,) parameters between which each may be in a box, the larger one first where it is in none."""
+        low, high = np.minimum(self.first, self.last), np.maximum(self.first, self.last)
+        corner = np.maximum(np.abs(least - self.base), np.abs(most - self.base))
+        reach = np.sqrt((corner * corner).sum(axis=1))  # of the farthest corner
+        is_bent = self.height > 0
+        square = self.height * (2 * reach - self.height)
+        side = np.sqrt(np.maximum(square, 0))
+        with np.errstate(divide="ignore", invalid="ignore"):
+            far = [(each - self.base) / self.way for each in (least, most)]
+        is_along = self.way == 0
+        is_in = (least <= self.base) & (self.base <= most)
+        first = np.where(is_along, np.where(is_in, -np.inf, np.inf), np.minimum(*far)).max(axis=1)
+        last = np.where(is_along, np.where(is_in, np.inf, -np.inf), np.maximum(*far)).min(axis=1)
+        is_line = ~is_bent & (self.round == 0)
+        first = np.where(is_line, first, np.where(is_bent, np.where(square < 0, np.inf, -side), -1.0))
+        last = np.where(is_line, last, np.where(is_bent, side, 1.0))
+        return np.maximum(low, first), np.minimum(high, last)
+
     def nearest(self, place: Floats) -> tuple[Floats, Floats]:
         """(k,) the parameter where each comes nearest to a place close to it, and about how near."""
         is_bent = self.height > 0

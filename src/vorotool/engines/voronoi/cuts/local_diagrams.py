@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -62,6 +62,7 @@ def local_diagrams(
     regions: Regions,
     *,
     limit: float | None = None,
+    pieces_of: Callable[..., Borders] = borders_of,
     threads: int = 0,
     progress: Progress = None,
 ) -> LocalDiagrams:
@@ -79,6 +80,8 @@ def local_diagrams(
         With the sites of each.
     limit : float, optional
         How far from its site a place may be, in input units.
+    pieces_of : callable
+        Chooses pieces of the diagrams, as `borders_of` does.
     threads, progress
         As of `vorotool.voronoi`.
     """
@@ -90,7 +93,7 @@ def local_diagrams(
         graph = owned.graph
         diagram = diagram_of(owned, is_whole=limit is not None, threads=threads, progress=progress)
         none = np.zeros(len(graph.points), dtype=np.int64), np.zeros(len(graph), dtype=np.int64)
-        return LocalDiagrams(owned, *none, borders_of(owned, diagram, level=level, threads=threads), given, site)
+        return LocalDiagrams(owned, *none, pieces_of(owned, diagram, level=level, threads=threads), given, site)
     parts = [*_graphs_of_regions(sites, site, count, regions)]
     points, segments = (
         np.repeat(np.arange(len(parts)), sizes)
@@ -100,7 +103,7 @@ def local_diagrams(
     diagram = segment_voronoi_of_groups(
         owned.graph.points, owned.graph.segments, np.concatenate([points, segments]), threads=1, progress=progress
     )
-    return LocalDiagrams(owned, points, segments, borders_of(owned, diagram, level=level, threads=threads), given, site)
+    return LocalDiagrams(owned, points, segments, pieces_of(owned, diagram, level=level, threads=threads), given, site)
 
 
 def _graphs_of_regions(sites: PlanarGraph, site: Sites, count: int, regions: Regions) -> Iterator[OwnedGraph]:

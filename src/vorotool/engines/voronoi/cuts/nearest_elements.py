@@ -41,9 +41,9 @@ class NearestElements:
         import shapely
 
         points = shapely.points(places)
-        covers, of_polygon = self._polygons
+        shapes, of_polygon = self._polygons
         covered = np.full(len(places), NOBODY, dtype=np.int64)
-        place, row = covers.query(points, predicate="within")
+        row, place = shapely.STRtree(points).query(shapes, predicate="contains")
         np.minimum.at(covered, place, of_polygon[row])
         tree, site = self._tree(region)
         (place, row), distance = tree.query_nearest(points, all_matches=True, return_distance=True)
@@ -59,7 +59,7 @@ class NearestElements:
 
         shapes = shapely.make_valid(to_shapely(self.local.polygons))
         kept = np.flatnonzero(shapely.area(shapes) > 0)
-        return shapely.STRtree(shapes[kept]), self.local.site[kept].astype(np.int64)
+        return shapes[kept], self.local.site[kept].astype(np.int64)
 
     def _tree(self, region: int) -> tuple[Any, Indices]:
         import shapely

@@ -273,7 +273,7 @@ class Overlay:
         longest = order[np.append(np.diff(group[order]) > 0, True)] if count else order
         names, shapes = faces_of_sides(np.stack([self.lines.source, self.lines.target], axis=1), self.edges.regions)
         at = longest[~reaches[group[longest]]]
-        place, row = shapely.STRtree(shapes).query(shapely.points(middle[at]), predicate="intersects")
+        row, place = shapely.STRtree(shapely.points(middle[at])).query(shapes, predicate="intersects")
         inside = np.zeros(groups, dtype=bool)
         held = names[row] == self.region[pieces.piece[at[place]]]
         inside[group[at[place[held]]]] = True

@@ -204,7 +204,7 @@ def _meetings_of_points(
     sides = sides[boundary]
     found = np.full(len(lone), face[0], dtype=np.int64)
     names, shapes = faces_of_sides(graph.points[graph.segments[boundary]].astype(np.float64), sides)
-    at, row = shapely.STRtree(shapes).query(shapely.points(places), predicate="intersects")
+    row, at = shapely.STRtree(shapely.points(places)).query(shapes, predicate="intersects")
     found[at] = names[row]
     return np.stack([found, site[given.ring_polygon[lone]]], axis=1)
 
