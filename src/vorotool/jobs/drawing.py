@@ -182,7 +182,7 @@ def _of_layers(run: Run, o: DrawingOptions, given: JobInput, value: Lined, fmt: 
     if not len(value):
         run.warn(f"the picture is empty: the input is {kind}, but there are none in it")
     polygons = value if isinstance(value, PolygonSet) else value.polygons
-    check_column(o.label_by, polygons.properties)
+    check_column(o.label_by, (value if isinstance(value, VoronoiMap) else polygons).properties)
     drawing = drawing_of(
         value,
         layers=o.layers,

@@ -81,16 +81,16 @@ def read_cuts(run: Run, read: ReadSites, given: JobInput) -> tuple[ReadSites, di
     for name, path in (("clip", o.clip), ("enclosures", o.enclosures)):
         if path is None:
             continue
-        with reading(path):
+        with reading(path):  # messages name the file
             value = read_cut(run, o, f"--{name}", path)
-        source = (given.name, read.sites.polygons)
-        if read.is_image:
-            check_image_crs((path, value), given.name, source[1].crs)
-        else:
-            placed = in_one_crs(run, (path, value), source)
-            read = read._replace(sites=replace(read.sites, polygons=placed))
-        if name == "clip":
-            value = _chosen(value, np.flatnonzero(polygons_among(run, path, value)))
+            source = (given.name, read.sites.polygons)
+            if read.is_image:
+                check_image_crs((path, value), given.name, source[1].crs)
+            else:
+                placed = in_one_crs(run, (path, value), source)
+                read = read._replace(sites=replace(read.sites, polygons=placed))
+            if name == "clip":
+                value = _chosen(value, np.flatnonzero(polygons_among(run, path, value)))
         cuts[name] = _in_pixels(o, value)
     return read, cuts
 

@@ -207,7 +207,10 @@ def _drawn() -> Product:
     of_labels = {"png": ("cells", "diagram"), "svg": ("cells",)}
     return Product(
         "picture",
-        layers={fmt: (*layers, *_ARCS[fmt], "offset", "shape") for fmt, layers in of_labels.items()},
+        layers={
+            fmt: tuple(dict.fromkeys((*layers, *_ARCS[fmt], "offset", "shape", *_MAP_LAYERS[fmt])))
+            for fmt, layers in of_labels.items()
+        },
         has_page=True,
     )
 

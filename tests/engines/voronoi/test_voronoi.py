@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import shapely
 from tests.support.families.site_families import mixed_sites, row_houses, squares
-from tests.support.oracles.voronoi_oracle import assert_is_coverage, assert_nearest
+from tests.support.oracles.voronoi_oracle import assert_is_coverage, assert_nearest, quietly
 
 import vorotool
 from vorotool import verify_voronoi, voronoi
@@ -15,11 +15,6 @@ from vorotool.errors import InputError, RepairWarning, UsageError
 
 BOX = shapely.box(0, 0, 10, 10)
 FRAME = (-10.0, -10.0, 30.0, 30.0)
-
-
-def quietly(sites, **options):
-    with warnings.catch_warnings(action="ignore", category=RepairWarning):
-        return voronoi(sites, **options)
 
 
 def area_shares(cells):

@@ -1,10 +1,26 @@
 """Voronoi diagrams of any shapes by shapely's distances at places, and what is true of every map of cells."""
 
+import warnings
+
 import numpy as np
 import shapely
 
+from vorotool import voronoi
+from vorotool.errors import RepairWarning
+
 EQUAL, NEARLY = 1e-14, 1e-8
 """Of the extent: distances that differ by less than the first tie, by less than the second are not decided."""
+
+
+QUARTER = 64
+"""Chords of a quarter of a circle in buffers."""
+
+
+def quietly(sites, **options):
+    """Make a map without a word on what is repaired."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RepairWarning)
+        return voronoi(sites, **options)
 
 
 def distances_of(geometry, places):
@@ -73,3 +89,32 @@ def assert_nearest(geometry, cells, *, seed=0, count=200):
     is_told &= shapely.distance(shapely.boundary(shapes[found]), points) > 1e-6 * extent
     np.testing.assert_array_equal(found[is_told], ties.argmax(axis=0)[is_told])
     return int(is_told.sum())
+
+
+def assert_is_within(geometry, cells):
+    """Each cell is that of the map without a limit, within a buffer of its site; and they share their borders."""
+    limit, (x, y, w, h) = cells.max_distance, cells.frame
+    extent = max(w, h)
+    fine = extent * 1e-6
+    whole = quietly(geometry, frame=cells.frame).to_shapely(flatten=fine)
+    shapes = cells.to_shapely(flatten=fine)
+    near = shapely.buffer(_as_array(geometry), limit, quad_segs=QUARTER)
+    wanted = shapely.intersection(whole, near)
+    off = 2 * limit * (1 - np.cos(np.pi / 4 / QUARTER)) + 2 * fine
+    room = off * np.maximum(shapely.length(wanted), shapely.length(shapes)) + 1e-9 * extent * extent
+    assert (shapely.area(shapely.symmetric_difference(wanted, shapes)) <= room).all()
+    assert (np.abs(shapely.area(wanted) - cells.areas) <= room).all()
+    frame = shapely.box(x, y, x + w, y + h)
+    together = shapely.union_all(near).intersection(frame)
+    assert abs(together.area - cells.areas.sum()) <= room.sum() + off * together.length
+    np.testing.assert_allclose(shapely.length(shapes), cells.perimeters, rtol=1e-4, atol=1e-4 * extent)
+    for flatten in (None, extent * 1e-3, extent):
+        made = cells.to_shapely(flatten=flatten)
+        assert shapely.is_valid(made).all(), shapely.is_valid_reason(made)
+        assert shapely.coverage_is_valid(made)
+
+
+def _as_array(geometry):
+    places = np.empty(len(geometry), dtype=object)
+    places[:] = [each if isinstance(each, shapely.Geometry) else shapely.Point(each) for each in geometry]
+    return places

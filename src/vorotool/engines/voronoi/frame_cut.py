@@ -94,9 +94,11 @@ class FrameBox:
 
         They are where a limit crosses borders, which may be just on a side.
         """
+        moved = places[chosen]
         for side in (self.low, self.high):
-            near = chosen[:, None] & (np.abs(places - side) <= TOUCH * np.abs(places).max(axis=1, keepdims=True))
-            np.copyto(places, side, where=near)
+            near = np.abs(moved - side) <= TOUCH * np.abs(moved).max(axis=1, keepdims=True)
+            np.copyto(moved, side, where=near)
+        places[chosen] = moved
 
     def lattice_line(self, side: int) -> tuple[int, float]:
         """Which coordinate a side holds constant, and its value on the lattice."""

@@ -200,8 +200,11 @@ def _cells_of(owned: OwnedGraph, borders: Borders, cut: CutBorders, frame: Frame
     sites, parts, order = (of[cut.piece].astype(np.int64) for of in (borders.sites, borders.parts, borders.order))
     ring = frame_ring(cut, sites, parts, order, _corners(frame))
     if (ring.sides == UNKNOWN).any():
-        inside = rings_of(arcs_of(cut, replace(ring, sides=np.full_like(ring.sides, OUTSIDE)), sites, parts, order))
-        ring.sides[:] = _of_frame(owned, borders.level, frame, inside)
+        inside = arcs_of(cut, replace(ring, sides=np.full_like(ring.sides, OUTSIDE)), sites, parts, order)
+        rings = rings_of(inside)
+        ring.sides[:] = found = _of_frame(owned, borders.level, frame, rings)
+        if found[0] == OUTSIDE:
+            return inside, rings
     arcs = arcs_of(cut, ring, sites, parts, order)
     return arcs, rings_of(arcs)
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import NO_PROPERTIES, InputError, LimitError
 from vorotool.formats.parsing.geojson import MOST_CELLS
-from vorotool.formats.parsing.geometry_advice import not_a_point_advice, not_a_shape_advice
+from vorotool.formats.parsing.geometry_advice import OF_SITES, not_a_point_advice, not_a_shape_advice
 from vorotool.formats.parsing.reader_options import ReadOptions, no_points
 from vorotool.geometry.arguments.sites import Sites
 from vorotool.geometry.points.conversion import part_numbers, single_points
@@ -113,7 +113,7 @@ def sites_of_features(features: Features, options: ReadOptions) -> Sites:
     kept = _kept(features)
     options.note_empty(features.name, len(features.geometry) - len(kept))
     expected = (*_POINTS, *_SHAPES)
-    _check_kinds(features, features.geometry[kept], kept, expected, "no point, line or polygon", not_a_shape_advice)
+    _check_kinds(features, features.geometry[kept], kept, expected, "no point, line or polygon", lambda _: OF_SITES)
     polygons = _shapes_of(features, kept, options)
     assert polygons.feature is not None
     known: dict[str, Any] = {}

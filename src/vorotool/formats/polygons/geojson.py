@@ -18,7 +18,7 @@ from vorotool.formats.parsing.geojson import (
     parse_json,
     property_columns,
 )
-from vorotool.formats.parsing.geometry_advice import not_a_shape_advice
+from vorotool.formats.parsing.geometry_advice import OF_SITES, not_a_shape_advice
 from vorotool.formats.parsing.reader_options import ReadOptions, shortened
 from vorotool.formats.parsing.reference_systems import note_unnamed
 from vorotool.formats.polygons.ring_collector import RingCollector
@@ -95,7 +95,7 @@ def _collect(collector: RingCollector, feature: int, geometry: Any, place: str) 
         for position in coordinates if kind == "MultiPoint" else [coordinates]:
             collector.add_point(feature, position)
     elif collector.takes_points:
-        raise InputError(f"{place}: {shortened(kind)} is no point, line or polygon; {not_a_shape_advice(str(kind))}")
+        raise InputError(f"{place}: {shortened(kind)} is no point, line or polygon; {OF_SITES}")
     else:
         raise InputError(f"{place}: {shortened(kind)} is no polygon or line; {not_a_shape_advice(str(kind))}")
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source, check_nesting
-from vorotool.formats.parsing.geometry_advice import not_a_shape_advice
+from vorotool.formats.parsing.geometry_advice import OF_SITES, not_a_shape_advice
 from vorotool.formats.parsing.reader_options import ReadOptions, shortened
 from vorotool.formats.parsing.reference_systems import crs_of_numbers
 from vorotool.formats.points.wkt import geometry_texts
@@ -83,6 +83,8 @@ def _check_geometry(geometry: Any, text: str, place: str, expected: tuple[int, .
             _check_geometry(part, text, place, expected)
     elif kind not in expected:
         name = geometry.geom_type
+        if _POINTS[0] in expected:
+            raise InputError(f"{place}: a {name} is no point, line or polygon; {OF_SITES}")
         raise InputError(f"{place}: a {name} is no polygon or line; {not_a_shape_advice(name)}")
 
 

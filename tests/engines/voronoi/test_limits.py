@@ -1,0 +1,265 @@
+"""Voronoi maps with a limit of distance: closed forms, buffers of shapely, ties, frames, symmetries."""
+
+from dataclasses import fields, replace
+
+import numpy as np
+import pytest
+import shapely
+from tests.support.families.site_families import mixed_sites, row_houses, squares
+from tests.support.oracles.voronoi_oracle import assert_is_within, quietly
+
+from vorotool import verify_voronoi, voronoi
+from vorotool.errors import InputError, UsageError, VerificationError
+from vorotool.geometry.voronoi.shapes import PART_OF_RADIUS, flattened_arcs
+from vorotool.geometry.voronoi.tables import KINDS, kinds_of
+
+FRAME = (-10, -10, 30, 30)
+ROUND = np.pi
+
+
+def within(sites, limit, frame=None):
+    """Make a map, check it in all ways, and give it."""
+    cells = quietly(sites, frame=frame, max_distance=limit)
+    assert_is_within(sites, cells)
+    verify_voronoi(cells, places=200)
+    return cells
+
+
+# ---- closed forms ------------------------------------------------------------------------------------
+def test_around_a_point():
+    cells = within([[3, 4]], 2, FRAME)
+    assert cells.areas.tolist() == pytest.approx([4 * ROUND])
+    assert cells.perimeters.tolist() == pytest.approx([4 * ROUND])
+    assert cells.is_circle.tolist() == [True, True]
+    assert cells.center.tolist() == [[3, 4], [3, 4]]
+    assert cells.radius.tolist() == [2, 2]
+    assert cells.max_distance == 2
+    assert len(cells.edges["arc"]) == 0
+    assert cells.is_cut.all()
+    assert [KINDS[k] for k in kinds_of(cells)] == ["circle"] * 2
+
+
+def test_around_a_line():
+    cells = within([shapely.LineString([(0, 0), (8, 0)])], 2, FRAME)
+    assert cells.areas.tolist() == pytest.approx([32 + 4 * ROUND])
+    assert cells.perimeters.tolist() == pytest.approx([16 + 4 * ROUND])
+    assert np.count_nonzero(cells.is_circle) == 2
+
+
+def test_around_a_polygon_with_a_hole():
+    ring = shapely.box(0, 0, 10, 10).difference(shapely.box(2, 2, 8, 8))
+    for limit, hole in ((1, 16), (3, 0), (2.5, 1)):
+        cells = within([ring], limit, FRAME)
+        assert cells.areas.tolist() == pytest.approx([100 - hole + 40 * limit + ROUND * limit * limit])
+        assert np.count_nonzero(cells.is_hole) == (hole > 0)
+
+
+def test_points_on_a_straight_line_leave_nothing_between():
+    """A wall of three segments in one line has one parallel on each side, without an arc."""
+    line = shapely.LineString([(0, 0), (2, 0), (5, 0), (8, 0)])
+    cells = within([line], 1, FRAME)
+    assert cells.areas.tolist() == pytest.approx([16 + ROUND])
+    split = [shapely.LineString([(0, 0), (3, 0)]), shapely.LineString([(3, 0), (8, 0)])]
+    cells = within(split, 1, FRAME)
+    assert cells.areas.tolist() == pytest.approx([6 + ROUND / 2, 10 + ROUND / 2])
+    assert cells.neighbours["border_length"].tolist() == [2]
+
+
+def test_discs_that_overlap_touch_and_are_apart():
+    for limit in (1, 2, 3, 4, 6, 20):
+        cells = within([[0, 0], [4, 0]], limit, (-50, -50, 100, 100))
+        half = min(2 / limit, 1)
+        cap = limit**2 * np.arccos(half) - 2 * np.sqrt(max(limit**2 - 4, 0))
+        assert cells.areas.tolist() == pytest.approx([ROUND * limit**2 - cap] * 2)
+        length = cells.neighbours["border_length"]
+        assert length.tolist() == pytest.approx([2 * np.sqrt(limit**2 - 4)] if limit > 2 else [])
+
+
+# ---- ties, all at once -------------------------------------------------------------------------------
+@pytest.mark.parametrize("limit", [1, 2, 2 * 2**0.5, 3, 2 * 5**0.5, 4, 5])
+@pytest.mark.parametrize("are_joined", [False, True])
+def test_lattices_whose_discs_meet_in_places(limit, are_joined):
+    places = [shapely.Point(4 * x, 4 * y) for x in range(4) for y in range(3)]
+    sites = [shapely.MultiPoint(places[::2]), *places[1::2]] if are_joined else places
+    cells = within(sites, limit)
+    assert (cells.components >= 1).all()
+
+
+def test_discs_of_one_site_that_touch_are_apart():
+    row = shapely.MultiPoint([(0, 0), (4, 0), (8, 0)])
+    cells = within([row], 2, FRAME)
+    assert cells.components.tolist() == [3]
+    ring = shapely.MultiPoint([(0, 0), (4, 0), (8, 0), (0, 4), (8, 4), (0, 8), (4, 8), (8, 8)])
+    cells = within([ring, shapely.Point(4, 4)], 2, FRAME)
+    assert cells.components.tolist() == [8, 1]
+    cells = within([ring], 2.5, FRAME)
+    assert cells.components.tolist() == [1]
+    assert np.count_nonzero(cells.is_hole) == 1
+
+
+@pytest.mark.parametrize("gap", [1.0, 0.1])
+@pytest.mark.parametrize("factor", [0.25, 0.5, 2**-0.5, 1])
+def test_lattices_of_squares(gap, factor):
+    cells = within(squares(3, gap), gap * factor)
+    assert cells.components.tolist() == [1] * 9
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_limits_just_at_vertices(seed):
+    random = np.random.default_rng(seed)
+    sites = mixed_sites(random, int(random.integers(2, 9)), grid=4)
+    radius = quietly(sites).radius
+    radius = radius[np.isfinite(radius) & (radius > 0)]
+    within(sites, float(random.choice(radius)) if len(radius) else 2.0)
+
+
+# ---- random ------------------------------------------------------------------------------------------
+@pytest.mark.parametrize("seed", range(40))
+def test_random_sites(seed):
+    random = np.random.default_rng(seed)
+    sites = mixed_sites(random, int(random.integers(1, 12)), grid=(None, 4, 0.1)[seed % 3])
+    limit = 100 * 10 ** random.uniform(-2.5, 0.3)
+    frame = None
+    if seed % 2:
+        frame = (*random.uniform(-30, 60, 2).tolist(), *random.uniform(5, 120, 2).tolist())
+    within(sites, limit, frame)
+
+
+@pytest.mark.parametrize("limit", [0.5, 2, 3, 5, 6, 7.5])
+def test_houses_in_rows(limit):
+    within(row_houses(3, 4), limit)
+
+
+# ---- frames ------------------------------------------------------------------------------------------
+def test_frames_in_a_cell_in_a_hole_and_where_nobody_is():
+    for frame, areas in (((-0.5, -0.5, 1, 1), [1, 0]), ((20, 20, 4, 4), [0, 0]), ((49, 1, 1, 1), [0, 1])):
+        cells = voronoi([[0, 0], [50, 0]], frame=frame, max_distance=5)
+        assert cells.areas.tolist() == areas
+        assert len(cells.arcs) == 4 * sum(areas)
+        verify_voronoi(cells)
+    ring = shapely.box(0, 0, 20, 20).difference(shapely.box(2, 2, 18, 18))
+    assert within([ring], 1, (5, 5, 4, 4)).areas.tolist() == [0]
+    assert within([ring, shapely.Point(10, 10)], 1, (5, 5, 10, 10)).areas.tolist() == pytest.approx([0, ROUND])
+    assert within([ring], 4, (1, 1, 18, 18)).areas.tolist() == pytest.approx([18 * 18 - 64])
+
+
+def test_a_frame_that_touches_and_halves_a_disc():
+    for x in (-2, -1, 0, 1, 2):
+        cells = within([[0, 0]], 1, (x, -3, 6, 6))
+        assert cells.areas.tolist() == pytest.approx([{-2: 1, -1: 1, 0: 0.5}.get(x, 0) * ROUND], abs=1e-12)
+    quarter = within([[0, 0]], 5, (0, 0, 6, 6))
+    assert quarter.areas.tolist() == pytest.approx([25 * ROUND / 4])
+    assert within([[0, 0]], 5, (0, 3, 6, 6)).vertices.shape == (3, 2)
+
+
+def test_three_four_five():
+    """The limit meets a border just on the frame."""
+    both = shapely.MultiPoint([(-3, 0), (3, 0)])
+    for sites in ([both], [shapely.Point(-3, 0), shapely.Point(3, 0)]):
+        within(sites, 5, (-8, -4, 16, 8))
+
+
+@pytest.mark.parametrize("limit", [300, 1e4, 1e50])
+@pytest.mark.parametrize("seed", range(4))
+def test_a_limit_beyond_everything_changes_no_bit(seed, limit):
+    sites = mixed_sites(np.random.default_rng(seed), 8, grid=(None, 4)[seed % 2])
+    cells = quietly(sites, max_distance=limit)
+    assert replace(cells, max_distance=None) == quietly(sites)
+
+
+# ---- invariance --------------------------------------------------------------------------------------
+SYMMETRIES = [np.array(rows) for rows in ([[1, 0], [0, 1]], [[0, -1], [1, 0]], [[-1, 0], [0, 1]], [[0, 1], [1, 0]])]
+
+
+@pytest.mark.parametrize("turn", [sign * each for each in SYMMETRIES for sign in (1, -1)])
+def test_turned_and_mirrored(turn):
+    sites = mixed_sites(np.random.default_rng(4), 12, grid=4)
+    moved = [shapely.transform(each, lambda xy: xy @ turn.T) for each in sites]
+    for limit in (3, 4, 9.5):
+        once, again = within(sites, limit), within(moved, limit)
+        np.testing.assert_allclose(again.areas, once.areas, rtol=1e-9, atol=1e-9)
+        np.testing.assert_allclose(again.perimeters, once.perimeters, rtol=1e-9, atol=1e-9)
+        assert again.components.tolist() == once.components.tolist()
+
+
+def test_twice_as_large():
+    sites = mixed_sites(np.random.default_rng(5), 12)
+    once = quietly(sites, max_distance=5)
+    twice = quietly([shapely.transform(each, lambda xy: 2 * xy) for each in sites], max_distance=10)
+    for name in ("vertices", "radius", "control", "center"):
+        np.testing.assert_array_equal(getattr(twice, name), 2 * getattr(once, name))
+    for each in fields(once):
+        if each.name in ("arcs", "sites", "is_cut", "ring_arcs", "cell_start"):
+            np.testing.assert_array_equal(getattr(twice, each.name), getattr(once, each.name))
+    assert twice.areas.tolist() == (4 * once.areas).tolist()
+
+
+def test_order_and_threads():
+    random = np.random.default_rng(6)
+    sites = [shapely.box(x, y, x + 3, y + 2) for x in range(0, 40, 8) for y in range(0, 40, 8)] + [shapely.Point(5, 5)]
+    order = random.permutation(len(sites))
+    cells, again = (voronoi(each, max_distance=2.5) for each in (sites, [sites[k] for k in order]))
+    assert again.areas.tolist() == cells.areas[order].tolist()
+    assert [each.wkb for each in again.to_shapely()] == [cells.to_shapely()[k].wkb for k in order]
+    assert voronoi(sites, max_distance=2.5, threads=1) == voronoi(sites, max_distance=2.5, threads=4)
+
+
+def test_cells_grow_with_the_limit():
+    sites = mixed_sites(np.random.default_rng(7), 10)
+    areas = [quietly(sites, max_distance=limit).areas for limit in (0.5, 1, 2, 4, 8, 16, 32, 64)]
+    assert (np.diff(areas, axis=0) >= -1e-9).all()
+
+
+# ---- polylines ---------------------------------------------------------------------------------------
+@pytest.mark.parametrize("flatten", [1e-3, 0.3, 100])
+def test_polylines_of_circles_are_near(flatten):
+    for seed in range(6):
+        limit = 0.5 * 4**seed / 16
+        cells = quietly(mixed_sites(np.random.default_rng(seed), 6), max_distance=limit)
+        points, start = flattened_arcs(cells, flatten)
+        for arc in np.flatnonzero(cells.is_circle).tolist():
+            along = points[start[arc] : start[arc + 1]]
+            inner = (along[1:] + along[:-1]) / 2
+            off = limit - np.sqrt(np.square(inner - cells.center[arc]).sum(axis=1))
+            assert off.max() <= min(flatten, PART_OF_RADIUS * limit) + 1e-9
+            assert off.min() >= -1e-9
+
+
+def test_thin_slices_of_discs_hold_something():
+    cells = voronoi([[0, 0]], max_distance=1, frame=(0.999, -2, 4, 4))
+    assert shapely.area(cells.to_shapely(flatten=10))[0] > 0
+
+
+# ---- what is refused and found -----------------------------------------------------------------------
+@pytest.mark.parametrize("limit", [0, -1, -0.0])
+def test_limits_that_are_none(limit):
+    with pytest.raises(UsageError, match="max_distance must be above 0, but is"):
+        voronoi([[0, 0], [1, 1]], max_distance=limit)
+
+
+@pytest.mark.parametrize("limit", [np.nan, np.inf, "near"])
+def test_limits_that_are_no_number(limit):
+    with pytest.raises((UsageError, InputError), match="max_distance"):
+        voronoi([[0, 0], [1, 1]], max_distance=limit)
+    with pytest.raises(UsageError, match="too large"):
+        voronoi([[0, 0], [1, 1]], max_distance=1e90)
+
+
+def test_a_limit_without_sites():
+    cells = voronoi([None, shapely.Polygon()], max_distance=1)
+    assert cells.areas.tolist() == [0, 0]
+    verify_voronoi(cells)
+
+
+def test_wrong_limits_are_found():
+    cells = voronoi([[0, 0], [4, 0]], frame=FRAME, max_distance=3)
+    verify_voronoi(cells)
+    for wrong in (
+        replace(cells, max_distance=2.5),
+        replace(cells, max_distance=3.5),
+        replace(cells, max_distance=None),
+        replace(cells, center=np.add(cells.center, [1, 0])),
+        replace(voronoi([[0, 0], [4, 0]], frame=cells.frame), max_distance=3.0),
+    ):
+        with pytest.raises(VerificationError):
+            verify_voronoi(wrong)
