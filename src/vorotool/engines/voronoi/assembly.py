@@ -12,7 +12,7 @@ from vorotool.engines.voronoi.frame_cut import CutBorders
 from vorotool.engines.voronoi.frame_ring import FrameRing
 from vorotool.errors import VerificationError
 from vorotool.geometry.curves.mixed_arcs import MixedArcs
-from vorotool.geometry.ragged import owners, ranges, starts_of
+from vorotool.geometry.ragged import ranges, starts_of
 from vorotool.geometry.voronoi.voronoi_map import OUTSIDE
 
 Indices = NDArray[np.int64]
@@ -50,7 +50,7 @@ class Arcs:
 
     def mixed(self) -> MixedArcs:
         """The arcs with their ends."""
-        source, target = self.vertices[self.ends[:, 0]], self.vertices[self.ends[:, 1]]
+        source, target = (self.vertices.take(end, axis=0) for end in self.ends.T)
         return MixedArcs(source, target, self.control, self.center, self.sites[:, 0] != OUTSIDE)
 
 
@@ -211,12 +211,12 @@ def rings_of(arcs: Arcs) -> Rings:
     """
     start, half_edge = cycles_of(arcs.ends, arcs.order, len(arcs.vertices))
     site, part = arcs.sites.ravel()[half_edge], arcs.parts.ravel()[half_edge]
-    row, begin = owners(np.diff(start)), start[:-1]
-    if (site != site[begin][row]).any():
+    begin = start[:-1]
+    if (site != np.repeat(site[begin], np.diff(start))).any():
         raise VerificationError("borders do not close around a cell: a defect of vorotool, please report it")
-    first = arcs.vertices[arcs.ends.ravel()[half_edge[begin]]]  # near, so that small rings keep their sign
-    beside = arcs.mixed()[half_edge >> 1].areas_beside(first[row])
-    area = np.bincount(row, np.where(half_edge & 1, -beside, beside), minlength=len(begin)).astype(np.float64)
+    mixed = arcs.mixed()
+    bulge = mixed.areas_beside(mixed.source)
+    area = _core.voronoi.ring_areas(start, half_edge, arcs.ends.astype(np.int32), arcs.vertices, bulge)
     rings = Rings(start, half_edge, site[begin], part[begin], area)
     return rings[site[begin] != OUTSIDE]
 
