@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from vorotool.engines.common.faults import fail, first_wrong
 from vorotool.geometry.arguments.values import check_value
+from vorotool.geometry.curves.inverse_functions import PI, angle_of
 from vorotool.geometry.polygons.conversion import to_shapely
 from vorotool.geometry.ragged import owners
 from vorotool.geometry.voronoi.shapes import flattened_arcs
@@ -146,9 +147,9 @@ def _below_circles(cells: VoronoiMap, source: Floats, target: Floats) -> Floats:
     """The integral of y dx along circular arcs, y from the frame's."""
     center = cells.center[cells.is_circle]
     a, b = source[cells.is_circle] - center, target[cells.is_circle] - center
-    first, last = np.arctan2(a[:, 1], a[:, 0]), np.arctan2(b[:, 1], b[:, 0])
+    first, last = angle_of(*a.T), angle_of(*b.T)
     is_left = cells.sites[cells.is_circle, 0] != OUTSIDE
-    turn = np.where(is_left, np.mod(last - first, 2 * np.pi), -np.mod(first - last, 2 * np.pi))
+    turn = np.where(is_left, np.mod(last - first, 2 * PI), -np.mod(first - last, 2 * PI))
     square = (a * a).sum(axis=1)
     high = center[:, 1] - cells.frame[1]
     below: Floats = high * (b[:, 0] - a[:, 0]) - (square * turn - b[:, 0] * b[:, 1] + a[:, 0] * a[:, 1]) / 2

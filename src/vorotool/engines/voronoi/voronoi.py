@@ -193,7 +193,7 @@ def _on_fine_lattice(owned: OwnedGraph, limit: float) -> OwnedGraph:
     if len(graph.points) != 1:
         return owned
     assert not graph.points.any()
-    return replace(owned, graph=replace(graph, scale=math.ldexp(1.0, math.frexp(limit)[1] - _BITS)))
+    return replace(owned, graph=replace(graph, scale=math.ldexp(1.0, int(np.frexp(limit)[1]) - _BITS)))
 
 
 def _cells_of(owned: OwnedGraph, borders: Borders, cut: CutBorders, frame: Frame) -> tuple[Arcs, Rings]:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.geometry.ragged import owners, starts_of, within
-from vorotool.geometry.voronoi.flat_room import room_beside_cuts
+from vorotool.geometry.voronoi.cut_corners import with_feet_of_corners
 from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 
 Floats = NDArray[np.float64]
@@ -54,12 +54,11 @@ def flattened_arcs(cells: VoronoiMap, tolerance: float) -> tuple[Floats, Indices
     most = np.minimum(tolerance, PART_OF_RADIUS * _least_radii(arcs.source, arcs.control, arcs.target))
     if cells.max_distance is not None:
         most[cells.is_circle] = min(tolerance, PART_OF_RADIUS * cells.max_distance)
-    most = np.minimum(most, room_beside_cuts(cells))
     paired = _in_pairs(cells)
     bend = (arcs.source - 2 * arcs.control + arcs.target)[paired]
     most[paired] = np.fmin(most[paired], np.sqrt((bend * bend).sum(axis=1)) / _BEND_OF_TWO)
     most[paired] = np.minimum(most[paired], arcs[paired].sagittas() / 2)
-    return arcs.polylines(most)
+    return with_feet_of_corners(cells, *arcs.polylines(most), most)
 
 
 def _in_pairs(cells: VoronoiMap) -> Indices:

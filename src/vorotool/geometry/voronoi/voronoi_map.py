@@ -68,12 +68,6 @@ class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
         The first polygon of each cell, and q. Cell i is of site i; it may be empty, or of several polygons.
     frame : (x, y, w, h)
         The rectangle that cells were cut by.
-    max_distance : float, optional
-        The limit of distance: what is farther from all sites belongs to none.
-    clip : PolygonSet, optional
-        What cells were cut by as well.
-    enclosures : PolygonSet, optional
-        Lines and polygons whose faces were shared out each by itself.
     polygons : PolygonSet
         The input; points are lines of one vertex.
     polygon_site : (p,) int32 array
@@ -84,6 +78,12 @@ class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
         Further columns of the input, one value a site.
     index : pandas Index, array or sequence, optional
         What the input calls each site, as a data frame its rows.
+    max_distance : float, optional
+        The limit of distance: what is farther from all sites belongs to none.
+    clip : PolygonSet, optional
+        What cells were cut by as well.
+    enclosures : PolygonSet, optional
+        Lines and polygons whose faces were shared out each by itself.
 
     Raises
     ------
