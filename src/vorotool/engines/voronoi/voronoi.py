@@ -178,6 +178,7 @@ def _map(owned: OwnedGraph, frame: Frame, limit: float | None, threads: int, pro
         if (borders.sites[cut.piece] == OUTSIDE).any() or _is_beyond(owned, borders.level, frame):
             return _cells_of(owned, borders, cut, frame)
     borders = borders_of(owned, diagram, threads=threads)
+    del diagram
     return _cells_of(owned, borders, cut_borders(borders, owned.graph, frame), frame)
 
 
