@@ -92,17 +92,13 @@ def arcs_of(cut: CutBorders, ring: FrameRing, sites: Indices, parts: Indices, or
     turned = ends[:, 0] > ends[:, 1]
     sorting = by_ends(np.where(turned[:, None], ends[:, ::-1], ends), control, center)
     pairs = 2 * sorting[:, None] + (np.arange(2) ^ turned[sorting][:, None])
+    del number, used, turned
     places, ends, both_sites = places.take(kept, axis=0), ends.take(pairs), both_sites.take(pairs)
-    return Arcs(
-        places,
-        radius[kept],
-        ends,
-        control.take(sorting, axis=0),
-        without_lost(center.take(sorting, axis=0), places, ends, both_sites[:, 0] != OUTSIDE),
-        both_sites,
-        both_parts.take(pairs),
-        orders.take(pairs),
-    )
+    both_parts, orders = both_parts.take(pairs), orders.take(pairs)
+    del pairs
+    control, center = control.take(sorting, axis=0), center.take(sorting, axis=0)
+    center = without_lost(center, places, ends, both_sites[:, 0] != OUTSIDE)
+    return Arcs(places, radius[kept], ends, control, center, both_sites, both_parts, orders)
 
 
 def without_lost(center: Floats, places: Floats, ends: Indices, is_left: NDArray[np.bool_]) -> Floats:
