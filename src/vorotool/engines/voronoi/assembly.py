@@ -18,6 +18,9 @@ from vorotool.geometry.voronoi.voronoi_map import OUTSIDE
 Indices = NDArray[np.int64]
 Floats = NDArray[np.float64]
 
+_AT_ONCE = 2**18
+"""Arcs that are measured together, so that this takes little memory."""
+
 
 @dataclass(frozen=True, eq=False)
 class Arcs:
@@ -210,11 +213,20 @@ def rings_of(arcs: Arcs) -> Rings:
     begin = start[:-1]
     if (site != np.repeat(site[begin], np.diff(start))).any():
         raise VerificationError("borders do not close around a cell: a defect of vorotool, please report it")
-    mixed = arcs.mixed()
-    bulge = mixed.areas_beside(mixed.source)
-    area = _core.voronoi.ring_areas(start, half_edge, arcs.ends.astype(np.int32), arcs.vertices, bulge)
+    area = _core.voronoi.ring_areas(start, half_edge, arcs.ends.astype(np.int32), arcs.vertices, _bulges(arcs))
     rings = Rings(start, half_edge, site[begin], part[begin], area)
     return rings[site[begin] != OUTSIDE]
+
+
+def _bulges(arcs: Arcs) -> Floats:
+    """(a,) signed areas between chords and arcs."""
+    bulges = np.empty(len(arcs.ends))
+    for first in range(0, len(bulges), _AT_ONCE):
+        some = slice(first, first + _AT_ONCE)
+        source, target = (arcs.vertices.take(end, axis=0) for end in arcs.ends[some].T)
+        mixed = MixedArcs(source, target, arcs.control[some], arcs.center[some], arcs.sites[some, 0] != OUTSIDE)
+        bulges[some] = mixed.areas_beside(source)
+    return bulges
 
 
 @dataclass(frozen=True, eq=False)
