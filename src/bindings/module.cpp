@@ -35,6 +35,7 @@ constexpr Room rooms[] = {
     {"text", bind_text,
      "Numbers, fields and polygons as text, read and written: a delimiter is one of , ; tab and blank."},
     {"voronoi", bind_voronoi, "Borders between sites, which are points, lines and polygons."},
+    {"volumes", bind_volumes, "The tessellation of volumes."},
 };
 
 }  // namespace

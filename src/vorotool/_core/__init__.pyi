@@ -18,5 +18,6 @@ from vorotool._core import (
     spatial as spatial,
     tessellation as tessellation,
     text as text,
+    volumes as volumes,
     voronoi as voronoi
 )
