@@ -14,6 +14,7 @@
 #include "core/base/parallel.hpp"
 #include "core/voronoi/border_curves.hpp"
 #include "core/voronoi/owners_at_points.hpp"
+#include "core/voronoi/ring_areas.hpp"
 #include "core/voronoi/ring_ranks.hpp"
 #include "core/voronoi/site_borders.hpp"
 
@@ -76,9 +77,10 @@ auto owners_at_points(const IndexRows& segments, const Indices& owner, std::size
 
 using Numbers = Matrix<const std::int64_t>;
 
-void check_numbers(std::span<const std::int64_t> numbers, std::size_t end, const char* what) {
+void check_numbers(std::span<const std::int64_t> numbers, std::int64_t least, std::size_t end,
+                   const char* what) {
   for (const std::int64_t number : numbers) {
-    if (number < -1 || number >= static_cast<std::int64_t>(end)) throw std::invalid_argument(what);
+    if (number < least || number >= static_cast<std::int64_t>(end)) throw std::invalid_argument(what);
   }
 }
 
@@ -86,7 +88,7 @@ auto ranks_around(const SegmentDiagram& input, const Vector<const std::int64_t>&
                   const Vector<const std::int64_t>& site) {
   const core::segment_voronoi::build::DiagramView& diagram = input.view();
   if (vertex.size() != site.size()) throw std::invalid_argument("each vertex must have a site");
-  check_numbers(view(vertex), diagram.vertex_count(), "a vertex is out of range");
+  check_numbers(view(vertex), 0, diagram.vertex_count(), "a vertex is out of range");
   return to_numpy(core::voronoi::ranks_around(diagram, view(vertex), view(site)));
 }
 
@@ -97,12 +99,23 @@ auto control_points(const PlanarGraph& graph, const Numbers& ends, const Numbers
   if (elements.size() != ends.size() || radius.size() != places.shape(0)) {
     throw std::invalid_argument("the arrays of borders have lengths that do not go together");
   }
-  check_numbers(view(ends), radius.size(), "an end of a border is out of range");
-  check_numbers(view(elements), graph.view().site_count(), "an element of a border is out of range");
+  check_numbers(view(ends), -1, radius.size(), "an end of a border is out of range");
+  check_numbers(view(elements), 0, graph.view().site_count(), "an element of a border is out of range");
   core::base::LargeArray<double> made = run_interruptible(
       progress, core::voronoi::control_points, graph.view(), view(ends), view(elements),
       rows<core::kernel::Point>(places), view(radius), core::base::resolve_threads(threads));
   return to_numpy(std::move(made), {size, 2});
+}
+
+auto ring_areas(const Vector<const std::int64_t>& start, const Vector<const std::int64_t>& half_edge,
+                const IndexRows& ends, const Places& places, const Vector<const double>& bulge) {
+  const auto pairs = rows<core::base::IndexPair>(ends);
+  if (bulge.size() != pairs.size()) throw std::invalid_argument("each arc must have an area");
+  core::base::check_range(pairs, 0, places.shape(0), "an end of an arc is out of range");
+  check_numbers(view(start), 0, half_edge.size() + 1, "the start of a ring is out of range");
+  check_numbers(view(half_edge), 0, 2 * pairs.size(), "a half-edge is out of range");
+  return to_numpy(core::voronoi::ring_areas(view(start), view(half_edge), pairs,
+                                            rows<core::kernel::Point>(places), view(bulge)));
 }
 
 }  // namespace
@@ -119,6 +132,8 @@ void bind_voronoi(nb::module_& room) {
            "The places of sites among those around vertices.");
   room.def("owners_at_points", &owners_at_points, "segments"_a, "owner"_a, "points"_a,
            "The smallest and the largest owner of the segments that end at each point.");
+  room.def("ring_areas", &ring_areas, "start"_a, "half_edge"_a, "ends"_a, "places"_a, "bulge"_a,
+           "Signed areas in rings of arcs, of which the areas between chord and arc are known.");
   room.def("control_points", &control_points, "graph"_a, "ends"_a, "elements"_a, "places"_a, "radius"_a,
            "threads"_a, "progress"_a.none(), "Of the Bezier curves that borders are; NaN of straight lines.");
 }

@@ -12,8 +12,8 @@
 namespace vorotool::core::voronoi {
 
 // [2 b] The control points of the Bezier curves that borders are, on the lattice: where the tangents at their
-// ends meet; NaN of straight lines. `ends` and `elements` are two numbers a border, `radius` is the distance of
-// each place from its elements.
+// ends meet; NaN of straight lines. `ends` and `elements` are two numbers a border, `radius` is the distance
+// of each place from its elements.
 base::LargeArray<double> control_points(const kernel::PlanarGraphView& graph,
                                         std::span<const std::int64_t> ends,
                                         std::span<const std::int64_t> elements,

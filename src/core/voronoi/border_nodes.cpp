@@ -41,6 +41,7 @@ void BorderNodes::find_vertices_of_points() {
   for (std::size_t v = 0; v < diagram_.vertex_count(); ++v) {
     if (diagram_.radius[v] != 0) continue;
     const auto ring = diagram_.ring(v);
+    if (ring.size() < 2) throw std::invalid_argument("fewer than two sites meet at a corner");
     const std::int32_t first = ring[0], second = ring[1];
     std::int32_t point = first;
     if (!diagram_.is_point(first)) {

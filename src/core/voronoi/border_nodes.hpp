@@ -23,11 +23,12 @@ class BorderNodes {
   // Points whose nodes come after the vertices of the diagram: by place, however points are numbered.
   const std::vector<std::int32_t>& added() const { return added_; }
 
-  // Two numbers a border that rise counter-clockwise among those that leave its source, and its target; 0 where
-  // no more than two meet, unless it is `crowded`: others end there as well. Ends are -1 at infinity; `elements` are left and right, a wall has its segment twice.
+  // Two numbers a border that rise counter-clockwise among those that leave its source, and its target; 0
+  // where no more than two meet, unless the vertex is `crowded`: others end there as well. Ends are -1 at
+  // infinity; `elements` are left and right, a wall has its segment twice.
   //
-  // Around a vertex of the diagram its sites follow each other counter-clockwise: a border between two of them
-  // comes after the one on its right, and a wall lies in the middle of its own sector.
+  // Around a vertex of the diagram its sites follow each other counter-clockwise: a border between two of
+  // them comes after the one on its right, and a wall lies in the middle of its own sector.
   //
   // Throws std::runtime_error if a border ends at a vertex that its element does not touch.
   void put_in_order(std::span<const std::int64_t> ends, std::span<const std::int64_t> elements,

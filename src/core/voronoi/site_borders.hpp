@@ -1,5 +1,5 @@
-// Borders between the places of different sites (paper, section 1): edges of the segment Voronoi diagram of all
-// sites together, and segments of its graph.
+// Borders between the places of different sites (paper, section 1): edges of the segment Voronoi diagram of
+// all sites together, and segments of its graph.
 #pragma once
 
 #include <cstddef>
@@ -39,8 +39,8 @@ struct Reach {
   std::span<const std::int32_t> crowded;  // vertices at which what runs along the limit ends as well
 };
 
-// In which face of the graph each edge is towards its source, and towards its target; whether it is between a segment
-// and its own end.
+// In which face of the graph each edge is towards its source, and towards its target; whether it is between a
+// segment and its own end.
 struct EdgeFaces {
   base::LargeArray<std::int32_t> faces;   // [2 e]
   base::LargeArray<std::uint8_t> is_own;  // [e]

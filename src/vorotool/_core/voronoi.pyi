@@ -28,5 +28,10 @@ def owners_at_points(segments: numpy.typing.NDArray[numpy.int32], owner: numpy.t
     The smallest and the largest owner of the segments that end at each point.
     """
 
+def ring_areas(start: numpy.typing.NDArray[numpy.int64], half_edge: numpy.typing.NDArray[numpy.int64], ends: numpy.typing.NDArray[numpy.int32], places: numpy.typing.NDArray[numpy.float64], bulge: numpy.typing.NDArray[numpy.float64]) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    Signed areas in rings of arcs, of which the areas between chord and arc are known.
+    """
+
 def control_points(graph: vorotool._core.kernel.PlanarGraph, ends: numpy.typing.NDArray[numpy.int64], elements: numpy.typing.NDArray[numpy.int64], places: numpy.typing.NDArray[numpy.float64], radius: numpy.typing.NDArray[numpy.float64], threads: int, progress: Callable[[float], object] | None) -> numpy.typing.NDArray[numpy.float64]:
     """Of the Bezier curves that borders are; NaN of straight lines."""

@@ -12,11 +12,14 @@ from vorotool.engines.voronoi.frame_cut import CutBorders
 from vorotool.engines.voronoi.frame_ring import FrameRing
 from vorotool.errors import VerificationError
 from vorotool.geometry.curves.mixed_arcs import MixedArcs
-from vorotool.geometry.ragged import owners, ranges, starts_of
+from vorotool.geometry.ragged import ranges, starts_of
 from vorotool.geometry.voronoi.voronoi_map import OUTSIDE
 
 Indices = NDArray[np.int64]
 Floats = NDArray[np.float64]
+
+_AT_ONCE = 2**18
+"""Arcs that are measured together, so that this takes little memory."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,7 +53,7 @@ class Arcs:
 
     def mixed(self) -> MixedArcs:
         """The arcs with their ends."""
-        source, target = self.vertices[self.ends[:, 0]], self.vertices[self.ends[:, 1]]
+        source, target = (self.vertices.take(end, axis=0) for end in self.ends.T)
         return MixedArcs(source, target, self.control, self.center, self.sites[:, 0] != OUTSIDE)
 
 
@@ -92,17 +95,13 @@ def arcs_of(cut: CutBorders, ring: FrameRing, sites: Indices, parts: Indices, or
     turned = ends[:, 0] > ends[:, 1]
     sorting = by_ends(np.where(turned[:, None], ends[:, ::-1], ends), control, center)
     pairs = 2 * sorting[:, None] + (np.arange(2) ^ turned[sorting][:, None])
+    del number, used, turned
     places, ends, both_sites = places.take(kept, axis=0), ends.take(pairs), both_sites.take(pairs)
-    return Arcs(
-        places,
-        radius[kept],
-        ends,
-        control.take(sorting, axis=0),
-        without_lost(center.take(sorting, axis=0), places, ends, both_sites[:, 0] != OUTSIDE),
-        both_sites,
-        both_parts.take(pairs),
-        orders.take(pairs),
-    )
+    both_parts, orders = both_parts.take(pairs), orders.take(pairs)
+    del pairs
+    control, center = control.take(sorting, axis=0), center.take(sorting, axis=0)
+    center = without_lost(center, places, ends, both_sites[:, 0] != OUTSIDE)
+    return Arcs(places, radius[kept], ends, control, center, both_sites, both_parts, orders)
 
 
 def without_lost(center: Floats, places: Floats, ends: Indices, is_left: NDArray[np.bool_]) -> Floats:
@@ -211,14 +210,23 @@ def rings_of(arcs: Arcs) -> Rings:
     """
     start, half_edge = cycles_of(arcs.ends, arcs.order, len(arcs.vertices))
     site, part = arcs.sites.ravel()[half_edge], arcs.parts.ravel()[half_edge]
-    row, begin = owners(np.diff(start)), start[:-1]
-    if (site != site[begin][row]).any():
+    begin = start[:-1]
+    if (site != np.repeat(site[begin], np.diff(start))).any():
         raise VerificationError("borders do not close around a cell: a defect of vorotool, please report it")
-    first = arcs.vertices[arcs.ends.ravel()[half_edge[begin]]]  # near, so that small rings keep their sign
-    beside = arcs.mixed()[half_edge >> 1].areas_beside(first[row])
-    area = np.bincount(row, np.where(half_edge & 1, -beside, beside), minlength=len(begin)).astype(np.float64)
+    area = _core.voronoi.ring_areas(start, half_edge, arcs.ends.astype(np.int32), arcs.vertices, _bulges(arcs))
     rings = Rings(start, half_edge, site[begin], part[begin], area)
     return rings[site[begin] != OUTSIDE]
+
+
+def _bulges(arcs: Arcs) -> Floats:
+    """(a,) signed areas between chords and arcs."""
+    bulges = np.empty(len(arcs.ends))
+    for first in range(0, len(bulges), _AT_ONCE):
+        some = slice(first, first + _AT_ONCE)
+        source, target = (arcs.vertices.take(end, axis=0) for end in arcs.ends[some].T)
+        mixed = MixedArcs(source, target, arcs.control[some], arcs.center[some], arcs.sites[some, 0] != OUTSIDE)
+        bulges[some] = mixed.areas_beside(source)
+    return bulges
 
 
 @dataclass(frozen=True, eq=False)

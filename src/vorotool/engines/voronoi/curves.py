@@ -147,4 +147,4 @@ class CircularArc:
 def controls_of(borders: Borders, graph: PlanarGraph) -> Floats:
     """(b, 2) control points of the Bezier curves that the pieces of borders are, on the lattice; NaN of lines."""
     core = _core.kernel.PlanarGraph(graph.points, graph.segments, graph.segment_faces)
-    return _core.voronoi.control_points(core, borders.ends, borders.elements, borders.places, borders.radius, 0, None)
+    return _core.voronoi.control_points(core, borders.ends, borders.elements, borders.places, borders.radius, 1, None)

@@ -21,6 +21,11 @@ Place = tuple[float, float]
 SIDES = 4
 """Of a frame, counter-clockwise: least y, most x, most y, least x."""
 
+_WITHIN, _OFF, _CROSSING = range(3)
+
+_AT_ONCE = 2**18
+"""Pieces that are looked at together, so that what is only compared takes little memory."""
+
 TOUCH = 2.0**-48
 """Of the coordinates, by which a parabola may miss a side of the frame and still be taken to touch it."""
 
@@ -142,20 +147,32 @@ def cut_borders(borders: Borders, graph: PlanarGraph, frame: tuple[float, float,
     if np.isfinite(borders.level):
         box.attract(places, borders.radius == borders.level)
     side = box.side_of(places)
-    padded = np.concatenate([places, [[np.nan, np.nan]]])  # that of -1, at infinity
-    control = controls_of(borders, graph)
-    source, target = borders.ends.T
-    is_finite = (source >= 0) & (target >= 0)
-    corners = [padded[source], padded[target], graph.coordinates(control)]
-    corners[2] = np.where(np.isnan(corners[2]), corners[0], corners[2])
-    low, high = _reach(corners)
-    _extend_to_circles(low, high, corners, graph.coordinates(borders.center), borders.level * graph.scale)
-    is_within = is_finite & _all_of(low >= box.low) & _all_of(high <= box.high)
-    is_off = is_finite & ~(_all_of(low < box.high) & _all_of(high > box.low))
-    kept, crossing = np.flatnonzero(is_within & ~is_off), np.flatnonzero(~is_within & ~is_off)
+    control, center = graph.coordinates(controls_of(borders, graph)), graph.coordinates(borders.center)
+    state = _states(borders, places, control, center, borders.level * graph.scale, box)
+    kept, crossing = np.flatnonzero(state == _WITHIN), np.flatnonzero(state == _CROSSING)
     cutter = _Cutter(borders, graph, box, side, crossing)
     parts = [part for piece in crossing.tolist() for part in cutter.parts(piece)]
-    return cutter.put_together(places, kept, corners[2][kept], np.isnan(control[kept, 0]), parts)
+    return cutter.put_together(places, kept, control, center, parts)
+
+
+def _states(
+    borders: Borders, places: Floats, control: Floats, center: Floats, radius: float, box: FrameBox
+) -> NDArray[np.int8]:
+    """Whether pieces are within a box, off it, or cross it, as far as the triangles tell that they lie in."""
+    state = np.empty(len(borders.ends), dtype=np.int8)
+    padded = np.concatenate([places, [[np.nan, np.nan]]])  # that of -1, at infinity
+    for first in range(0, len(state), _AT_ONCE):
+        some = slice(first, first + _AT_ONCE)
+        source, target = borders.ends[some].T
+        is_finite = (source >= 0) & (target >= 0)
+        corners = [padded.take(source, axis=0), padded.take(target, axis=0), control[some]]
+        corners[2] = np.where(np.isnan(corners[2]), corners[0], corners[2])
+        low, high = _reach(corners)
+        _extend_to_circles(low, high, corners, center[some], radius)
+        is_within = is_finite & _all_of(low >= box.low) & _all_of(high <= box.high)
+        is_off = is_finite & ~(_all_of(low < box.high) & _all_of(high > box.low))
+        state[some] = np.where(is_off, _OFF, np.where(is_within, _WITHIN, _CROSSING))
+    return state
 
 
 def _reach(corners: list[Floats]) -> tuple[Floats, Floats]:
@@ -401,11 +418,11 @@ class _Cutter:
         return _Curve(base, way, 0.0, first, parameter(target) if target >= 0 else INFINITY)
 
     def put_together(
-        self, places: Floats, kept: Indices, control: Floats, is_line: NDArray[np.bool_], parts: list[_Part]
+        self, places: Floats, kept: Indices, control: Floats, center: Floats, parts: list[_Part]
     ) -> CutBorders:
         """All pieces in the frame, whole ones first."""
         of_parts = np.array([part.control or (np.nan, np.nan) for part in parts]).reshape(-1, 2)
-        own = self.borders.ends[kept]
+        own = self.borders.ends.take(kept, axis=0)
         pieces = np.concatenate([kept, np.array([part.piece for part in parts], dtype=np.int64)])
         new = np.array([place for place, _, _ in self.cuts]).reshape(-1, 2)
         return CutBorders(
@@ -413,9 +430,9 @@ class _Cutter:
             np.concatenate(
                 [own, np.array([(part.source, part.target) for part in parts], dtype=np.int64).reshape(-1, 2)]
             ),
-            np.concatenate([np.where(is_line[:, None], np.nan, control), self.graph.coordinates(of_parts)]),
+            np.concatenate([control.take(kept, axis=0), self.graph.coordinates(of_parts)]),
             np.concatenate([places, new]),
             self.graph.scale * np.concatenate([self.borders.radius, [radius for _, radius, _ in self.cuts]]),
             np.concatenate([self.sides, np.array([side for _, _, side in self.cuts], dtype=np.int64)]),
-            self.graph.coordinates(self.borders.center)[pieces],
+            center.take(pieces, axis=0),
         )

@@ -32,6 +32,8 @@ from vorotool.geometry.voronoi.voronoi_map import OUTSIDE, VoronoiMap
 if TYPE_CHECKING:
     from vorotool.typing import FrameLike, ImageLike, PointsLike, PolygonsLike
 
+Indices = NDArray[np.int64]
+
 LEAST = 2.0**-40
 """Of the largest coordinate: smaller limits are less than what a lattice moves sites by, and near what is rounded."""
 
@@ -185,9 +187,22 @@ def _map(owned: OwnedGraph, frame: Frame, limit: float | None, threads: int, pro
         borders = borders_of(owned, diagram, level=limit / owned.graph.scale, threads=threads)
         cut = cut_borders(borders, owned.graph, frame)
         if (borders.sites[cut.piece] == OUTSIDE).any() or _is_beyond(owned, borders.level, frame):
-            return _cells_of(owned, borders, cut, frame)
+            return _cells_of(owned, cut, _beside(borders, cut), borders.level, frame)
     borders = borders_of(owned, diagram, threads=threads)
-    return _cells_of(owned, borders, cut_borders(borders, owned.graph, frame), frame)
+    del diagram  # large, as borders are: what is made of them goes on alone
+    cut = cut_borders(borders, owned.graph, frame)
+    beside, level = _beside(borders, cut), borders.level
+    del borders
+    return _cells_of(owned, cut, beside, level, frame)
+
+
+def _beside(borders: Borders, cut: CutBorders) -> tuple[Indices, Indices, Indices]:
+    """Sites, parts and order of what is cut."""
+    return (
+        borders.sites.take(cut.piece, axis=0).astype(np.int64),
+        borders.parts.take(cut.piece, axis=0),
+        borders.order.take(cut.piece, axis=0),
+    )
 
 
 def _is_beyond(owned: OwnedGraph, level: float, frame: Frame) -> bool:
@@ -205,16 +220,17 @@ def _on_fine_lattice(owned: OwnedGraph, limit: float) -> OwnedGraph:
     return replace(owned, graph=replace(graph, scale=math.ldexp(1.0, int(np.frexp(limit)[1]) - _BITS)))
 
 
-def _cells_of(owned: OwnedGraph, borders: Borders, cut: CutBorders, frame: Frame) -> tuple[Arcs, Rings]:
-    sites, parts, order = (of[cut.piece].astype(np.int64) for of in (borders.sites, borders.parts, borders.order))
-    ring = frame_ring(cut, sites, parts, order, _corners(frame))
+def _cells_of(
+    owned: OwnedGraph, cut: CutBorders, beside: tuple[Indices, Indices, Indices], level: float, frame: Frame
+) -> tuple[Arcs, Rings]:
+    ring = frame_ring(cut, *beside, _corners(frame))
     if (ring.sides == UNKNOWN).any():
-        inside = arcs_of(cut, replace(ring, sides=np.full_like(ring.sides, OUTSIDE)), sites, parts, order)
+        inside = arcs_of(cut, replace(ring, sides=np.full_like(ring.sides, OUTSIDE)), *beside)
         rings = rings_of(inside)
-        ring.sides[:] = found = _of_frame(owned, borders.level, frame, rings)
+        ring.sides[:] = found = _of_frame(owned, level, frame, rings)
         if found[0] == OUTSIDE:
             return inside, rings
-    arcs = arcs_of(cut, ring, sites, parts, order)
+    arcs = arcs_of(cut, ring, *beside)
     return arcs, rings_of(arcs)
 
 
