@@ -77,10 +77,11 @@ geometry/any -> geometry, geometry/alpha, geometry/curves, geometry/mesh, geomet
     geometry/skeleton, geometry/voronoi, products
 jobs -> batch, engines, engines/alpha, engines/arrangement, engines/centerlines, engines/delaunay, engines/digital,
     engines/features, engines/from_skeleton, engines/label_images, engines/offsets, engines/pruning,
-    engines/sampled_skeleton, engines/segment_voronoi, engines/skeleton, engines/tessellation, formats, formats/images,
-    formats/io, formats/parsing, formats/points, formats/text, formats/zarr, geometry, geometry/alpha, geometry/any,
-    geometry/curves, geometry/mesh, geometry/points, geometry/polygons, geometry/skeleton, products, render/canvas,
-    render/label_images, render/layers, render/pages, typing
+    engines/sampled_skeleton, engines/segment_voronoi, engines/skeleton, engines/tessellation, engines/voronoi, formats,
+    formats/images, formats/io, formats/parsing, formats/points, formats/text, formats/zarr, geometry, geometry/alpha,
+    geometry/any, geometry/arguments, geometry/curves, geometry/mesh, geometry/points, geometry/polygons,
+    geometry/skeleton, geometry/voronoi, products, render/canvas, render/label_images, render/layers, render/pages,
+    typing
 cli/options -> engines/offsets, engines/pruning, geometry, jobs, products
 cli/batch -> batch, cli/options, formats/io, geometry, jobs, products
 cli/commands -> cli/batch, cli/options, jobs, products

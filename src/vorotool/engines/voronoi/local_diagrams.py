@@ -90,7 +90,6 @@ def local_diagrams(
     level = np.inf if limit is None else limit / sites.scale
     if regions.count == 1 and len(regions.site) == count:
         owned = owners_of(sites, site)
-        graph = owned.graph
         diagram = diagram_of(owned, is_whole=limit is not None, threads=threads, progress=progress)
         none = (np.zeros(len(owned.graph.points), dtype=np.int64), np.zeros(len(owned.graph), dtype=np.int64))
         return LocalDiagrams(owned, *none, pieces_of(owned, diagram, level=level, threads=threads), given, site)
@@ -132,7 +131,7 @@ def _chosen(given: PolygonSet, polygon: Indices, vertices: NDArray[np.int32]) ->
 
 
 def _joined(parts: list[OwnedGraph], sites: PlanarGraph) -> OwnedGraph:
-    """Graphs one after the other, with the numbers of points and faces shifted."""
+    """Graphs one after the other, with the numbers of points and faces shifted; of none an empty plane."""
     graphs = [part.graph for part in parts]
     points = np.cumsum([0, *(len(graph.points) for graph in graphs)])
     faces = np.cumsum([0, *(graph.faces for graph in graphs)])
@@ -145,6 +144,7 @@ def _joined(parts: list[OwnedGraph], sites: PlanarGraph) -> OwnedGraph:
     )
     elements = [np.split(part.element, [len(part.graph.points)]) for part in parts]
     none = np.empty(0, dtype=np.int32)
+    face = np.concatenate([part.face for part in parts]) if parts else np.full(1, -1, dtype=np.int32)
     graph = PlanarGraph(
         np.concatenate([np.empty((0, 2), dtype=np.int32), *(g.points for g in graphs)]),
         segments,
@@ -152,10 +152,10 @@ def _joined(parts: list[OwnedGraph], sites: PlanarGraph) -> OwnedGraph:
         np.zeros(len(segments) + 1, dtype=np.int32),
         none,
         sides,
-        np.zeros(int(faces[-1]) + 1, dtype=np.int32),
+        np.zeros(len(face) + 1, dtype=np.int32),
         none,
         origin=sites.origin,
         scale=sites.scale,
     )
     element = np.concatenate([none, *(own for own, _ in elements), *(own for _, own in elements)])
-    return OwnedGraph(graph, element, np.concatenate([none, *(part.face for part in parts)]))
+    return OwnedGraph(graph, element, face)
