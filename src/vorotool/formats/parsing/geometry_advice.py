@@ -29,8 +29,8 @@ def not_a_shape_advice(kind: str) -> str:
 
     Examples
     --------
-    >>> not_a_shape_advice("MultiPoint")
-    'put points into a file of their own (voronoi takes points, lines and polygons together)'
+    >>> not_a_shape_advice("MultiCurve")
+    'use (Multi)Polygon or (Multi)LineString'
     """
     if kind.lower().removeprefix("multi") == "point":
         return f"put points into a file of their own ({_TAKER_OF_ALL} points, lines and polygons together)"
