@@ -93,6 +93,7 @@ bench: build $(BUILD)/.tests ## measure beside the peers, in one run
 	$(RUN) tests/benchmarks/skeleton_approx.py
 	$(RUN) tests/benchmarks/masks.py
 	$(RUN) tests/benchmarks/segment_voronoi.py
+	$(RUN) tests/benchmarks/voronoi.py
 	$(RUN) tests/benchmarks/batch.py
 	$(RUN) tests/benchmarks/libraries.py
 
@@ -119,6 +120,7 @@ else
 	$(RUN) tests/fuzz/outlines.py --cases $(or $(CASES),20000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/segment_voronoi.py --cases $(or $(CASES),800000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/segment_voronoi.py --cases 10000 --seed $(or $(SEED),1) --family clusters --largest 100 --symmetries 1
+	$(RUN) tests/fuzz/voronoi.py --cases $(or $(CASES),100000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/bytes.py --minutes 5 --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/streams.py --runs $(or $(CASES),1000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/features.py --cases $(or $(CASES),2000) --seed $(or $(SEED),1)

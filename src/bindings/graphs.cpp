@@ -13,6 +13,7 @@
 #include "core/graphs/connected_components.hpp"
 #include "core/graphs/graph_colouring.hpp"
 #include "core/graphs/longest_paths.hpp"
+#include "core/graphs/planar_map.hpp"
 
 namespace vorotool::bindings {
 namespace {
@@ -81,6 +82,20 @@ auto connected_components(const IndexRows& edges, std::size_t vertices) {
   return to_numpy(core::graphs::connected_components(pairs, vertices));
 }
 
+auto arcs_by_ends(const IndexRows& arcs, std::size_t vertices) {
+  const std::span<const IndexPair> pairs = rows<IndexPair>(arcs);
+  core::base::check_range(pairs, 0, vertices, "a vertex is out of range");
+  return to_numpy(core::graphs::arcs_by_ends(pairs, vertices));
+}
+
+auto next_half_edges(const IndexRows& arcs, const Matrix<const std::int64_t>& order, std::size_t vertices) {
+  const std::span<const IndexPair> pairs = rows<IndexPair>(arcs);
+  if (order.size() != 2 * pairs.size())
+    throw std::invalid_argument("each arc must have two numbers of its order");
+  core::base::check_range(pairs, 0, vertices, "a vertex is out of range");
+  return to_numpy(core::graphs::next_half_edges(pairs, view(order), vertices));
+}
+
 auto boundary_cycles(const Indices& next, const Indices& tail, std::size_t vertices) {
   if (next.size() != tail.size()) throw std::invalid_argument("each half-edge must have a tail");
   core::base::check_range(view(next), 0, next.size(), "a half-edge is out of range");
@@ -100,6 +115,10 @@ void bind_graphs(nb::module_& room) {
   room.def("colour_graph", &colour_graph, "vertices"_a, "a"_a, "b"_a, "progress"_a.none());
   room.def("connected_components", &connected_components, "edges"_a, "vertices"_a,
            "The smallest vertex that each is connected with.");
+  room.def("arcs_by_ends", &arcs_by_ends, "arcs"_a, "vertices"_a,
+           "The arcs by their sources, then by their targets; those between the same two as they are given.");
+  room.def("next_half_edges", &next_half_edges, "arcs"_a, "order"_a, "vertices"_a,
+           "The half-edge after each one around its face: 2 k along arc k, 2 k + 1 back.");
   room.def("boundary_cycles", &boundary_cycles, "next"_a, "tail"_a, "vertices"_a,
            "Where the cycles begin that pass no vertex twice, and the half-edges along them.");
 }

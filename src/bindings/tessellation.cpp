@@ -1,6 +1,7 @@
 // The tessellation of frames, and its check.
 #include <nanobind/stl/string_view.h>
 
+#include <algorithm>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -9,6 +10,7 @@
 #include "bindings/rooms.hpp"
 #include "bindings/support/arrays.hpp"
 #include "bindings/support/monitor.hpp"
+#include "bindings/support/simd.hpp"
 #include "core/tessellation/propagation.hpp"
 #include "core/tessellation/tessellation.hpp"
 #include "core/tessellation/verify_tessellation.hpp"
@@ -25,21 +27,20 @@ using Labels = Aligned<const std::uint32_t, nb::ndim<1>, nb::c_contig, nb::devic
 using Image = Aligned<nb::ndim<2>, nb::c_contig, nb::device::cpu>;
 using Label32Image = Aligned<std::uint32_t, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
 using Halves = std::pair<std::uint64_t, std::uint64_t>;  // upper and lower 64 bits
+using Sides = std::pair<std::int32_t, std::int32_t>;     // of a pixel, along x and y
 
-Simd simd_level(std::string_view name) {
-  for (const Simd level : {Simd::portable, Simd::avx2, Simd::avx512}) {
-    if (name == core::tessellation::name_of(level)) {
-      if (core::tessellation::supports(level)) return level;
-      throw std::invalid_argument(std::string(name) + " is not supported by this machine");
-    }
-  }
-  throw std::invalid_argument("unknown instruction set " + std::string(name));
-}
+// Twice the steps of a pixel fit 32 bits.
+constexpr std::int32_t most_steps = std::int32_t{1} << 29;
 
 Tessellation make_tessellation(const Integers& x, const Integers& y, const Labels& labels,
                                std::int64_t frame_x, std::int64_t frame_y, std::int32_t width,
-                               std::int32_t height, std::int32_t steps, std::string_view simd) {
-  const FrameOnLattice frame{frame_x, frame_y, width, height, steps};
+                               std::int32_t height, std::int32_t scale, const Sides& unit,
+                               std::string_view simd) {
+  const FrameOnLattice frame{frame_x, frame_y, width, height, scale, {unit.first, unit.second}};
+  if (scale < 1 || std::min(unit.first, unit.second) < 1 ||
+      std::max(unit.first, unit.second) > most_steps / scale) {
+    throw std::invalid_argument("the sides of a pixel must be from 1 to 2^29 steps");
+  }
   const Simd level = simd_level(simd);
   const nb::gil_scoped_release no_gil;
   return {view(x), view(y), view(labels), frame, level};
@@ -90,12 +91,12 @@ void write_squared_distances(const Tessellation& tessellation, const Image& out,
   });
 }
 
-void write_distances(const Tessellation& tessellation, const Image& out, std::int32_t first, unsigned threads,
-                     const Progress& progress) {
+void write_distances(const Tessellation& tessellation, const Image& out, std::int32_t first,
+                     double square_of_step, unsigned threads, const Progress& progress) {
   const std::int32_t rows = rows_of(tessellation, out, first);
   with_type<float>(out, [&](float* pixels) {
     run_interruptible(progress, [&](const Monitor& monitor) {
-      tessellation.distances(first, rows, pixels, threads, monitor);
+      tessellation.distances(first, rows, pixels, square_of_step, threads, monitor);
     });
   });
 }
@@ -111,11 +112,12 @@ void propagate(const Integers& x, const Integers& y, const Labels& labels, int p
 template <class Label>
 auto verify_tessellation(Matrix<const Label> labels, std::int64_t x, std::int64_t y,
                          Vector<const std::int64_t> seed_x, Vector<const std::int64_t> seed_y,
-                         Vector<const std::uint32_t> seed_labels, std::int64_t scale,
+                         Vector<const std::uint32_t> seed_labels, const Sides& pixel,
                          std::optional<std::uint64_t> limit_high, std::uint64_t limit_low, unsigned threads,
                          const Progress& progress) {
   const core::tessellation::PixelFrame frame{x, y, labels.shape(1), labels.shape(0)};
-  const core::tessellation::LatticeSeeds seeds{view(seed_x), view(seed_y), view(seed_labels), scale};
+  const core::tessellation::LatticeSeeds seeds{
+      view(seed_x), view(seed_y), view(seed_labels), {pixel.first, pixel.second}};
   std::optional<core::numbers::uint128> limit;
   if (limit_high) limit = core::numbers::uint128{*limit_high} << 64 | limit_low;
   return run_interruptible(progress, core::tessellation::verify_tessellation<Label>, view(labels), frame,
@@ -141,7 +143,7 @@ void bind_seed_too_far(nb::module_& room) {
 template <class Label>
 void bind_verification(nb::module_& room) {
   room.def("verify_tessellation", &verify_tessellation<Label>, "labels"_a, "x"_a, "y"_a, "seed_x"_a,
-           "seed_y"_a, "seed_labels"_a, "scale"_a, "limit_high"_a.none(), "limit_low"_a, "threads"_a,
+           "seed_y"_a, "seed_labels"_a, "pixel"_a, "limit_high"_a.none(), "limit_low"_a, "threads"_a,
            "progress"_a.none());
 }
 
@@ -154,11 +156,12 @@ void bind_tessellation(nb::module_& room) {
           "__init__",
           [](Tessellation* self, const Integers& x, const Integers& y, const Labels& labels,
              std::int64_t frame_x, std::int64_t frame_y, std::int32_t width, std::int32_t height,
-             std::int32_t steps, std::string_view simd) {
-            new (self)
-                Tessellation(make_tessellation(x, y, labels, frame_x, frame_y, width, height, steps, simd));
+             std::int32_t scale, const Sides& unit, std::string_view simd) {
+            new (self) Tessellation(
+                make_tessellation(x, y, labels, frame_x, frame_y, width, height, scale, unit, simd));
           },
-          "x"_a, "y"_a, "labels"_a, "frame_x"_a, "frame_y"_a, "width"_a, "height"_a, "steps"_a, "simd"_a)
+          "x"_a, "y"_a, "labels"_a, "frame_x"_a, "frame_y"_a, "width"_a, "height"_a, "scale"_a, "unit"_a,
+          "simd"_a)
       .def_prop_ro("duplicates", &Tessellation::duplicates)
       .def_prop_ro("columns", &Tessellation::columns)
       .def_prop_ro("is_wide", &Tessellation::is_wide)
@@ -167,7 +170,8 @@ void bind_tessellation(nb::module_& room) {
            "progress"_a.none())
       .def("squared_distances", &write_squared_distances, "out"_a, "first"_a, "threads"_a,
            "progress"_a.none())
-      .def("distances", &write_distances, "out"_a, "first"_a, "threads"_a, "progress"_a.none());
+      .def("distances", &write_distances, "out"_a, "first"_a, "square_of_step"_a, "threads"_a,
+           "progress"_a.none());
   room.def("propagate", &propagate, "x"_a, "y"_a, "labels"_a, "passes"_a, "out"_a, "progress"_a.none());
   room.def("widest_simd",
            [] { return std::string(core::tessellation::name_of(core::tessellation::widest_simd())); });

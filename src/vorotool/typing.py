@@ -79,7 +79,7 @@ RealLike: TypeAlias = float | Fraction
 """A number, which is taken exactly."""
 
 Spacing: TypeAlias = float | Fraction | Sequence[float | Fraction]
-"""The side of a pixel, or its (height, width), which are equal."""
+"""The side of a pixel or voxel, or its (height, width), or (depth, height, width)."""
 
 Side: TypeAlias = Literal["interior", "exterior", "both"]
 """Of a skeleton."""

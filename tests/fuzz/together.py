@@ -44,6 +44,7 @@ ENGINES = (
     Share("planar_graph.py"),
     Share("segment_voronoi.py"),
     Share("segment_voronoi.py", ("--family", "clusters", "--largest", "100", "--symmetries", "1")),
+    Share("voronoi.py"),
     Share("skeletons.py"),
     Share("skeleton_approx.py"),
     Share("pruning.py"),

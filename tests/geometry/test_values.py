@@ -26,13 +26,13 @@ METHODS = {
     "to_geopandas": {"Raster", "Table", "DigitalComparison", "CriticalValues"},
     "__geo_interface__": {"Raster", "Table", "DigitalComparison", "CriticalValues"},
     "to_pandas": {"Raster"},
-    "plot": {"Table", "DigitalComparison", "CriticalValues", "VoronoiMap"},
-    "_repr_svg_": {"Table", "DigitalComparison", "CriticalValues", "VoronoiMap"},
-    "_repr_html_": {"DigitalComparison", "CriticalValues", "VoronoiMap"},
+    "plot": {"Table", "DigitalComparison", "CriticalValues"},
+    "_repr_svg_": {"Table", "DigitalComparison", "CriticalValues"},
+    "_repr_html_": {"DigitalComparison", "CriticalValues"},
 }
 """The types without a method."""
 ONLY = {
-    "to_networkx": {"Skeleton", "Triangulation", "DigitalTriangulation", "LabelImage", "PlanarGraph"},
+    "to_networkx": {"Skeleton", "Triangulation", "DigitalTriangulation", "LabelImage", "PlanarGraph", "VoronoiMap"},
     "__array__": {"LabelImage", "Raster", "PointSet"},
 }
 """The types with a method."""

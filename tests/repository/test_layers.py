@@ -65,8 +65,6 @@ formats -> formats/drawing, formats/features, formats/images, formats/io, format
     formats/polygons, geometry, geometry/points, geometry/polygons, geometry/skeleton, products
 batch -> engines/tessellation, formats, formats/io, formats/text, formats/zarr
 engines -> engines/sampled_skeleton, engines/skeleton, geometry, geometry/arguments, geometry/skeleton, typing
-engines/peers -> engines, engines/delaunay, engines/from_skeleton, engines/label_images, engines/pruning,
-    engines/tessellation, geometry, geometry/arguments, geometry/mesh, typing
 engines/centerlines -> engines/from_skeleton, engines/pruning, engines/skeleton, geometry, geometry/arguments,
     geometry/polygons, geometry/skeleton, typing
 geometry/voronoi -> geometry, geometry/curves, geometry/polygons, products
@@ -77,14 +75,17 @@ geometry/any -> geometry, geometry/alpha, geometry/curves, geometry/mesh, geomet
     geometry/skeleton, geometry/voronoi, products
 jobs -> batch, engines, engines/alpha, engines/arrangement, engines/centerlines, engines/delaunay, engines/digital,
     engines/features, engines/from_skeleton, engines/label_images, engines/offsets, engines/pruning,
-    engines/sampled_skeleton, engines/segment_voronoi, engines/skeleton, engines/tessellation, formats,
-    formats/images, formats/io, formats/parsing, formats/points, formats/text, formats/zarr, geometry, geometry/alpha,
-    geometry/any, geometry/curves, geometry/mesh, geometry/points, geometry/polygons, geometry/skeleton, products,
-    render/canvas, render/label_images, render/layers, render/pages, typing
+    engines/sampled_skeleton, engines/segment_voronoi, engines/skeleton, engines/tessellation, formats, formats/images,
+    formats/io, formats/parsing, formats/points, formats/text, formats/zarr, geometry, geometry/alpha, geometry/any,
+    geometry/curves, geometry/mesh, geometry/points, geometry/polygons, geometry/skeleton, products, render/canvas,
+    render/label_images, render/layers, render/pages, typing
 cli/options -> engines/offsets, engines/pruning, geometry, jobs, products
 cli/batch -> batch, cli/options, formats/io, geometry, jobs, products
 cli/commands -> cli/batch, cli/options, jobs, products
 cli -> cli/commands, jobs
+engines/volumes -> engines/tessellation, geometry
+engines/peers -> engines, engines/delaunay, engines/from_skeleton, engines/label_images, engines/pruning,
+    engines/tessellation, engines/volumes, geometry, geometry/arguments, geometry/mesh, typing
 """
 """Rooms of the package from below, and what each may import; `errors` and `signals` are for all."""
 

@@ -79,7 +79,7 @@ def results_by_arguments() -> None:
     """Some results depend on an argument."""
     assert_type(vorotool.distance_transform(MASK), npt.NDArray[np.float64])
     assert_type(vorotool.distance_transform(MASK, return_distances=False, return_indices=True), npt.NDArray[np.int32])
-    distances, indices = vorotool.distance_transform(MASK, spacing=(2, 2), return_indices=True)
+    distances, indices = vorotool.distance_transform(MASK, spacing=(2, 0.5), return_indices=True)
     assert_type(distances, npt.NDArray[np.float64])
     assert_type(indices, npt.NDArray[np.int32])
     assert_type(vorotool.medial_axis(MASK), npt.NDArray[np.bool_])

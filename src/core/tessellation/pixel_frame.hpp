@@ -10,15 +10,21 @@ namespace vorotool::core::tessellation {
 // Coordinates of seeds and pixels on the lattice may have this magnitude.
 constexpr std::int64_t lattice_limit = std::int64_t{1} << 40;
 
-// Seeds on a lattice of `scale` steps a pixel; several may share a label. Labels are at least 1.
+// Sides of a pixel, in steps of the lattice.
+struct PixelSides {
+  std::int64_t x;
+  std::int64_t y;
+};
+
+// Seeds on a lattice; several may share a label. Labels are at least 1.
 struct LatticeSeeds {
   std::span<const std::int64_t> x;
   std::span<const std::int64_t> y;
   std::span<const std::uint32_t> labels;
-  std::int64_t scale;
+  PixelSides pixel;
 };
 
-// Pixel (c, r) of the image is at (scale * (x + c), scale * (y + r)) of the lattice.
+// Pixel (c, r) of the image is at (sides.x * (x + c), sides.y * (y + r)) of the lattice.
 struct PixelFrame {
   std::int64_t x;
   std::int64_t y;

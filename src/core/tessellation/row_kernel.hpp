@@ -30,6 +30,15 @@ struct ActiveColumnArrays {
   std::uint32_t* nearer_label;               // [count] of the nearer one on the row that was collected last
 };
 
+// The live seeds of a sweep through a volume: one in each column.
+template <class Arithmetic>
+struct ListedSeeds {
+  std::int32_t count;
+  typename Arithmetic::Value* x;       // [count] increasing
+  typename Arithmetic::Value* base;    // [count] x^2 + dz^2
+  typename Arithmetic::Coordinate* y;  // [count]
+};
+
 // Seeds whose parabolas (x - x_i)^2 + dy_i^2 may be lowest somewhere on the row, in increasing x.
 template <class Arithmetic>
 struct Candidates {
@@ -59,7 +68,9 @@ struct Envelope {
   std::int32_t tie_count;
   std::uint32_t* dead;  // [dead_count] entries whose candidate is nowhere nearest on this row
   std::int32_t dead_count;
-  std::int32_t collected;             // entries that had a seed
+  std::uint32_t* dead_left;   // [dead_count] the entries that each lay between then; `list` alone writes them
+  std::uint32_t* dead_right;  // [dead_count]
+  std::int32_t collected;     // entries that had a seed
   const std::uint32_t* nearer_label;  // [entries]
 
   std::uint32_t label_of(std::int32_t i) const { return nearer_label[candidates.entry[i]]; }
@@ -71,6 +82,10 @@ struct RowKernel {
   // Takes out the seeds above that a nearer seed below hides for good.
   void (*prune)(const ActiveColumnArrays<Arithmetic>&, typename Arithmetic::Coordinate row, const PixelRow&,
                 Envelope<Arithmetic>&);
+  // The same for a list: all candidates are taken from it, and what hides each dead one is told. `nearer_label` is the
+  // list's own.
+  void (*list)(const ListedSeeds<Arithmetic>&, typename Arithmetic::Coordinate row, const PixelRow&,
+               Envelope<Arithmetic>&);
   // Fills end and ties of a pruned envelope.
   void (*bound)(const PixelRow&, Envelope<Arithmetic>&);
   // Writes labels over a row; up to 192 bytes behind its end are overwritten.
@@ -84,6 +99,16 @@ struct RowKernel {
 
 RowKernel<Narrow> narrow_kernel(Simd level);
 RowKernel<Wide> wide_kernel();
+
+// Calls body(kernel) with the kernel of the arithmetic that these sites need.
+template <class Body>
+void with_kernel(bool wide, Simd level, Body body) {
+  if (wide) {
+    body(wide_kernel());
+  } else {
+    body(narrow_kernel(level));
+  }
+}
 
 namespace kernels {  // one definition a file: row_kernel_<level>.cpp
 RowKernel<Narrow> portable();

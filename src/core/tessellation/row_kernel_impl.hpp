@@ -82,8 +82,9 @@ struct RowKernelOn {
 
   // One round: copies the candidates that are not hidden by their neighbours. All hidden ones may go at once:
   // what hides a candidate at some x is lower there, and the lowest is hidden by nothing.
+  template <bool tells>
   static std::int32_t prune_round(const Candidates<Arithmetic> from, std::int32_t n, bool products_exact,
-                                  const Candidates<Arithmetic> to, std::uint32_t* dead,
+                                  const Candidates<Arithmetic> to, const Envelope<Arithmetic>& envelope,
                                   std::int32_t& dead_count) {
     copy_one(from, 0, to, 0);
     std::int32_t kept = 1;
@@ -97,7 +98,13 @@ struct RowKernelOn {
       Lanes::compress_index(to.entry + kept, keep, entry);
       kept += __builtin_popcount(keep);
       if (hidden != 0) {
-        Lanes::compress_index(dead + dead_count, hidden, entry);
+        Lanes::compress_index(envelope.dead + dead_count, hidden, entry);
+        if constexpr (tells) {
+          Lanes::compress_index(envelope.dead_left + dead_count, hidden,
+                                Lanes::load_index(from.entry + i - 1));
+          Lanes::compress_index(envelope.dead_right + dead_count, hidden,
+                                Lanes::load_index(from.entry + i + 1));
+        }
         dead_count += __builtin_popcount(hidden);
       }
     }
@@ -113,13 +120,18 @@ struct RowKernelOn {
   }
 
   // The whole envelope in one pass: time linear in the candidates, whatever they are.
-  static std::int32_t prune_by_stack(const Candidates<Arithmetic> c, std::int32_t n, std::uint32_t* dead,
-                                     std::int32_t& dead_count) {
+  template <bool tells>
+  static std::int32_t prune_by_stack(const Candidates<Arithmetic> c, std::int32_t n,
+                                     const Envelope<Arithmetic>& envelope, std::int32_t& dead_count) {
     std::int32_t kept = 0;
     for (std::int32_t i = 0; i < n; ++i) {
       copy_one(c, i, c, kept);
       while (kept >= 2 && hidden_exactly(c, kept - 2, kept - 1, kept)) {
-        dead[dead_count++] = c.entry[kept - 1];
+        if constexpr (tells) {
+          envelope.dead_left[dead_count] = c.entry[kept - 2];
+          envelope.dead_right[dead_count] = c.entry[kept];
+        }
+        envelope.dead[dead_count++] = c.entry[kept - 1];
         copy_one(c, kept, c, kept - 1);
         --kept;
       }
@@ -130,16 +142,34 @@ struct RowKernelOn {
 
   static void prune(const ActiveColumnArrays<Arithmetic>& live, Coordinate row, const PixelRow& pixels,
                     Envelope<Arithmetic>& envelope) {
-    std::int32_t n = collect(live, row, envelope.candidates);
-    envelope.collected = n;
+    envelope.collected = collect(live, row, envelope.candidates);
+    envelope.nearer_label = live.nearer_label;
+    reduce<false>(envelope.collected, pixels, envelope);
+  }
+
+  static void list(const ListedSeeds<Arithmetic>& live, Coordinate row, const PixelRow& pixels,
+                   Envelope<Arithmetic>& envelope) {
+    const Candidates<Arithmetic> out = envelope.candidates;
+    for (std::int32_t i = 0; i < live.count; i += width) {
+      const auto dy = Lanes::above(row, live.y + i);
+      Lanes::compress(out.x + i, all, Lanes::load(live.x + i));
+      Lanes::compress(out.value + i, all, Lanes::add(Lanes::load(live.base + i), Lanes::mul(dy, dy)));
+      Lanes::compress_index(out.entry + i, all, Lanes::count_from(i));
+    }
+    reduce<true>(live.count, pixels, envelope);
+  }
+
+  // Drops the candidates that are nowhere nearest on the row.
+  template <bool tells>
+  static void reduce(std::int32_t n, const PixelRow& pixels, Envelope<Arithmetic>& envelope) {
     std::int32_t dead_count = 0;
     for (int round = 0; n > 2; ++round) {
       if (round == most_rounds) {
-        n = prune_by_stack(envelope.candidates, n, envelope.dead, dead_count);
+        n = prune_by_stack<tells>(envelope.candidates, n, envelope, dead_count);
         break;
       }
-      const std::int32_t kept = prune_round(envelope.candidates, n, pixels.products_exact, envelope.spare,
-                                            envelope.dead, dead_count);
+      const std::int32_t kept = prune_round<tells>(envelope.candidates, n, pixels.products_exact,
+                                                   envelope.spare, envelope, dead_count);
       if (kept == n) break;
       const Candidates<Arithmetic> pruned = envelope.spare;
       envelope.spare = envelope.candidates;
@@ -148,7 +178,6 @@ struct RowKernelOn {
     }
     envelope.count = n;
     envelope.dead_count = dead_count;
-    envelope.nearer_label = live.nearer_label;
   }
 
   // Boundaries.
@@ -211,7 +240,7 @@ struct RowKernelOn {
   }
 
   static RowKernel<Arithmetic> table() {
-    return {prune,         bound,       fill<std::uint8_t>, fill<std::uint16_t>, fill<std::uint32_t>,
+    return {prune,         list,        bound, fill<std::uint8_t>, fill<std::uint16_t>, fill<std::uint32_t>,
             Lanes::stream, Lanes::fence};
   }
 };

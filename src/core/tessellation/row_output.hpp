@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/numbers/int128.hpp"
 #include "core/tessellation/row_kernel.hpp"
 
 namespace vorotool::core::tessellation {
@@ -66,6 +67,14 @@ template <class Integer>
 Integer floor_over(Integer a, Integer positive) {
   const Integer quotient = a / positive;
   return a % positive < 0 ? quotient - 1 : quotient;
+}
+
+// A bound on squared distances in the integers of an arithmetic; beyond every distance it has no effect.
+template <class Integer>
+Integer clamped(numbers::uint128 most_squared) {
+  constexpr numbers::uint128 largest = numbers::uint128{1}
+                                       << (sizeof(Integer) * 8 - 3);  // its root and sums of three still fit
+  return static_cast<Integer>(std::min(most_squared, largest));
 }
 
 // Sets the pixels beyond the distance to 0.

@@ -20,7 +20,7 @@ Sweep<Arithmetic>::Sweep(const Sites& sites, const FrameOnLattice& frame, const 
     : sites_(sites),
       frame_(frame),
       kernel_(kernel),
-      pixels_{frame.width, frame.middle_column(), frame.steps,
+      pixels_{frame.width, frame.middle_column(), frame.pixel().x,
               sites.largest_coordinate <= exact_product_bound},
       live_(sites),
       nearest_(sites.column_x.size()) {
@@ -47,12 +47,12 @@ template <class Arithmetic>
 void Sweep<Arithmetic>::start(std::int32_t first, std::int32_t last) {
   live_.clear();
   births_.clear();
-  offset_ = sites_.count_to(frame_.row_y(first) - frame_.steps);
+  offset_ = sites_.count_to(frame_.row_y(first) - frame_.pixel().y);
   follows_.assign(static_cast<std::size_t>(sites_.count_to(frame_.row_y(last)) - offset_),
                   ActiveColumns<Arithmetic>::gone);
   put_nearest_below(frame_.row_y(last));
   learn_births(first, last);
-  put_nearest_above(frame_.row_y(first) - frame_.steps);
+  put_nearest_above(frame_.row_y(first) - frame_.pixel().y);
   next_site_ = offset_;
   first_ = row_ = first;
 }

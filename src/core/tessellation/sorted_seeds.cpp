@@ -37,10 +37,11 @@ class RelativeSeeds {
       : x_(x),
         y_(y),
         label_(label),
-        middle_x_(frame.steps * (frame.x + frame.middle_column())),
-        middle_y_(frame.steps * (frame.y + frame.middle_row())) {
+        middle_x_(frame.scale * (frame.x + frame.middle_column())),
+        middle_y_(frame.scale * (frame.y + frame.middle_row())),
+        unit_(frame.unit) {
     for (std::size_t i = 0; i < x.size(); ++i) {
-      const Bounds seed{relative(x[i], middle_x_, i), relative(y[i], middle_y_, i)};
+      const Bounds seed{relative(x[i], middle_x_, unit_.x, i), relative(y[i], middle_y_, unit_.y, i)};
       least_ = {std::min(least_.x, seed.x), std::min(least_.y, seed.y)};
       most_ = {std::max(most_.x, seed.x), std::max(most_.y, seed.y)};
     }
@@ -57,8 +58,8 @@ class RelativeSeeds {
   std::int64_t largest_coordinate() const { return std::max({-least_.x, most_.x, -least_.y, most_.y}); }
   // Within the bounds also where somebody writes to the seeds meanwhile: places in tables hang on that.
   Seed operator[](std::size_t i) const {
-    return {std::clamp(wrapped(y_[i], middle_y_), least_.y, most_.y),
-            std::clamp(wrapped(x_[i], middle_x_), least_.x, most_.x), label_[i]};
+    return {std::clamp(wrapped(y_[i], middle_y_, unit_.y), least_.y, most_.y),
+            std::clamp(wrapped(x_[i], middle_x_, unit_.x), least_.x, most_.x), label_[i]};
   }
 
  private:
@@ -66,14 +67,17 @@ class RelativeSeeds {
     std::int64_t x, y;
   };
 
-  static std::int64_t wrapped(std::int64_t coordinate, std::int64_t middle) {
-    return static_cast<std::int64_t>(static_cast<std::uint64_t>(coordinate) -
-                                     static_cast<std::uint64_t>(middle));
+  static std::int64_t wrapped(std::int64_t coordinate, std::int64_t middle, std::int32_t unit) {
+    return static_cast<std::int64_t>(
+        (static_cast<std::uint64_t>(coordinate) - static_cast<std::uint64_t>(middle)) *
+        static_cast<std::uint64_t>(unit));
   }
 
-  static std::int64_t relative(std::int64_t coordinate, std::int64_t middle, std::size_t index) {
+  static std::int64_t relative(std::int64_t coordinate, std::int64_t middle, std::int32_t unit,
+                               std::size_t index) {
     std::int64_t difference = 0;
-    if (__builtin_sub_overflow(coordinate, middle, &difference) || difference > wide_bound ||
+    if (__builtin_sub_overflow(coordinate, middle, &difference) ||
+        __builtin_mul_overflow(difference, std::int64_t{unit}, &difference) || difference > wide_bound ||
         difference < -wide_bound) {
       throw SeedTooFar(index, wide_bound);
     }
@@ -83,6 +87,7 @@ class RelativeSeeds {
   std::span<const std::int64_t> x_, y_;
   std::span<const std::uint32_t> label_;
   std::int64_t middle_x_, middle_y_;
+  Steps unit_;
   Bounds least_{0, 0}, most_{0, 0};  // the middle of the frame is within the bounds
 };
 
@@ -90,8 +95,8 @@ class RelativeSeeds {
 class FrameDistance {
  public:
   explicit FrameDistance(const FrameOnLattice& frame)
-      : left_(-std::int64_t{frame.steps} * frame.middle_column()),
-        right_(left_ + std::int64_t{frame.steps} * (frame.width - 1)),
+      : left_(-std::int64_t{frame.pixel().x} * frame.middle_column()),
+        right_(left_ + std::int64_t{frame.pixel().x} * (frame.width - 1)),
         top_(frame.row_y(0)),
         bottom_(frame.row_y(frame.height - 1)) {}
 
@@ -223,8 +228,8 @@ Sites prepare_sites(std::span<const std::int64_t> x, std::span<const std::int64_
   sites.column_x = (table ? number_by_table : number_by_sorting)(offsets, seeds.x_range(), sites.column);
   for (std::int64_t& column : sites.column_x) column += seeds.least_x();
   sites.largest_coordinate =
-      std::max({seeds.largest_coordinate(), std::int64_t{frame.steps} * (frame.middle_column() + 1),
-                std::int64_t{frame.steps} * (frame.middle_row() + 1)});
+      std::max({seeds.largest_coordinate(), std::int64_t{frame.pixel().x} * (frame.middle_column() + 1),
+                std::int64_t{frame.pixel().y} * (frame.middle_row() + 1)});
   return sites;
 }
 

@@ -9,16 +9,25 @@
 
 namespace vorotool::core::tessellation {
 
-// Pixel (c, r) of the frame has its centre at lattice point (steps * (x + c), steps * (y + r)).
+// Steps of the lattice on which squared distances are sums of squares.
+struct Steps {
+  std::int32_t x, y;
+};
+
+// Pixel (c, r) of the frame has its centre at (scale * (x + c), scale * (y + r)) in the coordinates of seeds, of which
+// one is `unit` steps of the lattice along each axis: pixels are rectangles of scale * unit steps.
 struct FrameOnLattice {
   std::int64_t x, y;
   std::int32_t width, height;
-  std::int32_t steps;  // lattice steps a pixel: 1, 2, 4, ... 256
+  std::int32_t scale;  // 1, 2, 4, ... 256
+  Steps unit;
 
   std::int32_t middle_column() const { return width / 2; }
   std::int32_t middle_row() const { return height / 2; }
+  // Sides of a pixel on the lattice.
+  Steps pixel() const { return {scale * unit.x, scale * unit.y}; }
   // Lattice y of a row, relative to the middle of the frame.
-  std::int64_t row_y(std::int64_t row) const { return steps * (row - middle_row()); }
+  std::int64_t row_y(std::int64_t row) const { return pixel().y * (row - middle_row()); }
 };
 
 // Seeds too far from the frame for exact arithmetic; carries the first of them and the largest allowed

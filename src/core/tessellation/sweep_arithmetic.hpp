@@ -1,10 +1,10 @@
 // The two number systems of the row sweep, with the bound that makes each of them exact.
 //
-// Coordinates are integers on a lattice of 1, 2, 4, ... or 256 steps a pixel, relative to the middle of the
-// frame. Let N bound their absolute values, rows and pixels of the frame included. The sweep computes
+// Coordinates are integers on a lattice, relative to the middle of the frame. Let N bound their absolute values, rows
+// and pixels of the frame and the sides of a pixel included. The sweep computes
 //   F = x^2 + dy^2                       |x| <= N, 0 <= dy <= 2N      F <= 5 N^2
 //   p = (F_b - F_i) (x_i - x_a)          differences <= 5 N^2 and 2N  |p| <= 10 N^3
-//   q = (F_j - F_i) / (2 s (x_j - x_i))  s steps a pixel              denominator <= 4 s N
+//   q = (F_j - F_i) / (2 s (x_j - x_i))  s <= N along x               denominator <= 4 s N
 //
 // Narrow: F is a double. 5 N^2 <= 2^53 holds for N <= 2^25, so F and differences of F are exact, and a
 //   product is rounded once. Rounding is monotone: fl(p) < fl(p') implies p < p'. Only fl(p) == fl(p') leaves a doubt,

@@ -1,14 +1,13 @@
 #include "core/tessellation/tessellation.hpp"
 
-#include <atomic>
 #include <memory>
 #include <mutex>
-#include <thread>
 #include <vector>
 
 #include "core/base/parallel.hpp"
 #include "core/tessellation/row_output.hpp"
 #include "core/tessellation/row_sweep.hpp"
+#include "core/tessellation/watch.hpp"
 
 namespace vorotool::core::tessellation {
 
@@ -65,39 +64,6 @@ class SweepPool {
   std::vector<std::unique_ptr<Sweep<Arithmetic>>> idle_;
 };
 
-// Lets an interrupt end a band before it is complete: the calling thread asks the monitor between rows, the
-// others look whether it has said no.
-class Watch {
- public:
-  explicit Watch(const Monitor& monitor) : monitor_(monitor), caller_(std::this_thread::get_id()) {}
-
-  // Called by parallel_for between bands.
-  Monitor monitor() {
-    if (!monitor_) return {};
-    return [this](double fraction) { return ask(fraction); };
-  }
-
-  void after_row(std::int32_t row) {
-    if (!monitor_ || row % rows_between != 0) return;
-    if (stopped_.load(std::memory_order_relaxed)) throw base::Interrupted();
-    if (std::this_thread::get_id() == caller_ && !ask(fraction_)) throw base::Interrupted();
-  }
-
- private:
-  static constexpr std::int32_t rows_between = 16;
-
-  bool ask(double fraction) {
-    fraction_ = fraction;
-    if (!stopped_ && !monitor_(fraction)) stopped_ = true;  // a monitor that has said no is not asked again
-    return !stopped_;
-  }
-
-  const Monitor& monitor_;
-  const std::thread::id caller_;
-  double fraction_ = 0.0;  // of the calling thread only
-  std::atomic<bool> stopped_{false};
-};
-
 // Calls emit(envelope, pixels, row buffer) for each row and copies the buffer to its place in `out`.
 template <class Arithmetic, class Pixel, class Emit>
 void write_rows(const Sites& sites, const FrameOnLattice& frame, const RowKernel<Arithmetic>& kernel,
@@ -131,24 +97,6 @@ void write_rows(const Sites& sites, const FrameOnLattice& frame, const RowKernel
   };
   const auto bands = static_cast<std::size_t>((rows + height - 1) / height);
   base::parallel_for(bands, threads, write_band, watch.monitor());
-}
-
-// Calls body(kernel) with the kernel of the arithmetic that these sites need.
-template <class Body>
-void with_kernel(bool wide, Simd level, Body body) {
-  if (wide) {
-    body(wide_kernel());
-  } else {
-    body(narrow_kernel(level));
-  }
-}
-
-// A bound on squared distances in the integers of an arithmetic; beyond every distance it has no effect.
-template <class Integer>
-Integer clamped(uint128 most_squared) {
-  constexpr uint128 largest = uint128{1}
-                              << (sizeof(Integer) * 8 - 3);  // its root and sums of three still fit
-  return static_cast<Integer>(std::min(most_squared, largest));
 }
 
 }  // namespace
@@ -185,14 +133,13 @@ void Tessellation::squared_distances(std::int32_t first, std::int32_t rows, Squa
   });
 }
 
-void Tessellation::distances(std::int32_t first, std::int32_t rows, float* out, unsigned threads,
-                             const Monitor& monitor) const {
-  const double pixel = 1.0 / frame_.steps;  // a power of two: exact
+void Tessellation::distances(std::int32_t first, std::int32_t rows, float* out, double square_of_step,
+                             unsigned threads, const Monitor& monitor) const {
   with_kernel(is_wide(), level_, [&]<class Arithmetic>(const RowKernel<Arithmetic>& kernel) {
     write_rows(sites_, frame_, kernel, first, rows, out, threads, monitor,
                [&](const Envelope<Arithmetic>& envelope, const PixelRow& pixels, float* row) {
                  for_each_square(envelope, pixels, [&](std::int32_t p, auto square) {
-                   row[p] = static_cast<float>(std::sqrt(static_cast<double>(square)) * pixel);
+                   row[p] = static_cast<float>(std::sqrt(static_cast<double>(square) * square_of_step));
                  });
                });
   });

@@ -38,8 +38,9 @@ class Tessellation {
   void squared_distances(std::int32_t first, std::int32_t rows, Square* out, unsigned threads,
                          const base::Monitor& monitor) const;
 
-  // Distances to the nearest seed in pixels: the float nearest to the root in double precision.
-  void distances(std::int32_t first, std::int32_t rows, float* out, unsigned threads,
+  // Distances to the nearest seed in the unit in which the square of a lattice step is
+  // `square_of_step`: the float nearest to the root in double precision.
+  void distances(std::int32_t first, std::int32_t rows, float* out, double square_of_step, unsigned threads,
                  const base::Monitor& monitor) const;
 
  private:

@@ -20,12 +20,12 @@ class RightRow {
   using Tree = spatial::KdTree<std::int64_t, Distance>;
   using Nearest = typename Tree::Nearest;
 
-  RightRow(const Tree& tree, const PixelFrame& frame, std::int64_t scale, std::optional<uint128> limit)
-      : tree_(tree), frame_(frame), scale_(scale), limit_(limit), labels_(frame.width, 0) {}
+  RightRow(const Tree& tree, const PixelFrame& frame, PixelSides pixel, std::optional<uint128> limit)
+      : tree_(tree), frame_(frame), pixel_(pixel), limit_(limit), labels_(frame.width, 0) {}
 
   const std::vector<std::uint32_t>& compute(std::size_t row) {
     if (tree_.size() == 0) return labels_;
-    y_ = scale_ * (frame_.y + static_cast<std::int64_t>(row));
+    y_ = pixel_.y * (frame_.y + static_cast<std::int64_t>(row));
     const std::size_t last = frame_.width - 1;
     const Nearest begin = tree_.nearest(x(0), y_);
     put(0, begin);
@@ -37,7 +37,9 @@ class RightRow {
   }
 
  private:
-  std::int64_t x(std::size_t column) const { return scale_ * (frame_.x + static_cast<std::int64_t>(column)); }
+  std::int64_t x(std::size_t column) const {
+    return pixel_.x * (frame_.x + static_cast<std::int64_t>(column));
+  }
 
   // A query that starts from the better of two neighbouring answers.
   Nearest query(std::size_t column, const Nearest& one, const Nearest& other) const {
@@ -71,7 +73,7 @@ class RightRow {
 
   const Tree& tree_;
   const PixelFrame& frame_;
-  std::int64_t scale_;
+  PixelSides pixel_;
   std::optional<uint128> limit_;
   std::int64_t y_ = 0;
   std::vector<std::uint32_t> labels_;
@@ -94,7 +96,7 @@ WrongPixels verify(std::span<const Label> image, const PixelFrame& frame, const 
   const std::size_t rows = std::max<std::size_t>(1, (std::size_t{1} << 14) / frame.width);
   std::vector<WrongPixels> wrong(base::piece_count(frame.height, rows));
   const auto check = [&](std::size_t piece, std::size_t begin, std::size_t end) {
-    RightRow<Distance> right(tree, frame, seeds.scale, limit);
+    RightRow<Distance> right(tree, frame, seeds.pixel, limit);
     for (std::size_t y = begin; y < end; ++y) {
       compare_row(image.subspan(y * frame.width, frame.width), std::span(right.compute(y)), y, wrong[piece]);
     }
@@ -115,13 +117,12 @@ struct Extent {
 };
 
 // Of the seeds and of the pixels along one axis.
-Extent extent(std::span<const std::int64_t> seeds, std::int64_t origin, std::size_t size,
-              std::int64_t scale) {
-  const std::int64_t most = lattice_limit / scale;
+Extent extent(std::span<const std::int64_t> seeds, std::int64_t origin, std::size_t size, std::int64_t side) {
+  const std::int64_t most = lattice_limit / side;
   if (origin < -most || origin > most || size > static_cast<std::size_t>(most - origin) + 1) {
     throw std::out_of_range("the frame reaches beyond 2^40 lattice steps");
   }
-  Extent all{scale * origin, scale * (origin + static_cast<std::int64_t>(size) - 1)};
+  Extent all{side * origin, side * (origin + static_cast<std::int64_t>(size) - 1)};
   for (const std::int64_t coordinate : seeds) {
     all.low = std::min(all.low, coordinate);
     all.high = std::max(all.high, coordinate);
@@ -139,8 +140,8 @@ WrongPixels verify_tessellation(std::span<const Label> image, const PixelFrame& 
                                 const LatticeSeeds& seeds, std::optional<uint128> limit, unsigned threads,
                                 const Monitor& monitor) {
   if (image.empty()) return {};
-  const Extent x = extent(seeds.x, frame.x, frame.width, seeds.scale);
-  const Extent y = extent(seeds.y, frame.y, frame.height, seeds.scale);
+  const Extent x = extent(seeds.x, frame.x, frame.width, seeds.pixel.x);
+  const Extent y = extent(seeds.y, frame.y, frame.height, seeds.pixel.y);
   constexpr std::int64_t narrow = std::int64_t{1} << 31;  // see KdTree
   if (x.high - x.low <= narrow && y.high - y.low <= narrow) {
     return verify<std::uint64_t>(image, frame, seeds, limit, threads, monitor);

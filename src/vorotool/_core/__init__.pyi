@@ -17,5 +17,7 @@ from vorotool._core import (
     skeleton as skeleton,
     spatial as spatial,
     tessellation as tessellation,
-    text as text
+    text as text,
+    volumes as volumes,
+    voronoi as voronoi
 )

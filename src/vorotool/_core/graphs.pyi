@@ -23,6 +23,16 @@ def colour_graph(vertices: int, a: numpy.typing.NDArray[numpy.uint32], b: numpy.
 def connected_components(edges: numpy.typing.NDArray[numpy.int32], vertices: int) -> numpy.typing.NDArray[numpy.int32]:
     """The smallest vertex that each is connected with."""
 
+def arcs_by_ends(arcs: numpy.typing.NDArray[numpy.int32], vertices: int) -> numpy.typing.NDArray[numpy.int32]:
+    """
+    The arcs by their sources, then by their targets; those between the same two as they are given.
+    """
+
+def next_half_edges(arcs: numpy.typing.NDArray[numpy.int32], order: numpy.typing.NDArray[numpy.int64], vertices: int) -> numpy.typing.NDArray[numpy.int32]:
+    """
+    The half-edge after each one around its face: 2 k along arc k, 2 k + 1 back.
+    """
+
 def boundary_cycles(next: numpy.typing.NDArray[numpy.int32], tail: numpy.typing.NDArray[numpy.int32], vertices: int) -> tuple[numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32]]:
     """
     Where the cycles begin that pass no vertex twice, and the half-edges along them.

@@ -24,6 +24,7 @@ COMMANDS = {
     "tessellate": "Digital Voronoi tessellation of points or of an image.",
     "delaunay": "Exact Delaunay triangulation of points or of an image.",
     "alphashape": "Alpha shapes of points, of one radius or of all.",
+    "voronoi": "Exact Voronoi diagram of points, lines and polygons.",
     "skeleton-approx": "Skeleton of polygons and lines from samples, with certified errors.",
     "skeleton-exact": "Exact skeleton (medial axis) of polygons and lines.",
     "draw": "Draw label images, skeletons, offset curves and shapes again.",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from os import PathLike
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, cast
 
 from vorotool.geometry.pixel_frame import MAX_PIXELS
 
@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from vorotool.geometry.polygons.polygon_set import PolygonSet
     from vorotool.geometry.skeleton.offsets import Offsets
     from vorotool.geometry.skeleton.skeleton import Skeleton
+    from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 
 
 def read(
@@ -33,8 +34,8 @@ def read(
     layer: str | None = None,
     flatten: float | None = None,
     join_tolerance: float | None = None,
-) -> PointSet | PolygonSet | Raster | Skeleton | Offsets:
-    """Read points, polygons and lines, an image, or a skeleton or offset curves that were written as JSON.
+) -> PointSet | PolygonSet | Raster | Skeleton | Offsets | VoronoiMap:
+    """Read points, polygons and lines, an image, or a skeleton, offset curves or a Voronoi map as JSON has them.
 
     A plain JSON list of pairs holds points, unless ``geometry`` is polygons. GeoJSON and WKT hold either points or
     polygons and lines: what their first geometry is.
@@ -74,7 +75,7 @@ def read(
 
     Returns
     -------
-    PointSet, PolygonSet, Raster, Skeleton or Offsets
+    PointSet, PolygonSet, Raster, Skeleton, Offsets or VoronoiMap
         What is in the file.
 
     Raises
@@ -91,10 +92,13 @@ def read(
     >>> len(read("data/dots.csv"))
     53
     """
+    from vorotool.errors import UsageError
     from vorotool.formats.opening import opened
 
+    if geometry not in (None, "points", "polygons"):
+        raise UsageError(f"invalid geometry {geometry!r}: expected points or polygons, or none")
     with opened(path, geometry=geometry, input_format=input_format, page=page, layer=layer) as source:
-        return source.read(
+        value = source.read(
             columns=columns,
             max_pixels=max_pixels,
             max_sites=max_sites,
@@ -106,3 +110,4 @@ def read(
             flatten=flatten,
             join_tolerance=join_tolerance,
         )
+    return cast("PointSet | PolygonSet | Raster | Skeleton | Offsets | VoronoiMap", value)

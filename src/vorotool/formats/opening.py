@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from vorotool.errors import InputError, UsageError
 from vorotool.formats.images.band_reader import TiffRows, ZarrRows, open_tiff, open_zarr, read_rows
-from vorotool.formats.io.sources import read_source, reading
+from vorotool.formats.io.sources import Source, read_source, reading
 from vorotool.formats.parsing.reader_options import ReadOptions, no_note
 from vorotool.formats.recognition import read_recognised, recognised, refuse_for_images
 from vorotool.geometry.checks import checked_threads
@@ -18,11 +18,13 @@ from vorotool.geometry.numbers import checked_tolerance
 from vorotool.products.inputs import NAMES_WITH, known_input_format
 
 if TYPE_CHECKING:
+    from vorotool.geometry.arguments.sites import Sites
     from vorotool.geometry.points.point_set import PointSet
     from vorotool.geometry.points.raster import Raster
     from vorotool.geometry.polygons.polygon_set import PolygonSet
     from vorotool.geometry.skeleton.offsets import Offsets
     from vorotool.geometry.skeleton.skeleton import Skeleton
+    from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 
 
 @contextmanager
@@ -39,7 +41,7 @@ def opened(
     Parameters
     ----------
     path, geometry, input_format, page, layer
-        As of `vorotool.read`.
+        As of `vorotool.read`; the geometry may be ``sites``, too, which are points, lines and polygons.
 
     Examples
     --------
@@ -47,8 +49,6 @@ def opened(
     ...     print(len(source.read()), source.rows())
     53 None
     """
-    if geometry not in NAMES_WITH:
-        raise UsageError(f"invalid geometry {geometry!r}: expected points or polygons, or none")
     said = known_input_format(input_format, NAMES_WITH[geometry])
     if not isinstance(path, str | PathLike):
         raise InputError(f"{path!r} is no path: give the name of a file; arrays need not be read")
@@ -69,6 +69,8 @@ class Opened:
         What must be in it, its format, its page and its layer, as far as the caller says; as of `read`.
     array : ZarrRows, optional
         The rows of a Zarr array, which is no file.
+    content : Source, optional
+        What is in it, if it has been read; streams are read once.
     """
 
     name: str
@@ -77,10 +79,15 @@ class Opened:
     page: int | None
     layer: str | None
     array: ZarrRows | None
+    content: Source | None = None
 
     def rows(self) -> ZarrRows | TiffRows | None:
         """Give an image that can be read band by band; None if it is none, or comes through a stream."""
         return self.array or open_tiff(self.name, self.said, self.page)
+
+    def fetched(self) -> Opened:
+        """Give the same with its content, so that it can be read again as something else."""
+        return self if self.array is not None else replace(self, content=read_source(self.name))
 
     def read(
         self,
@@ -93,7 +100,7 @@ class Opened:
         join_tolerance: float | None = None,
         told: Callable[[str], None] = no_note,
         **options: Any,
-    ) -> PointSet | PolygonSet | Raster | Skeleton | Offsets:
+    ) -> PointSet | PolygonSet | Sites | Raster | Skeleton | Offsets | VoronoiMap:
         """Read all, with the options of `vorotool.read` that are not about opening it.
 
         ``told`` is called with the format, before what is in it is read.
@@ -112,10 +119,11 @@ class Opened:
             refuse_for_images(given, self.layer)
             told("zarr")
             return read_rows(self.array, max_pixels=given.max_pixels, note=given.note)
-        content = replace(read_source(self.name), layer=self.layer)
-        holds, source = recognised(content, self.geometry, self.said, given.columns)
+        content = read_source(self.name) if self.content is None else self.content
+        holds, source = recognised(replace(content, layer=self.layer), self.geometry, self.said, given.columns)
         told(source.format)
-        value: PointSet | PolygonSet | Raster | Skeleton | Offsets = read_recognised(holds, source, given)
+        value: PointSet | PolygonSet | Sites | Raster | Skeleton | Offsets | VoronoiMap
+        value = read_recognised(holds, source, given)
         return value
 
 

@@ -27,7 +27,11 @@ _IMAGE_HEADS = (
     (b"MM\x00+", "tiff"),
     (MAGIC, "npy"),
 )
-_RESULTS: dict[bytes, Holds] = {b'"vorotool.skeleton"': "skeleton", b'"vorotool.offsets"': "offsets"}
+_RESULTS: dict[bytes, Holds] = {
+    b'"vorotool.skeleton"': "skeleton",
+    b'"vorotool.offsets"': "offsets",
+    b'"vorotool.voronoi"': "voronoi",
+}
 
 
 def recognised(
@@ -41,8 +45,8 @@ def recognised(
     ----------
     source : Source
         What was read.
-    geometry : {"points", "polygons"}, optional
-        What must be in it, if it is no image.
+    geometry : {"points", "polygons", "sites"}, optional
+        What must be in it, if it is no image; sites are points, lines and polygons alike.
     said : str, optional
         The format, as the caller says.
     columns : str, optional
@@ -90,14 +94,19 @@ def read_recognised(holds: Holds, source: Source, options: ReadOptions) -> Any:
     """
     if holds == "image":
         refuse_for_images(options, source.layer)
-    reader: Callable[[Source, ReadOptions], Any] = resolved(INPUTS[source.format].readers[holds])
+    readers = INPUTS[source.format].readers
+    name = readers["polygons"] if holds == "sites" and "sites" not in readers else readers[holds]
+    reader: Callable[[Source, ReadOptions], Any] = resolved(name)
     value = reader(source, options)
-    if holds not in ("points", "polygons"):
+    if holds not in ("points", "polygons", "sites"):
         return value
     if source.layer is not None and "layers" not in INPUTS[source.format].has:
         raise UsageError(f"{_LAYER} is for files of several layers, but {source.name} has none: leave it out")
     from vorotool.formats.parsing.reference_systems import with_crs
+    from vorotool.geometry.arguments.sites import Sites
 
+    if isinstance(value, Sites):
+        return replace(value, polygons=with_crs(value.polygons, source.name, options))
     return with_crs(value, source.name, options)
 
 

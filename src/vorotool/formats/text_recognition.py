@@ -8,6 +8,7 @@ from dataclasses import replace
 from vorotool.errors import INPUT_FORMAT, InputError, UsageError, option
 from vorotool.formats.drawing.recognition import drawing_format, refuse_drawing
 from vorotool.formats.features.delimited_geometry import geometry_column
+from vorotool.formats.features.feature_table import Features
 from vorotool.formats.features.reading import features_of
 from vorotool.formats.features.shapefile_parts import holds_shapefile
 from vorotool.formats.io.npy_arrays import MAGIC
@@ -60,8 +61,10 @@ def recognised_geometry(
     >>> recognised_geometry(Source("a.json", b"[[1, 2]]"), None, None, None)[0]
     'points'
     """
-    if geometry == "points" or (geometry is None and columns is not None):
+    if geometry == "points" or (geometry in (None, "sites") and columns is not None):
         return "points", _points(source, _by_header(source, said or point_format(source), columns), columns)
+    if geometry == "sites":
+        return _sites(*_either(source, said))
     if geometry == "polygons":
         holds: Holds = "polygons"
         source = _with_format(source, said or polygon_format(source))
@@ -164,6 +167,14 @@ def _either(source: Source, said: str | None) -> tuple[Holds, Source]:
     if "curves" in INPUTS[chosen].has or chosen == "wkt":
         return ("polygons" if chosen != "wkt" or wkt_holds_shapes(source.data) else "points"), source
     return _in_json(source, said)
+
+
+def _sites(holds: Holds, source: Source) -> tuple[Holds, Source]:
+    """Take features for sites, whatever they are of; lists and tables of points stay points."""
+    if isinstance(source.document, Features):
+        return ("points" if source.document.is_table else "sites"), source
+    is_object = isinstance(source.document, dict) or source.format == "wkt"
+    return ("sites" if is_object or holds != "points" else "points"), source
 
 
 def _in_json(source: Source, said: str | None) -> tuple[Holds, Source]:

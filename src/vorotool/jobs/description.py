@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Collection, Mapping
-from functools import singledispatch
+from dataclasses import replace
+from functools import partial, singledispatch
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,7 @@ from vorotool.errors import BatchError, InputError, Message, UsageError, Vorotoo
 from vorotool.formats.io.atomic_output import open_output
 from vorotool.formats.opening import Opened, opened
 from vorotool.formats.text.tables import json_text
+from vorotool.geometry.arguments.sites import Sites
 from vorotool.geometry.box import bounds
 from vorotool.geometry.crs import crs_name
 from vorotool.geometry.pixel_grid import PixelGrid
@@ -24,6 +26,7 @@ from vorotool.geometry.points.raster import Raster
 from vorotool.geometry.polygons.polygon_set import HOLE, PolygonSet
 from vorotool.geometry.skeleton.offsets import Offsets
 from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 from vorotool.jobs.inputs import refuse
 from vorotool.jobs.options import ReadingOptions
 from vorotool.jobs.run_log import tell
@@ -99,7 +102,7 @@ def described(path: str, options: ReadingOptions) -> Description:
     with opened(path, geometry=None, input_format=options.input_format, page=options.page) as source:
         told = _of_header(source)
         if told is None:
-            told = _of_content(source, options, lambda text: notes.append(Message.of(text).typed))
+            told = _of_content(source.fetched(), options, lambda text: notes.append(Message.of(text).typed))
     return {"input": path, **told, "notes": notes}
 
 
@@ -119,7 +122,8 @@ def _of_header(source: Opened) -> Description | None:
 
 def _of_content(source: Opened, options: ReadingOptions, note: Callable[[str], None]) -> Description:
     formats: list[str] = []
-    value = source.read(
+    read: Callable[[Opened], Any] = partial(
+        Opened.read,
         columns=options.columns,
         max_pixels=options.max_pixels,
         threads=options.threads,
@@ -127,6 +131,12 @@ def _of_content(source: Opened, options: ReadingOptions, note: Callable[[str], N
         crs=options.input_crs,
         told=formats.append,
     )
+    try:
+        value = read(source)
+    except InputError:
+        value = _mixed(source, read)
+        if value is None:
+            raise
     told = {"format": formats[0], **_told_of(value, note)}
     if not isinstance(value, Raster):
         refuse({"page": options.page}, f"is for images, but the input holds {told['kind']}")
@@ -135,6 +145,15 @@ def _of_content(source: Opened, options: ReadingOptions, note: Callable[[str], N
             "as a polygon, which a plain list of pairs may be as well, skeleton-approx, skeleton-exact and draw take it"
         )
     return told
+
+
+def _mixed(source: Opened, read: Callable[[Opened], Any]) -> Sites | None:
+    """Read points among polygons and lines, which one command takes together; None of what cannot be read so either."""
+    try:
+        value = read(replace(source, geometry="sites"))
+    except VorotoolError:
+        return None
+    return value if isinstance(value, Sites) else None
 
 
 def _may_be_a_ring(value: object, fmt: str) -> bool:
@@ -180,6 +199,25 @@ def _of_polygons(value: PolygonSet, note: Callable[[str], None]) -> Description:
 
 
 @_told_of.register
+def _of_sites(value: Sites, note: Callable[[str], None]) -> Description:
+    polygons = value.polygons
+    sizes = np.diff(polygons.ring_start)[polygons.polygon_start[:-1]]
+    points = int((polygons.is_line & (sizes == 1)).sum())
+    lines = int(polygons.is_line.sum()) - points
+    return {
+        "kind": "points, lines and polygons",
+        "features": value.count,
+        "points": points,
+        "polygons": len(polygons) - points - lines,
+        "holes": int((polygons.ring_kind == HOLE).sum()),
+        "lines": lines,
+        **_of_places(polygons.xy, polygons),
+        "columns": _column_types(value.properties),
+        "commands": list(TAKEN_BY["sites"]),
+    }
+
+
+@_told_of.register
 def _of_skeleton(value: Skeleton, note: Callable[[str], None]) -> Description:
     return {
         "kind": "skeleton",
@@ -202,6 +240,18 @@ def _of_offsets(value: Offsets, note: Callable[[str], None]) -> Description:
         **_of_places(np.concatenate([value.start, value.end]), value.polygons),
         "columns": _column_types(value.polygons.properties),
         "commands": list(TAKEN_BY["offsets"]),
+    }
+
+
+@_told_of.register
+def _of_map(value: VoronoiMap, note: Callable[[str], None]) -> Description:
+    return {
+        "kind": "Voronoi map",
+        "cells": len(value),
+        "arcs": len(value.arcs),
+        **_of_places(value.vertices, value.polygons),
+        "columns": _column_types(value.properties),
+        "commands": list(TAKEN_BY["voronoi"]),
     }
 
 

@@ -22,6 +22,7 @@ from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.offsets import Offsets
 from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 from vorotool.jobs.inputs import JobInput, note_other_size, refuse
 from vorotool.jobs.label_pictures import LabelPicture, default_layers, write_label_page
 from vorotool.jobs.options import DrawingOptions
@@ -40,7 +41,7 @@ LABEL_LAYERS = {
 }
 """A label image from a file has no seeds."""
 
-Lined = Skeleton | Offsets | PolygonSet
+Lined = Skeleton | Offsets | VoronoiMap | PolygonSet
 """What is drawn in layers of lines and areas."""
 
 Drawing = tuple[Callable[[BinaryIO], None], dict[str, Any]]
@@ -103,9 +104,9 @@ def _read(run: Run, o: DrawingOptions, given: JobInput) -> LabelImage | Lined:
     if holds == "points":
         if not (_is_empty_collection(source.document) or is_table(source.document)):
             raise InputError(
-                f"{source.name} is not drawn: give a label image, the JSON of a skeleton or of offset curves, or "
-                "polygons and lines (GeoJSON, WKT, JSON, .poly, SVG, DXF); other results are drawn by the command that "
-                "makes them, with -f svg"
+                f"{source.name} is not drawn: give a label image, the JSON of a skeleton, of offset curves or of a "
+                "Voronoi map, or polygons and lines (GeoJSON, WKT, JSON, .poly, SVG, DXF); other results are drawn by "
+                "the command that makes them, with -f svg"
             )
         holds = "polygons"  # whose reader says more of tables
     options = ReadOptions(
@@ -181,7 +182,7 @@ def _of_layers(run: Run, o: DrawingOptions, given: JobInput, value: Lined, fmt: 
     if not len(value):
         run.warn(f"the picture is empty: the input is {kind}, but there are none in it")
     polygons = value if isinstance(value, PolygonSet) else value.polygons
-    check_column(o.label_by, polygons.properties)
+    check_column(o.label_by, (value if isinstance(value, VoronoiMap) else polygons).properties)
     drawing = drawing_of(
         value,
         layers=o.layers,
@@ -199,6 +200,8 @@ def _described(value: Lined) -> tuple[str, Product, dict[str, Any]]:
     """What it is called, what wrote it, and how much it is."""
     if isinstance(value, Skeleton):
         return "arcs of a skeleton", _SKELETONS["skeleton"], {"arcs": len(value), "nodes": len(value.vertices)}
+    if isinstance(value, VoronoiMap):
+        return "a Voronoi map", PRODUCTS["voronoi"]["cells"], {"cells": len(value), "arcs": len(value.arcs)}
     if isinstance(value, Offsets):
         return "offset curves", _SKELETONS["offset"], {"shapes": len(value), "pieces": len(value.site)}
     return (

@@ -4,18 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager
-from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from vorotool.errors import InputError, Kind, Message, UsageError
+from vorotool.errors import InputError, UsageError
 from vorotool.jobs.masks import settled_foreground
 from vorotool.jobs.options import (
     ComputingOptions,
     JobOptions,
+    ShapeOptions,
     SiteOptions,
-    SkeletonOptions,
     TessellationOptions,
-    TriangulationOptions,
 )
 from vorotool.jobs.run_log import Run
 
@@ -26,7 +24,6 @@ if TYPE_CHECKING:
     from vorotool.geometry.points.point_set import PointSet
     from vorotool.geometry.points.raster import Raster
     from vorotool.geometry.points.seed_set import SeedSet
-    from vorotool.geometry.polygons.polygon_set import PolygonSet
     from vorotool.render.canvas.layers import Backdrop
 
 
@@ -71,8 +68,9 @@ def read_opened(
     *,
     columns: str | None = None,
     properties: bool = True,
-) -> PointSet | PolygonSet | Raster:
-    """Read what is open, whole, as the options say."""
+) -> Any:
+    """Read what is open, whole, as the options say: points, polygons or sites, as it was opened, or an image."""
+    from vorotool.geometry.arguments.sites import Sites
     from vorotool.geometry.points.point_set import PointSet
     from vorotool.geometry.points.raster import Raster
     from vorotool.geometry.polygons.polygon_set import PolygonSet
@@ -86,10 +84,10 @@ def read_opened(
         note=run.note,
         crs=o.input_crs,
         to_crs=o.crs,
-        flatten=o.flatten if isinstance(o, SkeletonOptions) else None,
-        join_tolerance=o.join_tolerance if isinstance(o, SkeletonOptions) else None,
+        flatten=o.flatten if isinstance(o, ShapeOptions) else None,
+        join_tolerance=o.join_tolerance if isinstance(o, ShapeOptions) else None,
     )
-    if not isinstance(value, PointSet | PolygonSet | Raster):  # which is read where no geometry is asked for
+    if not isinstance(value, PointSet | PolygonSet | Sites | Raster):  # which is read where no geometry is asked for
         raise InputError(
             f"{given.name} is a result of vorotool, of {type(value).__name__}: points or polygons were due"
         )
@@ -176,103 +174,6 @@ def window_of(o: SiteOptions, seeds: SeedSet) -> tuple[int, int, int, int] | Non
     """Give the same as the engines take it."""
     frame = frame_of(o, seeds)
     return None if frame is None else (frame.x, frame.y, frame.width, frame.height)
-
-
-def read_clip(
-    run: Run, o: TriangulationOptions, path: str, points: PointSet | SeedSet, given: JobInput
-) -> tuple[PointSet | SeedSet, Sequence[Any]]:
-    """Read the polygons of ``--clip``, as shapely geometry; lines are left out with a note.
-
-    Of polygons and points that name no coordinate reference system, the ones are taken to be in that of the others.
-
-    Returns
-    -------
-    points : PointSet or SeedSet
-        The points, in a system if the polygons are in one.
-    polygons : sequence of shapely geometry
-        To clip to.
-
-    Raises
-    ------
-    InputError
-        If there are no polygons, or they are in another system than the points.
-    """
-    from vorotool.formats import read
-    from vorotool.formats.parsing.reader_options import ReadOptions
-    from vorotool.formats.parsing.reference_systems import with_crs
-    from vorotool.geometry.crs import crs_member
-    from vorotool.geometry.polygons.conversion import to_shapely
-    from vorotool.geometry.polygons.polygon_set import PolygonSet
-
-    value = read(path, geometry="polygons", properties=False, threads=o.threads, note=partial(_note_of_clip, run))
-    if not isinstance(value, PolygonSet):
-        raise InputError(f"{path} is an image: give --clip a file of polygons")
-    if o.crs is not None and value.crs is not None:
-        value = with_crs(value, path, ReadOptions(to_crs=crs_member(o.crs)))
-    points = _in_one_crs(run, (path, value), (given.name, points))
-    lines = int(value.is_line.sum())
-    if lines:
-        run.note(f"{path}: {lines} open lines are left out of --clip")
-    if lines == len(value):
-        raise InputError(f"{path} holds no polygons: give --clip a file that does")
-    return points, list(to_shapely(value)[~value.is_line])
-
-
-def _note_of_clip(run: Run, message: str) -> None:
-    """Say what the reader noticed, but what is said of the points, or of both together."""
-    if Message.of(message).kind not in (Kind.DEGREES, Kind.UNNAMED_CRS):
-        run.note(message)
-
-
-def _in_one_crs(run: Run, clip: tuple[str, PolygonSet], data: tuple[str, PointSet | SeedSet]) -> PointSet | SeedSet:
-    """Check that polygons and points are in one coordinate reference system, as far as they name any."""
-    from vorotool.formats.parsing.reference_systems import declared_in, note_degrees
-    from vorotool.geometry.crs import crs_name
-    from vorotool.geometry.points.point_set import PointSet
-
-    (path, polygons), (source, points) = clip, data
-    if not isinstance(points, PointSet):
-        if points.grid is not None and points.grid.crs is not None and polygons.crs is not None:
-            warp = "bring the polygons into that of the image: ogr2ogr -t_srs {} clip.gpkg {}"
-            _require_same(path, polygons.crs, source, points.grid.crs, warp)
-        return points
-    if points.crs is None and polygons.crs is None:
-        return points
-    if points.crs is None or polygons.crs is None:
-        unnamed, named, crs = (source, path, polygons.crs) if points.crs is None else (path, source, points.crs)
-        _check_they_meet(points, polygons, f"{unnamed} names no coordinate reference system", f"{named} is in", crs)
-        run.note(f"{unnamed} names no coordinate reference system: it is taken to be in {crs_name(crs)}, as {named} is")
-        if points.crs is None:
-            points = declared_in(points, source, crs)
-            note_degrees(points, source, run.note)
-        return points
-    advice = "bring them into one coordinate reference system: --crs {} does"
-    _require_same(path, polygons.crs, source, points.crs, advice)
-    return points
-
-
-def _require_same(path: str, crs: Any, source: str, wanted: Any, advice: str) -> None:
-    """Refuse polygons in another coordinate reference system than the sites."""
-    from vorotool.geometry.crs import crs_name, same_crs
-
-    if not same_crs(wanted, crs):
-        name = crs_name(wanted)
-        raise InputError(f"{path} is in {crs_name(crs)}, but {source} in {name}: {advice.format(name, path)}")
-
-
-def _check_they_meet(points: PointSet, polygons: PolygonSet, unnamed: str, named: str, crs: Any) -> None:
-    """Refuse to take what lies elsewhere to be in the same system."""
-    from vorotool.geometry.box import bounds
-    from vorotool.geometry.crs import crs_name
-
-    if not len(points.xy) or not len(polygons.xy):
-        return
-    (low_a, high_a), (low_b, high_b) = bounds(points.xy), bounds(polygons.xy)
-    if (low_a > high_b).any() or (low_b > high_a).any():
-        raise InputError(
-            f"{unnamed}, {named} {crs_name(crs)}, and the points lie outside the polygons: bring them into one system "
-            "that both name, for example with ogr2ogr -t_srs, or with --input-crs for the points"
-        )
 
 
 def read_backdrop(o: JobOptions) -> Backdrop | None:

@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from vorotool.errors import InputError, UsageError
-from vorotool.jobs.options import ComputingOptions, SiteOptions, SkeletonOptions
+from vorotool.jobs.options import ComputingOptions, ShapeOptions, SiteOptions
 from vorotool.jobs.run_log import Run
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ class Foreground(NamedTuple):
     invert: bool
 
 
-def settled_foreground(run: Run, o: SiteOptions | SkeletonOptions, image: Raster) -> Foreground:
+def settled_foreground(run: Run, o: SiteOptions | ShapeOptions, image: Raster) -> Foreground:
     """Find the threshold, which is in the statistics, and clean the mask if that is asked for."""
     found = _by_threshold(run, o, image)
     return found if not o.cleans_masks else _cleaned(run, o, found)
@@ -67,7 +67,7 @@ def _by_threshold(run: Run, o: ComputingOptions, image: Raster) -> Foreground:
     return found
 
 
-def _cleaned(run: Run, o: SiteOptions | SkeletonOptions, found: Foreground) -> Foreground:
+def _cleaned(run: Run, o: SiteOptions | ShapeOptions, found: Foreground) -> Foreground:
     """Fill holes and leave out small objects, as the options say."""
     import numpy as np
 
@@ -75,7 +75,7 @@ def _cleaned(run: Run, o: SiteOptions | SkeletonOptions, found: Foreground) -> F
     from vorotool.engines.tessellation.raster_objects import default_objects, foreground_values
 
     names = o.cleans_masks
-    if isinstance(o, SkeletonOptions) and o.outline == "contour" and found.threshold is not None:
+    if isinstance(o, ShapeOptions) and o.outline == "contour" and found.threshold is not None:
         raise UsageError(f"{names} is for outlines of pixels: leave out --outline contour, which follows grey values")
     values = foreground_values(found.image, found.threshold, invert=found.invert)
     if o.seeds == "labels" or (o.seeds is None and default_objects(values) == "labels"):

@@ -296,26 +296,14 @@ class AlphaShapeOptions(SiteOptions):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, init=False, repr=False, eq=False)
-class SkeletonOptions(ComputingOptions):
-    """What the commands have that make skeletons."""
+class ShapeOptions(ComputingOptions):
+    """What each command has that takes shapes, or the outlines of an image."""
 
-    side: Literal["interior", "exterior", "both"]
-    features: Literal["separate", "together"]
-    complete: bool | None
     frame: Rectangle | None
-    prune: Pruning | None
-    start: Place | None
-    end: Place | None
-    ends: Ends | None
-    distance: tuple[float, ...] | None
-    every: float | None
     flatten: float | None
     join_tolerance: float | None
     simplify: float | None
     outline: Literal["crack", "contour"] | None
-    animate: bool
-    frames: int | None
-    fps: float | None
     seeds: Literal["components", "labels"] | None
     scale: Scale | None
     drawing_unit: str | None
@@ -326,11 +314,6 @@ class SkeletonOptions(ComputingOptions):
     def paper(self) -> Paper:
         """The page of pictures."""
         return Paper(self.scale, self.drawing_unit, self.aspect, self.extent)
-
-    @property
-    def wants_skeleton(self) -> bool:
-        """Whether a result shows anything of the skeleton: offset curves are of the whole diagram."""
-        return set(self.what) != {"offset"}
 
     def for_images(self) -> dict[str, Any]:
         """Give the options that mean nothing for polygons and lines, by their names."""
@@ -344,6 +327,45 @@ class SkeletonOptions(ComputingOptions):
             "fill-holes": self.fill_holes,
             "outline": self.outline,
         }
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False, eq=False)
+class VoronoiOptions(ShapeOptions):
+    """Of ``voronoi``."""
+
+    columns: str | None
+    by: str | None
+    clip: str | None
+    max_distance: float | None
+    enclosures: str | None
+
+    def files_of_inputs(self) -> dict[str, str]:
+        """Give the files that are read beside each input, by the names of the options."""
+        given = {"clip": self.clip, "enclosures": self.enclosures}
+        return {name: path for name, path in given.items() if path} | JobOptions.files_of_inputs(self)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, init=False, repr=False, eq=False)
+class SkeletonOptions(ShapeOptions):
+    """What the commands have that make skeletons."""
+
+    side: Literal["interior", "exterior", "both"]
+    features: Literal["separate", "together"]
+    complete: bool | None
+    prune: Pruning | None
+    start: Place | None
+    end: Place | None
+    ends: Ends | None
+    distance: tuple[float, ...] | None
+    every: float | None
+    animate: bool
+    frames: int | None
+    fps: float | None
+
+    @property
+    def wants_skeleton(self) -> bool:
+        """Whether a result shows anything of the skeleton: offset curves are of the whole diagram."""
+        return set(self.what) != {"offset"}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False, eq=False)

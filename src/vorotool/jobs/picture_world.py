@@ -110,7 +110,12 @@ def world_of_value(value: Any, looks: Looks) -> World:
     """
     from vorotool.geometry.mesh.cells import CellSet
     from vorotool.geometry.polygons.polygon_set import PolygonSet
+    from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 
+    if isinstance(value, VoronoiMap):
+        check_column(looks.label_by, value.properties, "label_by")
+        x, y, w, h = value.frame
+        return world_of(None, looks, crs=value.crs, unit=value.polygons.unit, bounds=(x, y, x + w, y + h))
     inner = _input_of(value)
     check_column(looks.label_by, inner.properties, "label_by")
     if isinstance(inner, PolygonSet):

@@ -94,7 +94,8 @@ def drawing_of(
     Parameters
     ----------
     value : value of the library
-        A triangulation, cells, an alpha shape or hull, polygons, a skeleton, points along one, or offset curves.
+        A triangulation, cells, an alpha shape or hull, polygons, a skeleton, points along one, offset curves, or a
+        Voronoi map.
     what : str, optional
         Which part, by its name in the registry of products; by default the first that is drawn.
     layers : sequence of str, optional
@@ -150,6 +151,7 @@ def _drawings() -> list[tuple[Any, Callable[..., Page], Callable[..., list[Layer
     from vorotool.geometry.skeleton.offsets import Offsets
     from vorotool.geometry.skeleton.points_along import SkeletonPoints
     from vorotool.geometry.skeleton.skeleton import Skeleton
+    from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
     from vorotool.render.layers.alpha import alpha_layers
     from vorotool.render.layers.cells import cells_page
     from vorotool.render.layers.mesh import mesh_layers, mesh_page
@@ -157,6 +159,7 @@ def _drawings() -> list[tuple[Any, Callable[..., Page], Callable[..., list[Layer
     from vorotool.render.layers.points_along import point_page, skeleton_point_layers
     from vorotool.render.layers.polygons import polygon_page, shape_layers
     from vorotool.render.layers.skeleton import centerline_layers, skeleton_layers, skeleton_page
+    from vorotool.render.layers.voronoi import voronoi_layers, voronoi_page
 
     return [
         ((Triangulation, DigitalTriangulation), mesh_page, mesh_layers),
@@ -176,6 +179,7 @@ def _drawings() -> list[tuple[Any, Callable[..., Page], Callable[..., list[Layer
         ),
         (SkeletonPoints, point_page, skeleton_point_layers),
         (Offsets, offset_page, offset_layers),
+        (VoronoiMap, voronoi_page, voronoi_layers),
     ]
 
 

@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
 from vorotool.errors import UsageError
 from vorotool.jobs.animations import check_animation
-from vorotool.jobs.options import ApproximateSkeletonOptions, ExactSkeletonOptions, SkeletonOptions
+from vorotool.jobs.options import (
+    ApproximateSkeletonOptions,
+    ExactSkeletonOptions,
+    JobOptions,
+    ShapeOptions,
+    SkeletonOptions,
+)
 from vorotool.jobs.targets import Target, check_picture_options, check_precision
 from vorotool.products.formats import FORMATS, PICTURES, picture_format
 from vorotool.products.inputs import DRAWINGS
-from vorotool.products.registry import PRODUCTS, formats_of, layers_of
+from vorotool.products.registry import PRODUCTS, Product, formats_of, layers_of
 
 
 def check_options(o: SkeletonOptions, targets: list[Target]) -> None:
@@ -19,25 +26,24 @@ def check_options(o: SkeletonOptions, targets: list[Target]) -> None:
     products = PRODUCTS[_command(o)]
     check_precision(o, formats_of(_command(o)), targets)
     curved = any(products[target.what].is_curved and FORMATS[target.fmt].flattens for target in targets)
-    if o.flatten is not None and not curved and "shape" not in o.what and not _may_be_drawn(o):
+    if o.flatten is not None and not curved and "shape" not in o.what and not may_be_drawn(o):
         raise UsageError(
             "--flatten is for drawings that are read, and for what has no curves: use -f geojson, -f wkt or --what "
             "shape, or leave it out"
         )
-    if o.join_tolerance is not None and not _may_be_drawn(o):
-        raise UsageError("--join-tolerance is for DXF drawings: leave it out")
+    check_join_tolerance(o)
     _check_measures(o)
     _check_shapes(o)
     if o.frame is not None and o.side == "interior" and "diagram" not in o.what:
         raise UsageError("--frame cuts what is outside: use --side exterior or both, or leave it out")
     if o.frame is not None:
-        _check_frame(o.frame)
+        check_frame(o.frame)
     _check_centerline(o)
     pictures = sorted({picture_format(fmt) for fmt in formats} & set(PICTURES))
     check_animation(o, targets)
     if o.layers is not None and not pictures:
         raise UsageError("--layers is for pictures: use -f svg or -f png, or leave it out")
-    _check_layers(o, targets)
+    check_layers(o, products, targets)
     check_picture_options(
         o,
         pictures,
@@ -47,14 +53,21 @@ def check_options(o: SkeletonOptions, targets: list[Target]) -> None:
     )
 
 
-def _may_be_drawn(o: SkeletonOptions) -> bool:
+def check_join_tolerance(o: ShapeOptions) -> None:
+    """Refuse ``--join-tolerance`` where no input may be a drawing."""
+    if o.join_tolerance is not None and not may_be_drawn(o):
+        raise UsageError("--join-tolerance is for DXF drawings: leave it out")
+
+
+def may_be_drawn(o: ShapeOptions) -> bool:
     """Whether an input may be a drawing with curves, as far as its name tells."""
     said = o.input_format and o.input_format.lower()
     endings = {Path(path).suffix.lower().removeprefix(".") for path in o.inputs}
     return said in DRAWINGS if said else o.files_from is not None or bool(endings & {*DRAWINGS, ""})
 
 
-def _check_frame(frame: tuple[float, ...]) -> None:
+def check_frame(frame: tuple[float, ...]) -> None:
+    """Refuse a frame that is too far away."""
     from vorotool.geometry.magnitude import LARGEST
 
     if max(map(abs, frame)) > LARGEST:
@@ -65,10 +78,10 @@ def _command(o: SkeletonOptions) -> str:
     return "skeleton-approx" if isinstance(o, ApproximateSkeletonOptions) else "skeleton-exact"
 
 
-def _check_layers(o: SkeletonOptions, targets: list[Target]) -> None:
-    """Each picture has each of the layers."""
+def check_layers(o: JobOptions, products: Mapping[str, Product], targets: list[Target]) -> None:
+    """Refuse a layer that one of the pictures has not."""
     for target in (target for target in targets if picture_format(target.fmt) in PICTURES):
-        own = PRODUCTS[_command(o)][target.what].layers[picture_format(target.fmt)]
+        own = products[target.what].layers[picture_format(target.fmt)]
         for layer in (layer for layer in o.layers or () if layer not in own):
             raise UsageError(
                 f"--layers {layer}: a picture of {target.what} in {target.fmt.upper()} has {', '.join(own)}; "

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
 
 from vorotool.jobs.inputs import JobInput, opened_input, read_opened, refuse
 from vorotool.jobs.masks import settled_foreground
-from vorotool.jobs.options import SkeletonOptions
+from vorotool.jobs.options import ShapeOptions
 from vorotool.jobs.pixel_sizes import placed_polygons, with_pixel_size
 from vorotool.jobs.run_log import Run
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from vorotool.geometry.points.raster import Raster
     from vorotool.geometry.polygons.polygon_set import PolygonSet
 
-Options = TypeVar("Options", bound=SkeletonOptions)
+Options = TypeVar("Options", bound=ShapeOptions)
 
 
 class ReadPolygons(NamedTuple, Generic[Options]):
@@ -27,7 +27,7 @@ class ReadPolygons(NamedTuple, Generic[Options]):
         Those of the input, or outlines.
     is_mask : bool
         Whether they are the outlines of an image.
-    options : SkeletonOptions
+    options : ShapeOptions
         With the size of pixels, and places, as the image has them.
     frame : Frame, optional
         Of the image, in the coordinates of the outlines.
@@ -41,19 +41,13 @@ class ReadPolygons(NamedTuple, Generic[Options]):
 
 def read_polygons(run: Run, o: Options, given: JobInput) -> ReadPolygons[Options]:
     """Read polygons, or the outlines of an image."""
-    from vorotool.geometry.pixel_frame import Frame
     from vorotool.geometry.points.raster import Raster
     from vorotool.geometry.polygons.polygon_set import PolygonSet
 
     with opened_input(o, given, "polygons") as source:
         value = read_opened(run, o, given, source)
     if isinstance(value, Raster):
-        o = with_pixel_size(run, o, given, value.grid)
-        height, width = value.values.shape[:2]
-        is_mirrored = o.pixel_size is not None and o.pixel_size.y_up
-        frame = Frame(0, 1 - height if is_mirrored else 0, width, height)
-        polygons = placed_polygons(o.pixel_size, _outlines(run, o, value))
-        return ReadPolygons(polygons, is_mask=True, options=o, frame=frame)
+        return outlined(run, o, given, value)
     assert isinstance(value, PolygonSet)  # what is asked for is polygons, or an image
     refuse(o.for_images(), "is for images, but the input is polygons or lines")
     return ReadPolygons(
@@ -61,7 +55,19 @@ def read_polygons(run: Run, o: Options, given: JobInput) -> ReadPolygons[Options
     )
 
 
-def _outlines(run: Run, o: SkeletonOptions, image: Raster) -> PolygonSet:
+def outlined(run: Run, o: Options, given: JobInput, image: Raster) -> ReadPolygons[Options]:
+    """Give the outlines of an image."""
+    from vorotool.geometry.pixel_frame import Frame
+
+    o = with_pixel_size(run, o, given, image.grid)
+    height, width = image.values.shape[:2]
+    is_mirrored = o.pixel_size is not None and o.pixel_size.y_up
+    frame = Frame(0, 1 - height if is_mirrored else 0, width, height)
+    polygons = placed_polygons(o.pixel_size, _outlines(run, o, image))
+    return ReadPolygons(polygons, is_mask=True, options=o, frame=frame)
+
+
+def _outlines(run: Run, o: ShapeOptions, image: Raster) -> PolygonSet:
     from vorotool.engines.label_images.outlines import outlines
 
     image, threshold, invert = settled_foreground(run, o, image)
@@ -82,7 +88,7 @@ def _outlines(run: Run, o: SkeletonOptions, image: Raster) -> PolygonSet:
         )
 
 
-def _simplified(run: Run, o: SkeletonOptions, polygons: PolygonSet, tolerance: float) -> PolygonSet:
+def _simplified(run: Run, o: ShapeOptions, polygons: PolygonSet, tolerance: float) -> PolygonSet:
     """Simplify polygons once they are cut where they meet."""
     from vorotool.engines.arrangement.lattice_rings import placed_shapes
     from vorotool.engines.arrangement.planar_graph import graph_for_skeletons

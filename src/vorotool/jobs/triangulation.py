@@ -15,7 +15,8 @@ from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation
 from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.geometry.progress import Progress
-from vorotool.jobs.inputs import JobInput, read_clip, read_sites
+from vorotool.jobs.cuts import read_clip
+from vorotool.jobs.inputs import JobInput, read_sites
 from vorotool.jobs.options import Rectangle, TriangulationOptions
 from vorotool.jobs.picture_style import styled_page
 from vorotool.jobs.picture_world import check_column, world_of_sites

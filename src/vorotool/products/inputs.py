@@ -8,8 +8,8 @@ from typing import Literal
 
 from vorotool.errors import UsageError, option
 
-Holds = Literal["points", "polygons", "image", "skeleton", "offsets"]
-"""What an input may hold: polygons stand for lines, too."""
+Holds = Literal["points", "polygons", "sites", "image", "skeleton", "offsets", "voronoi"]
+"""What an input may hold: polygons stand for lines, too, and sites for all three; they are polygons by default."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,10 +45,10 @@ def _of(name: str, *names: str, has: str = "", features: str = "", **readers: st
 def _of_maps(name: str, *names: str, module: str = "vector_files", has: str = "bytes layers") -> InputFormat:
     """Give a format of features of maps: points, polygons and lines alike."""
     features = f"formats.features.{module}:features_of"
-    return _of(name, *names, has=has, features=features, points=_FEATURES[0], polygons=_FEATURES[1])
+    return _of(name, *names, has=has, features=features, points=_FEATURES[0], polygons=_FEATURES[1], sites=_FEATURES[2])
 
 
-_FEATURES = ("formats.features.reading:read_points", "formats.features.reading:read_polygons")
+_FEATURES = tuple(f"formats.features.reading:read_{each}" for each in ("points", "polygons", "sites"))
 _IMAGE = "formats.images.reader:read_image"
 _ALL = (
     _of(
@@ -57,6 +57,7 @@ _ALL = (
         features="formats.features.delimited_geometry:features_of",
         points="formats.points.delimited:read_text",
         polygons=_FEATURES[1],
+        sites=_FEATURES[2],
     ),
     _of("node", points="formats.points.node:read_node"),
     _of(
@@ -64,23 +65,38 @@ _ALL = (
         has="bytes",
         points="formats.points.tables:read_npz",
         polygons="formats.results.npz_reader:read_polygons",
+        sites="formats.results.npz_reader:read_sites",
         skeleton="formats.results.npz_reader:read_skeleton",
+        voronoi="formats.results.voronoi_npz:read_voronoi",
     ),
     _of_maps("csv-wkt", module="delimited_geometry", has=""),
-    _of("geojson", points="formats.points.json:read_geojson", polygons="formats.polygons.geojson:read_geojson"),
-    _of("wkt", points="formats.points.wkt:read_wkt", polygons="formats.polygons.wkt:read_wkt"),
+    _of(
+        "geojson",
+        points="formats.points.json:read_geojson",
+        polygons="formats.polygons.geojson:read_geojson",
+        sites="formats.polygons.geojson:read_sites",
+    ),
+    _of(
+        "wkt",
+        points="formats.points.wkt:read_wkt",
+        polygons="formats.polygons.wkt:read_wkt",
+        sites="formats.polygons.wkt:read_sites",
+    ),
     _of(
         "json",
         points="formats.points.json:read_json",
         polygons="formats.polygons.json:read_json",
+        sites="formats.polygons.json:read_sites",
         skeleton="formats.results.skeleton_json:read_skeleton",
         offsets="formats.results.offset_json:read_offsets",
+        voronoi="formats.results.voronoi_json:read_voronoi",
     ),
     _of(
         "jsonl",
         *("jsonl", "ndjson", "geojsonl", "geojsons"),
         points="formats.points.json:read_json",
         polygons="formats.polygons.json:read_json",
+        sites="formats.polygons.json:read_sites",
     ),
     _of("poly", polygons="formats.polygons.poly:read_poly"),
     _of_maps("gpkg"),
@@ -123,6 +139,7 @@ IMAGE_NAMES = names_of("image")
 NAMES_WITH = {
     "points": names_of("points", "image"),
     "polygons": names_of("polygons", "image"),
+    "sites": names_of("points", "polygons", "image"),
     None: names_of("points", "polygons", "image"),
 }
 """Formats of inputs that hold an image or such geometry."""
@@ -132,13 +149,15 @@ DRAWN_NAMES = NAMES_WITH["polygons"]
 """Formats of what is drawn again: label images, skeletons, offset curves, polygons and lines."""
 
 TAKEN_BY: Mapping[Holds, tuple[str, ...]] = {
-    "points": ("tessellate", "delaunay", "alphashape"),
-    "polygons": ("skeleton-approx", "skeleton-exact", "draw"),
-    "image": ("tessellate", "delaunay", "alphashape", "skeleton-approx", "skeleton-exact", "draw"),
-    "skeleton": ("skeleton-approx", "skeleton-exact", "draw"),
+    "points": ("tessellate", "delaunay", "alphashape", "voronoi"),
+    "polygons": ("voronoi", "skeleton-approx", "skeleton-exact", "draw"),
+    "sites": ("voronoi",),
+    "image": ("tessellate", "delaunay", "alphashape", "voronoi", "skeleton-approx", "skeleton-exact", "draw"),
+    "skeleton": ("voronoi", "skeleton-approx", "skeleton-exact", "draw"),
     "offsets": ("draw",),
+    "voronoi": ("voronoi", "skeleton-approx", "skeleton-exact", "draw"),
 }
-"""Commands that take what an input may hold; of skeletons those that make them take the polygons."""
+"""Commands that take what an input may hold; of skeletons and Voronoi maps all but `draw` take the polygons."""
 
 
 DRAWINGS = tuple(name for each in _ALL if "curves" in each.has for name in each.names)

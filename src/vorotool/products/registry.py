@@ -176,6 +176,26 @@ _SKELETONS = (
 )
 
 
+# ---- voronoi -------------------------------------------------------------------------------------
+_MAP = Writer("formats.results.voronoi:write_voronoi", ("fmt", "what", *_LINES[1:]))
+_MAP_LAYERS = _pictures("cells edges objects labels")
+_VORONOI = (
+    _product(
+        "cells",
+        "VoronoiMap",
+        "geojson csv tsv json npz wkt",
+        _MAP,
+        _MAP_LAYERS,
+        "cells objects",
+        has_page=True,
+        is_curved=True,
+    ),
+    _product("edges", "VoronoiMap", f"{_TABLES} geojson wkt", _MAP, _MAP_LAYERS, "edges objects", is_curved=True),
+    _product("neighbours", "VoronoiMap", _TABLES, _MAP),
+    _product("table", "VoronoiMap", _TABLES, _MAP),
+)
+
+
 def _beside_exact(product: Product) -> Product:
     """Beside approximate skeletons pictures can show exact ones."""
     shown = {fmt: (*layers, "exact") for fmt, layers in _ARCS.items()}
@@ -187,7 +207,10 @@ def _drawn() -> Product:
     of_labels = {"png": ("cells", "diagram"), "svg": ("cells",)}
     return Product(
         "picture",
-        layers={fmt: (*layers, *_ARCS[fmt], "offset", "shape") for fmt, layers in of_labels.items()},
+        layers={
+            fmt: tuple(dict.fromkeys((*layers, *_ARCS[fmt], "offset", "shape", *_MAP_LAYERS[fmt])))
+            for fmt, layers in of_labels.items()
+        },
         has_page=True,
     )
 
@@ -196,6 +219,7 @@ _BY_COMMAND: dict[str, Sequence[Product]] = {
     "tessellate": _TESSELLATE,
     "delaunay": _DELAUNAY,
     "alphashape": _ALPHASHAPE,
+    "voronoi": _VORONOI,
     "skeleton-exact": _SKELETONS,
     "skeleton-approx": tuple(map(_beside_exact, _SKELETONS)),
     "draw": (_drawn(),),

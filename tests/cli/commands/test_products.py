@@ -17,6 +17,7 @@ INPUTS = {
     "tessellate": ["dots.csv"],
     "delaunay": [DATA / "dots.csv"],
     "alphashape": [DATA / "dots.csv", "-r", 60],
+    "voronoi": [DATA / "two-shapes.json"],
     "skeleton-exact": [DATA / "two-shapes.json"],
 }
 NEEDED = {"offset": ["-d", "-20,5"], "points": ["--every", "20"], "transects": ["--every", "20"]}

@@ -14,6 +14,7 @@ KINDS = {
     "tessellate": options.TessellationOptions,
     "delaunay": options.TriangulationOptions,
     "alphashape": options.AlphaShapeOptions,
+    "voronoi": options.VoronoiOptions,
     "skeleton-approx": options.ApproximateSkeletonOptions,
     "skeleton-exact": options.ExactSkeletonOptions,
     "draw": options.DrawingOptions,

@@ -78,9 +78,9 @@ def test_spacing_scales_distances(spacing):
 @pytest.mark.parametrize(
     ("spacing", "words"),
     [
-        ((1, 2), "rectangular pixels are not taken yet"),
+        ((1, 2**0.5), "round the sides"),
         (0, "expected a number above 0"),
-        ((1, 1, 1), "two equal ones"),
+        ((1, 1, 1), "or 2 of them"),
         (float("nan"), "spacing is nan"),
         (-1, "expected a number above 0"),
         ("1", "spacing"),
@@ -119,7 +119,7 @@ def test_masks_that_say_nothing():
         vorotool.distance_transform(np.zeros((2, 2)), max_pixels=3)
 
 
-@pytest.mark.parametrize("wrong", [[0, 1], np.zeros((2, 2, 2)), "mask", None, [["a"]], [[1j]]])
+@pytest.mark.parametrize("wrong", [[0, 1], np.zeros((2, 2, 2, 2)), "mask", None, [["a"]], [[1j]], [[["a"]]]])
 @pytest.mark.parametrize("function", [vorotool.distance_transform, vorotool.expand_labels, vorotool.medial_axis])
 def test_what_is_no_image_is_refused(function, wrong):
     with pytest.raises(InputError, match=r"invalid (mask|labels): "):

@@ -70,5 +70,5 @@ def test_the_seed_that_is_too_far_is_counted_from_1():
 def test_the_core_says_by_number_which_seed_is_too_far():
     x, y = np.array([0, 2**60]), np.zeros(2, np.int64)
     with pytest.raises(_core.tessellation.SeedTooFarError) as error:
-        _core.tessellation.Tessellation(x, y, np.array([1, 2], np.uint32), 0, 0, 4, 4, 1, simd_level())
+        _core.tessellation.Tessellation(x, y, np.array([1, 2], np.uint32), 0, 0, 4, 4, 1, (1, 1), simd_level())
     assert error.value.args == (1,)

@@ -6,9 +6,13 @@ import pandas
 import pytest
 import shapely
 
-from vorotool import PointSet, PolygonSet
-from vorotool.errors import InputError, UsageError
+from vorotool import LabelImage, PointSet, PolygonSet, Raster
+from vorotool.errors import InputError, UsageError, VorotoolWarning
 from vorotool.geometry.arguments.sites import as_sites
+from vorotool.geometry.crs import crs_name, member_of_text
+from vorotool.geometry.pixel_frame import Frame
+from vorotool.geometry.pixel_grid import map_grid
+from vorotool.geometry.polygons.conversion import to_shapely
 
 MIXED = [
     shapely.Point(0, 0),
@@ -96,3 +100,43 @@ def test_values_that_join():
         as_sites(points, [1.0, 2.0, np.nan])
     with pytest.raises(InputError, match="one value a feature, 3, but got 1"):
         as_sites(points, ["a"])
+
+
+# ---- images ------------------------------------------------------------------------------------------
+LABELS = np.zeros((9, 20), dtype=np.int64)
+LABELS[2:4, 2:5], LABELS[6:8, 10:15], LABELS[2:4, 5:8], LABELS[0, 19] = 7, 3, 9, 7
+
+
+@pytest.mark.parametrize("image", [LABELS, Raster(LABELS), LabelImage(LABELS), LABELS.astype(np.uint8)])
+def test_labels_are_sites_with_all_their_parts(image):
+    sites = as_sites(image)
+    assert (sites.count, sites.ids) == (3, [3, 7, 9])
+    areas = np.bincount(sites.site, shapely.area(to_shapely(sites.polygons)))
+    assert areas.tolist() == [10, 7, 6]
+
+
+def test_objects_of_masks_are_sites():
+    assert as_sites(LABELS > 0).ids == [1, 2, 3]  # 7 and 9 touch
+    with pytest.warns(VorotoolWarning, match="no foreground"):
+        assert as_sites(np.zeros((4, 5), dtype=bool)).count == 0
+
+
+def test_images_on_maps_give_sites_on_the_map():
+    grid = map_grid((30.0, 0.0, 2600000.0, 0.0, -10.0, 1200000.0), unit="m", crs=member_of_text("EPSG:2056"))
+    sites = as_sites(Raster(LABELS, grid))
+    assert crs_name(sites.polygons.crs) == "EPSG:2056"
+    assert sites.polygons.y_up
+    assert shapely.total_bounds(to_shapely(sites.polygons)).tolist() == [
+        2600060, 1199920, 2600600, 1200000,
+    ]  # fmt: skip
+    moved = LabelImage(LABELS, Frame(-5, 40, 20, 9), grid=grid)
+    assert np.array_equal(as_sites(moved).polygons.xy, sites.polygons.xy)
+
+
+def test_labels_of_points_are_ids():
+    assert as_sites(PointSet([[2, 1], [7, 5]], labels=[9, 4])).ids == [9, 4]
+
+
+def test_grey_values_are_none():
+    with pytest.raises(InputError, match="grey values"):
+        as_sites(np.linspace(0, 1, 1200).reshape(30, 40))

@@ -4,11 +4,12 @@ from dataclasses import replace
 
 import geopandas
 import numpy as np
+import pandas
 import pytest
 import shapely
 from tests.support.families.site_families import mixed_sites
 
-from vorotool import table, voronoi
+from vorotool import table, to_geojson, voronoi
 from vorotool.errors import InputError, UsageError
 from vorotool.geometry.voronoi.shapes import PART_OF_RADIUS, flattened_arcs
 
@@ -56,7 +57,8 @@ def test_digons_hold_something():
 
 def test_tables(cells):
     borders, rows = cells.edges, table(cells)
-    assert list(rows) == ["label", "area", "perimeter", "neighbours", "components"]
+    names = ["label", "area", "perimeter", "neighbours", "own_area", "max_distance", "components"]
+    assert list(rows) == names
     assert rows["neighbours"].tolist() == [1, 1]
     assert cells.neighbours.rows == 1
     assert cells.neighbours["border_length"][0] == pytest.approx(borders["length"].sum())
@@ -92,3 +94,44 @@ def test_as_a_value(cells):
 def test_arrays_of_another_shape(cells, name):
     with pytest.raises(InputError, match=name):
         replace(cells, **{name: getattr(cells, name)[:-1]})
+
+
+# ---- graphs ----------------------------------------------------------------------------------------
+def apart(**columns):
+    """Two houses that touch, one apart, one that has no cell, in a frame with an index."""
+    boxes = [shapely.box(0, 0, 2, 2), shapely.box(2, 0, 4, 2), shapely.box(9, 0, 11, 2), shapely.box(1, 1, 2, 2)]
+    return geopandas.GeoDataFrame(columns, geometry=boxes, index=pandas.Index(["a", "b", "c", "d"], name="house"))
+
+
+def test_a_graph_of_networkx():
+    cells = voronoi(apart(name=["A", None, "C", "D"]), max_distance=1)
+    graph = cells.to_networkx()
+    assert list(graph.nodes) == [0, 1, 2, 3]
+    assert sorted(graph.edges) == [(0, 1)]
+    assert graph.edges[0, 1] == {"border_length": 4.0, "distance": 0.0}
+    assert graph.nodes[2]["area"] == pytest.approx(12 + np.pi)
+    assert graph.nodes[2]["max_distance"] == 1
+    assert (graph.nodes[0]["name"], graph.nodes[0]["own_area"]) == ("A", 4)
+    assert "name" not in graph.nodes[1]
+    assert "max_distance" not in graph.nodes[3]
+
+
+def test_pairs_as_libpysal_takes_them():
+    pairs = voronoi(apart(), max_distance=1).to_adjacency()
+    assert pairs.values.tolist() == [["a", "b", 4], ["b", "a", 4], ["c", "c", 0], ["d", "d", 0]]
+    assert list(pairs) == ["focal", "neighbor", "weight"]
+    graphs = pytest.importorskip("libpysal.graph")
+    graph = graphs.Graph.from_adjacency(pairs)
+    assert graph.isolates.tolist() == ["c", "d"]
+    assert graph.adjacency.loc["a"].to_dict() == {"b": 4}
+    everything = voronoi(apart())
+    graph = graphs.Graph.from_adjacency(everything.to_adjacency())
+    assert graph.unique_ids.tolist() == everything.to_geopandas().index.tolist()
+    assert graph.adjacency.loc["b"].to_dict() == pytest.approx({"a": 4.2, "c": 4.2})
+    assert graph.n_edges == 2 * everything.neighbours.rows
+
+
+def test_geojson_has_a_feature_a_cell():
+    made = to_geojson(voronoi(apart()))
+    assert [each["properties"]["label"] for each in made["features"]] == [1, 2, 3, 4]
+    assert [each["geometry"] is None for each in made["features"]] == [False, False, False, True]

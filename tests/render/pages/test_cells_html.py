@@ -21,6 +21,7 @@ from vorotool.render.pages.cells_html import (
     check_html_size,
     shapes_of_cells,
     shapes_of_labels,
+    shapes_of_map,
     write_cells_html,
 )
 
@@ -57,6 +58,19 @@ def polygons_of(data):
             area = area.symmetric_difference(shapely.Polygon(ring))
         found[name] = area
     return found
+
+
+def test_cells_of_a_map_are_its_shapes():
+    sites = [
+        shapely.box(0, 0, 6, 6),
+        shapely.box(2, 2, 3, 3),
+        shapely.Point(9, 1),
+        shapely.LineString([(8, 4), (9, 6)]),
+    ]
+    cells = vorotool.voronoi(sites, frame=(0, 0, 16, 8), max_distance=2)
+    found = polygons_of(data_of(page_of(shapes_of_map(cells), np.ones(4, int), {"area": cells.areas})))
+    assert list(found) == ["1", "2", "3", "4"]
+    np.testing.assert_allclose([16 * 16 * found[name].area for name in found], cells.areas, rtol=2e-3)
 
 
 def test_labels_are_outlined():

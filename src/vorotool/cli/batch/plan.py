@@ -222,7 +222,8 @@ def _tasks(recipe: Recipe[Options], o: Options, targets: list[Target], note: Cal
 def _inputs(recipe: Recipe[Options], o: Options, note: Callable[[str], None]) -> list[Input]:
     from vorotool.products.inputs import NAMES_WITH, TABLE_NAMES
 
-    known = NAMES_WITH[recipe.geometry or "polygons"].keys() - (TABLE_NAMES if recipe.geometry != "points" else set())
+    geometry = recipe.geometry or "polygons"
+    known = NAMES_WITH[geometry].keys() - (TABLE_NAMES if geometry == "polygons" else set())
     names = [*o.inputs, *(read_names(o.files_from, null=o.null) if o.files_from is not None else ())]
     if not names:
         advice = "name files, folders, or a list of them with --files-from"

@@ -11,11 +11,11 @@ from vorotool.cli.options.shared import Names
 
 _GROUPS = {
     "Output": "output format what dtype chunk tiled flatten precision no_properties safe_csv no_clobber",
-    "Method": "method passes max_distance r alpha auto regions rule hole_threshold region_threshold step tolerance "
+    "Method": "method passes by max_distance r alpha auto regions rule hole_threshold region_threshold step tolerance "
     "sampling compare side gap complete features prune start end ends distance every",
     "Input": "columns input_format input_layer input_crs crs page pixel_size seeds connectivity threshold invert "
     "min_area fill_holes outline simplify join_tolerance",
-    "Frame": "size window cell_size frame clip",
+    "Frame": "size window cell_size frame clip enclosures",
     "Pictures": "layers overlay width y_up scale drawing_unit aspect extent background colours "
     "line_widths label_by legend scale_bar animate frames fps",
     "Many inputs": "out_dir files_from null jobs keep_going dry_run resume shard table cluster",
@@ -24,7 +24,9 @@ _GROUPS = {
 GROUPS = {title: names.split() for title, names in _GROUPS.items()}
 """Names of parameters under the titles of their groups."""
 
-_COMMON = "output format what size r step tolerance side prune distance seeds threshold layers out_dir jobs"
+_COMMON = (
+    "output format what by enclosures size r step tolerance side prune distance seeds threshold layers out_dir jobs"
+)
 COMMON = _COMMON.split(" ")
 """Parameters from which the short page takes the first ten that a command has."""
 

@@ -8,16 +8,14 @@ from vorotool.cli.options.groups import result_options
 from vorotool.cli.options.lengths import Distances, Length
 from vorotool.cli.options.picture_style import animation_options
 from vorotool.cli.options.pruning import FORMS, Place, PruningType
+from vorotool.cli.options.shapes import frame_option, shape_options
 from vorotool.cli.options.shared import (
     Decorator,
-    Rectangle,
     inputs_argument,
     output_options,
-    shared,
     together,
     what_option,
 )
-from vorotool.products.formats import FORMATS
 from vorotool.products.inputs import NAMES_WITH
 from vorotool.products.registry import all_layers, formats_of
 
@@ -25,7 +23,6 @@ ENDS = ("middle", "corner", "none")
 """As `vorotool.engines.centerlines.centerline` has them, which ``--help`` does not import."""
 
 
-_FLATTENED = ", ".join(each.title for each in FORMATS.values() if each.flattens)
 _BEFORE: tuple[Decorator, ...] = (
     inputs_argument(NAMES_WITH["polygons"]),
     output_options(formats_of("skeleton-exact")),
@@ -37,9 +34,7 @@ _BEFORE: tuple[Decorator, ...] = (
         show_default=True,
         help="Inside polygons, outside all of them, or both.",
     ),
-    click.option(
-        "--frame", type=Rectangle(), help="Clip to this rectangle; by default the bounds and a tenth around them."
-    ),
+    frame_option("Clip"),
     click.option(
         "--prune",
         type=PruningType(),
@@ -77,37 +72,7 @@ _READING: tuple[Decorator, ...] = (
         metavar="D",
         help="Step along branches, of --what points and transects.",
     ),
-    click.option(
-        "--flatten",
-        type=Length(zero=False),
-        metavar="TOLERANCE",
-        help=f"How far lines may be from curves where a format ({_FLATTENED}) or --what shape has none, and from those "
-        "of an SVG or DXF input; by default 1/4096 of the extent.",
-    ),
-    click.option(
-        "--join-tolerance",
-        type=Length(zero=True),
-        metavar="D",
-        help="How far ends of lines of a DXF input may be apart that are joined; by default a millionth of the extent.",
-    ),
-    click.option(
-        "--simplify",
-        type=Length(zero=False),
-        metavar="TOLERANCE",
-        help="Leave out vertices first, where outlines move by no more than this; what touches still does.",
-    ),
-    shared("input-format", "input-layer", "input-crs", "crs", "page"),
-    click.option(
-        "--outline",
-        type=click.Choice(["crack", "contour"], case_sensitive=False),
-        help="Of an image: around pixels (default), or half-way between the centres of pixels.",
-    ),
-    click.option(
-        "--seeds",
-        type=click.Choice(["components", "labels"], case_sensitive=False),
-        help="What an image's objects are; by default components of a mask (0, and 1 or 255 or all bits), else labels.",
-    ),
-    shared("connectivity", "threshold", "invert", "min-area", "fill-holes"),
+    shape_options(flattened=" or --what shape"),
 )
 """Options before a command's own, and after them."""
 

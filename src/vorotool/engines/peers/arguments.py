@@ -2,46 +2,56 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError, UsageError
+from vorotool.errors import InputError, LimitError, option
 from vorotool.geometry.arguments.images import as_raster
 from vorotool.geometry.numbers import real_number, shown_number
 
 if TYPE_CHECKING:
-    from vorotool.typing import ImageLike, Spacing
+    from vorotool.typing import ImageLike
 
 
-def pixel_side(spacing: Spacing | None) -> Fraction:
-    """Give the side of a square pixel: a number, or two equal ones.
-
-    Raises
-    ------
-    UsageError
-        If it is neither.
+def is_volume(values: Any) -> bool:
+    """Whether an array has three axes, of which the last one is not that of colours.
 
     Examples
     --------
-    >>> pixel_side(None), pixel_side(0.5), pixel_side((2, 2))
-    (Fraction(1, 1), Fraction(1, 2), Fraction(2, 1))
+    >>> is_volume(np.zeros((4, 5, 6), bool)), is_volume(np.zeros((4, 5, 3), np.uint8))
+    (True, False)
     """
-    if spacing is None:
-        return Fraction(1)
-    is_one = np.ndim(spacing) == 0  # type: ignore[arg-type]
-    given: list[Any] = [spacing] if is_one else list(spacing)  # type: ignore[arg-type]
-    sides = {real_number(each, "spacing") for each in given}
-    if len(given) not in (1, 2) or not all(0 < side < float("inf") for side in sides):
-        raise UsageError(f"invalid spacing {shown_number(spacing)}: expected a number above 0, or two equal ones")
-    if len(sides) > 1:
-        raise UsageError(
-            f"invalid spacing {shown_number(spacing)}: expected two equal numbers, since rectangular pixels are not "
-            "taken yet; resample the image to square pixels"
-        )
-    return Fraction(sides.pop())
+    shape = np.shape(values) if isinstance(values, list | tuple) else getattr(values, "shape", ())
+    is_colour = getattr(values, "dtype", None) == np.uint8 and shape[-1:] in ((3,), (4,))
+    return len(shape) == 3 and not is_colour
+
+
+def volume(values: Any, name: str, max_pixels: int) -> NDArray[Any]:
+    """Give a volume as a 3-D array of booleans or numbers.
+
+    Raises
+    ------
+    InputError
+        If its values are no numbers, or some are masked.
+    LimitError
+        If it has more than `max_pixels` voxels.
+
+    Examples
+    --------
+    >>> volume([[[0, 1]]], "mask", 9).shape
+    (1, 1, 2)
+    """
+    if np.ma.isMaskedArray(values) and np.ma.getmaskarray(values).any():
+        raise InputError(f"invalid {name}: expected a value in each voxel, but some are masked; fill them first")
+    array = np.asarray(values)
+    if array.dtype.kind not in "buif":
+        raise InputError(f"invalid {name}: expected booleans or numbers, but got {array.dtype}")
+    if array.size > real_number(max_pixels, "max_pixels"):
+        sides, most = " x ".join(map(str, array.shape)), option(f"--max-pixels {shown_number(max_pixels)}")
+        raise LimitError(f"the volume has {sides} = {array.size} voxels, more than {most}")
+    return array
 
 
 def plane(values: ImageLike, name: str) -> NDArray[Any]:

@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.peers.arguments import pixel_side, plane
+from vorotool.engines.peers.arguments import is_volume, plane, volume
 from vorotool.engines.tessellation.frames import require_memory
 from vorotool.engines.tessellation.seeding import seeds_from_raster
 from vorotool.engines.tessellation.tessellator import Tessellator
+from vorotool.engines.volumes.volume_sweep import VolumeSweep, outer_voxels
 from vorotool.errors import InputError, UsageError
-from vorotool.geometry.numbers import nearest_double
 from vorotool.geometry.pixel_frame import MAX_PIXELS, Frame
+from vorotool.geometry.spacing import PixelSides, pixel_sides
 
 if TYPE_CHECKING:
     from vorotool.typing import ImageLike, Spacing
@@ -59,18 +59,18 @@ def distance_transform(
     threads: int = 0,
     max_pixels: int = MAX_PIXELS,
 ) -> NDArray[np.float64] | NDArray[np.int32] | tuple[NDArray[np.float64], NDArray[np.int32]]:
-    """Give the distance of each nonzero pixel to the nearest zero pixel, and which that is.
+    """Give the distance of each nonzero pixel or voxel to the nearest zero one, and which that is.
 
-    As `scipy.ndimage.distance_transform_edt`, between centres of pixels. Squared distances are exact integers, whose
-    roots are rounded once. Of several nearest pixels it is the first one, row by row, that the indices name; SciPy
-    names any.
+    As `scipy.ndimage.distance_transform_edt`, between centres. Squared distances are exact integers, whose roots are
+    rounded once. Of several nearest pixels it is the first one, row by row, that the indices name; SciPy names any.
 
     Parameters
     ----------
-    mask : (H, W) array
-        Nonzero pixels are foreground.
-    spacing : float or pair of equal floats, optional
-        The side of a pixel, by default 1; SciPy's ``sampling``.
+    mask : (H, W) or (D, H, W) array
+        Nonzero pixels or voxels are foreground.
+    spacing : float, (height, width) or (depth, height, width), optional
+        Sides of a pixel or voxel, by default 1; SciPy's ``sampling``. A float is the decimal number that it is written
+        as.
     return_distances, return_indices : bool
         What is wanted.
     threads : int
@@ -80,10 +80,10 @@ def distance_transform(
 
     Returns
     -------
-    distances : (H, W) float64 array
+    distances : float64 array of the shape of the mask
         0 at zero pixels.
-    indices : (2, H, W) int32 array
-        Row and column, from 0, of the nearest zero pixel; alone if distances are not wanted.
+    indices : (2, H, W) or (3, D, H, W) int32 array
+        Row and column, or slice, row and column, from 0, of the nearest zero pixel; alone if distances are not wanted.
 
     Raises
     ------
@@ -92,7 +92,7 @@ def distance_transform(
     LimitError
         If it has more than `max_pixels` pixels.
     UsageError
-        If nothing is wanted, or pixels are not square.
+        If nothing is wanted, or the spacing is none.
 
     References
     ----------
@@ -102,44 +102,92 @@ def distance_transform(
     --------
     >>> distance_transform([[0, 1, 1, 1], [1, 1, 1, 1]])[1].tolist()
     [1.0, 1.4142135623730951, 2.23606797749979, 3.1622776601683795]
+    >>> distance_transform([[[0, 1, 1]], [[1, 1, 1]]], spacing=(3, 1, 2)).tolist()
+    [[[0.0, 2.0, 4.0]], [[3.0, 3.605551275463989, 5.0]]]
     >>> distance_transform([[0, 1, 0]], return_distances=False, return_indices=True)[1].tolist()
     [[0, 0, 2]]
     """
     if not (return_distances or return_indices):
         raise UsageError("return_distances and return_indices are both False: nothing is wanted, set one of them")
-    side, values = pixel_side(spacing), plane(mask, "mask")
-    sweep = _sweep(values, threads, max_pixels)
+    sweep: Tessellator | _Background | None
+    if is_volume(mask):
+        values = volume(mask, "mask", max_pixels)
+        sweep = _Background.of(values, pixel_sides(spacing, 3), threads)
+    else:
+        values = plane(mask, "mask")
+        sweep = _sweep(values, pixel_sides(spacing), threads, max_pixels)
     if not return_indices:
-        return _roots(sweep, values.shape, side)
+        return _roots(sweep, values.shape)
     indices = _nearest(sweep, values.shape)
-    return (_roots(sweep, values.shape, side), indices) if return_distances else indices
+    return (_roots(sweep, values.shape), indices) if return_distances else indices
 
 
-def _sweep(values: NDArray[Any], threads: int, max_pixels: int) -> Tessellator | None:
+def _sweep(values: NDArray[Any], sides: PixelSides, threads: int, max_pixels: int) -> Tessellator | None:
     """The tessellation whose seeds are the zero pixels; None of an image without pixels."""
     if not values.size:
         return None
     height, width = values.shape
     require_memory(Frame(0, 0, width, height), max_pixels)
     background = values == 0
+    _require(background)
+    return Tessellator(seeds_from_raster(background, mode="pixels"), sides=sides, threads=threads)
+
+
+def _require(background: NDArray[np.bool_]) -> None:
     if not background.any():
         raise InputError("invalid mask: expected a zero pixel, but there is none, so that there are no distances to it")
-    return Tessellator(seeds_from_raster(background, mode="pixels"), threads=threads)
 
 
-def _roots(sweep: Tessellator | None, shape: tuple[int, ...], side: Fraction) -> NDArray[np.float64]:
-    """Roots of squared distances in pixels, in the unit of the spacing."""
+class _Background(VolumeSweep):
+    """The tessellation of a volume whose seeds are its zero voxels, of which those at the foreground are enough."""
+
+    def __init__(self, background: NDArray[np.bool_], sides: PixelSides, threads: int) -> None:
+        self.is_seed = background
+        self.places = np.argwhere(outer_voxels(background))
+        labels = np.arange(1, len(self.places) + 1, dtype=np.uint32)
+        super().__init__(self.places, labels, background.shape, sides=sides, threads=threads)
+
+    @classmethod
+    def of(cls, values: NDArray[Any], sides: PixelSides, threads: int) -> _Background | None:
+        """None of a volume without voxels."""
+        if not values.size:
+            return None
+        background = values == 0
+        _require(background)
+        return cls(background, sides, threads)
+
+    def squared_distances(self, first: int = 0, slices: int | None = None) -> NDArray[Any]:
+        """Those of the sweep, and 0 where a seed is that it was not told of."""
+        squares = super().squared_distances(first, slices)
+        squares[self.is_seed] = 0
+        return squares
+
+    def nearest(self) -> NDArray[np.int32]:
+        """(3, D, H, W) slice, row and column of the nearest zero voxel."""
+        seed = self.labels(dtype=np.uint32).astype(np.int64) - 1
+        own = np.nonzero(self.is_seed)
+        indices = np.empty((3, *self.shape), np.int32)
+        for axis in range(3):
+            indices[axis] = self.places[:, axis][seed]
+            indices[axis][own] = own[axis]
+        return indices
+
+
+def _roots(sweep: Tessellator | _Background | None, shape: tuple[int, ...]) -> NDArray[np.float64]:
+    """Roots of squared distances, in the unit of the spacing."""
     if sweep is None:
         return np.zeros(shape)
-    distances = np.sqrt(sweep.squared_distances().astype(np.float64))
-    if side != 1:
-        distances *= nearest_double(side)
-    return distances
+    squares = sweep.squared_distances().astype(np.float64)
+    if sweep.step != 1:
+        squares *= float(sweep.step**2)
+    return np.sqrt(squares)
 
 
-def _nearest(sweep: Tessellator | None, shape: tuple[int, ...]) -> NDArray[np.int32]:
+def _nearest(sweep: Tessellator | _Background | None, shape: tuple[int, ...]) -> NDArray[np.int32]:
     """Row and column of the nearest seed of each pixel: labels are the numbers of seeds, row by row."""
-    indices = np.zeros((2, *shape), np.int32)
+    if isinstance(sweep, _Background):
+        return sweep.nearest()
+    indices = np.zeros((len(shape), *shape), np.int32)
     if sweep is not None:
         seed = sweep.labels(dtype=np.uint32).astype(np.int64) - 1
         indices[0], indices[1] = sweep.seeds.y[seed], sweep.seeds.x[seed]

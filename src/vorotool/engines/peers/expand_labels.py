@@ -8,13 +8,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.peers.arguments import pixel_side, plane
+from vorotool.engines.peers.arguments import is_volume, plane, volume
 from vorotool.engines.tessellation.frames import require_memory
+from vorotool.engines.tessellation.raster_objects import LARGEST_LABEL
 from vorotool.engines.tessellation.seeding import seeds_from_raster
 from vorotool.engines.tessellation.tessellator import Tessellator
+from vorotool.engines.volumes.volume_sweep import VolumeSweep, outer_voxels
 from vorotool.errors import InputError, UsageError
 from vorotool.geometry.numbers import real_number, shown_number
 from vorotool.geometry.pixel_frame import MAX_PIXELS, Frame
+from vorotool.geometry.spacing import PixelSides, as_decimal, pixel_sides
 
 if TYPE_CHECKING:
     from vorotool.typing import ImageLike, Spacing
@@ -36,12 +39,14 @@ def expand_labels(
 
     Parameters
     ----------
-    labels : (H, W) array of integers or booleans
+    labels : (H, W) or (D, H, W) array of integers or booleans
         0 is background. Labels are from 1 to 4294967295.
     distance : float or Fraction
-        How far labels grow, between centres of pixels, this distance included; ``inf`` fills all the background.
-    spacing : float or pair of equal floats, optional
-        The side of a pixel in the unit of `distance`, by default 1.
+        How far labels grow, between centres of pixels or voxels, this distance included; ``inf`` fills all the
+        background.
+    spacing : float, (height, width) or (depth, height, width), optional
+        Sides of a pixel or voxel in the unit of `distance`, by default 1. With it floats are the decimal numbers that
+        they are written as: three pixels of 0.1 are within 0.3.
     threads : int
         0 uses all.
     max_pixels : int
@@ -49,8 +54,8 @@ def expand_labels(
 
     Returns
     -------
-    (H, W) array
-        Labels, of the type of the input.
+    array of the shape and the type of the input
+        Labels.
 
     Raises
     ------
@@ -59,7 +64,7 @@ def expand_labels(
     LimitError
         If the image has more than `max_pixels` pixels.
     UsageError
-        If the distance is below 0 or none, or pixels are not square.
+        If the distance is below 0 or none, or the spacing is none.
 
     References
     ----------
@@ -70,7 +75,9 @@ def expand_labels(
     >>> expand_labels([[7, 0, 0, 0, 2]]).tolist(), expand_labels([[7, 0, 0, 0, 2]], 2).tolist()
     ([[7, 7, 0, 2, 2]], [[7, 7, 2, 2, 2]])
     """
-    side, values = pixel_side(spacing), plane(labels, "labels")
+    is_solid = is_volume(labels)
+    values = volume(labels, "labels", max_pixels) if is_solid else plane(labels, "labels")
+    sides = pixel_sides(spacing, 3 if is_solid else 2)
     limit = real_number(distance, "distance")
     if not limit >= 0:
         raise UsageError(f"invalid distance {shown_number(distance)}: expected a number from 0")
@@ -78,9 +85,26 @@ def expand_labels(
         raise InputError(f"invalid labels: expected integers or booleans, but got {values.dtype}; round them first")
     if not values.size or not values.any():
         return values.copy()
+    exact = Fraction if spacing is None else as_decimal
+    most = None if limit == float("inf") else exact(limit)
+    if is_solid:
+        return _grown_volume(values, sides, most, threads)
     height, width = values.shape
     require_memory(Frame(0, 0, width, height), max_pixels)
-    most = None if limit == float("inf") else Fraction(limit) / side
     seeds = seeds_from_raster(values.astype(np.uint8) if values.dtype == bool else values, mode="labels")
-    grown = Tessellator(seeds, max_distance=most, threads=threads).labels(dtype=np.uint32)
+    grown = Tessellator(seeds, max_distance=most, sides=sides, threads=threads).labels(dtype=np.uint32)
     return grown.astype(values.dtype)
+
+
+def _grown_volume(values: NDArray[Any], sides: PixelSides, most: Fraction | None, threads: int) -> NDArray[Any]:
+    """The same for a volume: seeds are the outer voxels of each label."""
+    labels = values.view(np.uint8) if values.dtype == bool else values
+    if labels.min() < 0 or labels.max() > LARGEST_LABEL:
+        found = f"{labels.min()} to {labels.max()}"
+        raise InputError(f"invalid labels: expected 0 to {LARGEST_LABEL}, but they are {found}")
+    outer = outer_voxels(labels)
+    seeds = labels[outer].astype(np.uint32)
+    sweep = VolumeSweep(np.argwhere(outer), seeds, values.shape, sides=sides, max_distance=most, threads=threads)
+    grown = sweep.labels(dtype=np.uint32).astype(values.dtype)
+    np.copyto(grown, values, where=values != 0)
+    return grown

@@ -207,8 +207,8 @@ def label_dtype(largest: int, dtype: Any = None) -> np.dtype[Any]:
     return kind
 
 
-def squared_limit(max_distance: float | Fraction | None, scale: int) -> int | None:
-    """The largest squared distance in lattice steps that is within `max_distance` pixels."""
+def squared_limit(max_distance: float | Fraction | None, scale: int | Fraction) -> int | None:
+    """The largest squared distance in lattice steps that is within `max_distance`, of whose unit they are `scale`."""
     if max_distance is None:
         return None
     if not isinstance(max_distance, Real) or not 0 <= max_distance < float("inf"):

@@ -27,6 +27,7 @@ from vorotool.geometry.numbers import shown_number
 from vorotool.geometry.pixel_frame import MAX_SIDE, Frame
 from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.geometry.progress import Progress
+from vorotool.geometry.spacing import SQUARE, PixelSides
 
 
 class _NothingLabelled:
@@ -56,6 +57,8 @@ class Tessellator:
         The pixels to label; by default `default_frame` of the seeds.
     max_distance : float or Fraction, optional
         Pixels farther than this from every seed get label 0.
+    sides : PixelSides
+        Sides of a pixel, in whose unit distances are.
     threads : int
         0 uses all.
     strict : bool
@@ -94,6 +97,7 @@ class Tessellator:
         frame: Frame | None = None,
         *,
         max_distance: float | Fraction | None = None,
+        sides: PixelSides = SQUARE,
         threads: int = 0,
         strict: bool = False,
         progress: Progress = None,
@@ -105,7 +109,8 @@ class Tessellator:
             width, height = shown_number(self.frame.width), shown_number(self.frame.height)
             raise LimitError(f"the frame is {width} x {height}: a side has at most 2^30 pixels")
         self.simd = simd_level()
-        self.most_squared = squared_limit(max_distance, seeds.scale)
+        self.sides = sides
+        self.most_squared = squared_limit(max_distance, seeds.scale / sides.step)
         self._threads = checked_threads(threads)
         self._progress = progress
         self._core = self._prepare()
@@ -130,6 +135,7 @@ class Tessellator:
                 frame.width,
                 frame.height,
                 seeds.scale,
+                (self.sides.x, self.sides.y),
                 self.simd,
             )
         except _core.tessellation.SeedTooFarError as error:
@@ -139,10 +145,11 @@ class Tessellator:
     def _too_far(self, index: int) -> InputError:
         seeds, frame = self.seeds, self.frame
         x, y = (int(values[index]) / seeds.scale for values in (seeds.x, seeds.y))
+        most = 2**40 // (seeds.scale * max(self.sides.x, self.sides.y))
         return InputError(
             f"seed {index + 1} at ({x:.17g}, {y:.17g}) is too far from the frame, which begins at ({frame.x}, "
             f"{frame.y}), for exact arithmetic: coordinates relative to the middle of the frame must be at most "
-            f"2^40 lattice steps ({2**40 // seeds.scale} pixels for these seeds); use a nearer {option('--window')}"
+            f"2^40 lattice steps ({most} pixels for these seeds); use a nearer {option('--window')}"
         )
 
     def _paint(self, rows: NDArray[Any], first: int, value: int | None = None) -> None:
@@ -199,7 +206,7 @@ class Tessellator:
     def squared_distances(
         self, first: int = 0, rows: int | None = None, *, dtype: np.dtype[Any] | None = None
     ) -> NDArray[Any]:
-        """Exact squared distances to the nearest seed, in units of 1 / ``seeds.scale``² square pixels.
+        """Exact squared distances to the nearest seed, in squares of a step of the sides over ``seeds.scale``.
 
         Parameters
         ----------
@@ -224,9 +231,9 @@ class Tessellator:
         return array
 
     def distances(self, first: int = 0, rows: int | None = None) -> NDArray[np.float32]:
-        """Distances to the nearest seed in pixels, rounded once from double precision."""
+        """Distances to the nearest seed in the unit of the sides, rounded once from double precision."""
         array = self._output(first, rows, np.dtype(np.float32), None)
-        self._core.distances(array, first, self._threads, self._progress_of(first, len(array)))
+        self._core.distances(array, first, float(self.step**2), self._threads, self._progress_of(first, len(array)))
         self._paint(array, first, 0)
         return array
 
@@ -234,6 +241,11 @@ class Tessellator:
         """Refuse distances where there are no seeds."""
         if not len(self.seeds):
             refuse_distances()
+
+    @property
+    def step(self) -> Fraction:
+        """The length whose square is the unit of squared distances."""
+        return self.sides.step / self.seeds.scale
 
     @cached_property
     def square_dtype(self) -> np.dtype[Any]:
@@ -243,6 +255,7 @@ class Tessellator:
         # No pixel is farther from its nearest seed than from this one, and none farther than a corner.
         dx = max(abs(int(self.seeds.x[0]) - scale * c) for c in (frame.x, frame.x + frame.width - 1))
         dy = max(abs(int(self.seeds.y[0]) - scale * r) for r in (frame.y, frame.y + frame.height - 1))
+        dx, dy = dx * self.sides.x, dy * self.sides.y
         largest = dx * dx + dy * dy
         if largest >= 2**64:
             raise LimitError(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
@@ -13,10 +14,17 @@ from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.pixel_frame import Frame
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.seed_set import SeedSet
+from vorotool.geometry.spacing import SQUARE, PixelSides
 
 
 def verify_label_image(
-    labels: NDArray[Any], seeds: SeedSet, frame: Frame, *, max_distance2: int | None = None, threads: int = 0
+    labels: NDArray[Any],
+    seeds: SeedSet,
+    frame: Frame,
+    *,
+    max_distance2: int | None = None,
+    sides: PixelSides = SQUARE,
+    threads: int = 0,
 ) -> None:
     """Check a tessellation exactly, by another way than the one that makes it.
 
@@ -33,6 +41,8 @@ def verify_label_image(
         Where the pixels lie.
     max_distance2 : int, optional
         Squared distance in lattice steps; pixels beyond it must be 0.
+    sides : PixelSides
+        Of a pixel, on the lattice.
     threads : int
         0 for all.
 
@@ -55,15 +65,16 @@ def verify_label_image(
     """
     image = LabelImage(labels, frame)
     high, low = _split_limit(max_distance2)
+    x, y = (_on_lattice(*axis) for axis in ((seeds.x, sides.x), (seeds.y, sides.y)))
     try:
         wrong = _core.tessellation.verify_tessellation(
             label_array(image.labels),
             frame.x,
             frame.y,
-            seeds.x,
-            seeds.y,
+            x,
+            y,
             seeds.labels,
-            seeds.scale,
+            (seeds.scale * sides.x, seeds.scale * sides.y),
             high,
             low,
             checked_threads(threads),
@@ -77,6 +88,12 @@ def verify_label_image(
             f"({frame.x + wrong.column}, {frame.y + wrong.row}), has label {image.labels[wrong.row, wrong.column]}, "
             f"not {wrong.right}"
         )
+
+
+def _on_lattice(coordinates: NDArray[np.int64], side: int) -> NDArray[np.int64]:
+    """Coordinates of seeds in steps of the lattice; what would not fit is left beyond the limit of the core."""
+    most = 2**62 // side
+    return coordinates.clip(-most, most) * side
 
 
 def _split_limit(limit: int | None) -> tuple[int | None, int]:

@@ -88,42 +88,44 @@ def arcs_of(cut: CutBorders, ring: FrameRing, sites: Indices, parts: Indices, or
     used[on_frame] = False
     kept = np.concatenate([np.flatnonzero(used), on_frame])
     number[kept] = np.arange(len(kept))
-    ends = number[ends]
+    ends = number.take(ends)
     turned = ends[:, 0] > ends[:, 1]
-    for each in (ends, both_sites, both_parts, orders):
-        each[turned] = each[turned, ::-1]
-    sorting = by_ends(ends, control, center)
-    places = places[kept]
+    sorting = by_ends(np.where(turned[:, None], ends[:, ::-1], ends), control, center)
+    pairs = 2 * sorting[:, None] + (np.arange(2) ^ turned[sorting][:, None])
+    places, ends, both_sites = places.take(kept, axis=0), ends.take(pairs), both_sites.take(pairs)
     return Arcs(
         places,
         radius[kept],
-        ends[sorting],
-        control[sorting],
-        without_lost(center, places[ends], both_sites[:, 0] != OUTSIDE)[sorting],
-        both_sites[sorting],
-        both_parts[sorting],
-        orders[sorting],
+        ends,
+        control.take(sorting, axis=0),
+        without_lost(center.take(sorting, axis=0), places, ends, both_sites[:, 0] != OUTSIDE),
+        both_sites,
+        both_parts.take(pairs),
+        orders.take(pairs),
     )
 
 
-def without_lost(center: Floats, ends: Floats, is_left: NDArray[np.bool_]) -> Floats:
+def without_lost(center: Floats, places: Floats, ends: Indices, is_left: NDArray[np.bool_]) -> Floats:
     """Give centres of arcs of at most half a circle, but for those of which rounding leaves nothing: these are lines.
 
     Parameters
     ----------
     center : (a, 2) float64 array
         Of circular arcs; NaN of others.
-    ends : (a, 2, 2) float64 array
-        Places of source and target.
+    places : (v, 2) float64 array
+        Of vertices.
+    ends : (a, 2) int64 array
+        Source and target.
     is_left : (a,) bool array
         Whether they go counter-clockwise.
     """
-    arc = np.flatnonzero(~np.isnan(center[:, 0]))
-    a, b = ends[arc, 0] - center[arc], ends[arc, 1] - center[arc]
-    cross = np.where(is_left[arc], 1, -1) * (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
+    circular = np.flatnonzero(~np.isnan(center[:, 0]))
+    a, b = (places[end] - center[circular] for end in ends[circular].T)
+    cross = np.where(is_left[circular], 1, -1) * (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
     is_lost = ((a * b).sum(axis=1) > 0) & (cross <= 0)
-    center[arc[is_lost]] = np.nan
-    return center
+    made = center.copy()
+    made[circular[is_lost]] = np.nan
+    return made
 
 
 def by_ends(ends: Indices, control: Floats, center: Floats) -> Indices:
@@ -136,13 +138,14 @@ def by_ends(ends: Indices, control: Floats, center: Floats) -> Indices:
     control, center : (a, 2) float64 array
         NaN of those without.
     """
-    key = ends[:, 0] * (int(ends.max(initial=0)) + 1) + ends[:, 1]
-    sorting = np.argsort(key, kind="stable")
-    again = np.flatnonzero(np.diff(key[sorting]) == 0)
+    vertices = int(ends.max(initial=-1)) + 1
+    sorting = _core.graphs.arcs_by_ends(ends.astype(np.int32), vertices).astype(np.int64)
+    key = (ends[:, 0] * vertices + ends[:, 1])[sorting]
+    again = np.flatnonzero(key[1:] == key[:-1])
     if again.size:  # few arcs have both ends in common
         alike = np.union1d(again, again + 1)
         arc = sorting[alike]
-        sorting[alike] = arc[np.lexsort((*center[arc].T[::-1], *control[arc].T[::-1], key[arc]))]
+        sorting[alike] = arc[np.lexsort((*center[arc].T[::-1], *control[arc].T[::-1], key[alike]))]
     return sorting
 
 
@@ -192,17 +195,9 @@ def cycles_of(ends: Indices, order: Indices, vertices: int) -> tuple[Indices, In
     half_edge : (2 a,) int64 array
         Along each: 2 k along arc k, 2 k + 1 back.
     """
-    tail = ends.ravel()
-    order = order.ravel()
-    least = int(order.min(initial=0))
-    out = np.argsort(tail * (int(order.max(initial=0)) - least + 1) + (order - least), kind="stable")
-    first = np.flatnonzero(np.diff(tail[out], prepend=-1))
-    before = np.roll(out, 1)
-    before[first] = out[np.append(first[1:], len(out)) - 1] if len(first) else before[first]
-    clockwise = np.empty(len(out), dtype=np.int64)
-    clockwise[out] = before
-    after = clockwise[np.arange(len(out)) ^ 1]
-    start, half_edge = _core.graphs.boundary_cycles(after.astype(np.int32), tail.astype(np.int32), vertices)
+    pairs = ends.astype(np.int32)
+    after = _core.graphs.next_half_edges(pairs, order, vertices)
+    start, half_edge = _core.graphs.boundary_cycles(after, pairs.ravel(), vertices)
     return start.astype(np.int64), half_edge.astype(np.int64)
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool import _core
 from vorotool.engines.voronoi.borders import Borders
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 
@@ -45,14 +46,6 @@ class Parabolas:
         exact = np.copysign(np.sqrt(np.maximum(self.height * (2 * radius - self.height), 0)), t)
         found: Floats = np.where(steep, exact, t)
         return found
-
-    def control(self, source: Floats, target: Floats, from_to: tuple[Floats, Floats]) -> Floats:
-        """(k, 2) where the tangents at two places meet, whose parameters are known."""
-        step = from_to[1] - from_to[0]
-        below = (step * step / (4 * self.height))[:, None]
-        across = np.stack([self.way[:, 1], -self.way[:, 0]], axis=1)
-        control: Floats = (source + target) / 2 + below * across
-        return control
 
 
 def parabolas_of(graph: PlanarGraph, elements: Indices) -> tuple[NDArray[np.bool_], Parabolas]:
@@ -153,10 +146,5 @@ class CircularArc:
 
 def controls_of(borders: Borders, graph: PlanarGraph) -> Floats:
     """(b, 2) control points of the Bezier curves that the pieces of borders are, on the lattice; NaN of lines."""
-    control = np.full((len(borders.ends), 2), np.nan)
-    is_parabola, parabolas = parabolas_of(graph, borders.elements)
-    source, target = borders.ends[is_parabola].T
-    a, b = borders.places[source], borders.places[target]
-    t = parabolas.parameter(a, borders.radius[source]), parabolas.parameter(b, borders.radius[target])
-    control[is_parabola] = parabolas.control(a, b, t)
-    return control
+    core = _core.kernel.PlanarGraph(graph.points, graph.segments, graph.segment_faces)
+    return _core.voronoi.control_points(core, borders.ends, borders.elements, borders.places, borders.radius, 0, None)

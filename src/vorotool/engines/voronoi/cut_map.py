@@ -197,7 +197,7 @@ def _numbered(arcs: Arcs, kept: Indices, overlay: Overlay) -> tuple[Arcs, Indice
     number[chosen] = np.arange(len(chosen))
     ends, sites, order = number[arcs.ends[kept]], arcs.sites[kept], arcs.order[kept]
     control = arcs.control[kept]
-    center = without_lost(arcs.center[kept], arcs.vertices[chosen][ends], sites[:, 0] != OUTSIDE)
+    center = without_lost(arcs.center[kept], arcs.vertices[chosen], ends, sites[:, 0] != OUTSIDE)
     turned = ends[:, 0] > ends[:, 1]
     for each in (ends, sites, order):
         each[turned] = each[turned, ::-1]

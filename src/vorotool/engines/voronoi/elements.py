@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool import _core
 from vorotool.engines.arrangement.flat_rings import flat_holes, with_flat_shells_as_lines
 from vorotool.engines.arrangement.planar_graph import (
     MOST_VERTICES,
@@ -162,8 +163,7 @@ def _element_owners(graph: PlanarGraph, given: PolygonSet, site: Sites) -> Sites
         is_part, polygon = _bounding_sources(graph, given)
         least = np.where(is_part, site[polygon], NOBODY)
         owner[count:] = np.minimum.reduceat(least, graph.source_start[:-1])
-        for end in graph.segments.T:
-            np.minimum.at(owner, end, owner[count:])
+        owner[:count], _ = _core.voronoi.owners_at_points(graph.segments, owner[count:], count)
     point, of_polygon = _lone_places(graph, given)
     np.minimum.at(owner, point, site[of_polygon])
     return owner
@@ -174,7 +174,7 @@ def _bounding_sources(graph: PlanarGraph, given: PolygonSet) -> tuple[NDArray[np
 
     A spike of one polygon may lie along an edge of another one: it bounds nothing.
     """
-    ring = np.searchsorted(given.ring_start, graph.source_edge, side="right") - 1
+    ring = owners(np.diff(given.ring_start))[graph.source_edge]
     polygon = given.ring_polygon[ring]
     is_part = np.ones(len(ring), dtype=bool)
     several = graph.source_count > 1

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.arrangement.planar_graph import Placement, arranged
-from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, segment_voronoi_of_groups
-from vorotool.engines.voronoi.borders import Borders, borders_of, unwanted_of
+from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi_of_groups
+from vorotool.engines.voronoi.borders import Borders, borders_of
+from vorotool.engines.voronoi.diagram import diagram_of
 from vorotool.engines.voronoi.elements import OwnedGraph, owners_of
 from vorotool.engines.voronoi.regions import Regions
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
@@ -61,6 +62,7 @@ def local_diagrams(
     regions: Regions,
     *,
     limit: float | None = None,
+    pieces_of: Callable[..., Borders] = borders_of,
     threads: int = 0,
     progress: Progress = None,
 ) -> LocalDiagrams:
@@ -78,6 +80,8 @@ def local_diagrams(
         With the sites of each.
     limit : float, optional
         How far from its site a place may be, in input units.
+    pieces_of : callable
+        Chooses pieces of the diagrams, as `borders_of` does.
     threads, progress
         As of `vorotool.voronoi`.
     """
@@ -87,15 +91,9 @@ def local_diagrams(
     if regions.count == 1 and len(regions.site) == count:
         owned = owners_of(sites, site)
         graph = owned.graph
-        diagram = segment_voronoi(
-            graph.points,
-            graph.segments,
-            unwanted=unwanted_of(owned) if limit is None else None,
-            threads=threads,
-            progress=progress,
-        )
+        diagram = diagram_of(owned, is_whole=limit is not None, threads=threads, progress=progress)
         none = np.zeros(len(graph.points), dtype=np.int64), np.zeros(len(graph), dtype=np.int64)
-        return LocalDiagrams(owned, *none, borders_of(owned, diagram, level=level, threads=threads), given, site)
+        return LocalDiagrams(owned, *none, pieces_of(owned, diagram, level=level, threads=threads), given, site)
     parts = [*_graphs_of_regions(sites, site, count, regions)]
     points, segments = (
         np.repeat(np.arange(len(parts)), sizes)
@@ -105,7 +103,7 @@ def local_diagrams(
     diagram = segment_voronoi_of_groups(
         owned.graph.points, owned.graph.segments, np.concatenate([points, segments]), threads=1, progress=progress
     )
-    return LocalDiagrams(owned, points, segments, borders_of(owned, diagram, level=level, threads=threads), given, site)
+    return LocalDiagrams(owned, points, segments, pieces_of(owned, diagram, level=level, threads=threads), given, site)
 
 
 def _graphs_of_regions(sites: PlanarGraph, site: Sites, count: int, regions: Regions) -> Iterator[OwnedGraph]:
@@ -154,10 +152,11 @@ def _joined(parts: list[OwnedGraph], sites: PlanarGraph) -> OwnedGraph:
         np.zeros(len(segments) + 1, dtype=np.int32),
         none,
         sides,
-        np.zeros(int(faces[-1]) + 1, dtype=np.int32),
+        np.zeros(max(int(faces[-1]), 1) + 1, dtype=np.int32),  # the unbounded one at least
         none,
         origin=sites.origin,
         scale=sites.scale,
     )
     element = np.concatenate([none, *(own for own, _ in elements), *(own for _, own in elements)])
-    return OwnedGraph(graph, element, np.concatenate([none, *(part.face for part in parts)]))
+    face = np.concatenate([part.face for part in parts]) if parts else np.full(1, -1, dtype=np.int32)
+    return OwnedGraph(graph, element, face)

@@ -181,9 +181,9 @@ class _SitePlaces:
         self.row = np.full(len(cells), -1)
         self.row[self.numbers] = np.arange(len(self.numbers))
         self.tree = shapely.STRtree(self.geometry)
-        cuts = [each.xy for each in (cells.clip, cells.enclosures) if each is not None]
-        extent = float(np.ptp(np.concatenate([given.xy, *cuts]), axis=0).max())
-        largest = float(max(np.abs(given.xy).max(), np.abs(cells.vertices).max(initial=0)))
+        placed = np.concatenate([each.xy for each in (given, cells.clip, cells.enclosures) if each is not None])
+        extent = float(np.ptp(placed, axis=0).max())
+        largest = float(max(np.abs(placed).max(), np.abs(cells.vertices).max(initial=0)))
         self.tolerance = MOVE * extent + ROUNDING * largest
         self.corners = {tuple(place) for place in given.xy.tolist()}
         self.faces = None if cells.enclosures is None else EnclosedFaces(cells, self.geometry, 4 * self.tolerance)

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi
 from vorotool.engines.skeleton.exact import Frame, default_frame
 from vorotool.engines.voronoi.assembly import Arcs, Rings, arcs_of, cells_of, rings_of
-from vorotool.engines.voronoi.borders import Borders, borders_of, unwanted_of
+from vorotool.engines.voronoi.borders import Borders, borders_of
 from vorotool.engines.voronoi.cut_arguments import given_cuts
+from vorotool.engines.voronoi.diagram import diagram_of
 from vorotool.engines.voronoi.elements import OwnedGraph, owned_graph
 from vorotool.engines.voronoi.frame_cut import CutBorders, cut_borders
 from vorotool.engines.voronoi.frame_ring import UNKNOWN, frame_ring
@@ -27,18 +27,20 @@ from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.magnitude import check_lengths
 from vorotool.geometry.numbers import finite_double, shown_number
 from vorotool.geometry.progress import Progress
-from vorotool.geometry.skeleton.segment_voronoi import SegmentVoronoiDiagram
 from vorotool.geometry.voronoi.voronoi_map import OUTSIDE, VoronoiMap
 
 if TYPE_CHECKING:
-    from vorotool.typing import FrameLike, PointsLike, PolygonsLike
+    from vorotool.typing import FrameLike, ImageLike, PointsLike, PolygonsLike
+
+LEAST = 2.0**-40
+"""Of the largest coordinate: smaller limits are less than what a lattice moves sites by, and near what is rounded."""
 
 _BITS = 30
 """Steps of a lattice that a limit around a single place is counted in, as bits: as many as others have."""
 
 
 def voronoi(
-    sites: PointsLike | PolygonsLike,
+    sites: PointsLike | PolygonsLike | ImageLike,
     *,
     by: str | ArrayLike | None = None,
     clip: PolygonsLike | None = None,
@@ -58,8 +60,9 @@ def voronoi(
 
     Parameters
     ----------
-    sites : PolygonSet, PointSet, (n, 2) array-like, data frame, or geometry of shapely, geopandas, GeoJSON or WKT
-        Each feature is a site, with all its parts; an array has a point in each row.
+    sites : PolygonSet, PointSet, (n, 2) array-like, data frame, geometry of shapely, geopandas, GeoJSON or WKT, image
+        Each feature is a site, with all its parts; an array has a point in each row. Of a mask or a label image each
+        object is one, which its outline bounds, in coordinates of the map where the image lies on one.
     by : str or sequence, optional
         Values that join features into sites: a column of the input, or one value a feature. Sites are numbered by first
         appearance.
@@ -91,7 +94,8 @@ def voronoi(
         If `sites`, the frame, the clip or the enclosures are none, a coordinate is not finite, the clip has no area, or
         a coordinate reference system is another one.
     UsageError
-        If the sides of the frame or `max_distance` are not above 0, or `by` is no column.
+        If the sides of the frame or `max_distance` are not above 0, that is too small beside the coordinates, or `by`
+        is no column.
     LimitError
         If there are too many vertices.
     VerificationError
@@ -115,9 +119,9 @@ def voronoi(
     [1.570796]
     """
     given_frame = None if frame is None else _checked_frame(frame)
-    limit = None if max_distance is None else _checked_limit(max_distance)
     threads = checked_threads(threads)
     given = as_sites(sites, by)
+    limit = None if max_distance is None else _checked_limit(max_distance, given.polygons.xy)
     cuts = given_cuts(clip, enclosures, given.polygons.crs)
     if cuts.are_there:
         made = map_between_cuts(given, cuts, given_frame, limit, threads=threads, progress=progress)
@@ -160,18 +164,23 @@ def _checked_frame(frame: FrameLike) -> Frame:
     return extent
 
 
-def _checked_limit(max_distance: float) -> float:
+def _checked_limit(max_distance: float, xy: NDArray[np.float64]) -> float:
     limit = finite_double(max_distance, "max_distance")
     if limit <= 0:
         raise UsageError(f"max_distance must be above 0, but is {shown_number(limit)}")
     check_lengths([limit], "distance")
+    least = LEAST * float(np.abs(xy).max(initial=0))
+    if limit < least:
+        raise UsageError(
+            f"max_distance is {shown_number(limit)}, too small beside the coordinates: use at least {1.1 * least:.2g}"
+        )
     return limit
 
 
 def _map(owned: OwnedGraph, frame: Frame, limit: float | None, threads: int, progress: Progress) -> tuple[Arcs, Rings]:
     if limit is not None:
         owned = _on_fine_lattice(owned, limit)
-    diagram = _diagram(owned, unwanted_of(owned) if limit is None else None, threads, progress)
+    diagram = diagram_of(owned, is_whole=limit is not None, threads=threads, progress=progress)
     if limit is not None:
         borders = borders_of(owned, diagram, level=limit / owned.graph.scale, threads=threads)
         cut = cut_borders(borders, owned.graph, frame)
@@ -194,13 +203,6 @@ def _on_fine_lattice(owned: OwnedGraph, limit: float) -> OwnedGraph:
         return owned
     assert not graph.points.any()
     return replace(owned, graph=replace(graph, scale=math.ldexp(1.0, int(np.frexp(limit)[1]) - _BITS)))
-
-
-def _diagram(
-    owned: OwnedGraph, unwanted: NDArray[np.uint8] | None, threads: int, progress: Progress
-) -> SegmentVoronoiDiagram:
-    graph = owned.graph
-    return segment_voronoi(graph.points, graph.segments, unwanted=unwanted, threads=threads, progress=progress)
 
 
 def _cells_of(owned: OwnedGraph, borders: Borders, cut: CutBorders, frame: Frame) -> tuple[Arcs, Rings]:

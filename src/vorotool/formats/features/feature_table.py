@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 
 from vorotool.errors import NO_PROPERTIES, InputError, LimitError
 from vorotool.formats.parsing.geojson import MOST_CELLS
-from vorotool.formats.parsing.geometry_advice import not_a_point_advice, not_a_shape_advice
+from vorotool.formats.parsing.geometry_advice import OF_SITES, not_a_point_advice, not_a_shape_advice
 from vorotool.formats.parsing.reader_options import ReadOptions, no_points
+from vorotool.geometry.arguments.sites import Sites
 from vorotool.geometry.points.conversion import part_numbers, single_points
 from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.polygons.conversion import polygons_of_geometry
@@ -86,11 +87,49 @@ def polygons_of_features(features: Features, options: ReadOptions) -> PolygonSet
     >>> len(made), made.properties
     (1, {'name': ['x']})
     """
+    kept = _kept(features)
+    options.note_left_out(features.name, len(features.geometry) - len(kept))
+    _check_kinds(features, features.geometry[kept], kept, _SHAPES, "no polygon or line", not_a_shape_advice)
+    return _shapes_of(features, kept, options)
+
+
+def sites_of_features(features: Features, options: ReadOptions) -> Sites:
+    """Give points, lines and polygons, each feature a site; one without a geometry is a site without places.
+
+    Raises
+    ------
+    InputError, LimitError
+        As of `polygons_of_features`, whose geometry may be points, too.
+
+    Examples
+    --------
+    >>> import shapely
+    >>> made = sites_of_features(
+    ...     Features("a.gpkg", np.array([shapely.Point(3, 4), None]), {"name": ["x", "y"]}), ReadOptions()
+    ... )
+    >>> made.count, made.properties
+    (2, {'name': ['x', 'y']})
+    """
+    kept = _kept(features)
+    options.note_empty(features.name, len(features.geometry) - len(kept))
+    expected = (*_POINTS, *_SHAPES)
+    _check_kinds(features, features.geometry[kept], kept, expected, "no point, line or polygon", lambda _: OF_SITES)
+    polygons = _shapes_of(features, kept, options)
+    assert polygons.feature is not None
+    known: dict[str, Any] = {}
+    if options.properties:
+        known["ids"] = None if features.ids is None else list(features.ids)
+        known["properties"] = {name: list(values) for name, values in features.columns.items()}
+    return Sites(polygons, polygons.feature, len(features.geometry), **known)
+
+
+def _shapes_of(features: Features, kept: NDArray[np.int64], options: ReadOptions) -> PolygonSet:
+    """Polygons, lines and points of some of the features."""
     import shapely
 
-    kept = _kept(features, options)
     geometry = features.geometry[kept]
-    _check_kinds(features, geometry, kept, _SHAPES, "no polygon or line", not_a_shape_advice)
+    if shapely.has_z(geometry).any():
+        options.note_heights(features.name)
     options.check_vertices(features.name, int(shapely.get_num_coordinates(geometry).sum()))
 
     def described(items: NDArray[np.int64]) -> dict[str, Any]:
@@ -104,7 +143,7 @@ def polygons_of_features(features: Features, options: ReadOptions) -> PolygonSet
         return {**fields, "ids": ids, "properties": columns}
 
     try:
-        return polygons_of_geometry(geometry, described)
+        return polygons_of_geometry(geometry, described, takes_points=True)
     except InputError:
         _check_finite(features, geometry, kept)
         raise
@@ -131,8 +170,11 @@ def points_of_features(features: Features, options: ReadOptions) -> PointSet:
     """
     import shapely
 
-    kept = _kept(features, options)
+    kept = _kept(features)
+    options.note_left_out(features.name, len(features.geometry) - len(kept))
     geometry = features.geometry[kept]
+    if shapely.has_z(geometry).any():
+        options.note_heights(features.name)
     _check_kinds(features, geometry, kept, _POINTS, "not a point", not_a_point_advice)
     points, items = single_points(geometry)
     owners = kept[items]
@@ -162,16 +204,11 @@ def _taken(values: Sequence[Any], index: NDArray[np.integer]) -> list[Any]:
     return [values[i] for i in index.tolist()]
 
 
-def _kept(features: Features, options: ReadOptions) -> NDArray[np.int64]:
-    """Features that have a geometry, which is not empty; say how many have none, and that heights are left out."""
+def _kept(features: Features) -> NDArray[np.int64]:
+    """Features that have a geometry, which is not empty."""
     import shapely
 
-    geometry = features.geometry
-    kept = np.flatnonzero(~shapely.is_missing(geometry) & ~shapely.is_empty(geometry))
-    options.note_left_out(features.name, len(geometry) - len(kept))
-    if shapely.has_z(geometry[kept]).any():
-        options.note_heights(features.name)
-    return kept
+    return np.flatnonzero(~shapely.is_missing(features.geometry) & ~shapely.is_empty(features.geometry))
 
 
 def _check_kinds(

@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
-from vorotool.formats.features.feature_table import Features, points_of_features, polygons_of_features
+from vorotool.formats.features.feature_table import (
+    Features,
+    points_of_features,
+    polygons_of_features,
+    sites_of_features,
+)
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.formats.points.tables import points_of_columns
+from vorotool.geometry.arguments.sites import Sites
 from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.products.formats import resolved
@@ -34,6 +40,11 @@ def read_points(source: Source, options: ReadOptions) -> PointSet:
             source.name, {name: list(values) for name, values in features.columns.items()}, options
         )
     return points_of_features(features, options)
+
+
+def read_sites(source: Source, options: ReadOptions) -> Sites:
+    """Read points, lines and polygons with their attributes, each feature a site."""
+    return sites_of_features(features_of(source), options)
 
 
 def read_polygons(source: Source, options: ReadOptions) -> PolygonSet:

@@ -5,6 +5,9 @@ from __future__ import annotations
 from vorotool.errors import option
 
 _TAKER = option("skeleton-exact reads", "skeleton_exact takes")
+_TAKER_OF_ALL = option("voronoi reads", "voronoi takes")
+OF_SITES = "use (Multi)Point, (Multi)LineString or (Multi)Polygon"
+"""What to do with geometry that is none of these."""
 
 
 def not_a_point_advice(kind: str) -> str:
@@ -27,8 +30,8 @@ def not_a_shape_advice(kind: str) -> str:
     Examples
     --------
     >>> not_a_shape_advice("MultiPoint")
-    'put points into a file of their own'
+    'put points into a file of their own (voronoi takes points, lines and polygons together)'
     """
     if kind.lower().removeprefix("multi") == "point":
-        return "put points into a file of their own"
+        return f"put points into a file of their own ({_TAKER_OF_ALL} points, lines and polygons together)"
     return "use (Multi)Polygon or (Multi)LineString"

@@ -17,10 +17,11 @@ from vorotool.formats.parsing.reader_options import ReadOptions
 
 NPZ_MAGIC = b"PK\x03\x04"
 _SKELETON = frozenset({"arc_source", "vertex_r", "ring_start"})
+_VORONOI = frozenset({"cell_ring_arcs", "cell_start", "vertex_r", "about"})
 _CELLS = frozenset({"cell_starts", "polygon_starts", "ring_starts", "vertex_x", "vertex_y"})
 
 
-def npz_holds(data: bytes) -> Literal["points", "polygons", "skeleton"]:
+def npz_holds(data: bytes) -> Literal["points", "polygons", "skeleton", "voronoi"]:
     """Tell what an archive holds by the names of its arrays: all else is taken for points.
 
     Examples
@@ -33,6 +34,8 @@ def npz_holds(data: bytes) -> Literal["points", "polygons", "skeleton"]:
             names = {name.removesuffix(".npy") for name in archive.namelist()}
     except Exception:  # who reads it says what is wrong: zipfile raises nearly everything on damaged bytes
         return "points"
+    if names >= _VORONOI:
+        return "voronoi"
     return "skeleton" if names >= _SKELETON else "polygons" if names >= _CELLS else "points"
 
 

@@ -73,6 +73,11 @@ class ReadOptions:
         if features:
             self.note(f"{name}: {features} features without a geometry are left out")
 
+    def note_empty(self, name: str, features: int) -> None:
+        """Say how many sites have no geometry, if any."""
+        if features:
+            self.note(f"{name}: {features} features without a geometry have empty cells")
+
     def note_heights(self, name: str) -> None:
         """Say that coordinates beyond x and y are not used."""
         self.note(f"{name}: only x and y are used, heights are left out")

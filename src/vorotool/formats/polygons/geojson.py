@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from typing import Any, BinaryIO
 
@@ -18,37 +18,60 @@ from vorotool.formats.parsing.geojson import (
     parse_json,
     property_columns,
 )
-from vorotool.formats.parsing.geometry_advice import not_a_shape_advice
+from vorotool.formats.parsing.geometry_advice import OF_SITES, not_a_shape_advice
 from vorotool.formats.parsing.reader_options import ReadOptions, shortened
 from vorotool.formats.parsing.reference_systems import note_unnamed
 from vorotool.formats.polygons.ring_collector import RingCollector
 from vorotool.formats.text.coordinate_text import Digits
 from vorotool.formats.text.feature_collection import collection_opening
 from vorotool.formats.text.tables import json_bytes
+from vorotool.geometry.arguments.sites import Sites
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 
 
 def read_geojson(source: Source, options: ReadOptions) -> PolygonSet:
     """Read the polygons and lines of a GeoJSON document with their ``id``, properties and ``crs``."""
+    polygons, features = _read(source, options)
+    assert polygons.feature is not None
+    options.note_left_out(source.name, len(features) - len(set(polygons.feature.tolist())))
+    return polygons
+
+
+def read_sites(source: Source, options: ReadOptions) -> Sites:
+    """Read points, lines and polygons, each feature a site; one without a geometry is a site without places."""
+    polygons, features = _read(source, options, takes_points=True)
+    assert polygons.feature is not None
+    options.note_empty(source.name, len(features) - len(set(polygons.feature.tolist())))
+    known = _described(source.name, features, range(len(features)), options)
+    return Sites(polygons, polygons.feature, len(features), known["ids"], known["properties"])
+
+
+def _read(source: Source, options: ReadOptions, *, takes_points: bool = False) -> tuple[PolygonSet, list[Any]]:
+    """Read a document, and give its features as well."""
     document = parse_json(source)
     if not isinstance(document, dict):
         raise InputError(f"{source.name}: GeoJSON is an object with a type; use {AS_JSON} for [[x, y], …]")
     features = features_of(source.name, document)
     place = feature_places(source.name, document)
-    collector = RingCollector(options, source.name, place)
+    collector = RingCollector(options, source.name, place, takes_points=takes_points)
     for index, feature in enumerate(features):
         geometry = geometry_of(feature, place(index))
         if geometry is not None:
             _collect(collector, index, geometry, place(index))
-    owners = collector.features
-    ids = [features[i].get("id") for i in owners] if any("id" in feature for feature in features) else None
-    own = property_columns(source.name, features, owners, "polygons") if options.properties else {}
     crs = document.get("crs")
-    polygons = collector.finish(ids=ids if options.properties else None, properties=own, y_up=True, crs=crs)
-    options.note_left_out(source.name, len(features) - len(set(owners)))
+    known = _described(source.name, features, collector.features, options)
+    polygons = collector.finish(**known, y_up=True, crs=crs)
     if crs is None and options.crs is None:
         note_unnamed(source.name, polygons.xy, options.note)
-    return polygons
+    return polygons, features
+
+
+def _described(name: str, features: list[Any], owners: Sequence[int], options: ReadOptions) -> dict[str, Any]:
+    """Ids and properties of the features of some rows."""
+    if not options.properties:
+        return {"ids": None, "properties": {}}
+    ids = [features[i].get("id") for i in owners] if any("id" in feature for feature in features) else None
+    return {"ids": ids, "properties": property_columns(name, features, owners, "polygons")}
 
 
 def _collect(collector: RingCollector, feature: int, geometry: Any, place: str) -> None:
@@ -67,6 +90,12 @@ def _collect(collector: RingCollector, feature: int, geometry: Any, place: str) 
         coordinates = list_of(geometry, "coordinates", place)
         for line in coordinates if kind == "MultiLineString" else [coordinates]:
             collector.add_line(feature, line)
+    elif kind in ("Point", "MultiPoint") and collector.takes_points:
+        coordinates = list_of(geometry, "coordinates", place)
+        for position in coordinates if kind == "MultiPoint" else [coordinates]:
+            collector.add_point(feature, position)
+    elif collector.takes_points:
+        raise InputError(f"{place}: {shortened(kind)} is no point, line or polygon; {OF_SITES}")
     else:
         raise InputError(f"{place}: {shortened(kind)} is no polygon or line; {not_a_shape_advice(str(kind))}")
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from typing import Any, BinaryIO
 
 import numpy as np
@@ -11,11 +12,14 @@ from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.geojson import parse_json, property_columns, refuse_table
 from vorotool.formats.parsing.reader_options import ReadOptions, shortened
 from vorotool.formats.polygons.geojson import read_geojson
+from vorotool.formats.polygons.geojson import read_sites as read_geojson_sites
 from vorotool.formats.polygons.ring_collector import RingCollector
 from vorotool.formats.text.coordinate_text import Digits
 from vorotool.formats.text.tables import json_bytes
+from vorotool.geometry.arguments.sites import Sites, as_sites
 from vorotool.geometry.polygons.conversion import closed_ring
 from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.products.formats import resolved
 
 _AS_GEOJSON = option("--what offset -f geojson", 'fmt="geojson"')
 
@@ -50,6 +54,21 @@ def read_json(source: Source, options: ReadOptions) -> PolygonSet:
     return polygons
 
 
+def read_sites(source: Source, options: ReadOptions) -> Sites:
+    """Read polygons and lines, or where the object has a type GeoJSON, whose points are sites, too.
+
+    Of a Voronoi map its sites are read.
+    """
+    document = parse_json(source)
+    if isinstance(document, dict) and document.get("type") == "vorotool.voronoi":
+        options.note(f"{source.name} holds a Voronoi map: the sites in it are read")
+        sites: Sites = resolved("formats.results.voronoi_json:read_sites")(source, options)
+        return sites
+    if isinstance(document, dict) and "polygons" not in document and "type" in document:
+        return read_geojson_sites(source, options)
+    return as_sites(read_json(source, options))
+
+
 def _note_holes(name: str, polygons: PolygonSet, options: ReadOptions) -> None:
     """Say that a ring inside the first one is a shell of its own here: where GeoJSON has it, it would be a hole."""
     low, high = (bound.reduceat(polygons.xy, polygons.ring_start[:-1]) for bound in (np.minimum, np.maximum))
@@ -79,8 +98,9 @@ def _check_type(name: str, document: Any, options: ReadOptions) -> None:
             f"{name} holds offset curves, with arcs: write them as GeoJSON ({_AS_GEOJSON}), which has "
             "polygons instead, or give the file that they were made from"
         )
-    if kind == "vorotool.skeleton":
-        options.note(f"{name} holds a skeleton: the polygons in it are read")
+    for known, noun in (("vorotool.skeleton", "skeleton"), ("vorotool.voronoi", "Voronoi map")):
+        if kind == known:
+            options.note(f"{name} holds a {noun}: the polygons in it are read")
 
 
 def _items(name: str, document: Any) -> list[Any]:
@@ -140,8 +160,10 @@ def write_json(out: BinaryIO, polygons: PolygonSet, precision: int | None) -> No
     out.write(b"}\n")
 
 
-def write_items(out: BinaryIO, polygons: PolygonSet, precision: int | None) -> None:
-    """Write ``"polygons": […]``, a member of an object."""
+def write_items(
+    out: BinaryIO, polygons: PolygonSet, precision: int | None, own: Mapping[str, Sequence[Any]] | None = None
+) -> None:
+    """Write ``"polygons": […]``, a member of an object; each item has further members of its ``own``."""
     digits = Digits(precision)
     part = polygons.part.tolist()
     in_parts = max(part, default=1) > 1
@@ -154,6 +176,7 @@ def write_items(out: BinaryIO, polygons: PolygonSet, precision: int | None) -> N
             item["part"] = part[index]
         if polygons.properties:
             item["properties"] = {key: values[index] for key, values in polygons.properties.items()}
+        item |= {name: values[index] for name, values in (own or {}).items()}
         rings = [digits.rounded(ring) for ring in polygons.rings_of(index)]
         item |= {"line": rings[0]} if is_line else {"shell": rings[0], "holes": rings[1:]}
         out.write((b",\n" if index else b"\n") + json_bytes(item))

@@ -28,12 +28,15 @@ class RingCollector:
         Gives the words for the place of a feature (0-based).
     flat_only : bool
         Positions must not have more than two numbers.
+    takes_points : bool
+        Points are wanted, too, as lines of one vertex.
     """
 
     options: ReadOptions
     name: str
     feature_place: Callable[[int], str]
     flat_only: bool = False
+    takes_points: bool = False
     positions: list[Any] = field(default_factory=list)
     sizes: list[int] = field(default_factory=list)
     kinds: list[int] = field(default_factory=list)
@@ -52,6 +55,10 @@ class RingCollector:
         """Take the positions of an open line; an empty one is left out."""
         if self._add_ring(feature, line, LINE):
             self.features.append(feature)
+
+    def add_point(self, feature: int, position: Any) -> None:
+        """Take the position of a point; an empty one is left out."""
+        self.add_line(feature, [position] if position else position)
 
     def finish(self, **described: Any) -> PolygonSet:
         """Make the polygons, once all are collected.

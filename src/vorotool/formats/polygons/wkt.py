@@ -10,37 +10,59 @@ import numpy as np
 
 from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source, check_nesting
-from vorotool.formats.parsing.geometry_advice import not_a_shape_advice
+from vorotool.formats.parsing.geometry_advice import OF_SITES, not_a_shape_advice
 from vorotool.formats.parsing.reader_options import ReadOptions, shortened
 from vorotool.formats.parsing.reference_systems import crs_of_numbers
 from vorotool.formats.points.wkt import geometry_texts
 from vorotool.formats.polygons.geojson import feature_ranges
 from vorotool.formats.text.coordinate_text import Digits
+from vorotool.geometry.arguments.sites import Sites
 from vorotool.geometry.polygons.conversion import polygons_of_geometry
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 
 _COMMENT = re.compile(rb"^\s*#.*$", re.MULTILINE)
 _SHAPE = re.compile(rb"POLYGON|LINESTRING|LINEARRING", re.IGNORECASE)
-_SHAPES, _COLLECTION = (1, 2, 3, 5, 6), 7  # type numbers of GEOS
+_POINTS, _SHAPES, _COLLECTION = (0, 4), (1, 2, 3, 5, 6), 7  # type numbers of GEOS
 
 
 def read_wkt(source: Source, options: ReadOptions) -> PolygonSet:
     """Read (MULTI)POLYGON, (MULTI)LINESTRING and collections of them, one feature a geometry."""
+    polygons, geometries = _read(source, options)
+    options.note_left_out(source.name, _count_of_empty(geometries))
+    return polygons
+
+
+def read_sites(source: Source, options: ReadOptions) -> Sites:
+    """Read points, lines and polygons, each geometry a site; an empty one is a site without places."""
+    polygons, geometries = _read(source, options, takes_points=True)
+    assert polygons.feature is not None
+    options.note_empty(source.name, _count_of_empty(geometries))
+    return Sites(polygons, polygons.feature, len(geometries))
+
+
+def _count_of_empty(geometries: Any) -> int:
     import shapely
 
+    return int(shapely.is_empty(geometries).sum())
+
+
+def _read(source: Source, options: ReadOptions, *, takes_points: bool = False) -> tuple[PolygonSet, Any]:
+    import shapely
+
+    expected = (*_SHAPES, *(_POINTS if takes_points else ()))
     check_nesting(source.data, name=source.name)
     texts, lines, srids = geometry_texts(source)
     crs = crs_of_numbers(source.name, srids, lines.__getitem__)
     with np.errstate(all="ignore"):  # numbers beyond the largest double are found below
         geometries = shapely.from_wkt(np.array(texts, dtype=object), on_invalid="ignore")
-    for index in np.flatnonzero(~np.isin(shapely.get_type_id(geometries), _SHAPES)):
-        _check_geometry(geometries[index], texts[index], f"{source.name}, line {lines[index]}")
+    for index in np.flatnonzero(~np.isin(shapely.get_type_id(geometries), expected)):
+        _check_geometry(geometries[index], texts[index], f"{source.name}, line {lines[index]}", expected)
     options.check_vertices(source.name, int(shapely.get_num_coordinates(geometries).sum()))
     _check_finite(source.name, geometries, texts, lines)
     if shapely.has_z(geometries).any():
         options.note_heights(source.name)
-    options.note_left_out(source.name, int(shapely.is_empty(geometries).sum()))
-    return replace(polygons_of_geometry(geometries), y_up=True, crs=crs)
+    polygons = polygons_of_geometry(geometries, takes_points=takes_points)
+    return replace(polygons, y_up=True, crs=crs), geometries
 
 
 def holds_shapes(data: bytes) -> bool:
@@ -48,7 +70,7 @@ def holds_shapes(data: bytes) -> bool:
     return _SHAPE.search(_COMMENT.sub(b"", data)) is not None
 
 
-def _check_geometry(geometry: Any, text: str, place: str) -> None:
+def _check_geometry(geometry: Any, text: str, place: str, expected: tuple[int, ...]) -> None:
     import shapely
 
     if geometry is None:
@@ -58,9 +80,11 @@ def _check_geometry(geometry: Any, text: str, place: str) -> None:
     kind = shapely.get_type_id(geometry)
     if kind == _COLLECTION:
         for part in shapely.get_parts(geometry):
-            _check_geometry(part, text, place)
-    elif kind not in _SHAPES:
+            _check_geometry(part, text, place, expected)
+    elif kind not in expected:
         name = geometry.geom_type
+        if _POINTS[0] in expected:
+            raise InputError(f"{place}: a {name} is no point, line or polygon; {OF_SITES}")
         raise InputError(f"{place}: a {name} is no polygon or line; {not_a_shape_advice(name)}")
 
 

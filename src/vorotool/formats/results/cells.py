@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from functools import partial
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any, BinaryIO
 
 import numpy as np
@@ -13,7 +13,7 @@ from vorotool import _core
 from vorotool.formats.text.feature_collection import write_collection
 from vorotool.formats.text.row_writer import Column, RowShape, write_list_rows, write_rows
 from vorotool.formats.text.tables import json_column, json_text, object_shape, write_npz, write_table
-from vorotool.geometry.mesh.cells import CellSet
+from vorotool.geometry.mesh.cells import CellSet, Nesting
 from vorotool.geometry.ragged import owners, within
 from vorotool.geometry.table import Computed, Lookup, Table
 
@@ -45,52 +45,109 @@ def write_cells(out: BinaryIO, cells: CellSet, fmt: str, *, precision: int | Non
     >>> print(out.getvalue().decode().splitlines()[1])
     1,1,1,"POLYGON ((0 0, 2 0, 2 2, 0 2, 0 0))"
     """
-    _WRITERS[fmt](out, cells, precision, threads)
+    if fmt in _WRITERS:
+        _WRITERS[fmt](out, cells, precision, threads)
+    else:
+        write_shapes(out, _shapes_of(cells), fmt, precision=precision, threads=threads)
 
 
-def _shapes(cells: CellSet, style: str, rows: NDArray[np.int64] | None = None) -> Computed:
-    """The column of the cells' polygons, or that of other rows of polygons."""
-    rings, polygons, of_cells = cells.nesting
-    starts = of_cells if rows is None else rows
+@dataclass(frozen=True, eq=False)
+class CellShapes:
+    """Cells as polygons, and what is known of each.
 
-    def texts(part: slice) -> Any:
-        begin, end, _ = part.indices(len(starts) - 1)
-        own = _core.text.PolygonStyle[style]
-        return _core.text.PolygonTexts(cells.coordinates, rings, polygons, starts[begin : end + 1], own)
+    Parameters
+    ----------
+    columns : mapping of str to column
+        Ours, the label first.
+    properties : mapping of str to sequence
+        Those of the input.
+    coordinates : (k, 2) float64 array
+        Vertices, ring after ring, the first of each not repeated.
+    nesting : Nesting
+        Where rings, polygons and cells begin.
+    ids : sequence, optional
+        Names of the features; by default the property ``id``, else labels.
+    crs : object, optional
+        The ``crs`` member of GeoJSON.
+    """
 
-    return Computed(texts, len(starts) - 1)
+    columns: Mapping[str, Any]
+    properties: Mapping[str, Any]
+    coordinates: NDArray[np.float64]
+    nesting: Nesting
+    ids: Sequence[Any] | None = None
+    crs: Any = None
+
+    def texts(self, style: str, rows: NDArray[np.int64] | None = None) -> Computed:
+        """The column of the cells' polygons, or that of other rows of polygons."""
+        rings, polygons, of_cells = self.nesting
+        starts = of_cells if rows is None else rows
+
+        def texts(part: slice) -> Any:
+            begin, end, _ = part.indices(len(starts) - 1)
+            own = _core.text.PolygonStyle[style]
+            return _core.text.PolygonTexts(self.coordinates, rings, polygons, starts[begin : end + 1], own)
+
+        return Computed(texts, len(starts) - 1)
+
+    def table(self, shapes: Computed | None = None) -> Table:
+        """Our columns, with shapes their ids and WKT, too, and the input's own, before which ours take a prefix."""
+        ours = dict(self.columns)
+        if shapes is not None:
+            names = {} if self.ids is None else {"id": list(self.ids)}
+            ours = {"label": ours.pop("label"), **names, **ours, "wkt": shapes}
+        return Table(ours).with_properties(self.properties)
 
 
-def _table(cells: CellSet, shapes: Computed | None = None) -> Table:
-    """Label and place of the sites, and the shapes of their cells if wanted; then the input's own columns."""
+def write_shapes(out: BinaryIO, cells: CellShapes, fmt: str, *, precision: int | None = None, threads: int = 0) -> None:
+    r"""Write cells as GeoJSON, as WKT, or as a table with a column of WKT.
+
+    Parameters
+    ----------
+    out, precision, threads
+        As of `write_cells`.
+    cells : CellShapes
+        One row, or feature, a cell.
+    fmt : {"geojson", "csv", "tsv", "wkt"}
+        The format.
+
+    Examples
+    --------
+    >>> import io, vorotool
+    >>> out = io.BytesIO()
+    >>> write_shapes(out, _shapes_of(vorotool.voronoi_cells([[1, 1], [3, 1]], frame=(0, 0, 4, 2))), "wkt")
+    >>> out.getvalue().splitlines()[1]
+    b'POLYGON ((2 0, 4 0, 4 2, 2 2, 2 0))'
+    """
+    if fmt == "geojson":
+        _write_geojson(out, cells, precision, threads)
+    elif fmt == "wkt":
+        shape = RowShape(("", "\n"), "", "POLYGON EMPTY")
+        write_rows(out, [Column("", cells.texts("wkt"))], shape, precision=precision, threads=threads)
+    else:
+        table = cells.table(cells.texts("wkt"))
+        write_table(out, table, fmt, precision=precision, threads=threads)
+
+
+def _shapes_of(cells: CellSet) -> CellShapes:
+    """Label and place of the sites are our columns."""
     x, y = np.ascontiguousarray(cells.sites.T)
-    columns: dict[str, Any] = {"label": cells.label_array, "x": x, "y": y}
-    if shapes is not None:
-        columns["wkt"] = shapes
-    return Table(columns).with_properties(cells.properties)
+    columns = {"label": cells.label_array, "x": x, "y": y}
+    return CellShapes(columns, cells.properties, cells.coordinates, cells.nesting, crs=cells.crs)
 
 
-def _write_csv(out: BinaryIO, cells: CellSet, precision: int | None, threads: int, fmt: str = "csv") -> None:
-    write_table(out, _table(cells, _shapes(cells, "wkt")), fmt, precision=precision, threads=threads)
-
-
-def _write_wkt(out: BinaryIO, cells: CellSet, precision: int | None, threads: int) -> None:
-    shape = RowShape(("", "\n"), "", "POLYGON EMPTY")
-    write_rows(out, [Column("", _shapes(cells, "wkt"))], shape, precision=precision, threads=threads)
-
-
-def _write_geojson(out: BinaryIO, cells: CellSet, precision: int | None, threads: int) -> None:
-    table = _table(cells).stored()
-    ids = table.pop("id", None)
+def _write_geojson(out: BinaryIO, cells: CellShapes, precision: int | None, threads: int) -> None:
+    table = cells.table().stored()
+    ids = cells.ids if cells.ids is not None else table.pop("id", None)
     columns = [json_column(Column.of(name, values), precision) for name, values in table.items()]
     around = object_shape([column.name for column in columns], '"properties":', ',"geometry":').around
     if ids is None:
-        head, opening = Column.of("id", cells.label_array), ('{"type":"Feature","id":', "," + around[0])
+        head, opening = Column.of("id", cells.columns["label"]), ('{"type":"Feature","id":', "," + around[0])
     else:  # a feature may have none
         texts = ["" if value is None else f'"id":{json_text(value)},' for value in ids]
         head, opening = Column("id", texts), ('{"type":"Feature",', around[0])
     shape = RowShape((*opening, *around[1:], "}"), ",\n", "null")
-    columns = [head, *columns, Column("", _shapes(cells, "geojson"))]
+    columns = [head, *columns, Column("", cells.texts("geojson"))]
     write_collection(out, columns, shape, crs=cells.crs, precision=precision, threads=threads)
 
 
@@ -103,7 +160,8 @@ def _write_json(out: BinaryIO, cells: CellSet, precision: int | None, threads: i
     rows = np.append(of_cells[cell] + part, of_cells[-1])
     empty = cells.is_empty
     rows[:-1][empty[cell]] = of_cells[1:][empty]  # an empty row ends where it begins
-    table = _table(cells).stored()
+    shapes = _shapes_of(cells)
+    table = shapes.table().stored()
     ids = table.pop("id", cells.label_array)
     columns = [_looked_up(name, values, cell, precision) for name, values in table.items()]
     around = object_shape([column.name for column in columns], ',"properties":', ",")
@@ -113,7 +171,7 @@ def _write_json(out: BinaryIO, cells: CellSet, precision: int | None, threads: i
         opening.append(',"part":')
     shape = RowShape((*opening, *around.around, "}"), ",\n", "null")
     out.write(b'{"polygons":[')
-    columns = [*head, *columns, Column("", _shapes(cells, "json", rows))]
+    columns = [*head, *columns, Column("", shapes.texts("json", rows))]
     write_list_rows(out, columns, shape, precision=precision, threads=threads)
     out.write(b"]}\n")
 
@@ -131,7 +189,7 @@ def _write_npz(out: BinaryIO, cells: CellSet, _precision: int | None, threads: i
     rings, polygons, of_cells = cells.nesting
     x, y = np.ascontiguousarray(cells.coordinates.T)
     arrays = {
-        **_table(cells).stored(),
+        **_shapes_of(cells).table().stored(),
         "cell_starts": of_cells,
         "polygon_starts": polygons,
         "ring_starts": rings,
@@ -142,11 +200,4 @@ def _write_npz(out: BinaryIO, cells: CellSet, _precision: int | None, threads: i
     write_npz(out, [Column.of(name, values) for name, values in arrays.items()], threads)
 
 
-_WRITERS: dict[str, Callable[[BinaryIO, CellSet, int | None, int], None]] = {
-    "geojson": _write_geojson,
-    "csv": _write_csv,
-    "tsv": partial(_write_csv, fmt="tsv"),
-    "json": _write_json,
-    "npz": _write_npz,
-    "wkt": _write_wkt,
-}
+_WRITERS: dict[str, Callable[[BinaryIO, CellSet, int | None, int], None]] = {"json": _write_json, "npz": _write_npz}

@@ -81,6 +81,13 @@ class JsonRows:
             raise self.fault(member, rows, name, lambda v: isinstance(v, str | None) and v in number, listed)
         return np.array([number[value] for value in values], dtype=np.int8)
 
+    def truths(self, member: str, rows: list[Any], name: str) -> NDArray[np.bool_]:
+        """Truth values."""
+        values = [row.get(name) for row in rows]
+        if not all(type(value) is bool for value in values):
+            raise self.fault(member, rows, name, lambda value: type(value) is bool, "true or false")
+        return np.array(values, dtype=bool)
+
     def pairs(self, member: str, rows: list[Any], name: str, *, optional: bool) -> NDArray[np.float64]:
         """Pairs of numbers; None becomes NaN where it is allowed."""
 

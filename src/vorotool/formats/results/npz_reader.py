@@ -17,7 +17,10 @@ from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.formats.polygons.json import read_json
 from vorotool.formats.results.skeleton_json import TYPE, VERSION
 from vorotool.formats.results.skeleton_json import read_skeleton as read_skeleton_json
+from vorotool.formats.results.voronoi_json import sites_of_map
+from vorotool.formats.results.voronoi_npz import read_voronoi as read_map
 from vorotool.formats.text.json_writer import SITE_KINDS
+from vorotool.geometry.arguments.sites import Sites, as_sites
 from vorotool.geometry.polygons.polygon_set import LINE, PolygonSet
 from vorotool.geometry.ragged import divides
 from vorotool.geometry.skeleton.skeleton import KINDS, SIDES, Skeleton
@@ -54,9 +57,19 @@ def read_polygons(source: Source, options: ReadOptions) -> PolygonSet:
             f"{source.name} holds no polygons that are read: an NPZ has those of cells ({_CELLS}) or of a "
             f"skeleton; of others, and of offset curves, give the JSON ({_AS_JSON}), and unpack what is no NPZ"
         )
+    if holds == "voronoi":
+        return read_map(source, options).polygons
     arrays = npz_columns(source, options)
     document = _skeleton(source.name, arrays) if holds == "skeleton" else _cells(source.name, arrays)
     return read_json(Source(source.name, b"", "json", document), options)
+
+
+def read_sites(source: Source, options: ReadOptions) -> Sites:
+    """Read the sites of a Voronoi map, or polygons as `read_polygons`, each feature a site."""
+    if npz_holds(source.data) == "voronoi":
+        options.note(f"{source.name} holds a Voronoi map: the sites in it are read")
+        return sites_of_map(read_map(source, options))
+    return as_sites(read_polygons(source, options))
 
 
 # ---- skeletons -----------------------------------------------------------------------------------

@@ -12,6 +12,8 @@ from vorotool.geometry.any.tables import indexed_table
 from vorotool.geometry.crs import crs_text
 from vorotool.geometry.extras import needed
 from vorotool.geometry.row_index import index_of_rows
+from vorotool.geometry.voronoi.tables import neighbour_pairs
+from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 
 
 def to_pandas(value: Any) -> Any:
@@ -47,6 +49,31 @@ def to_geopandas(value: Any, **options: Any) -> Any:
     name = "voro_geometry" if "geometry" in frame else "geometry"
     frame[name] = geopandas.GeoSeries(features.geometry, index=frame.index)
     return geopandas.GeoDataFrame(frame, geometry=name, crs=crs_text(getattr(features.source, "crs", None)))
+
+
+def adjacency(cells: VoronoiMap) -> Any:
+    """Give pairs of neighbours both ways as a data frame, cells without any with themselves.
+
+    See `vorotool.VoronoiMap.to_adjacency`.
+
+    Examples
+    --------
+    >>> from vorotool import voronoi
+    >>> adjacency(voronoi([[0, 0], [4, 0], [4, 0]], frame=(0, 0, 4, 2))).values.tolist()
+    [[0.0, 1.0, 2.0], [1.0, 0.0, 2.0], [2.0, 2.0, 0.0]]
+    """
+    pandas = needed("pandas", "frames", "data frames")
+    pairs, length = neighbour_pairs(cells)
+    lone = np.setdiff1d(np.arange(len(cells)), pairs)
+    focal = np.concatenate([pairs[:, 0], pairs[:, 1], lone])
+    neighbour = np.concatenate([pairs[:, 1], pairs[:, 0], lone])
+    weights = np.concatenate([length, length, np.zeros(len(lone))])
+    order = np.lexsort((neighbour, focal))
+    index = _index(pandas, cells, np.arange(len(cells)))
+    names = pandas.RangeIndex(len(cells)) if index is None else index
+    return pandas.DataFrame(
+        {"focal": names[focal[order]], "neighbor": names[neighbour[order]], "weight": weights[order]}
+    )
 
 
 def _series(pandas: Any, columns: Mapping[str, Any]) -> dict[str, Any]:

@@ -17,12 +17,14 @@ from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.skeleton.graph import skeleton_graph
 from vorotool.geometry.skeleton.skeleton import Skeleton
 from vorotool.geometry.table import Table
+from vorotool.geometry.voronoi.tables import neighbour_pairs
+from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 from vorotool.products.formats import resolved
 
 if TYPE_CHECKING:
     import networkx
 
-GraphLike = Skeleton | Triangulation | DigitalTriangulation | LabelImage | PlanarGraph
+GraphLike = Skeleton | Triangulation | DigitalTriangulation | LabelImage | PlanarGraph | VoronoiMap
 """What there are graphs of."""
 
 
@@ -35,14 +37,16 @@ def to_networkx(
 
     Parameters
     ----------
-    value : Skeleton, Triangulation, DigitalTriangulation, LabelImage or PlanarGraph
+    value : Skeleton, Triangulation, DigitalTriangulation, LabelImage, PlanarGraph or VoronoiMap
         Of a skeleton nodes are numbers of vertices, with ``x``, ``y`` and ``r``; edges have the number of their branch
         or arc for a key, and ``branch`` (also ``arc``), ``polygon``, ``id``, ``side``, ``kind``, ``length``, ``r_min``,
         ``r_max``, ``r_mean`` as `branch_table` has them, and ``geometry``, a shapely LineString; the properties of the
         polygon, too. Of a triangulation nodes are numbers of points, from 0, with ``x``, ``y``, ``label`` and the
         properties, edges have ``length``. Of a label image nodes are labels, with the columns of `region_table`, edges
         join neighbours, with those of `neighbour_table`. Of a planar graph nodes are numbers of its points, with ``x``
-        and ``y``, edges have ``segment``, ``length``, ``face_left`` and ``face_right``.
+        and ``y``, edges have ``segment``, ``length``, ``face_left`` and ``face_right``. Of a Voronoi map nodes are
+        numbers of its cells, from 0, with the columns of its table, edges join neighbours, with ``border_length`` and
+        ``distance``.
     by : {"branch", "arc"}, optional
         What an edge of a skeleton is; by default a branch. A closed branch joins a node with itself.
     flatten : float, optional
@@ -74,6 +78,7 @@ def to_networkx(
         (Triangulation | DigitalTriangulation, _of_mesh),
         (LabelImage, _of_labels),
         (PlanarGraph, _of_planar_graph),
+        (VoronoiMap, _of_voronoi),
     ]
     for kind, maker in makers:
         if not isinstance(value, kind):
@@ -85,7 +90,7 @@ def to_networkx(
         return made
     raise UsageError(
         f"there is no graph of a {type(value).__name__}: give a Skeleton, Triangulation, DigitalTriangulation, "
-        "LabelImage or PlanarGraph"
+        "LabelImage, PlanarGraph or VoronoiMap"
     )
 
 
@@ -145,6 +150,18 @@ def _of_labels(library: Any, image: LabelImage) -> Any:
     graph = library.Graph(**_named(None if image.grid is None else image.grid.crs))
     graph.add_nodes_from(zip(labels.tolist(), _rows(regions), strict=True))
     a, b = borders.pop("label_a").tolist(), borders.pop("label_b").tolist()
+    graph.add_edges_from(zip(a, b, _rows(borders), strict=True))
+    return graph
+
+
+def _of_voronoi(library: Any, cells: VoronoiMap) -> Any:
+    graph = library.Graph(**_named(cells.crs))
+    table = dict(cells.table)
+    reach = "voro_max_distance" if "max_distance" in cells.properties else "max_distance"
+    table[reach] = np.ma.masked_invalid(table[reach])
+    graph.add_nodes_from(enumerate(_rows(table)))
+    borders = {name: column for name, column in cells.neighbours.items() if name not in ("label_a", "label_b")}
+    a, b = neighbour_pairs(cells)[0].T.tolist()
     graph.add_edges_from(zip(a, b, _rows(borders), strict=True))
     return graph
 

@@ -23,6 +23,7 @@ from vorotool.geometry.skeleton.offsets import Offsets
 from vorotool.geometry.skeleton.points_along import SkeletonPoints
 from vorotool.geometry.skeleton.skeleton import SiteTable, Skeleton
 from vorotool.geometry.table import Table
+from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 
 Place = tuple[float, float] | None
 
@@ -49,11 +50,15 @@ _LENGTHS_OF = {
     Centerlines: "path ends",
     SkeletonPoints: "skeleton along xy radius feet",
     Offsets: "polygons site_table start end centre distance",
+    VoronoiMap: "polygons clip enclosures vertices radius control center frame max_distance",
 }
 """What of each type is a length, or has lengths; all else stays."""
 
 _DISTANCES = frozenset(
-    {*("r", "r_min", "r_mid", "r_max", "spectrum", "radius", "length"), *("error_bound", "gap", "along", "distance")}
+    {
+        *("r", "r_min", "r_mid", "r_max", "spectrum", "radius", "length"),
+        *("error_bound", "gap", "along", "distance", "max_distance"),
+    }
 )
 """What of these is a length, and no place."""
 
@@ -66,7 +71,7 @@ def scaled(value: Any, factor: Fraction, origin: Place = None, *, unit: str | No
     Parameters
     ----------
     value : PolygonSet, Triangulation, DigitalTriangulation, CellSet, AlphaComplex, AlphaShape, AlphaHull, Skeleton,
-        SkeletonPoints, Offsets or Centerlines
+        SkeletonPoints, Offsets, Centerlines or VoronoiMap
         What to scale; for a table see `scaled_table`.
     factor : Fraction
         More than 0.

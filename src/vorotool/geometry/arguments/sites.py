@@ -3,27 +3,33 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import isnan
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError, UsageError
+from vorotool.errors import InputError, UsageError, option
 from vorotool.geometry.arguments.descriptions import naming, unexpected
 from vorotool.geometry.arguments.features import HeldFeatures, held_features
+from vorotool.geometry.arguments.images import as_raster, is_image
 from vorotool.geometry.arguments.points import as_points
 from vorotool.geometry.arguments.polygons import as_polygons, is_ring
 from vorotool.geometry.arguments.tables import MISSING_TYPES, is_table
+from vorotool.geometry.pixel_grid import PixelGrid
+from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.geometry.polygons.conversion import polygons_of_geometry
 from vorotool.geometry.polygons.polygon_set import LINE, PolygonSet
 from vorotool.geometry.row_index import index_of_rows
+from vorotool.products.formats import resolved
 
+_BY = option("--by", "by")
 EXPECTED = (
-    "points, lines or polygons of shapely, geopandas, GeoJSON or WKT, an (n, 2) array of points, or a list of these"
+    "points, lines or polygons of shapely, geopandas, GeoJSON or WKT, an (n, 2) array of points, a list of these, or a "
+    "mask or label image"
 )
 
 
@@ -62,10 +68,11 @@ def as_sites(source: Any, by: Any = None, name: str = "sites") -> Sites:
     ----------
     source : object
         What `as_polygons` takes, with points among the geometry, or what `as_points` takes: an (n, 2) array is n
-        points. Each feature is a site; one without geometry is a site without places.
+        points. Each feature is a site; one without geometry is a site without places. Of a mask or a label image each
+        object is one, by its outline.
     by : str or sequence, optional
-        Values that join features: a column of the input, or one value a feature. Sites are numbered by first
-        appearance.
+        Values that join features: a column of the input, its ids by the name ``id``, or one value a feature. Sites are
+        numbered by first appearance.
     name : str
         Of the parameter, for messages.
 
@@ -92,10 +99,12 @@ def as_sites(source: Any, by: Any = None, name: str = "sites") -> Sites:
 def _features(source: Any, name: str) -> Sites:
     if isinstance(source, Iterator):
         source = list(source)
-    if isinstance(source, PolygonSet):
-        return _of_polygons(source)
+    if isinstance(source, PolygonSet | Sites):
+        return _of_polygons(source) if isinstance(source, PolygonSet) else source
     if isinstance(source, PointSet | SeedSet):
         return _of_points(as_points(source, name))
+    if is_image(source, name):
+        return _of_image(source, name)
     with naming(name):
         held = held_features(source)
         if held is not None:
@@ -132,12 +141,32 @@ def _of_points(points: PointSet) -> Sites:
         np.arange(count + 1),
         np.full(count, LINE, dtype=np.int8),
         np.arange(count, dtype=np.int32),
+        ids=None if points.labels is None else points.labels.tolist(),
         properties=points.properties,
         y_up=points.y_up,
         crs=points.crs,
         index=points.index,
     )
     return _of_polygons(polygons)
+
+
+def _of_image(source: Any, name: str) -> Sites:
+    """Sites that are the objects of an image; their ids are the labels."""
+    image = source if isinstance(source, LabelImage) else as_raster(source, name)
+    outlines: PolygonSet = resolved("engines.label_images.outlines:outlines")(image)
+    if image.grid is None or image.grid.transform is None:
+        return _of_polygons(outlines)
+    first = (image.frame.x, image.frame.y) if isinstance(image, LabelImage) and image.frame is not None else (0, 0)
+    return _of_polygons(_on_map(outlines, image.grid, first))
+
+
+def _on_map(outlines: PolygonSet, grid: PixelGrid, first: tuple[int, int]) -> PolygonSet:
+    """Outlines as they lie on the map, of an image whose first pixel has these coordinates."""
+    assert grid.transform is not None
+    a, b, c, d, e, f = grid.transform
+    column, row = (outlines.xy - first + 0.5).T
+    xy = np.stack([a * column + b * row + c, d * column + e * row + f], axis=1)
+    return replace(outlines, xy=xy, y_up=True, crs=grid.crs)
 
 
 def _of_polygons(polygons: PolygonSet) -> Sites:
@@ -160,16 +189,18 @@ def _of_polygons(polygons: PolygonSet) -> Sites:
 def _values(features: Sites, by: Any) -> list[Any]:
     """The value of each feature."""
     if isinstance(by, str):
-        if by not in features.properties:
-            names = ", ".join(features.properties) or "there is none"
-            raise UsageError(f"invalid by {by!r}: expected a column of the sites ({names}), or one value a feature")
-        by = features.properties[by]
+        columns = features.properties if features.ids is None else {"id": features.ids, **features.properties}
+        if by not in columns:
+            names = ", ".join(columns) or "there is none"
+            more = option("", ", or one value a feature")
+            raise UsageError(f"invalid {_BY} {by!r}: expected a column of the sites ({names}){more}")
+        by = columns[by]
     values = by.tolist() if hasattr(by, "tolist") else list(by)
     if len(values) != features.count:
-        raise InputError(f"invalid by: expected one value a feature, {features.count}, but got {len(values)}")
+        raise InputError(f"invalid {_BY}: expected one value a feature, {features.count}, but got {len(values)}")
     missing = [k for k, value in enumerate(values) if _is_missing(value)]
     if missing:
-        raise InputError(f"invalid by: feature {missing[0]} has no value ({len(missing)} such features): fill it in")
+        raise InputError(f"invalid {_BY}: feature {missing[0]} has no value ({len(missing)} such features): fill it in")
     return values
 
 

@@ -87,6 +87,39 @@ def _least_radii(source: Floats, control: Floats, target: Floats) -> Floats:
     return least
 
 
+def cell_rings(cells: VoronoiMap, tolerance: float) -> tuple[Floats, Indices]:
+    """Give the vertices of all rings of cells, the first of each not repeated.
+
+    Parameters
+    ----------
+    cells : VoronoiMap
+        With its rings.
+    tolerance : float
+        As of `flattened_arcs`.
+
+    Returns
+    -------
+    points : (n, 2) float64 array
+        Ring after ring; what two cells share is the same in both, bit for bit.
+    start : (r + 1,) int64 array
+        Where each ring begins.
+
+    Examples
+    --------
+    >>> from vorotool import voronoi
+    >>> points, start = cell_rings(voronoi([[0, 0], [4, 0]], frame=(0, 0, 4, 2)), 1.0)
+    >>> points[start[0] : start[1]].tolist()
+    [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]]
+    """
+    points, start = flattened_arcs(cells, tolerance)
+    arc, is_back = np.abs(cells.ring_arcs.astype(np.int64)) - 1, cells.ring_arcs < 0
+    sizes = np.diff(start)[arc] - 1
+    row = owners(sizes)
+    step = within(sizes)
+    taken = np.where(is_back[row], start[arc + 1][row] - 1 - step, start[arc][row] + step)
+    return points[taken], starts_of(sizes)[cells.ring_start]
+
+
 def cell_polygons(cells: VoronoiMap, tolerance: float) -> NDArray[Any]:
     """(s,) each cell as a polygon or multipolygon of shapely; what two cells share is the same in both, bit for bit.
 
@@ -105,19 +138,12 @@ def cell_polygons(cells: VoronoiMap, tolerance: float) -> NDArray[Any]:
     """
     import shapely
 
-    points, start = flattened_arcs(cells, tolerance)
-    arc, is_back = np.abs(cells.ring_arcs.astype(np.int64)) - 1, cells.ring_arcs < 0
-    sizes = np.diff(start)[arc] - 1
-    row = owners(sizes)
-    step = within(sizes)
-    taken = np.where(is_back[row], start[arc + 1][row] - 1 - step, start[arc][row] + step)
-    ring_start = starts_of(sizes)[cells.ring_start]
-    lengths = np.diff(ring_start) + 1
-    closed = np.repeat(ring_start[:-1], lengths) + within(lengths)
-    ends = np.cumsum(lengths) - 1
-    closed[ends] = ring_start[:-1]
+    points, start = cell_rings(cells, tolerance)
+    lengths = np.diff(start) + 1
+    closed = np.repeat(start[:-1], lengths) + within(lengths)
+    closed[np.cumsum(lengths) - 1] = start[:-1]
     polygons = shapely.from_ragged_array(
-        shapely.GeometryType.POLYGON, points[taken[closed]], (starts_of(lengths), cells.polygon_start)
+        shapely.GeometryType.POLYGON, points[closed], (starts_of(lengths), cells.polygon_start)
     )
     made = np.empty(len(cells), dtype=object)
     made[:] = shapely.Polygon()

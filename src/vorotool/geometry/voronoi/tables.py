@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import cache
+from threading import Lock
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.table import Lookup, Table
+from vorotool.geometry.table import Computed, Lookup, Table
+from vorotool.geometry.voronoi.site_shapes import site_distances
 from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 
 KINDS = ["line", "parabola", "circle"]
@@ -38,8 +42,9 @@ def border_table(cells: VoronoiMap) -> Table:
     Returns
     -------
     Table
-        ``arc, label_a, label_b, kind, x0, y0, r0, x1, y1, r1, cx, cy, length``: the labels of the cells, from 1, the
-        smaller first; the ends with the distances from both sites there; the control point of a parabola.
+        ``label_a, label_b, kind, x0, y0, x1, y1, cx, cy, length, arc, r0, r1``: the labels of the cells, from 1, the
+        smaller first; the ends; the control point of a parabola; the number of the arc, from 0; the distances from both
+        sites at the ends, which do not exist on enclosures.
 
     Examples
     --------
@@ -54,19 +59,19 @@ def border_table(cells: VoronoiMap) -> Table:
     cx, cy = np.ascontiguousarray(cells.control[arc].T)
     return Table(
         {
-            "arc": arc,
             "label_a": low + 1,
             "label_b": high + 1,
             "kind": Lookup(KINDS, kinds_of(cells)[arc]),
             "x0": Lookup(x, source),
             "y0": Lookup(y, source),
-            "r0": Lookup(cells.radius, source),
             "x1": Lookup(x, target),
             "y1": Lookup(y, target),
-            "r1": Lookup(cells.radius, target),
             "cx": cx,
             "cy": cy,
             "length": cells.length[arc],
+            "arc": arc,
+            "r0": cells.radius[source],
+            "r1": cells.radius[target],
         }
     )
 
@@ -92,7 +97,8 @@ def neighbour_table(cells: VoronoiMap) -> Table:
     Returns
     -------
     Table
-        ``label_a, label_b, border_length``: labels from 1, the smaller first.
+        ``label_a, label_b, border_length, distance``: labels from 1, the smaller first; the distance is that between
+        the two sites, 0 where they touch.
 
     Examples
     --------
@@ -103,7 +109,8 @@ def neighbour_table(cells: VoronoiMap) -> Table:
     """
     pairs, length = neighbour_pairs(cells)
     low, high = np.ascontiguousarray(pairs.T) + 1
-    return Table({"label_a": low, "label_b": high, "border_length": length})
+    distance = _when_asked(lambda: site_distances(cells, pairs), len(pairs))
+    return Table({"label_a": low, "label_b": high, "border_length": length, "distance": distance})
 
 
 def cell_table(cells: VoronoiMap) -> Table:
@@ -117,8 +124,10 @@ def cell_table(cells: VoronoiMap) -> Table:
     Returns
     -------
     Table
-        ``label, id, area, perimeter, neighbours, components``, and the columns of the input: label i is that of cell
-        i - 1, there is an id if the input has some, and components are the polygons of a cell.
+        ``label, id, area, perimeter, neighbours, own_area, max_distance, components``, and the columns of the input:
+        label i is that of cell i - 1, and there is an id if the input has some. The own area is what the cell has of
+        the polygons of its site, the distance the largest from the site within the cell, NaN of an empty one, and
+        components are its polygons.
 
     Examples
     --------
@@ -134,6 +143,19 @@ def cell_table(cells: VoronoiMap) -> Table:
         "area": cells.areas,
         "perimeter": cells.perimeters,
         "neighbours": np.bincount(pairs.ravel(), minlength=len(cells)),
+        "own_area": _when_asked(lambda: cells.own_areas, len(cells)),
+        "max_distance": _when_asked(lambda: cells.reaches, len(cells)),
         "components": cells.components,
     }
     return Table(columns).with_properties(cells.properties)
+
+
+def _when_asked(function: Callable[[], NDArray[np.float64]], size: int) -> Computed:
+    """A column that is computed as a whole, once, by the first thread that asks for rows of it."""
+    lock, once = Lock(), cache(function)
+
+    def rows_of(rows: slice) -> NDArray[np.float64]:
+        with lock:
+            return once()[rows]
+
+    return Computed(rows_of, size)

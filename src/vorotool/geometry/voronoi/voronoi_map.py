@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,8 +16,11 @@ from vorotool.geometry.curves.mixed_arcs import MixedArcs
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.ragged import divides, owners
 from vorotool.geometry.table import Table
-from vorotool.geometry.values import Curved, Tabular, Value, counted, placed
+from vorotool.geometry.values import Curved, Graph, Pictured, Tabular, Value, counted, placed
 from vorotool.products.formats import resolved
+
+if TYPE_CHECKING:
+    import pandas
 
 OUTSIDE = -1
 """The site of what belongs to no cell: the far side of the frame, or of another cut."""
@@ -28,7 +31,7 @@ Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class VoronoiMap(Value, Tabular, Curved):
+class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
     """Cells of sites in a frame: all places nearest to each site, inside its polygons at distance 0.
 
     Of sites that are equally near to a whole region the smallest has it. Cells are bounded by arcs, straight lines,
@@ -211,6 +214,18 @@ class VoronoiMap(Value, Tabular, Curved):
         return total
 
     @cached_property
+    def own_areas(self) -> Floats:
+        """(s,) areas of the site's own polygons that cells have; see `vorotool.engines.voronoi.measures.own_areas`."""
+        made: Floats = resolved("engines.voronoi.measures:own_areas")(self)
+        return made
+
+    @cached_property
+    def reaches(self) -> Floats:
+        """(s,) largest distances of cells from their sites; see `vorotool.engines.voronoi.reaches.reaches`."""
+        made: Floats = resolved("engines.voronoi.reaches:reaches")(self)
+        return made
+
+    @cached_property
     def components(self) -> NDArray[np.int64]:
         """(s,) number of polygons of each cell."""
         return np.diff(self.cell_start)
@@ -232,6 +247,31 @@ class VoronoiMap(Value, Tabular, Curved):
         """One row a cell; see `vorotool.geometry.voronoi.tables.cell_table`."""
         made: Table = resolved(f"{_TABLES}:cell_table")(self)
         return made
+
+    def to_adjacency(self) -> pandas.DataFrame:
+        """Give the pairs of neighbours as libpysal takes them, which needs pandas.
+
+        ``libpysal.graph.Graph.from_adjacency(cells.to_adjacency())`` is their graph, with the names of the rows of
+        `to_geopandas`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            ``focal, neighbor, weight``: each pair both ways, by what the input's index calls them, else by numbers from
+            0, with the length of its border; a cell without neighbours once, with itself and the weight 0.
+
+        Raises
+        ------
+        UsageError
+            If pandas is not installed.
+
+        Examples
+        --------
+        >>> from vorotool import voronoi
+        >>> voronoi([[0, 0], [4, 0]], frame=(0, 0, 4, 2)).to_adjacency().values.tolist()
+        [[0.0, 1.0, 2.0], [1.0, 0.0, 2.0]]
+        """
+        return resolved("geometry.any.frames:adjacency")(self)
 
     def rings_of(self, cell: int) -> list[list[NDArray[np.int32]]]:
         """The arcs along the rings of each polygon of a cell."""

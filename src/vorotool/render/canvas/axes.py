@@ -9,7 +9,7 @@ import numpy as np
 
 from vorotool.geometry.curves.inverse_functions import PI, cosine_and_sine
 from vorotool.geometry.extras import needed
-from vorotool.render.canvas.layers import Arcs, Curves, Layer, Lines, Page, Points, Polygons, Texts
+from vorotool.render.canvas.layers import Arcs, CurvedPolygons, Curves, Layer, Lines, Page, Points, Polygons, Texts
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -44,7 +44,7 @@ def draw_on_axes(ax: Axes, layers: Iterable[Layer], page: Page, **style: Any) ->
     1
     """
     for each in layers:
-        layer = each.chords(page.distance(FINENESS)) if isinstance(each, Arcs) else each
+        layer = each.chords(page.distance(FINENESS)) if isinstance(each, Arcs | CurvedPolygons) else each
         if not len(layer.points):
             continue
         if isinstance(layer, Texts):
@@ -61,14 +61,12 @@ def draw_on_axes(ax: Axes, layers: Iterable[Layer], page: Page, **style: Any) ->
 
 
 def _draw_lines(ax: Axes, layer: Lines | Curves, page: Page, style: dict[str, Any]) -> None:
-    points, pairs = layer.points, layer.pairs
-    if isinstance(layer, Curves):
-        points, pairs = layer.flattened(points, page.distance(FINENESS))
+    lines = layer.chords(page.distance(FINENESS)) if isinstance(layer, Curves) else layer
     given = {"colors": layer.colour, "linewidths": layer.width * POINTS_A_PX, "capstyle": "round", "label": layer.name}
     if isinstance(layer, Curves) and layer.is_broken:
         given["linestyles"] = "dashed"
     collections = needed("matplotlib.collections", "plot", "plots")
-    ax.add_collection(collections.LineCollection(points[pairs], **_chosen(given, style)))
+    ax.add_collection(collections.LineCollection(lines.points[lines.pairs], **_chosen(given, style)))
 
 
 def _fill(ax: Axes, layer: Polygons, style: dict[str, Any]) -> None:

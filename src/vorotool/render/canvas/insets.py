@@ -125,7 +125,8 @@ def _sample(layer: Layer, left: float, middle: float, size: float) -> list[Layer
     if isinstance(layer, Curves):
         control = np.array([-1], dtype=np.int32)
         pairs = np.array([[0, 1]], dtype=np.int32)
-        return [replace(layer, name=name, points=ends, pairs=pairs, control=control, width=max(layer.width, 1.0))]
+        straight = Curves(name, ends, pairs, control, layer.colour, max(layer.width, 1.0), layer.is_broken)
+        return [straight]
     assert isinstance(layer, Lines | Arcs)  # texts have no row
     colour = layer.edge if isinstance(layer, Arcs) else layer.colour
     return [_line(name, ends, colour, max(layer.width, 1.0))]

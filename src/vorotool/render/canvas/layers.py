@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from vorotool.geometry.box import bounds
 from vorotool.geometry.curves.circular_arcs import chords_of
 from vorotool.geometry.curves.flatten import polylines
-from vorotool.geometry.ragged import following, owners
+from vorotool.geometry.curves.mixed_arcs import MixedArcs
+from vorotool.geometry.ragged import following, owners, starts_of, within
 from vorotool.render.canvas.palettes import INK, SEED
 from vorotool.render.canvas.styles import PictureStyle
 
@@ -50,7 +51,7 @@ class Lines:
 
 @dataclass(frozen=True, eq=False)
 class Curves:
-    """Straight lines and quadratic Bezier curves.
+    """Straight lines, quadratic Bezier curves and circular arcs.
 
     Parameters
     ----------
@@ -60,6 +61,10 @@ class Curves:
         The control point of each; -1: it is a straight line.
     is_broken : bool
         Drawn as a broken line in SVG.
+    centre : (m, 2) float64 array, optional
+        Of the circle of each circular arc, which is at most half of one; NaN of others.
+    is_left : (m,) bool array, optional
+        Whether each arc turns counter-clockwise with y upwards; there if there are centres.
     """
 
     name: str
@@ -69,6 +74,29 @@ class Curves:
     colour: str = INK
     width: float = 1.5
     is_broken: bool = False
+    centre: NDArray[np.float64] | None = None
+    is_left: NDArray[np.bool_] | None = None
+
+    def polylines(self, tolerance: float) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+        """Give places along each curve, its ends included, and where those of each begin.
+
+        Parameters
+        ----------
+        tolerance : float
+            How far lines between these may be from the curves, in the units of the data.
+        """
+        source, target = self.points[self.pairs.T]
+        control, is_bent = self.points[self.control], self.control >= 0
+        if self.centre is None or self.is_left is None:
+            return polylines(source, control, target, is_bent, tolerance)
+        control = np.where(is_bent[:, None], control, np.nan)
+        return MixedArcs(source, target, control, self.centre, self.is_left).polylines(tolerance)
+
+    def chords(self, tolerance: float) -> Lines:
+        """Straight lines instead of the curves, which are off by no more than a length of the data."""
+        points, start = self.polylines(tolerance)
+        first = np.delete(np.arange(len(points)), start[1:] - 1)
+        return Lines(self.name, points, np.stack([first, first + 1], axis=1).astype(np.int32), self.colour, self.width)
 
     def flattened(self, places: NDArray[np.float64], tolerance: float) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
         """Straight lines instead of the curves.
@@ -153,6 +181,36 @@ class Polygons:
         rings = np.asarray(self.rings)
         after = following(rings[np.append(rings[1:] > rings[:-1], True)])  # no ring is empty
         return np.stack([self.corners, self.corners[after]], axis=1)
+
+
+@dataclass(frozen=True, eq=False)
+class CurvedPolygons(Polygons):
+    """Polygons whose sides may be curves, which two of them share.
+
+    Parameters
+    ----------
+    name, points, corners, rings, first_rings, colours, colour_of, ids, edge, width, is_alone, is_sheer
+        As of `Polygons`; points are those of the curves.
+    curves : Curves
+        All sides.
+    along : (k,) int32 array
+        The side that leads on from each corner, counted from 1, below 0 against its direction.
+    """
+
+    curves: Curves = field(kw_only=True)
+    along: NDArray[np.int32] = field(kw_only=True)
+
+    def chords(self, tolerance: float) -> Polygons:
+        """Polygons with straight sides instead, which are off by no more than a length of the data."""
+        points, start = self.curves.polylines(tolerance)
+        side, is_back = np.abs(self.along) - 1, self.along < 0
+        sizes = np.diff(start)[side] - 1
+        row, step = owners(sizes), within(sizes)
+        taken = np.where(is_back[row], start[side + 1][row] - 1 - step, start[side][row] + step)
+        rings = starts_of(sizes)[np.asarray(self.rings)]
+        fills = self.first_rings, self.colours, self.colour_of, self.ids
+        looks = self.edge, self.width, self.is_alone, self.is_sheer
+        return Polygons(self.name, points, taken.astype(np.int32), rings, *fills, *looks)
 
 
 @dataclass(frozen=True, eq=False)

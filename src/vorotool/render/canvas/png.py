@@ -11,7 +11,7 @@ from vorotool.errors import LimitError, option
 from vorotool.geometry.ragged import owners, ranges
 from vorotool.products.formats import AS_SVG
 from vorotool.render.canvas.glyphs import ADVANCE, HEIGHT, text_cells
-from vorotool.render.canvas.layers import Arcs, Curves, Layer, Lines, Page, Points, Polygons, Texts
+from vorotool.render.canvas.layers import Arcs, CurvedPolygons, Curves, Layer, Lines, Page, Points, Polygons, Texts
 from vorotool.render.canvas.palettes import WHITE
 from vorotool.render.canvas.pixel_page import PixelPage
 
@@ -90,7 +90,7 @@ class _Canvas:
         self.colours: dict[str, int] = {}
 
     def draw(self, layer: Layer, page: Page) -> None:
-        if isinstance(layer, Arcs):
+        if isinstance(layer, Arcs | CurvedPolygons) or (isinstance(layer, Curves) and layer.centre is not None):
             layer = layer.chords(page.distance(FLATNESS / FINE))
         places = page.place(layer.points) * FINE
         if isinstance(layer, Polygons):

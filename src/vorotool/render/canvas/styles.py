@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from vorotool.render.canvas.palettes import WHITE
 
-DRAWN_AS = {"lines": "polygons", "centerline": "skeleton", "diagram": "skeleton"}
+DRAWN_AS = {"lines": "polygons", "centerline": "skeleton", "diagram": "skeleton", "object-points": "objects"}
 """Names of layers in pictures that are chosen by another name, if not by their own."""
 
 

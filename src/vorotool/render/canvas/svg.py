@@ -11,9 +11,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
+from vorotool.geometry.curves.circular_arcs import middles_of
 from vorotool.geometry.curves.inverse_functions import hypotenuse
 from vorotool.geometry.xml_text import xml_characters
-from vorotool.render.canvas.layers import Arcs, Backdrop, Curves, Layer, Lines, Page, Points, Polygons, Texts
+from vorotool.render.canvas.layers import (
+    Arcs,
+    Backdrop,
+    CurvedPolygons,
+    Curves,
+    Layer,
+    Lines,
+    Page,
+    Points,
+    Polygons,
+    Texts,
+)
 from vorotool.render.canvas.pixel_page import PixelPage
 
 PATH_ROWS = 4096
@@ -99,9 +111,12 @@ def layer_parts(layer: Layer, page: Page, threads: int) -> Iterator[bytes]:
     if isinstance(layer, Lines):
         return _lines(layer, x, y, threads)
     if isinstance(layer, Curves):
-        return _curves(layer, x, y, threads)
+        return _curves(layer, x, y, page, threads)
     if isinstance(layer, Polygons):
-        return _polygons(layer, x, y, fill_style(page.backdrop, is_sheer=layer.is_sheer), threads)
+        style = fill_style(page.backdrop, is_sheer=layer.is_sheer)
+        if isinstance(layer, CurvedPolygons):
+            return _curved_polygons(layer, x, y, page, style, threads)
+        return _polygons(layer, x, y, style, threads)
     return _points(layer, x, y, threads) if isinstance(layer, Points) else _texts(layer, x, y, threads)
 
 
@@ -124,8 +139,9 @@ def _lines(layer: Lines, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iter
     yield b"</g>\n"
 
 
-def _curves(layer: Curves, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iterator[bytes]:
-    """One row a place: M before the begin of a path, Q before a control point, then L or nothing before an end."""
+def _curves(layer: Curves, x: NDArray[Any], y: NDArray[Any], page: Page, threads: int) -> Iterator[bytes]:
+    """One row a place: M before the begin of a path, Q before a control point, then L, A or nothing before an end."""
+    commands = _Commands(layer, page)
     across, down = _core.text.NumberTexts(x, 0, threads), _core.text.NumberTexts(y, 0, threads)
     dashes = f' stroke-dasharray="{DASH:g}"' if layer.is_broken else ""
     yield f'<g id="{_escaped(layer.name)}" fill="none" {_stroke(layer.colour, layer.width)}{dashes}>\n'.encode()
@@ -137,17 +153,48 @@ def _curves(layer: Curves, x: NDArray[Any], y: NDArray[Any], threads: int) -> It
         last = np.cumsum(1 + begins + bends) - 1  # the row of each target
         place = np.empty(last[-1] + 1, dtype=np.int32)
         token = np.empty(last[-1] + 1, dtype=np.int32)
-        place[last], token[last] = target, np.where(bends, 3, 1)
+        place[last], token[last] = target, commands.before_ends[0, rows]
         place[last[bends] - 1], token[last[bends] - 1] = control[bends], 2
         first = (last - bends - 1)[begins]
         place[first], token[first] = source[begins], 0
         yield f"<path {_UNSCALED} d=".encode() + b'"'
-        yield from _rows([(_COMMANDS, token), (across, place), (down, place)], ("", "", " ", ""), threads)
+        yield from _rows([(commands.texts, token), (across, place), (down, place)], ("", "", " ", ""), threads)
         yield b'"/>\n'
     yield b"</g>\n"
 
 
-_COMMANDS = ["M", "L", "Q", " "]
+class _Commands:
+    """What stands before the places of curves: `texts`, and which of them before the end of each, forth and back."""
+
+    def __init__(self, curves: Curves, page: Page) -> None:
+        self.texts = ["M", "L", "Q", " "]
+        forth = np.where(curves.control >= 0, 3, 1)
+        self.before_ends = np.stack([forth, forth])
+        if curves.centre is None or curves.is_left is None:
+            return
+        is_round = ~np.isnan(curves.centre[:, 0])
+        centre, is_left = curves.centre[is_round], curves.is_left[is_round]
+        source, target = (curves.points[end][is_round] for end in curves.pairs.T)
+        radii, number = np.unique(hypotenuse(*(source - centre).T), return_inverse=True)
+        for radius in map(page.length, radii.tolist()):
+            sides = " ".join(_short(side, page.decimals + 1) for side in (radius, radius * page.aspect))
+            self.texts += [f"A{sides} 0 0 {sweep} " for sweep in (0, 1)]
+        sweeps = is_left != page.y_up  # 1 is clockwise as seen
+        numbers = 4 + 2 * number + np.stack([sweeps, ~sweeps])
+        is_wide = ((source - centre) * (target - centre)).sum(axis=1) < 0
+        if is_wide.any():
+            first, last = np.where(is_left[:, None], [source, target], [target, source])[:, is_wide]
+            middles = page.place(middles_of(first, last, centre[is_wide], np.zeros(len(first), dtype=bool)))
+            numbers[:, is_wide] = [self._halves(each, middles, page.decimals) for each in numbers[:, is_wide]]
+        self.before_ends[:, is_round] = numbers
+
+    def _halves(self, commands: NDArray[Any], middles: NDArray[np.float64], decimals: int) -> NDArray[Any]:
+        """Add two arcs for each that is over a quarter: rounded ends alone would not tell well where its centre is."""
+        first = len(self.texts)
+        for command, (x, y) in zip(commands.tolist(), middles.tolist(), strict=True):
+            arc = self.texts[command]
+            self.texts.append(f"{arc}{_short(x, decimals)} {_short(y, decimals)}{arc}")
+        return first + np.arange(len(commands))
 
 
 def _polygons(layer: Polygons, x: NDArray[Any], y: NDArray[Any], style: str, threads: int) -> Iterator[bytes]:
@@ -160,6 +207,36 @@ def _polygons(layer: Polygons, x: NDArray[Any], y: NDArray[Any], style: str, thr
         corners = layer.corners[rows]
         yield from _rows([(texts, before[rows]), (across, corners), (down, corners)], ("", "", " ", ""), threads)
     yield b'Z"/>\n</g>\n' if len(layer.corners) else b"</g>\n"
+
+
+def _curved_polygons(
+    layer: CurvedPolygons, x: NDArray[Any], y: NDArray[Any], page: Page, style: str, threads: int
+) -> Iterator[bytes]:
+    """One row a place, as of `_curves`; each ring begins with a place, and ends with it."""
+    across, down = _core.text.NumberTexts(x, 0, threads), _core.text.NumberTexts(y, 0, threads)
+    stroke = "" if layer.edge is None else f" {_stroke(layer.edge, layer.width)}"
+    yield f'<g id="{_escaped(layer.name)}" fill-rule="evenodd"{style}{stroke}>\n'.encode()
+    curves, commands = layer.curves, _Commands(layer.curves, page)
+    side, is_back = np.abs(layer.along) - 1, layer.along < 0
+    bends = curves.control[side] >= 0
+    rings = np.asarray(layer.rings, dtype=np.int64)
+    is_first = np.zeros(len(side), dtype=bool)
+    is_first[rings[:-1][rings[1:] > rings[:-1]]] = True
+    last = np.cumsum(1 + is_first + bends) - 1  # the row of the end of each side
+    rows = int(last[-1]) + 1 if len(last) else 0
+    place, token = np.empty(rows, dtype=np.int32), np.empty(rows, dtype=np.int32)
+    place[last] = curves.pairs[side, 1 - is_back]
+    token[last] = commands.before_ends[is_back.astype(int), side]
+    place[last[bends] - 1], token[last[bends] - 1] = curves.control[side[bends]], 2
+    first = (last - bends - 1)[is_first]
+    place[first] = curves.pairs[side[is_first], is_back[is_first].astype(int)]
+    texts, before = _openings(layer)
+    token[first] = before[is_first] + len(commands.texts)
+    texts = [*commands.texts, *texts]
+    for part in _chunks(rows, SLICE_ROWS):
+        at = place[part]
+        yield from _rows([(texts, token[part]), (across, at), (down, at)], ("", "", " ", ""), threads)
+    yield b'Z"/>\n</g>\n' if rows else b"</g>\n"
 
 
 def _openings(layer: Polygons) -> tuple[list[str], NDArray[np.int32]]:

@@ -13,8 +13,11 @@ import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from vorotool.errors import LimitError
+from vorotool.geometry.curves.flatten import FLATTEN
 from vorotool.geometry.mesh.cells import CellSet
 from vorotool.geometry.ragged import starts_of
+from vorotool.geometry.voronoi.shapes import cell_rings
+from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 from vorotool.products.formats import AS_SVG
 from vorotool.render.canvas.palettes import cell_colour
 from vorotool.render.label_images.crack_outline import crack_loops
@@ -66,6 +69,22 @@ def shapes_of_cells(cells: CellSet, *, y_up: bool | None = None) -> Shapes:
     ids = [str(label) for label in cells.label_array.tolist()]
     up = cells.y_up if y_up is None else y_up
     return Shapes(cells.coordinates, rings, np.asarray(polygons)[np.asarray(of_cells)], ids, cells.frame.sides, up)
+
+
+def shapes_of_map(cells: VoronoiMap, *, y_up: bool | None = None) -> Shapes:
+    """Give the outlines of the cells of a Voronoi map, with lines instead of curves.
+
+    Examples
+    --------
+    >>> from vorotool import voronoi
+    >>> shapes_of_map(voronoi([[1, 1], [3, 1]], frame=(0, 0, 4, 2))).ids
+    ['1', '2']
+    """
+    x, y, w, h = cells.frame
+    xy, rings = cell_rings(cells, FLATTEN * max(w, h))
+    ids = [str(label) for label in (range(1, len(cells) + 1) if cells.ids is None else cells.ids)]
+    up = cells.polygons.y_up if y_up is None else y_up
+    return Shapes(xy, rings, cells.polygon_start[cells.cell_start], ids, (x, y, x + w, y + h), up)
 
 
 def shapes_of_labels(labels: NDArray[Any], *, y_up: bool = False) -> Shapes:

@@ -1,0 +1,1 @@
+"""Exact digital Voronoi tessellation of volumes."""

@@ -1,0 +1,102 @@
+"""How much of each cell is its site's own."""
+
+from __future__ import annotations
+
+import warnings
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.engines.voronoi.elements import OwnedGraph, owned_graph
+from vorotool.errors import RepairWarning
+from vorotool.geometry.curves.flatten import checked_flatten
+from vorotool.geometry.polygons.planar_graph import PlanarGraph
+from vorotool.geometry.voronoi.shapes import cell_polygons
+from vorotool.geometry.voronoi.site_shapes import site_shapes
+from vorotool.geometry.voronoi.voronoi_map import OUTSIDE, VoronoiMap
+
+Floats = NDArray[np.float64]
+
+
+def graph_again(cells: VoronoiMap) -> OwnedGraph:
+    """The graph that cells were made from; what was repaired has been reported then."""
+    with warnings.catch_warnings(action="ignore", category=RepairWarning):
+        return owned_graph(cells.polygons, cells.polygon_site)
+
+
+def own_areas(cells: VoronoiMap) -> Floats:
+    """(s,) the area of its site's own polygons that each cell has: what no smaller site covers, nor a cut takes away.
+
+    Parameters
+    ----------
+    cells : VoronoiMap
+        However it was made.
+
+    Examples
+    --------
+    >>> from vorotool import voronoi
+    >>> squares = [[[0, 0], [2, 0], [2, 2], [0, 2]], [[1, 0], [4, 0], [4, 2], [1, 2]]]
+    >>> own_areas(voronoi(squares)).tolist(), own_areas(voronoi(squares, frame=(0, 0, 3, 1))).tolist()
+    ([4.0, 4.0], [2.0, 1.0])
+    """
+    owned = graph_again(cells)
+    made: Floats = np.zeros(len(cells))
+    covered = owned.face >= 0
+    np.add.at(made, owned.face[covered], _face_areas(owned.graph, cells.frame)[covered])
+    if cells.clip is not None:
+        _cut_to_cells(made, cells)
+    made[cells.components == 0] = 0
+    return made
+
+
+def _face_areas(graph: PlanarGraph, frame: tuple[float, float, float, float]) -> Floats:
+    """(f,) areas of faces within a frame; exact in integers where these lie in it whole."""
+    places = graph.points.astype(np.int64)
+    x, y, w, h = frame
+    at = graph.coordinates()
+    is_out = (at != at.clip([x, y], [x + w, y + h])).any(axis=1)
+    doubled, is_cut = np.zeros(graph.faces, dtype=np.int64), np.zeros(graph.faces, dtype=bool)
+    first, second = graph.segments.T
+    cross = places[first, 0] * places[second, 1] - places[first, 1] * places[second, 0]
+    for hand, sign in ((0, 1), (1, -1)):
+        np.add.at(doubled, graph.segment_faces[:, hand], sign * cross)  # sums that pass 2^63 come back
+        is_cut[graph.segment_faces[:, hand][is_out[graph.segments].any(axis=1)]] = True
+    area: Floats = doubled / 2 * graph.scale * graph.scale
+    if is_cut.any():
+        chosen = np.flatnonzero(is_cut[graph.segment_faces].any(axis=1))
+        below = _below(at[graph.segments[chosen, 0]] - [x, y], at[graph.segments[chosen, 1]] - [x, y], w, h)
+        within = np.zeros(graph.faces)
+        for hand, sign in ((0, -1), (1, 1)):
+            np.add.at(within, graph.segment_faces[chosen, hand], sign * below)
+        area[is_cut] = np.maximum(within[is_cut], 0)
+    return area
+
+
+def _below(source: Floats, target: Floats, w: float, h: float) -> Floats:
+    """(k,) areas between segments and the lower side of a frame with its corner at 0, within it; above 0 rightwards.
+
+    A segment is cut by the left and the right side, and divided where it meets the lines of the lower and the upper
+    one: between, what is below it in the frame is a trapezoid.
+    """
+    way = target - source
+    left, right = source[:, 0].clip(0, w), target[:, 0].clip(0, w)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        slope = np.where(way[:, 0] != 0, way[:, 1] / way[:, 0], 0)
+        first, last = (source[:, 1] + (x - source[:, 0]) * slope for x in (left, right))
+        stops = np.stack([(bound - first) / (last - first) for bound in (0, h)])
+    stops = np.sort(np.where(np.isfinite(stops), stops, 0).clip(0, 1), axis=0)
+    stops = np.concatenate([np.zeros((1, len(way))), stops, np.ones((1, len(way)))])
+    height = (first + stops * (last - first)).clip(0, h)
+    total: Floats = (right - left) * (np.diff(stops, axis=0) * (height[:-1] + height[1:])).sum(axis=0) / 2
+    return total
+
+
+def _cut_to_cells(areas: Floats, cells: VoronoiMap) -> None:
+    """Measure anew what of sites is in cells that have a cut: polylines instead of curves cross no site."""
+    import shapely
+
+    at = np.unique(cells.sites[cells.is_cut])
+    at = at[at != OUTSIDE]
+    shapes = cell_polygons(cells, checked_flatten(None, cells.polygons))[at]
+    of_sites = shapely.union_all(site_shapes(cells)[at][:, None], axis=1)
+    areas[at] = shapely.area(shapely.intersection(shapes, of_sites))

@@ -1,0 +1,111 @@
+"""How far cells reach from their sites."""
+
+from __future__ import annotations
+
+import warnings
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.engines.voronoi.borders import ridges_of
+from vorotool.engines.voronoi.crossings import crossings_of
+from vorotool.engines.voronoi.cut_arguments import given_cuts
+from vorotool.engines.voronoi.diagram import diagram_of
+from vorotool.engines.voronoi.frame_cut import cut_borders
+from vorotool.engines.voronoi.joint_graph import joint_graph
+from vorotool.engines.voronoi.local_diagrams import local_diagrams
+from vorotool.engines.voronoi.measures import graph_again
+from vorotool.engines.voronoi.regions import regions_of
+from vorotool.errors import RepairWarning
+from vorotool.geometry.curves.flatten import checked_flatten
+from vorotool.geometry.voronoi.shapes import cell_polygons
+from vorotool.geometry.voronoi.site_shapes import site_shapes
+from vorotool.geometry.voronoi.voronoi_map import OUTSIDE, VoronoiMap
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+_TIE = 2.0**-40
+"""By which a distance may be above the limit and be the limit, as a part of it: rounding is less."""
+
+
+def reaches(cells: VoronoiMap) -> Floats:
+    """(s,) the largest distance that a place of each cell has from its site; NaN of empty cells.
+
+    It is at a vertex of the cell, or where three elements of the site itself are equally far, as in the middle of a
+    court, or where an edge between two of them, a ridge, meets a cut.
+
+    Parameters
+    ----------
+    cells : VoronoiMap
+        However it was made.
+
+    Examples
+    --------
+    >>> from vorotool import voronoi
+    >>> reaches(voronoi([[0, 0], [4, 0]], frame=(0, 0, 4, 1))).round(6).tolist()
+    [2.236068, 2.236068]
+    >>> court = "LINESTRING (0 0, 4 0, 4 4, 0 4, 0 0)"
+    >>> reaches(voronoi([court], frame=(0, 0, 4, 4))).tolist()
+    [2.0]
+    """
+    made = np.full(len(cells), -np.inf)
+    _take_vertices(made, cells)
+    if cells.clip is None and cells.enclosures is None:
+        _take_ridges_in_frame(made, cells)
+    else:
+        _take_ridges_between_cuts(made, cells)
+    made[cells.components == 0] = np.nan
+    return made
+
+
+def _take_vertices(reach: Floats, cells: VoronoiMap) -> None:
+    import shapely
+
+    site, vertex = np.tile(cells.sites, 2).ravel(), np.repeat(cells.arcs, 2, axis=1).ravel()
+    inner = site != OUTSIDE
+    site, vertex = site[inner], vertex[inner]
+    radius = cells.radius[vertex]
+    unknown = np.isnan(radius)
+    if unknown.any():
+        shapes = site_shapes(cells)[site[unknown]]
+        radius[unknown] = shapely.distance(shapes, shapely.points(cells.vertices[vertex[unknown]]))
+    np.maximum.at(reach, site, radius)
+
+
+def _take_ridges_in_frame(reach: Floats, cells: VoronoiMap) -> None:
+    owned = graph_again(cells)
+    ridges = ridges_of(owned, diagram_of(owned))
+    cut = cut_borders(ridges, owned.graph, cells.frame)
+    for radius in cut.radius[cut.ends].T:
+        _take(reach, cells, ridges.sites[cut.piece, 0], radius)
+
+
+def _take_ridges_between_cuts(reach: Floats, cells: VoronoiMap) -> None:
+    """Cut ridges as borders are; of their ends those count that lie in the cells."""
+    import shapely
+
+    with warnings.catch_warnings(action="ignore", category=RepairWarning):
+        cuts = given_cuts(cells.clip, cells.enclosures, cells.crs)
+        joint = joint_graph(cells.polygons, cells.frame, cuts.clip, cuts.enclosures)
+    regions = regions_of(joint, cells.polygon_site, len(cells))
+    local = local_diagrams(joint.sites, cells.polygon_site, len(cells), regions, pieces_of=ridges_of)
+    ridges, scale = local.borders, joint.sites.scale
+    found = crossings_of(local, regions.edges)
+    stops = found.curves[found.stop_row].radius(found.stop_t)
+    _take(reach, cells, ridges.sites[found.pieces[found.stop_row], 0], scale * stops)
+    end, row = np.unique(ridges.ends, return_index=True)
+    site, end = ridges.sites[row // 2, 0][end >= 0], end[end >= 0]
+    radius = scale * ridges.radius[end]
+    higher = np.flatnonzero(radius > reach[site])
+    site, end, radius = site[higher], end[higher], radius[higher]
+    shapes = cell_polygons(cells, checked_flatten(None, cells.polygons))
+    inside = shapely.intersects(shapes[site], shapely.points(joint.sites.coordinates(ridges.places[end])))
+    _take(reach, cells, site[inside], radius[inside])
+
+
+def _take(reach: Floats, cells: VoronoiMap, site: NDArray[np.integer], radius: Floats) -> None:
+    """Raise reaches to distances of places; what is beyond the limit is in no cell."""
+    limit = np.inf if cells.max_distance is None else cells.max_distance
+    near = radius <= limit * (1 + _TIE)
+    np.maximum.at(reach, site[near], np.minimum(radius[near], limit))

@@ -1,0 +1,112 @@
+"""Writing Voronoi maps, in every format that has a place for them."""
+
+from __future__ import annotations
+
+from typing import BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.formats.polygons.polylines import Wording, wkt_wording, write_polylines
+from vorotool.formats.results.cells import CellShapes, write_shapes
+from vorotool.formats.results.voronoi_json import write_json
+from vorotool.formats.results.voronoi_npz import write_npz
+from vorotool.formats.text.feature_collection import collection_opening
+from vorotool.formats.text.tables import json_text, write_table
+from vorotool.geometry.curves.flatten import checked_flatten
+from vorotool.geometry.mesh.cells import Nesting
+from vorotool.geometry.ragged import owners, starts_of
+from vorotool.geometry.voronoi.shapes import cell_rings, flattened_arcs
+from vorotool.geometry.voronoi.tables import border_table, cell_table, neighbour_table
+from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
+from vorotool.products.formats import TABLES
+
+_TABLES = {"edges": border_table, "neighbours": neighbour_table, "table": cell_table}
+
+
+def write_voronoi(
+    out: BinaryIO,
+    cells: VoronoiMap,
+    fmt: str,
+    *,
+    what: str = "cells",
+    flatten: float | None = None,
+    precision: int | None = None,
+    threads: int = 0,
+) -> None:
+    r"""Write the cells of a Voronoi map, its borders, or a row a cell or a pair of neighbours.
+
+    Cells as JSON (version 1) and NPZ are all that the map holds, with its curves. As GeoJSON, WKT and in columns of WKT
+    they are polygons, in which neighbours share each vertex: one a site, in order, with the label, area and perimeter
+    (those with the true curves), the id and the columns of the site; an empty cell has no geometry. Borders as GeoJSON
+    and WKT are one line a piece.
+
+    Parameters
+    ----------
+    out, precision, threads
+        As of `vorotool.formats.text.tables.write_table`.
+    cells : VoronoiMap
+        What to write, in its order.
+    fmt : {"geojson", "csv", "tsv", "json", "npz", "wkt"}
+        The format; tables of neighbours and cells are written as CSV, TSV, JSON and NPZ.
+    what : {"cells", "edges", "neighbours", "table"}
+        What to write.
+    flatten : float, optional
+        How far lines may be from curves, in input units; by default 1/4096 of the larger side of the bounds.
+
+    Examples
+    --------
+    >>> import io, vorotool
+    >>> out = io.BytesIO()
+    >>> write_voronoi(out, vorotool.voronoi([[1, 1], [3, 1]], frame=(0, 0, 4, 2)), "wkt")
+    >>> out.getvalue().splitlines()[0]
+    b'POLYGON ((0 0, 2 0, 2 2, 0 2, 0 0))'
+    """
+    if what != "cells" and fmt in TABLES:
+        write_table(out, _TABLES[what](cells), fmt, precision=precision, threads=threads)
+    elif what != "cells":
+        _write_borders(out, cells, fmt, checked_flatten(flatten, cells.polygons), precision, threads)
+    elif fmt == "json":
+        write_json(out, cells, precision=precision, threads=threads)
+    elif fmt == "npz":
+        write_npz(out, cells, threads=threads)
+    else:
+        shapes = _shapes_of(cells, checked_flatten(flatten, cells.polygons))
+        write_shapes(out, shapes, fmt, precision=precision, threads=threads)
+
+
+def _shapes_of(cells: VoronoiMap, tolerance: float) -> CellShapes:
+    points, start = cell_rings(cells, tolerance)
+    return CellShapes(
+        {"label": np.arange(1, len(cells) + 1), "area": cells.areas, "perimeter": cells.perimeters},
+        cells.properties,
+        points,
+        Nesting(start, cells.polygon_start, cells.cell_start),
+        cells.ids,
+        cells.crs,
+    )
+
+
+# ---- borders -------------------------------------------------------------------------------------
+def _write_borders(
+    out: BinaryIO, cells: VoronoiMap, fmt: str, tolerance: float, precision: int | None, threads: int
+) -> None:
+    """One line a piece of a border, in the order of the table."""
+    points, start = flattened_arcs(cells, tolerance)
+    sizes = np.diff(start)
+    shown = cells.is_border
+    kept = shown[owners(sizes)]
+    wording = wkt_wording(int(shown.sum())) if fmt == "wkt" else _border_wording(cells)
+    write_polylines(out, points[kept], starts_of(sizes[shown])[:-1], wording, precision=precision, threads=threads)
+
+
+def _border_wording(cells: VoronoiMap) -> Wording:
+    table = border_table(cells)
+    columns: dict[str, NDArray[np.generic]] = {name: table[name] for name in ("label_a", "label_b", "kind", "length")}
+    rows = zip(*(column.tolist() for column in columns.values()), strict=True)
+    openings = [
+        f'{{"type":"Feature","properties":{json_text(dict(zip(columns, row, strict=True)))},'
+        '"geometry":{"type":"LineString","coordinates":[['
+        for row in rows
+    ]
+    return Wording(collection_opening(cells.crs) + b"\n", openings, "],[", ",", "]]}},\n", b"]}\n")

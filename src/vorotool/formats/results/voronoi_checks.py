@@ -1,0 +1,114 @@
+"""Whether the arrays of a Voronoi map that was read go together."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import InputError
+from vorotool.formats.results.json_reader import JsonRows
+from vorotool.geometry.ragged import owners
+from vorotool.geometry.voronoi.voronoi_map import OUTSIDE, VoronoiMap
+
+
+def pairs_of_sites(rows: JsonRows, arcs: list[Any], count: int) -> NDArray[np.int32]:
+    """Read the sites left and right of each arc; null is `OUTSIDE`.
+
+    Raises
+    ------
+    InputError
+        If one is no site.
+    """
+
+    def is_right(value: Any) -> bool:
+        return type(value) is list and len(value) == 2 and all(v is None or _is_index(v, count) for v in value)
+
+    values = [row.get("sites") for row in arcs]
+    if not all(map(is_right, values)):
+        raise rows.fault("arcs", arcs, "sites", is_right, f"two of the {count} sites, from 0, or null")
+    pairs = [[OUTSIDE if site is None else site for site in pair] for pair in values]
+    return np.array(pairs, dtype=np.int32).reshape(-1, 2)
+
+
+def _is_index(value: Any, count: int) -> bool:
+    return type(value) is int and 0 <= value < count
+
+
+@contextmanager
+def naming_values(name: str) -> Iterator[None]:
+    """Let what values say of their arrays begin with the name of the input."""
+    try:
+        yield
+    except InputError as error:
+        if str(error).startswith(name):
+            raise
+        raise InputError(f"{name}: {error.marked}") from error
+
+
+def check_map(name: str, cells: VoronoiMap) -> None:
+    """Check that arcs lead from lower to higher vertices, and that rings are closed and pass each side of an arc once.
+
+    Parameters
+    ----------
+    name : str
+        The input, which messages begin with.
+    cells : VoronoiMap
+        Whose indices are within their ranges but those of `ring_arcs`.
+
+    Raises
+    ------
+    InputError
+        Naming the first fault.
+    """
+    low, high = cells.arcs.T
+    _refuse(name, "arcs", low >= high, lambda at: f"it is from vertex {low[at]} to {high[at]}; write the smaller first")
+    signed = cells.ring_arcs.astype(np.int64)
+    arc, is_back = np.abs(signed) - 1, signed < 0
+    ring = owners(np.diff(cells.ring_start))
+    cell = cells.cell_of_polygon[owners(np.diff(cells.polygon_start))][ring]
+    count = len(cells.arcs)
+    wrong = (signed == 0) | (arc >= count)
+    _refuse(name, "cells", wrong, lambda at: f"a ring passes arc {signed[at]}; there are {count}", cell)
+    own = cells.sites[arc, is_back.astype(int)]
+    _refuse(
+        name,
+        "cells",
+        own != cell,
+        lambda at: f"a ring passes arc {signed[at]}, whose side is {_side(int(own[at]))}; correct its sites",
+        cell,
+    )
+    begin, end = np.where(is_back, high[arc], low[arc]), np.where(is_back, low[arc], high[arc])
+    after = np.arange(1, len(arc) + 1)
+    after[cells.ring_start[1:] - 1] = cells.ring_start[:-1]
+    _refuse(
+        name,
+        "cells",
+        end != begin[after],
+        lambda at: f"a ring goes on at vertex {begin[after[at]]}, but arc {signed[at]} ends at {end[at]}; close it",
+        cell,
+    )
+    passed = np.bincount(2 * arc + is_back, minlength=2 * count)
+    due = (cells.sites != OUTSIDE).ravel()
+    sides = np.repeat(np.arange(count), 2)
+    _refuse(
+        name,
+        "arcs",
+        passed != due,
+        lambda at: f"rings pass its {('left', 'right')[at % 2]} side {passed[at]} times; it should be {int(due[at])}",
+        sides,
+    )
+
+
+def _side(site: int) -> str:
+    return "null" if site == OUTSIDE else f"of site {site}"
+
+
+def _refuse(name: str, member: str, wrong: NDArray[np.bool_], words: Any, item: NDArray[Any] | None = None) -> None:
+    """Refuse what is wrong first, with the number of its item."""
+    if wrong.any():
+        at = int(wrong.argmax())
+        raise InputError(f"{name}, {member} {at if item is None else item[at]}: {words(at)}")

@@ -1,0 +1,167 @@
+"""What a Voronoi map can be written as (``--what``)."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Sequence
+from functools import partial
+from typing import Any, BinaryIO
+
+import numpy as np
+
+from vorotool.engines.voronoi.verify_voronoi import verify_voronoi
+from vorotool.engines.voronoi.voronoi import voronoi
+from vorotool.errors import STRICT, InputError, Kind, Message, RepairWarning
+from vorotool.formats.io.atomic_output import open_output
+from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.progress import Progress
+from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
+from vorotool.jobs.inputs import JobInput
+from vorotool.jobs.options import VoronoiOptions
+from vorotool.jobs.picture_style import styled_page
+from vorotool.jobs.picture_world import check_column, world_of_polygons
+from vorotool.jobs.pictures import Drawing, drawing_of, write_layers
+from vorotool.jobs.pixel_sizes import placed_backdrop
+from vorotool.jobs.run_log import Run
+from vorotool.jobs.targets import Target
+from vorotool.jobs.units import in_units, length_in_units, unit_columns
+from vorotool.jobs.voronoi_input import read_cuts, read_sites
+from vorotool.products.formats import PICTURES
+from vorotool.products.registry import PRODUCTS
+from vorotool.products.writing import write_product
+
+
+class VoronoiProducts:
+    """Results of one Voronoi map.
+
+    Parameters
+    ----------
+    run : Run
+        Takes notes and seconds.
+    options : VoronoiOptions
+        Of the command line.
+    given : JobInput
+        With the image that pictures are drawn over.
+    """
+
+    def __init__(self, run: Run, options: VoronoiOptions, given: JobInput) -> None:
+        self.run = run
+        with run.phase("read"):
+            read = read_sites(run, options, given)
+        cuts: dict[str, PolygonSet] = {}
+        if options.clip is not None or options.enclosures is not None:
+            with run.phase("read polygons"):
+                read, cuts = read_cuts(run, read, given)
+        self.options, self.is_image = read.options, read.is_image
+        self.backdrop = placed_backdrop(self.options.pixel_size, given.backdrop)
+        self.features = read.sites.count
+        self.cells = self._made(read.sites, cuts)
+        check_column(self.options.label_by, self.cells.properties)
+        o = self.options
+        world = world_of_polygons(run, o, self.cells.polygons, frame=read.frame, size=o.pixel_size)
+        self._styled = partial(styled_page, looks=o.looks, world=world)
+
+    def _made(self, sites: Any, cuts: dict[str, Any]) -> VoronoiMap:
+        o = self.options
+        with self.run.phase("voronoi") as progress, warnings.catch_warnings():
+            if o.strict:
+                warnings.simplefilter("error", RepairWarning)
+            try:
+                return voronoi(
+                    sites,
+                    by=o.by,
+                    frame=o.frame,
+                    threads=o.threads,
+                    progress=progress,
+                    max_distance=o.max_distance,
+                    **cuts,
+                )
+            except RepairWarning as warning:
+                raise InputError(f"{warning}: repair them, or leave out {STRICT}") from None
+
+    def check(self, target: Target) -> None:
+        """Refuse what cannot be written, and say what will be empty, before anything is written."""
+        if target.fmt == "png":
+            from vorotool.render.canvas.png import check_picture_size
+
+            check_picture_size(self._drawing(target.what).page, self.options.max_pixels)
+        if target.fmt == "html":
+            from vorotool.render.pages.cells_html import check_html_size
+
+            check_html_size(len(self.cells), len(self.cells.ring_arcs))
+        if target.what in ("edges", "neighbours") and not self.cells.is_border.any():
+            count = len(self.cells)
+            self.run.warn(Message(f"there are no {target.what} of {count} site{'s' * (count != 1)}", Kind.EMPTY_RESULT))
+
+    def verify(self, progress: Progress) -> None:
+        """Check the map, with nothing that it was made by."""
+        verify_voronoi(self.cells)
+
+    def write(self, target: Target, *, inputs: Sequence[str]) -> None:
+        """Write one result."""
+        o = self.options
+        with open_output(target.path, binary=target.is_binary, no_clobber=o.no_clobber, inputs=inputs) as out:
+            if target.fmt in PICTURES:
+                drawing = self._drawing(target.what)
+                write_layers(out, drawing.layers, drawing.page, fmt=target.fmt, threads=o.threads)
+            elif target.fmt == "html":
+                self._write_page(out)
+            else:
+                self._write_data(out, target)
+
+    def _write_data(self, out: BinaryIO, target: Target) -> None:
+        o = self.options
+        write_product(
+            out,
+            in_units(o.pixel_size, self.cells),
+            PRODUCTS["voronoi"][target.what],
+            target.fmt,
+            flatten=length_in_units(o.pixel_size, o.flatten),
+            precision=o.precision,
+            threads=o.threads,
+            path=target.path,
+        )
+
+    def _write_page(self, out: BinaryIO) -> None:
+        from vorotool.render.layers.voronoi import map_colours
+        from vorotool.render.pages.cells_html import shapes_of_map, write_cells_html
+
+        cells = in_units(self.options.pixel_size, self.cells)
+        shapes = shapes_of_map(cells, y_up=self.options.y_up)
+        columns = {name: column for name, column in cells.table.items() if name not in ("label", "id")}
+        write_cells_html(out, shapes, map_colours(cells), columns | unit_columns(self.options.pixel_size, len(cells)))
+
+    def _drawing(self, what: str) -> Drawing:
+        o = self.options
+        return drawing_of(
+            self.cells,
+            what=what,
+            layers=o.layers,
+            width=o.width or 1000,
+            y_up=o.y_up,
+            backdrop=self.backdrop,
+            styled=self._styled,
+        )
+
+    def stats(self) -> dict[str, Any]:
+        """Counts and sizes."""
+        cells, o = self.cells, self.options
+        there = np.zeros(len(cells), dtype=bool)
+        there[cells.polygon_site] = True
+        found: dict[str, Any] = {
+            "features": self.features,
+            "sites": len(cells),
+            "empty_cells": int((cells.components == 0).sum()),
+            "sites_without_geometry": int((~there).sum()),
+            "cells_in_parts": int((cells.components > 1).sum()),
+            "vertices": len(cells.vertices),
+            "arcs": len(cells.arcs),
+            "borders": int(cells.is_border.sum()),
+            "parabolas": int(cells.is_parabola.sum()),
+            "circles": int(cells.is_circle.sum()),
+            "frame": list(cells.frame),
+            "threads": o.threads,
+        }
+        if self.is_image:
+            found |= {"outline": o.outline or "crack", "connectivity": int(o.connectivity or 8)}
+        return found

@@ -1,0 +1,107 @@
+"""What Voronoi maps are made of: points, lines and polygons, or the outlines of an image; and what cuts them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.formats.io.sources import reading
+from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.polygons.ring_arrays import RingArrays
+from vorotool.jobs.cuts import check_image_crs, in_one_crs, polygons_among, read_cut
+from vorotool.jobs.inputs import JobInput, opened_input, read_opened, refuse
+from vorotool.jobs.options import VoronoiOptions
+from vorotool.jobs.run_log import Run
+from vorotool.jobs.skeleton_input import outlined
+
+if TYPE_CHECKING:
+    from vorotool.geometry.arguments.sites import Sites
+    from vorotool.geometry.pixel_frame import Frame
+
+
+class ReadSites(NamedTuple):
+    """What a map is made of.
+
+    Parameters
+    ----------
+    sites : Sites
+        Of the input; not yet joined.
+    is_image : bool
+        Whether they are the objects of an image.
+    options : VoronoiOptions
+        With the size of pixels, and lengths and places, as the image has them.
+    frame : Frame, optional
+        Of the image, in the coordinates of the outlines.
+    """
+
+    sites: Sites
+    is_image: bool
+    options: VoronoiOptions
+    frame: Frame | None = None
+
+
+def read_sites(run: Run, o: VoronoiOptions, given: JobInput) -> ReadSites:
+    """Read points, lines and polygons, each feature a site, or the objects of an image."""
+    from vorotool.geometry.arguments.sites import as_sites
+    from vorotool.geometry.points.raster import Raster
+
+    with opened_input(o, given, "sites") as source:
+        value = read_opened(run, o, given, source, columns=o.columns)
+    if not isinstance(value, Raster):
+        refuse(
+            {**o.for_images(), "simplify": o.simplify}, "is for images, but the input holds points, lines or polygons"
+        )
+        return ReadSites(as_sites(value), is_image=False, options=o)
+    refuse({"columns": o.columns}, "is for lists of points, but the input is an image")
+    polygons, _, o, frame = outlined(run, o, given, value)
+    return ReadSites(as_sites(polygons), is_image=True, options=o, frame=frame)
+
+
+def read_cuts(run: Run, read: ReadSites, given: JobInput) -> tuple[ReadSites, dict[str, PolygonSet]]:
+    """Read the files of ``--clip`` and ``--enclosures``, in the coordinates of the sites.
+
+    Of sites and files that name no coordinate reference system, the ones are taken to be in that of the others.
+
+    Returns
+    -------
+    read : ReadSites
+        With sites in a system, if a file is in one.
+    cuts : dict of str to PolygonSet
+        By the parameters of `vorotool.voronoi`.
+
+    Raises
+    ------
+    InputError
+        If there is nothing in a file, or it is in another system than the sites.
+    """
+    o, cuts = read.options, {}
+    for name, path in (("clip", o.clip), ("enclosures", o.enclosures)):
+        if path is None:
+            continue
+        with reading(path):  # messages name the file
+            value = read_cut(run, o, f"--{name}", path)
+            source = (given.name, read.sites.polygons)
+            if read.is_image:
+                check_image_crs((path, value), given.name, source[1].crs)
+            else:
+                placed = in_one_crs(run, (path, value), source)
+                read = read._replace(sites=replace(read.sites, polygons=placed))
+            if name == "clip":
+                value = _chosen(value, np.flatnonzero(polygons_among(run, path, value)))
+        cuts[name] = _in_pixels(o, value)
+    return read, cuts
+
+
+def _chosen(polygons: PolygonSet, chosen: NDArray[np.int64]) -> PolygonSet:
+    return RingArrays.of(polygons).taken(chosen)[0].polygons(polygons, chosen)
+
+
+def _in_pixels(o: VoronoiOptions, cut: PolygonSet) -> PolygonSet:
+    """What is on the map where results are, in pixels."""
+    size = o.pixel_size
+    if size is None or size.origin is None:
+        return cut
+    return replace(cut, xy=(cut.xy - size.origin) / float(size.factor))

@@ -1,0 +1,170 @@
+"""The layers of a picture of a Voronoi map."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool import _core
+from vorotool.geometry.ragged import within
+from vorotool.geometry.voronoi.site_shapes import site_shapes
+from vorotool.geometry.voronoi.tables import neighbour_pairs
+from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
+from vorotool.render.canvas.layers import CurvedPolygons, Curves, Layer, Lines, Page, Points, Polygons, Texts, name_size
+from vorotool.render.canvas.names import column_texts, without_empty
+from vorotool.render.canvas.palettes import EDGE, INK, WHITE, cell_colour
+from vorotool.render.label_images.png import checked_layers
+from vorotool.render.layers.polygons import polygon_layers
+
+LAYERS = ("cells", "edges", "objects", "labels")
+"""From below: filled cells, all that bounds them as lines, the sites, and their names."""
+
+Indices = NDArray[np.int64]
+
+
+def voronoi_layers(cells: VoronoiMap, page: Page, layers: Iterable[str]) -> list[Layer]:
+    """Make layers of a Voronoi map; lines and discs get finer where cells are small.
+
+    Parameters
+    ----------
+    cells : VoronoiMap
+        What to draw.
+    page : Page
+        Where it will be drawn.
+    layers : iterable of str
+        Which of "cells", "edges", "objects", "labels".
+
+    Raises
+    ------
+    UsageError
+        If a layer is unknown.
+
+    Examples
+    --------
+    >>> from vorotool import voronoi
+    >>> made = voronoi(["LINESTRING (0 0, 4 0)", "POINT (2 2)"])
+    >>> [layer.name for layer in voronoi_layers(made, voronoi_page(made), LAYERS)]
+    ['cells', 'edges', 'objects', 'object-points', 'labels']
+    """
+    wanted = checked_layers(layers, LAYERS)
+    spacing = page.spacing(max(len(cells), 1))
+    width = min(max(spacing / 24, 0.1), 1.5)
+    made: dict[str, list[Layer]] = {}
+    if wanted & {"cells", "edges"}:
+        curves = replace(_curves(cells), width=width)
+        made["edges"] = [curves]
+        if "cells" in wanted:
+            made["cells"] = [_filled(cells, curves, width)]
+    if "objects" in wanted:
+        made["objects"] = _objects(cells, width, min(max(spacing / 12, 0.3), 4.0))
+    if "labels" in wanted:
+        made["labels"] = [_names(cells, page)]
+    return [layer for name in LAYERS if name in wanted for layer in made[name]]
+
+
+def voronoi_page(cells: VoronoiMap, *, width: int = 1000, y_up: bool | None = None) -> Page:
+    """The page that shows the frame of a map; y upwards where the input says so."""
+    x, y, w, h = cells.frame
+    return Page((x, y, x + w, y + h), width=width, y_up=cells.polygons.y_up if y_up is None else y_up)
+
+
+def map_colours(cells: VoronoiMap) -> NDArray[np.uint32]:
+    """(s,) colour class of each cell, from 1: cells that share a border never have the same one.
+
+    Examples
+    --------
+    >>> from vorotool import voronoi
+    >>> map_colours(voronoi([[0, 0], [4, 0], [8, 0]])).tolist()
+    [2, 1, 2]
+    """
+    a, b = np.ascontiguousarray(neighbour_pairs(cells)[0].T.astype(np.uint32))
+    return _core.graphs.colour_graph(len(cells), a, b, None)
+
+
+def _curves(cells: VoronoiMap) -> Curves:
+    """All arcs, with their control points after the vertices."""
+    bent = np.flatnonzero(cells.is_parabola)
+    control = np.full(len(cells.arcs), -1, dtype=np.int32)
+    control[bent] = len(cells.vertices) + np.arange(len(bent))
+    points = np.concatenate([cells.vertices, cells.control[bent]])
+    circles = (cells.center, cells.mixed_arcs.is_left) if cells.is_circle.any() else (None, None)
+    return Curves("edges", points, cells.arcs, control, INK, centre=circles[0], is_left=circles[1])
+
+
+def _filled(cells: VoronoiMap, curves: Curves, width: float) -> CurvedPolygons:
+    arc, is_back = np.abs(cells.ring_arcs) - 1, cells.ring_arcs < 0
+    colours = map_colours(cells)
+    cell = cells.cell_of_polygon
+    part = within(cells.components) + 1
+    several = cells.components[cell] > 1
+    ids = [
+        f"cell-{label}-{k}" if many else f"cell-{label}"
+        for label, k, many in zip((cell + 1).tolist(), part.tolist(), several.tolist(), strict=True)
+    ]
+    return CurvedPolygons(
+        "cells",
+        curves.points,
+        cells.arcs[arc, is_back.astype(int)],
+        cells.ring_start,
+        cells.polygon_start,
+        [cell_colour(c) for c in range(int(colours.max(initial=0)) + 1)],
+        colours[cell],
+        ids,
+        EDGE,
+        width,
+        curves=curves,
+        along=cells.ring_arcs,
+    )
+
+
+def _objects(cells: VoronoiMap, width: float, radius: float) -> list[Layer]:
+    """Sites: areas through which half of their cells is seen, lines and outlines, and discs."""
+    polygons = cells.polygons
+    made: list[Layer] = []
+    areas = polygon_layers(polygons, width, name="object-areas")[0]
+    assert isinstance(areas, Polygons)
+    if len(areas.corners):
+        made.append(replace(areas, colours=[WHITE], is_sheer=True))
+    is_end = np.zeros(len(polygons.xy), dtype=bool)
+    is_end[polygons.ring_start[1:][polygons.is_line[polygons.ring_polygon]] - 1] = True
+    pairs = np.stack([np.flatnonzero(~is_end), polygons.following[~is_end]], axis=1).astype(np.int32)
+    if len(pairs):
+        made.append(Lines("objects", polygons.xy, pairs, INK, max(width, 0.2)))
+    first = polygons.ring_start[polygons.polygon_start[:-1]]
+    is_lone = polygons.is_line & (np.diff(polygons.ring_start)[polygons.polygon_start[:-1]] == 1)
+    if is_lone.any():
+        name = "object-points" if len(pairs) else "objects"
+        made.append(Points(name, polygons.xy[first[is_lone]], radius=radius))
+    return made
+
+
+def _names(cells: VoronoiMap, page: Page) -> Texts:
+    """Ids of the sites on these, else their labels, or what the column says that the page is to have."""
+    own = range(1, len(cells) + 1) if cells.ids is None else cells.ids
+    texts = column_texts(cells.properties, page.style.label_by, own)
+    places, site, is_centred = _places_of_names(cells)
+    size = name_size(page, len(cells))
+    return without_empty(
+        Texts("labels", places, [texts[k] for k in site.tolist()], size=size, halo=WHITE, is_centred=is_centred)
+    )
+
+
+def _places_of_names(cells: VoronoiMap) -> tuple[NDArray[np.float64], Indices, bool]:
+    """Inside the largest polygon of each site, in the middle of its longest line, or at a point; whether all are."""
+    import shapely
+
+    site, parts = np.arange(len(cells)), site_shapes(cells)
+    while (shapely.get_type_id(parts) > shapely.GeometryType.POLYGON).any():
+        parts, index = shapely.get_parts(parts, return_index=True)
+        site = site[index]
+    size = shapely.get_dimensions(parts)
+    measure = np.where(size == 1, shapely.length(parts), shapely.area(parts))
+    order = np.lexsort((np.arange(len(parts)), -measure, -size, site))
+    site, first = np.unique(site[order], return_index=True)
+    chosen, size = parts[order[first]], size[order[first]]
+    inside = shapely.point_on_surface(chosen)
+    inside[size == 1] = shapely.line_interpolate_point(chosen[size == 1], 0.5, normalized=True)
+    return np.stack([shapely.get_x(inside), shapely.get_y(inside)], axis=1), site, bool((size > 0).any())

@@ -1,0 +1,497 @@
+"""``vorotool voronoi``: what holds points, lines and polygons, every option, and what is said when it goes wrong."""
+
+import json
+import os
+import subprocess
+import sys
+import threading
+import warnings
+from pathlib import Path
+
+import geopandas
+import numpy as np
+import pytest
+import shapely
+from PIL import Image
+
+import vorotool
+from support.families.vector_files import save
+from support.readers.written import rows_of
+
+DATA = Path(__file__).parents[3] / "data"
+LAKES = DATA / "great-lakes.geojson"
+SHAPES = [
+    shapely.Point(0, 0),
+    None,
+    shapely.MultiPoint([(20, 0), (22, 1)]),
+    shapely.LineString([(5, 5), (9, 6), (12, 3)]),
+    shapely.GeometryCollection([shapely.Point(0, 14), shapely.box(4, 10, 9, 13) - shapely.box(5, 11, 6, 12)]),
+    shapely.MultiPolygon([shapely.box(14, 8, 18, 12), shapely.box(19, 8, 21, 12)]),
+]
+SVG = '<svg xmlns="http://www.w3.org/2000/svg">'
+COLUMNS = {"kind": ["tree", "tree", "tree", "wall", "house", "house"], "code": ["007", "8", "9", "10", "11", "12"]}
+MIXED = geopandas.GeoDataFrame(COLUMNS, geometry=SHAPES, crs="EPSG:2056")
+
+
+@pytest.fixture(scope="module")
+def right():
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return vorotool.voronoi(MIXED)
+
+
+@pytest.fixture
+def mixed(folder):
+    (folder / "mixed.geojson").write_text(MIXED.to_json(drop_id=True))
+    document = json.loads((folder / "mixed.geojson").read_text())
+    document["crs"] = {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::2056"}}
+    (folder / "mixed.geojson").write_text(json.dumps(document))
+    return folder / "mixed.geojson"
+
+
+def shapes_of(text):
+    features = json.loads(text)["features"]
+    return [f["geometry"] and shapely.from_geojson(json.dumps(f["geometry"])) for f in features]
+
+
+def is_equal(got, expected):
+    return all(a is None if b.is_empty else shapely.equals_exact(a, b) for a, b in zip(got, expected, strict=True))
+
+
+# ---- what is read ------------------------------------------------------------------------------------
+def test_cells_go_to_standard_output(run, mixed, right):
+    done = run("voronoi", mixed, "--verify")
+    assert done.code == 0
+    assert done.err == f"note: {mixed}: 1 features without a geometry have empty cells\n"
+    document = json.loads(done.out)
+    assert document["crs"]["properties"]["name"] == "urn:ogc:def:crs:EPSG::2056"
+    assert is_equal(shapes_of(done.out), right.to_shapely())
+    assert [f["properties"]["code"] for f in document["features"]] == COLUMNS["code"]
+    assert [f["id"] for f in document["features"]] == [1, 2, 3, 4, 5, 6]
+
+
+@pytest.mark.parametrize("name", ["a.gpkg", "a.fgb", "a.parquet", "a.wkt", "a.csv", "a.jsonl", "a.geojson"])
+def test_points_lines_and_polygons_of_each_format(run, folder, right, name):
+    path, texts = folder / name, ["POINT EMPTY" if shape is None else shape.wkt for shape in SHAPES]
+    if path.suffix == ".wkt":
+        path.write_text("\n".join(texts))
+    elif path.suffix == ".csv":
+        path.write_text("code,wkt\n" + "".join(f'{code},"{text}"\n' for code, text in zip(COLUMNS["code"], texts)))  # noqa: B905
+    elif path.suffix == ".jsonl":
+        path.write_text("\n".join(json.dumps(each) for each in json.loads(MIXED.to_json())["features"]))
+    elif path.suffix == ".geojson":
+        path.write_text(MIXED.to_json())
+    else:
+        save(MIXED, path)
+    done = run("voronoi", path, "-f", "npz", "-o", "cells.npz")
+    assert done.code == 0, done.err
+    cells = vorotool.read(folder / "cells.npz")
+    assert len(cells) == 6
+    np.testing.assert_allclose(cells.areas, right.areas)
+    if path.suffix != ".wkt":
+        assert [str(code) for code in cells.properties["code"]] == COLUMNS["code"]
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "count"),
+    [
+        ("a.csv", "x,y,name\n2,1,a\n7,5,b\n1,6,c\n", 3),
+        ("a.txt", "2 1\n7 5\n", 2),
+        ("a.json", "[[2, 1], [7, 5], [1, 6], [9, 9]]", 4),
+        ("a.json", '{"polygons": [{"shell": [[0, 0], [4, 0], [0, 3]]}, {"line": [[5, 5], [9, 5]]}]}', 2),
+        ("a.json", "[[[0, 0], [4, 0], [0, 3]], [[10, 0], [14, 0], [10, 3]]]", 2),
+        ("a.node", "2 2 0 0\n1 2 1\n2 7 5\n", 2),
+        ("a.poly", "3 2 0 0\n1 0 0\n2 4 0\n3 0 3\n3 0\n1 1 2\n2 2 3\n3 3 1\n0\n", 1),
+        ("a.geojson", '{"type": "MultiPoint", "coordinates": [[0, 0], [5, 5]]}', 1),
+        ("a.wkt", "POINT (0 0)\nPOINT (3 4)\n", 2),
+        ("a.svg", f'{SVG}<rect width="4" height="3"/><path d="M9,0 L12,5" fill="none" stroke="red"/></svg>', 2),
+    ],
+)
+def test_each_kind_of_text(run, folder, name, text, count):
+    (folder / name).write_text(text)
+    done = run("voronoi", name, "--what", "table", "-q", "--verify")
+    assert (done.code, len(done.rows)) == (0, count), done.err
+
+
+def test_points_are_read_by_columns(run, folder):
+    (folder / "p.csv").write_text("a,b,no,name\n2,1,40,x\n7,5,30,y\n")
+    rows = run("voronoi", "p.csv", "--columns", "a,b,no", "--what", "table", "-q").rows
+    assert [(row["id"], row["name"]) for row in rows] == [("40", "x"), ("30", "y")]
+    np.save(folder / "p.npy", np.array([[2.0, 1], [7, 5], [1, 6]]))
+    assert len(run("voronoi", "p.npy", "--what", "table").rows) == 3
+
+
+def test_maps_and_skeletons_are_read_for_what_they_are_made_of(run, folder, mixed):
+    assert run("voronoi", mixed, "-q", "--by", "kind", "-o", "a.json").code == 0
+    assert run("voronoi", mixed, "-q", "--by", "kind", "-o", "a.npz").code == 0
+    for name in ("a.json", "a.npz"):
+        done = run("voronoi", name, "-f", "json")
+        assert done.err == f"note: {name} holds a Voronoi map: the sites in it are read\n"
+        assert done.out == (folder / "a.json").read_text()
+    assert run("skeleton-exact", DATA / "two-shapes.json", "-o", "s.json").code == 0
+    done = run("voronoi", "s.json", "--what", "table")
+    assert len(done.rows) == 2
+    assert "holds a skeleton: the polygons in it are read" in done.err
+
+
+# ---- images ------------------------------------------------------------------------------------------
+LABELS = np.zeros((40, 60), dtype=np.uint8)
+LABELS[5:15, 5:15], LABELS[25:35, 8:20], LABELS[10:30, 40:50], LABELS[38, 58] = 7, 3, 9, 7
+
+
+@pytest.fixture
+def labels(folder):
+    Image.fromarray(LABELS).save(folder / "labels.png")
+    return folder / "labels.png"
+
+
+def test_label_images_have_a_site_a_label(run, labels):
+    done = run("voronoi", labels, "--what", "table", "--verify")
+    assert (done.code, done.err) == (0, "")
+    cells = vorotool.voronoi(LABELS)
+    assert [row["id"] for row in done.rows] == ["3", "7", "9"]
+    np.testing.assert_allclose([float(row["area"]) for row in done.rows], cells.areas)
+    assert [row["own_area"] for row in done.rows] == ["120", "101", "200"]
+
+
+def test_masks_have_a_site_a_component(run, labels):
+    done = run("voronoi", labels, "--threshold", "0", "--what", "table", "--stats", "s.json", "-o", "a.csv")
+    assert done.code == 0
+    stats = json.loads(Path("s.json").read_text())
+    assert (stats["sites"], stats["outline"], stats["connectivity"]) == (4, "crack", 8)
+    by_contour = run("voronoi", labels, "--outline", "contour", "--seeds", "labels", "--what", "table")
+    assert float(by_contour.rows[0]["own_area"]) < 120
+    alone = run("voronoi", labels, "--threshold", "0", "--min-area", "2", "--what", "table", "-q")
+    assert len(alone.rows) == 3
+
+
+def test_pixel_sizes_scale_what_is_written(run, labels):
+    plain, scaled = (run("voronoi", labels, "--what", "table", "-q", *more) for more in ([], ["--pixel-size", "0.5um"]))
+    for before, after in zip(plain.rows, scaled.rows, strict=True):
+        assert float(after["area"]) == pytest.approx(float(before["area"]) / 4)
+        assert float(after["max_distance"]) == pytest.approx(float(before["max_distance"]) / 2)
+        assert after["unit"] == "um"
+    limited = run("voronoi", labels, "--what", "table", "--pixel-size", "0.5um", "--max-distance", "2um")
+    assert max(float(row["max_distance"]) for row in limited.rows) == pytest.approx(2)
+    simple = run("voronoi", labels, "--simplify", "1", "--what", "cells", "-f", "json")
+    assert simple.code == 0
+
+
+def test_images_without_objects(run, folder):
+    Image.fromarray(0 * LABELS).save(folder / "empty.png")
+    done = run("voronoi", "empty.png", "--what", "table")
+    assert (done.code, done.rows) == (0, [])
+    assert done.out.startswith("label,")
+    assert "no foreground" in done.err
+    assert run("voronoi", "empty.png", "--strict").code == 3
+
+
+# ---- what is computed --------------------------------------------------------------------------------
+def test_features_are_joined(run, mixed):
+    done = run("voronoi", mixed, "--by", "kind", "--what", "table", "-q")
+    assert [row["id"] for row in done.rows] == ["tree", "wall", "house"]
+    cells = vorotool.voronoi(MIXED, by="kind")
+    np.testing.assert_allclose([float(row["area"]) for row in done.rows], cells.areas)
+
+
+def test_the_frame(run, mixed, folder):
+    done = run("voronoi", mixed, "--frame", "-5,-5,40,30.5", "--stats", "s.json", "-o", "a.geojson")
+    assert done.code == 0
+    shapes = [shape for shape in shapes_of((folder / "a.geojson").read_text()) if shape is not None]
+    assert shapely.union_all(shapes).bounds == (-5, -5, 35, 25.5)
+    assert shapely.coverage_is_valid(shapes)
+    stats = json.loads((folder / "s.json").read_text())
+    assert stats["frame"] == [-5, -5, 40, 30.5]
+    assert (stats["features"], stats["sites"], stats["empty_cells"], stats["sites_without_geometry"]) == (6, 6, 1, 1)
+    assert stats["parabolas"] > 0
+    assert set(stats["seconds"]) >= {"read", "voronoi", "write cells"}
+
+
+def test_a_limit_of_distance(run, mixed, folder):
+    frame = ["--frame", "-50,-50,120,120"]
+    done = run("voronoi", mixed, "-q", "--max-distance", "1.5", *frame, "--flatten", "1e-4", "-o", "a.geojson")
+    assert done.code == 0
+    shapes = shapes_of((folder / "a.geojson").read_text())
+    near = shapely.union_all([shape.buffer(1.5, quad_segs=256) for shape in SHAPES if shape is not None])
+    covered = shapely.union_all([shape for shape in shapes if shape is not None])
+    assert covered.symmetric_difference(near).area < 1e-3 * near.area
+    assert run("voronoi", mixed, "-q", "--max-distance", "1.5", "-o", "a.json").code == 0
+    assert vorotool.read(folder / "a.json").max_distance == 1.5
+    assert {arc["kind"] for arc in json.loads((folder / "a.json").read_text())["arcs"]} >= {"circle", "line"}
+
+
+@pytest.fixture
+def cuts(folder):
+    (folder / "clip.wkt").write_text("POLYGON ((-4 -4, 24 -4, 24 9, 10 16, -4 9, -4 -4), (1 1, 2 1, 2 2, 1 1))")
+    (folder / "streets.wkt").write_text("LINESTRING (-9 7, 30 7)\nLINESTRING (13 -9, 13 30)")
+    (folder / "far.geojson").write_text(
+        '{"type":"Polygon","coordinates":[[[90,90],[99,90],[99,99],[90,90]]],"crs":{"type":"name",'
+        '"properties":{"name":"EPSG:3857"}}}'
+    )
+    return folder
+
+
+def test_a_clip(run, mixed, cuts):
+    done = run("voronoi", mixed, "--clip", "clip.wkt", "--verify", "--stats", "s.json", "-o", "a.geojson")
+    assert done.code == 0
+    assert "clip.wkt names no coordinate reference system: it is taken to be in EPSG:2056" in done.err
+    clip = shapely.from_wkt((cuts / "clip.wkt").read_text())
+    shapes = [shape for shape in shapes_of((cuts / "a.geojson").read_text()) if shape is not None]
+    assert shapely.union_all(shapes).symmetric_difference(clip).area < 1e-9
+    assert json.loads((cuts / "s.json").read_text())["frame"] == [-4, -4, 28, 20]
+    both = run("voronoi", mixed, "-q", "--clip", "clip.wkt", "--frame", "0,0,9,9")
+    shapes = [shape for shape in shapes_of(both.out) if shape is not None]
+    assert shapely.union_all(shapes).symmetric_difference(clip.intersection(shapely.box(0, 0, 9, 9))).area < 1e-9
+
+
+def test_enclosures(run, mixed, cuts):
+    done = run("voronoi", mixed, "-q", "--enclosures", "streets.wkt", "--verify", "-o", "a.geojson")
+    assert done.code == 0
+    shapes = shapes_of((cuts / "a.geojson").read_text())
+    right = vorotool.voronoi(MIXED, enclosures=vorotool.read(cuts / "streets.wkt"))
+    assert is_equal(shapes, right.to_shapely())
+    street = shapely.LineString([(-9, 7), (30, 7)])
+    assert not any(shape.crosses(street) for shape in (shapes[0], shapes[3], shapes[5]))
+
+
+def test_all_cuts_together_are_kept_with_the_map(run, mixed, cuts):
+    options = ["--clip", "clip.wkt", "--enclosures", "streets.wkt", "--max-distance", "2.5", "-q", "--verify"]
+    for fmt in ("json", "npz"):
+        assert run("voronoi", mixed, *options, "-o", f"a.{fmt}").code == 0
+    cells = vorotool.read(cuts / "a.json")
+    assert cells == vorotool.read(cuts / "a.npz")
+    assert (cells.max_distance, len(cells.clip), len(cells.enclosures)) == (2.5, 1, 2)
+    rows = run("voronoi", mixed, *options, "--what", "edges").rows
+    assert "" in {row["r0"] for row in rows}  # along an enclosure there is no one distance
+    assert run("draw", "a.json", "-o", "a.svg").code == 0
+
+
+def test_cuts_of_images_on_maps_are_on_the_map(run, folder, labels):
+    (folder / "labels.pgw").write_text("2\n0\n0\n-2\n1001\n4999\n")
+    (folder / "clip.wkt").write_text("POLYGON ((1010 4950, 1100 4950, 1100 4990, 1010 4990, 1010 4950))")
+    done = run("voronoi", labels, "--clip", "clip.wkt", "-q", "--verify")
+    assert done.code == 0, done.err
+    shapes = [shape for shape in shapes_of(done.out) if shape is not None]
+    clip = shapely.from_wkt((folder / "clip.wkt").read_text())
+    assert shapely.union_all(shapes).symmetric_difference(clip).area < 1e-6
+    limited = run("voronoi", labels, "-q", "--max-distance", "3m", "--pixel-size", "2m", "--what", "table")
+    assert max(float(row["max_distance"]) for row in limited.rows) == pytest.approx(3)
+
+
+def test_lines_are_as_near_to_curves_as_asked(run, mixed):
+    coarse, fine = (
+        sum(shapely.get_num_coordinates(shapes_of(run("voronoi", mixed, "-q", "--flatten", size).out)))
+        for size in ("5", "0.001")
+    )
+    assert coarse < fine
+    rough = [shape for shape in shapes_of(run("voronoi", mixed, "-q", "--flatten", "5").out) if shape is not None]
+    assert shapely.coverage_is_valid(rough)
+    assert run("voronoi", mixed, "-q", "--flatten", "5", "-f", "csv").code == 0
+
+
+def test_longitude_and_latitude_are_told_once(run, folder):
+    done = run("voronoi", LAKES, "--input-crs", "OGC:CRS84", "--what", "table", "-o", "a.csv")
+    assert done.err.count("lengths are in degrees") == 1
+    done = run("voronoi", LAKES, "--input-crs", "OGC:CRS84", "--crs", "EPSG:32616", "-o", "a.geojson")
+    assert done.code == 0
+    assert "degrees" not in done.err
+    assert "EPSG::32616" in (folder / "a.geojson").read_text()[:200]
+
+
+def test_threads_change_nothing(run, mixed):
+    assert run("voronoi", mixed, "-q", "--threads", "1").out == run("voronoi", mixed, "-q", "--threads", "2").out
+
+
+# ---- what is written ---------------------------------------------------------------------------------
+def test_several_results_at_once(run, mixed, folder, right):
+    done = run("voronoi", mixed, "-q", "--what", "cells,edges,neighbours,table", "-o", "out")
+    assert done.code == 0
+    names = {"out.cells.geojson", "out.edges.csv", "out.neighbours.csv", "out.table.csv"}
+    assert {path.name for path in folder.glob("out.*")} == names
+    pairs = [(int(row["label_a"]), int(row["label_b"])) for row in rows_of((folder / "out.neighbours.csv").read_text())]
+    assert pairs == list(zip(right.neighbours["label_a"], right.neighbours["label_b"], strict=True))
+    assert run("voronoi", mixed, "-q", "--what", "neighbors").out == (folder / "out.neighbours.csv").read_text()
+
+
+@pytest.mark.parametrize("name", ["a.gpkg", "a.fgb", "a.shp", "a.parquet"])
+def test_files_of_maps_hold_the_cells(run, mixed, folder, right, name):
+    assert run("voronoi", mixed, "-q", "-o", name).code == 0
+    read = geopandas.read_parquet(name) if name.endswith("parquet") else geopandas.read_file(name)
+    assert read.crs.to_epsg() == 2056
+    assert read["code"].astype(str).tolist() == COLUMNS["code"]
+    assert [shape is None for shape in read.geometry] == shapely.is_empty(right.to_shapely()).tolist()
+    np.testing.assert_allclose(read["area"], right.areas)
+    np.testing.assert_allclose(read.geometry.area.fillna(0), shapely.area(right.to_shapely()))
+
+
+def test_drawings_hold_the_cells(run, mixed, folder):
+    assert run("voronoi", mixed, "-q", "-o", "a.dxf").code == 0
+    assert (folder / "a.dxf").read_bytes().count(b"AcDbPolyline") >= 5
+    assert run("voronoi", mixed, "-q", "--what", "edges", "-o", "b.dxf").code == 0
+
+
+def test_a_map_is_drawn_again(run, mixed, folder):
+    for fmt in ("svg", "png"):
+        assert run("voronoi", mixed, "-q", "-o", f"a.{fmt}", "--width", "300").code == 0
+        for source in ("json", "npz"):
+            assert run("voronoi", mixed, "-q", "-o", f"a.{source}").code == 0
+            assert run("draw", f"a.{source}", "-o", f"b.{fmt}", "--width", "300").code == 0
+            assert (folder / f"b.{fmt}").read_bytes() == (folder / f"a.{fmt}").read_bytes()
+    done = run("draw", "a.json", "-o", "c.svg", "--label-by", "code", "--layers", "cells,objects,labels")
+    assert (done.code, "007" in (folder / "c.svg").read_text()) == (0, True)
+    done = run("draw", "a.json", "-o", "c.svg", "--layers", "triangles")
+    assert done.code == 2
+
+
+def test_columns_are_left_out(run, mixed):
+    features = json.loads(run("voronoi", mixed, "-q", "--no-properties").out)["features"]
+    assert [set(each["properties"]) for each in features] == 6 * [{"label", "area", "perimeter"}]
+    done = run("voronoi", mixed, "-q", "--what", "table", "--precision", "3")
+    assert max(len(row["area"]) for row in done.rows) <= 4
+
+
+# ---- streams and batches -----------------------------------------------------------------------------
+def test_streams(process, mixed):
+    made = process("voronoi", "-", "-f", "geojson", "-q", stdin=subprocess.PIPE)
+    out, err = made.communicate(mixed.read_bytes())
+    assert (made.returncode, err) == (0, b"")
+    alone = process("voronoi", str(mixed), "-q").communicate()[0]
+    assert out == alone
+    piped = subprocess.run(
+        f"cat mixed.geojson | {sys.executable} -m vorotool voronoi - -q -f json >> all.json; "
+        f"cat all.json | {sys.executable} -m vorotool draw - -f svg | head -c 5",
+        shell=True, cwd=mixed.parent, capture_output=True, check=False,
+    )  # fmt: skip
+    assert piped.stdout == b"<?xml"[: len(piped.stdout)] or piped.stdout == b"<svg "
+    assert b"Traceback" not in piped.stderr
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no named pipes")
+def test_named_pipes(process, mixed):
+    os.mkfifo(mixed.parent / "pipe")
+    feeder = threading.Thread(target=lambda: (mixed.parent / "pipe").write_bytes(mixed.read_bytes()))
+    feeder.start()
+    done = process("voronoi", "pipe", "-q", "--what", "table")
+    out, _ = done.communicate(timeout=60)
+    feeder.join()
+    assert (done.returncode, len(rows_of(out.decode()))) == (0, 6)
+
+
+def test_batches(run, folder, mixed, labels):
+    (folder / "in" / "deep").mkdir(parents=True)
+    mixed.rename(folder / "in" / "mixed.geojson")
+    labels.rename(folder / "in" / "deep" / "labels.png")
+    (folder / "in" / "points.csv").write_text("x,y\n1,2\n5,9\n")
+    done = run("voronoi", "in", "--out-dir", "out", "-j", "2", "--table", "all.csv", "-q")
+    assert done.code == 0, done.err
+    assert sorted(path.relative_to(folder / "out").as_posix() for path in (folder / "out").rglob("*.geojson")) == [
+        "deep/labels.geojson", "mixed.geojson", "points.geojson",
+    ]  # fmt: skip
+    rows = rows_of((folder / "all.csv").read_text())
+    assert [sum(row["input"].endswith(name) for row in rows) for name in ("mixed.geojson", "points.csv", "png")] == [
+        6, 2, 3,
+    ]  # fmt: skip
+    alone = run("voronoi", "in/deep/labels.png")
+    assert (folder / "out" / "deep" / "labels.geojson").read_text() == alone.out
+    again = run("voronoi", "in", "--out-dir", "out", "-j", "2", "--table", "all.csv", "--resume", "-q")
+    assert again.code == 0
+
+
+def test_a_bad_input_among_others(run, folder, mixed):
+    (folder / "bad.geojson").write_text('{"type": "FeatureCollection"}')
+    done = run("voronoi", mixed, "bad.geojson", "--out-dir", "out", "--keep-going", "-q")
+    assert done.code == 6
+    assert (folder / "out" / "mixed.geojson").exists()
+    assert not (folder / "out" / "bad.geojson").exists()
+
+
+# ---- few sites ---------------------------------------------------------------------------------------
+def test_nothing_to_share_out(run, folder):
+    (folder / "none.geojson").write_text('{"type": "FeatureCollection", "features": []}')
+    done = run("voronoi", "none.geojson")
+    assert (done.code, json.loads(done.out)["features"]) == (0, [])
+    assert run("voronoi", "none.geojson", "--what", "table").out.count("\n") == 1
+    (folder / "one.wkt").write_text("POINT (3 4)")
+    done = run("voronoi", "one.wkt", "--what", "edges")
+    assert (done.code, done.rows) == (0, [])
+    assert "there are no edges of 1 site" in done.err
+
+
+# ---- what is refused ---------------------------------------------------------------------------------
+@pytest.mark.parametrize(
+    ("options", "code", "words"),
+    [
+        (("--by", "size"), 2, "invalid --by 'size': expected a column of the sites (kind, code)"),
+        (("--by", "kind", "--no-properties"), 2, "--by joins features by a column: leave out --no-properties"),
+        (("--frame", "0,0,1"), 2, "expected four numbers"),
+        (("--frame", "0,0,0,1"), 2, "W and H more than 0"),
+        (("--frame", "0,0,1e300,1"), 2, "--frame goes too far to compute with"),
+        (("--max-distance", "0"), 2, "expected more than 0"),
+        (("--max-distance", "-1"), 2, "expected more than 0"),
+        (("--max-distance", "nan"), 2, "expected more than 0"),
+        (("--max-distance", "2um"), 2, "give --pixel-size"),
+        (("--flatten", "1", "--what", "table"), 2, "--flatten is for drawings that are read"),
+        (("--flatten", "1", "-f", "json"), 2, "--flatten is for drawings that are read"),
+        (("--join-tolerance", "1"), 2, "--join-tolerance is for DXF drawings"),
+        (("--layers", "cells"), 2, "--layers is for pictures"),
+        (("--what", "skeleton"), 2, "is not one of cells, edges, neighbours, table"),
+        (("--what", "table", "-f", "geojson"), 2, "table cannot be written as geojson"),
+        (("-o", "a.obj"), 2, "cells cannot be written as obj"),
+        (("--outline", "crack"), 2, "--outline is for images, but the input holds points, lines or polygons"),
+        (("--threshold", "3"), 2, "--threshold is for images"),
+        (("--simplify", "3"), 2, "--simplify is for images"),
+        (("--columns", "x,y"), 2, "--columns is for delimited text"),
+        (("--clip", "none.geojson"), 3, "none.geojson"),
+        (("--clip", "mask.pbm"), 3, "mask.pbm is an image: give --clip a file of polygons"),
+        (("--clip", "line.wkt"), 3, "line.wkt holds no polygons: give --clip a file that does"),
+        (("--enclosures", "mask.pbm"), 3, "mask.pbm is an image: give --enclosures a file of polygons"),
+        (("--clip", "far.geojson"), 3, "far.geojson is in EPSG:3857, but"),
+        (("--clip", "flat.wkt"), 3, "the clip has no area"),
+        (("--enclosures", "none.wkt"), 3, "none.wkt"),
+        (("--input-format", "tiff2"), 2, "invalid --input-format"),
+        (("--max-sites", "3"), 5, "more than the limit of 3"),
+    ],
+)
+def test_bad_options(run, mixed, folder, cuts, options, code, words):
+    (folder / "flat.wkt").write_text("POLYGON ((0 0, 1 1, 2 2, 0 0))")
+    (folder / "line.wkt").write_text("LINESTRING (0 0, 1 1)")
+    done = run("voronoi", mixed, "-q", *options)
+    assert (done.code, words in done.err) == (code, True), done.err
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "words"),
+    [
+        ("a.geojson", "", "a.geojson is empty"),
+        ("a.geojson", '{"type": "Point", "coordinates": [0]}', "a.geojson"),
+        ("a.geojson", '{"type": "Circle", "coordinates": [0, 1]}', "'Circle' is no point, line or polygon"),
+        ("a.wkt", "POINT (0 0)\nCIRCLE (1 1)", "a.wkt, line 2: 'CIRCLE (1 1)' is not WKT"),
+        ("a.wkt", "POINT (0 inf)", "a.wkt, line 1"),
+        ("a.csv", "x,y\n1,2\n3,nan\n", "a.csv, line 3"),
+        ("a.json", '{"polygons": [{"shell": 5}]}', "a.json, polygon 1"),
+        ("a.json", '{"type": "vorotool.voronoi", "version": 1, "polygons": []}', "a.json: sites are None; write"),
+        ("a.json", '{"type": "vorotool.offsets", "version": 1, "polygons": []}', "holds offset curves"),
+    ],
+)
+def test_bad_inputs(run, folder, name, text, words):
+    (folder / name).write_text(text)
+    done = run("voronoi", name)
+    assert (done.code, words in done.err) == (3, True), done.err
+
+
+def test_repairs_are_refused_when_asked(run, folder):
+    (folder / "twice.wkt").write_text("POLYGON ((0 0, 4 0, 4 0, 4 4, 0 0))\nPOINT (9 9)")
+    done = run("voronoi", "twice.wkt", "--what", "table")
+    assert (done.code, "1 repeated vertex left out" in done.err) == (0, True)
+    done = run("voronoi", "twice.wkt", "--strict")
+    assert (done.code, "leave out --strict" in done.err) == (3, True)
+
+
+def test_files_are_told_of(run, mixed):
+    told = json.loads(run("info", mixed, "--json").out)
+    assert (told["kind"], told["features"], told["commands"]) == ("points, lines and polygons", 6, ["voronoi"])
+    assert (told["points"], told["lines"], told["polygons"]) == (4, 1, 3)
+    assert run("voronoi", mixed, "-q", "-o", "a.json").code == 0
+    told = json.loads(run("info", "a.json", "--json").out)
+    assert (told["kind"], told["cells"]) == ("Voronoi map", 6)
+    assert told["commands"] == ["voronoi", "skeleton-approx", "skeleton-exact", "draw"]

@@ -1,0 +1,153 @@
+"""Tessellations of rectangular pixels, against all distances in exact integers and against SciPy."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from scipy import ndimage
+
+import vorotool
+from vorotool.engines.tessellation.tessellator import Tessellator
+from vorotool.engines.tessellation.verify_tessellation import verify_label_image
+from vorotool.errors import UsageError, VerificationError
+from vorotool.geometry.pixel_frame import Frame
+from vorotool.geometry.points.seed_set import SeedSet
+from vorotool.geometry.spacing import PixelSides, pixel_sides
+
+SIDES = [PixelSides((2, 1)), PixelSides((60, 13), Fraction(1, 40)), PixelSides((5, 7)), PixelSides((1000, 1))]
+LEVELS = ("portable", "avx2", "avx512")
+
+
+def all_squares(seeds, frame, sides):
+    """(n, H, W) squared distances in Python's integers."""
+    x = [int(v) * sides.x for v in seeds.x]
+    y = [int(v) * sides.y for v in seeds.y]
+    columns = [seeds.scale * sides.x * (frame.x + c) for c in range(frame.width)]
+    rows = [seeds.scale * sides.y * (frame.y + r) for r in range(frame.height)]
+    return np.array([[[(a - u) ** 2 + (b - v) ** 2 for a in columns] for b in rows] for u, v in zip(x, y, strict=True)])
+
+
+def brute(seeds, frame, sides):
+    """Labels and squared distances: of the nearest seeds the smallest label."""
+    squares = all_squares(seeds, frame, sides)
+    least = squares.min(axis=0)
+    labels = np.where(squares == least, seeds.labels.astype(np.int64)[:, None, None], 2**32).min(axis=0)
+    return labels, least
+
+
+def seeds_of(random, count, frame, scale, reach):
+    low = np.array([frame.x, frame.y]) * scale - reach
+    high = np.array([frame.x + frame.width, frame.y + frame.height]) * scale + reach
+    x, y = random.integers(low, high, (count, 2)).T
+    return SeedSet(x, y, random.integers(1, count + 1, count).astype(np.uint32), scale=scale)
+
+
+@pytest.mark.parametrize("sides", SIDES)
+@pytest.mark.parametrize("scale", [1, 4, 256])
+@pytest.mark.parametrize("seed", range(6))
+def test_every_pixel_has_the_smallest_label_of_its_nearest_seeds(sides, scale, seed):
+    random = np.random.default_rng([seed, scale, sides.x])
+    frame = Frame(-3, 5, int(random.integers(1, 40)), int(random.integers(1, 40)))
+    seeds = seeds_of(random, int(random.integers(1, 60)), frame, scale, (0, 9, 1000)[seed % 3])
+    labels, least = brute(seeds, frame, sides)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("warnings.warn", lambda *_, **__: None)  # several seeds at one place
+        sweep = Tessellator(seeds, frame, sides=sides, threads=1 + seed % 2)
+    assert np.array_equal(sweep.labels(), labels)
+    assert np.array_equal(sweep.squared_distances(), least)
+    expected = np.sqrt(least.astype(np.float64) * float((sides.step / scale) ** 2))
+    assert np.array_equal(sweep.distances(), expected.astype(np.float32))
+    verify_label_image(labels, seeds, frame, sides=sides)
+    rows = [sweep.labels(row, 1) for row in range(frame.height)]
+    assert np.array_equal(np.concatenate(rows), labels)
+    if len(np.unique(labels)) > 1:
+        with pytest.raises(VerificationError):
+            verify_label_image(np.where(labels == labels.max(), labels.min(), labels), seeds, frame, sides=sides)
+
+
+@pytest.mark.parametrize("level", LEVELS)
+def test_the_instruction_sets_agree(level, monkeypatch):
+    random = np.random.default_rng(5)
+    frame, sides = Frame(0, 0, 300, 200), PixelSides((1500, 325))
+    x, y = np.unique(random.integers(0, 200, (400, 2)), axis=0).T
+    seeds = SeedSet(x, y, np.arange(1, len(x) + 1, dtype=np.uint32))
+    expected = Tessellator(seeds, frame, sides=sides).labels()
+    monkeypatch.setenv("VOROTOOL_SIMD", level)
+    try:
+        sweep = Tessellator(seeds, frame, sides=sides)
+    except UsageError:
+        pytest.skip("this machine has it not")
+    assert np.array_equal(sweep.labels(), expected)
+    verify_label_image(expected, seeds, frame, sides=sides)
+
+
+def test_ties_across_sides_belong_to_the_smaller_label():
+    # 3 columns of 4 are as far as 4 rows of 3
+    seeds = SeedSet(np.array([3, 0]), np.array([0, 4]), np.array([2, 1], dtype=np.uint32))
+    labels = Tessellator(seeds, Frame(0, 0, 4, 5), sides=PixelSides((3, 4))).labels()
+    assert labels[0, 0] == 1
+    swapped = SeedSet(seeds.x, seeds.y, seeds.labels[::-1].copy())
+    assert Tessellator(swapped, Frame(0, 0, 4, 5), sides=PixelSides((3, 4))).labels()[0, 0] == 1
+
+
+def test_equal_sides_change_nothing_but_the_unit():
+    random = np.random.default_rng(1)
+    seeds = SeedSet(*random.integers(0, 99, (2, 50)), np.arange(1, 51))
+    frame = Frame(0, 0, 100, 80)
+    plain, scaled = Tessellator(seeds, frame), Tessellator(seeds, frame, sides=PixelSides((1, 1), Fraction(1, 10)))
+    assert np.array_equal(plain.labels(), scaled.labels())
+    assert np.array_equal(plain.squared_distances(), scaled.squared_distances())
+    limited = Tessellator(seeds, frame, max_distance=Fraction(3, 10), sides=scaled.sides)
+    assert np.array_equal(limited.labels(), Tessellator(seeds, frame, max_distance=3).labels())
+
+
+@pytest.mark.parametrize("sides", SIDES)
+@pytest.mark.parametrize("limit", [0, Fraction(5, 2), 30, 77])
+def test_limits_are_exact(sides, limit):
+    random = np.random.default_rng(3)
+    frame = Frame(0, 0, 31, 23)
+    seeds = seeds_of(random, 9, frame, 1, 0)
+    labels, least = brute(seeds, frame, sides)
+    found = Tessellator(seeds, frame, max_distance=limit * sides.step, sides=sides).labels()
+    assert np.array_equal(found, np.where(least <= limit * limit, labels, 0))
+
+
+def test_large_objects_need_their_outer_pixels_only():
+    image = np.zeros((40, 50), np.uint16)
+    image[5:30, 5:30], image[10:38, 31:49] = 1, 2
+    sides = (0.2, 1.0)
+    grown = vorotool.expand_labels(image, float("inf"), spacing=sides)
+    y, x = np.nonzero(image)
+    labels, _ = brute(SeedSet(x, y, image[y, x]), Frame(0, 0, 50, 40), pixel_sides(sides))
+    assert np.array_equal(grown, labels)
+
+
+@pytest.mark.parametrize("spacing", [(1.5, 0.325), (1, 2), (0.1, 0.3), (Fraction(1, 3), Fraction(1, 7)), (30, 25)])
+def test_distances_are_those_of_scipy(spacing):
+    mask = np.random.default_rng(7).random((60, 70)) > 0.02
+    ours, indices = vorotool.distance_transform(mask, spacing=spacing, return_indices=True)
+    sampling = [float(side) for side in spacing]
+    theirs = ndimage.distance_transform_edt(mask, sampling=sampling)
+    assert ours == pytest.approx(theirs, rel=1e-14)
+    y, x = np.indices(mask.shape)
+    assert np.hypot((indices[0] - y) * sampling[0], (indices[1] - x) * sampling[1]) == pytest.approx(ours, rel=1e-14)
+    if all(side == int(side) for side in spacing):
+        assert np.array_equal(ours, theirs)  # whole numbers below 2^53: the last bit too
+
+
+def test_a_float_is_the_decimal_that_it_is_written_as():
+    labels = np.array([[1, 0, 0, 0, 0]])
+    assert vorotool.expand_labels(labels, 0.3, spacing=0.1).tolist() == [[1, 1, 1, 1, 0]]
+    assert vorotool.expand_labels(labels, 0.3, spacing=(5, 0.1)).tolist() == [[1, 1, 1, 1, 0]]
+
+
+def test_sides_without_a_coarse_step_are_refused():
+    with pytest.raises(UsageError, match="round the sides to fewer digits, or give them as fractions"):
+        pixel_sides((0.3333333333333333, 1))
+    assert pixel_sides((Fraction(1, 3), 1)) == PixelSides((1, 3), Fraction(1, 3))
+
+
+def test_too_wide_a_range_is_refused_before_work():
+    seeds = SeedSet(np.array([0, 2**30]), np.array([0, 0]), np.array([1, 2], dtype=np.uint32))
+    with pytest.raises(vorotool.InputError, match="too far from the frame"):
+        Tessellator(seeds, Frame(0, 0, 9, 9), sides=PixelSides((1, 2**20)))

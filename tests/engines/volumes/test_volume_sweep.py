@@ -1,0 +1,221 @@
+"""Tessellations of volumes, against all distances in exact integers, SciPy and scikit-image."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from scipy import ndimage
+from skimage import segmentation
+
+import vorotool
+from vorotool import _core
+from vorotool.engines.volumes.volume_sweep import VolumeSweep, outer_voxels
+from vorotool.errors import InputError, LimitError, UsageError
+from vorotool.geometry.spacing import PixelSides
+
+LEVELS = ("portable", "avx2", "avx512")
+KINDS = ("uniform", "lattice", "plane", "line", "sphere", "outside")
+
+
+def brute(places, labels, shape, units):
+    """Labels and squared distances: of the nearest seeds the smallest label."""
+    axes = [unit * np.arange(side, dtype=np.int64) for unit, side in zip(units, shape, strict=True)]
+    least = np.full(shape, 2**62)
+    nearest = np.zeros(shape, np.int64)
+    for k in np.argsort(labels, kind="stable"):
+        z, y, x = ((axis - unit * at) ** 2 for axis, unit, at in zip(axes, units, places[k], strict=True))
+        square = z[:, None, None] + y[:, None] + x
+        nearer = square < least
+        least[nearer], nearest[nearer] = square[nearer], labels[k]
+    return nearest, least
+
+
+def seeds_of(random, kind, count, shape):
+    places = random.integers(0, shape, (count, 3))
+    if kind == "lattice":
+        places -= places % 4
+    elif kind in ("plane", "line"):
+        places[:, 0] = shape[0] // 2
+        if kind == "line":
+            places[:, random.integers(1, 3)] = 0
+    elif kind == "sphere":
+        way = random.normal(size=(count, 3))
+        middle = np.array(shape) // 2
+        places = np.rint(middle + 8 * way / np.linalg.norm(way, axis=1)[:, None]).astype(np.int64)
+    elif kind == "outside":
+        places = random.integers(-60, np.array(shape) + 60, (count, 3))
+    return places, random.integers(1, count + 1, count).astype(np.uint32)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("level", LEVELS)
+@pytest.mark.parametrize("seed", range(12))
+def test_every_voxel_has_the_smallest_label_of_its_nearest_seeds(kind, level, seed, monkeypatch):
+    random = np.random.default_rng([seed, KINDS.index(kind)])
+    shape = tuple(random.integers(1, (24, 40, 3)[seed % 3], 3).tolist())
+    places, labels = seeds_of(random, kind, int(random.choice([1, 2, 9, 60, 300])), shape)
+    units = tuple(random.integers(1, 10, 3).tolist()) if seed % 2 else (1, 1, 1)
+    sides = PixelSides(units)
+    monkeypatch.setenv("VOROTOOL_SIMD", level)
+    try:
+        sweep = VolumeSweep(places, labels, shape, sides=sides, threads=1 + seed % 2)
+    except UsageError:
+        pytest.skip("this machine has it not")
+    nearest, least = brute(places, labels, shape, units)
+    assert np.array_equal(sweep.labels(), nearest)
+    assert np.array_equal(sweep.squared_distances(), least)
+    slices = [sweep.labels(k, 1) for k in range(shape[0])]
+    assert np.array_equal(np.concatenate(slices), nearest)
+    limit = int(random.integers(0, 20))
+    limited = VolumeSweep(places, labels, shape, sides=sides, max_distance=limit)
+    assert np.array_equal(limited.labels(), np.where(least <= limit * limit, nearest, 0))
+
+
+@pytest.mark.parametrize(
+    ("units", "arithmetic"),
+    [((1, 1, 1), "float64"), ((9001, 1, 30011), "float64 with int128"), ((2**20, 3, 2**21 - 1), "int128")],
+)
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_arithmetic_is_exact(units, arithmetic, kind):
+    random = np.random.default_rng(4)
+    places, labels = seeds_of(random, kind, 80, (17, 21, 25))
+    sweep = VolumeSweep(places, labels, (17, 21, 25), sides=PixelSides(units))
+    assert kind == "outside" or sweep.arithmetic == arithmetic
+    nearest, least = brute(places, labels, (17, 21, 25), units)
+    assert np.array_equal(sweep.labels(), nearest)
+    assert np.array_equal(sweep.squared_distances(), least)
+
+
+@pytest.mark.parametrize("axes", [(0, 1, 2), (1, 0, 2), (2, 1, 0), (1, 2, 0)])
+def test_axes_may_be_exchanged(axes):
+    random = np.random.default_rng(6)
+    shape, units = (12, 30, 21), (5, 2, 3)
+    places, labels = seeds_of(random, "lattice", 70, shape)
+    whole = VolumeSweep(places, labels, shape, sides=PixelSides(units)).labels()
+    turned = VolumeSweep(
+        places[:, axes], labels, tuple(shape[k] for k in axes), sides=PixelSides(tuple(units[k] for k in axes))
+    )
+    assert np.array_equal(turned.labels(), whole.transpose(axes))
+    mirrored = VolumeSweep(np.array(shape) - 1 - places, labels, shape, sides=PixelSides(units))
+    assert np.array_equal(mirrored.labels(), whole[::-1, ::-1, ::-1])
+
+
+def test_a_slice_is_an_image():
+    random = np.random.default_rng(8)
+    points = np.unique(random.integers(0, 90, (200, 2)), axis=0)
+    labels = np.arange(1, len(points) + 1, dtype=np.uint32)
+    flat = vorotool.tessellate(points, shape=(90, 90)).labels
+    places = np.stack([np.zeros(len(points), np.int64), points[:, 1], points[:, 0]], axis=1)
+    assert np.array_equal(VolumeSweep(places, labels, (1, 90, 90)).labels()[0], flat)
+    assert np.array_equal(VolumeSweep(places[:, [1, 0, 2]], labels, (90, 1, 90)).labels()[:, 0], flat)
+
+
+def test_many_slabs_give_what_one_gives():
+    random = np.random.default_rng(9)
+    shape = (220, 200, 190)  # more voxels than a slab has
+    places, labels = random.integers(0, shape, (500, 3)), np.arange(1, 501, dtype=np.uint32)
+    sweep = VolumeSweep(places, labels, shape, threads=2)
+    whole = sweep.labels()
+    assert np.array_equal(whole[100:103], sweep.labels(100, 3))
+    at = random.integers(0, shape, (2000, 3))
+    square = ((at[:, None] - places) ** 2).sum(axis=2)
+    assert np.array_equal(whole[tuple(at.T)], labels[square.argmin(axis=1)])
+
+
+def test_outputs_that_do_not_fit_are_refused():
+    made = _core.volumes.VolumeTessellation(
+        *np.zeros((3, 1), np.int64), np.ones(1, np.uint32), (0, 0, 0), (4, 4, 4), 1, (1, 1, 1), "portable"
+    )
+    for shape in ((5, 4, 4), (4, 5, 4), (4, 4, 5)):
+        with pytest.raises(ValueError, match="does not fit"):
+            made.labels(np.empty(shape, np.uint16), 0, None, 1, None)
+    with pytest.raises(ValueError, match="sides of a voxel"):
+        _core.volumes.VolumeTessellation(
+            *np.zeros((3, 1), np.int64), np.ones(1, np.uint32), (0, 0, 0), (4, 4, 4), 1, (0, 1, 1), "portable"
+        )
+
+
+# ---- functions of users ----------------------------------------------------------------------------
+@pytest.mark.parametrize("spacing", [None, 2, (3, 1, 2), (1.5, 0.325, 0.325), (Fraction(1, 3), 1, Fraction(1, 7))])
+@pytest.mark.parametrize("part", [0.5, 0.02, 0.001])
+def test_distances_are_those_of_scipy(spacing, part):
+    random = np.random.default_rng(3)
+    mask = random.random((20, 31, 27)) > part
+    mask[0, 0, 0] = False
+    ours, indices = vorotool.distance_transform(mask, spacing=spacing, return_indices=True)
+    sampling = [float(side) for side in np.broadcast_to(1 if spacing is None else spacing, 3)]
+    theirs = ndimage.distance_transform_edt(mask, sampling=sampling)
+    assert ours == pytest.approx(theirs, rel=1e-14)
+    if all(side == int(side) for side in sampling):
+        assert np.array_equal(ours, theirs)
+    assert not mask[tuple(indices)].any()
+    way = (indices - np.indices(mask.shape)) * np.array(sampling)[:, None, None, None]
+    assert np.sqrt((way**2).sum(axis=0)) == pytest.approx(ours, rel=1e-14)
+
+
+def test_of_several_nearest_voxels_the_first_is_named():
+    mask = np.ones((3, 3, 3), bool)
+    for axis in range(3):
+        place = [1, 1, 1]
+        place[axis] = 2
+        mask[tuple(place)] = False
+    indices = vorotool.distance_transform(mask, return_distances=False, return_indices=True)
+    assert indices[:, 1, 1, 1].tolist() == [1, 1, 2]
+
+
+@pytest.mark.parametrize("distance", [0, 1, 2.5, float("inf")])
+@pytest.mark.parametrize("spacing", [None, (3, 1, 2), 0.5])
+def test_labels_grow_as_those_of_scikit_image(distance, spacing):
+    random = np.random.default_rng(5)
+    labels = np.zeros((15, 24, 30), np.int16)
+    for label in (9, 2, 31, 7):
+        z, y, x = (random.integers(0, side - 5) for side in labels.shape)
+        labels[z : z + 4, y : y + 5, x : x + 5] = label
+    ours = vorotool.expand_labels(labels, distance, spacing=spacing)
+    assert ours.dtype == labels.dtype
+    assert np.array_equal(ours[labels > 0], labels[labels > 0])
+    theirs = segmentation.expand_labels(labels, distance, spacing=1 if spacing is None else spacing)
+    assert np.array_equal(ours != 0, theirs != 0)
+    z, y, x = np.nonzero(labels)
+    units = (1, 1, 1) if not isinstance(spacing, tuple) else spacing
+    nearest, _ = brute(np.stack([z, y, x], axis=1), labels[z, y, x], labels.shape, units)
+    assert np.array_equal(ours, np.where(ours != 0, nearest, 0))
+
+
+def test_only_outer_voxels_are_needed():
+    labels = np.ones((5, 6, 7), np.uint8)
+    assert outer_voxels(labels).sum() == labels.size - 3 * 4 * 5
+    labels[2, 3, 3] = 2
+    assert outer_voxels(labels).sum() == labels.size - 3 * 4 * 5 + 7
+    assert outer_voxels(np.ones((2, 1, 9))).all()
+
+
+@pytest.mark.parametrize("function", [vorotool.distance_transform, vorotool.expand_labels])
+def test_what_is_no_volume_is_refused(function):
+    with pytest.raises(UsageError, match=r"or 3 of them, \(depth, height, width\)"):
+        function(np.eye(3, dtype=int)[None] * 0, spacing=(1, 2))
+    with pytest.raises(LimitError, match="2 x 3 x 4 = 24 voxels, more than max_pixels=23"):
+        function(np.zeros((2, 3, 4), int), max_pixels=23)
+    with pytest.raises(InputError, match="colour image"):
+        function(np.zeros((4, 5, 3), np.uint8))
+    with pytest.raises(InputError, match="some are masked"):
+        function(np.ma.array(np.zeros((1, 1, 2)), mask=[[[0, 1]]]))
+
+
+def test_volumes_that_say_nothing():
+    assert vorotool.distance_transform(np.zeros((0, 2, 3))).shape == (0, 2, 3)
+    assert not vorotool.expand_labels(np.zeros((3, 4, 5), np.uint8)).any()
+    with pytest.raises(InputError, match="expected a zero pixel"):
+        vorotool.distance_transform(np.ones((3, 4, 5)))
+    with pytest.raises(InputError, match="expected 0 to 4294967295, but they are -2 to 0"):
+        vorotool.expand_labels(np.full((1, 1, 2), [0, -2]))
+    with pytest.raises(InputError, match="round them first"):
+        vorotool.expand_labels(np.ones((2, 2, 2)))
+
+
+def test_masks_of_truth_values_grow_too():
+    mask = np.zeros((3, 3, 3), bool)
+    mask[1, 1, 1] = True
+    grown = vorotool.expand_labels(mask)
+    assert grown.dtype == bool
+    assert grown.sum() == 7

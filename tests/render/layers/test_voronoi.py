@@ -1,0 +1,221 @@
+"""Pictures of Voronoi maps: what is drawn is where the cells are, with their curves."""
+
+from __future__ import annotations
+
+import io
+import re
+import warnings
+from dataclasses import replace
+from xml.etree import ElementTree
+
+import imageio.v3 as iio
+import numpy as np
+import pytest
+import shapely
+import svgelements
+from tests.support.families.site_families import mixed_sites, row_houses
+
+import vorotool
+from vorotool import voronoi
+from vorotool.errors import RepairWarning, UsageError
+from vorotool.render.canvas.layers import CurvedPolygons, Curves, Texts
+from vorotool.render.canvas.palettes import cell_colour
+from vorotool.render.canvas.svg import write_layers_svg
+from vorotool.render.layers.voronoi import LAYERS, map_colours, voronoi_layers, voronoi_page
+
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+def quietly(sites, **options):
+    with warnings.catch_warnings(action="ignore", category=RepairWarning):
+        return voronoi(sites, **options)
+
+
+def drawn(cells, *layers, width=1000):
+    page = voronoi_page(cells, width=width)
+    return voronoi_layers(cells, page, layers), page
+
+
+def svg_of(layers, page):
+    out = io.BytesIO()
+    write_layers_svg(out, layers, page)
+    return ElementTree.fromstring(out.getvalue().decode())
+
+
+def outline(path):
+    """Places along a path, ring by ring, as another library takes it."""
+    rings = []
+    for part in svgelements.Path(path).as_subpaths():
+        sides = [each for each in part if isinstance(each, svgelements.QuadraticBezier | svgelements.Arc)]
+        t = np.linspace(0, 1, 65 if sides else 2)
+        rings.append(
+            [
+                (point.x, point.y)
+                for each in part
+                if not isinstance(each, svgelements.Move)
+                for point in map(each.point, t[:-1].tolist())
+            ]
+        )
+    return rings
+
+
+def signed_area(ring):
+    x, y = np.array(ring).T
+    return float(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)) / 2)
+
+
+@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("limit", [None, 7])
+def test_paths_have_the_areas_of_cells(seed, limit):
+    cells = quietly(mixed_sites(np.random.default_rng(seed), 9), max_distance=limit)
+    layers, page = drawn(cells, "cells")
+    scale = page.length(1.0)
+    found = np.zeros(len(cells))
+    for path in svg_of(layers, page).iter(f"{SVG}path"):
+        number = int(path.get("id").split("-")[1]) - 1
+        # y goes downwards in SVG as in the data
+        found[number] += sum(map(signed_area, outline(path.get("d"))))
+    np.testing.assert_allclose(found / scale**2, cells.areas, atol=2e-4 * cells.areas.sum())
+
+
+def test_curves_are_drawn_as_such():
+    sites = [shapely.LineString([(0, 0), (8, 0)]), shapely.Point(4, 2)]
+    text = ElementTree.tostring(svg_of(*drawn(voronoi(sites, max_distance=1.5), "cells", "edges"))).decode()
+    assert text.count("Q") == 3  # of both cells, and between them
+    assert len(re.findall(r"A[\d.]+ [\d.]+ 0 0 [01] ", text)) > 6
+    straight = ElementTree.tostring(svg_of(*drawn(voronoi([[0, 0], [4, 1]]), "cells", "edges"))).decode()
+    assert not re.search('"[^"]*d="M[^"]*[QA]', straight)
+
+
+def test_a_circle_is_round():
+    page_and_layers = drawn(voronoi([[0, 0]], frame=(-2, -2, 4, 4), max_distance=1), "cells")
+    (path,) = svg_of(*page_and_layers).iter(f"{SVG}path")
+    radius = page_and_layers[1].length(1.0)
+    (ring,) = outline(path.get("d"))
+    assert np.hypot(*(np.array(ring) - 500).T) == pytest.approx(radius, abs=0.05)
+    assert abs(signed_area(ring)) == pytest.approx(np.pi * radius**2, rel=1e-3)
+
+
+@pytest.mark.parametrize("limit", [None, 6])
+def test_pixels_have_the_colours_of_their_cells(tmp_path, limit):
+    cells = quietly(mixed_sites(np.random.default_rng(2), 12), max_distance=limit)
+    vorotool.write(cells, tmp_path / "a.png", layers=["cells"], background="#000000", width=500)
+    pixels = iio.imread(tmp_path / "a.png")
+    page = voronoi_page(cells, width=500)
+    x, y, w, h = cells.frame
+    places = np.array([x, y]) + np.random.default_rng(0).random((800, 2)) * [w, h]
+    shapes = cells.to_shapely()
+    points = shapely.points(places)
+    near = 3 * page.distance(1.0)
+    clear = shapely.distance(shapely.boundary(shapes)[:, None], points).min(axis=0) > near
+    assert clear.sum() > 300
+    colours = [bytes.fromhex(cell_colour(each)[1:]) for each in map_colours(cells).tolist()]
+    column, row = np.floor(page.place(places[clear])).astype(int).T
+    found = np.full(len(places), -1)
+    at, cell = shapely.STRtree(shapes).query(points, predicate="within")
+    found[at] = cell
+    expected = [list(colours[k]) if k >= 0 else [0, 0, 0] for k in found[clear].tolist()]
+    np.testing.assert_array_equal(pixels[row, column], expected)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_neighbours_never_share_a_colour(seed):
+    sites = mixed_sites(np.random.default_rng(seed), 40)
+    cells = quietly(sites, by=[k % 25 for k in range(40)])
+    colours = map_colours(cells)
+    pairs = np.stack([cells.neighbours[name] - 1 for name in ("label_a", "label_b")])
+    assert (colours[pairs[0]] != colours[pairs[1]]).all()
+    assert 1 <= colours.min() <= colours.max() <= 12
+
+
+def test_layers_of_all_kinds_of_sites():
+    sites = [shapely.box(0, 0, 2, 2), shapely.LineString([(4, 0), (4, 3), (6, 3)]), shapely.Point(8, 1)]
+    cells = voronoi(sites)
+    layers, _ = drawn(cells, *LAYERS)
+    assert [layer.name for layer in layers] == ["cells", "edges", "object-areas", "objects", "object-points", "labels"]
+    assert isinstance(layers[0], CurvedPolygons)
+    assert isinstance(layers[1], Curves)
+    outlines = layers[3].points[layers[3].pairs]
+    assert np.hypot(*(outlines[:, 1] - outlines[:, 0]).T).sum() == 8 + 5
+    names = layers[5]
+    assert isinstance(names, Texts)
+    assert names.texts == ["1", "2", "3"]
+    assert names.is_centred
+    assert all(shapely.distance(sites, shapely.points(names.points)) < 1e-9)
+    assert names.points[1].tolist() == [4, 2.5]
+    points, _ = drawn(voronoi([[0, 0], [4, 1]]), "objects", "labels")
+    assert [layer.name for layer in points] == ["objects", "labels"]
+    assert not points[1].is_centred
+
+
+def test_names_say_what_a_column_says(tmp_path):
+    lakes = vorotool.read("data/great-lakes.geojson")
+    cells = quietly(lakes)
+    vorotool.write(cells, tmp_path / "a.svg", label_by="name", legend=True, scale_bar=True)
+    text = (tmp_path / "a.svg").read_text()
+    for name in ("Lake Superior", "Lake Huron", "Lake Michigan", "object-areas"):
+        assert f">{name}</text>" in text
+    with pytest.raises(UsageError, match="expected a column of the input, name"):
+        vorotool.write(cells, tmp_path / "a.svg", label_by="depth")
+    with pytest.raises(UsageError, match="there is no layer 'walls': use cells, edges, objects, labels"):
+        vorotool.write(cells, tmp_path / "a.svg", layers=["walls"])
+
+
+def test_colours_and_widths_are_those_chosen(tmp_path):
+    vorotool.write(
+        voronoi([shapely.box(0, 0, 2, 2), shapely.Point(8, 1)]),
+        tmp_path / "a.svg",
+        what="edges",
+        color={"edges": "navy", "objects": "red"},
+        line_width={"edges": 3},
+        background="none",
+    )
+    text = (tmp_path / "a.svg").read_text()
+    assert '<g id="edges" fill="none" stroke="#000080" stroke-width="3"' in text
+    assert '<g id="objects" fill="none" stroke="#ff0000"' in text
+    assert '<g id="object-points" fill="#ff0000"' in text
+    assert "<rect" not in text
+
+
+def test_longitudes_are_drawn_shorter(tmp_path):
+    lakes = vorotool.read("data/great-lakes.geojson")
+    for crs, aspect in ((None, 1), ("OGC:CRS84", 1 / np.cos(np.radians(44.8)))):
+        cells = quietly(replace(lakes, crs=crs), max_distance=0.5)
+        vorotool.write(cells, tmp_path / "a.svg")
+        _, _, w, h = cells.frame
+        root = ElementTree.parse(tmp_path / "a.svg").getroot()
+        sides = [float(root.get(name)) for name in ("width", "height")]
+        margin = 0.04 * max(w, h * aspect)
+        assert sides[1] / sides[0] == pytest.approx((h * aspect + margin) / (w + margin), rel=0.01)
+        radii = [float(each) for each in re.search(r"A([\d.]+) ([\d.]+) ", (tmp_path / "a.svg").read_text()).groups()]
+        assert radii[1] / radii[0] == pytest.approx(aspect, rel=0.01)
+
+
+@pytest.mark.parametrize("sites", [[], [[0, 0]], [[0, 0], [0, 0]], [BOX := shapely.box(0, 0, 1, 1), BOX]])
+@pytest.mark.parametrize("fmt", ["svg", "png"])
+def test_few_and_empty_cells(tmp_path, sites, fmt):
+    cells = voronoi(sites)
+    vorotool.write(cells, tmp_path / f"a.{fmt}", layers=LAYERS)
+    if fmt == "svg":
+        ElementTree.fromstring((tmp_path / "a.svg").read_text())
+    else:
+        assert iio.imread(tmp_path / "a.png").shape[1] == 1000
+
+
+def test_many_cells_share_paths():
+    cells = voronoi(row_houses(5, 8))
+    layers, page = drawn(cells, "cells")
+    ids = [path.get("id") for path in svg_of(layers, page).iter(f"{SVG}path")]
+    assert ids == [f"cell-{k + 1}" for k in range(40)]
+
+
+def test_notebooks_and_axes():
+    from matplotlib.figure import Figure
+
+    cells = quietly(mixed_sites(np.random.default_rng(1), 6), max_distance=5)
+    assert cells._repr_svg_().startswith("<svg")
+    axes = cells.plot(Figure().add_subplot(), what="edges")
+    x, _, w, _ = cells.frame
+    assert {each.get_label() for each in axes.collections} >= {"edges", "objects"}
+    low, high = axes.get_xlim()
+    assert x - 0.1 * w < low < high < x + 1.1 * w
