@@ -90,8 +90,9 @@ def local_diagrams(
     level = np.inf if limit is None else limit / sites.scale
     if regions.count == 1 and len(regions.site) == count:
         owned = owners_of(sites, site)
+        graph = owned.graph
         diagram = diagram_of(owned, is_whole=limit is not None, threads=threads, progress=progress)
-        none = (np.zeros(len(owned.graph.points), dtype=np.int64), np.zeros(len(owned.graph), dtype=np.int64))
+        none = np.zeros(len(graph.points), dtype=np.int64), np.zeros(len(graph), dtype=np.int64)
         return LocalDiagrams(owned, *none, pieces_of(owned, diagram, level=level, threads=threads), given, site)
     parts = [*_graphs_of_regions(sites, site, count, regions)]
     points, segments = (
@@ -131,7 +132,7 @@ def _chosen(given: PolygonSet, polygon: Indices, vertices: NDArray[np.int32]) ->
 
 
 def _joined(parts: list[OwnedGraph], sites: PlanarGraph) -> OwnedGraph:
-    """Graphs one after the other, with the numbers of points and faces shifted; of none an empty plane."""
+    """Graphs one after the other, with the numbers of points and faces shifted."""
     graphs = [part.graph for part in parts]
     points = np.cumsum([0, *(len(graph.points) for graph in graphs)])
     faces = np.cumsum([0, *(graph.faces for graph in graphs)])
@@ -144,7 +145,6 @@ def _joined(parts: list[OwnedGraph], sites: PlanarGraph) -> OwnedGraph:
     )
     elements = [np.split(part.element, [len(part.graph.points)]) for part in parts]
     none = np.empty(0, dtype=np.int32)
-    face = np.concatenate([part.face for part in parts]) if parts else np.full(1, -1, dtype=np.int32)
     graph = PlanarGraph(
         np.concatenate([np.empty((0, 2), dtype=np.int32), *(g.points for g in graphs)]),
         segments,
@@ -152,10 +152,11 @@ def _joined(parts: list[OwnedGraph], sites: PlanarGraph) -> OwnedGraph:
         np.zeros(len(segments) + 1, dtype=np.int32),
         none,
         sides,
-        np.zeros(len(face) + 1, dtype=np.int32),
+        np.zeros(max(int(faces[-1]), 1) + 1, dtype=np.int32),  # the unbounded one at least
         none,
         origin=sites.origin,
         scale=sites.scale,
     )
     element = np.concatenate([none, *(own for own, _ in elements), *(own for _, own in elements)])
+    face = np.concatenate([part.face for part in parts]) if parts else np.full(1, -1, dtype=np.int32)
     return OwnedGraph(graph, element, face)
