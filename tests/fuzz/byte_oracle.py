@@ -26,7 +26,7 @@ LONGEST = 2**22
 
 READ, REFUSED, LIMIT, WRONG = "read", "refused", "limit", "wrong"
 IMAGES = {"png", "tiff", "npy", "pnm", "zarr", "jpeg", "bmp", "gif", "webp", "avif"}
-SHAPES = {"json", "geojson", "wkt", "poly", "skeleton", "svg", "dxf"}
+SHAPES = {"json", "geojson", "wkt", "poly", "skeleton", "voronoi", "svg", "dxf"}
 COMMANDS = {
     "images": (
         ["tessellate", "{}", "-o", "out.npy"],
@@ -34,7 +34,11 @@ COMMANDS = {
         ["skeleton-exact", "{}", "-o", "out.json"],
     ),
     "points": (["tessellate", "{}", "-o", "out.tif", "--size", "40x30"], ["delaunay", "{}", "-o", "out.geojson"]),
-    "shapes": (["skeleton-exact", "{}", "-o", "out.geojson"], ["draw", "{}", "-o", "out.svg"]),
+    "shapes": (
+        ["skeleton-exact", "{}", "-o", "out.geojson"],
+        ["voronoi", "{}", "-o", "out.json"],
+        ["draw", "{}", "-o", "out.svg"],
+    ),
 }
 BATCH = ["tessellate", "in", "--out-dir", "out", "-f", "npy", "--size", "6x5", "-q", "-j", "1"]
 

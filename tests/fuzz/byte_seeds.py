@@ -295,6 +295,11 @@ def _results() -> list[tuple[str, str, bytes]]:
         found.append(("npz", "a.npz", path.with_suffix(".npz").read_bytes()))
         vorotool.write(vorotool.offset(shape, [0.5, 1]), path)
         found.append(("offsets", "a.json", path.read_bytes()))
+        cells = vorotool.voronoi([*shape.to_shapely()[:2], "POINT (9 9)"], max_distance=3)
+        vorotool.write(cells, path)
+        found.append(("voronoi", "a.json", path.read_bytes()))
+        vorotool.write(cells, path.with_suffix(".npz"))
+        found.append(("npz", "a.npz", path.with_suffix(".npz").read_bytes()))
     return found
 
 

@@ -15,7 +15,7 @@ geometry -> products
 formats/io -> geometry
 geometry/points -> geometry
 geometry/polygons -> geometry
-geometry/arguments -> geometry, geometry/points, geometry/polygons
+geometry/arguments -> geometry, geometry/points, geometry/polygons, products
 engines/common ->
 formats/parsing -> formats/io, geometry, geometry/points, geometry/polygons
 formats/zarr -> formats/compression, formats/io, geometry
@@ -34,8 +34,8 @@ engines/label_images -> engines/common, engines/tessellation, geometry, geometry
     geometry/polygons, typing
 engines/segment_voronoi -> geometry, geometry/polygons, geometry/skeleton
 formats/text -> geometry, geometry/skeleton
-formats/features -> formats/io, formats/parsing, formats/points, formats/text, geometry, geometry/points,
-    geometry/polygons, products
+formats/features -> formats/io, formats/parsing, formats/points, formats/text, geometry, geometry/arguments,
+    geometry/points, geometry/polygons, products
 geometry/alpha -> geometry, geometry/curves, geometry/mesh, geometry/polygons
 formats/drawing -> formats/compression, formats/io, formats/parsing, geometry, geometry/alpha, geometry/curves,
     geometry/polygons, geometry/skeleton, products
@@ -45,15 +45,17 @@ engines/alpha -> engines/delaunay, geometry, geometry/alpha, geometry/arguments,
 engines/digital -> engines/common, engines/delaunay, engines/label_images, engines/tessellation, geometry,
     geometry/arguments, geometry/curves, geometry/mesh, geometry/points, typing
 engines/features -> engines/arrangement, geometry, geometry/polygons, geometry/skeleton
-formats/polygons -> formats/io, formats/parsing, formats/points, formats/text, geometry, geometry/polygons
-render/layers -> geometry, geometry/alpha, geometry/mesh, geometry/polygons, geometry/skeleton, render/canvas,
-    render/label_images
-render/pages -> geometry, geometry/alpha, geometry/curves, geometry/mesh, geometry/skeleton, products, render/canvas,
-    render/label_images
+formats/polygons -> formats/io, formats/parsing, formats/points, formats/text, geometry, geometry/arguments,
+    geometry/polygons, products
+geometry/voronoi -> geometry, geometry/curves, geometry/polygons, products
+render/layers -> geometry, geometry/alpha, geometry/mesh, geometry/polygons, geometry/skeleton, geometry/voronoi,
+    render/canvas, render/label_images
+render/pages -> geometry, geometry/alpha, geometry/curves, geometry/mesh, geometry/skeleton, geometry/voronoi, products,
+    render/canvas, render/label_images
 engines/skeleton -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi, geometry,
     geometry/arguments, geometry/curves, geometry/polygons, geometry/skeleton
 formats/results -> formats/io, formats/parsing, formats/polygons, formats/text, geometry, geometry/alpha,
-    geometry/curves, geometry/mesh, geometry/polygons, geometry/skeleton, products
+    geometry/arguments, geometry/curves, geometry/mesh, geometry/polygons, geometry/skeleton, geometry/voronoi, products
 engines/from_skeleton -> engines/arrangement, engines/skeleton, geometry, geometry/arguments, geometry/curves,
     geometry/polygons, geometry/skeleton
 engines/offsets -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi, engines/skeleton,
@@ -62,12 +64,12 @@ engines/pruning -> engines/common, geometry, geometry/arguments, geometry/curves
 engines/sampled_skeleton -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi,
     engines/skeleton, geometry, geometry/curves, geometry/polygons, geometry/skeleton
 formats -> formats/drawing, formats/features, formats/images, formats/io, formats/parsing, formats/points,
-    formats/polygons, geometry, geometry/points, geometry/polygons, geometry/skeleton, products
+    formats/polygons, geometry, geometry/arguments, geometry/points, geometry/polygons, geometry/skeleton,
+    geometry/voronoi, products
 batch -> engines/tessellation, formats, formats/io, formats/text, formats/zarr
 engines -> engines/sampled_skeleton, engines/skeleton, geometry, geometry/arguments, geometry/skeleton, typing
 engines/centerlines -> engines/from_skeleton, engines/pruning, engines/skeleton, geometry, geometry/arguments,
     geometry/polygons, geometry/skeleton, typing
-geometry/voronoi -> geometry, geometry/curves, geometry/polygons, products
 render ->
 engines/voronoi -> engines/arrangement, engines/common, engines/segment_voronoi, engines/skeleton, geometry,
     geometry/arguments, geometry/curves, geometry/polygons, geometry/skeleton, geometry/voronoi, typing

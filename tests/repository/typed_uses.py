@@ -72,7 +72,15 @@ def values() -> None:
     assert_type(vorotool.table(mesh), dict[str, npt.NDArray[Any]])
     assert_type(vorotool.__version__, str)
     read = vorotool.read("a.csv", geometry="points")
-    assert_type(read, vorotool.PointSet | vorotool.PolygonSet | vorotool.Raster | vorotool.Skeleton | vorotool.Offsets)
+    assert_type(
+        read,
+        vorotool.PointSet
+        | vorotool.PolygonSet
+        | vorotool.Raster
+        | vorotool.Skeleton
+        | vorotool.Offsets
+        | vorotool.VoronoiMap,
+    )
 
 
 def results_by_arguments() -> None:

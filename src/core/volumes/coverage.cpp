@@ -10,6 +10,8 @@ namespace {
 
 // Seeds in a block of a uniform set, about: fewer would leave many blocks empty, more would make bounds wide.
 constexpr double seeds_a_block = 2.0;
+// Sides that are tried differ by this factor.
+constexpr double growth = 1.0625;
 // Blocks that are looked at in each direction for seeds, before the farthest of all has to do.
 constexpr std::int64_t most_rings = 4;
 // The roundings of a few sums and a root, and of what is compared with it.
@@ -28,7 +30,8 @@ Coverage::Coverage(std::span<const Site> sites, const VolumeFrame& frame) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     volume *= static_cast<double>(voxels[axis]) * static_cast<double>(step[axis]);
   }
-  const double side = std::cbrt(volume);
+  double side = 1;
+  while (side * side * side < volume) side *= growth;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto across = static_cast<std::int64_t>(side / static_cast<double>(step[axis]));
     const std::int64_t of_block = std::clamp<std::int64_t>(across, 1, voxels[axis]);

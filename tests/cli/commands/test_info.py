@@ -182,7 +182,7 @@ def test_text_is_for_people(run, tmp_path):
         "  bounds     x 0.5 to 2, y 1 to 7\n"
         "  y          down\n"
         "  labels     the input's own\n"
-        "  taken by   tessellate, delaunay, alphashape\n"
+        "  taken by   tessellate, delaunay, alphashape, voronoi\n"
         "  note       a.csv: columns x, y, label are read as x, y, label\n"
         "a.tif\n"
         "  format     tiff\n"
@@ -193,7 +193,7 @@ def test_text_is_for_people(run, tmp_path):
         "  pixel size 0.05 cm\n"
         "  foreground 4 pixels\n"
         "  objects    1\n"
-        "  taken by   tessellate, delaunay, alphashape, skeleton-approx, skeleton-exact, draw\n"
+        "  taken by   tessellate, delaunay, alphashape, voronoi, skeleton-approx, skeleton-exact, draw\n"
     )
 
 

@@ -113,6 +113,25 @@ def test_limits_just_at_vertices(seed):
     within(sites, float(random.choice(radius)) if len(radius) else 2.0)
 
 
+@pytest.mark.parametrize("seed", range(10))
+def test_limits_a_rounding_away_from_vertices(seed):
+    random = np.random.default_rng(seed)
+    sites = mixed_sites(random, int(random.integers(2, 9)), grid=(None, 4, 0.3)[seed % 3])
+    radius = quietly(sites).radius
+    at = float(random.choice(radius[np.isfinite(radius) & (radius > 0)]))
+    for limit in (np.nextafter(at, 0), np.nextafter(at, 1e9), at * (1 - 1e-15), at * (1 + 1e-12)):
+        within(sites, float(limit))
+
+
+@pytest.mark.parametrize("part", [0, 2**-53, 2**-52, 2**-50, 2**-45, 2**-30])
+def test_holes_as_small_as_rounding(part):
+    ring = shapely.box(0, 0, 10, 10).difference(shapely.box(1, 1, 6, 6))
+    square = [shapely.Point(x, y) for x in (12, 16) for y in (12, 16)]
+    for sites in ([ring], [shapely.MultiPoint(square)], [shapely.MultiPoint(square[1:]), square[0]]):
+        for limit in (2.5, 8**0.5):
+            within(sites, limit * (1 - part), (-10, -10, 40, 40))
+
+
 # ---- random ------------------------------------------------------------------------------------------
 @pytest.mark.parametrize("seed", range(40))
 def test_random_sites(seed):
@@ -243,6 +262,14 @@ def test_limits_that_are_no_number(limit):
         voronoi([[0, 0], [1, 1]], max_distance=limit)
     with pytest.raises(UsageError, match="too large"):
         voronoi([[0, 0], [1, 1]], max_distance=1e90)
+
+
+def test_limits_that_rounding_would_lose():
+    with pytest.raises(UsageError, match=r"max_distance is .*, too small beside the coordinates: use at least 1e-10"):
+        voronoi([[0, 0], [100, 1]], max_distance=9e-11)
+    small = voronoi([[0, 0], [100, 1]], max_distance=1e-10, frame=(-1, -1, 102, 3))
+    assert small.areas.tolist() == pytest.approx([ROUND * 1e-20] * 2, rel=1e-3)
+    verify_voronoi(small)
 
 
 def test_a_limit_without_sites():

@@ -187,6 +187,16 @@ def test_a_clip_is_as_a_frame(clip):
     np.testing.assert_allclose(cut.reaches, framed.reaches, atol=1e-6)
 
 
+def test_points_and_segments():
+    random = np.random.default_rng(4)
+    segments = shapely.linestrings(random.random((4, 2, 2)) * 30)
+    sites = [*shapely.points(random.random((6, 2)) * 30), *segments]
+    for options in ({}, {"clip": [shapely.Point(15, 15).buffer(14)]}, {"max_distance": 4}):
+        assert_measured(sites, quietly(sites, **options))
+    joined = [shapely.MultiPoint([each.coords[0] for each in sites[:6]]), *segments]
+    assert_measured(joined, quietly(sites, by=[0] * 6 + [1, 2, 3, 4]))
+
+
 def test_repairs_are_told_once():
     ring = [[0, 0], [0, 0], [4, 0], [4, 4]]
     with pytest.warns(RepairWarning):

@@ -141,4 +141,4 @@ def test_polygons_are_not_made_of_rows(written):
 
 
 def test_the_registry_has_a_line_for_it():
-    assert set(INPUTS["jsonl"].readers) == {"points", "polygons"}
+    assert set(INPUTS["jsonl"].readers) == {"points", "polygons", "sites"}

@@ -10,7 +10,7 @@ from vorotool.geometry.voronoi import site_shapes
 from vorotool.geometry.voronoi.site_shapes import site_distances
 
 
-@pytest.mark.parametrize("most", [1, 1 << 16])
+@pytest.mark.parametrize("most", [1, 1 << 20])
 def test_distances_are_those_of_shapely(most, monkeypatch):
     monkeypatch.setattr(site_shapes, "_MANY", most)
     for seed in range(12):

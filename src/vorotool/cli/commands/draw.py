@@ -35,16 +35,16 @@ FORMATS = formats_of("draw")
 @batch_options(table=False)
 @shared("no-clobber", "quiet", "verbose")
 def command(**options: Any) -> None:
-    """Draw a label image, in which neighbouring regions never share a colour, a skeleton, offset curves, or shapes.
+    """Draw a label image, in which neighbouring regions never share a colour, a skeleton, a Voronoi map, or shapes.
 
     \b
     Example:
       vorotool sample cells.png -o cells.png
       vorotool draw cells.png -o cells.svg
 
-    INPUT is a label image (PNG, TIFF, PGM, NPY, Zarr), such as tessellate writes, a skeleton (JSON, NPZ), the JSON
-    of offset curves, or shapes: polygons and lines (GeoJSON, WKT, JSON, Triangle .poly, SVG, DXF), such as
-    centerlines and alpha shapes; - is standard input.
+    INPUT is a label image (PNG, TIFF, PGM, NPY, Zarr), such as tessellate writes, a skeleton or a Voronoi map
+    (JSON, NPZ), the JSON of offset curves, or shapes: polygons and lines (GeoJSON, WKT, JSON, Triangle .poly, SVG,
+    DXF), such as centerlines and alpha shapes; - is standard input.
     """
     run_command(RECIPE, DrawingOptions(**options))
 

@@ -179,7 +179,7 @@ def _roots(sweep: Tessellator | _Background | None, shape: tuple[int, ...]) -> N
         return np.zeros(shape)
     squares = sweep.squared_distances().astype(np.float64)
     if sweep.step != 1:
-        squares *= float(sweep.step**2)
+        squares *= float(sweep.step * sweep.step)
     return np.sqrt(squares)
 
 

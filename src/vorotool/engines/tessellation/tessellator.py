@@ -233,7 +233,7 @@ class Tessellator:
     def distances(self, first: int = 0, rows: int | None = None) -> NDArray[np.float32]:
         """Distances to the nearest seed in the unit of the sides, rounded once from double precision."""
         array = self._output(first, rows, np.dtype(np.float32), None)
-        self._core.distances(array, first, float(self.step**2), self._threads, self._progress_of(first, len(array)))
+        self._core.distances(array, first, float(self.step * self.step), self._threads, self._progress_of(first, len(array)))
         self._paint(array, first, 0)
         return array
 

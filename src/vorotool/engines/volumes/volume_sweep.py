@@ -126,7 +126,8 @@ class VolumeSweep:
         LimitError
             If a squared distance may exceed 64 bits.
         """
-        largest = sum((side * unit) ** 2 for side, unit in zip(self.shape, self.sides.units, strict=True))
+        extent = [side * unit for side, unit in zip(self.shape, self.sides.units, strict=True)]
+        largest = sum(each * each for each in extent)
         if largest >= 2**64:
             raise LimitError("squared distances of this volume may exceed 64 bits: round the sides to fewer digits")
         array = self._output(first, slices, np.dtype(np.uint32 if largest < 2**32 else np.uint64))

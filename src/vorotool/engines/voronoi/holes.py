@@ -42,7 +42,7 @@ def shells_of(rings: Rings, arcs: Arcs) -> Indices:
 def _around(holes: Indices, shells: Indices, rings: Rings, arcs: Arcs) -> Indices:
     """For each hole the smallest shell of its part that lies around it.
 
-    A place in the hole tells, since one on it may be on several shells; what lies in the hole itself is smaller than it.
+    A place in the hole tells, since one on it may be on several shells; what lies in the hole itself is smaller.
     """
     import shapely
 

@@ -22,6 +22,9 @@ _INSIDE, _AT_VERTEX, _TOUCHING = range(3)
 _ALIGNED, _LOST = 1, 2
 """What the core says of arcs about points: between two segments in one line, or rounded away."""
 
+ROUNDING = 2.0**-48
+"""Of coordinates on the lattice, by which places may be off."""
+
 STEP = 4
 """By which orders around places are apart, so that arcs of the limit come in between."""
 
@@ -95,18 +98,45 @@ class Limit:
         self.half_edge = found["half_edge"].astype(np.int64)
         self.across = found["across"].astype(np.int64)
         self.ending, self.arc, self.middle = found["ending"], found["arc"], found["middle"]
+        self.is_lost = self._lost(found["place"])
         self.place = self._places(found["place"])
+        self.cycle = _core.graphs.connected_components(self._onward(np.arange(len(self.across))), len(self.across))
+        self.around = self._around_pinholes()
         self.circles = found["circles"].astype(np.int64)
         self.number = np.full(2 * len(diagram.edges), -1, dtype=np.int64)
         self.number[self.half_edge] = np.arange(len(self.half_edge))
 
+    def _onward(self, chosen: Indices) -> NDArray[np.int32]:
+        """(k, 2) crossings, and those that arcs from there lead to."""
+        return np.stack([chosen, self.across[chosen]], axis=1).astype(np.int32)
+
+    def _lost(self, places: Floats) -> NDArray[np.bool_]:
+        """Of each crossing, whether rounding leaves nothing of the arc from there."""
+        step = np.abs(places - places[self.across]).max(axis=1)
+        largest = np.maximum(np.abs(places).max(axis=1), np.abs(self.graph.points).max(initial=0))
+        is_short = (step <= ROUNDING * largest) & np.isnan(self.middle[:, 0]) & (self.arc != _ALIGNED)
+        lost: NDArray[np.bool_] = is_short | (self.arc == _LOST)
+        return lost
+
     def _places(self, places: Floats) -> Floats:
-        """Of crossings; both ends of an arc that rounding leaves nothing of are at one place."""
-        for one in np.flatnonzero(self.arc == _LOST).tolist():
-            other = int(self.across[one])
-            kept, moved = (other, one) if self.ending[one] == _INSIDE else (one, other)
-            places[moved] = places[kept]
-        return places
+        """Of crossings: both ends of arcs that are lost are at one place, that of a vertex if there is one."""
+        group = _core.graphs.connected_components(self._onward(np.flatnonzero(self.is_lost)), len(places))
+        kept = np.arange(len(places))
+        fixed = np.flatnonzero(self.ending != _INSIDE)
+        kept[group[fixed]] = fixed
+        return places[kept[group]]
+
+    def _around_pinholes(self) -> Indices:
+        """(c,) the number of each crossing, from 1, around what is far where rounding leaves a place of it; else 0."""
+        is_seen = ~(self.is_lost | (self.arc == _ALIGNED)) | (self.ending != _INSIDE)
+        is_hole = np.bincount(self.cycle, is_seen, minlength=len(self.across)) == 0
+        around = np.zeros(len(self.across), dtype=np.int64)
+        for first in np.unique(self.cycle[is_hole[self.cycle]]).tolist():
+            at, number = first, 1
+            while not around[at]:
+                around[at] = number
+                at, number = int(self.across[at]), number + 1
+        return around
 
     # ---- borders -----------------------------------------------------------------------------------
     def is_near(self, edge: Indices, is_half: NDArray[np.bool_]) -> NDArray[np.bool_]:
@@ -127,6 +157,7 @@ class Limit:
         same[touching] = self.number[2 * edge[touching]]
         aligned = np.flatnonzero(self.arc == _ALIGNED)
         same[self.across[aligned]] = aligned
+        same[self.around > 0] = self.cycle[self.around > 0]
         at_vertex = self.ending == _AT_VERTEX
         is_new = (same == np.arange(len(same))) & ~at_vertex
         number = np.cumsum(is_new) - 1 + first
@@ -162,7 +193,9 @@ class Limit:
             cut = np.flatnonzero(has_end[:, hand] & (crossing >= 0))
             ends[cut, hand] = node[crossing[cut]]
             # before the arcs there; of two that come to one place beside the end of a segment, the left one is second
-            order[cut, hand] = -1 + (self.arc[crossing[cut]] == _ALIGNED)
+            first_or_second = -1 + (self.arc[crossing[cut]] == _ALIGNED)
+            around = self.around[crossing[cut]]  # clockwise
+            order[cut, hand] = np.where(around > 0, -around, first_or_second)
         return ends, order
 
     # ---- arcs --------------------------------------------------------------------------------------
@@ -192,7 +225,7 @@ class Limit:
         around, of_circles = self._circles(first + len(places) + len(split))
         element = np.concatenate([element, element[split], np.repeat(self.circles, 2)])
         is_lost = np.zeros(len(element), dtype=bool)
-        is_lost[: len(kept)] = self.arc[kept] == _LOST
+        is_lost[: len(kept)] = self.is_lost[kept]
         is_arc = (element < len(self.graph.points)) & ~is_lost
         face = self.edge_faces[edge, hand][kept]
         return LimitArcs(

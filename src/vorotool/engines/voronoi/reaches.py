@@ -8,14 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.voronoi.borders import ridges_of
-from vorotool.engines.voronoi.cuts.crossings import crossings_of
-from vorotool.engines.voronoi.cuts.cut_arguments import given_cuts
-from vorotool.engines.voronoi.cuts.joint_graph import joint_graph
-from vorotool.engines.voronoi.cuts.local_diagrams import local_diagrams
-from vorotool.engines.voronoi.cuts.regions import regions_of
+from vorotool.engines.voronoi.crossings import crossings_of
+from vorotool.engines.voronoi.cut_arguments import given_cuts
 from vorotool.engines.voronoi.diagram import diagram_of
 from vorotool.engines.voronoi.frame_cut import cut_borders
+from vorotool.engines.voronoi.joint_graph import joint_graph
+from vorotool.engines.voronoi.local_diagrams import local_diagrams
 from vorotool.engines.voronoi.measures import graph_again
+from vorotool.engines.voronoi.regions import regions_of
 from vorotool.errors import RepairWarning
 from vorotool.geometry.curves.flatten import checked_flatten
 from vorotool.geometry.voronoi.shapes import cell_polygons
@@ -27,6 +27,9 @@ Indices = NDArray[np.int64]
 
 _TIE = 2.0**-40
 """By which a distance may be above the limit and be the limit, as a part of it: rounding is less."""
+
+_ENDS = 2
+"""Vertices of a segment; a point has fewer."""
 
 
 def reaches(cells: VoronoiMap) -> Floats:
@@ -51,12 +54,19 @@ def reaches(cells: VoronoiMap) -> Floats:
     """
     made = np.full(len(cells), -np.inf)
     _take_vertices(made, cells)
-    if cells.clip is None and cells.enclosures is None:
-        _take_ridges_in_frame(made, cells)
-    else:
-        _take_ridges_between_cuts(made, cells)
+    if _has_ridges(cells):
+        is_cut = cells.clip is not None or cells.enclosures is not None
+        (_take_ridges_between_cuts if is_cut else _take_ridges_in_frame)(made, cells)
     made[cells.components == 0] = np.nan
     return made
+
+
+def _has_ridges(cells: VoronoiMap) -> bool:
+    """Whether a site is more than a point or a segment, from which distances are convex, and largest at vertices."""
+    given = cells.polygons
+    is_single = np.bincount(cells.polygon_site, minlength=len(cells)) <= 1
+    is_straight = given.is_line & (np.diff(given.ring_start)[given.polygon_start[:-1]] <= _ENDS)
+    return not (is_single.all() and is_straight.all())
 
 
 def _take_vertices(reach: Floats, cells: VoronoiMap) -> None:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.common.faults import fail, first_wrong
+from vorotool.engines.voronoi.verify_cuts import EnclosedFaces, shared_out
 from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.curves.inverse_functions import PI, angle_of
 from vorotool.geometry.polygons.conversion import to_shapely
@@ -40,11 +41,12 @@ def verify_voronoi(cells: VoronoiMap, *, places: int = 1000) -> None:
     """Check a Voronoi map, with nothing that it was made by.
 
     Every side of an arc is passed by one ring of its cell, rings are closed, shells go counter-clockwise and holes
-    clockwise, and the areas of all cells add up to that of the frame, if nothing else cuts them. Along borders both
-    sites are equally far, and none is nearer; along the limit of distance the site is as far as that, and no other one
-    nearer. At random places the site of the cell is the nearest one, not beyond the limit, and the first of those that
-    cover the place, or that have the vertex which it is nearest to; where there is no cell, all sites are beyond it.
-    What the lattice moves is allowed for.
+    clockwise, and the areas of all cells add up to that of the frame, or of the clip in it, unless a limit or
+    enclosures leave places to nobody. Along borders both sites are equally far, and none is nearer; along the limit of
+    distance the site is as far as that, and no other one nearer. At random places the site of the cell is the nearest
+    one, not beyond the limit, and the first of those that cover the place, or that have the vertex which it is nearest
+    to; where there is no cell, all sites are beyond it. With enclosures only the sites that meet the same face count,
+    and cells stay in the faces that their sites meet. What the lattice moves is allowed for.
 
     Parameters
     ----------
@@ -138,9 +140,14 @@ def _check_areas(cells: VoronoiMap) -> None:
     total = float(area.sum())
     if not (len(cells.cell_start) > 1 and len(cells.polygons)):
         return
-    is_whole = cells.max_distance is None and cells.clip is None and cells.enclosures is None
-    if total - w * h > slack or (is_whole and w * h - total > slack):
-        fail(f"the cells have an area of {total}, but the frame one of {w * h}")
+    whole, name = w * h, "frame"
+    if cells.clip is not None:
+        shared = shared_out(cells)
+        whole, name = float(shared.area), "clip"
+        slack += MOVE * (w + h + largest * 2.0**-20) * float(shared.length)
+    is_whole = cells.max_distance is None and cells.enclosures is None
+    if total - whole > slack or (is_whole and whole - total > slack):
+        fail(f"the cells have an area of {total}, but the {name} one of {whole}")
 
 
 def _below_circles(cells: VoronoiMap, source: Floats, target: Floats) -> Floats:
@@ -174,10 +181,12 @@ class _SitePlaces:
         self.row = np.full(len(cells), -1)
         self.row[self.numbers] = np.arange(len(self.numbers))
         self.tree = shapely.STRtree(self.geometry)
-        extent = float(np.ptp(given.xy, axis=0).max())
-        largest = float(max(np.abs(given.xy).max(), np.abs(cells.vertices).max(initial=0)))
+        placed = np.concatenate([each.xy for each in (given, cells.clip, cells.enclosures) if each is not None])
+        extent = float(np.ptp(placed, axis=0).max())
+        largest = float(max(np.abs(placed).max(), np.abs(cells.vertices).max(initial=0)))
         self.tolerance = MOVE * extent + ROUNDING * largest
         self.corners = {tuple(place) for place in given.xy.tolist()}
+        self.faces = None if cells.enclosures is None else EnclosedFaces(cells, self.geometry, 4 * self.tolerance)
 
     def distances(self, site: NDArray[Any], places: Floats) -> Floats:
         """Of each place from one site."""
@@ -187,9 +196,11 @@ class _SitePlaces:
         return made
 
     def least(self, places: Floats) -> Floats:
-        """Of each place from the nearest site."""
+        """Of each place from the nearest site, with enclosures of those that meet the face that it is in."""
         import shapely
 
+        if self.faces is not None:
+            return self.faces.least(places)
         found, distance = self.tree.query_nearest(shapely.points(places), return_distance=True, all_matches=False)
         least = np.empty(len(places))
         least[found[0]] = distance
@@ -202,8 +213,9 @@ def _check_borders(cells: VoronoiMap, sites: _SitePlaces, random: np.random.Gene
         border = np.sort(random.choice(border, count, replace=False))
     for end in (0, 1):
         vertex = cells.arcs[border, end]
-        least = sites.least(cells.vertices[vertex])
-        at = first_wrong(~(np.abs(least - cells.radius[vertex]) <= sites.tolerance))
+        place = cells.vertices[vertex]
+        least = sites.least(place) if sites.faces is None else sites.distances(cells.sites[border, 0], place)
+        at = first_wrong(np.abs(least - cells.radius[vertex]) > sites.tolerance)
         if at is not None:
             k = int(vertex[at])
             place = tuple(cells.vertices[k].tolist())
@@ -270,7 +282,10 @@ def _check_places(cells: VoronoiMap, sites: _SitePlaces, random: np.random.Gener
         )
     if cells.max_distance is not None:
         _check_reach(cells, places, least, place, near)
-    _check_ties(cells, sites, places[place], cell, shapes, near)
+    if cells.clip is not None or sites.faces is not None:
+        _check_shares(cells, sites, (places, least), (place, cell), near)
+    if sites.faces is None:
+        _check_ties(cells, sites, places[place], cell, shapes, near)
 
 
 def _check_reach(cells: VoronoiMap, places: Floats, least: Floats, held: Indices, near: float) -> None:
@@ -288,6 +303,33 @@ def _check_reach(cells: VoronoiMap, places: Floats, least: Floats, held: Indices
             f"{tuple(places[at].tolist())} is {least[at]} from the nearest site, and in {'a' if is_held[at] else 'no'} "
             f"cell: the limit is {limit}"
         )
+
+
+def _check_shares(
+    cells: VoronoiMap, sites: _SitePlaces, at_places: tuple[Floats, Floats], held: tuple[Indices, Indices], near: float
+) -> None:
+    """What is shared out is in cells, unless no site is near; what is not is in none, and sites stay in their faces."""
+    import shapely
+
+    (places, least), (place, cell) = at_places, held
+    points = shapely.points(places)
+    shared = shared_out(cells)
+    shapely.prepare(shared)
+    is_in, is_held = shapely.intersects(shared, points), np.zeros(len(places), dtype=bool)
+    is_held[place] = True
+    limit = np.inf if cells.max_distance is None else cells.max_distance
+    is_wrong = np.where(is_in, ~is_held & (least < limit - near), is_held)
+    doubtful = np.flatnonzero(is_wrong)
+    is_wrong[doubtful] = shapely.distance(shapely.boundary(shared), points[doubtful]) > near
+    if sites.faces is not None:
+        lines = shapely.boundary(sites.faces.shapes)
+        close = shapely.STRtree(lines).query(points, predicate="dwithin", distance=near)[0]
+        strange = ~sites.faces.may_have(places[place], sites.row[cell])
+        is_wrong[place[strange]] = True
+        is_wrong[close] = False
+    at = first_wrong(is_wrong)
+    if at is not None:
+        fail(f"{tuple(places[at].tolist())} is in {'a' if is_held[at] else 'no'} cell, against the clip or enclosures")
 
 
 def _check_ties(

@@ -12,13 +12,13 @@ from numpy.typing import ArrayLike, NDArray
 from vorotool.engines.skeleton.exact import Frame, default_frame
 from vorotool.engines.voronoi.assembly import Arcs, Rings, arcs_of, cells_of, rings_of
 from vorotool.engines.voronoi.borders import Borders, borders_of
-from vorotool.engines.voronoi.cuts.cut_arguments import given_cuts
-from vorotool.engines.voronoi.cuts.map_between_cuts import map_between_cuts
+from vorotool.engines.voronoi.cut_arguments import given_cuts
 from vorotool.engines.voronoi.diagram import diagram_of
 from vorotool.engines.voronoi.elements import OwnedGraph, owned_graph
 from vorotool.engines.voronoi.frame_cut import CutBorders, cut_borders
 from vorotool.engines.voronoi.frame_ring import UNKNOWN, frame_ring
 from vorotool.engines.voronoi.holes import shells_of
+from vorotool.engines.voronoi.map_between_cuts import map_between_cuts
 from vorotool.engines.voronoi.nearest_site import site_at
 from vorotool.errors import UsageError
 from vorotool.geometry.arguments.boxes import as_extent
@@ -33,6 +33,9 @@ if TYPE_CHECKING:
     from vorotool.typing import FrameLike, ImageLike, PointsLike, PolygonsLike
 
 Indices = NDArray[np.int64]
+
+LEAST = 2.0**-40
+"""Of the largest coordinate: smaller limits are less than what a lattice moves sites by, and near what is rounded."""
 
 _BITS = 30
 """Steps of a lattice that a limit around a single place is counted in, as bits: as many as others have."""
@@ -93,7 +96,8 @@ def voronoi(
         If `sites`, the frame, the clip or the enclosures are none, a coordinate is not finite, the clip has no area, or
         a coordinate reference system is another one.
     UsageError
-        If the sides of the frame or `max_distance` are not above 0, or `by` is no column.
+        If the sides of the frame or `max_distance` are not above 0, that is too small beside the coordinates, or `by`
+        is no column.
     LimitError
         If there are too many vertices.
     VerificationError
@@ -117,9 +121,9 @@ def voronoi(
     [1.570796]
     """
     given_frame = None if frame is None else _checked_frame(frame)
-    limit = None if max_distance is None else _checked_limit(max_distance)
     threads = checked_threads(threads)
     given = as_sites(sites, by)
+    limit = None if max_distance is None else _checked_limit(max_distance, given.polygons.xy)
     cuts = given_cuts(clip, enclosures, given.polygons.crs)
     if cuts.are_there:
         made = map_between_cuts(given, cuts, given_frame, limit, threads=threads, progress=progress)
@@ -162,11 +166,16 @@ def _checked_frame(frame: FrameLike) -> Frame:
     return extent
 
 
-def _checked_limit(max_distance: float) -> float:
+def _checked_limit(max_distance: float, xy: NDArray[np.float64]) -> float:
     limit = finite_double(max_distance, "max_distance")
     if limit <= 0:
         raise UsageError(f"max_distance must be above 0, but is {shown_number(limit)}")
     check_lengths([limit], "distance")
+    least = LEAST * float(np.abs(xy).max(initial=0))
+    if limit < least:
+        raise UsageError(
+            f"max_distance is {shown_number(limit)}, too small beside the coordinates: use at least {1.1 * least:.2g}"
+        )
     return limit
 
 

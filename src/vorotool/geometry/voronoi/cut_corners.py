@@ -96,7 +96,7 @@ def _feet(arcs: MixedArcs, place: Floats) -> Floats:
 def _along(arcs: MixedArcs, arc: Indices, place: Floats) -> Floats:
     """(k,) numbers that rise along arcs: across the axis of a parabola, the half angle on a circle."""
     own = arcs[arc]
-    key = np.nan_to_num((_axes(own) * (place - own.source)).sum(axis=1))
+    key: Floats = np.nan_to_num((_axes(own) * (place - own.source)).sum(axis=1))
     circle = np.flatnonzero(own.is_circle)
     round_arcs = own[circle]
     middle, offset = _middles(round_arcs), place[circle] - round_arcs.center
@@ -149,7 +149,7 @@ def _from_parabolas(arcs: MixedArcs, place: Floats) -> Floats:
     with np.errstate(divide="ignore", invalid="ignore"):
         u, w = _cross(b - place, c - place) / double, _cross(a - place, b - place) / double
         rise = (2 * _size(c - a) + 4 * (_size(c - b) + _size(b - a))) / np.abs(double)
-        near: Floats = np.abs((1 - u - w) ** 2 - 4 * u * w) / rise
+        near: Floats = np.abs((1 - u - w) * (1 - u - w) - 4 * u * w) / rise
     return np.where(np.isfinite(near), near, 0)
 
 

@@ -13,8 +13,8 @@ from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
-_MANY = 1 << 16
-"""Pairs of segments of two shapes that are gone through one by one; of more there is a tree."""
+_MANY = 1 << 20
+"""Pairs of vertices of two shapes that are gone through one by one, in some milliseconds; of more there is a tree."""
 
 
 def site_shapes(cells: VoronoiMap) -> NDArray[Any]:

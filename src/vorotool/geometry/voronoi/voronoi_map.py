@@ -67,7 +67,7 @@ class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
     cell_start : (s + 1,) int64 array
         The first polygon of each cell, and q. Cell i is of site i; it may be empty, or of several polygons.
     frame : (x, y, w, h)
-        The rectangle that cells were cut by.
+        The rectangle that cells were cut by; with a clip or enclosures the bounds of what is shared out.
     polygons : PolygonSet
         The input; points are lines of one vertex.
     polygon_site : (p,) int32 array

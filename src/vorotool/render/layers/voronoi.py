@@ -145,15 +145,17 @@ def _names(cells: VoronoiMap, page: Page) -> Texts:
     """Ids of the sites on these, else their labels, or what the column says that the page is to have."""
     own = range(1, len(cells) + 1) if cells.ids is None else cells.ids
     texts = column_texts(cells.properties, page.style.label_by, own)
-    places, site, is_centred = _places_of_names(cells)
-    size = name_size(page, len(cells))
+    places, site, dimension = _places_of_names(cells)
+    size, is_centred = name_size(page, len(cells)), bool((dimension > 0).any())
+    if is_centred:  # points are discs: their names stand above
+        places[dimension == 0, 1] += page.distance(0.9 * size) * (1 if page.y_up else -1)
     return without_empty(
         Texts("labels", places, [texts[k] for k in site.tolist()], size=size, halo=WHITE, is_centred=is_centred)
     )
 
 
-def _places_of_names(cells: VoronoiMap) -> tuple[NDArray[np.float64], Indices, bool]:
-    """Inside the largest polygon of each site, in the middle of its longest line, or at a point; whether all are."""
+def _places_of_names(cells: VoronoiMap) -> tuple[NDArray[np.float64], Indices, NDArray[np.integer]]:
+    """Inside the largest polygon of each site, in the middle of its longest line, or at a point; sites, dimensions."""
     import shapely
 
     site, parts = np.arange(len(cells)), site_shapes(cells)
@@ -167,4 +169,4 @@ def _places_of_names(cells: VoronoiMap) -> tuple[NDArray[np.float64], Indices, b
     chosen, size = parts[order[first]], size[order[first]]
     inside = shapely.point_on_surface(chosen)
     inside[size == 1] = shapely.line_interpolate_point(chosen[size == 1], 0.5, normalized=True)
-    return np.stack([shapely.get_x(inside), shapely.get_y(inside)], axis=1), site, bool((size > 0).any())
+    return np.stack([shapely.get_x(inside), shapely.get_y(inside)], axis=1), site, size

@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.voronoi.borders import sides_of_segments
+from vorotool.engines.voronoi.crossings import SLACK, Crossings, EdgeLines
 from vorotool.engines.voronoi.curves import controls_of
-from vorotool.engines.voronoi.cuts.crossings import SLACK, Crossings, EdgeLines
-from vorotool.engines.voronoi.cuts.joint_graph import packed
-from vorotool.engines.voronoi.cuts.local_diagrams import LocalDiagrams
-from vorotool.engines.voronoi.cuts.regions import NOBODY, CutEdges, faces_of_sides
+from vorotool.engines.voronoi.joint_graph import packed
+from vorotool.engines.voronoi.local_diagrams import LocalDiagrams
+from vorotool.engines.voronoi.regions import NOBODY, CutEdges, faces_of_sides
 from vorotool.geometry.ragged import owners, starts_of
 from vorotool.geometry.voronoi.voronoi_map import OUTSIDE
 
@@ -173,7 +173,7 @@ class Overlay:
         pair = number[:, 0] * len(corners) + number[:, 1]
         of_edge, of_wall = pair[: len(key)], pair[len(key) :]
         chosen = np.flatnonzero(np.isin(of_wall, of_edge))
-        order = np.argsort(of_edge)
+        order = np.argsort(of_edge, kind="stable")
         edge = order[np.searchsorted(of_edge[order], of_wall[chosen])]
         _, sites, _ = sides_of_segments(local.owned)
         same = (graph.points[graph.segments[chosen, 0]] == edges.points[edges.ends[edge, 0]]).all(axis=1)
@@ -190,7 +190,7 @@ class Overlay:
         straight = np.ones(len(a), dtype=bool)
         bent = np.flatnonzero(pieces.row >= 0)
         curves = found.curves[pieces.row[bent]]
-        finite = np.isfinite(pieces.t[bent]).all(axis=1)
+        finite = np.isfinite(pieces.t[bent, 0]) & np.isfinite(pieces.t[bent, 1])
         t = np.where(finite[:, None], pieces.t[bent], 0)
         straight[bent] = finite & (curves.depth(t[:, 0], t[:, 1]) <= SLACK)
         edge = np.full(len(a), -1, dtype=np.int64)
@@ -212,7 +212,7 @@ class Overlay:
         low, high = np.sort(np.stack([corner(a)[both], corner(b)[both]]), axis=0)
         least, most = np.sort(ends, axis=1).T
         key = least * corners + most
-        order = np.argsort(key)
+        order = np.argsort(key, kind="stable")
         at = np.searchsorted(key[order], low * corners + high).clip(max=len(key) - 1)
         same = key[order[at]] == low * corners + high
         edge[both[same]] = order[at[same]]

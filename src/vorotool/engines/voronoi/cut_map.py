@@ -7,14 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.engines.voronoi.around_places import order_around, quarters
 from vorotool.engines.voronoi.assembly import Arcs, Rings, by_ends, cycles_of, rings_of, without_lost
+from vorotool.engines.voronoi.crossings import crossings_of
 from vorotool.engines.voronoi.curves import controls_of
-from vorotool.engines.voronoi.cuts.around_places import order_around, quarters
-from vorotool.engines.voronoi.cuts.crossings import crossings_of
-from vorotool.engines.voronoi.cuts.local_diagrams import LocalDiagrams
-from vorotool.engines.voronoi.cuts.nearest_elements import NearestElements
-from vorotool.engines.voronoi.cuts.overlay import UNKNOWN, Overlay
-from vorotool.engines.voronoi.cuts.regions import CutEdges
+from vorotool.engines.voronoi.local_diagrams import LocalDiagrams
+from vorotool.engines.voronoi.nearest_elements import NearestElements
+from vorotool.engines.voronoi.overlay import UNKNOWN, Overlay
+from vorotool.engines.voronoi.regions import CutEdges
 from vorotool.errors import VerificationError
 from vorotool.geometry.ragged import owners
 from vorotool.geometry.voronoi.voronoi_map import OUTSIDE

@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 
 from vorotool.engines.skeleton.exact import default_frame
-from vorotool.engines.voronoi.cuts.regions import CutEdges
+from vorotool.engines.voronoi.regions import CutEdges
 from vorotool.errors import InputError
 from vorotool.geometry.arguments.polygons import as_polygons
 from vorotool.geometry.box import bounds
 from vorotool.geometry.crs import crs_name, same_crs
-from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.polygons.polygon_set import LINE, PolygonSet, set_of_rings
 
 Frame = tuple[float, float, float, float]
 
@@ -43,19 +43,7 @@ class GivenCuts:
         if self.enclosures is None or not len(self.enclosures.xy):
             return default_frame(sites)
         xy = np.concatenate([sites.xy, self.enclosures.xy])
-        return default_frame(
-            replace(
-                self.enclosures,
-                xy=xy,
-                ring_start=[0, len(xy)],
-                ring_kind=[0],
-                ring_polygon=[0],
-                ids=None,
-                feature=None,
-                properties={},
-                index=None,
-            )
-        )
+        return default_frame(set_of_rings(xy, [len(xy)], [LINE], [0]))
 
 
 def given_cuts(clip: Any, enclosures: Any, crs: Any) -> GivenCuts:

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.voronoi.cuts.local_diagrams import LocalDiagrams
 from vorotool.engines.voronoi.elements import NOBODY
+from vorotool.engines.voronoi.local_diagrams import LocalDiagrams
 from vorotool.geometry.polygons.conversion import to_shapely
 from vorotool.geometry.voronoi.voronoi_map import OUTSIDE
 

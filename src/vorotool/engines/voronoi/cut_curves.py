@@ -96,9 +96,9 @@ class CutCurves:
     def control(self, t0: Floats, t1: Floats) -> Floats:
         """(k, 2) where the tangents at two parameters meet; NaN of lines."""
         is_bent = self.height > 0
-        below = (t1 - t0) ** 2 / (4 * np.where(is_bent, self.height, 1))
+        below = (t1 - t0) * (t1 - t0) / (4 * np.where(is_bent, self.height, 1))
         down = np.stack([self.way[:, 1], -self.way[:, 0]], axis=1)
-        made = (self.place(t0) + self.place(t1)) / 2 + below[:, None] * down
+        made: Floats = (self.place(t0) + self.place(t1)) / 2 + below[:, None] * down
         made[~is_bent] = np.nan
         return made
 
@@ -178,7 +178,7 @@ class CutCurves:
         t = np.where(is_bent, along, along / squared)
         miss = np.where(is_bent, of_bent, np.abs(beside) / np.sqrt(squared))
         is_round = np.flatnonzero(self.round > 0)
-        size = np.sqrt((offset[is_round] ** 2).sum(axis=1))
+        size = np.sqrt((offset[is_round] * offset[is_round]).sum(axis=1))
         ahead = size + along[is_round]
         t[is_round] = np.where(ahead > 0, beside[is_round] / np.where(ahead > 0, ahead, 1), np.inf)
         miss[is_round] = np.abs(size - self.round[is_round])
@@ -199,9 +199,9 @@ def cut_curves(borders: Borders, graph: PlanarGraph, pieces: Indices) -> CutCurv
     """
     elements, ends = borders.elements[pieces], borders.ends[pieces]
     count = len(graph.points)
-    places = np.concatenate([borders.places, [[np.inf, np.inf]]])
+    places = np.concatenate([borders.places, [[0.0, 0.0]]])  # of -1, at infinity, none
     a, b = places[ends[:, 0]], places[ends[:, 1]]
-    size = np.abs(np.stack([a, b])).max(axis=2)
+    size = np.where(ends.T < 0, np.inf, np.abs(np.stack([a, b])).max(axis=2))
     is_near_first = size[0] <= size[1]
     base, way = np.where(is_near_first[:, None], a, b), b - a
     first = np.where(is_near_first, 0.0, -1.0)
@@ -218,10 +218,9 @@ def cut_curves(borders: Borders, graph: PlanarGraph, pieces: Indices) -> CutCurv
     middle = (p + q) / 2
     base[chosen], way[chosen] = middle, straight
     squared = (straight * straight).sum(axis=1)
-    for end, where, infinite in ((a, first, -np.inf), (b, last, np.inf)):
-        is_finite = np.isfinite(end[chosen, 0])
-        offset = np.where(is_finite[:, None], end[chosen] - middle, 0)
-        where[chosen] = np.where(is_finite, (offset * straight).sum(axis=1) / squared, infinite)
+    for end, place, where, infinite in ((0, a, first, -np.inf), (1, b, last, np.inf)):
+        t = ((place[chosen] - middle) * straight).sum(axis=1) / squared
+        where[chosen] = np.where(ends[chosen, end] < 0, infinite, t)
     height = np.zeros(len(pieces))
     is_parabola, parabolas = parabolas_of(graph, elements)
     source, target = ends[is_parabola].T

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.voronoi.cuts.joint_graph import JointGraph, packed
+from vorotool.engines.voronoi.joint_graph import JointGraph, packed
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.ragged import owners, starts_of
 
@@ -245,8 +245,9 @@ def faces_of_sides(lines: Floats, sides: Indices) -> tuple[Indices, NDArray[Any]
     ways = np.concatenate([lines, lines[:, ::-1]])
     key = packed(np.concatenate([ways, wanted]).reshape(-1, 2).astype(np.int64))
     _, number = np.unique(key, return_inverse=True)
-    pair = number.reshape(-1, 2).astype(np.int64) @ np.array([len(key), 1])
-    order = np.argsort(pair[: len(ways)])
+    first, second = number.reshape(-1, 2).T.astype(np.int64)
+    pair = first * len(key) + second
+    order = np.argsort(pair[: len(ways)], kind="stable")
     row = order[np.searchsorted(pair[order], pair[len(ways) :])]
     is_right = (row >= len(lines)) == shapely.is_ccw(shells)
     names: Indices = sides[row % len(lines), is_right.astype(np.int64)]

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from vorotool.engines.arrangement.planar_graph import Placement, arranged
 from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi_of_groups
 from vorotool.engines.voronoi.borders import Borders, borders_of
-from vorotool.engines.voronoi.cuts.regions import Regions
 from vorotool.engines.voronoi.diagram import diagram_of
 from vorotool.engines.voronoi.elements import OwnedGraph, owners_of
+from vorotool.engines.voronoi.regions import Regions
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.progress import Progress
@@ -90,9 +90,8 @@ def local_diagrams(
     level = np.inf if limit is None else limit / sites.scale
     if regions.count == 1 and len(regions.site) == count:
         owned = owners_of(sites, site)
-        graph = owned.graph
         diagram = diagram_of(owned, is_whole=limit is not None, threads=threads, progress=progress)
-        none = np.zeros(len(graph.points), dtype=np.int64), np.zeros(len(graph), dtype=np.int64)
+        none = np.zeros(len(owned.graph.points), dtype=np.int64), np.zeros(len(owned.graph), dtype=np.int64)
         return LocalDiagrams(owned, *none, pieces_of(owned, diagram, level=level, threads=threads), given, site)
     parts = [*_graphs_of_regions(sites, site, count, regions)]
     points, segments = (
@@ -112,11 +111,12 @@ def _graphs_of_regions(sites: PlanarGraph, site: Sites, count: int, regions: Reg
     assert sites.vertices is not None
     order = np.argsort(site, kind="stable")
     start = np.searchsorted(site[order], np.arange(count + 1))
+    above, below = sites.scale.as_integer_ratio()  # a power of two
     for region in range(regions.count):
         own = regions.sites_of(region)
         polygon = np.sort(order[ranges(start[own], np.diff(start)[own])])
         part, vertices = _chosen(given, polygon, sites.vertices)
-        placement = Placement(vertices, sites.origin, int(np.log2(sites.scale)), 0.0)
+        placement = Placement(vertices, sites.origin, above.bit_length() - below.bit_length(), 0.0)
         yield owners_of(arranged(part, placement).graph, site[polygon])
 
 
@@ -136,21 +136,25 @@ def _joined(parts: list[OwnedGraph], sites: PlanarGraph) -> OwnedGraph:
     points = np.cumsum([0, *(len(graph.points) for graph in graphs)])
     faces = np.cumsum([0, *(graph.faces for graph in graphs)])
     count = int(points[-1])
-    segments = np.concatenate([np.empty((0, 2), dtype=np.int32), *(g.segments + at for g, at in zip(graphs, points))])
-    sides = np.concatenate([np.empty((0, 2), dtype=np.int32), *(g.segment_faces + at for g, at in zip(graphs, faces))])
+    segments = np.concatenate(
+        [np.empty((0, 2), dtype=np.int32), *(g.segments + at for g, at in zip(graphs, points, strict=False))]
+    )
+    sides = np.concatenate(
+        [np.empty((0, 2), dtype=np.int32), *(g.segment_faces + at for g, at in zip(graphs, faces, strict=False))]
+    )
     elements = [np.split(part.element, [len(part.graph.points)]) for part in parts]
+    none = np.empty(0, dtype=np.int32)
     graph = PlanarGraph(
         np.concatenate([np.empty((0, 2), dtype=np.int32), *(g.points for g in graphs)]),
         segments,
-        np.full(count, -1),
-        np.zeros(len(segments) + 1),
-        np.empty(0),
+        np.full(count, -1, dtype=np.int32),
+        np.zeros(len(segments) + 1, dtype=np.int32),
+        none,
         sides,
-        np.zeros(int(faces[-1]) + 1),
-        np.empty(0),
+        np.zeros(int(faces[-1]) + 1, dtype=np.int32),
+        none,
         origin=sites.origin,
         scale=sites.scale,
     )
-    none = np.empty(0, dtype=np.int32)
     element = np.concatenate([none, *(own for own, _ in elements), *(own for _, own in elements)])
     return OwnedGraph(graph, element, np.concatenate([none, *(part.face for part in parts)]))

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from vorotool.engines.voronoi.cuts.cut_arguments import Frame, GivenCuts, frame_of
-from vorotool.engines.voronoi.cuts.cut_map import CutMap, cut_map
-from vorotool.engines.voronoi.cuts.joint_graph import joint_graph
-from vorotool.engines.voronoi.cuts.local_diagrams import local_diagrams
-from vorotool.engines.voronoi.cuts.regions import regions_of
+from vorotool.engines.voronoi.cut_arguments import Frame, GivenCuts, frame_of
+from vorotool.engines.voronoi.cut_map import CutMap, cut_map
+from vorotool.engines.voronoi.joint_graph import joint_graph
+from vorotool.engines.voronoi.local_diagrams import local_diagrams
+from vorotool.engines.voronoi.regions import regions_of
 from vorotool.errors import InputError
 from vorotool.geometry.arguments.sites import Sites
 from vorotool.geometry.progress import Progress

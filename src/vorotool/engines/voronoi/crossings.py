@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.voronoi.cuts.cut_curves import FAR, CutCurves, cut_curves
-from vorotool.engines.voronoi.cuts.joint_graph import packed
-from vorotool.engines.voronoi.cuts.local_diagrams import LocalDiagrams
-from vorotool.engines.voronoi.cuts.regions import CutEdges
+from vorotool.engines.voronoi.cut_curves import FAR, CutCurves, cut_curves
+from vorotool.engines.voronoi.joint_graph import packed
+from vorotool.engines.voronoi.local_diagrams import LocalDiagrams
+from vorotool.engines.voronoi.regions import CutEdges
 from vorotool.geometry.voronoi.voronoi_map import OUTSIDE
 
 Floats = NDArray[np.float64]
@@ -150,7 +150,7 @@ def _draw_places(
         of_place[end[end >= 0]] = region[end >= 0]
     is_site = (borders.radius == 0) & (of_place >= 0)
     corner = packed(edges.points.astype(np.int64))
-    order = np.argsort(corner)
+    order = np.argsort(corner, kind="stable")
     sites = np.flatnonzero(is_site)
     wanted = packed(borders.places[sites].astype(np.int64))
     at = np.searchsorted(corner[order], wanted).clip(max=len(order) - 1)

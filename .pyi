@@ -1,0 +1,278 @@
+"""Exact Voronoi diagrams of images, points and polygons: the types of all public names."""
+
+# Made of the table in __init__.py by tests/repository/test_types.py, which compares both.
+
+from vorotool.engines.alpha.alpha_hull import (
+    alpha_hull as alpha_hull,
+)
+from vorotool.engines.alpha.alpha_shape import (
+    alpha_complex as alpha_complex,
+)
+from vorotool.engines.alpha.alpha_shape import (
+    alpha_curves as alpha_curves,
+)
+from vorotool.engines.alpha.alpha_shape import (
+    alpha_edges as alpha_edges,
+)
+from vorotool.engines.alpha.alpha_shape import (
+    alpha_shape as alpha_shape,
+)
+from vorotool.engines.alpha.verify_alpha import (
+    verify_alpha_shape as verify_alpha_shape,
+)
+from vorotool.engines.arrangement.planar_graph import (
+    planar_graph as planar_graph,
+)
+from vorotool.engines.arrangement.planar_graph import (
+    verify_planar_graph as verify_planar_graph,
+)
+from vorotool.engines.centerlines.centerline import (
+    centerline as centerline,
+)
+from vorotool.engines.delaunay.cells import (
+    cell_colours as cell_colours,
+)
+from vorotool.engines.delaunay.cells import (
+    verify_cells as verify_cells,
+)
+from vorotool.engines.delaunay.cells import (
+    voronoi_cells as voronoi_cells,
+)
+from vorotool.engines.delaunay.delaunay import (
+    delaunay as delaunay,
+)
+from vorotool.engines.delaunay.delaunay import (
+    verify_triangulation as verify_triangulation,
+)
+from vorotool.engines.delaunay.insertion import (
+    insert_points as insert_points,
+)
+from vorotool.engines.delaunay.site_table import (
+    site_table as site_table,
+)
+from vorotool.engines.digital.comparison import (
+    compare_digital as compare_digital,
+)
+from vorotool.engines.digital.triangulation import (
+    digital_delaunay as digital_delaunay,
+)
+from vorotool.engines.digital.triangulation import (
+    digital_triangulation as digital_triangulation,
+)
+from vorotool.engines.digital.triangulation import (
+    repair_digital as repair_digital,
+)
+from vorotool.engines.digital.verify_digital import (
+    verify_digital_triangulation as verify_digital_triangulation,
+)
+from vorotool.engines.from_skeleton.points_along import (
+    points_along as points_along,
+)
+from vorotool.engines.from_skeleton.reconstruction import (
+    rebuild as rebuild,
+)
+from vorotool.engines.label_images.outlines import (
+    outlines as outlines,
+)
+from vorotool.engines.label_images.regions import (
+    colour_regions as colour_regions,
+)
+from vorotool.engines.label_images.regions import (
+    neighbour_table as neighbour_table,
+)
+from vorotool.engines.label_images.regions import (
+    region_table as region_table,
+)
+from vorotool.engines.label_images.regions import (
+    voronoi_diagram as voronoi_diagram,
+)
+from vorotool.engines.offsets.offsets import (
+    offset as offset,
+)
+from vorotool.engines.offsets.verify_offsets import (
+    verify_offsets as verify_offsets,
+)
+from vorotool.engines.peers.distance_transform import (
+    distance_transform as distance_transform,
+)
+from vorotool.engines.peers.expand_labels import (
+    expand_labels as expand_labels,
+)
+from vorotool.engines.peers.medial_axis import (
+    medial_axis as medial_axis,
+)
+from vorotool.engines.peers.voronoi_polygons import (
+    voronoi_polygons as voronoi_polygons,
+)
+from vorotool.engines.pruning.pruning import (
+    arc_profiles as arc_profiles,
+)
+from vorotool.engines.pruning.pruning import (
+    critical_values as critical_values,
+)
+from vorotool.engines.pruning.pruning import (
+    prune as prune,
+)
+from vorotool.engines.pruning.verify_pruning import (
+    verify_pruning as verify_pruning,
+)
+from vorotool.engines.skeleton.verify_skeleton import (
+    verify_skeleton as verify_skeleton,
+)
+from vorotool.engines.skeleton_api import (
+    skeleton_approx as skeleton_approx,
+)
+from vorotool.engines.skeleton_api import (
+    skeleton_exact as skeleton_exact,
+)
+from vorotool.engines.tessellation.seeding import (
+    seeds_from_points as seeds_from_points,
+)
+from vorotool.engines.tessellation.seeding import (
+    seeds_from_raster as seeds_from_raster,
+)
+from vorotool.engines.tessellation.tessellate import (
+    tessellate as tessellate,
+)
+from vorotool.engines.tessellation.tessellate import (
+    verify_tessellation as verify_tessellation,
+)
+from vorotool.engines.voronoi.verify_voronoi import (
+    verify_voronoi as verify_voronoi,
+)
+from vorotool.engines.voronoi.voronoi import (
+    voronoi as voronoi,
+)
+from vorotool.errors import (
+    InputError as InputError,
+)
+from vorotool.errors import (
+    LimitError as LimitError,
+)
+from vorotool.errors import (
+    OutputError as OutputError,
+)
+from vorotool.errors import (
+    UsageError as UsageError,
+)
+from vorotool.errors import (
+    VerificationError as VerificationError,
+)
+from vorotool.errors import (
+    VorotoolError as VorotoolError,
+)
+from vorotool.errors import (
+    VorotoolWarning as VorotoolWarning,
+)
+from vorotool.formats import (
+    read as read,
+)
+from vorotool.formats.samples import (
+    sample as sample,
+)
+from vorotool.geometry.alpha.complex import (
+    AlphaComplex as AlphaComplex,
+)
+from vorotool.geometry.alpha.hull import (
+    AlphaHull as AlphaHull,
+)
+from vorotool.geometry.alpha.shape import (
+    AlphaShape as AlphaShape,
+)
+from vorotool.geometry.any.graphs import (
+    to_networkx as to_networkx,
+)
+from vorotool.geometry.any.tables import (
+    table as table,
+)
+from vorotool.geometry.box import (
+    Box as Box,
+)
+from vorotool.geometry.mesh.cells import (
+    CellSet as CellSet,
+)
+from vorotool.geometry.mesh.digital_comparison import (
+    DigitalComparison as DigitalComparison,
+)
+from vorotool.geometry.mesh.digital_triangulation import (
+    DigitalTriangulation as DigitalTriangulation,
+)
+from vorotool.geometry.mesh.tables import (
+    edge_table as edge_table,
+)
+from vorotool.geometry.mesh.tables import (
+    point_table as point_table,
+)
+from vorotool.geometry.mesh.tables import (
+    triangle_table as triangle_table,
+)
+from vorotool.geometry.mesh.triangulation import (
+    Triangulation as Triangulation,
+)
+from vorotool.geometry.pixel_frame import (
+    Frame as Frame,
+)
+from vorotool.geometry.pixel_grid import (
+    PixelGrid as PixelGrid,
+)
+from vorotool.geometry.points.label_image import (
+    LabelImage as LabelImage,
+)
+from vorotool.geometry.points.point_set import (
+    PointSet as PointSet,
+)
+from vorotool.geometry.points.raster import (
+    Raster as Raster,
+)
+from vorotool.geometry.points.seed_set import (
+    SeedSet as SeedSet,
+)
+from vorotool.geometry.polygons.planar_graph import (
+    PlanarGraph as PlanarGraph,
+)
+from vorotool.geometry.polygons.polygon_set import (
+    PolygonSet as PolygonSet,
+)
+from vorotool.geometry.skeleton.centerline import (
+    Centerlines as Centerlines,
+)
+from vorotool.geometry.skeleton.critical_values import (
+    CriticalValues as CriticalValues,
+)
+from vorotool.geometry.skeleton.offsets import (
+    Offsets as Offsets,
+)
+from vorotool.geometry.skeleton.points_along import (
+    SkeletonPoints as SkeletonPoints,
+)
+from vorotool.geometry.skeleton.skeleton import (
+    Skeleton as Skeleton,
+)
+from vorotool.geometry.skeleton.tables import (
+    arc_table as arc_table,
+)
+from vorotool.geometry.skeleton.tables import (
+    branch_table as branch_table,
+)
+from vorotool.geometry.skeleton.tables import (
+    element_table as element_table,
+)
+from vorotool.geometry.skeleton.tables import (
+    polygon_table as polygon_table,
+)
+from vorotool.geometry.table import (
+    Table as Table,
+)
+from vorotool.geometry.voronoi.voronoi_map import (
+    VoronoiMap as VoronoiMap,
+)
+from vorotool.jobs.writing import (
+    to_geojson as to_geojson,
+)
+from vorotool.jobs.writing import (
+    write as write,
+)
+
+_HOME: dict[str, str]
+__version__: str
+__all__: list[str]

@@ -1,0 +1,124 @@
+"""What a clip, a frame and enclosures share out, found by shapely alone, to check Voronoi maps by."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.geometry.polygons.conversion import to_shapely
+from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
+
+Floats = NDArray[np.float64]
+
+
+def shared_out(cells: VoronoiMap) -> Any:
+    """Give the area within the frame and the clip of a map, as geometry of shapely.
+
+    Parameters
+    ----------
+    cells : VoronoiMap
+        With its frame, and its clip if it has one.
+
+    Examples
+    --------
+    >>> from vorotool import voronoi
+    >>> shared_out(voronoi([[0, 0]], clip=["POLYGON ((0 0, 4 0, 0 4, 0 0))"])).area
+    8.0
+    """
+    import shapely
+
+    x, y, w, h = cells.frame
+    box = shapely.box(x, y, x + w, y + h)
+    if cells.clip is None:
+        return box
+    clip = shapely.make_valid(to_shapely(cells.clip))
+    return shapely.intersection(shapely.union_all(clip[shapely.area(clip) > 0]), box)
+
+
+class EnclosedFaces:
+    """Faces between the enclosures of a map, and the sites that meet the inside of each.
+
+    Parameters
+    ----------
+    cells : VoronoiMap
+        With enclosures.
+    geometry : (k,) array
+        Its sites as geometry of shapely.
+    near : float
+        What geometry may be moved by: a site that is no deeper in a face may or may not meet it.
+    """
+
+    def __init__(self, cells: VoronoiMap, geometry: NDArray[Any], near: float) -> None:
+        import shapely
+
+        assert cells.enclosures is not None
+        given = to_shapely(cells.enclosures)
+        lines = np.where(cells.enclosures.is_line, given, shapely.boundary(given))
+        shared = shared_out(cells)
+        noded = shapely.union_all([*lines, shapely.boundary(shared)])
+        faces = np.asarray(shapely.get_parts(shapely.polygonize(shapely.get_parts(noded))))
+        self.shapes = faces[shapely.covers(shared, shapely.point_on_surface(faces))]
+        around = self._closed(shapely.union_all(lines), shared, geometry)
+        self.geometry = geometry
+        self.sure, self.possible = (
+            self._meeting(shapely.buffer(np.array([*self.shapes, *around]), step)) for step in (-near, near)
+        )
+        self.face_of = self._whole_faces(shared, around)
+        self.tree = shapely.STRtree(self.shapes)
+
+    def _closed(self, lines: Any, shared: Any, geometry: NDArray[Any]) -> list[Any]:
+        """The faces that enclosures close by themselves, and what is around them all."""
+        import shapely
+
+        closed = [*shapely.get_parts(shapely.polygonize(shapely.get_parts(lines)))]
+        bounds = shapely.box(*shapely.total_bounds([lines, shared, *geometry]))
+        margin = max(bounds.length, 1.0)
+        return [*closed, shapely.difference(shapely.buffer(bounds, margin), shapely.union_all(closed))]
+
+    def _whole_faces(self, shared: Any, around: list[Any]) -> list[int]:
+        """For each face the one whose sites it has: one of those around, unless lines with open ends part that."""
+        import shapely
+
+        middles = shapely.point_on_surface(self.shapes)
+        found = list(range(len(self.shapes)))
+        for k, each in enumerate(around):
+            inside = np.flatnonzero(shapely.covers(each, middles))
+            parts = shapely.get_parts(shapely.intersection(each, shared))
+            if np.count_nonzero(shapely.area(parts) > 0) == len(inside):
+                for face in inside.tolist():
+                    found[face] = len(self.shapes) + k
+        return found
+
+    def _meeting(self, shapes: NDArray[Any]) -> list[NDArray[np.int64]]:
+        import shapely
+
+        row, site = shapely.STRtree(self.geometry).query(shapes, predicate="intersects")
+        return [site[row == k] for k in range(len(shapes))]
+
+    def least(self, places: Floats) -> Floats:
+        """Of each place from the nearest of the sites that surely meet its face; infinity where there are none."""
+        import shapely
+
+        points = shapely.points(places)
+        least = np.full(len(points), np.inf)
+        place, face = self.tree.query(points, predicate="intersects")
+        for each in np.unique(face).tolist():
+            own = place[face == each]
+            sites = self.sure[self.face_of[each]]
+            if sites.size:
+                distance = shapely.distance(self.geometry[sites][:, None], points[own][None, :]).min(axis=0)
+                # a place on a line is in two faces: the farther one tells less
+                least[own] = np.where(np.isinf(least[own]), distance, np.maximum(least[own], distance))
+        return least
+
+    def may_have(self, places: Floats, rows: NDArray[np.int64]) -> NDArray[np.bool_]:
+        """(k,) whether a site may meet the face of each place."""
+        import shapely
+
+        fits = np.zeros(len(places), dtype=bool)
+        place, face = self.tree.query(shapely.points(places), predicate="intersects")
+        for at, each in zip(place.tolist(), face.tolist(), strict=True):
+            fits[at] |= bool((self.possible[self.face_of[each]] == rows[at]).any())
+        return fits

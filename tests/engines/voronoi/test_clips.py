@@ -1,0 +1,189 @@
+"""Voronoi maps in clips, against overlays and distances of shapely."""
+
+import warnings
+
+import numpy as np
+import pytest
+import shapely
+from tests.support.families.cut_scenes import lattice_clip, lattice_sites
+from tests.support.families.site_families import mixed_sites, row_houses, squares
+from tests.support.oracles.cut_oracle import assert_cut_coverage, assert_nearest_in_regions
+
+import vorotool
+from vorotool import verify_voronoi, voronoi
+from vorotool.errors import InputError, RepairWarning
+from vorotool.geometry.arguments.polygons import as_polygons
+
+BOX = shapely.box(0, 0, 10, 10)
+
+
+def quietly(sites, **options):
+    with warnings.catch_warnings(action="ignore", category=RepairWarning):
+        return voronoi(sites, **options)
+
+
+@pytest.mark.parametrize("side", [4, 8, 1000])
+@pytest.mark.parametrize("seed", range(12))
+def test_everything_on_a_lattice(side, seed):
+    random = np.random.default_rng(seed)
+    sites = lattice_sites(random, side)
+    clip = lattice_clip(random, side, sites)
+    covered = shapely.union_all(clip)
+    cells = quietly(sites, clip=clip)
+    assert_cut_coverage(cells, covered.area)
+    assert_nearest_in_regions(cells, sites, [(covered, [*range(len(sites))])], seed=seed)
+    verify_voronoi(cells, places=50)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_a_clip_cuts_what_there_is_without_it(seed):
+    random = np.random.default_rng(seed)
+    sites = mixed_sites(random, 8)
+    clip = shapely.Point(50, 50).buffer(35).difference(shapely.Point(40, 55).buffer(12))
+    cut = quietly(sites, clip=clip)
+    whole = quietly(sites, frame=(0, 0, 100, 100)).to_shapely(flatten=1e-4)
+    np.testing.assert_allclose(cut.areas, shapely.area(shapely.intersection(whole, clip)), atol=0.05)
+    assert_cut_coverage(cut, clip.area)
+
+
+def symmetric(geometry, k):
+    """One of the eight symmetries of a square around the origin."""
+
+    def turned(xy):
+        x, y = xy.T
+        x, y = [(x, y), (-y, x), (-x, -y), (y, -x)][k % 4]
+        return np.stack([x, -y] if k > 3 else [x, y], axis=1)
+
+    return [shapely.transform(each, turned) for each in geometry]
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_eight_symmetries(seed):
+    random = np.random.default_rng(seed)
+    sites = lattice_sites(random, 8)
+    clip = lattice_clip(random, 8, sites)
+    once = quietly(sites, clip=clip)
+    for k in range(1, 8):
+        again = quietly(symmetric(sites, k), clip=symmetric(clip, k))
+        np.testing.assert_allclose(again.areas, once.areas, atol=1e-6)
+        np.testing.assert_allclose(again.perimeters.sum(), once.perimeters.sum(), rtol=1e-5)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_the_frame_as_a_clip(seed):
+    random = np.random.default_rng(seed)
+    sites = mixed_sites(random, 9, [None, 10][seed % 2])
+    framed, clipped = quietly(sites, frame=(5, 10, 80, 60)), quietly(sites, clip=shapely.box(5, 10, 85, 70))
+    np.testing.assert_allclose(clipped.areas, framed.areas, atol=1e-5)
+    assert clipped.frame == pytest.approx(framed.frame)
+    assert len(clipped.neighbours["label_a"]) == len(framed.neighbours["label_a"])
+    both = quietly(sites, clip=shapely.box(0, 0, 100, 70), frame=(5, 10, 80, 100))
+    np.testing.assert_allclose(both.areas, framed.areas, atol=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("clip", "areas"),
+    [
+        (shapely.box(-0.5, -0.5, 5.5, 5.5), [4.0] * 9),
+        (shapely.box(-0.5, -0.5, 1.5, 1.5), [4.0] + [0.0] * 8),
+        (shapely.box(0, 0, 5, 5), [2.25, 3, 2.25, 3, 4, 3, 2.25, 3, 2.25]),
+        (
+            shapely.Polygon([(2.5, -0.5), (5.5, 2.5), (2.5, 5.5), (-0.5, 2.5)]),
+            [0.5, 3, 0.5, 3, 4, 3, 0.5, 3, 0.5],
+        ),
+    ],
+)
+def test_clips_along_borders_and_walls(clip, areas):
+    np.testing.assert_allclose(voronoi(squares(3), clip=clip).areas, areas, atol=1e-7)
+
+
+def test_sites_as_their_own_clip():
+    houses = row_houses(3, 4)
+    cells = voronoi(houses, clip=houses)
+    np.testing.assert_allclose(cells.areas, shapely.area(houses))
+    verify_voronoi(cells)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_cells_as_a_clip(seed):
+    """Its edges run along borders, a step of the lattice beside them."""
+    random = np.random.default_rng(seed)
+    sites = mixed_sites(random, 6)
+    cells = [cell for cell in quietly(sites).to_shapely(flatten=0.5) if not cell.is_empty]
+    assert_cut_coverage(quietly(sites, clip=cells[::2]), shapely.union_all(cells[::2]).area)
+
+
+def test_islands_and_holes_without_borders():
+    clip = [BOX.difference(shapely.box(3, 3, 7, 7)), shapely.box(4, 4, 5, 5), shapely.box(20, 0, 22, 2)]
+    cells = voronoi([shapely.Point(1, 1), shapely.Point(60, 1)], clip=clip)
+    assert cells.areas.tolist() == [89, 0]
+    assert cells.components.tolist() == [3, 0]
+    assert len(shapely.get_parts(cells.to_shapely())[0].interiors) == 1
+
+
+def test_a_line_in_a_polygon_has_nothing_of_a_clip_in_it():
+    cells = voronoi([shapely.LineString([(4, 4), (6, 6)]), BOX], clip=shapely.box(4, 4.5, 4.9, 5.5))
+    np.testing.assert_allclose(cells.areas, [0, 0.9])
+
+
+def test_with_a_limit_of_distance():
+    cells = voronoi([[0, 0], [10, 0]], clip=shapely.box(-1, -4, 20, 4), max_distance=2)
+    segment = np.arccos(0.5) * 4 - np.sqrt(3)
+    np.testing.assert_allclose(cells.areas, [4 * np.pi - segment, 4 * np.pi])
+    assert (cells.is_circle | cells.is_cut).all()
+    verify_voronoi(cells)
+    nothing = voronoi([[0, 0]], clip=shapely.box(5, 5, 6, 6), max_distance=1)
+    assert nothing.areas.tolist() == [0]
+
+
+@pytest.mark.parametrize("name", ["ne_110m_lakes", "great-lakes"])
+def test_lakes_on_land(name):
+    lakes, land = vorotool.read(f"data/{name}.geojson"), vorotool.read("data/ne_110m_land.geojson")
+    with warnings.catch_warnings(action="ignore"):
+        cells = voronoi(lakes, clip=land)
+    assert shapely.coverage_is_valid(cells.to_shapely())
+    verify_voronoi(cells, places=200)
+
+
+def test_what_is_said_of_a_clip():
+    cells = voronoi([[1, 1], [3, 1]], clip=shapely.box(0, 0, 4, 2))
+    assert cells.is_cut.sum() == 6
+    assert (cells.is_cut == ~cells.is_border).all()
+    assert cells.frame == (0, 0, 4, 2)
+    assert cells.clip == as_polygons(shapely.box(0, 0, 4, 2))
+    assert np.isnan(cells.radius).sum() == 4
+    assert voronoi([], clip=BOX).frame == (0, 0, 10, 10)
+
+
+def test_threads_and_the_order_of_sites():
+    sites = mixed_sites(np.random.default_rng(5), 9)
+    clip = shapely.Point(50, 50).buffer(40)
+    once = quietly(sites, clip=clip, threads=1)
+    assert once == quietly(sites, clip=clip, threads=4)
+
+
+@pytest.mark.parametrize(
+    "clip",
+    [
+        [shapely.LineString([(0, 0), (4, 4)])],
+        [shapely.Polygon([(0, 0), (4, 4), (8, 8)])],
+        shapely.box(0, 0, 1e-12, 1e-12),
+    ],
+)
+def test_clips_without_area(clip):
+    with warnings.catch_warnings(action="ignore"), pytest.raises(InputError, match="the clip has no"):
+        voronoi([[0, 0], [9, 9]], clip=clip)
+
+
+def test_systems_of_reference():
+    sites = as_polygons({"type": "Polygon", "coordinates": [[[0, 0], [1, 0], [0, 1], [0, 0]]]})
+    crs = {"type": "name", "properties": {"name": "EPSG:2056"}}
+    data = {"type": "FeatureCollection", "crs": crs, "features": []}
+    box = {"type": "Feature", "properties": {}, "geometry": shapely.geometry.mapping(BOX)}
+    swiss = as_polygons({**data, "features": [box]})
+    other = as_polygons({**data, "features": [box], "crs": {**crs, "properties": {"name": "EPSG:3857"}}})
+    assert voronoi(swiss, clip=sites).clip.crs == swiss.crs
+    with pytest.raises(InputError, match=r"the clip and the sites are in different .* EPSG:3857 and EPSG:2056"):
+        voronoi(swiss, clip=other)
+    with pytest.raises(InputError, match="the enclosures and the sites"):
+        voronoi(swiss, enclosures=other)
