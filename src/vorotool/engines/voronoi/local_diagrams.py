@@ -90,9 +90,8 @@ def local_diagrams(
     level = np.inf if limit is None else limit / sites.scale
     if regions.count == 1 and len(regions.site) == count:
         owned = owners_of(sites, site)
-        graph = owned.graph
         diagram = diagram_of(owned, is_whole=limit is not None, threads=threads, progress=progress)
-        none = np.zeros(len(graph.points), dtype=np.int64), np.zeros(len(graph), dtype=np.int64)
+        none = np.zeros(len(owned.graph.points), dtype=np.int64), np.zeros(len(owned.graph), dtype=np.int64)
         return LocalDiagrams(owned, *none, pieces_of(owned, diagram, level=level, threads=threads), given, site)
     parts = [*_graphs_of_regions(sites, site, count, regions)]
     points, segments = (
