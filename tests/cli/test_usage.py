@@ -85,7 +85,7 @@ def test_usage(run, folder, arguments, words):
         ("delauney", "there is no command 'delauney': did you mean delaunay?"),
         ("skeleton_exact", "did you mean skeleton-exact"),
         ("Tesselate", "did you mean tessellate?"),
-        ("voronoise", "use one of tessellate, delaunay,"),
+        ("polyhedra", "use one of tessellate, delaunay,"),
     ],
 )
 def test_a_mistyped_command(run, name, words):

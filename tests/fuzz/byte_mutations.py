@@ -34,7 +34,8 @@ CHUNKS = (b"IDAT", b"PLTE", b"tRNS", b"zTXt", b"iCCP", b"gAMA", b"IEND", b"acTL"
 TAGS = (256, 257, 258, 259, 262, 266, 273, 277, 278, 279, 284, 317, 322, 323, 324, 325, 339, 347, 513, 32997, 50838)
 TYPE = re.compile(rb"(?<='descr': )'[^']*'")
 TYPES = (b"'<u2'", b"'|O'", b"'<c8'", b"[('a', '<u2')]", b"'<U4'", b"'<M8[s]'", b"'>f2'", b"'|b1'", b"'<f16'")
-TEXTS = {"csv", "json", "geojson", "wkt", "node", "poly", "pnm", "skeleton", "offsets", "voronoi", "manifest", "svg", "dxf"}
+RESULTS = {"skeleton", "offsets", "voronoi"}
+TEXTS = {"csv", "json", "geojson", "wkt", "node", "poly", "pnm", "manifest", "svg", "dxf", *RESULTS}
 
 
 def mutated(bundle: Bundle, others: list[Bundle], chance: random.Random) -> Bundle:

