@@ -61,7 +61,7 @@ class EnclosedFaces:
         faces = np.asarray(shapely.get_parts(shapely.polygonize(shapely.get_parts(noded))))
         self.shapes = faces[shapely.covers(shared, shapely.point_on_surface(faces))]
         around = self._closed(shapely.union_all(lines), shared, geometry)
-        self.geometry = geometry
+        self.geometry, self.near = geometry, near
         self.sure, self.possible = (
             self._meeting(shapely.buffer(np.array([*self.shapes, *around]), step)) for step in (-near, near)
         )
@@ -103,13 +103,13 @@ class EnclosedFaces:
 
         points = shapely.points(places)
         least = np.full(len(points), np.inf)
-        place, face = self.tree.query(points, predicate="intersects")
+        place, face = self.tree.query(points, predicate="dwithin", distance=self.near)
         for each in np.unique(face).tolist():
             own = place[face == each]
             sites = self.sure[self.face_of[each]]
             if sites.size:
                 distance = shapely.distance(self.geometry[sites][:, None], points[own][None, :]).min(axis=0)
-                # a place on a line is in two faces: the farther one tells less
+                # a place on a line is in both faces: the farther one tells less
                 least[own] = np.where(np.isinf(least[own]), distance, np.maximum(least[own], distance))
         return least
 
@@ -118,7 +118,7 @@ class EnclosedFaces:
         import shapely
 
         fits = np.zeros(len(places), dtype=bool)
-        place, face = self.tree.query(shapely.points(places), predicate="intersects")
+        place, face = self.tree.query(shapely.points(places), predicate="dwithin", distance=self.near)
         for at, each in zip(place.tolist(), face.tolist(), strict=True):
             fits[at] |= bool((self.possible[self.face_of[each]] == rows[at]).any())
         return fits
