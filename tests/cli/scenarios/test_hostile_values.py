@@ -43,6 +43,7 @@ INPUTS = {
     "alphashape": ("dots.csv", "-o", "out.csv"),
     "skeleton-approx": ("shape.wkt", "-o", "out.json"),
     "skeleton-exact": ("shape.wkt", "-o", "out.json"),
+    "voronoi": ("shape.wkt", "-o", "out.geojson"),
     "draw": ("shape.wkt", "-o", "out.svg"),
     "info": ("dots.csv",),
     "sample": ("dots.csv",),
@@ -114,6 +115,8 @@ WAYS = [
                        "--hole-threshold 1e400", "--region-threshold 1e-400", "--alpha=-1e-400", "--alpha=1e-400"),
         "skeleton-exact": ("--input-format json", "--what table", "--what offset -d 1", "-f svg", "--verify"),
         "skeleton-approx": ("--input-format json", "--step 1", "--tolerance 1"),
+        "voronoi": ("", "--what table", "--what edges", "--what neighbours", "-f svg", "-f json", "--verify",
+                    "--max-distance 1", "--max-distance 1e300 --what table", "--max-distance 1e-308 -f svg"),
         "draw": ("-f svg", "-o a.png"),
     }.items()
     for options in ways

@@ -73,7 +73,7 @@ def polylines(
     control = np.where(is_curve[:, None], control, (source + target) / 2)
     bend = source - 2 * control + target
     # a chord over 1/n of the parameter is off by |bend| / (4 n^2)
-    pieces = np.ceil(np.sqrt(hypotenuse(*bend.T) / (4 * tolerance)))
+    pieces = np.ceil(np.sqrt(hypotenuse(*bend.T) / 4 / tolerance))
     pieces = np.where(is_curve, np.clip(pieces, 1, MOST_PIECES), 1).astype(np.int64)
     start, curve = starts_of(pieces + 1), owners(pieces + 1)
     t = (within(pieces + 1) / pieces[curve])[:, None]
