@@ -121,6 +121,7 @@ else
 	$(RUN) tests/fuzz/segment_voronoi.py --cases $(or $(CASES),800000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/segment_voronoi.py --cases 10000 --seed $(or $(SEED),1) --family clusters --largest 100 --symmetries 1
 	$(RUN) tests/fuzz/voronoi.py --cases $(or $(CASES),100000) --seed $(or $(SEED),1)
+	$(RUN) tests/fuzz/voronoi_cuts.py --cases $(or $(CASES),100000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/bytes.py --minutes 5 --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/streams.py --runs $(or $(CASES),1000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/features.py --cases $(or $(CASES),2000) --seed $(or $(SEED),1)

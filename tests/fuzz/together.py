@@ -45,6 +45,7 @@ ENGINES = (
     Share("segment_voronoi.py"),
     Share("segment_voronoi.py", ("--family", "clusters", "--largest", "100", "--symmetries", "1")),
     Share("voronoi.py"),
+    Share("voronoi_cuts.py"),
     Share("skeletons.py"),
     Share("skeleton_approx.py"),
     Share("pruning.py"),

@@ -1,0 +1,81 @@
+"""Voronoi maps between clips and enclosures on small lattices, with and without a limit: `--cases 100000 --seed 1`.
+
+On the places of a lattice of 4, 8 or 1000 steps everything ties, touches and runs along everything else. Each map is
+checked by the shipped checker; without a limit its area is that of what is shared out, it is a coverage at three
+flattenings, and at random places in each face the cell is that of the first of the nearest of the sites that meet it,
+by shapely's overlays, faces and distances. With a limit it is a coverage.
+"""
+
+from __future__ import annotations
+
+import sys
+import warnings
+from pathlib import Path
+
+import numpy as np
+import shapely
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+from fuzz.runner import Cases, options
+from support.families.cut_scenes import lattice_clip, lattice_lines, lattice_sites
+from support.oracles.cut_oracle import assert_cut_coverage, assert_nearest_in_regions, regions_of_lines
+from vorotool import VoronoiMap, VorotoolError, verify_voronoi, voronoi
+
+LATTICES = (4, 8, 1000)
+KINDS = ("clip", "enclosures")
+PLACES = 40
+
+
+def check_limited(cells: VoronoiMap) -> None:
+    """Cells within a limit share their borders bit for bit, and each place of them is near enough."""
+    for flatten in (None, 1e-3, 1.0):
+        shapes = cells.to_shapely(flatten=flatten)
+        assert shapely.is_valid(shapes).all(), shapely.is_valid_reason(shapes)
+        assert shapely.coverage_is_valid(shapes)
+
+
+def check(kind: str, side: int, limit: float | None, random: np.random.Generator, seed: list[int]) -> int:
+    """Make a scene and its map, and compare them; gives how many sites there are."""
+    sites = lattice_sites(random, side)
+    if kind == "clip":
+        clip = lattice_clip(random, side, sites)
+        covered = shapely.union_all(clip)
+        cells = voronoi(sites, clip=clip, max_distance=limit, threads=1)
+        regions, area = [(covered, [*range(len(sites))])], covered.area
+    else:
+        lines = lattice_lines(random, side)
+        frame = (-1.5, -1.5, side + 3, side + 3)
+        cells = voronoi(sites, enclosures=lines, frame=frame, max_distance=limit, threads=1)
+        x, y, w, h = frame
+        regions = regions_of_lines(lines, shapely.box(x, y, x + w, y + h), sites)
+        area = sum(face.area for face, own in regions if own)
+    verify_voronoi(cells, places=PLACES)
+    if limit is None:
+        assert_cut_coverage(cells, area)
+        assert_nearest_in_regions(cells, sites, regions, seed=seed, count=PLACES)
+    else:
+        check_limited(cells)
+    return len(sites)
+
+
+def main() -> int:
+    """Run the cases; exit 1 if any failed."""
+    cases = Cases(options(10**5).parse_args())
+    sites = 0
+    for case in cases:
+        random = cases.random(case)
+        kind, side = KINDS[case % 2], LATTICES[case // 2 % 3]
+        limit = float(side * random.choice([0.125, 0.25, 0.3, 0.5])) if case // 6 % 2 else None
+        wrong = None
+        try:
+            with warnings.catch_warnings(action="ignore"):
+                sites += check(kind, side, limit, random, cases.seed(case))
+        except (VorotoolError, AssertionError, ValueError) as error:
+            wrong = f"{type(error).__name__}: {' '.join(str(error).split())[:300]}"
+        cases.judge(case, kind, wrong, f"lattice of {side}, limit {limit}")
+    cases.print_families()
+    return cases.end(f"maps, {sites:,} sites")
+
+
+if __name__ == "__main__":
+    sys.exit(main())
