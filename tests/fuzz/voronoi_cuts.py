@@ -3,7 +3,8 @@
 On the places of a lattice of 4, 8 or 1000 steps everything ties, touches and runs along everything else. Each map is
 checked by the shipped checker; without a limit its area is that of what is shared out, it is a coverage at three
 flattenings, and at random places in each face the cell is that of the first of the nearest of the sites that meet it,
-by shapely's overlays, faces and distances. With a limit it is a coverage.
+by shapely's overlays, faces and distances. With a limit it is a coverage. Where doubles do not tell a
+cut from a border a map is refused, which is counted: at most one in 500 may be.
 """
 
 from __future__ import annotations
@@ -24,6 +25,8 @@ from vorotool import VoronoiMap, VorotoolError, verify_voronoi, voronoi
 LATTICES = (4, 8, 1000)
 KINDS = ("clip", "enclosures")
 PLACES = 40
+REFUSED = "as far as doubles tell"
+MOST_REFUSED = 1 / 500
 
 
 def check_limited(cells: VoronoiMap) -> None:
@@ -61,7 +64,7 @@ def check(kind: str, side: int, limit: float | None, random: np.random.Generator
 def main() -> int:
     """Run the cases; exit 1 if any failed."""
     cases = Cases(options(10**5).parse_args())
-    sites = 0
+    sites = refused = 0
     for case in cases:
         random = cases.random(case)
         kind, side = KINDS[case % 2], LATTICES[case // 2 % 3]
@@ -71,10 +74,14 @@ def main() -> int:
             with warnings.catch_warnings(action="ignore"):
                 sites += check(kind, side, limit, random, cases.seed(case))
         except (VorotoolError, AssertionError, ValueError) as error:
-            wrong = f"{type(error).__name__}: {' '.join(str(error).split())[:300]}"
+            if REFUSED in str(error):
+                refused += 1
+            else:
+                wrong = f"{type(error).__name__}: {' '.join(str(error).split())[:300]}"
         cases.judge(case, kind, wrong, f"lattice of {side}, limit {limit}")
     cases.print_families()
-    return cases.end(f"maps, {sites:,} sites")
+    ended = cases.end(f"maps, {sites:,} sites, {refused} refused")
+    return int(ended or refused > max(1, MOST_REFUSED * cases.count))
 
 
 if __name__ == "__main__":
