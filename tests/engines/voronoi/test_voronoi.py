@@ -330,3 +330,13 @@ def test_a_border_that_leaves_the_frame_where_it_ends():
     ]
     for order in (sites, sites[::-1]):
         verify_voronoi(voronoi(order))
+
+
+@pytest.mark.parametrize("options", [{}, {"frame": (2.8, -0.2, 0.4, 2.4)}, {"clip": shapely.box(2.8, -0.2, 3.2, 2.2)}])
+def test_a_point_on_a_line_in_the_middle_of_a_frame_has_nothing(options):
+    """No border meets the frame, and its middle is as near to the point as to the line."""
+    for sites, areas in (
+        (["POINT (3 1)", "LINESTRING (3 2, 3 0)", "POINT (3 1)"], [0, 0.96, 0]),
+        (["LINESTRING (3 2, 3 0)", "POINT (3 1)"], [0.96, 0]),
+    ):
+        np.testing.assert_allclose(voronoi(sites, **options).areas, areas, rtol=1e-6)

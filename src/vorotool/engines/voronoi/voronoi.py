@@ -37,6 +37,9 @@ Indices = NDArray[np.int64]
 LEAST = 2.0**-40
 """Of the largest coordinate: smaller limits are less than what a lattice moves sites by, and near what is rounded."""
 
+_PLACES = ((0.5, 0.5), (0.3125, 0.71875), (0.15625, 0.109375), (0.828125, 0.34375))
+"""In a frame, in parts of its sides."""
+
 _BITS = 30
 """Steps of a lattice that a limit around a single place is counted in, as bits: as many as others have."""
 
@@ -252,4 +255,5 @@ def _of_frame(owned: OwnedGraph, level: float, frame: Frame, rings: Rings) -> tu
     if is_shell.any():  # with nobody around it
         return OUTSIDE, OUTSIDE
     x, y, w, h = frame
-    return site_at(owned, (x + w / 2, y + h / 2), level), OUTSIDE
+    # places where smaller sites are as near have no area, but one of them may be the middle
+    return max(site_at(owned, (x + right * w, y + up * h), level) for right, up in _PLACES), OUTSIDE
