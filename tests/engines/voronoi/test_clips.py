@@ -187,3 +187,10 @@ def test_systems_of_reference():
         voronoi(swiss, clip=other)
     with pytest.raises(InputError, match="the enclosures and the sites"):
         voronoi(swiss, enclosures=other)
+
+
+@pytest.mark.parametrize("first", [0, 1])
+def test_a_point_at_a_corner_has_its_wedge_in_a_clip_that_no_border_meets(first):
+    sites = [shapely.Point(4, 4), shapely.box(4, 3, 5, 4)]
+    cells = voronoi(sites if first == 0 else sites[::-1], clip=shapely.box(2, 6, 3, 7))
+    assert cells.areas.tolist() == [1, 0]

@@ -30,8 +30,26 @@ class NearestElements:
         self.local = local
         graph = local.owned.graph
         degree = np.bincount(graph.segments.ravel(), minlength=len(graph.points))
-        self.lone = np.flatnonzero(degree == 0)
+        self.lone = np.flatnonzero((degree == 0) | self._has_wedge())
         self.trees: dict[int, tuple[Any, Indices]] = {}
+
+    def _has_wedge(self) -> NDArray[np.bool_]:
+        """(n,) whether a site smaller than those of the segments at a point may have what is nearest to the point.
+
+        That has no area where two of the segments are in one line.
+        """
+        owned, graph = self.local.owned, self.local.owned.graph
+        count = len(graph.points)
+        least = np.full(count, NOBODY, dtype=np.int64)
+        for end in graph.segments.T:
+            np.minimum.at(least, end, owned.element[count:])
+        has_wedge: NDArray[np.bool_] = (least < NOBODY) & (owned.element[:count] < least)
+        for point in np.flatnonzero(has_wedge).tolist():
+            ends = graph.segments[(graph.segments == point).any(axis=1)]
+            x, y = (graph.points[ends].astype(np.int64).sum(axis=1) - 2 * graph.points[point].astype(np.int64)).T
+            level = x[:, None] * y == y[:, None] * x
+            has_wedge[point] = not (level & (x[:, None] * x + y[:, None] * y < 0)).any()
+        return has_wedge
 
     def sites(self, places: Floats, region: int) -> Indices:
         """(k,) the smallest of the sites that cover each place on the lattice, else of those nearest to it.
