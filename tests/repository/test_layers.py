@@ -89,6 +89,7 @@ cli -> cli/commands, jobs
 engines/volumes -> engines/tessellation, geometry
 engines/peers -> engines, engines/delaunay, engines/from_skeleton, engines/label_images, engines/pruning,
     engines/tessellation, engines/volumes, geometry, geometry/arguments, geometry/mesh, typing
+geometry/volumes -> geometry, geometry/points
 """
 """Rooms of the package from below, and what each may import; `errors` and `signals` are for all."""
 
