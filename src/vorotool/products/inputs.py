@@ -136,6 +136,8 @@ def names_of(*held: Holds) -> dict[str, str]:
 
 IMAGE_NAMES = names_of("image")
 """Formats of images by name; NPY files hold either."""
+VOLUME_NAMES = {name: kind for name, kind in IMAGE_NAMES.items() if kind in ("tiff", "npy", "zarr")}
+"""Formats of images that volumes have, too."""
 NAMES_WITH = {
     "points": names_of("points", "image"),
     "polygons": names_of("polygons", "image"),
