@@ -25,6 +25,8 @@ Place = tuple[float, float]
 Rectangle = tuple[float, float, float, float]
 ALL_PAGES = -1
 """Of ``--page all``: each page is an input of a batch."""
+AUTO_LEVELS = -1
+"""Of ``--levels auto``: until a copy is small."""
 
 Method = Literal["exact", "digital", "digital-valid"]
 
@@ -227,6 +229,7 @@ class TessellationOptions(SiteOptions):
     chunk: Any
     volume: bool
     slice: int | None
+    levels: int | None
     cell_size: Fraction | None
     tiled: bool
     animate: bool

@@ -27,6 +27,8 @@ def check_image_options(o: TessellationOptions) -> None:
     check_connectivity(o, is_volume=False)
     if o.slice is not None:
         raise UsageError("--slice is for volumes: use --volume, or leave it out")
+    if o.levels is not None:
+        raise UsageError("--levels is for volumes in OME-Zarr: use --volume, or leave it out")
     if o.chunk is not None and len(o.chunk) == 3:
         raise UsageError(f"--chunk {_size(o.chunk)} has a depth, but chunks of images have columns x rows: 2048x512")
 
@@ -97,7 +99,8 @@ def _check_other_options(o: TessellationOptions) -> None:
     refuse(of_images, "is for images: leave it out with a volume")
     of_maps = {"cell-size": o.cell_size, "input-layer": o.input_layer, "input-crs": o.input_crs, "crs": o.crs}
     refuse(of_maps, "is for maps: leave it out with a volume")
-    refuse({"pixel-size": o.pixel_size}, "is for images: use --spacing SX,SY,SZ for a volume, which may have units")
+    size = None if o.pixel_size is None or o.pixel_size.is_spacing else o.pixel_size
+    refuse({"pixel-size": size}, "is for images: use --spacing SX,SY,SZ for a volume, such as 0.325,0.325,1.5um")
 
 
 def _check_outputs(o: TessellationOptions, targets: Sequence[Target]) -> None:
@@ -108,12 +111,18 @@ def _check_outputs(o: TessellationOptions, targets: Sequence[Target]) -> None:
         raise UsageError("--dtype is for labels in TIFF, NPY and Zarr: use --what labels, or leave it out")
     if o.chunk is not None and "zarr" not in formats:
         raise UsageError("--chunk is for Zarr stores: use -f zarr, or leave it out")
+    if o.levels is not None and not any(_is_ome_zarr(target) for target in targets):
+        raise UsageError("--levels is for OME-Zarr: use -o NAME.ome.zarr, or leave it out")
     pictures = [fmt for fmt in _PICTURES if ("colour", fmt) in outputs]
     if o.layers is not None and not pictures:
         raise UsageError("--layers is for pictures: use --what colour as PNG or SVG, or leave it out")
     if o.slice is not None and not pictures:
         raise UsageError("--slice is for pictures: use --what colour as PNG or SVG, or leave it out")
     check_picture_options(o, pictures, VOLUME_PRODUCTS["colour"].layers, has_page="html" in formats)
+
+
+def _is_ome_zarr(target: Target) -> bool:
+    return target.fmt == "zarr" and target.path.lower().endswith(".ome.zarr")
 
 
 def _size(sides: Sequence[int]) -> str:

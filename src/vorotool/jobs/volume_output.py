@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from pathlib import Path
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -15,7 +15,7 @@ from vorotool.engines.tessellation.bands import Band
 from vorotool.errors import LimitError
 from vorotool.geometry.volumes.voxel_frame import VoxelFrame
 from vorotool.geometry.volumes.voxel_grid import VoxelGrid
-from vorotool.jobs.options import TessellationOptions
+from vorotool.jobs.options import AUTO_LEVELS, TessellationOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.streamed_output import expected_bytes, write_on_cluster
 from vorotool.jobs.targets import Target
@@ -56,7 +56,7 @@ class VolumeStream:
 
     def write(self, out: Any, fmt: Any, slabs: Iterator[NDArray[Any]], slices: int, *, threads: int) -> None:
         """Write slabs of so many slices to a file."""
-        from vorotool.formats.volumes.writer import write_volume
+        from vorotool.formats.volumes.writing import write_volume
 
         shape = (slices, self.frame.height, self.frame.width)
         write_volume(
@@ -74,8 +74,8 @@ def check_volume_chunks(o: TessellationOptions, frame: VoxelFrame, dtype: np.dty
     UsageError
         If zarr is not installed.
     """
+    from vorotool.formats.volumes.stores import volume_chunks
     from vorotool.formats.zarr.arrays import zarr_module
-    from vorotool.formats.zarr.volumes import volume_chunks
 
     zarr_module()
     chunks = volume_chunks(frame.shape, dtype, None if o.chunk is None else o.chunk[::-1])
@@ -111,11 +111,13 @@ def write_volume_store(
 ) -> None:
     """Write a volume to a Zarr store, if there is room for it: here, or on a cluster."""
     from vorotool.formats.io.disk_space import check_space
+    from vorotool.formats.volumes.stores import add_levels, create_volume, usual_levels, volume_folder, write_slices
     from vorotool.formats.zarr.store import open_store
-    from vorotool.formats.zarr.volumes import create_volume, volume_folder, write_slices
 
     frame, dtype = stream.frame, stream.dtype
     chunks = check_volume_chunks(o, frame, dtype)
+    levels = usual_levels(frame.shape) if o.levels == AUTO_LEVELS else o.levels or 0
+    room = Fraction(8, 7) if levels else 1  # each copy has an eighth of the voxels of the one before
 
     def size_of(slices: NDArray[Any]) -> int:
         files: dict[str, Any] = {}
@@ -123,15 +125,25 @@ def write_volume_store(
         return sum(map(len, files.values()))
 
     def expected() -> int:
-        return expected_bytes(frame.depth, chunks[0], stream.slices_of, size_of)
+        return int(room * expected_bytes(frame.depth, chunks[0], stream.slices_of, size_of))
 
-    check_space(target.path, frame.voxels * dtype.itemsize, expected)
+    check_space(target.path, int(room * frame.voxels * dtype.itemsize), expected)
     with open_store(target.path, no_clobber=o.no_clobber, inputs=inputs) as store:
-        folder: Path = volume_folder(store, target.path, grid=stream.grid, is_labels=target.what == "labels")
+        is_labels = target.what == "labels"
+        folder = volume_folder(
+            store, target.path, frame.shape, grid=stream.grid, is_labels=is_labels, levels=levels
+        )
         array = create_volume(folder, frame.shape, dtype=dtype, chunks=chunks)
-        limits = [(first, min(chunks[0], frame.depth - first)) for first in range(0, frame.depth, chunks[0])]
+        limits = _of_chunks(stream, chunks[0])
         if o.cluster is not None and o.out_dir is None:
             write_on_cluster(run, folder, stream.slab, limits, address=o.cluster, jobs=o.jobs)
-            return
-        for first, slices in limits:
-            write_slices(array, first, stream.slices_of(first, slices), threads=o.threads)
+        else:
+            for first, slices in limits:
+                write_slices(array, first, stream.slices_of(first, slices), threads=o.threads)
+        add_levels(store, levels, threads=o.threads)
+
+
+def _of_chunks(stream: VolumeStream, depth: int) -> Limits:
+    """Slabs of whole layers of chunks so deep: about as large as those that suit what computes them."""
+    slices = max(1, stream.limits[0][1] // depth) * depth
+    return [(first, min(slices, stream.frame.depth - first)) for first in range(0, stream.frame.depth, slices)]

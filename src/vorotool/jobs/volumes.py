@@ -17,6 +17,7 @@ from vorotool.engines.volumes.volume_measures import VolumeMeasures, measure_vol
 from vorotool.engines.volumes.volume_tables import volume_diagram, volume_neighbours, volume_table
 from vorotool.engines.volumes.volume_tessellator import VolumeSweep
 from vorotool.errors import LimitError
+from vorotool.geometry.length_units import unit_name
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.table import Table
 from vorotool.geometry.volumes.label_volume import LabelVolume
@@ -42,7 +43,7 @@ _HELD = frozenset({"table", "neighbours", "colour"})
 def products(run: Run, o: TessellationOptions, given: JobInput) -> VolumeProducts:
     """Read points or a volume, and prepare what labels any slices."""
     with run.phase("read"):
-        read = read_volume_seeds(run, o, given)
+        o, read = read_volume_seeds(run, o, given)
     if len(read.seeds) > o.max_sites:
         raise LimitError(f"there are {len(read.seeds)} seeds, more than --max-sites {o.max_sites}")
     with run.phase("prepare"):
@@ -50,7 +51,7 @@ def products(run: Run, o: TessellationOptions, given: JobInput) -> VolumeProduct
             read.seeds,
             read.frame,
             sides=read.sides,
-            max_distance=read.max_distance,
+            max_distance=o.max_distance,
             threads=o.threads,
             strict=o.strict,
             progress=run.progress("tessellate"),
@@ -164,12 +165,9 @@ class VolumeProducts:
     @property
     def _unit_of_squares(self) -> str:
         """What squared distances are counted in, exactly: ``(1/40 µm)²``."""
-        step, unit = self.sweep.step, self.read.unit
-        return f"({step} {unit or 'voxel' if self._is_in_voxels else unit or 'unit of --spacing'})²"
-
-    @property
-    def _is_in_voxels(self) -> bool:
-        return self.options.spacing is None
+        size, step = self.options.pixel_size, self.sweep.step
+        unit = "side of a voxel" if size is None else unit_name(size.unit) if size.unit else "unit of --spacing"
+        return f"({step} {unit})²"
 
     # ---- what is streamed
     def _stream(self, what: str) -> VolumeStream:
@@ -203,7 +201,7 @@ class VolumeProducts:
         read, frame = self.read, self.sweep.frame
         own = with_neighbours(frame, first, slices) if what == "diagram" else (first, slices)
         seeds, dtype = self._seed_slabs.seeds_of(*own), self._stream(what).dtype
-        return SeedSlab(seeds, frame, first, slices, what, dtype, read.sides, read.max_distance)
+        return SeedSlab(seeds, frame, first, slices, what, dtype, read.sides, self.options.max_distance)
 
     @cached_property
     def _seed_slabs(self) -> SeedSlabs:
@@ -233,8 +231,8 @@ class VolumeProducts:
     @property
     def _size(self) -> PixelSize | None:
         """The side of a pixel of pictures, which is the shortest of a voxel."""
-        sides = self.read.sides
-        return None if self._is_in_voxels else PixelSize(min(sides.units) * sides.step, self.read.unit)
+        size = self.options.pixel_size
+        return None if size is None else PixelSize(min(self.read.sides.lengths), size.unit)
 
     def _write_picture(self, out: BinaryIO, fmt: str) -> None:
         from vorotool.jobs.label_pictures import site_texts
@@ -278,8 +276,7 @@ class VolumeProducts:
 
     def stats(self) -> dict[str, Any]:
         """Counts and sizes."""
-        read, sweep, seeds = self.read, self.sweep, self.read.seeds
-        frame = sweep.frame
+        sweep, seeds, frame = self.sweep, self.read.seeds, self.sweep.frame
         return {
             "seeds": len(seeds),
             "labels": len(seeds.site_labels) if seeds.site_labels is not None else 0,
@@ -294,5 +291,4 @@ class VolumeProducts:
             "method": "exact",
             "threads": self.options.threads,
             "arithmetic": sweep.arithmetic,
-            **read.stats,
         }

@@ -11,6 +11,10 @@ from vorotool.cli.options.parameter_types import ParameterType
 from vorotool.cli.options.shared import Decorator, Window, shared, together
 
 
+MOST_LEVELS = 30
+"""A side has at most 2^30 voxels."""
+
+
 class VolumeSize(ParameterType[tuple[int, ...]]):
     """``WxH`` in pixels, or ``WxHxD`` in voxels."""
 
@@ -45,6 +49,24 @@ class VolumeWindow(Window):
         return window
 
 
+class Levels(ParameterType[int]):
+    """A number of copies, or ``auto``."""
+
+    name = "N|auto"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> int:
+        """Parse the number."""
+        from vorotool.jobs.options import AUTO_LEVELS
+
+        if isinstance(value, int):
+            return value
+        if value == "auto":
+            return AUTO_LEVELS
+        if not re.fullmatch("[0-9]{1,2}", value) or int(value) > MOST_LEVELS:
+            self.fail(f"{value!r}: expected a number of coarser copies up to {MOST_LEVELS}, or auto", param, ctx)
+        return int(value)
+
+
 _CONNECTIVITY = click.option(
     "--connectivity",
     type=click.Choice(["8", "4", "26", "6"], case_sensitive=False),
@@ -66,6 +88,11 @@ def volume_options() -> Decorator:
             type=int,
             metavar="Z",
             help="Draw this slice of a volume; by default the three through its middle.",
+        ),
+        click.option(
+            "--levels",
+            type=Levels(),
+            help="Coarser copies of a volume in OME-Zarr, each of every second voxel; auto: until 256 across.",
         ),
     )
 
