@@ -43,7 +43,7 @@ class SnappedPlaces(NamedTuple):
     largest_move: float
 
     @property
-    def count(self) -> int:
+    def moves(self) -> int:
         """How many were moved."""
         return int(self.moved.sum())
 
@@ -131,7 +131,7 @@ def report_snapped(places: NDArray[np.float64], snapped: SnappedPlaces, *, stric
     VorotoolWarning
         With their number and the largest move.
     """
-    count, cell = snapped.count, _CELL[places.shape[1]]
+    count, cell = snapped.moves, _CELL[places.shape[1]]
     if not count:
         return
     if strict:

@@ -81,7 +81,7 @@ def seeds_from_points(points: PointsLike, *, strict: bool = False, check: Check 
         snapped.steps[:, 1],
         labels,
         scale=snapped.scale,
-        snapped=snapped.count,
+        snapped=snapped.moves,
         largest_move=snapped.largest_move,
         **sites_of_points(snapped.steps / snapped.scale, labels, points),
     )
