@@ -83,8 +83,6 @@ def _check_other_options(o: TessellationOptions) -> None:
         raise UsageError("--method propagation is for images: volumes are tessellated exactly, leave it out")
     if o.page is not None:
         raise UsageError("--page chooses a page of a stack, and --volume takes them all: leave one of the two out")
-    if o.seeds == "centroids":
-        raise UsageError("--seeds centroids is for images: a volume's seeds are pixels, components or labels")
     of_images = {
         "passes": o.passes,
         "min-area": o.min_area,

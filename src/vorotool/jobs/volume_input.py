@@ -6,23 +6,23 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from pathlib import Path
 
+from vorotool.engines.volumes.volume_frames import default_voxel_frame
+from vorotool.engines.volumes.volume_objects import SLAB_VOXELS, VolumeObjects
 from vorotool.engines.volumes.volume_seeding import seeds_from_xyz, seeds_of_slabs
-from vorotool.engines.volumes.volume_tessellator import default_voxel_frame
 from vorotool.errors import InputError, UsageError
 from vorotool.formats.io.descriptors import STANDARD, stream_kind
 from vorotool.formats.io.npy_arrays import MAGIC
 from vorotool.formats.io.sources import reading
 from vorotool.formats.volumes.opening import open_volume
 from vorotool.formats.volumes.points import read_xyz
-from vorotool.formats.volumes.source import VolumeSource, check_voxels
+from vorotool.formats.volumes.source import VolumeSource
 from vorotool.formats.zarr.store import is_folder
-from vorotool.geometry.points.raster import Raster
+from vorotool.geometry.pixel_grid import ALIKE, rounded_side
 from vorotool.geometry.spacing import PixelSides, pixel_sides
 from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
 from vorotool.geometry.volumes.voxel_frame import VoxelFrame
 from vorotool.geometry.volumes.voxel_grid import VoxelGrid
 from vorotool.jobs.inputs import JobInput, refuse
-from vorotool.jobs.masks import settled_foreground
 from vorotool.jobs.options import TessellationOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.units import PixelSize, lengths_in_pixels, sides_of, unit_stats
@@ -83,7 +83,7 @@ def read_volume_seeds(run: Run, o: TessellationOptions, given: JobInput) -> tupl
         threshold, invert = _foreground(run, o, source)
         seeds = seeds_of_slabs(
             source,
-            mode=o.seeds,  # type: ignore[arg-type]  # no centroids, which the command refuses
+            mode=o.seeds,
             connectivity=int(o.connectivity or 26),
             threshold=threshold,
             invert=invert,
@@ -91,6 +91,7 @@ def read_volume_seeds(run: Run, o: TessellationOptions, given: JobInput) -> tupl
             strict=o.strict,
             note=run.note,
             progress=run.progress("read"),
+            slices=_slices_at_a_time(source),
         )
     sides = sides_of(o, 3)
     return o, ReadVolume(seeds, seeds.frame, sides, _written_grid(o.pixel_size, sides, source.grid))
@@ -116,7 +117,7 @@ def _read_points(
             properties=("table" in o.what or o.label_by is not None or given.has_page) and not o.no_properties,
             note=run.note,
         )
-        seeds = seeds_from_xyz(points, strict=o.strict)
+        seeds = seeds_from_xyz(points, strict=o.strict, check=lambda seeds: _frame_of(o, seeds))
     sides = sides_of(o, 3)
     return o, ReadVolume(seeds, _frame_of(o, seeds), sides, _written_grid(o.pixel_size, sides, None))
 
@@ -130,7 +131,9 @@ def _frame_of(o: TessellationOptions, seeds: VolumeSeeds) -> VoxelFrame | None:
         return VoxelFrame(*o.window)
     if o.size is not None:
         return VoxelFrame(0, 0, 0, *o.size)
-    return default_voxel_frame(seeds) if len(seeds) else None
+    if not len(seeds):
+        return None
+    return default_voxel_frame(seeds, how="give one with --size WxHxD or --window X,Y,Z,W,H,D")
 
 
 def _is_volume(o: TessellationOptions, path: str) -> bool:
@@ -151,15 +154,22 @@ def _is_volume(o: TessellationOptions, path: str) -> bool:
 
 
 def _foreground(run: Run, o: TessellationOptions, source: VolumeSource) -> tuple[float | None, bool]:
-    """Give the threshold, which is in the statistics, and whether foreground is what is below; Otsu's needs all voxels."""
-    if o.threshold != "otsu":
-        if o.threshold is not None:
-            run.stats["threshold"] = o.threshold
-        return o.threshold, o.invert
-    depth, height, width = source.shape
-    check_voxels(source.name, source.shape, o.max_pixels)
-    found = settled_foreground(run, o, Raster(source.slices(0, depth).reshape(depth * height, width)))
-    return found.threshold, found.invert
+    """Give the threshold, which is in the statistics, and whether foreground is what is not above it."""
+    threshold, invert = o.threshold, o.invert
+    if threshold == "otsu":
+        found = VolumeObjects.of(source, "otsu", invert=invert, slices=_slices_at_a_time(source))
+        threshold, invert = found.threshold, found.invert
+        run.note(f"threshold {threshold:.17g}, by Otsu's method")
+    if threshold is not None:
+        run.stats["threshold"] = threshold
+    return threshold, invert
+
+
+def _slices_at_a_time(source: VolumeSource) -> int:
+    """Whole layers of the chunks of the file, which are decoded once."""
+    _, height, width = source.shape
+    layer = source.chunk_depth
+    return layer * max(1, SLAB_VOXELS // (layer * height * width))
 
 
 # ---- sides of voxels
@@ -216,7 +226,10 @@ def _of_file(grid: VoxelGrid | None) -> PixelSize:
 
 def _exact_sides(grid: VoxelGrid) -> PixelSides | None:
     """Sides with a common step: as the file has them, else as the shortest decimal numbers that are alike."""
-    for sides in (grid.sides, tuple(map(_rounded, grid.sides))):
+    depth, height, width = grid.sides
+    alike = {side: width for side in (height, depth) if abs(side - width) <= ALIKE * width}
+    exact = [alike.get(side, side) for side in (depth, height, width)]
+    for sides in (exact, [*map(rounded_side, exact)]):
         try:
             return pixel_sides(sides, 3)
         except UsageError:

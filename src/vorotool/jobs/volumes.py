@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, BinaryIO
 
@@ -11,10 +12,11 @@ from numpy.typing import NDArray
 
 from vorotool.engines.label_images.regions import region_colours
 from vorotool.engines.tessellation.frames import label_dtype
-from vorotool.engines.volumes.slabs import Quantity, SeedSlab, SeedSlabs, slab_limits, with_neighbours
+from vorotool.engines.volumes.slabs import Quantity, SeedSlab, SeedSlabs, with_neighbours
 from vorotool.engines.volumes.verify_volume import verify_label_volume
-from vorotool.engines.volumes.volume_measures import VolumeMeasures, measure_volume
-from vorotool.engines.volumes.volume_tables import volume_diagram, volume_neighbours, volume_table
+from vorotool.engines.volumes.volume_frames import slab_limits
+from vorotool.engines.volumes.volume_measures import VolumeMeasures, measure_volume, volume_diagram
+from vorotool.engines.volumes.volume_tables import volume_neighbours, volume_table
 from vorotool.engines.volumes.volume_tessellator import VolumeSweep
 from vorotool.errors import LimitError
 from vorotool.geometry.length_units import unit_name
@@ -266,7 +268,7 @@ class VolumeProducts:
             verify_label_volume(
                 sweep.labels(first, slices),
                 read.seeds,
-                slab_frame(frame, first, slices),
+                replace(frame, z=frame.z + first, depth=slices),
                 sides=read.sides,
                 max_distance2=sweep.most_squared,
                 threads=self.options.threads,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, Literal
@@ -10,6 +9,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.engines.volumes.volume_measures import volume_diagram
 from vorotool.engines.volumes.volume_tessellator import VolumeSweep
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.spacing import PixelSides
@@ -17,26 +17,18 @@ from vorotool.geometry.volumes.label_volume import CUBE
 from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
 from vorotool.geometry.volumes.voxel_frame import VoxelFrame
 
-Quantity = Literal["labels", "distance", "distance2"]
+Quantity = Literal["labels", "distance", "distance2", "diagram"]
 
-LEAST_VOXELS, MOST_VOXELS = 1 << 24, 1 << 27
-"""Voxels of a slab: as many as its seeds are worth, since each begins with all of them."""
-
-VOXELS_A_SEED = 64
-
-
-def slab_limits(frame: VoxelFrame, seeds: int = 0) -> Iterator[tuple[int, int]]:
-    """First slice and number of slices of each slab of a frame that is computed from so many seeds.
+def with_neighbours(frame: VoxelFrame, first: int, slices: int) -> tuple[int, int]:
+    """Give the first slice and the number of slices, with one more on each side where the frame has one.
 
     Examples
     --------
-    >>> list(slab_limits(VoxelFrame(0, 0, 0, 4096, 4096, 3)))
-    [(0, 1), (1, 1), (2, 1)]
+    >>> with_neighbours(VoxelFrame(0, 0, 0, 9, 9, 5), 0, 3), with_neighbours(VoxelFrame(0, 0, 0, 9, 9, 5), 3, 2)
+    ((0, 4), (2, 3))
     """
-    wanted = min(max(LEAST_VOXELS, VOXELS_A_SEED * seeds), MOST_VOXELS)
-    slices = max(1, wanted // (frame.width * frame.height))
-    for first in range(0, frame.depth, slices):
-        yield first, min(slices, frame.depth - first)
+    begin, end = max(first - 1, 0), min(first + slices + 1, frame.depth)
+    return begin, end - begin
 
 
 @dataclass(frozen=True)
@@ -51,7 +43,7 @@ class SeedSlab:
         The whole volume.
     first, slices : int
         Which slices.
-    what : {"labels", "distance", "distance2"}
+    what : {"labels", "distance", "distance2", "diagram"}
         What is computed.
     dtype : dtype
         Its type, which is that of the whole volume.
@@ -90,9 +82,13 @@ class SeedSlab:
         )
         if self.what == "labels":
             return sweep.labels(self.first, self.slices, dtype=self.dtype)
+        if self.what == "diagram":
+            begin, count = with_neighbours(self.frame, self.first, self.slices)
+            lines = volume_diagram(sweep.labels(begin, count), threads=threads)
+            return lines[self.first - begin :][: self.slices]
         if self.what == "distance":
             return sweep.distances(self.first, self.slices)
-        return sweep.squared_distances(self.first, self.slices).astype(self.dtype, copy=False)
+        return sweep.squared_distances(self.first, self.slices, dtype=self.dtype)
 
 
 class SeedSlabs:
@@ -119,11 +115,12 @@ class SeedSlabs:
 
     def __init__(self, seeds: VolumeSeeds, frame: VoxelFrame) -> None:
         self.frame, self.seeds = frame, seeds
-        order = np.lexsort((seeds.labels, seeds.y, seeds.x, seeds.z))
+        order = np.lexsort((seeds.labels, seeds.x, seeds.y, seeds.z))  # rows stay whole, with what is inside objects
         places = seeds.places[order]
         is_first = np.ones(len(order), bool)  # of those at one place: the one with the smallest label
         is_first[1:] = (places[1:] != places[:-1]).any(axis=1)
         self._places, self._labels = places[is_first], seeds.labels[order][is_first]
+        self._filled = None if seeds.filled is None else seeds.filled[order][is_first]
         x, y, _ = self._places.T
         by_column = np.lexsort((y, x))
         is_next = (x[by_column][1:] != x[by_column][:-1]) | (y[by_column][1:] != y[by_column][:-1])
@@ -136,13 +133,12 @@ class SeedSlabs:
         scale, z = self.seeds.scale, self._places[:, 2]
         top = scale * (self.frame.z + first)
         before, behind = np.searchsorted(z, [top, top + scale * slices])
-        chosen = np.concatenate(
-            [
-                self._nearest(np.arange(before)),
-                np.arange(before, behind),
-                self._nearest(np.arange(behind, len(z))[::-1]),
-            ]
-        )
+        above, below = self._nearest(np.arange(before)), self._nearest(np.arange(behind, len(z))[::-1])
+        chosen = np.concatenate([above, np.arange(before, behind), below])
+        filled = None
+        if self._filled is not None:
+            filled = np.zeros(len(chosen), bool)
+            filled[len(above) : len(chosen) - len(below)] = self._filled[before:behind]
         return VolumeSeeds(
             self._places[chosen],
             self._labels[chosen],
@@ -150,6 +146,7 @@ class SeedSlabs:
             frame=self.seeds.frame,
             sites=np.empty((0, 3)),
             site_labels=np.empty(0, np.uint32),
+            filled=filled,
         )
 
     def _nearest(self, seeds: NDArray[np.intp]) -> NDArray[np.intp]:
