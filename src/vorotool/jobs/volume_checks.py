@@ -8,6 +8,7 @@ from vorotool.errors import UsageError
 from vorotool.jobs.inputs import check_components, refuse
 from vorotool.jobs.options import TessellationOptions
 from vorotool.jobs.targets import Target, check_picture_options, check_precision
+from vorotool.jobs.units import Measured
 from vorotool.products.registry import VOLUME_PRODUCTS
 
 _CONNECTIVITY = {False: ("8", "4"), True: ("26", "6")}
@@ -47,6 +48,23 @@ def check_volume_options(o: TessellationOptions, targets: list[Target]) -> None:
     _check_other_options(o)
     check_precision(o, {what: each.formats for what, each in VOLUME_PRODUCTS.items()}, targets)
     _check_outputs(o, targets)
+
+
+def check_volume_units(o: TessellationOptions) -> None:
+    """Refuse the size of a pixel, and lengths whose unit no spacing tells.
+
+    Raises
+    ------
+    UsageError
+        If there are such.
+    """
+    if o.pixel_size is not None:
+        raise UsageError("--pixel-size is for images: use --spacing SX,SY,SZ for a volume, such as 0.325,0.325,1.5um")
+    if o.spacing is None and isinstance(o.max_distance, Measured):
+        raise UsageError(
+            f"--max-distance {o.max_distance.text} has a unit, but that of the voxels is not known: give --spacing, such "
+            "as 0.325,0.325,1.5um, or --spacing auto"
+        )
 
 
 def check_connectivity(o: TessellationOptions, *, is_volume: bool) -> None:
@@ -89,7 +107,7 @@ def _check_other_options(o: TessellationOptions) -> None:
         "fill-holes": o.fill_holes,
         "tiled": o.tiled,
         "overlay": o.overlay,
-        "y-up and --y-down": o.y_up,
+        "y-down" if o.y_up is False else "y-up": o.y_up is not None,
         "animate": o.animate,
         "frames": o.frames,
         "fps": o.fps,
@@ -97,8 +115,6 @@ def _check_other_options(o: TessellationOptions) -> None:
     refuse(of_images, "is for images: leave it out with a volume")
     of_maps = {"cell-size": o.cell_size, "input-layer": o.input_layer, "input-crs": o.input_crs, "crs": o.crs}
     refuse(of_maps, "is for maps: leave it out with a volume")
-    size = None if o.pixel_size is None or o.pixel_size.is_spacing else o.pixel_size
-    refuse({"pixel-size": size}, "is for images: use --spacing SX,SY,SZ for a volume, such as 0.325,0.325,1.5um")
 
 
 def _check_outputs(o: TessellationOptions, targets: Sequence[Target]) -> None:

@@ -140,7 +140,7 @@ class VolumeProducts:
         from vorotool.formats.io.atomic_output import open_output
 
         what, o = target.what, self.options
-        if what == "distance2":
+        if what == "distance2" and self.sweep.step != 1:
             self.run.note(f"squared distances are in units of {self._unit_of_squares}")
         if target.fmt == "zarr":
             write_volume_store(self.run, o, target, self._stream(what), inputs)
@@ -168,8 +168,9 @@ class VolumeProducts:
     def _unit_of_squares(self) -> str:
         """What squared distances are counted in, exactly: ``(1/40 µm)²``."""
         size, step = self.options.pixel_size, self.sweep.step
-        unit = "side of a voxel" if size is None else unit_name(size.unit) if size.unit else "unit of --spacing"
-        return f"({step} {unit})²"
+        if size is not None and size.unit is None:
+            return f"{step}²"
+        return f"({step} {'voxel' if size is None else unit_name(size.unit)})²"
 
     # ---- what is streamed
     def _stream(self, what: str) -> VolumeStream:

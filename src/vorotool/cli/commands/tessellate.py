@@ -26,7 +26,7 @@ from vorotool.jobs.job import Recipe
 from vorotool.jobs.options import TessellationOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target, check_picture_options, check_precision
-from vorotool.jobs.volume_checks import check_image_options, check_volume_options
+from vorotool.jobs.volume_checks import check_image_options, check_volume_options, check_volume_units
 from vorotool.products.formats import ANIMATIONS, picture_format
 from vorotool.products.inputs import NAMES_WITH
 from vorotool.products.registry import PRODUCTS, VOLUME_PRODUCTS, all_layers, formats_of, layers_of
@@ -90,6 +90,8 @@ def command(**options: Any) -> None:
     volume: a stack (TIFF, NPY, Zarr), or points with a z.
     """
     o = TessellationOptions(**animated(options))
+    if o.is_of_volumes:
+        check_volume_units(o)
     run_command(VOLUME_RECIPE if o.is_of_volumes else RECIPE, o)
 
 
