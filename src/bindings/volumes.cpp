@@ -105,6 +105,7 @@ void bind_volumes(nb::module_& room) {
            "progress"_a.none())
       .def("squared_distances", &write_squared_distances, "out"_a, "first"_a, "threads"_a,
            "progress"_a.none());
+  bind_volume_regions(room);
 }
 
 }  // namespace vorotool::bindings
