@@ -15,19 +15,6 @@ if TYPE_CHECKING:
     from vorotool.typing import ImageLike
 
 
-def is_volume(values: Any) -> bool:
-    """Whether an array has three axes, of which the last one is not that of colours.
-
-    Examples
-    --------
-    >>> is_volume(np.zeros((4, 5, 6), bool)), is_volume(np.zeros((4, 5, 3), np.uint8))
-    (True, False)
-    """
-    shape = np.shape(values) if isinstance(values, list | tuple) else getattr(values, "shape", ())
-    is_colour = getattr(values, "dtype", None) == np.uint8 and shape[-1:] in ((3,), (4,))
-    return len(shape) == 3 and not is_colour
-
-
 def volume(values: Any, name: str, max_pixels: int) -> NDArray[Any]:
     """Give a volume as a 3-D array of booleans or numbers.
 

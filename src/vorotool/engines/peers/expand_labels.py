@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.peers.arguments import is_volume, plane, volume
+from vorotool.engines.peers.arguments import plane, volume
 from vorotool.engines.tessellation.frames import require_memory
 from vorotool.engines.tessellation.raster_objects import LARGEST_LABEL
 from vorotool.engines.tessellation.seeding import seeds_from_raster
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.engines.volumes.volume_sweep import VolumeSweep, outer_voxels
 from vorotool.errors import InputError, UsageError
+from vorotool.geometry.arguments.volumes import is_volume
 from vorotool.geometry.numbers import real_number, shown_number
 from vorotool.geometry.pixel_frame import MAX_PIXELS, Frame
 from vorotool.geometry.spacing import PixelSides, as_decimal, pixel_sides
