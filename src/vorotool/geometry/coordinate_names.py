@@ -12,6 +12,12 @@ COORDINATE_NAMES = (
     ("centroid-1", "centroid-0"),  # scikit-image: row first
     ("axis-1", "axis-0"),  # napari: row first
 )
+SPACE_NAMES = (
+    ("x", "y", "z"),
+    ("easting", "northing", "z"),
+    ("centroid-2", "centroid-1", "centroid-0"),  # scikit-image: slice first
+    ("axis-2", "axis-1", "axis-0"),  # napari: slice first
+)
 LONGITUDE_LATITUDE_NAMES = (("lon", "lat"), ("longitude", "latitude"))
 MAP_NAMES = (*LONGITUDE_LATITUDE_NAMES, ("easting", "northing"))
 """Of which the second one grows northwards."""
@@ -40,6 +46,22 @@ def coordinate_columns(names: Sequence[str]) -> list[int] | None:
         if all(plain.count(each) == 1 for each in pair):
             label = [plain.index("label")] if sorted(plain) == ["label", "x", "y"] else []
             return [*(plain.index(each) for each in pair), *label]
+    return None
+
+
+def space_columns(names: Sequence[str]) -> list[int] | None:
+    """Find the columns of a table that are coordinates in space, and its label where it has no others.
+
+    Examples
+    --------
+    >>> space_columns(["id", "Z", "Y", "X"]), space_columns(["label", "x", "y", "z"]), space_columns(["x", "y"])
+    ([3, 2, 1], [1, 2, 3, 0], None)
+    """
+    plain = [plain_name(name) for name in names]
+    for triple in SPACE_NAMES:
+        if all(plain.count(each) == 1 for each in triple):
+            label = [plain.index("label")] if sorted(plain) == ["label", "x", "y", "z"] else []
+            return [*(plain.index(each) for each in triple), *label]
     return None
 
 
