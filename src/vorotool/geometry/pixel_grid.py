@@ -8,6 +8,7 @@ from math import sqrt
 from typing import Any, Literal
 
 from vorotool.geometry.length_units import unit_name
+from vorotool.geometry.spacing import PixelSides
 
 Form = Literal["tiff", "imagej", "ome", "map"]
 Transform = tuple[float, float, float, float, float, float]
@@ -78,6 +79,17 @@ class PixelGrid:
     def is_square(self) -> bool:
         """Whether both sides are as long as each other."""
         return abs(self.width - self.height) <= ALIKE * self.width
+
+    def has(self, sides: PixelSides) -> bool:
+        """Whether these are the sides of its pixels.
+
+        Examples
+        --------
+        >>> PixelGrid(Fraction(1, 4), Fraction(3, 4), "um").has(PixelSides((3, 1), Fraction(1, 4)))
+        True
+        """
+        pairs = zip((self.height, self.width), sides.lengths, strict=True)
+        return all(abs(own - other) <= ALIKE * own for own, other in pairs)
 
     @property
     def is_size(self) -> bool:

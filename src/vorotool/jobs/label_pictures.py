@@ -195,11 +195,13 @@ def _write_svg(out: BinaryIO, picture: LabelPicture) -> None:
 def _page(picture: LabelPicture) -> Page:
     """Where pixels are on an SVG."""
     from vorotool.render.canvas.layers import ImagePage, Page
+    from vorotool.render.label_images.svg import aspect_of
 
     if picture.backdrop is not None:
         return ImagePage(picture.backdrop)
     rows, columns = picture.image.shape
-    return Page((0.0, 0.0, float(columns), float(rows)), width=picture.width, y_up=False)
+    bounds = (0.0, 0.0, float(columns), float(rows))
+    return Page(bounds, width=picture.width, y_up=False, aspect=aspect_of(picture.image))
 
 
 def _insets(picture: LabelPicture, page: Page, *, has_outlines: bool) -> list[Layer]:

@@ -170,6 +170,7 @@ def _placed_columns(
 
 def _scaled_column(name: str, column: Any, factor: Fraction, properties: Collection[str]) -> Any:
     ours = "" if name in properties else name.removeprefix("voro_")
-    if ours in LENGTHS:
-        return np.ma.asanyarray(column) * float(factor)
-    return np.ma.asanyarray(column) * float(factor * factor) if ours in AREAS else column
+    if ours not in LENGTHS | AREAS:
+        return column
+    values = column if isinstance(column, np.ndarray) else np.ma.asanyarray(column)
+    return values * float(factor if ours in LENGTHS else factor * factor)
