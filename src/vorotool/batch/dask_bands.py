@@ -11,8 +11,8 @@ from vorotool import __version__
 from vorotool.batch.dask_cluster import ONE_AT_A_TIME, completed, connected
 from vorotool.engines.tessellation.bands import Band
 from vorotool.errors import OutputError, VorotoolError
-from vorotool.formats.volumes.stores import write_slices
 from vorotool.formats.zarr.arrays import open_array, write_rows
+from vorotool.formats.zarr.volumes import write_slices
 
 _PLANE = ("y", "x")
 

@@ -97,9 +97,7 @@ def read_volume_seeds(run: Run, o: TessellationOptions, given: JobInput) -> tupl
     return o, ReadVolume(seeds, seeds.frame, sides, _written_grid(o.pixel_size, sides, source.grid))
 
 
-def _read_points(
-    run: Run, o: TessellationOptions, given: JobInput
-) -> tuple[TessellationOptions, ReadVolume]:
+def _read_points(run: Run, o: TessellationOptions, given: JobInput) -> tuple[TessellationOptions, ReadVolume]:
     if o.pixel_size is not None and o.pixel_size.is_auto:
         raise UsageError(
             "--spacing auto is for volumes, whose files may say it: give numbers and their unit, such as "
@@ -173,9 +171,7 @@ def _slices_at_a_time(source: VolumeSource) -> int:
 
 
 # ---- sides of voxels
-def with_voxel_sides(
-    run: Run, o: TessellationOptions, given: JobInput, grid: VoxelGrid | None
-) -> TessellationOptions:
+def with_voxel_sides(run: Run, o: TessellationOptions, given: JobInput, grid: VoxelGrid | None) -> TessellationOptions:
     """Give options with the sides of voxels: as the user says, or what the file says where that is asked for.
 
     Parameters

@@ -56,7 +56,7 @@ class VolumeStream:
 
     def write(self, out: Any, fmt: Any, slabs: Iterator[NDArray[Any]], slices: int, *, threads: int) -> None:
         """Write slabs of so many slices to a file."""
-        from vorotool.formats.volumes.writing import write_volume
+        from vorotool.formats.volumes.writer import write_volume
 
         shape = (slices, self.frame.height, self.frame.width)
         write_volume(
@@ -74,8 +74,8 @@ def check_volume_chunks(o: TessellationOptions, frame: VoxelFrame, dtype: np.dty
     UsageError
         If zarr is not installed.
     """
-    from vorotool.formats.volumes.stores import volume_chunks
     from vorotool.formats.zarr.arrays import zarr_module
+    from vorotool.formats.zarr.volumes import volume_chunks
 
     zarr_module()
     chunks = volume_chunks(frame.shape, dtype, None if o.chunk is None else o.chunk[::-1])
@@ -111,8 +111,8 @@ def write_volume_store(
 ) -> None:
     """Write a volume to a Zarr store, if there is room for it: here, or on a cluster."""
     from vorotool.formats.io.disk_space import check_space
-    from vorotool.formats.volumes.stores import add_levels, create_volume, usual_levels, volume_folder, write_slices
     from vorotool.formats.zarr.store import open_store
+    from vorotool.formats.zarr.volumes import add_levels, create_volume, usual_levels, volume_folder, write_slices
 
     frame, dtype = stream.frame, stream.dtype
     chunks = check_volume_chunks(o, frame, dtype)
@@ -130,9 +130,7 @@ def write_volume_store(
     check_space(target.path, int(room * frame.voxels * dtype.itemsize), expected)
     with open_store(target.path, no_clobber=o.no_clobber, inputs=inputs) as store:
         is_labels = target.what == "labels"
-        folder = volume_folder(
-            store, target.path, frame.shape, grid=stream.grid, is_labels=is_labels, levels=levels
-        )
+        folder = volume_folder(store, target.path, frame.shape, grid=stream.grid, is_labels=is_labels, levels=levels)
         array = create_volume(folder, frame.shape, dtype=dtype, chunks=chunks)
         limits = _of_chunks(stream, chunks[0])
         if o.cluster is not None and o.out_dir is None:

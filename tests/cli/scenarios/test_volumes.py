@@ -48,7 +48,6 @@ def written(path):
     return tifffile.imread(path)
 
 
-
 # ---- what is written is what the library gives ---------------------------------------------------
 @pytest.mark.parametrize("source", ["stack.tif", "stack.npy"])
 @pytest.mark.parametrize("name", ["out.tif", "out.npy", "out.zarr", "out.ome.zarr"])

@@ -10,7 +10,6 @@ import click
 from vorotool.cli.options.parameter_types import ParameterType
 from vorotool.cli.options.shared import Decorator, Window, shared, together
 
-
 MOST_LEVELS = 30
 """A side has at most 2^30 voxels."""
 
@@ -102,7 +101,9 @@ def frame_options(*, has_volumes: bool) -> Decorator:
     if not has_volumes:
         return shared("size", "window")
     return together(
-        click.option("--size", type=VolumeSize(), help="Frame of W x H pixels from pixel (0, 0), or of W x H x D voxels."),
+        click.option(
+            "--size", type=VolumeSize(), help="Frame of W x H pixels from pixel (0, 0), or of W x H x D voxels."
+        ),
         click.option("--window", type=VolumeWindow(), help="Frame whose first pixel is (X, Y), or voxel (X, Y, Z)."),
     )
 

@@ -25,6 +25,8 @@ from vorotool.geometry.pixel_frame import MAX_PIXELS, Frame
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.points.seed_set import SeedSet
+from vorotool.geometry.spacing import PixelSides, pixel_sides
+from vorotool.geometry.volumes.label_volume import LabelVolume
 from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
 from vorotool.geometry.volumes.voxel_frame import VoxelFrame
 
@@ -285,6 +287,19 @@ def square_dtype(largest: int) -> np.dtype[Any]:
             f"squared distances of this frame may exceed 64 bits: use {option('--what distance', 'distances')}"
         )
     return np.dtype(np.uint32 if largest < 2**32 else np.uint64)
+
+
+def sides_of(source: Any, spacing: Any, axes: int = 2) -> PixelSides:
+    """Give the sides of the pixels as they are asked for, else those of labels that have sides.
+
+    Examples
+    --------
+    >>> sides_of([[1, 2]], (1.5, 0.5))
+    PixelSides(units=(3, 1), step=Fraction(1, 2))
+    """
+    if spacing is None and isinstance(source, LabelImage | LabelVolume):
+        return source.sides
+    return pixel_sides(spacing, axes)
 
 
 def check_out(out: Any, shape: tuple[int, ...]) -> None:

@@ -19,6 +19,7 @@ from vorotool.geometry.volumes.voxel_frame import VoxelFrame
 
 Quantity = Literal["labels", "distance", "distance2", "diagram"]
 
+
 def with_neighbours(frame: VoxelFrame, first: int, slices: int) -> tuple[int, int]:
     """Give the first slice and the number of slices, with one more on each side where the frame has one.
 

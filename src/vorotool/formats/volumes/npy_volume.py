@@ -120,7 +120,7 @@ def write_npy_volume(
     --------
     >>> import io
     >>> out = io.BytesIO()
-    >>> write_npy_volume(out, [np.ones((1, 2, 3))] * 2, (2, 2, 3), dtype=np.uint8)
+    >>> write_npy_volume(out, [np.ones((1, 2, 3), np.uint8)] * 2, (2, 2, 3), dtype=np.uint8)
     >>> np.load(io.BytesIO(out.getvalue())).shape
     (2, 2, 3)
     """

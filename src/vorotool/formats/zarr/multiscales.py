@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path, PurePosixPath
@@ -190,43 +190,59 @@ def write_group(folder: Path, *, grid: PixelGrid | None, name: str, is_labels: b
     unit, scale = None, [1.0, 1.0]
     if grid is not None and grid.unit in _LONG_UNITS and grid.is_size:
         unit, scale = grid.unit, [float(grid.height), float(grid.width)]
-    write_pyramid(folder, {"name": name, "axes": spatial_axes(_PLANE, unit)}, [scale], is_labels=is_labels)
+    write_image(folder, name, dict(zip(_PLANE, scale, strict=True)), unit, is_labels=is_labels)
 
 
-def spatial_axes(names: Sequence[str], unit: str | None) -> list[dict[str, str]]:
-    """Give axes as the metadata have them; a unit that OME-Zarr does not know is left out.
-
-    Examples
-    --------
-    >>> spatial_axes(["z"], "µm")
-    [{'name': 'z', 'type': 'space', 'unit': 'micrometer'}]
-    """
-    told = {"unit": _LONG_UNITS[unit]} if unit in _LONG_UNITS else {}
-    return [{"name": axis, "type": "space", **told} for axis in names]
-
-
-def write_pyramid(folder: Path, about: dict[str, Any], scales: Sequence[Sequence[float]], *, is_labels: bool) -> None:
-    """Write the metadata of a group whose arrays ``0``, ``1``, … are one image, each coarser than the one before.
+def write_image(folder: Path, name: str, scale: Mapping[str, float], unit: str | None, *, is_labels: bool) -> None:
+    """Write the metadata of a group whose array ``0`` is an image.
 
     Parameters
     ----------
     folder : Path
         Of the group.
-    about : dict
-        Name and axes of the image, and what else is said of it.
-    scales : sequence of sequence of float
-        Of each array, along each axis.
+    name : str
+        Of the image.
+    scale : mapping of str to float
+        Sides of its pixels, by the names of the axes, in their order.
+    unit : str, optional
+        Of the sides; one that OME-Zarr does not know is left out.
     is_labels : bool
         Whether it is a label image.
     """
-    datasets = [
-        {"path": str(level), "coordinateTransformations": [{"type": "scale", "scale": list(scale)}]}
-        for level, scale in enumerate(scales)
-    ]
-    ome: dict[str, Any] = {"version": VERSION, "multiscales": [{**about, "datasets": datasets}]}
+    told = {"unit": _LONG_UNITS[unit]} if unit in _LONG_UNITS else {}
+    axes = [{"name": axis, "type": "space", **told} for axis in scale]
+    datasets = [_dataset(0, list(scale.values()))]
+    ome: dict[str, Any] = {"version": VERSION, "multiscales": [{"name": name, "axes": axes, "datasets": datasets}]}
     if is_labels:
         ome["image-label"] = {}
-    made = {"zarr_format": 3, "node_type": "group", "attributes": {"ome": ome}}
+    _write_metadata(folder, {"zarr_format": 3, "node_type": "group", "attributes": {"ome": ome}})
+
+
+def add_scales(folder: Path, factors: Sequence[Sequence[int]]) -> None:
+    """Say of a group whose metadata `write_image` wrote that there are coarser images, too.
+
+    Parameters
+    ----------
+    folder : Path
+        Of the group.
+    factors : sequence of sequence of int
+        Of the arrays ``1``, ``2`` and so on: how often a pixel of ``0`` goes into one of theirs, along each axis.
+    """
+    made = read_json(folder / "zarr.json")
+    image = made["attributes"]["ome"]["multiscales"][0]
+    sides = image["datasets"][0]["coordinateTransformations"][0]["scale"]
+    for level, each in enumerate(factors, start=1):
+        scale = [side * factor for side, factor in zip(sides, each, strict=True)]
+        image["datasets"].append(_dataset(level, scale))
+    image |= {"type": "decimation", "metadata": DECIMATED}
+    _write_metadata(folder, made)
+
+
+def _dataset(level: int, scale: list[float]) -> dict[str, Any]:
+    return {"path": str(level), "coordinateTransformations": [{"type": "scale", "scale": scale}]}
+
+
+def _write_metadata(folder: Path, made: dict[str, Any]) -> None:
     (folder / "zarr.json").write_text(json.dumps(made, indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
 
 

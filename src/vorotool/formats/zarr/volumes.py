@@ -14,7 +14,7 @@ from numpy.typing import DTypeLike, NDArray
 
 from vorotool.errors import UsageError, option
 from vorotool.formats.zarr.arrays import BAND_BYTES, create_array, open_array, to_its_end, zarr_module
-from vorotool.formats.zarr.multiscales import DECIMATED, OME_ENDING, spatial_axes, write_pyramid
+from vorotool.formats.zarr.multiscales import OME_ENDING, add_scales, write_image
 from vorotool.formats.zarr.reader import StoredArray
 from vorotool.formats.zarr.store import open_store
 from vorotool.geometry.parallel import in_order
@@ -104,13 +104,7 @@ def write_slices(
 
 
 def volume_folder(
-    store: Path,
-    path: str | os.PathLike[str],
-    shape: Shape,
-    *,
-    grid: VoxelGrid | None = None,
-    is_labels: bool = True,
-    levels: int = 0,
+    store: Path, path: str | os.PathLike[str], *, grid: VoxelGrid | None = None, is_labels: bool = True
 ) -> Path:
     """Where the array of a volume goes: in the store itself, or in the group of what is to be called as OME-Zarr.
 
@@ -120,32 +114,37 @@ def volume_folder(
         The empty folder.
     path : str or path
         What it will be called.
-    shape : (int, int, int)
-        Slices, rows and columns.
     grid : VoxelGrid, optional
         Of the voxels, which OME-Zarr tells.
     is_labels : bool
         Whether it is a label image.
-    levels : int
-        Coarser copies that `add_levels` will make.
+    """
+    name = Path(path).name
+    if not name.lower().endswith(OME_ENDING):
+        return store
+    sides = (1, 1, 1) if grid is None else grid.sides
+    scale = {axis: float(side) for axis, side in zip(_AXES, sides, strict=True)}
+    write_image(store, name[: -len(OME_ENDING)], scale, None if grid is None else grid.unit, is_labels=is_labels)
+    return store / "0"
+
+
+def check_levels(path: str | os.PathLike[str], levels: int) -> None:
+    """Refuse coarser copies in what is not named as OME-Zarr, or fewer than none of them.
 
     Raises
     ------
     UsageError
-        If there are to be copies in what is no OME-Zarr.
+        If there are to be some.
+
+    Examples
+    --------
+    >>> check_levels("a.ome.zarr", 3)
     """
-    name = Path(path).name
-    if not name.lower().endswith(OME_ENDING):
-        if levels:
-            end = option(f"-o NAME{OME_ENDING}", f"a path that ends in {OME_ENDING}")
-            raise UsageError(f"coarser copies are for OME-Zarr: use {end}, or leave them out")
-        return store
-    unit = None if grid is None else grid.unit
-    about: dict[str, Any] = {"name": name[: -len(OME_ENDING)], "axes": spatial_axes(_AXES, unit)}
-    if levels:
-        about |= {"type": "decimation", "metadata": DECIMATED}
-    write_pyramid(store, about, _scales(shape, grid, levels), is_labels=is_labels)
-    return store / "0"
+    if levels < 0:
+        raise UsageError(f"invalid number of coarser copies {levels}: expected one from 0 on")
+    if levels and not Path(path).name.lower().endswith(OME_ENDING):
+        end = option(f"-o NAME{OME_ENDING}", f"a path that ends in {OME_ENDING}")
+        raise UsageError(f"coarser copies are for OME-Zarr: use {end}, or leave them out")
 
 
 def usual_levels(shape: Shape) -> int:
@@ -165,7 +164,8 @@ def usual_levels(shape: Shape) -> int:
 def add_levels(store: Path, levels: int, *, threads: int = 0, check: Callable[[], object] | None = None) -> None:
     """Make coarser copies of the array ``0`` of a group, each of every second voxel of the one before along each axis.
 
-    Labels stay labels, the first voxel stays where it is, and some chunks are held at a time.
+    Labels stay labels, the first voxel stays where it is, and some chunks are held at a time. The metadata of the
+    group name them when they are there.
 
     Parameters
     ----------
@@ -178,21 +178,34 @@ def add_levels(store: Path, levels: int, *, threads: int = 0, check: Callable[[]
     check : callable, optional
         Called before each chunk; what it raises stops the work.
     """
+    factors, product_of_steps = [], (1, 1, 1)
     for level in range(1, levels + 1):
         finer = StoredArray(store.name, store / str(level - 1))
-        shape, chunks = _three(finer.shape), _three(finer.metadata.chunks)
-        steps, coarse = tuple(_steps(shape)), _coarser(shape)
-        kept = _three(tuple(map(min, chunks, coarse)))
-        array = create_volume(store / str(level), coarse, dtype=finer.dtype, chunks=kept)
+        shape = _three(finer.shape)
+        steps = _steps(shape)
+        _write_coarser(store / str(level), finer, steps, threads, check)
+        product_of_steps = _three([step * by for step, by in zip(product_of_steps, steps, strict=True)])
+        factors.append(product_of_steps)
+    if factors:
+        add_scales(store, factors)
 
-        def write(
-            place: tuple[slice, ...], source: StoredArray = finer, target: Any = array, by: Sequence[int] = steps
-        ) -> None:
-            ends = [min(part.stop * step, side) for part, step, side in zip(place, by, source.shape, strict=True)]
-            region = tuple(slice(part.start * step, end) for part, step, end in zip(place, by, ends, strict=True))
-            target[place] = source.read(region, threads=1)[tuple(slice(None, None, step) for step in by)]
 
-        _write_parts(write, _parts(coarse, kept), threads, check)
+def _write_coarser(
+    folder: Path, finer: StoredArray, steps: Shape, threads: int, check: Callable[[], object] | None
+) -> None:
+    """Make a copy of every so manieth voxel."""
+    shape = _coarser(_three(finer.shape))
+    chunks = _three([min(sides) for sides in zip(finer.metadata.chunks, shape, strict=True)])
+    array = create_volume(folder, shape, dtype=finer.dtype, chunks=chunks)
+
+    def write(place: tuple[slice, ...]) -> None:
+        region = tuple(
+            slice(part.start * step, min(part.stop * step, side))
+            for part, step, side in zip(place, steps, finer.shape, strict=True)
+        )
+        array[place] = finer.read(region, threads=1)[tuple(slice(None, None, step) for step in steps)]
+
+    _write_parts(write, _parts(shape, chunks), threads, check)
 
 
 def write_zarr_volume(
@@ -212,8 +225,10 @@ def write_zarr_volume(
         Of the store.
     values : (D, H, W) array
         Labels, or others.
-    grid, is_labels, levels
+    grid, is_labels
         As of `volume_folder`.
+    levels : int
+        Coarser copies, for OME-Zarr: see `add_levels`.
     threads : int
         0 for all processors.
 
@@ -228,9 +243,10 @@ def write_zarr_volume(
     """
     shape = _three(values.shape)
     chunks = volume_chunks(shape, values.dtype)
+    check_levels(path, levels)
     zarr_module()
     with open_store(path) as store:
-        folder = volume_folder(store, path, shape, grid=grid, is_labels=is_labels, levels=levels)
+        folder = volume_folder(store, path, grid=grid, is_labels=is_labels)
         create_volume(folder, shape, dtype=values.dtype, chunks=chunks)
         write_slices(open_array(folder), 0, values, threads=threads)
         add_levels(store, levels, threads=threads)
@@ -241,24 +257,13 @@ def _three(sizes: Sequence[int]) -> Shape:
     return depth, height, width
 
 
-def _steps(shape: Shape) -> list[int]:
+def _steps(shape: Shape) -> Shape:
     """How many voxels make one of the next copy: an axis of one voxel stays as it is."""
-    return [1 if side == 1 else 2 for side in shape]
+    return _three([1 if side == 1 else 2 for side in shape])
 
 
 def _coarser(shape: Shape) -> Shape:
     return _three([-(-side // step) for side, step in zip(shape, _steps(shape), strict=True)])
-
-
-def _scales(shape: Shape, grid: VoxelGrid | None, levels: int) -> list[list[float]]:
-    """Sides of the voxels of the volume and of each copy."""
-    sides = [1.0] * 3 if grid is None else [float(side) for side in grid.sides]
-    scales = [sides]
-    for _ in range(levels):
-        sides = [side * step for side, step in zip(sides, _steps(shape), strict=True)]
-        scales.append(sides)
-        shape = _coarser(shape)
-    return scales
 
 
 def _parts(shape: Sequence[int], chunks: Sequence[int]) -> list[tuple[slice, ...]]:
