@@ -25,7 +25,7 @@ def test_each_pixel_shows_the_voxel_that_its_centre_is_in(units):
     assert picture.sizes == tuple(sizes)
     drawn = picture.image(volume).labels
     depth, height, width = FRAME.shape
-    voxel = [np.floor((np.arange(size) + 0.5) / size * side).astype(int) for size, side in zip(sizes, FRAME.shape)]
+    voxel = [np.floor((np.arange(size) + 0.5) / size * side).astype(int) for size, side in zip(sizes, FRAME.shape, strict=True)]
     z, y, x = voxel
     labels = volume.labels
     np.testing.assert_array_equal(drawn[: sizes[1], : sizes[2]], labels[depth // 2][np.ix_(y, x)])
