@@ -25,6 +25,8 @@ from vorotool.geometry.pixel_frame import MAX_PIXELS, Frame
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.points.seed_set import SeedSet
+from vorotool.geometry.spacing import PixelSides, pixel_sides
+from vorotool.geometry.volumes.label_volume import LabelVolume
 from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
 from vorotool.geometry.volumes.voxel_frame import VoxelFrame
 
@@ -270,6 +272,19 @@ def squared_limit(max_distance: float | Fraction | None, scale: int | Fraction) 
     exact = Fraction(max_distance) if isinstance(max_distance, Rational) else Fraction(float(max_distance))
     steps = exact * scale
     return int(min(steps * steps, Fraction(2**127)))
+
+
+def sides_of(source: Any, spacing: Any, axes: int = 2) -> PixelSides:
+    """Give the sides of the pixels as they are asked for, else those of labels that have sides.
+
+    Examples
+    --------
+    >>> sides_of([[1, 2]], (1.5, 0.5))
+    PixelSides(units=(3, 1), step=Fraction(1, 2))
+    """
+    if spacing is None and isinstance(source, LabelImage | LabelVolume):
+        return source.sides
+    return pixel_sides(spacing, axes)
 
 
 def check_out(out: Any, shape: tuple[int, ...]) -> None:

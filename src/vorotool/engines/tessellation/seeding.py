@@ -151,7 +151,8 @@ def seeds_from_raster(
     [1, 2, 2]
     """
     if connectivity not in (4, 8):
-        raise UsageError(f"connectivity is {shown_number(connectivity)}: it must be 4 or 8")
+        of_volumes = "; 26 and 6 are of volumes" if connectivity in (26, 6) else ""
+        raise UsageError(f"connectivity is {shown_number(connectivity)}: it must be 4 or 8{of_volumes}")
     raster = as_raster(raster, "raster", is_grey=True)
     values = foreground_values(raster, threshold, invert=invert)
     if mode not in (None, *get_args(SeedMode)):

@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from math import isfinite
 from typing import TYPE_CHECKING, Any
 
 from numpy.typing import NDArray
 
-from vorotool.engines.tessellation.frames import require_memory
+from vorotool.engines.tessellation.frames import require_memory, sides_of
 from vorotool.engines.volumes.volume_frames import as_volume_seeds, asked_voxel_frame, default_voxel_frame
 from vorotool.engines.volumes.volume_tessellator import VolumeSweep
 from vorotool.errors import UsageError
 from vorotool.geometry.numbers import shown_number, whole_number
 from vorotool.geometry.pixel_frame import MAX_PIXELS
 from vorotool.geometry.progress import Progress
-from vorotool.geometry.spacing import PixelSides, as_decimal, pixel_sides
-from vorotool.geometry.volumes.label_volume import CUBE, LabelVolume
+from vorotool.geometry.spacing import distance_as_written
+from vorotool.geometry.volumes.label_volume import LabelVolume
 from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
 
 if TYPE_CHECKING:
@@ -65,7 +64,7 @@ def tessellate_volume(
     [[[1, 1, 2]], [[1, 2, 2]]]
     """
     _check_method(method, passes)
-    sides = _sides_of(seeds, spacing)
+    sides = sides_of(seeds, spacing, 3)
     frame = asked_voxel_frame(shape, window)
 
     def require_frame(made: VolumeSeeds) -> None:
@@ -76,7 +75,7 @@ def tessellate_volume(
         as_volume_seeds(seeds, max_pixels=max_pixels, check=require_frame),
         frame,
         sides=sides,
-        max_distance=_as_written(max_distance, sides),
+        max_distance=distance_as_written(max_distance, sides),
         threads=threads,
         progress=progress,
     )
@@ -90,15 +89,3 @@ def _check_method(method: str, passes: int) -> None:
         raise UsageError(f"method is {method!r}: it must be 'exact' in a volume")
     if whole_number(passes, "passes") != EXACT_PASSES:
         raise UsageError(f"passes is {shown_number(passes)}, which needs method='propagation' and an image")
-
-
-def _sides_of(source: Any, spacing: Spacing | None) -> PixelSides:
-    """Sides of the voxels as they are given, else those of a label volume."""
-    if spacing is None and isinstance(source, LabelVolume):
-        return source.sides
-    return pixel_sides(spacing, 3)
-
-
-def _as_written(distance: Any, sides: PixelSides) -> Any:
-    """Give a distance in the unit of a spacing as the decimal number that it is written as, as the spacing is."""
-    return as_decimal(distance) if isinstance(distance, float) and isfinite(distance) and sides != CUBE else distance

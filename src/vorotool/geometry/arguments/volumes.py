@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from vorotool.errors import InputError, LimitError
-from vorotool.geometry.arguments.descriptions import described, naming, refuse_paths, unexpected
+from vorotool.geometry.arguments.descriptions import column_names, described, naming, refuse_paths, unexpected
 from vorotool.geometry.numbers import real_number
 from vorotool.geometry.pixel_frame import MAX_PIXELS
 from vorotool.geometry.volumes.label_volume import LabelVolume
@@ -57,6 +57,43 @@ def is_of_space(source: Any, shape: Any = None, window: Any = None) -> bool:
         if given is not None and np.ndim(given) == 1:
             return len(given) == numbers
     return hasattr(source, "shape") and is_volume(source)
+
+
+def refuse_triples(source: Any, name: str, *, image: bool | None = None) -> None:
+    """Refuse an array or a list of triples where no volume is asked for: they may be points of space, or of the plane.
+
+    Parameters
+    ----------
+    source : object
+        What the caller gave.
+    name : str
+        Of the parameter, for messages.
+    image : bool, optional
+        Whether it is said to be an image.
+
+    Raises
+    ------
+    InputError
+        With what says which it is.
+
+    Examples
+    --------
+    >>> refuse_triples([[1, 2]], "seeds")
+    >>> refuse_triples(np.ones((5, 3)), "seeds")  # doctest: +ELLIPSIS
+    Traceback (most recent call last):
+    vorotool.errors.InputError: invalid seeds: ... for points of space give shape=(D, H, W) as well; ...
+    """
+    if image or column_names(source) is not None:
+        return
+    shape = getattr(source, "shape", None)
+    if isinstance(source, list | tuple) and source and isinstance(source[0], list | tuple | np.ndarray):
+        shape = (len(source), len(source[0]))
+    is_number = getattr(getattr(source, "dtype", None), "kind", "f") in "iuf"
+    if isinstance(shape, tuple) and len(shape) == AXES - 1 and shape[1] == AXES and is_number:
+        raise InputError(
+            f"invalid {name}: expected shape (n, 2), but got {described(source)}: for points of space give "
+            f"shape=(D, H, W) as well; {name}[:, :2] gives the plan"
+        )
 
 
 def as_volume(source: Any, name: str, *, is_grey: bool = False, max_pixels: int = MAX_PIXELS) -> Volume:

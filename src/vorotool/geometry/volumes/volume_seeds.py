@@ -79,7 +79,9 @@ class VolumeSeeds(Value):
     filled: NDArray[np.bool_] | None = None
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "places", np.asfortranarray(whole_numbers(self.places, "place of seed", np.int64)))
+        # Turned, columns that lie one after the other are not copied.
+        places = whole_numbers(np.transpose(self.places), "coordinate of seeds", np.int64).T
+        object.__setattr__(self, "places", places)
         object.__setattr__(self, "labels", whole_numbers(self.labels, "label of seed", np.uint32, 1))
         if self.labels.ndim != 1 or self.places.shape != (len(self.labels), 3):
             raise InputError(
