@@ -191,7 +191,8 @@ class SlicePicture:
 
     def _inside(self, voxels: NDArray[np.int64]) -> NDArray[np.bool_]:
         is_on_axis: NDArray[np.bool_] = (voxels >= 0) & (voxels < np.array(self.frame.shape[::-1]))
-        return np.logical_and.reduce(is_on_axis, axis=1)
+        inside: NDArray[np.bool_] = np.logical_and.reduce(is_on_axis, axis=1)
+        return inside
 
     def _places(self, view: View, xyz: NDArray[np.float64]) -> NDArray[np.int64]:
         """Column and row in the picture of places in a slice, in steps of a part of a pixel."""
