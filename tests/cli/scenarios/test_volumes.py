@@ -375,8 +375,8 @@ def test_nothing_in_a_volume(run, tmp_path):
 
 
 REFUSED = [
-    ("stack.tif -o a.tif", 3, "has 7 pages: choose one with --page 0 to --page 6, or --page all; tessellate --volume"),
-    ("stack.npy -o a.tif", 3, "(H, W, C) with C from 1 to 4; tessellate --volume reads (D, H, W)"),
+    ("stack.tif -o a.tif", 3, "--page 0 to --page 6, or --page all, or read them as a volume with tessellate --volume"),
+    ("stack.npy -o a.tif", 3, "with C from 1 to 4; read it as a volume with tessellate --volume"),
     ("stack.tif --volume --page 1 -o a.tif", 2, "--page chooses a page of a stack, and --volume takes them all"),
     ("stack.tif --volume --page all --out-dir out", 2, "--page chooses a page"),
     ("stack.tif --volume --connectivity 8 -o a.tif", 2, "--connectivity 8 is for images: voxels have 26 or 6"),
