@@ -73,7 +73,7 @@ geometry/any -> geometry, geometry/alpha, geometry/curves, geometry/mesh, geomet
     geometry/skeleton, geometry/voronoi, products
 engines/label_images -> engines/common, engines/tessellation, geometry, geometry/any, geometry/arguments,
     geometry/points, geometry/polygons, typing
-engines/digital -> engines/common, engines/delaunay, engines/label_images, engines/tessellation, geometry,
+engines/digital -> engines/common, engines/delaunay, engines/label_images, engines/tessellation, geometry, geometry/any,
     geometry/arguments, geometry/curves, geometry/mesh, geometry/points, typing
 jobs -> batch, engines, engines/alpha, engines/arrangement, engines/centerlines, engines/delaunay, engines/digital,
     engines/features, engines/from_skeleton, engines/label_images, engines/offsets, engines/pruning,
