@@ -30,8 +30,6 @@ engines/tessellation -> engines/common, geometry, geometry/arguments, geometry/c
 render/canvas -> geometry, geometry/curves, products
 engines/arrangement -> geometry, geometry/arguments, geometry/curves, geometry/polygons, geometry/skeleton, typing
 engines/delaunay -> geometry, geometry/arguments, geometry/curves, geometry/mesh, geometry/points, typing
-engines/label_images -> engines/common, engines/tessellation, geometry, geometry/arguments, geometry/points,
-    geometry/polygons, typing
 engines/segment_voronoi -> geometry, geometry/polygons, geometry/skeleton
 formats/text -> geometry, geometry/skeleton
 formats/features -> formats/io, formats/parsing, formats/points, formats/text, geometry, geometry/arguments,
@@ -42,8 +40,6 @@ formats/drawing -> formats/compression, formats/io, formats/parsing, geometry, g
 render/label_images -> geometry, geometry/points, products, render/canvas
 engines/alpha -> engines/delaunay, geometry, geometry/alpha, geometry/arguments, geometry/curves, geometry/mesh,
     geometry/points, geometry/polygons, typing
-engines/digital -> engines/common, engines/delaunay, engines/label_images, engines/tessellation, geometry,
-    geometry/arguments, geometry/curves, geometry/mesh, geometry/points, typing
 engines/features -> engines/arrangement, geometry, geometry/polygons, geometry/skeleton
 formats/polygons -> formats/io, formats/parsing, formats/points, formats/text, geometry, geometry/arguments,
     geometry/polygons, products
@@ -75,6 +71,10 @@ engines/voronoi -> engines/arrangement, engines/common, engines/segment_voronoi,
     geometry/arguments, geometry/curves, geometry/polygons, geometry/skeleton, geometry/voronoi, typing
 geometry/any -> geometry, geometry/alpha, geometry/curves, geometry/mesh, geometry/points, geometry/polygons,
     geometry/skeleton, geometry/voronoi, products
+engines/label_images -> engines/common, engines/tessellation, geometry, geometry/any, geometry/arguments,
+    geometry/points, geometry/polygons, typing
+engines/digital -> engines/common, engines/delaunay, engines/label_images, engines/tessellation, geometry,
+    geometry/arguments, geometry/curves, geometry/mesh, geometry/points, typing
 jobs -> batch, engines, engines/alpha, engines/arrangement, engines/centerlines, engines/delaunay, engines/digital,
     engines/features, engines/from_skeleton, engines/label_images, engines/offsets, engines/pruning,
     engines/sampled_skeleton, engines/segment_voronoi, engines/skeleton, engines/tessellation, engines/voronoi, formats,

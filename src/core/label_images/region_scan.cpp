@@ -120,7 +120,7 @@ void BandScan::count_borders() {
   for (std::size_t k = 1; k + 1 < runs_.size(); ++k) {
     const std::uint32_t a = runs_[k - 1].region;
     const std::uint32_t b = runs_[k].region;
-    if (a != 0 && b != 0) ++borders[border_key(a, b)];
+    if (a != 0 && b != 0) borders[border_key(a, b)] += vertical_side;
   }
 }
 
@@ -134,6 +134,7 @@ void BandScan::measure() {
     Region& region = regions[runs_[k].region];
     region.area += length;
     region.perimeter += 2 * length + 2;
+    region.vertical += 2;
     region.sum_x += (start + end - 1) * length / 2;  // one of the factors is even
     region.sum_y += y_ * length;
     region.left = std::min(region.left, runs_[k].start);

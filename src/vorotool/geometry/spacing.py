@@ -48,6 +48,21 @@ class PixelSides:
         """Height."""
         return self.units[-2]
 
+    @property
+    def lengths(self) -> tuple[Fraction, ...]:
+        """Lengths of the sides, as arrays are ordered."""
+        return tuple(units * self.step for units in self.units)
+
+    def text(self) -> str:
+        """Words for the lengths, as arrays are ordered.
+
+        Examples
+        --------
+        >>> PixelSides((3, 2), Fraction(1, 4)).text()
+        '(0.75, 0.5)'
+        """
+        return f"({', '.join(f'{float(side):.10g}' for side in self.lengths)})"
+
 
 SQUARE = PixelSides()
 """Sides of 1."""

@@ -164,6 +164,7 @@ class ComputingOptions(JobOptions):
     verify: bool
     precision: int | None
     pixel_size: PixelSize | None
+    spacing: PixelSize | None = None
     table: str | None
     no_properties: bool
     safe_csv: bool
@@ -171,8 +172,8 @@ class ComputingOptions(JobOptions):
 
     @property
     def unit(self) -> PixelSize | None:
-        """The side of a pixel."""
-        return self.pixel_size
+        """The side of a pixel, or its sides."""
+        return self.pixel_size or self.spacing
 
     @property
     def table_of_all(self) -> str | None:

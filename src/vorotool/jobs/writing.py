@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from vorotool.errors import UsageError
 from vorotool.geometry.numbers import shown_number, whole_number
 from vorotool.geometry.pixel_frame import MAX_SIDE
+from vorotool.geometry.spacing import SQUARE
 from vorotool.jobs.picture_style import Looks, check_layers, looks_of, styled_page
 from vorotool.jobs.picture_world import check_column, world_of, world_of_value
 from vorotool.jobs.units import PixelSize
@@ -255,6 +256,8 @@ def _draw_labels(image: LabelImage, wanted: _Picture) -> None:
 
 
 def _pixel_size(image: LabelImage) -> PixelSize | None:
-    """The side of a pixel, if the image says that it is a square."""
+    """The width of a pixel, if the image says it of one that is a square, or of its distances."""
     grid = image.grid
+    if image.sides != SQUARE:
+        return PixelSize(image.sides.lengths[-1], grid.unit if grid is not None and grid.has(image.sides) else None)
     return PixelSize(grid.width, grid.unit) if grid is not None and grid.is_size and grid.is_square else None

@@ -11,6 +11,7 @@ from vorotool.cli.options.groups import site_options
 from vorotool.cli.options.help_page import GroupedCommand
 from vorotool.cli.options.lengths import ExactLength
 from vorotool.cli.options.picture_style import animation_options
+from vorotool.cli.options.pixel_size import spacing_option
 from vorotool.cli.options.shared import (
     Decimal,
     Size,
@@ -70,6 +71,7 @@ _PICTURES = {(what, fmt) for what, each in PRODUCTS["tessellate"].items() for fm
     type=Decimal(),
     help="Side of a pixel in the units of points, lines or polygons on a map; --window is in these units, too.",
 )
+@spacing_option()
 @site_options(all_layers("tessellate"), has_scale=False)
 @animation_options("cells that grow from their seeds, up to --max-distance")
 def command(**options: Any) -> None:
@@ -90,6 +92,8 @@ def _check_options(o: TessellationOptions, targets: list[Target]) -> None:
     check_frame_options(o, is_digital=True)
     if o.method == "propagation" and o.max_distance is not None:
         raise UsageError("--max-distance needs --method exact")
+    if o.method == "propagation" and o.spacing is not None:
+        raise UsageError("--spacing needs --method exact: the paper's propagation is for square pixels")
     if o.method == "exact" and o.passes is not None:
         raise UsageError("--passes needs --method propagation")
     if o.method == "propagation" and {"distance", "distance2"} & {target.what for target in targets}:
@@ -110,6 +114,8 @@ def _check_cells(o: TessellationOptions) -> None:
         return
     if not 1e-100 < o.cell_size < 1e100:
         raise UsageError("--cell-size must be more than 0, and at most 1e100")
+    if o.spacing is not None:
+        raise UsageError("--cell-size makes cells that are squares, in the units of the map: leave out --spacing")
     if o.size is not None:
         raise UsageError("--size is in pixels: with --cell-size give --window X,Y,W,H in the units of the map")
 

@@ -12,12 +12,13 @@ from vorotool import _core
 from vorotool.engines.common.label_arrays import described, label_array, next_row
 from vorotool.engines.tessellation.raster_objects import numbered_components
 from vorotool.errors import InputError, LimitError
+from vorotool.geometry.any.scaling import lengths_of_steps
 from vorotool.geometry.arguments.images import as_label_image
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.numbers import finite_double
 from vorotool.geometry.points.label_image import LabelImage
-from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.geometry.progress import Progress
+from vorotool.geometry.spacing import SQUARE
 from vorotool.geometry.table import Table
 
 if TYPE_CHECKING:
@@ -36,18 +37,22 @@ class RegionMeasures:
     labels : (k,) uint32 array
         The labels that occur, increasing, without 0.
     columns : dict of str to (k,) int64 array
-        ``area``, ``perimeter``, ``components``, ``sum_x``, ``sum_y``, and the pixels ``left``, ``right``,
-        ``top`` and ``bottom`` of the bounding box, both ends inside, counted from the corner of the image.
+        ``area``, ``perimeter``, ``vertical_sides``, ``components``, ``sum_x``, ``sum_y``, and the pixels ``left``,
+        ``right``, ``top`` and ``bottom`` of the bounding box, both ends inside, counted from the corner of the image.
+        A perimeter counts sides of pixels, and ``vertical_sides`` those of them that are left or right of a pixel.
     borders : (b, 2) uint32 array
         Indices of two regions that share a pixel side, the smaller first, in lexicographic order.
     border_length : (b,) int64 array
         Pixel sides that the two share.
+    border_vertical : (b,) int64 array
+        Of these, the vertical ones.
     """
 
     labels: NDArray[np.uint32]
     columns: dict[str, NDArray[np.int64]]
     borders: NDArray[np.uint32]
     border_length: NDArray[np.int64]
+    border_vertical: NDArray[np.int64]
 
 
 def measure_regions(image: Any, *, threads: int = 0, progress: Progress = None) -> RegionMeasures:
@@ -85,8 +90,8 @@ def measure_regions(image: Any, *, threads: int = 0, progress: Progress = None) 
     labels = found.pop("labels")
     _refuse_negative(image, int(labels.max(initial=0)))
     borders = np.stack([found.pop("border_a"), found.pop("border_b")], axis=1)
-    length = found.pop("border_length")
-    return RegionMeasures(labels, found, borders, length)
+    length, vertical = (found.pop(name) for name in ("border_length", "border_vertical"))
+    return RegionMeasures(labels, found, borders, length, vertical)
 
 
 def region_table(
@@ -108,7 +113,8 @@ def region_table(
         frame): its area is 0, and its bounding box, ``touches_frame`` and ``max_distance`` do not exist.
         Without ``seeds`` every label that occurs has a row, and the centroid of its region is its site.
     distance2 : (H, W) integer array, optional
-        Squared lattice distance of each pixel to its site; without it ``max_distance`` does not exist.
+        Squared distance of each pixel to its site, in steps of the sides of the image over ``distance_scale``; without
+        it ``max_distance`` does not exist.
     distance_scale : int, optional
         Lattice steps a pixel of ``distance2``; by default the scale of the seeds, else 1.
     measures : RegionMeasures, optional
@@ -128,7 +134,8 @@ def region_table(
         pixels). Areas in pixels; perimeters in pixel sides, those on the frame included; lengths in pixels.
         ``neighbours`` counts the labels that share a side (section 2.1); ``components`` are 4-connected.
         ``nearest_label`` is the site nearest to (x, y), ties to the smallest label; another site at the same
-        place is at distance 0. Fields that do not exist are masked.
+        place is at distance 0. Fields that do not exist are masked. Of an image whose ``sides`` are not 1, all is in
+        their unit.
 
     Raises
     ------
@@ -149,14 +156,15 @@ def region_table(
     rows = _rows_of(measures.labels, labels, image)
     nearest_label, nearest_distance = _nearest(labels, sites, threads, progress)
     degree = np.bincount(measures.borders.ravel(), minlength=len(measures.labels))
-    area = _spread(measures.columns["area"], rows, len(labels))
+    area = _spread(_areas(image, measures.columns["area"]), rows, len(labels))
+    around = _border_lengths(image, measures.columns["perimeter"], measures.columns["vertical_sides"])
     absent = area == 0
     columns: dict[str, Any] = {
         "label": labels.astype(np.int64),
         "x": sites[:, 0].copy(),
         "y": sites[:, 1].copy(),
         "area": area,
-        "perimeter": _spread(measures.columns["perimeter"], rows, len(labels)),
+        "perimeter": _spread(around, rows, len(labels)),
         "neighbours": _spread(degree.astype(np.int64), rows, len(labels)),
         "nearest_label": nearest_label,
         "nearest_distance": nearest_distance,
@@ -170,7 +178,7 @@ def region_table(
     columns["components"] = _spread(measures.columns["components"], rows, len(labels))
     for name, values in box.items():
         columns[name] = np.ma.array(_spread(values, rows, len(labels)), mask=absent)
-    return _with_input_columns(columns, image.seeds, properties)
+    return _with_input_columns(columns, image, properties)
 
 
 def neighbour_table(
@@ -198,7 +206,7 @@ def neighbour_table(
     Table
         ``label_a, label_b, border_length, centroid_distance``, ordered by the labels, ``label_a < label_b``:
         the pixel sides that the two share, and the distance between their sites (region centroids, if the
-        image has no seeds).
+        image has no seeds); in the unit of the ``sides`` of the image.
 
     Raises
     ------
@@ -217,14 +225,15 @@ def neighbour_table(
     labels, sites = _sites(image, measures)
     position = sites[_rows_of(measures.labels, labels, image)]
     step = position[measures.borders[:, 0]] - position[measures.borders[:, 1]]
-    return Table(
+    table = Table(
         {
             "label_a": measures.labels[measures.borders[:, 0]].astype(np.int64),
             "label_b": measures.labels[measures.borders[:, 1]].astype(np.int64),
-            "border_length": measures.border_length,
+            "border_length": _border_lengths(image, measures.border_length, measures.border_vertical),
             "centroid_distance": np.sqrt(step[:, 0] * step[:, 0] + step[:, 1] * step[:, 1]),
         }
     )
+    return table if image.sides == SQUARE else lengths_of_steps(table, image.sides.step)
 
 
 def voronoi_diagram(
@@ -380,16 +389,28 @@ def _refuse_negative(image: LabelImage, largest: int) -> None:
 
 
 def _sites(image: LabelImage, measures: RegionMeasures) -> tuple[NDArray[np.uint32], NDArray[np.float64]]:
-    """Labels and positions of the sites: those of the seeds, else the regions' centroids."""
+    """Labels and positions of the sites, in steps of the sides: those of the seeds, else the regions' centroids."""
+    sides = np.array([image.sides.x, image.sides.y])
     if image.seeds is not None:
         assert image.seeds.site_labels is not None
         assert image.seeds.sites is not None
-        return image.seeds.site_labels, image.seeds.sites
+        return image.seeds.site_labels, image.seeds.sites * sides
     frame, columns = image.frame, measures.columns
     assert frame is not None
     x = columns["sum_x"] / columns["area"] + frame.x
     y = columns["sum_y"] / columns["area"] + frame.y
-    return measures.labels, np.stack([x, y], axis=1)
+    return measures.labels, np.stack([x, y], axis=1) * sides
+
+
+def _areas(image: LabelImage, pixels: NDArray[Any]) -> NDArray[Any]:
+    """Areas in squares of a step of the sides."""
+    square = image.sides.x * image.sides.y
+    return pixels if square == 1 else pixels * float(square)
+
+
+def _border_lengths(image: LabelImage, count: NDArray[np.int64], vertical: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Lengths in steps of the sides, of so many sides of pixels of which some are vertical."""
+    return (count - vertical) * image.sides.x + vertical * image.sides.y
 
 
 def _rows_of(found: NDArray[np.uint32], labels: NDArray[np.uint32], image: LabelImage) -> NDArray[np.intp]:
@@ -431,10 +452,10 @@ def _box_columns(image: LabelImage, measures: RegionMeasures) -> dict[str, NDArr
     touches = (left == 0) | (top == 0) | (right == frame.width - 1) | (bottom == frame.height - 1)
     return {
         "touches_frame": touches.astype(np.int64),
-        "bbox_x": left + frame.x,
-        "bbox_y": top + frame.y,
-        "bbox_w": right - left + 1,
-        "bbox_h": bottom - top + 1,
+        "bbox_x": (left + frame.x) * image.sides.x,
+        "bbox_y": (top + frame.y) * image.sides.y,
+        "bbox_w": (right - left + 1) * image.sides.x,
+        "bbox_h": (bottom - top + 1) * image.sides.y,
     }
 
 
@@ -462,10 +483,11 @@ def _max_distance(
     return np.sqrt(largest.astype(np.float64)) / scale
 
 
-def _with_input_columns(columns: dict[str, Any], seeds: SeedSet | None, properties: bool) -> Table:
+def _with_input_columns(columns: dict[str, Any], image: LabelImage, properties: bool) -> Table:
+    seeds = image.seeds
     if seeds is not None and seeds.object_area is not None:
-        columns["object_area"] = np.asarray(seeds.object_area, dtype=np.int64)
-    table = Table(columns)
+        columns["object_area"] = _areas(image, np.asarray(seeds.object_area, dtype=np.int64))
+    table = Table(columns) if image.sides == SQUARE else lengths_of_steps(Table(columns), image.sides.step)
     if seeds is None or not properties or not seeds.properties:
         return table
     return table.with_properties(seeds.properties)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from math import isfinite
 from typing import TYPE_CHECKING, Any, Literal
 
 from numpy.typing import NDArray
@@ -25,11 +26,12 @@ from vorotool.geometry.pixel_frame import MAX_PIXELS, Frame
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.geometry.progress import Progress
+from vorotool.geometry.spacing import SQUARE, PixelSides, as_decimal, pixel_sides
 
 if TYPE_CHECKING:
     from numpy.typing import DTypeLike
 
-    from vorotool.typing import SeedsLike
+    from vorotool.typing import SeedsLike, Spacing
 
 Method = Literal["exact", "propagation"]
 
@@ -43,6 +45,7 @@ def tessellate(
     method: Method = "exact",
     passes: int = 2,
     max_distance: float | Fraction | None = None,
+    spacing: Spacing | None = None,
     dtype: DTypeLike | None = None,
     out: NDArray[Any] | None = None,
     threads: int = 0,
@@ -69,6 +72,9 @@ def tessellate(
         Passes of the propagation.
     max_distance : float or Fraction, optional
         Pixels farther than this from every seed get label 0.
+    spacing : float or (height, width), optional
+        Sides of a pixel, in whose unit distances are, by default those of a label image, else 1; coordinates of points
+        are in pixels. A float is the decimal number that it is written as.
     dtype : dtype, optional
         As in `Tessellator.labels`.
     out : (H, W) array, optional
@@ -102,7 +108,10 @@ def tessellate(
     --------
     >>> tessellate([[0, 0], [2, 1]], shape=(2, 3)).labels.tolist()
     [[1, 1, 2], [1, 2, 2]]
+    >>> tessellate([[0, 0], [2, 1]], shape=(2, 3), spacing=(1.5, 0.5)).labels.tolist()
+    [[1, 1, 1], [2, 2, 2]]
     """
+    sides = _sides_of(seeds, spacing)
     frame = asked_frame(shape, window)
 
     def require_frame(made: SeedSet) -> None:
@@ -115,12 +124,25 @@ def tessellate(
         frame,
         method=method,
         passes=passes,
-        max_distance=max_distance,
+        max_distance=_as_written(max_distance, sides),
+        sides=sides,
         threads=threads,
         max_pixels=max_pixels,
         progress=progress,
     )
-    return LabelImage(rows.labels(dtype=dtype, out=out), rows.frame, seed_set)
+    return LabelImage(rows.labels(dtype=dtype, out=out), rows.frame, seed_set, sides=sides)
+
+
+def _sides_of(source: Any, spacing: Spacing | None) -> PixelSides:
+    """Sides of the pixels as they are given, else those of a label image."""
+    if spacing is None and isinstance(source, LabelImage):
+        return source.sides
+    return pixel_sides(spacing)
+
+
+def _as_written(distance: Any, sides: PixelSides) -> Any:
+    """Give a distance in the unit of a spacing as the decimal number that it is written as, as the spacing is."""
+    return as_decimal(distance) if isinstance(distance, float) and isfinite(distance) and sides != SQUARE else distance
 
 
 def labelled_rows(
@@ -130,6 +152,7 @@ def labelled_rows(
     method: Method = "exact",
     passes: int = 2,
     max_distance: float | Fraction | None = None,
+    sides: PixelSides = SQUARE,
     strict: bool = False,
     threads: int = 0,
     max_pixels: int = MAX_PIXELS,
@@ -141,6 +164,8 @@ def labelled_rows(
     ----------
     frame : Frame, optional
         By default what just holds the seeds.
+    sides : PixelSides
+        Sides of a pixel, in whose unit distances are.
     strict : bool
         Refuse several seeds at one place.
 
@@ -152,12 +177,16 @@ def labelled_rows(
     if method == "propagation":
         if max_distance is not None:
             raise UsageError("max_distance needs method='exact': the paper's propagation has no distance limit")
+        if sides != SQUARE:
+            raise UsageError("spacing needs method='exact': the paper's propagation is for square pixels of side 1")
         return PropagatedRows(seeds, frame, passes=passes, strict=strict, max_pixels=max_pixels, progress=progress)
     if method != "exact":
         raise UsageError(f"method is {method!r}: it must be 'exact' or 'propagation'")
     if whole_number(passes, "passes") != 2:
         raise UsageError(f"passes is {shown_number(passes)}, which needs method='propagation'")
-    return Tessellator(seeds, frame, max_distance=max_distance, threads=threads, strict=strict, progress=progress)
+    return Tessellator(
+        seeds, frame, max_distance=max_distance, sides=sides, threads=threads, strict=strict, progress=progress
+    )
 
 
 def verify_rows(rows: Tessellator | PropagatedRows, *, threads: int = 0) -> None:
@@ -174,8 +203,9 @@ def verify_rows(rows: Tessellator | PropagatedRows, *, threads: int = 0) -> None
     """
     for first, count in band_limits(rows.frame):
         frame = Frame(rows.frame.x, rows.frame.y + first, rows.frame.width, count)
-        limit = rows.most_squared if isinstance(rows, Tessellator) else None
-        verify_label_image(rows.labels(first, count), rows.seeds, frame, max_distance2=limit, threads=threads)
+        limit, sides = (rows.most_squared, rows.sides) if isinstance(rows, Tessellator) else (None, SQUARE)
+        labels = rows.labels(first, count)
+        verify_label_image(labels, rows.seeds, frame, max_distance2=limit, sides=sides, threads=threads)
 
 
 def verify_tessellation(image: LabelImage, *, max_distance: float | Fraction | None = None, threads: int = 0) -> None:
@@ -184,7 +214,7 @@ def verify_tessellation(image: LabelImage, *, max_distance: float | Fraction | N
     Parameters
     ----------
     image : LabelImage
-        With its seeds, as `tessellate` gives it.
+        With its seeds and the sides of its pixels, as `tessellate` gives it.
     max_distance : float or Fraction, optional
         The limit that the tessellation was made with.
     threads : int
@@ -204,5 +234,6 @@ def verify_tessellation(image: LabelImage, *, max_distance: float | Fraction | N
     check_value(image, "image", LabelImage)
     if not isinstance(image, LabelImage) or image.seeds is None or image.frame is None:
         raise UsageError("the label image carries no seeds: make it with vorotool.tessellate")
-    limit = squared_limit(max_distance, image.seeds.scale)
-    verify_label_image(image.labels, image.seeds, image.frame, max_distance2=limit, threads=threads)
+    sides = image.sides
+    limit = squared_limit(_as_written(max_distance, sides), image.seeds.scale / sides.step)
+    verify_label_image(image.labels, image.seeds, image.frame, max_distance2=limit, sides=sides, threads=threads)

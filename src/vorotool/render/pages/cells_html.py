@@ -16,6 +16,7 @@ from vorotool.errors import LimitError
 from vorotool.geometry.curves.flatten import FLATTEN
 from vorotool.geometry.mesh.cells import CellSet
 from vorotool.geometry.ragged import starts_of
+from vorotool.geometry.spacing import SQUARE, PixelSides
 from vorotool.geometry.voronoi.shapes import cell_rings
 from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 from vorotool.products.formats import AS_SVG
@@ -87,8 +88,10 @@ def shapes_of_map(cells: VoronoiMap, *, y_up: bool | None = None) -> Shapes:
     return Shapes(xy, rings, cells.polygon_start[cells.cell_start], ids, (x, y, x + w, y + h), up)
 
 
-def shapes_of_labels(labels: NDArray[Any], *, y_up: bool = False) -> Shapes:
+def shapes_of_labels(labels: NDArray[Any], *, y_up: bool = False, sides: PixelSides = SQUARE) -> Shapes:
     """Give the outlines of the labels of an image along the cracks between its pixels; 0 is none.
+
+    They are in the unit of the sides of a pixel.
 
     Examples
     --------
@@ -102,8 +105,9 @@ def shapes_of_labels(labels: NDArray[Any], *, y_up: bool = False) -> Shapes:
     ids = [str(label) for label, _ in found]
     rings = starts_of(np.array([len(loop) for loop in loops], dtype=np.int64))
     shapes = starts_of(np.array([len(own) for _, own in found], dtype=np.int64))
+    down, across = map(float, sides.lengths)
     height, width = labels.shape
-    return Shapes(xy, rings, shapes, ids, (0.0, 0.0, float(width), float(height)), y_up)
+    return Shapes(xy * (across, down), rings, shapes, ids, (0.0, 0.0, width * across, height * down), y_up)
 
 
 def write_cells_html(out: BinaryIO, shapes: Shapes, classes: ArrayLike, columns: Mapping[str, Sequence[Any]]) -> None:
