@@ -1,6 +1,7 @@
 #include "core/volumes/volume_tessellation.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "core/base/parallel.hpp"
@@ -104,6 +105,18 @@ void VolumeTessellation::squared_distances(std::int32_t first, std::int32_t slic
                  [&](const auto& envelope, const PixelRow& pixels, Square* row) {
                    for_each_square(envelope, pixels, [&](std::int32_t p, auto square) {
                      row[p] = static_cast<Square>(square);
+                   });
+                 });
+  });
+}
+
+void VolumeTessellation::distances(std::int32_t first, std::int32_t slices, float* out, double square_of_step,
+                                   unsigned threads, const Monitor& monitor) const {
+  tessellation::with_kernel(is_wide(), level_, [&]<class Arithmetic>(const RowKernel<Arithmetic>& kernel) {
+    write_slices(sites_, coverage_, frame_, kernel, first, slices, out, threads, monitor,
+                 [&](const auto& envelope, const PixelRow& pixels, float* row) {
+                   for_each_square(envelope, pixels, [&](std::int32_t p, auto square) {
+                     row[p] = static_cast<float>(std::sqrt(static_cast<double>(square) * square_of_step));
                    });
                  });
   });

@@ -48,6 +48,9 @@ class VolumeSeeds(Value):
         Sides of the voxels of the volume that the seeds come from.
     index : pandas Index, array or sequence, optional
         What the input calls each site, as a data frame its rows: one entry a site.
+    filled : (n,) bool array, optional
+        Of the outer voxels of objects, in the order of z, y and x: whether voxels inside the object, which are no
+        seeds, follow a seed on its row, up to the next seed. None where all voxels of the objects are seeds.
 
     Raises
     ------
@@ -73,9 +76,12 @@ class VolumeSeeds(Value):
     largest_move: float = 0.0
     grid: VoxelGrid | None = None
     index: Any = None
+    filled: NDArray[np.bool_] | None = None
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "places", np.asfortranarray(whole_numbers(self.places, "place of seed", np.int64)))
+        # Turned, columns that lie one after the other are not copied.
+        places = whole_numbers(np.transpose(self.places), "coordinate of seeds", np.int64).T
+        object.__setattr__(self, "places", places)
         object.__setattr__(self, "labels", whole_numbers(self.labels, "label of seed", np.uint32, 1))
         if self.labels.ndim != 1 or self.places.shape != (len(self.labels), 3):
             raise InputError(
@@ -84,6 +90,8 @@ class VolumeSeeds(Value):
             )
         if self.scale not in (1, 2, 4, 8, 16, 32, 64, 128, 256):
             raise InputError(f"scale is {self.scale}: it must be a power of two from 1 to {FINEST_SCALE}")
+        if self.filled is not None and (np.shape(self.filled) != self.labels.shape or self.scale != 1):
+            raise InputError(f"filled must have shape {self.labels.shape} and need scale 1")
         if self.sites is None:
             labels, first = np.unique(self.labels, return_index=True)
             object.__setattr__(self, "sites", self.places[first] / self.scale)

@@ -9,12 +9,22 @@ from skimage import segmentation
 
 import vorotool
 from vorotool import _core
-from vorotool.engines.volumes.volume_sweep import VolumeSweep, outer_voxels
+from vorotool.engines.peers.arguments import bare_seeds
+from vorotool.engines.volumes.inner_voxels import outer_voxels
+from vorotool.engines.volumes.volume_tessellator import VolumeSweep
 from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.geometry.spacing import PixelSides
 
 LEVELS = ("portable", "avx2", "avx512")
 KINDS = ("uniform", "lattice", "plane", "line", "sphere", "outside")
+
+
+pytestmark = pytest.mark.filterwarnings("ignore:.*lie on another seed")
+
+
+def swept(places, labels, shape, **known):
+    """The sweep of voxels: slice, row and column of each."""
+    return VolumeSweep(bare_seeds(places, labels, shape), **known)
 
 
 def brute(places, labels, shape, units):
@@ -58,7 +68,7 @@ def test_every_voxel_has_the_smallest_label_of_its_nearest_seeds(kind, level, se
     sides = PixelSides(units)
     monkeypatch.setenv("VOROTOOL_SIMD", level)
     try:
-        sweep = VolumeSweep(places, labels, shape, sides=sides, threads=1 + seed % 2)
+        sweep = swept(places, labels, shape, sides=sides, threads=1 + seed % 2)
     except UsageError:
         pytest.skip("this machine has it not")
     nearest, least = brute(places, labels, shape, units)
@@ -67,7 +77,7 @@ def test_every_voxel_has_the_smallest_label_of_its_nearest_seeds(kind, level, se
     slices = [sweep.labels(k, 1) for k in range(shape[0])]
     assert np.array_equal(np.concatenate(slices), nearest)
     limit = int(random.integers(0, 20))
-    limited = VolumeSweep(places, labels, shape, sides=sides, max_distance=limit)
+    limited = swept(places, labels, shape, sides=sides, max_distance=limit)
     assert np.array_equal(limited.labels(), np.where(least <= limit * limit, nearest, 0))
 
 
@@ -79,7 +89,7 @@ def test_every_voxel_has_the_smallest_label_of_its_nearest_seeds(kind, level, se
 def test_every_arithmetic_is_exact(units, arithmetic, kind):
     random = np.random.default_rng(4)
     places, labels = seeds_of(random, kind, 80, (17, 21, 25))
-    sweep = VolumeSweep(places, labels, (17, 21, 25), sides=PixelSides(units))
+    sweep = swept(places, labels, (17, 21, 25), sides=PixelSides(units))
     assert kind == "outside" or sweep.arithmetic == arithmetic
     nearest, least = brute(places, labels, (17, 21, 25), units)
     assert np.array_equal(sweep.labels(), nearest)
@@ -91,12 +101,12 @@ def test_axes_may_be_exchanged(axes):
     random = np.random.default_rng(6)
     shape, units = (12, 30, 21), (5, 2, 3)
     places, labels = seeds_of(random, "lattice", 70, shape)
-    whole = VolumeSweep(places, labels, shape, sides=PixelSides(units)).labels()
-    turned = VolumeSweep(
+    whole = swept(places, labels, shape, sides=PixelSides(units)).labels()
+    turned = swept(
         places[:, axes], labels, tuple(shape[k] for k in axes), sides=PixelSides(tuple(units[k] for k in axes))
     )
     assert np.array_equal(turned.labels(), whole.transpose(axes))
-    mirrored = VolumeSweep(np.array(shape) - 1 - places, labels, shape, sides=PixelSides(units))
+    mirrored = swept(np.array(shape) - 1 - places, labels, shape, sides=PixelSides(units))
     assert np.array_equal(mirrored.labels(), whole[::-1, ::-1, ::-1])
 
 
@@ -106,15 +116,15 @@ def test_a_slice_is_an_image():
     labels = np.arange(1, len(points) + 1, dtype=np.uint32)
     flat = vorotool.tessellate(points, shape=(90, 90)).labels
     places = np.stack([np.zeros(len(points), np.int64), points[:, 1], points[:, 0]], axis=1)
-    assert np.array_equal(VolumeSweep(places, labels, (1, 90, 90)).labels()[0], flat)
-    assert np.array_equal(VolumeSweep(places[:, [1, 0, 2]], labels, (90, 1, 90)).labels()[:, 0], flat)
+    assert np.array_equal(swept(places, labels, (1, 90, 90)).labels()[0], flat)
+    assert np.array_equal(swept(places[:, [1, 0, 2]], labels, (90, 1, 90)).labels()[:, 0], flat)
 
 
 def test_many_slabs_give_what_one_gives():
     random = np.random.default_rng(9)
     shape = (220, 200, 190)  # more voxels than a slab has
     places, labels = random.integers(0, shape, (500, 3)), np.arange(1, 501, dtype=np.uint32)
-    sweep = VolumeSweep(places, labels, shape, threads=2)
+    sweep = swept(places, labels, shape, threads=2)
     whole = sweep.labels()
     assert np.array_equal(whole[100:103], sweep.labels(100, 3))
     at = random.integers(0, shape, (2000, 3))
