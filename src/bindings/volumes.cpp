@@ -152,6 +152,7 @@ void bind_volumes(nb::module_& room) {
       .def_prop_ro("size", &VolumeComponents::size)
       .def("add", &add_slices, "mask"_a, "out"_a, "progress"_a.none())
       .def("settle", &settle, "out"_a);
+  bind_volume_regions(room);
 }
 
 }  // namespace vorotool::bindings
