@@ -141,7 +141,7 @@ def sides_of_grid(grid: PixelGrid) -> PixelSides | None:
     PixelSides(units=(60, 13), step=Fraction(1, 40))
     """
     height = grid.width if grid.is_square else grid.height
-    for sides in ((height, grid.width), (_rounded(height), _rounded(grid.width))):
+    for sides in ((height, grid.width), (rounded_side(height), _rounded(grid.width))):
         try:
             return pixel_sides(sides)
         except UsageError:
@@ -149,7 +149,7 @@ def sides_of_grid(grid: PixelGrid) -> PixelSides | None:
     return None
 
 
-def _rounded(side: Fraction) -> Fraction:
+def rounded_side(side: Fraction) -> Fraction:
     """The shortest decimal number that is alike."""
     numbers = (Fraction(f"{float(side):.{digits}g}") for digits in range(1, 18))
     return next(number for number in numbers if abs(number - side) <= ALIKE * side)

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError, option
+from vorotool.errors import AS_VOLUME, InputError, option
 from vorotool.formats.images.nodata import missing_values, placed_grid
 from vorotool.formats.images.tiff_grid import PageGrid, grid_of
 from vorotool.formats.images.tiff_layout import TiffLayout
@@ -95,10 +95,14 @@ class ZarrRows:
                 if steps != 1:
                     raise InputError(
                         f"{self.name} has {steps} steps along the axis {axis}: an image has one; save one of them alone"
+                        + (f", or read all with {AS_VOLUME}" if axis == "z" else "")
                     )
             shape = shape[-2:]
         if len(shape) != 2:
-            raise InputError(f"{self.name} has {len(shape)} axes, shape {shape}: an image has two, rows and columns")
+            volume = f"; {AS_VOLUME} reads three" if len(shape) == 3 else ""
+            raise InputError(
+                f"{self.name} has {len(shape)} axes, shape {shape}: an image has two, rows and columns{volume}"
+            )
         if kind.kind not in "biuf":
             raise InputError(f"{self.name} holds {kind}: an image of numbers was expected")
         check_pixels(self.name, shape[1], shape[0], shape[0] * shape[1])
