@@ -218,8 +218,8 @@ def squared_limit(max_distance: float | Fraction | None, scale: int | Fraction) 
     return int(min(steps * steps, Fraction(2**127)))
 
 
-def check_out(out: Any, shape: tuple[int, int]) -> None:
-    """Refuse what is no array to write an image of this shape to."""
+def check_out(out: Any, shape: tuple[int, ...]) -> None:
+    """Refuse what is no array to write an image or a volume of this shape to."""
     usable = isinstance(out, np.ndarray) and out.shape == shape and out.flags.c_contiguous and out.flags.writeable
     if not usable:
         raise UsageError(f"out must be a writeable C-contiguous array of shape {shape}, but is {described(out)}")
