@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import vorotool
 from vorotool import LimitError, UsageError
 from vorotool.geometry.spacing import PixelSides
 from vorotool.geometry.volumes.label_volume import LabelVolume
@@ -25,7 +26,10 @@ def test_each_pixel_shows_the_voxel_that_its_centre_is_in(units):
     assert picture.sizes == tuple(sizes)
     drawn = picture.image(volume).labels
     depth, height, width = FRAME.shape
-    voxel = [np.floor((np.arange(size) + 0.5) / size * side).astype(int) for size, side in zip(sizes, FRAME.shape)]
+    voxel = [
+        np.floor((np.arange(size) + 0.5) / size * side).astype(int)
+        for size, side in zip(sizes, FRAME.shape, strict=True)
+    ]
     z, y, x = voxel
     labels = volume.labels
     np.testing.assert_array_equal(drawn[: sizes[1], : sizes[2]], labels[depth // 2][np.ix_(y, x)])
@@ -35,22 +39,22 @@ def test_each_pixel_shows_the_voxel_that_its_centre_is_in(units):
 
 
 def test_one_slice_is_chosen_by_its_z():
-    picture = SlicePicture(FRAME, slice=4)
+    picture = SlicePicture(FRAME, chosen=4)
     np.testing.assert_array_equal(picture.image(volume_of()).labels, volume_of().labels[2])
     assert picture.shape == (6, 7)
 
 
 @pytest.mark.parametrize(
-    ("frame", "slice", "words"),
+    ("frame", "chosen", "words"),
     [
         (FRAME, 1, "there is no --slice 1: the volume has slices 2 to 6"),
         (FRAME, 7, "slices 2 to 6"),
         (VoxelFrame(0, 0, 0, 2, 2, 1), 1, "the volume has slice 0 alone"),
     ],
 )
-def test_no_other_slice_is_there(frame, slice, words):
+def test_no_other_slice_is_there(frame, chosen, words):
     with pytest.raises(UsageError, match=words):
-        SlicePicture(frame, slice=slice)
+        SlicePicture(frame, chosen=chosen)
 
 
 def test_points_are_drawn_in_the_slices_that_they_lie_in():
@@ -64,24 +68,27 @@ def test_points_are_drawn_in_the_slices_that_they_lie_in():
 
 def test_points_between_voxels_keep_their_places():
     seeds = VolumeSeeds(np.array([[-5, 12, 9]]), np.array([1]), scale=2)  # (-2.5, 6, 4.5), between slices 4 and 5
-    assert len(SlicePicture(FRAME, slice=4).image(volume_of(seeds)).seeds) == 0
-    marks = SlicePicture(FRAME, (1, 2, 1), slice=5).image(volume_of(seeds)).seeds
+    assert len(SlicePicture(FRAME, chosen=4).image(volume_of(seeds)).seeds) == 0
+    marks = SlicePicture(FRAME, (1, 2, 1), chosen=5).image(volume_of(seeds)).seeds
     assert (marks.x / 256, marks.y / 256) == (0.5, 2.5)
 
 
-def test_objects_are_drawn_whole():
-    frame = VoxelFrame(0, 0, 0, 9, 8, 7)
-    mask = np.zeros(frame.shape, bool)
+@pytest.mark.parametrize("chosen", [None, 3])
+def test_objects_are_drawn_whole(chosen):
+    mask = np.zeros((7, 8, 9), bool)
     mask[1:6, 1:6, 2:7] = True
-    outer = mask.copy()
-    outer[2:5, 2:5, 3:6] = False
-    places = np.argwhere(outer)[:, ::-1]
-    seeds = VolumeSeeds(places, np.ones(len(places), int), frame=frame)
-    volume = LabelVolume(np.ones(frame.shape, np.uint16), frame, seeds)
-    marks = SlicePicture(frame, slice=3).image(volume).seeds
-    drawn = np.zeros((8, 9), bool)
+    mask[3, 3, 4] = False  # a cavity
+    seeds = vorotool.seeds_from_volume(mask)
+    assert seeds.filled.any()
+    volume = vorotool.tessellate(seeds)
+    picture = SlicePicture(volume.frame, (2, 1, 1), chosen)
+    marks = picture.image(volume).seeds
+    drawn = np.zeros(picture.shape, bool)
     drawn[marks.y, marks.x] = True
-    np.testing.assert_array_equal(drawn, mask[3])
+    np.testing.assert_array_equal(drawn[:8, :9], mask[3])
+    if chosen is None:
+        np.testing.assert_array_equal(drawn[:8, -14:], np.repeat(mask[:, :, 4].T, 2, axis=1))
+        np.testing.assert_array_equal(drawn[-14:, :9], np.repeat(mask[:, 4], 2, axis=0))
     assert marks.frame is not None
 
 

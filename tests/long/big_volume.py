@@ -72,7 +72,8 @@ def main():
         seconds, memory = tessellate(folder, "seeds.npy", [*frame, *spacing, *o.options])
         size = size_on_disk(folder / "labels.zarr")
         print(
-            f"{' x '.join(map(str, shape))} voxels of {len(seeds)} seeds: {seconds:.0f} s, load {os.getloadavg()[0]:.1f}"
+            f"{' x '.join(map(str, shape))} voxels of {len(seeds)} seeds: {seconds:.0f} s, "
+            f"load {os.getloadavg()[0]:.1f}"
         )
         print(f"peak memory {memory / 1e6:.0f} MB, {size / 1e6:.0f} MB on disk", flush=True)
         compared = compare(seeds, folder / "labels.zarr", shape, o.windows, rng)

@@ -62,8 +62,8 @@ def check_volume_units(o: TessellationOptions) -> None:
         raise UsageError("--pixel-size is for images: use --spacing SX,SY,SZ for a volume, such as 0.325,0.325,1.5um")
     if o.spacing is None and isinstance(o.max_distance, Measured):
         raise UsageError(
-            f"--max-distance {o.max_distance.text} has a unit, but that of the voxels is not known: give --spacing, such "
-            "as 0.325,0.325,1.5um, or --spacing auto"
+            f"--max-distance {o.max_distance.text} has a unit, but that of the voxels is not known: give --spacing, "
+            "such as 0.325,0.325,1.5um, or --spacing auto"
         )
 
 

@@ -1,4 +1,4 @@
-"""The input of a tessellation of a volume: a stack, read slab by slab, or points of space; and the sides of its voxels."""
+"""The input of a tessellation of a volume: a stack, read slab by slab, or points of space; and its voxels' sides."""
 
 from __future__ import annotations
 
@@ -194,8 +194,8 @@ def with_voxel_sides(run: Run, o: TessellationOptions, given: JobInput, grid: Vo
     if asked is None:
         if grid is not None and not grid.is_cube:
             run.note(
-                f"{given.name} has voxels of {grid.size_text()}, which are no cubes: distances are in voxels; --spacing "
-                "auto measures in their sides"
+                f"{given.name} has voxels of {grid.size_text()}, which are no cubes: distances are in voxels; "
+                "--spacing auto measures in their sides"
             )
         elif grid is not None and given.has_units:
             run.note(f"{given.name} carries voxels of {grid.size_text()}: --spacing auto uses that")

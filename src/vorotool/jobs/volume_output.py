@@ -130,7 +130,7 @@ def write_volume_store(
     check_space(target.path, int(room * frame.voxels * dtype.itemsize), expected)
     with open_store(target.path, no_clobber=o.no_clobber, inputs=inputs) as store:
         is_labels = target.what == "labels"
-        folder = volume_folder(store, target.path, frame.shape, grid=stream.grid, is_labels=is_labels, levels=levels)
+        folder = volume_folder(store, target.path, grid=stream.grid, is_labels=is_labels)
         array = create_volume(folder, frame.shape, dtype=dtype, chunks=chunks)
         limits = _of_chunks(stream, chunks[0])
         if o.cluster is not None and o.out_dir is None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
@@ -10,11 +10,14 @@ from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.engines.volumes.inner_voxels import inner_runs
 from vorotool.errors import LimitError, UsageError
 from vorotool.geometry.pixel_frame import Frame
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.seed_set import SeedSet
+from vorotool.geometry.ragged import ranges
 from vorotool.geometry.volumes.label_volume import LabelVolume
+from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
 from vorotool.geometry.volumes.voxel_frame import VoxelFrame
 
 if TYPE_CHECKING:
@@ -39,14 +42,14 @@ class View(NamedTuple):
     ----------
     axes : (int, int)
         Axis of the volume that goes down, and the one to the right.
-    index : int
+    number : int
         Which slice along the third axis.
     top, left : int
         Pixel of the upper left corner.
     """
 
     axes: tuple[int, int]
-    index: int
+    number: int
     top: int
     left: int
 
@@ -66,7 +69,7 @@ class SlicePicture:
         Of the volume.
     units : (int, int, int)
         Sides of a voxel: along z, y and x.
-    slice : int, optional
+    chosen : int, optional
         The slice that is drawn, by its z; by default there are three views: the slice across z through the middle
         voxel, to the right of it the one across x, and below it the one across y.
 
@@ -83,14 +86,14 @@ class SlicePicture:
 
     frame: VoxelFrame
     units: tuple[int, ...] = (1, 1, 1)
-    slice: int | None = None
+    chosen: int | None = None
 
     def __post_init__(self) -> None:
         first, count = self.frame.z, self.frame.depth
-        if self.slice is not None and not first <= self.slice < first + count:
+        if self.chosen is not None and not first <= self.chosen < first + count:
             last = first + count - 1
             which = f"slices {first} to {last}" if count > 1 else f"slice {first} alone"
-            raise UsageError(f"there is no --slice {self.slice}: the volume has {which}")
+            raise UsageError(f"there is no --slice {self.chosen}: the volume has {which}")
 
     @cached_property
     def sizes(self) -> tuple[int, int, int]:
@@ -106,8 +109,8 @@ class SlicePicture:
     def views(self) -> tuple[View, ...]:
         """What is drawn."""
         depth, height, width = self.frame.shape
-        if self.slice is not None:
-            return (View((Y, X), self.slice - self.frame.z, 0, 0),)
+        if self.chosen is not None:
+            return (View((Y, X), self.chosen - self.frame.z, 0, 0),)
         down, right = self.sizes[Y] + self._gap, self.sizes[X] + self._gap
         return (
             View((Y, X), depth // 2, 0, 0),
@@ -123,7 +126,7 @@ class SlicePicture:
     def shape(self) -> tuple[int, int]:
         """Rows and columns of the picture."""
         depth, height, width = self.sizes
-        return (height, width) if self.slice is not None else (height + self._gap + depth, width + self._gap + depth)
+        return (height, width) if self.chosen is not None else (height + self._gap + depth, width + self._gap + depth)
 
     def check(self, max_pixels: int) -> None:
         """Refuse a picture of too many pixels.
@@ -145,7 +148,7 @@ class SlicePicture:
         labels = np.zeros(self.shape, volume.labels.dtype)
         marks = self._marks(volume)
         for view in self.views:
-            labels[self._place(view)] = self._drawn(view, np.take(volume.labels, view.index, axis=view.across))
+            labels[self._place(view)] = self._drawn(view, np.take(volume.labels, view.number, axis=view.across))
         height, width = self.shape
         return LabelImage(labels, Frame(0, 0, width, height), marks)
 
@@ -174,7 +177,7 @@ class SlicePicture:
         places, labels = [np.empty((0, 2), np.int64)], [np.empty(0, np.uint32)]
         for view in self.views:
             voxels = self._voxels_of(seeds.places, seeds.scale)
-            inside = self._inside(voxels) & (voxels[:, 2 - view.across] == view.index)
+            inside = self._inside(voxels) & (voxels[:, 2 - view.across] == view.number)
             places.append(self._places(view, seeds.places[inside] / seeds.scale))
             labels.append(seeds.labels[inside])
         xy, own = np.concatenate(places), np.concatenate(labels)
@@ -187,8 +190,8 @@ class SlicePicture:
         return found
 
     def _inside(self, voxels: NDArray[np.int64]) -> NDArray[np.bool_]:
-        inside: NDArray[np.bool_] = ((voxels >= 0) & (voxels < np.array(self.frame.shape[::-1]))).all(axis=1)
-        return inside
+        is_on_axis: NDArray[np.bool_] = (voxels >= 0) & (voxels < np.array(self.frame.shape[::-1]))
+        return np.logical_and.reduce(is_on_axis, axis=1)
 
     def _places(self, view: View, xyz: NDArray[np.float64]) -> NDArray[np.int64]:
         """Column and row in the picture of places in a slice, in steps of a part of a pixel."""
@@ -200,22 +203,38 @@ class SlicePicture:
         return np.rint(_STEPS * np.stack(found, axis=1)).astype(np.int64)
 
     def _objects(self, volume: LabelVolume) -> SeedSet:
-        """The pixels of the objects in the slices; what their outermost voxels enclose is theirs."""
-        from scipy.ndimage import binary_fill_holes
-
+        """The pixels of the objects in the slices, with what is inside them."""
         assert volume.seeds is not None
-        seeds, painted = volume.seeds, np.zeros(self.shape, np.uint32)
-        voxels = self._voxels_of(seeds.places, seeds.scale)
+        painted = np.zeros(self.shape, np.uint32)
         for view in self.views:
-            chosen = voxels[self._inside(voxels) & (voxels[:, 2 - view.across] == view.index)]
-            labels = np.take(volume.labels, view.index, axis=view.across)
-            objects = np.zeros(labels.shape, bool)
-            rows, columns = (chosen[:, 2 - axis] for axis in sorted(view.axes))
-            objects[rows, columns] = True
-            painted[self._place(view)] = self._drawn(view, np.where(binary_fill_holes(objects), labels, 0))
+            objects = np.zeros([side for axis, side in enumerate(self.frame.shape) if axis != view.across], np.uint32)
+            for voxels, labels in self._object_voxels(volume.seeds, view):
+                inside = self._inside(voxels)
+                rows, columns = (voxels[inside, 2 - axis] for axis in sorted(view.axes))
+                objects[rows, columns] = labels[inside]
+            painted[self._place(view)] = self._drawn(view, objects)
         row, column = np.nonzero(painted)
         height, width = self.shape
         return SeedSet(column, row, painted[row, column], frame=Frame(0, 0, width, height))
+
+    def _object_voxels(self, seeds: VolumeSeeds, view: View) -> Iterator[tuple[NDArray[np.int64], NDArray[np.uint32]]]:
+        """Voxels of objects in a slice, (x, y, z) from the first one of the frame, and labels: outer ones, then inner."""
+        outer = self._voxels_of(seeds.places, seeds.scale)
+        chosen = outer[:, 2 - view.across] == view.number
+        yield outer[chosen], seeds.labels[chosen]
+        if seeds.filled is None:
+            return
+        seed, start, end = inner_runs(seeds, slice(0, len(seeds)))
+        start, end = start - self.frame.x, end - self.frame.x
+        if view.across == X:
+            start, end = np.maximum(start, view.number), np.minimum(end, view.number + 1)
+            chosen = start < end
+        else:
+            chosen = outer[seed, 2 - view.across] == view.number
+        seed, start, lengths = seed[chosen], start[chosen], (end - start)[chosen]
+        voxels = np.repeat(outer[seed], lengths, axis=0)
+        voxels[:, 0] = ranges(start, lengths)
+        yield voxels, np.repeat(seeds.labels[seed], lengths)
 
 
 def write_slices(

@@ -168,9 +168,8 @@ class VolumeProducts:
     def _unit_of_squares(self) -> str:
         """What squared distances are counted in, exactly: ``(1/40 µm)²``."""
         size, step = self.options.pixel_size, self.sweep.step
-        if size is not None and size.unit is None:
-            return f"{step}²"
-        return f"({step} {'voxel' if size is None else unit_name(size.unit)})²"
+        unit = "voxel" if size is None else size.unit
+        return f"{step}²" if unit is None else f"({step} {unit_name(unit)})²"
 
     # ---- what is streamed
     def _stream(self, what: str) -> VolumeStream:

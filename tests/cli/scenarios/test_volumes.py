@@ -81,7 +81,7 @@ def test_every_volume_that_is_written(run, stack, what, spacing):
 
 
 def test_points_of_space(run, points):
-    with pytest.warns(vorotool.VorotoolWarning, match="one place"):
+    with pytest.warns(vorotool.VorotoolWarning, match="on another seed"):
         expected = vorotool.tessellate(PLACES, shape=(7, 8, 9), spacing=(2, 1, 1))
     done = run("tessellate", "points.csv", "--size", "9x8x7", "--spacing", "1,1,2", "-o", "out.npy")
     assert (done.code, "warning" in done.err) == (0, True)

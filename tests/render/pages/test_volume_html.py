@@ -34,7 +34,9 @@ function made() {
       return { insertCell() { const cell = {}; cells.push(cell); return cell; } };
     },
     getBoundingClientRect() { return { left: 0, top: 0, width: 400, height: 300 }; },
-    getContext() { return { putImageData() {}, setTransform() {}, drawImage(...all) { globalThis.drawn = all.slice(1); } }; },
+    getContext() {
+      return { putImageData() {}, setTransform() {}, drawImage(...all) { globalThis.drawn = all.slice(1); } };
+    },
   };
 }
 globalThis.document = {

@@ -59,7 +59,7 @@ def runs_of(labels: NDArray[Any], known: NDArray[Any]) -> Runs:
     >>> runs.rows.tolist(), runs.ends.tolist(), runs.regions.tolist()
     ([0, 2, 3], [2, 3, 3], [1, 0, 2])
     """
-    depth, height, width = labels.shape
+    _, height, width = labels.shape
     counts, ends, regions = [], [], []
     for values in labels:
         is_last = np.ones((height, width), bool)
