@@ -172,6 +172,9 @@ TAKEN_BY: Mapping[Holds, tuple[str, ...]] = {
 """Commands that take what an input may hold; of skeletons and Voronoi maps all but `draw` take the polygons."""
 
 
+VOLUMES_TAKEN_BY = ("tessellate",)
+"""Commands that take a volume."""
+
 DRAWINGS = tuple(name for each in _ALL if "curves" in each.has for name in each.names)
 """Names of formats that have curves, which become lines where they are read."""
 

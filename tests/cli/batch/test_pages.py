@@ -98,7 +98,8 @@ def test_a_page_that_fails(run, stack):
         (
             "stack.tif -o a.png",
             3,
-            "has 3 pages: choose one with --page 0 to --page 2, or --page all; tessellate --volume reads",
+            "stack.tif has 3 pages: choose one with --page 0 to --page 2, or --page all, or read them as a volume with "
+            "--volume",
         ),
         ("- --page all --out-dir out", 2, "- is standard input, which is one input"),
     ],

@@ -95,13 +95,13 @@ class ZarrRows:
                 if steps != 1:
                     raise InputError(
                         f"{self.name} has {steps} steps along the axis {axis}: an image has one; save one of them alone"
-                        + (f", or read all with {AS_VOLUME}" if axis == "z" else "")
+                        + (f", or read it as a volume with {AS_VOLUME}" if axis == "z" else "")
                     )
             shape = shape[-2:]
         if len(shape) != 2:
-            volume = f"; {AS_VOLUME} reads three" if len(shape) == 3 else ""
+            as_volume = f"; read it as a volume with {AS_VOLUME}" if len(shape) == 3 else ""
             raise InputError(
-                f"{self.name} has {len(shape)} axes, shape {shape}: an image has two, rows and columns{volume}"
+                f"{self.name} has {len(shape)} axes, shape {shape}: an image has two, rows and columns{as_volume}"
             )
         if kind.kind not in "biuf":
             raise InputError(f"{self.name} holds {kind}: an image of numbers was expected")

@@ -78,9 +78,9 @@ def _npy_shape(source: Source) -> tuple[int, ...]:
     """Shape of an NPY image: (H, W), or (H, W, C) with at most 4 channels."""
     shape = npy_header(source).shape
     if len(shape) not in (2, 3) or (len(shape) == 3 and not 1 <= shape[2] <= 4):
-        volume = f"; {AS_VOLUME} reads (D, H, W)" if len(shape) == 3 else ""
+        as_volume = f"; read it as a volume with {AS_VOLUME}" if len(shape) == 3 else ""
         raise InputError(
-            f"{source.name} has the shape {shape}: an image is (H, W), or (H, W, C) with C from 1 to 4{volume}"
+            f"{source.name} has the shape {shape}: an image is (H, W), or (H, W, C) with C from 1 to 4{as_volume}"
         )
     return shape
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError
+from vorotool.errors import AS_VOLUME, InputError
 from vorotool.formats.io.npy_arrays import npy_header, npy_values
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import LARGEST_LABEL, ReadOptions
@@ -22,7 +22,8 @@ def read_npy(source: Source, options: ReadOptions) -> PointSet:
     if header.dtype.kind == "b":
         raise InputError(f"{source.name} holds truth values, not numbers; {_ADVICE}")
     if len(shape) != 2 or shape[1] not in (2, 3):
-        raise InputError(f"{source.name} holds an array of shape {shape}; {_ADVICE} (columns x, y and label)")
+        other = f"; read it as a volume with {AS_VOLUME}" if len(shape) == 3 else ""
+        raise InputError(f"{source.name} holds an array of shape {shape}; {_ADVICE} (columns x, y and label){other}")
     options.check_sites(source.name, shape[0])
     table = npy_values(source, header)
     xy = check_coordinates(source.name, table[:, :2])

@@ -122,8 +122,8 @@ def volume_folder(
     name = Path(path).name
     if not name.lower().endswith(OME_ENDING):
         return store
-    sides = (1, 1, 1) if grid is None else grid.sides
-    scale = {axis: float(side) for axis, side in zip(_AXES, sides, strict=True)}
+    sides = [1.0, 1.0, 1.0] if grid is None else [float(side) for side in grid.sides]
+    scale = dict(zip(_AXES, sides, strict=True))
     write_image(store, name[: -len(OME_ENDING)], scale, None if grid is None else grid.unit, is_labels=is_labels)
     return store / "0"
 
