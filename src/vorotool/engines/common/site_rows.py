@@ -84,7 +84,8 @@ def largest_by_label(
 
     Examples
     --------
-    >>> largest_by_label(np.array([[1, 1]], np.uint8), np.array([[3, 8]]), np.array([1, 4], np.uint32), 1, None).tolist()
+    >>> labels, values = np.array([[1, 1, 4]], np.uint8), np.array([[3, 8, 2]])
+    >>> largest_by_label(labels, values, np.array([1, 7], np.uint32), 1, None).tolist()
     [8, 0]
     """
     wide = np.uint64 if values.dtype.itemsize == 8 else np.uint32

@@ -306,9 +306,8 @@ def voronoi_diagram(
            [0, 0, 0, 0]], dtype=uint8)
     """
     if is_of_space(image):
-        options = {"before": above, "after": below, "out": out}
-        marked: NDArray[np.uint8] = _in_space("measures:volume_diagram", image, threads, progress, **options)
-        return marked
+        given = {"before": above, "after": below, "out": out}
+        return np.asarray(_in_space("measures:volume_diagram", image, threads, progress, **given))
     labels = label_array(_labelled(image).labels)
     if out is None:
         out = np.empty(labels.shape, dtype=np.uint8)

@@ -28,12 +28,12 @@ from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.spacing import SQUARE, PixelSides, distance_as_written
+from vorotool.geometry.volumes.label_volume import LabelVolume
 from vorotool.products.formats import resolved
 
 if TYPE_CHECKING:
     from numpy.typing import DTypeLike
 
-    from vorotool.geometry.volumes.label_volume import LabelVolume
     from vorotool.geometry.volumes.volume import Volume
     from vorotool.geometry.volumes.volume_points import VolumePoints
     from vorotool.geometry.volumes.volume_seeds import VolumeSeeds

@@ -100,9 +100,7 @@ def measure_volume(volume: VolumeLike, *, threads: int = 0, progress: Progress =
     return measure_slabs([labelled(volume).labels], threads=threads, progress=progress)
 
 
-def measure_slabs(
-    slabs: Iterable[NDArray[Any]], *, threads: int = 0, progress: Progress = None
-) -> VolumeMeasures:
+def measure_slabs(slabs: Iterable[NDArray[Any]], *, threads: int = 0, progress: Progress = None) -> VolumeMeasures:
     """Measure all regions of a label volume that comes slab by slab: it need not be in memory.
 
     Memory: some 200 bytes a region and 100 a pair of neighbours, and for each thread the runs of equal labels of a few
@@ -133,7 +131,9 @@ def measure_slabs(
             size = (slab.shape[1], slab.shape[2])
             measurer = _core.volumes.VolumeMeasurer(size[1], size[0])
         if slab.shape[1:] != size:
-            raise InputError(f"slabs must have one height and width, but a slab of {slab.shape} follows those of {size}")
+            raise InputError(
+                f"slabs must have one height and width, but a slab of {slab.shape} follows those of {size}"
+            )
         negative.append(slab.dtype)
         measurer.add(label_array(slab, "voxel"), threads, progress)
     if measurer is None:

@@ -100,7 +100,9 @@ def volume_table(
         "neighbours": spread(degree, rows, count),
         "nearest_label": nearest_label,
         "nearest_distance": _times(nearest_distance, step),
-        "touches_frame": np.ma.array(spread(measures.touches_frame(volume.shape).astype(np.int64), rows, count), mask=absent),
+        "touches_frame": np.ma.array(
+            spread(measures.touches_frame(volume.shape).astype(np.int64), rows, count), mask=absent
+        ),
         "max_distance": np.ma.array(_times(largest, step), mask=absent | (distance2 is None)),
         "components": spread(measures.components, rows, count),
     }
@@ -188,7 +190,9 @@ def _areas(faces: NDArray[np.int64], sides: PixelSides) -> NDArray[Any]:
     depth, height, width = sides.units
     across = (height * depth, width * depth, width * height)
     most = int(faces.max(initial=0)) * sum(across)
-    exact = np.dot(faces.astype(np.int64 if most < 2**63 else object), np.array(across, np.int64 if most < 2**63 else object))
+    exact = np.dot(
+        faces.astype(np.int64 if most < 2**63 else object), np.array(across, np.int64 if most < 2**63 else object)
+    )
     return _times(exact, sides.step**2) if most < 2**63 else _times(exact.astype(np.float64), sides.step**2)
 
 
