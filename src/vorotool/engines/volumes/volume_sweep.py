@@ -36,7 +36,7 @@ class VolumeSweep:
     threads : int
         0 uses all.
     way : str
-        By ``"rows"``, by ``"tiles"``, or the ``"quicker"`` one, which changes the time alone.
+        By ``"rows"``, by ``"bricks"``, or the ``"quicker"`` one, which changes the time alone.
 
     Raises
     ------
