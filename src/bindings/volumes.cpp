@@ -49,8 +49,8 @@ VolumeFrame make_frame(const Origin& origin, const Size& size, std::int32_t scal
 Way way_of(std::string_view name) {
   if (name == "quicker") return Way::quicker;
   if (name == "rows") return Way::rows;
-  if (name == "tiles") return Way::tiles;
-  throw std::invalid_argument("the way is quicker, rows or tiles");
+  if (name == "bricks") return Way::bricks;
+  throw std::invalid_argument("the way is quicker, rows or bricks");
 }
 
 // Slices of an output, checked against the frame.

@@ -52,7 +52,6 @@ OTSU = option("--threshold otsu", 'threshold="otsu"')
 OUTPUT = option("-o", "path=...")
 NO_CLOBBER = option("--no-clobber", "no_clobber=True")
 AS_JSON = option("--input-format json", 'input_format="json"')
-AS_VOLUME = option("--volume", 'geometry="volume"')
 INPUT_FORMAT = option("--input-format", "input_format=...")
 AS_VOLUME = option("tessellate --volume", 'geometry="volume"')
 """Options that many messages name."""

@@ -1,16 +1,15 @@
 #include "core/volumes/volume_tessellation.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <limits>
+#include <memory>
 #include <vector>
 
 #include "core/base/parallel.hpp"
 #include "core/tessellation/row_output.hpp"
 #include "core/tessellation/watch.hpp"
 #include "core/volumes/slab_sweep.hpp"
-#include "core/volumes/tile_sweep.hpp"
+#include "core/volumes/brick_sweep.hpp"
 
 namespace vorotool::core::volumes {
 
@@ -27,9 +26,6 @@ constexpr std::size_t streamed_bytes = std::size_t{1} << 22;
 // A slab starts from all seeds: it has so many voxels that this costs little.
 constexpr std::size_t voxels_a_seed = 64;
 constexpr std::size_t least_slab_voxels = std::size_t{1} << 22;
-
-// Seeds a voxel that a sweep by rows is always quicker below.
-constexpr double least_density = 1e-4;
 
 std::int32_t slices_of_slab(const VolumeFrame& frame, std::size_t seeds, std::int32_t slices,
                             unsigned threads) {
@@ -78,26 +74,25 @@ void write_slices(const VolumeSites& sites, const Coverage& coverage, const Volu
 }
 
 template <Product product, class Voxel>
-void write_tiles(const SeedTiles& tiles, tessellation::Simd level, std::optional<uint128> most_squared,
-                 Range slices, Voxel* out, unsigned threads, const Monitor& monitor) {
-  const NearestKernels kernels = nearest_kernels(level);
+void write_bricks(const SeedGrid& grid, const VolumeFrame& frame, tessellation::Simd level,
+                  std::optional<uint128> most_squared, std::int32_t first, std::int32_t slices, Voxel* out,
+                  unsigned threads, const Monitor& monitor) {
+  const BrickKernels kernels = brick_kernels(level);
   const auto copies = tessellation::narrow_kernel(level);
   std::optional<std::int64_t> limit;
   if (most_squared) limit = tessellation::clamped<std::int64_t>(*most_squared);
-  const std::int32_t bands = count_parts(tiles.rows(), tile_height);
-  const auto write_band = [&](std::size_t number) {
-    TileSweep<Voxel, product> sweep(tiles, kernels, copies.stream, limit, slices, out);
-    const auto band = static_cast<std::int32_t>(number);
-    const Range rows = part_of(tiles.rows(), band % bands, tile_height);
-    for (std::int32_t tile = 0; tile < count_parts(tiles.columns(), tile_width); ++tile) {
-      sweep.write(
-          {part_of(tiles.columns(), tile, tile_width), rows, part_of(slices, band / bands, box_slices)});
-    }
+  const auto parts = [](std::int32_t count) { return (count - 1) / block_side + 1; };
+  const std::int32_t height = frame.plane.height, bands = parts(height);
+  const auto write_block = [&](std::size_t number) {
+    const auto row = static_cast<std::int32_t>(number % static_cast<std::size_t>(bands)) * block_side;
+    const auto slice = static_cast<std::int32_t>(number / static_cast<std::size_t>(bands)) * block_side;
+    BrickSweep<Voxel, product> sweep(grid, frame, kernels, copies.stream, limit, first, out);
+    sweep.write({row, std::min(height, row + block_side) - 1, first + slice,
+                 first + std::min(slices, slice + block_side) - 1});
     copies.fence();
   };
-  const auto pieces =
-      static_cast<std::size_t>(bands) * static_cast<std::size_t>(count_parts(slices, box_slices));
-  base::parallel_for(pieces, threads, write_band, monitor);
+  base::parallel_for(static_cast<std::size_t>(bands) * static_cast<std::size_t>(parts(slices)), threads,
+                     write_block, monitor);
 }
 
 }  // namespace
@@ -112,32 +107,26 @@ const Coverage& VolumeTessellation::coverage() const {
   return *coverage_;
 }
 
-// The seeds by tiles where that is quicker.
-const SeedTiles* VolumeTessellation::tiles(std::int32_t first, std::int32_t slices,
-                                           std::optional<uint128> most_squared) const {
-  const double voxels = double{1} * frame_.plane.width * frame_.plane.height * frame_.depth;
-  const double sites = static_cast<double>(sites_.sites.size());
+// The seeds by cells where bricks are quicker.
+const SeedGrid* VolumeTessellation::grid(std::int32_t first, std::int32_t slices) const {
   if (way_ == Way::rows) return nullptr;
-  if (way_ == Way::quicker && !most_squared && sites < least_density * voxels) return nullptr;
-  std::call_once(tiled_, [&] {
-    if (SeedTiles::suits(sites_, frame_)) tiles_ = std::make_unique<const SeedTiles>(sites_.sites, frame_);
+  std::call_once(gridded_, [&] {
+    if (SeedGrid::suits(sites_)) grid_ = std::make_unique<const SeedGrid>(sites_.sites, frame_);
   });
-  if (!tiles_ || way_ == Way::tiles) return tiles_.get();
-  const double most =
-      most_squared ? std::sqrt(static_cast<double>(*most_squared)) : std::numeric_limits<double>::infinity();
+  if (!grid_ || way_ == Way::bricks) return grid_.get();
   // of a sweep by rows, fitted to uniform seeds on one thread
-  const double by_rows = 0.3 + 200 * std::sqrt(sites / voxels);
-  if (tiles_->nanoseconds_a_voxel({first, first + slices - 1}, most) > by_rows) return nullptr;
-  return tiles_.get();
+  const double voxels = double{1} * frame_.plane.width * frame_.plane.height * frame_.depth;
+  const double by_rows = 0.3 + 200 * std::sqrt(static_cast<double>(sites_.sites.size()) / voxels);
+  BrickSeeds bricks(*grid_, frame_, brick_kernels(level_));
+  return bricks.nanoseconds_a_voxel(first, slices) < by_rows ? grid_.get() : nullptr;
 }
 
 template <class Label>
 void VolumeTessellation::labels(std::int32_t first, std::int32_t slices, Label* out,
                                 std::optional<uint128> most_squared, unsigned threads,
                                 const Monitor& monitor) const {
-  if (const SeedTiles* const by_tile = tiles(first, slices, most_squared)) {
-    write_tiles<Product::labels>(*by_tile, level_, most_squared, {first, first + slices - 1}, out, threads,
-                                 monitor);
+  if (const SeedGrid* const seeds = grid(first, slices)) {
+    write_bricks<Product::labels>(*seeds, frame_, level_, most_squared, first, slices, out, threads, monitor);
     return;
   }
   tessellation::with_kernel(is_wide(), level_, [&]<class Arithmetic>(const RowKernel<Arithmetic>& kernel) {
@@ -155,9 +144,8 @@ void VolumeTessellation::labels(std::int32_t first, std::int32_t slices, Label* 
 template <class Square>
 void VolumeTessellation::squared_distances(std::int32_t first, std::int32_t slices, Square* out,
                                            unsigned threads, const Monitor& monitor) const {
-  if (const SeedTiles* const by_tile = tiles(first, slices, std::nullopt)) {
-    write_tiles<Product::squares>(*by_tile, level_, std::nullopt, {first, first + slices - 1}, out, threads,
-                                  monitor);
+  if (const SeedGrid* const seeds = grid(first, slices)) {
+    write_bricks<Product::squares>(*seeds, frame_, level_, {}, first, slices, out, threads, monitor);
     return;
   }
   tessellation::with_kernel(is_wide(), level_, [&]<class Arithmetic>(const RowKernel<Arithmetic>& kernel) {

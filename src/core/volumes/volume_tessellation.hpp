@@ -12,14 +12,13 @@
 #include "core/numbers/int128.hpp"
 #include "core/tessellation/simd_level.hpp"
 #include "core/volumes/coverage.hpp"
-#include "core/volumes/seed_tiles.hpp"
+#include "core/volumes/seed_grid.hpp"
 #include "core/volumes/volume_sites.hpp"
 
 namespace vorotool::core::volumes {
 
-// How voxels are found, which changes the time alone: by the rows of SlabSweep, or by the tiles of TileSweep where they
-// suit.
-enum class Way { quicker, rows, tiles };
+// How voxels are found, which changes the time alone: by the rows of SlabSweep, or by BrickSweep where it suits.
+enum class Way { quicker, rows, bricks };
 
 class VolumeTessellation {
  public:
@@ -51,17 +50,16 @@ class VolumeTessellation {
 
  private:
   const Coverage& coverage() const;
-  const SeedTiles* tiles(std::int32_t first, std::int32_t slices,
-                         std::optional<numbers::uint128> most_squared) const;
+  const SeedGrid* grid(std::int32_t first, std::int32_t slices) const;
 
   VolumeFrame frame_;
   tessellation::Simd level_;
   Way way_;
   VolumeSites sites_;
   // Made when they are first needed.
-  mutable std::once_flag covered_, tiled_;
+  mutable std::once_flag covered_, gridded_;
   mutable std::unique_ptr<const Coverage> coverage_;
-  mutable std::unique_ptr<const SeedTiles> tiles_;  // none if they do not suit
+  mutable std::unique_ptr<const SeedGrid> grid_;  // none if it does not suit
 };
 
 }  // namespace vorotool::core::volumes

@@ -99,7 +99,7 @@ def test_a_page_that_fails(run, stack):
             "stack.tif -o a.png",
             3,
             "stack.tif has 3 pages: choose one with --page 0 to --page 2, or --page all, or read them as a volume with "
-            "--volume",
+            "tessellate --volume",
         ),
         ("- --page all --out-dir out", 2, "- is standard input, which is one input"),
     ],

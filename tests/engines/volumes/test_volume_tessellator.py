@@ -16,7 +16,7 @@ from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.geometry.spacing import PixelSides
 
 LEVELS = ("portable", "avx2", "avx512")
-WAYS = ("rows", "tiles")
+WAYS = ("rows", "bricks")
 KINDS = ("uniform", "lattice", "plane", "line", "sphere", "outside")
 
 
@@ -137,17 +137,17 @@ def test_many_slabs_give_what_one_gives():
 @pytest.mark.parametrize("density", [0.2, 0.003])
 @pytest.mark.parametrize("units", [(1, 1, 1), (60, 13, 13)])
 @pytest.mark.parametrize("first_label", [1, 2**31])
-def test_both_ways_agree_where_tiles_are_cut(density, units, first_label):
+def test_both_ways_agree_where_blocks_are_cut(density, units, first_label):
     random = np.random.default_rng(10)
-    shape = (150, 20, 300)  # more slices, rows and columns than a tile has, and not a multiple
+    shape = (150, 20, 300)  # more slices, rows and columns than a block has, and not a multiple
     places = random.integers(0, shape, (int(density * np.prod(shape)), 3))
     places = places[(places[:, 0] < 60) | (places[:, 2] < 40)]  # an empty part
     labels = first_label + random.permutation(len(places)).astype(np.uint32)
     sides = PixelSides(units)
-    rows, tiles = (VolumeSweep(places, labels, shape, sides=sides, threads=2, way=way) for way in WAYS)
-    assert np.array_equal(rows.labels(), tiles.labels())
-    assert np.array_equal(rows.squared_distances(), tiles.squared_distances())
-    assert np.array_equal(rows.labels(40, 7), tiles.labels(40, 7))
+    rows, bricks = (VolumeSweep(places, labels, shape, sides=sides, threads=2, way=way) for way in WAYS)
+    assert np.array_equal(rows.labels(), bricks.labels())
+    assert np.array_equal(rows.squared_distances(), bricks.squared_distances())
+    assert np.array_equal(rows.labels(40, 7), bricks.labels(40, 7))
 
 
 def test_outputs_are_written_where_they_are_given():

@@ -51,7 +51,7 @@ class VolumeSweep:
     progress : callable, optional
         Called now and then with the fraction done of the frame, of which slices are asked for from first to last.
     way : str
-        By ``"rows"``, by ``"tiles"``, or the ``"quicker"`` one, which changes the time alone.
+        By ``"rows"``, by ``"bricks"``, or the ``"quicker"`` one, which changes the time alone.
 
     Raises
     ------
@@ -68,8 +68,8 @@ class VolumeSweep:
     On a row seeds are nearest in the order of their columns, and what hides one there hides it on a half-plane of rows
     and slices. So each waits until it may be nearest again. Where seeds are dense, each tells the voxels around it in
     its slice, and a voxel takes the least over the slices near it. Results depend neither on that, nor on threads, nor
-    on instruction sets, nor on which slices are asked for together. Memory: some 40 bytes a seed beside the seeds themselves, and for each
-    thread some 40 a seed more.
+    on instruction sets, nor on which slices are asked for together. Memory: some 40 bytes a seed beside the seeds
+    themselves, and for each thread some 40 a seed more.
 
     Examples
     --------

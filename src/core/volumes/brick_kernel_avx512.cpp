@@ -13,22 +13,22 @@
 #pragma GCC diagnostic pop
 #endif
 
-#include "core/volumes/nearest_kernel_impl.hpp"
+#include "core/volumes/brick_kernel_impl.hpp"
 
 namespace vorotool::core::volumes {
 namespace {
 
 struct Avx512 {
-  static constexpr int bytes = 64;
-  static bool any(const void* vector) {
-    const auto* const words = static_cast<const __m512i*>(vector);
-    return _mm512_test_epi64_mask(*words, *words) != 0;
+  static constexpr int bytes = 32;  // of a row of a brick
+  template <class Vector>
+  static std::uint32_t mask(const Vector& chosen) {
+    return _mm256_movepi32_mask(reinterpret_cast<const __m256i&>(chosen));
   }
 };
 
 }  // namespace
 
-NearestKernels kernels::nearest_avx512() { return nearest_kernels_of<Avx512>(); }
+BrickKernels kernels::bricks_avx512() { return brick_kernels_of<Avx512>(); }
 
 }  // namespace vorotool::core::volumes
 
