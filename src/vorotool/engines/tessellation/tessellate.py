@@ -28,12 +28,12 @@ from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.spacing import SQUARE, PixelSides, distance_as_written
+from vorotool.geometry.volumes.label_volume import LabelVolume
 from vorotool.products.formats import resolved
 
 if TYPE_CHECKING:
     from numpy.typing import DTypeLike
 
-    from vorotool.geometry.volumes.label_volume import LabelVolume
     from vorotool.geometry.volumes.volume import Volume
     from vorotool.geometry.volumes.volume_points import VolumePoints
     from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
@@ -285,12 +285,14 @@ def verify_rows(rows: Tessellator | PropagatedRows, *, threads: int = 0) -> None
         verify_label_image(labels, rows.seeds, frame, max_distance2=limit, sides=sides, threads=threads)
 
 
-def verify_tessellation(image: LabelImage, *, max_distance: float | Fraction | None = None, threads: int = 0) -> None:
-    """Check that every pixel of a tessellation has the smallest label of its nearest seeds.
+def verify_tessellation(
+    image: LabelImage | LabelVolume, *, max_distance: float | Fraction | None = None, threads: int = 0
+) -> None:
+    """Check that every pixel, or voxel, of a tessellation has the smallest label of its nearest seeds.
 
     Parameters
     ----------
-    image : LabelImage
+    image : LabelImage or LabelVolume
         With its seeds and the sides of its pixels, as `tessellate` gives it.
     max_distance : float or Fraction, optional
         The limit that the tessellation was made with.
@@ -308,6 +310,9 @@ def verify_tessellation(image: LabelImage, *, max_distance: float | Fraction | N
     --------
     >>> verify_tessellation(tessellate([[0, 0], [2, 1]], shape=(2, 3)))
     """
+    if isinstance(image, LabelVolume):
+        resolved("engines.volumes.verify_volume:verify_volume")(image, max_distance=max_distance, threads=threads)
+        return
     check_value(image, "image", LabelImage)
     if not isinstance(image, LabelImage) or image.seeds is None or image.frame is None:
         raise UsageError("the label image carries no seeds: make it with vorotool.tessellate")

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.geometry.spacing import PixelSides
-from vorotool.geometry.values import Value
+from vorotool.geometry.values import Elements, Graph, Tabular, Value
 from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
 from vorotool.geometry.volumes.voxel_frame import VoxelFrame
 from vorotool.geometry.volumes.voxel_grid import VoxelGrid
@@ -20,7 +20,7 @@ CUBE = PixelSides((1, 1, 1))
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class LabelVolume(Value):
+class LabelVolume(Value, Tabular, Graph, Elements):
     """Labels of the voxels of a frame.
 
     Parameters
@@ -72,6 +72,9 @@ class LabelVolume(Value):
         """Slices, rows and columns."""
         depth, height, width = self.labels.shape
         return (depth, height, width)
+
+    def _array(self) -> NDArray[Any]:
+        return self.labels
 
     def _summary(self) -> str:
         depth, height, width = self.shape
