@@ -21,6 +21,7 @@ using core::base::Monitor;
 using core::volumes::VolumeComponents;
 using core::volumes::VolumeFrame;
 using core::volumes::VolumeTessellation;
+using core::volumes::Way;
 using Integers = Vector<const std::int64_t>;
 using Labels = Vector<const std::uint32_t>;
 using Volume = Aligned<nb::ndim<3>, nb::c_contig, nb::device::cpu>;
@@ -43,6 +44,13 @@ VolumeFrame make_frame(const Origin& origin, const Size& size, std::int32_t scal
     throw std::invalid_argument("the sides of a voxel must be from 1 to 2^29 steps");
   }
   return {{x, y, width, height, scale, {unit_x, unit_y}}, z, depth, unit_z};
+}
+
+Way way_of(std::string_view name) {
+  if (name == "quicker") return Way::quicker;
+  if (name == "rows") return Way::rows;
+  if (name == "bricks") return Way::bricks;
+  throw std::invalid_argument("the way is quicker, rows or bricks");
 }
 
 // Slices of an output, checked against the frame.
@@ -124,13 +132,14 @@ void bind_volumes(nb::module_& room) {
           "__init__",
           [](VolumeTessellation* self, const Integers& x, const Integers& y, const Integers& z,
              const Labels& labels, const Origin& origin, const Size& size, std::int32_t scale,
-             const Size& unit, std::string_view simd) {
+             const Size& unit, std::string_view simd, std::string_view way) {
             const VolumeFrame frame = make_frame(origin, size, scale, unit);
             const auto level = simd_level(simd);
             const nb::gil_scoped_release no_gil;
-            new (self) VolumeTessellation(view(x), view(y), view(z), view(labels), frame, level);
+            new (self) VolumeTessellation(view(x), view(y), view(z), view(labels), frame, level, way_of(way));
           },
-          "x"_a, "y"_a, "z"_a, "labels"_a, "origin"_a, "size"_a, "scale"_a, "unit"_a, "simd"_a)
+          "x"_a, "y"_a, "z"_a, "labels"_a, "origin"_a, "size"_a, "scale"_a, "unit"_a, "simd"_a,
+          "way"_a = "quicker")
       .def_prop_ro("duplicates", &VolumeTessellation::duplicates)
       .def_prop_ro("is_wide", &VolumeTessellation::is_wide)
       .def_prop_ro("products_exact", &VolumeTessellation::products_exact)

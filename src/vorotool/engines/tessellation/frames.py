@@ -274,6 +274,21 @@ def squared_limit(max_distance: float | Fraction | None, scale: int | Fraction) 
     return int(min(steps * steps, Fraction(2**127)))
 
 
+def square_dtype(largest: int) -> np.dtype[Any]:
+    """Choose the type of squared distances up to `largest`: uint32 or uint64.
+
+    Raises
+    ------
+    LimitError
+        If they may exceed 64 bits.
+    """
+    if largest >= 2**64:
+        raise LimitError(
+            f"squared distances of this frame may exceed 64 bits: use {option('--what distance', 'distances')}"
+        )
+    return np.dtype(np.uint32 if largest < 2**32 else np.uint64)
+
+
 def sides_of(source: Any, spacing: Any, axes: int = 2) -> PixelSides:
     """Give the sides of the pixels as they are asked for, else those of labels that have sides.
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 import zlib
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
@@ -14,6 +15,7 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.engines.tessellation.bands import Quantity, SeedBand
 from vorotool.engines.tessellation.column_envelope import ColumnEnvelope, first_seeds, last_seeds
+from vorotool.engines.tessellation.frames import square_dtype
 from vorotool.engines.tessellation.interior_seeds import surrounded_pixels
 from vorotool.engines.tessellation.raster_objects import (
     LARGEST_LABEL,
@@ -26,11 +28,13 @@ from vorotool.engines.tessellation.raster_objects import (
     refuse_photograph,
     report_no_foreground,
 )
+from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import LimitError, option
 from vorotool.geometry.pixel_frame import Frame
 from vorotool.geometry.points.raster import Raster
 from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.geometry.progress import Progress
+from vorotool.geometry.spacing import SQUARE, PixelSides
 
 StreamedMode = Literal["pixels", "components", "labels"]
 
@@ -165,7 +169,7 @@ class ImageBand:
         Those that have these rows.
     first, count : int
         Which rows.
-    what, dtype, max_distance
+    what, dtype, max_distance, sides
         As of `SeedBand`.
     """
 
@@ -175,6 +179,7 @@ class ImageBand:
     what: Quantity
     dtype: np.dtype[Any]
     max_distance: float | Fraction | None = None
+    sides: PixelSides = SQUARE
 
     def rows(self, *, threads: int = 0, progress: Progress = None) -> NDArray[Any]:
         """Compute the rows."""
@@ -220,7 +225,8 @@ class ImageBand:
         if not is_object.all():
             frame = Frame(0, first, objects.shape[1], len(objects))
             seeds = _seeds_near(objects, frame, above, below)
-            out[...] = SeedBand(seeds, frame, self.what, self.dtype, self.max_distance).rows(threads=threads)
+            band = SeedBand(seeds, frame, self.what, self.dtype, self.max_distance, self.sides)
+            out[...] = band.rows(threads=threads)
         np.copyto(out, objects if self.what == "labels" else 0, where=is_object, casting="unsafe")
 
 
@@ -239,6 +245,8 @@ class StreamedImage:
         Called with the fraction read, the first time.
     note : callable, optional
         As of `seeds_from_raster`.
+    sides : PixelSides
+        Of a pixel, in whose unit distances are.
 
     Raises
     ------
@@ -277,8 +285,9 @@ class StreamedImage:
         strict: bool = False,
         progress: Progress = None,
         note: Note = None,
+        sides: PixelSides = SQUARE,
     ) -> None:
-        self.source = source.with_mode(note=note)
+        self.source, self.sides = source.with_mode(note=note), sides
         height, width = source.image.shape
         self.frame = Frame(0, 0, width, height)
         self.pixels = self.largest_label = 0
@@ -304,7 +313,7 @@ class StreamedImage:
         if what != "labels":
             self.check_distances()
         parts = tuple(band for band in self._bands if band.first < first + rows and band.first + band.count > first)
-        return ImageBand(parts, first, rows, what, dtype, max_distance)
+        return ImageBand(parts, first, rows, what, dtype, max_distance, self.sides)
 
     def check_distances(self) -> None:
         """Refuse distances where there is no foreground."""
@@ -317,7 +326,16 @@ class StreamedImage:
         self.check_distances()
         x, y = self._corner or (0, 0)
         dx, dy = max(x, self.frame.width - 1 - x), max(y, self.frame.height - 1 - y)
-        return np.dtype(np.uint32 if dx * dx + dy * dy < 2**32 else np.uint64)
+        dx, dy = dx * self.sides.x, dy * self.sides.y
+        return square_dtype(dx * dx + dy * dy)
+
+    @property
+    def arithmetic(self) -> str:
+        """The narrowest arithmetic that is exact wherever in the image seeds are."""
+        x, y = np.array([0, self.frame.width - 1]), np.array([0, self.frame.height - 1])
+        corners = SeedSet(x, y, np.array([1, 1]), sites=np.empty((0, 2)), site_labels=np.empty(0, np.uint32))
+        with warnings.catch_warnings(action="ignore"):  # of an image of one pixel
+            return Tessellator(corners, self.frame, sides=self.sides).arithmetic
 
     def _scan(self, progress: Progress) -> None:
         """Read the image from top to bottom; labels are provisional yet, and the list below is that of the band."""

@@ -17,6 +17,7 @@ from vorotool.engines.tessellation.frames import (
     report_duplicates,
     require_seeds,
     simd_level,
+    square_dtype,
     squared_limit,
 )
 from vorotool.engines.tessellation.interior_seeds import needed_seeds, paint_seeds
@@ -262,12 +263,7 @@ class Tessellator:
         dx = max(abs(int(self.seeds.x[0]) - scale * c) for c in (frame.x, frame.x + frame.width - 1))
         dy = max(abs(int(self.seeds.y[0]) - scale * r) for r in (frame.y, frame.y + frame.height - 1))
         dx, dy = dx * self.sides.x, dy * self.sides.y
-        largest = dx * dx + dy * dy
-        if largest >= 2**64:
-            raise LimitError(
-                f"squared distances of this frame may exceed 64 bits: use {option('--what distance', 'distances')}"
-            )
-        return np.dtype(np.uint32 if largest < 2**32 else np.uint64)
+        return square_dtype(dx * dx + dy * dy)
 
     def _output(self, first: int, rows: int | None, dtype: np.dtype[Any], out: NDArray[Any] | None) -> NDArray[Any]:
         rows = self.frame.height - first if rows is None else rows

@@ -22,6 +22,9 @@ _FORMS = (
     (3, "shape must be three integers (D, H, W)"),
     (6, "window must be six integers (x, y, z, w, h, d)"),
 )
+_VOXELS_A_SEED, _MOST_VOXELS = 64, 2**27
+"""Of a slab."""
+
 _WINDOW = option("--window X,Y,Z,W,H,D", "window=(x, y, z, w, h, d)")
 
 
@@ -134,14 +137,22 @@ def default_voxel_frame(
     return VoxelFrame(0, 0, 0, *sides)
 
 
-def slab_limits(frame: VoxelFrame) -> Iterator[tuple[int, int]]:
+def slab_limits(frame: VoxelFrame, seeds: int = 0) -> Iterator[tuple[int, int]]:
     """First slice and number of slices of the slabs in which a frame is streamed.
+
+    Parameters
+    ----------
+    frame : VoxelFrame
+        The voxels.
+    seeds : int
+        Each slab begins with all of them: it is as large as they are worth.
 
     Examples
     --------
     >>> list(slab_limits(VoxelFrame(0, 0, 0, 4096, 4096, 3)))
     [(0, 1), (1, 1), (2, 1)]
     """
-    step = max(1, BAND_PIXELS // (frame.width * frame.height))
+    wanted = min(max(BAND_PIXELS, _VOXELS_A_SEED * seeds), _MOST_VOXELS)
+    step = max(1, wanted // (frame.width * frame.height))
     for first in range(0, frame.depth, step):
         yield first, min(step, frame.depth - first)
