@@ -219,7 +219,7 @@ class SlicePicture:
         return SeedSet(column, row, painted[row, column], frame=Frame(0, 0, width, height))
 
     def _object_voxels(self, seeds: VolumeSeeds, view: View) -> Iterator[tuple[NDArray[np.int64], NDArray[np.uint32]]]:
-        """Voxels of objects in a slice, (x, y, z) from the first one of the frame, and labels: outer ones, then inner."""
+        """Voxels of objects in a slice, (x, y, z) from the first one of the frame, and labels: outer and inner ones."""
         outer = self._voxels_of(seeds.places, seeds.scale)
         chosen = outer[:, 2 - view.across] == view.number
         yield outer[chosen], seeds.labels[chosen]

@@ -1,4 +1,4 @@
-"""Volumes on the command line: what the library makes of them, whatever the format, the slabs, the chunks, the threads."""
+"""Volumes on the command line: what the library makes of them, whatever the format, slabs, chunks and threads."""
 
 import json
 import signal
