@@ -35,6 +35,16 @@ void ComponentSets::append(const ComponentSets& other) {
   for (const std::uint32_t parent : other.parent_) parent_.push_back(parent + offset);
 }
 
+std::uint32_t ComponentSets::settle(std::span<std::uint32_t> number) {
+  number[0] = 0;
+  std::uint32_t count = 0;
+  for (std::uint32_t k = 0; k < size(); ++k) {
+    const std::uint32_t smallest = find(k);
+    number[k + 1] = smallest == k ? ++count : number[smallest + 1];
+  }
+  return count;
+}
+
 void find_overlaps(const RunRow& above, const RunRow& below, std::vector<Overlap>& overlaps) {
   const std::size_t count = above.size() - 1;
   overlaps.resize(count + below.size() - 1);  // each overlap ends a run of one row or of both

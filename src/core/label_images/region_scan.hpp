@@ -18,6 +18,9 @@ class ComponentSets {
   std::uint32_t find(std::uint32_t component);
   bool unite(std::uint32_t one, std::uint32_t other);  // whether they were apart
   void append(const ComponentSets& other);             // its components follow ours
+  // Numbers the sets from 1 in the order of their smallest components: component k gets number[k + 1], and number[0] is
+  // 0. `number` has size() + 1 elements. Returns how many sets there are.
+  std::uint32_t settle(std::span<std::uint32_t> number);
   std::uint32_t size() const { return static_cast<std::uint32_t>(parent_.size()); }
 
  private:

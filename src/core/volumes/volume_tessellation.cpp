@@ -1,12 +1,15 @@
 #include "core/volumes/volume_tessellation.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <memory>
 #include <vector>
 
 #include "core/base/parallel.hpp"
 #include "core/tessellation/row_output.hpp"
 #include "core/tessellation/watch.hpp"
 #include "core/volumes/slab_sweep.hpp"
+#include "core/volumes/brick_sweep.hpp"
 
 namespace vorotool::core::volumes {
 
@@ -70,24 +73,66 @@ void write_slices(const VolumeSites& sites, const Coverage& coverage, const Volu
   base::parallel_for(slabs, threads, write_slab, watch.monitor());
 }
 
+template <Product product, class Voxel>
+void write_bricks(const SeedGrid& grid, const VolumeFrame& frame, tessellation::Simd level,
+                  std::optional<uint128> most_squared, std::int32_t first, std::int32_t slices, Voxel* out,
+                  unsigned threads, const Monitor& monitor) {
+  const BrickKernels kernels = brick_kernels(level);
+  const auto copies = tessellation::narrow_kernel(level);
+  std::optional<std::int64_t> limit;
+  if (most_squared) limit = tessellation::clamped<std::int64_t>(*most_squared);
+  const auto parts = [](std::int32_t count) { return (count - 1) / block_side + 1; };
+  const std::int32_t height = frame.plane.height, bands = parts(height);
+  const auto write_block = [&](std::size_t number) {
+    const auto row = static_cast<std::int32_t>(number % static_cast<std::size_t>(bands)) * block_side;
+    const auto slice = static_cast<std::int32_t>(number / static_cast<std::size_t>(bands)) * block_side;
+    BrickSweep<Voxel, product> sweep(grid, frame, kernels, copies.stream, limit, first, out);
+    sweep.write({row, std::min(height, row + block_side) - 1, first + slice,
+                 first + std::min(slices, slice + block_side) - 1});
+    copies.fence();
+  };
+  base::parallel_for(static_cast<std::size_t>(bands) * static_cast<std::size_t>(parts(slices)), threads,
+                     write_block, monitor);
+}
+
 }  // namespace
 
 VolumeTessellation::VolumeTessellation(std::span<const std::int64_t> x, std::span<const std::int64_t> y,
                                        std::span<const std::int64_t> z, std::span<const std::uint32_t> label,
-                                       const VolumeFrame& frame, tessellation::Simd level)
-    : frame_(frame),
-      level_(level),
-      sites_(prepare_sites(x, y, z, label, frame)),
-      coverage_(sites_.sites, frame) {}
+                                       const VolumeFrame& frame, tessellation::Simd level, Way way)
+    : frame_(frame), level_(level), way_(way), sites_(prepare_sites(x, y, z, label, frame)) {}
+
+const Coverage& VolumeTessellation::coverage() const {
+  std::call_once(covered_, [&] { coverage_ = std::make_unique<const Coverage>(sites_.sites, frame_); });
+  return *coverage_;
+}
+
+// The seeds by cells where bricks are quicker.
+const SeedGrid* VolumeTessellation::grid(std::int32_t first, std::int32_t slices) const {
+  if (way_ == Way::rows) return nullptr;
+  std::call_once(gridded_, [&] {
+    if (SeedGrid::suits(sites_)) grid_ = std::make_unique<const SeedGrid>(sites_.sites, frame_);
+  });
+  if (!grid_ || way_ == Way::bricks) return grid_.get();
+  // of a sweep by rows, fitted to uniform seeds on one thread
+  const double voxels = double{1} * frame_.plane.width * frame_.plane.height * frame_.depth;
+  const double by_rows = 0.3 + 200 * std::sqrt(static_cast<double>(sites_.sites.size()) / voxels);
+  BrickSeeds bricks(*grid_, frame_, brick_kernels(level_));
+  return bricks.nanoseconds_a_voxel(first, slices) < by_rows ? grid_.get() : nullptr;
+}
 
 template <class Label>
 void VolumeTessellation::labels(std::int32_t first, std::int32_t slices, Label* out,
                                 std::optional<uint128> most_squared, unsigned threads,
                                 const Monitor& monitor) const {
+  if (const SeedGrid* const seeds = grid(first, slices)) {
+    write_bricks<Product::labels>(*seeds, frame_, level_, most_squared, first, slices, out, threads, monitor);
+    return;
+  }
   tessellation::with_kernel(is_wide(), level_, [&]<class Arithmetic>(const RowKernel<Arithmetic>& kernel) {
     using Integer = typename Arithmetic::Integer;
     const Integer limit = most_squared ? tessellation::clamped<Integer>(*most_squared) : Integer{0};
-    write_slices(sites_, coverage_, frame_, kernel, first, slices, out, threads, monitor,
+    write_slices(sites_, coverage(), frame_, kernel, first, slices, out, threads, monitor,
                  [&](const auto& envelope, const PixelRow& pixels, Label* row) {
                    fill_labels(kernel, envelope, row);
                    settle_ties(envelope, row);
@@ -99,11 +144,27 @@ void VolumeTessellation::labels(std::int32_t first, std::int32_t slices, Label* 
 template <class Square>
 void VolumeTessellation::squared_distances(std::int32_t first, std::int32_t slices, Square* out,
                                            unsigned threads, const Monitor& monitor) const {
+  if (const SeedGrid* const seeds = grid(first, slices)) {
+    write_bricks<Product::squares>(*seeds, frame_, level_, {}, first, slices, out, threads, monitor);
+    return;
+  }
   tessellation::with_kernel(is_wide(), level_, [&]<class Arithmetic>(const RowKernel<Arithmetic>& kernel) {
-    write_slices(sites_, coverage_, frame_, kernel, first, slices, out, threads, monitor,
+    write_slices(sites_, coverage(), frame_, kernel, first, slices, out, threads, monitor,
                  [&](const auto& envelope, const PixelRow& pixels, Square* row) {
                    for_each_square(envelope, pixels, [&](std::int32_t p, auto square) {
                      row[p] = static_cast<Square>(square);
+                   });
+                 });
+  });
+}
+
+void VolumeTessellation::distances(std::int32_t first, std::int32_t slices, float* out, double square_of_step,
+                                   unsigned threads, const Monitor& monitor) const {
+  tessellation::with_kernel(is_wide(), level_, [&]<class Arithmetic>(const RowKernel<Arithmetic>& kernel) {
+    write_slices(sites_, coverage(), frame_, kernel, first, slices, out, threads, monitor,
+                 [&](const auto& envelope, const PixelRow& pixels, float* row) {
+                   for_each_square(envelope, pixels, [&](std::int32_t p, auto square) {
+                     row[p] = static_cast<float>(std::sqrt(static_cast<double>(square) * square_of_step));
                    });
                  });
   });

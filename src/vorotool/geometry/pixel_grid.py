@@ -141,7 +141,7 @@ def sides_of_grid(grid: PixelGrid) -> PixelSides | None:
     PixelSides(units=(60, 13), step=Fraction(1, 40))
     """
     height = grid.width if grid.is_square else grid.height
-    for sides in ((height, grid.width), (_rounded(height), _rounded(grid.width))):
+    for sides in ((height, grid.width), (rounded_side(height), rounded_side(grid.width))):
         try:
             return pixel_sides(sides)
         except UsageError:
@@ -149,8 +149,14 @@ def sides_of_grid(grid: PixelGrid) -> PixelSides | None:
     return None
 
 
-def _rounded(side: Fraction) -> Fraction:
-    """The shortest decimal number that is alike."""
+def rounded_side(side: Fraction) -> Fraction:
+    """Give the shortest decimal number that is alike.
+
+    Examples
+    --------
+    >>> rounded_side(Fraction(1000000, 3076923))
+    Fraction(13, 40)
+    """
     numbers = (Fraction(f"{float(side):.{digits}g}") for digits in range(1, 18))
     return next(number for number in numbers if abs(number - side) <= ALIKE * side)
 

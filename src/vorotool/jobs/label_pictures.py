@@ -14,6 +14,7 @@ from vorotool.geometry.points.label_image import LabelImage
 if TYPE_CHECKING:
     from vorotool.geometry.points.seed_set import SeedSet
     from vorotool.geometry.table import Table
+    from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
     from vorotool.render.canvas.layers import Backdrop, Layer, Page
     from vorotool.render.canvas.styles import PictureStyle
     from vorotool.render.label_images.png import Names
@@ -135,7 +136,7 @@ def default_layers(image: LabelImage, layers: Sequence[str]) -> tuple[str, ...]:
     return tuple(layer for layer in layers if layer != "labels" or has_numbers(image.shape))
 
 
-def site_texts(seeds: SeedSet, column: str) -> dict[int, str]:
+def site_texts(seeds: SeedSet | VolumeSeeds, column: str) -> dict[int, str]:
     """Give what a column of the sites writes on the region of each label.
 
     Examples

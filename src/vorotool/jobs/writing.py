@@ -48,7 +48,8 @@ def write(
     ----------
     value : value of the library
         What to write: any result of the library, in the formats that its command writes it in. The PNG of a
-        `LabelImage` holds its labels.
+        `LabelImage` holds its labels. A `LabelVolume` or a `Volume` goes into TIFF, as a stack that is described as its
+        input was (see `VoxelGrid`), NPY and Zarr.
     path : str or path
         The file, replaced atomically.
     fmt : str, optional
@@ -113,6 +114,12 @@ def write(
         "label_by": label_by,
     }
     styles |= {"legend": legend or None, "scale_bar": scale_bar or None}
+    if is_of(value, "LabelVolume", "Volume"):
+        from vorotool.jobs.volume_writing import write_volume_value
+
+        more = {"what": None if what == "labels" else what, "flatten": flatten, "precision": precision}
+        write_volume_value(value, fspath(path), chosen, {**more, "layers": layers, "width": width, **styles}, threads)
+        return
     if chosen not in PICTURES or (is_of(value, "LabelImage") and chosen == "png" and what in (None, "labels")):
         for option, given in {"layers": layers, "width": width, "y_up": y_up, **styles}.items():
             if given is not None:

@@ -14,11 +14,11 @@ from vorotool.cli.options.picture_style import animation_options
 from vorotool.cli.options.pixel_size import spacing_option
 from vorotool.cli.options.shared import (
     Decimal,
-    Size,
     inputs_argument,
     output_options,
     what_option,
 )
+from vorotool.cli.options.volumes import VolumeSize, volume_options
 from vorotool.errors import UsageError
 from vorotool.jobs.animations import animated, check_animation
 from vorotool.jobs.inputs import JobInput, check_components, check_frame_options
@@ -26,13 +26,15 @@ from vorotool.jobs.job import Recipe
 from vorotool.jobs.options import TessellationOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target, check_picture_options, check_precision
+from vorotool.jobs.volume_checks import check_image_options, check_volume_options, check_volume_units
 from vorotool.products.formats import ANIMATIONS, picture_format
 from vorotool.products.inputs import NAMES_WITH
-from vorotool.products.registry import PRODUCTS, all_layers, formats_of, layers_of
+from vorotool.products.registry import PRODUCTS, VOLUME_PRODUCTS, all_layers, formats_of, layers_of
 
 if TYPE_CHECKING:
     from vorotool.jobs.streamed_tessellation import StreamedProducts
     from vorotool.jobs.tessellation import Products
+    from vorotool.jobs.volumes import VolumeProducts
 
 FORMATS = formats_of("tessellate")
 _PICTURES = {(what, fmt) for what, each in PRODUCTS["tessellate"].items() for fmt in each.layers}
@@ -62,8 +64,8 @@ _PICTURES = {(what, fmt) for what, each in PRODUCTS["tessellate"].items() for fm
 )
 @click.option(
     "--chunk",
-    type=Size(),
-    help="Columns x rows of the chunks of a Zarr store; by default 2048x512, fewer rows if wide.",
+    type=VolumeSize(),
+    help="Columns x rows (x slices) of the chunks of a Zarr store; by default 2048x512, fewer rows if wide.",
 )
 @click.option("--tiled", is_flag=True, help="Tiles of 512 x 512 pixels in TIFFs, instead of strips of whole rows.")
 @click.option(
@@ -72,7 +74,8 @@ _PICTURES = {(what, fmt) for what, each in PRODUCTS["tessellate"].items() for fm
     help="Side of a pixel in the units of points, lines or polygons on a map; --window is in these units, too.",
 )
 @spacing_option()
-@site_options(all_layers("tessellate"), has_scale=False)
+@volume_options()
+@site_options(all_layers("tessellate"), has_scale=False, has_volumes=True)
 @animation_options("cells that grow from their seeds, up to --max-distance")
 def command(**options: Any) -> None:
     """Label every pixel with its nearest seed, exactly; ties go to the smallest label.
@@ -83,12 +86,17 @@ def command(**options: Any) -> None:
       vorotool tessellate dots.csv --size 512x512 -o labels.png
 
     INPUT is a list of points (CSV, TSV, Triangle .node, NPY, GeoJSON, WKT, JSON) or an image (PNG, TIFF, PGM, JPEG,
-    NPY, Zarr); - is standard input. Label i is the i-th point; an image's own labels are kept.
+    NPY, Zarr); - is standard input. Label i is the i-th point; an image's own labels are kept. With --volume it is a
+    volume: a stack (TIFF, NPY, Zarr), or points with a z.
     """
-    run_command(RECIPE, TessellationOptions(**animated(options)))
+    o = TessellationOptions(**animated(options))
+    if o.is_of_volumes:
+        check_volume_units(o)
+    run_command(VOLUME_RECIPE if o.is_of_volumes else RECIPE, o)
 
 
 def _check_options(o: TessellationOptions, targets: list[Target]) -> None:
+    check_image_options(o)
     check_frame_options(o, is_digital=True)
     if o.method == "propagation" and o.max_distance is not None:
         raise UsageError("--max-distance needs --method exact")
@@ -141,4 +149,12 @@ def _products(run: Run, o: TessellationOptions, given: JobInput) -> Products | S
     return products(run, o, given)
 
 
+def _volume_products(run: Run, o: TessellationOptions, given: JobInput) -> VolumeProducts:
+    from vorotool.jobs.volumes import products
+
+    return products(run, o, given)
+
+
 RECIPE = Recipe("tessellate", FORMATS, _check_options, _products, "points")
+_VOLUME_FORMATS = {what: each.formats for what, each in VOLUME_PRODUCTS.items()}
+VOLUME_RECIPE = Recipe("tessellate", _VOLUME_FORMATS, check_volume_options, _volume_products, "points")

@@ -23,6 +23,7 @@ from vorotool.engines.tessellation.raster_objects import (
     foreground_values,
     label_values,
     objects_of_value,
+    only_value,
     refuse_distances,
     refuse_photograph,
     report_no_foreground,
@@ -93,7 +94,7 @@ class ObjectRows:
 
     def labels(self, first: int, count: int) -> NDArray[np.uint32]:
         """Read the values of some rows as labels."""
-        return label_values(self.values(first, count), first_row=first).astype(np.uint32, copy=False)
+        return label_values(self.values(first, count), first=first).astype(np.uint32, copy=False)
 
     def limits(self) -> Iterator[tuple[int, int]]:
         """First row and number of rows of the bands in which it is read."""
@@ -107,15 +108,11 @@ class ObjectRows:
             return self
         if self.threshold is not None or self.invert:
             return replace(self, mode="components")
-        one: Any = np.uint8(0)
-        for first, count in self.limits():
-            values = self.values(first, count)
-            is_zero = values == 0
-            one = one or values.flat[int(is_zero.argmin())]  # the first that is not 0, if any is
-            if not (is_zero | (values == one)).all():
-                refuse_photograph(values)
-                return replace(self, mode="labels")
-        return replace(self, mode=objects_of_value(one, note=note))
+        one, found = only_value((first, self.values(first, count)) for first, count in self.limits())
+        if found is None:
+            return replace(self, mode=objects_of_value(one, note=note))
+        refuse_photograph(found[1])
+        return replace(self, mode="labels")
 
 
 @dataclass(frozen=True)

@@ -31,18 +31,23 @@ from vorotool.geometry.progress import Progress
 from vorotool.geometry.spacing import SQUARE, PixelSides
 
 
-class _NothingLabelled:
-    """Stand-in for the core without seeds, as of an image without foreground."""
+class NothingLabelled:
+    """Stand-in for the core without seeds, as of an image or a volume without foreground."""
 
     duplicates = 0
     is_wide = False
     products_exact = True
 
+    def __init__(self, what: str = "image") -> None:
+        self._what = what
+
     def labels(self, rows: NDArray[Any], *_: Any) -> None:
+        """Give 0 everywhere."""
         rows[...] = 0
 
     def squared_distances(self, *_: Any) -> None:
-        refuse_distances()
+        """Refuse."""
+        refuse_distances(self._what)
 
     distances = squared_distances
 
@@ -118,11 +123,11 @@ class Tessellator:
         self.duplicates: int = self._core.duplicates
         report_duplicates(self.duplicates, len(seeds), strict=strict)
 
-    def _prepare(self) -> _core.tessellation.Tessellation | _NothingLabelled:
+    def _prepare(self) -> _core.tessellation.Tessellation | NothingLabelled:
         seeds, frame = self.seeds, self.frame
         self._paints = False
         if not len(seeds):
-            return _NothingLabelled()
+            return NothingLabelled()
         needed = needed_seeds(seeds)
         self._paints = needed is not None
         chosen = slice(None) if needed is None else needed

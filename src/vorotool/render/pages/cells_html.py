@@ -171,18 +171,24 @@ def _data(shapes: Shapes, classes: NDArray[Any], columns: Mapping[str, Sequence[
     return {
         "width": float(span[0]) / size or 1e-9,
         "height": float(span[1]) / size or 1e-9,
-        "xy": _packed(np.stack([points[:, 0] - low[0], y], axis=1) / size, "<f4"),
-        "rings": _packed(shapes.rings, "<i4"),
-        "shapes": _packed(shapes.shapes, "<i4"),
-        "classes": _packed(classes, "<i4"),
+        "xy": packed(np.stack([points[:, 0] - low[0], y], axis=1) / size, "<f4"),
+        "rings": packed(shapes.rings, "<i4"),
+        "shapes": packed(shapes.shapes, "<i4"),
+        "classes": packed(classes, "<i4"),
         "colours": [cell_colour(number) for number in range(int(classes.max(initial=0)) + 1)],
         "ids": list(shapes.ids),
-        "columns": [{"name": name, "values": [_json_value(each) for each in own]} for name, own in columns.items()],
+        "columns": [{"name": name, "values": [json_value(each) for each in own]} for name, own in columns.items()],
     }
 
 
-def _json_value(value: Any) -> Any:
-    """Numbers and texts as JSON has them; what is missing or no number is None."""
+def json_value(value: Any) -> Any:
+    """Give a number or a text as JSON has them; what is missing or no number is None.
+
+    Examples
+    --------
+    >>> json_value(np.int64(3)), json_value(float("nan"))
+    (3, None)
+    """
     if value is np.ma.masked:
         return None
     value = value.item() if isinstance(value, np.generic) else value
@@ -191,5 +197,12 @@ def _json_value(value: Any) -> Any:
     return value if value is None or isinstance(value, bool | int | str) else str(value)
 
 
-def _packed(values: NDArray[Any], dtype: DTypeLike) -> str:
+def packed(values: NDArray[Any], dtype: DTypeLike) -> str:
+    """Give the bytes of an array as text.
+
+    Examples
+    --------
+    >>> packed(np.array([1, 2]), "<i1")
+    'AQI='
+    """
     return b64encode(np.ascontiguousarray(values, dtype=dtype).tobytes()).decode()

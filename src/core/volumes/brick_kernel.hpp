@@ -1,0 +1,88 @@
+// The inner loops of the bricks of a volume: one table of functions for each instruction set.
+//
+// What a voxel knows of its nearest seed is one word, the key: its squared distance, and in the lowest bits its label.
+// Less is nearer, or as near with a smaller label.
+//
+// The kernel files are compiled for wider instruction sets than the rest. They take raw pointers and call nothing from
+// the standard library, so that no inline function compiled for a wide machine is linked elsewhere.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "core/tessellation/simd_level.hpp"
+
+namespace vorotool::core::volumes {
+
+// Voxels along each side of a brick.
+inline constexpr std::int32_t brick_side = 8;
+inline constexpr std::int32_t brick_voxels = brick_side * brick_side * brick_side;
+
+// Arrays that are read and written in whole vectors have this many spare elements behind their end.
+inline constexpr std::int32_t seed_padding = 16;
+
+// Seeds on the lattice, in floats, which hold each coordinate of at most 2^24.
+struct SeedArrays {
+  float* x;
+  float* y;
+  float* z;
+  std::uint32_t* label;
+};
+
+// Places low ... high of the lattice along x, y and z.
+struct LatticeBox {
+  float low[3], high[3];
+};
+
+// A rival hides the seeds that are farther than it from all of a box.
+struct Rival {
+  float at[3];
+  float slack;  // a seed that is farther by less may be as near, by roundings
+};
+
+// How voxels lie on the lattice, and what a key holds.
+struct BrickLattice {
+  std::int32_t first[3];  // the first voxel of the brick
+  std::int32_t step[3];
+  int label_bits;
+};
+
+template <class Key>
+struct BrickKernel {
+  // Keys of the voxels of a brick, x fastest. `squares` has room for 3 brick_side numbers of each seed.
+  void (*nearest)(const SeedArrays& seeds, std::int32_t count, const BrickLattice& lattice, Key* squares,
+                  Key* keys);
+  // Labels of keys less than `limit`, else 0, or squares of all, to the rows of a brick: rows and slices are so many
+  // elements apart.
+  void (*labels8)(const Key* keys, Key limit, Key label_mask, std::uint8_t* out, std::ptrdiff_t row,
+                  std::ptrdiff_t slice);
+  void (*labels16)(const Key* keys, Key limit, Key label_mask, std::uint16_t* out, std::ptrdiff_t row,
+                   std::ptrdiff_t slice);
+  void (*labels32)(const Key* keys, Key limit, Key label_mask, std::uint32_t* out, std::ptrdiff_t row,
+                   std::ptrdiff_t slice);
+  void (*squares32)(const Key* keys, int label_bits, std::uint32_t* out, std::ptrdiff_t row,
+                    std::ptrdiff_t slice);
+  void (*squares64)(const Key* keys, int label_bits, std::uint64_t* out, std::ptrdiff_t row,
+                    std::ptrdiff_t slice);
+};
+
+struct BrickKernels {
+  // The number of a seed that is about the nearest to a place.
+  std::int32_t (*near)(const SeedArrays& seeds, std::int32_t count, const float* place);
+  // Appends the seeds that a rival does not hide to `kept`, which has `count_kept`; gives the new count.
+  std::int32_t (*keep)(const SeedArrays& seeds, std::int32_t count, const LatticeBox& box, const Rival& rival,
+                       const SeedArrays& kept, std::int32_t count_kept);
+  // Keys of 32 bits, and of 64.
+  BrickKernel<std::uint32_t> narrow;
+  BrickKernel<std::uint64_t> wide;
+};
+
+BrickKernels brick_kernels(tessellation::Simd level);
+
+namespace kernels {  // one definition a file: brick_kernel_<level>.cpp
+BrickKernels bricks_portable();
+BrickKernels bricks_avx2();
+BrickKernels bricks_avx512();
+}  // namespace kernels
+
+}  // namespace vorotool::core::volumes

@@ -1,0 +1,177 @@
+// The loops of the bricks, written once over what a level tells of its vectors. Everything is a template over a type that
+// each file defines for itself, so no two files share an instance.
+#pragma once
+
+#include "core/volumes/brick_kernel.hpp"
+
+namespace vorotool::core::volumes {
+
+// Vectors of an element; the compiler makes of their operators what the instruction set has.
+template <class Level, class Element>
+struct VectorsOf {
+  typedef Element Vector __attribute__((vector_size(Level::bytes)));
+  typedef Element Loaded __attribute__((vector_size(Level::bytes), aligned(sizeof(Element)), may_alias));
+  static constexpr std::int32_t width = Level::bytes / static_cast<std::int32_t>(sizeof(Element));
+
+  static Vector load(const Element* from) { return *reinterpret_cast<const Loaded*>(from); }
+  static void store(Element* to, Vector v) { *reinterpret_cast<Loaded*>(to) = v; }
+  static Vector lesser(Vector a, Vector b) { return a < b ? a : b; }
+};
+
+template <class Level>
+struct SeedLoops {
+  using Floats = VectorsOf<Level, float>;
+  using Words = VectorsOf<Level, std::int32_t>;
+  using Vector = typename Floats::Vector;
+  static constexpr std::int32_t width = Floats::width;
+
+  static Vector square(Vector v) { return v * v; }
+
+  static std::int32_t near(const SeedArrays& given, std::int32_t count, const float* place) {
+    // positive floats are ordered as their bits: the lowest ones make room for the number of the vector
+    constexpr std::int32_t numbers = std::int32_t{1} << 11;
+    const SeedArrays seeds = given;
+    const float x = place[0], y = place[1], z = place[2];
+    typename Words::Vector best = typename Words::Vector{} + 0x7fffffff;
+    const std::int32_t vectors = count / width < numbers ? count / width : numbers;
+    for (std::int32_t k = 0; k < vectors; ++k) {
+      const Vector distance = square(Floats::load(seeds.x + k * width) - x) +
+                              square(Floats::load(seeds.y + k * width) - y) +
+                              square(Floats::load(seeds.z + k * width) - z);
+      const auto bits = reinterpret_cast<typename Words::Vector>(distance);
+      best = Words::lesser(best, (bits & ~(numbers - 1)) | k);
+    }
+    std::int32_t nearest = 0, least = 0x7fffffff;
+    for (std::int32_t lane = 0; lane < width; ++lane) {
+      if (best[lane] >= least) continue;
+      least = best[lane];
+      nearest = (least & (numbers - 1)) * width + lane;
+    }
+    if (vectors == numbers) return nearest;
+    float square_of_nearest = vectors > 0 ? distance_to(seeds, nearest, place) : 0;
+    for (std::int32_t s = vectors * width; s < count; ++s) {
+      const float distance = distance_to(seeds, s, place);
+      if (s > 0 && distance >= square_of_nearest) continue;
+      square_of_nearest = distance;
+      nearest = s;
+    }
+    return nearest;
+  }
+
+  static float distance_to(const SeedArrays& seeds, std::int32_t s, const float* place) {
+    const float x = seeds.x[s] - place[0], y = seeds.y[s] - place[1], z = seeds.z[s] - place[2];
+    return x * x + y * y + z * z;
+  }
+
+  // How much farther than the rival seeds are at least, along one axis: linear, so least at an end of the box.
+  static Vector farther(const float* seeds, float rival, float low, float high) {
+    const Vector at = Floats::load(seeds);
+    const Vector rise = at - rival;
+    const Vector sum = at + rival;
+    return Floats::lesser(rise * (sum - 2 * low), rise * (sum - 2 * high));
+  }
+
+  static std::int32_t keep(const SeedArrays& given, std::int32_t count, const LatticeBox& box,
+                           const Rival& rival, const SeedArrays& given_kept, std::int32_t kept) {
+    const SeedArrays seeds = given;
+    const SeedArrays out = given_kept;
+    for (std::int32_t s = 0; s < count; s += width) {
+      const Vector lead = farther(seeds.x + s, rival.at[0], box.low[0], box.high[0]) +
+                          farther(seeds.y + s, rival.at[1], box.low[1], box.high[1]) +
+                          farther(seeds.z + s, rival.at[2], box.low[2], box.high[2]);
+      std::uint32_t stays = Level::mask(lead <= rival.slack);
+      if (count - s < width) stays &= (std::uint32_t{1} << (count - s)) - 1;
+      for (; stays != 0; stays &= stays - 1) {
+        const std::int32_t from = s + __builtin_ctz(stays);
+        out.x[kept] = seeds.x[from];
+        out.y[kept] = seeds.y[from];
+        out.z[kept] = seeds.z[from];
+        out.label[kept] = seeds.label[from];
+        ++kept;
+      }
+    }
+    return kept;
+  }
+};
+
+template <class Level, class Key>
+struct BrickKernelOn {
+  using Keys = VectorsOf<Level, Key>;
+  using Vector = typename Keys::Vector;
+  static constexpr std::int32_t width = Keys::width;
+  static constexpr std::int32_t vectors = brick_side / width;  // of a row
+  static_assert(vectors >= 1);
+
+  // Squares from a seed to the voxels along one axis, shifted to their place in a key.
+  static void shift_squares(float seed, std::int32_t first, std::int32_t step, int label_bits, Key* squares) {
+    const std::int32_t start = first - static_cast<std::int32_t>(seed);
+    for (std::int32_t k = 0; k < brick_side; ++k) {
+      const auto distance = static_cast<Key>(start + k * step);  // modulo 2^bits, as is its square
+      squares[k] = (distance * distance) << label_bits;
+    }
+  }
+
+  static void nearest(const SeedArrays& seeds, std::int32_t count, const BrickLattice& lattice, Key* squares,
+                      Key* keys) {
+    for (std::int32_t s = 0; s < count; ++s) {
+      Key* const along = squares + 3 * brick_side * s;
+      shift_squares(seeds.x[s], lattice.first[0], lattice.step[0], lattice.label_bits, along);
+      shift_squares(seeds.y[s], lattice.first[1], lattice.step[1], lattice.label_bits, along + brick_side);
+      shift_squares(seeds.z[s], lattice.first[2], lattice.step[2], lattice.label_bits, along + 2 * brick_side);
+    }
+    for (std::int32_t z = 0; z < brick_side; ++z) {
+      for (std::int32_t v = 0; v < vectors; ++v) {
+        Vector best[brick_side];
+        for (std::int32_t y = 0; y < brick_side; ++y) best[y] = Vector{} - 1;
+        const Key* along = squares;
+        for (std::int32_t s = 0; s < count; ++s, along += 3 * brick_side) {
+          const Vector of_x = Keys::load(along + v * width) + (along[2 * brick_side + z] | seeds.label[s]);
+          for (std::int32_t y = 0; y < brick_side; ++y) {
+            best[y] = Keys::lesser(best[y], of_x + along[brick_side + y]);
+          }
+        }
+        for (std::int32_t y = 0; y < brick_side; ++y) {
+          Keys::store(keys + (z * brick_side + y) * brick_side + v * width, best[y]);
+        }
+      }
+    }
+  }
+
+  template <class Voxel, class Value>
+  static void put(const Key* keys, Voxel* out, std::ptrdiff_t row, std::ptrdiff_t slice, Value value) {
+    for (std::int32_t z = 0; z < brick_side; ++z) {
+      for (std::int32_t y = 0; y < brick_side; ++y, keys += brick_side) {
+        Voxel* const voxels = out + z * slice + y * row;
+        for (std::int32_t x = 0; x < brick_side; ++x) voxels[x] = static_cast<Voxel>(value(keys[x]));
+      }
+    }
+  }
+
+  template <class Label>
+  static void labels(const Key* keys, Key limit, Key label_mask, Label* out, std::ptrdiff_t row,
+                     std::ptrdiff_t slice) {
+    put(keys, out, row, slice, [=](Key key) { return key < limit ? key & label_mask : 0; });
+  }
+
+  template <class Square>
+  static void squares(const Key* keys, int label_bits, Square* out, std::ptrdiff_t row, std::ptrdiff_t slice) {
+    put(keys, out, row, slice, [=](Key key) { return key >> label_bits; });
+  }
+
+  static BrickKernel<Key> table() {
+    return {nearest,
+            labels<std::uint8_t>,
+            labels<std::uint16_t>,
+            labels<std::uint32_t>,
+            squares<std::uint32_t>,
+            squares<std::uint64_t>};
+  }
+};
+
+template <class Level>
+BrickKernels brick_kernels_of() {
+  return {SeedLoops<Level>::near, SeedLoops<Level>::keep, BrickKernelOn<Level, std::uint32_t>::table(),
+          BrickKernelOn<Level, std::uint64_t>::table()};
+}
+
+}  // namespace vorotool::core::volumes

@@ -1,0 +1,180 @@
+#include "core/volumes/seed_grid.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace vorotool::core::volumes {
+
+namespace {
+
+constexpr double seeds_a_cell = 4.0;
+// Of a row of cells so many seeds are tried for one that is near.
+constexpr std::size_t seeds_to_try = 32;
+
+}  // namespace
+
+void SeedList::make_room(std::int64_t more) {
+  const auto needed = static_cast<std::size_t>(count + more) + seed_padding;
+  if (needed <= x_.size()) return;
+  const std::size_t size = needed + needed / 2;
+  x_.resize(size);
+  y_.resize(size);
+  z_.resize(size);
+  label_.resize(size);
+}
+
+bool SeedGrid::suits(const VolumeSites& sites) {
+  if (sites.largest_coordinate > narrow_bound) return false;
+  std::uint32_t labels = 0;
+  for (const Site& site : sites.sites) labels |= site.label;
+  // squared distances are at most 12 N^2
+  const int square_bits = 2 * std::bit_width(static_cast<std::uint64_t>(sites.largest_coordinate)) + 4;
+  return square_bits + std::bit_width(labels) < 64;
+}
+
+SeedGrid::SeedGrid(std::span<const Site> sites, const VolumeFrame& frame) : seeds_(sites.size()) {
+  const auto& plane = frame.plane;
+  const Cell voxels{plane.width, plane.height, frame.depth};
+  const Cell step{plane.pixel().x, plane.pixel().y, frame.step_z()};
+  low_ = {-step[0] * plane.middle_column(), -step[1] * plane.middle_row(), -step[2] * frame.middle_slice()};
+  double volume = seeds_a_cell / static_cast<double>(sites.size());
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    volume *= static_cast<double>(voxels[axis]) * static_cast<double>(step[axis]);
+  }
+  const double side = std::cbrt(volume);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto across = static_cast<std::int64_t>(side / static_cast<double>(step[axis]));
+    const std::int64_t of_cell = std::clamp<std::int64_t>(across, 1, voxels[axis]);
+    side_[axis] = of_cell * step[axis];
+    count_[axis] = (voxels[axis] + of_cell - 1) / of_cell;
+  }
+  first_.assign(static_cast<std::size_t>(count_[0] * count_[1] * count_[2]) + 1, 0);
+  const auto cell_of = [&](const Site& site) {
+    return static_cast<std::uint32_t>(
+        (cell_along(2, site.z) * count_[1] + cell_along(1, site.y)) * count_[0] + cell_along(0, site.x));
+  };
+  std::vector<std::uint32_t> cell(sites.size());
+  std::uint32_t labels = 0;
+  for (std::size_t s = 0; s < sites.size(); ++s) {
+    cell[s] = cell_of(sites[s]);
+    ++first_[cell[s] + 1];
+    labels |= sites[s].label;
+  }
+  label_bits_ = std::bit_width(labels);
+  for (std::size_t c = 1; c < first_.size(); ++c) first_[c] += first_[c - 1];
+  // each cell's first seed moves to the next one's, and then back
+  for (std::size_t s = 0; s < sites.size(); ++s) {
+    const Site& site = sites[s];
+    seeds_[first_[cell[s]]++] = {static_cast<std::int32_t>(site.x), static_cast<std::int32_t>(site.y),
+                                 static_cast<std::int32_t>(site.z), site.label};
+  }
+  std::copy_backward(first_.begin(), first_.end() - 1, first_.end());
+  first_.front() = 0;
+}
+
+// The cell of a place, or the nearest one to it.
+std::int64_t SeedGrid::cell_along(std::size_t axis, std::int64_t place) const {
+  if (place < low_[axis]) return 0;
+  return std::min((place - low_[axis]) / side_[axis], count_[axis] - 1);
+}
+
+std::span<const SeedGrid::Seed> SeedGrid::run(std::int64_t from_x, std::int64_t to_x, std::int64_t y,
+                                              std::int64_t z) const {
+  const std::int64_t row = (z * count_[1] + y) * count_[0];
+  return {seeds_.data() + first_[static_cast<std::size_t>(row + from_x)],
+          seeds_.data() + first_[static_cast<std::size_t>(row + to_x + 1)]};
+}
+
+template <class Body>
+void SeedGrid::for_each_run(const Cell& from, const Cell& to, Body body) const {
+  for (std::int64_t z = from[2]; z <= to[2]; ++z) {
+    for (std::int64_t y = from[1]; y <= to[1]; ++y) {
+      const auto seeds = run(from[0], to[0], y, z);
+      if (!seeds.empty()) body(seeds);
+    }
+  }
+}
+
+// A seed that is not much farther from a place than the nearest one, mostly.
+SeedGrid::Seed SeedGrid::seed_near(const std::array<std::int64_t, 3>& place) const {
+  Seed best = seeds_.front();
+  double least = std::numeric_limits<double>::infinity();
+  for (std::int64_t around = 1; std::isinf(least); around *= 2) {
+    Cell from{}, to{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::int64_t cell = cell_along(axis, place[axis]);
+      from[axis] = std::max<std::int64_t>(0, cell - around);
+      to[axis] = std::min(count_[axis] - 1, cell + around);
+    }
+    for_each_run(from, to, [&](std::span<const Seed> seeds) {
+      const std::size_t stride = 1 + seeds.size() / seeds_to_try;
+      for (std::size_t s = 0; s < seeds.size(); s += stride) {
+        const auto x = static_cast<double>(seeds[s].x - place[0]);
+        const auto y = static_cast<double>(seeds[s].y - place[1]);
+        const auto z = static_cast<double>(seeds[s].z - place[2]);
+        const double square = x * x + y * y + z * z;
+        if (square >= least) continue;
+        least = square;
+        best = seeds[s];
+      }
+    });
+  }
+  return best;
+}
+
+std::int64_t SeedGrid::gather(const PlaceBox& box, const BrickKernels& kernels, SeedList& list,
+                              SeedList& room) const {
+  const auto middle = box.middle();
+  const Seed near = seed_near(middle);
+  const std::array<std::int64_t, 3> at{near.x, near.y, near.z};
+  LatticeBox local{};
+  Rival rival{};
+  double square = 0, widest = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    local.low[axis] = static_cast<float>(box.low[axis] - middle[axis]);
+    local.high[axis] = static_cast<float>(box.high[axis] - middle[axis]);
+    rival.at[axis] = static_cast<float>(at[axis] - middle[axis]);
+    const auto farthest =
+        static_cast<double>(std::max(std::abs(at[axis] - box.low[axis]), std::abs(at[axis] - box.high[axis])));
+    square += farthest * farthest;
+    widest = std::max(widest, static_cast<double>(box.high[axis] - middle[axis]) + 1);
+  }
+  // what is farther than this from the box along an axis is farther than the rival
+  const auto reach = static_cast<std::int64_t>(std::sqrt(square)) + 1;
+  rival.slack = slack_of(static_cast<double>(reach) + widest);
+  Cell from{}, to{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    from[axis] = cell_along(axis, box.low[axis] - reach);
+    to[axis] = cell_along(axis, box.high[axis] + reach);
+  }
+  std::int64_t looked_at = 0;
+  list.count = 0;
+  room.count = 0;
+  for_each_run(from, to, [&](std::span<const Seed> seeds) {
+    const auto count = static_cast<std::int64_t>(seeds.size());
+    looked_at += count;
+    room.make_room(count);
+    list.make_room(count);
+    const SeedArrays relative = room.from(0);
+    std::int32_t inside = 0;
+    for (const Seed& seed : seeds) {
+      // cells at the ends of the grid have seeds that are out of reach, of which floats may not hold the place
+      const std::array<std::int64_t, 3> place{seed.x, seed.y, seed.z};
+      bool within = true;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        within = within && place[axis] >= box.low[axis] - reach && place[axis] <= box.high[axis] + reach;
+      }
+      relative.x[inside] = static_cast<float>(seed.x - middle[0]);
+      relative.y[inside] = static_cast<float>(seed.y - middle[1]);
+      relative.z[inside] = static_cast<float>(seed.z - middle[2]);
+      relative.label[inside] = seed.label;
+      inside += within;
+    }
+    list.count = kernels.keep(relative, inside, local, rival, list.from(0), list.count);
+  });
+  return looked_at;
+}
+
+}  // namespace vorotool::core::volumes
