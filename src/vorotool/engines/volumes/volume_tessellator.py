@@ -203,7 +203,7 @@ class VolumeSweep:
         Returns
         -------
         (slices, H, W) array
-            uint32 where every distance of the frame fits, else uint64.
+            uint32 where every distance of the frame fits, else uint64; `out` if it was given.
 
         Raises
         ------
@@ -269,4 +269,6 @@ class VolumeSweep:
         if out is None:
             return np.empty(shape, dtype)
         check_out(out, shape)
+        if out.dtype != dtype:
+            raise UsageError(f"out must be of type {dtype}, but is of type {out.dtype}")
         return out
