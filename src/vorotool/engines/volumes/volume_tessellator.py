@@ -212,10 +212,7 @@ class VolumeSweep:
         UsageError
             If `out` has another type, shape or layout.
         """
-        kind = np.dtype(dtype or self.square_dtype)
-        array = self._output(first, slices, kind, out)
-        if array.dtype != kind:
-            raise UsageError(f"out must be of type {kind}, but is of type {array.dtype}")
+        array = self._output(first, slices, np.dtype(dtype or self.square_dtype), out)
         self._core.squared_distances(array, first, self._threads, self._progress_of(first, len(array)))
         paint_inner(array, self.seeds, self.frame, first, 0)
         return array
