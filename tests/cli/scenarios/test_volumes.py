@@ -11,6 +11,7 @@ import vorotool
 from support.processes.leftovers import contents, wait_until
 from support.processes.peak_memory import peak_memory
 from support.readers.written import rows_of
+from vorotool.engines.volumes.volume_tessellator import VolumeSweep
 from vorotool.formats.samples import sample
 
 MASK = np.zeros((7, 9, 11), np.uint8)
@@ -146,7 +147,8 @@ def test_the_largest_distance_leaves_objects_whole(run, stack):
 @pytest.mark.parametrize("what", ["table", "neighbours"])
 def test_tables_are_those_of_the_library_in_the_unit_of_the_spacing(run, stack, what):
     result = vorotool.tessellate(vorotool.read(stack / "stack.tif", geometry="volume"), spacing=SPACING)
-    table = vorotool.region_table(result) if what == "table" else vorotool.neighbour_table(result)
+    squares = VolumeSweep(result.seeds, result.frame, sides=result.sides).squared_distances()
+    table = vorotool.region_table(result, distance2=squares) if what == "table" else vorotool.neighbour_table(result)
     rows = run("tessellate", "--volume", "stack.tif", "--spacing", "auto", "--what", what, "-q").rows
     for name in table:
         found = [float(row[name]) if row[name] else np.nan for row in rows]
@@ -348,8 +350,6 @@ def test_the_page(run, stack):
 
 # ---- checks --------------------------------------------------------------------------------------
 def test_the_result_is_checked(run, stack, monkeypatch):
-    from vorotool.engines.volumes.volume_tessellator import VolumeSweep
-
     options = ["tessellate", "--volume", "stack.tif", "--spacing", "auto", "-o", "out.tif", "--verify", "-q"]
     assert run(*options).code == 0
     assert run(*options, "--max-distance", "1um").code == 0
