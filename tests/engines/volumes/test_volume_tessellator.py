@@ -144,7 +144,7 @@ def test_both_ways_agree_where_blocks_are_cut(density, units, first_label):
     places = places[(places[:, 0] < 60) | (places[:, 2] < 40)]  # an empty part
     labels = first_label + random.permutation(len(places)).astype(np.uint32)
     sides = PixelSides(units)
-    rows, bricks = (VolumeSweep(places, labels, shape, sides=sides, threads=2, way=way) for way in WAYS)
+    rows, bricks = (swept(places, labels, shape, sides=sides, threads=2, way=way) for way in WAYS)
     assert np.array_equal(rows.labels(), bricks.labels())
     assert np.array_equal(rows.squared_distances(), bricks.squared_distances())
     assert np.array_equal(rows.labels(40, 7), bricks.labels(40, 7))
@@ -153,7 +153,7 @@ def test_both_ways_agree_where_blocks_are_cut(density, units, first_label):
 def test_outputs_are_written_where_they_are_given():
     random = np.random.default_rng(11)
     places, labels = random.integers(0, 20, (30, 3)), np.arange(1, 31, dtype=np.uint32)
-    sweep = VolumeSweep(places, labels, (20, 20, 20))
+    sweep = swept(places, labels, (20, 20, 20))
     for dtype in (np.uint8, np.uint16, np.uint32, np.int32):
         out = np.empty((20, 20, 20), dtype)
         assert sweep.labels(out=out) is out
@@ -166,7 +166,7 @@ def test_outputs_are_written_where_they_are_given():
     with pytest.raises(UsageError, match="of type uint32"):
         sweep.squared_distances(out=np.empty((20, 20, 20), np.uint64))
     with pytest.raises(ValueError, match="the way is"):
-        VolumeSweep(places, labels, (20, 20, 20), way="best")
+        swept(places, labels, (20, 20, 20), way="best")
 
 
 def test_outputs_that_do_not_fit_are_refused():

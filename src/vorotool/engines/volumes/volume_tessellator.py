@@ -182,7 +182,12 @@ class VolumeSweep:
         return array
 
     def squared_distances(
-        self, first: int = 0, slices: int | None = None, *, dtype: np.dtype[Any] | None = None
+        self,
+        first: int = 0,
+        slices: int | None = None,
+        *,
+        dtype: np.dtype[Any] | None = None,
+        out: NDArray[Any] | None = None,
     ) -> NDArray[Any]:
         """Exact squared distances to the nearest seed, in squares of a step of the sides over ``seeds.scale``.
 
@@ -192,6 +197,8 @@ class VolumeSweep:
             The first slice and the number of slices; by default all.
         dtype : dtype, optional
             uint32 or uint64, where it is known that they fit; by default `square_dtype`.
+        out : (slices, H, W) array, optional
+            Written instead of a new array; C-contiguous, of that type.
 
         Returns
         -------
@@ -202,8 +209,13 @@ class VolumeSweep:
         ------
         LimitError
             If a squared distance may exceed 64 bits.
+        UsageError
+            If `out` has another type, shape or layout.
         """
-        array = self._output(first, slices, dtype or self.square_dtype, None)
+        kind = np.dtype(dtype or self.square_dtype)
+        array = self._output(first, slices, kind, out)
+        if array.dtype != kind:
+            raise UsageError(f"out must be of type {kind}, but is of type {array.dtype}")
         self._core.squared_distances(array, first, self._threads, self._progress_of(first, len(array)))
         paint_inner(array, self.seeds, self.frame, first, 0)
         return array
