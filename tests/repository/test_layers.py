@@ -15,7 +15,7 @@ geometry -> products
 formats/io -> geometry
 geometry/points -> geometry
 geometry/polygons -> geometry
-engines/common ->
+engines/common -> geometry
 formats/parsing -> formats/io, geometry, geometry/points, geometry/polygons
 formats/zarr -> formats/compression, formats/io, geometry
 geometry/curves -> geometry, geometry/polygons
@@ -71,9 +71,9 @@ engines/centerlines -> engines/from_skeleton, engines/pruning, engines/skeleton,
 engines/voronoi -> engines/arrangement, engines/common, engines/segment_voronoi, engines/skeleton, geometry,
     geometry/arguments, geometry/curves, geometry/polygons, geometry/skeleton, geometry/voronoi, typing
 geometry/any -> geometry, geometry/alpha, geometry/curves, geometry/mesh, geometry/points, geometry/polygons,
-    geometry/skeleton, geometry/voronoi, products
+    geometry/skeleton, geometry/volumes, geometry/voronoi, products
 engines/label_images -> engines/common, engines/tessellation, geometry, geometry/any, geometry/arguments,
-    geometry/points, geometry/polygons, typing
+    geometry/points, geometry/polygons, products, typing
 engines/digital -> engines/common, engines/delaunay, engines/label_images, engines/tessellation, geometry,
     geometry/arguments, geometry/curves, geometry/mesh, geometry/points, typing
 jobs -> batch, engines, engines/alpha, engines/arrangement, engines/centerlines, engines/delaunay, engines/digital,
@@ -87,7 +87,7 @@ cli/options -> engines/offsets, engines/pruning, geometry, jobs, products
 cli/batch -> batch, cli/options, formats/io, geometry, jobs, products
 cli/commands -> cli/batch, cli/options, jobs, products
 cli -> cli/commands, jobs
-engines/volumes -> engines/tessellation, geometry, geometry/arguments, geometry/volumes, typing
+engines/volumes -> engines/common, engines/tessellation, geometry, geometry/arguments, geometry/volumes, typing
 engines/peers -> engines, engines/delaunay, engines/from_skeleton, engines/label_images, engines/pruning,
     engines/tessellation, engines/volumes, geometry, geometry/arguments, geometry/mesh, geometry/volumes, typing
 """
