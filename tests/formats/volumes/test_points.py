@@ -1,6 +1,5 @@
 """Points with a z, of all formats that have one."""
 
-import io
 import json
 
 import numpy as np
@@ -42,7 +41,7 @@ def text(*names, by=",", header=True):
         ("a.tsv", text("x", "kind", "y", "z", by="\t"), "x,y,kind", True),
         ("a.csv", text("x", "y", "z", "kind", by=";"), "x,y,z=z,kind", True),
         ("a.txt", text("x", "y", "z", by=" ", header=False), "1,2,z=3", False),
-        ("a.txt", text("z", "x", "y", "k", by=" ", header=False), "2,Z=1,3,4".replace("2,Z=1,3", "2,3,z=1"), True),
+        ("a.txt", text("z", "x", "y", "k", by=" ", header=False), "2,3,Z=1,4", True),
         ("a.csv", text("x", "y", "z").replace("x,y,z", "centroid-2,centroid-1,centroid-0"), None, False),
         ("a.json", json.dumps(XYZ), None, False),
         ("a.json", json.dumps([dict(zip("xyz", row, strict=True)) for row in XYZ]), None, False),
@@ -131,11 +130,9 @@ def test_columns_that_are_malformed(tmp_path, columns):
 
 
 def test_an_image(tmp_path):
-    out = io.BytesIO()
     vorotool.write(vorotool.LabelImage(np.ones((3, 4), np.uint8)), tmp_path / "a.png")
     with pytest.raises(InputError, match=r"a.png is an image, from which no points with a z are read"):
         read_xyz(tmp_path / "a.png")
-    assert out.getvalue() == b""
 
 
 def test_a_z_stays_a_property_of_points_in_the_plane(tmp_path):
