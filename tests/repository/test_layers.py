@@ -15,7 +15,7 @@ geometry -> products
 formats/io -> geometry
 geometry/points -> geometry
 geometry/polygons -> geometry
-engines/common ->
+engines/common -> geometry
 formats/parsing -> formats/io, geometry, geometry/points, geometry/polygons
 geometry/curves -> geometry, geometry/polygons
 formats/points -> formats/io, formats/parsing, geometry, geometry/points
@@ -76,18 +76,18 @@ engines/label_images -> engines/common, engines/tessellation, geometry, geometry
     geometry/points, geometry/polygons, products, typing
 engines/digital -> engines/common, engines/delaunay, engines/label_images, engines/tessellation, geometry,
     geometry/arguments, geometry/curves, geometry/mesh, geometry/points, typing
-engines/volumes -> engines/tessellation, geometry, geometry/arguments, geometry/volumes, typing
+engines/volumes -> engines/common, engines/tessellation, geometry, geometry/arguments, geometry/volumes, typing
 engines/peers -> engines, engines/delaunay, engines/from_skeleton, engines/label_images, engines/pruning,
     engines/tessellation, engines/volumes, geometry, geometry/arguments, geometry/mesh, geometry/volumes, typing
 formats/volumes -> formats, formats/images, formats/io, formats/parsing, formats/points, formats/zarr, geometry,
     geometry/volumes, products
 jobs -> batch, engines, engines/alpha, engines/arrangement, engines/centerlines, engines/delaunay, engines/digital,
     engines/features, engines/from_skeleton, engines/label_images, engines/offsets, engines/pruning,
-    engines/sampled_skeleton, engines/segment_voronoi, engines/skeleton, engines/tessellation, engines/voronoi, formats,
-    formats/images, formats/io, formats/parsing, formats/points, formats/text, formats/volumes, formats/zarr, geometry,
-    geometry/alpha, geometry/any, geometry/arguments, geometry/curves, geometry/mesh, geometry/points,
-    geometry/polygons, geometry/skeleton, geometry/volumes, geometry/voronoi, products, render/canvas,
-    render/label_images, render/layers, render/pages, typing
+    engines/sampled_skeleton, engines/segment_voronoi, engines/skeleton, engines/tessellation, engines/volumes,
+    engines/voronoi, formats, formats/images, formats/io, formats/parsing, formats/points, formats/text,
+    formats/volumes, formats/zarr, geometry, geometry/alpha, geometry/any, geometry/arguments, geometry/curves,
+    geometry/mesh, geometry/points, geometry/polygons, geometry/skeleton, geometry/volumes, geometry/voronoi, products,
+    render/canvas, render/label_images, render/layers, render/pages, typing
 cli/options -> engines/offsets, engines/pruning, geometry, jobs, products
 cli/batch -> batch, cli/options, formats/io, geometry, jobs, products
 cli/commands -> cli/batch, cli/options, jobs, products

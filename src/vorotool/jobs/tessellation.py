@@ -87,7 +87,7 @@ def products(run: Run, o: TessellationOptions, given: JobInput) -> Products | St
             if large is None:
                 value = read_opened(run, o, given, source, columns=o.columns, properties=with_columns)
         if large is not None:
-            o = with_pixel_size(run, o, given, large.grid) if measured(o) or o.spacing else o
+            o = with_pixel_size(run, o, given, large.grid) if measured(o) or o.spacing is not None else o
             return StreamedProducts(run, o, large)
         if o.cell_size is not None and not isinstance(value, Raster):
             o, seeds = seeds_on_map(run, o, value)
