@@ -40,30 +40,32 @@ struct Rival {
   float slack;  // a seed that is farther by less may be as near, by roundings
 };
 
-// How voxels lie on the lattice, and what a key holds.
-struct BrickLattice {
-  std::int32_t first[3];  // the first voxel of the brick
-  std::int32_t step[3];
+// Voxels of a brick, or of a part of it that has whole rows: all are in `brick_side` columns.
+struct BrickVoxels {
+  std::int32_t first[3];  // the first voxel on the lattice
+  std::int32_t step[3];   // along the lattice from one voxel to the next
+  std::int32_t rows, slices;
+  std::ptrdiff_t row, slice;  // elements from one to the next in the output
+};
+
+// What is written of the keys: labels of those less than `limit`, else 0, or squares.
+template <class Key>
+struct BrickProduct {
   int label_bits;
+  Key limit;
 };
 
 template <class Key>
 struct BrickKernel {
-  // Keys of the voxels of a brick, x fastest. `squares` has room for 3 brick_side numbers of each seed.
-  void (*nearest)(const SeedArrays& seeds, std::int32_t count, const BrickLattice& lattice, Key* squares,
-                  Key* keys);
-  // Labels of keys less than `limit`, else 0, or squares of all, to the rows of a brick: rows and slices are so many
-  // elements apart.
-  void (*labels8)(const Key* keys, Key limit, Key label_mask, std::uint8_t* out, std::ptrdiff_t row,
-                  std::ptrdiff_t slice);
-  void (*labels16)(const Key* keys, Key limit, Key label_mask, std::uint16_t* out, std::ptrdiff_t row,
-                   std::ptrdiff_t slice);
-  void (*labels32)(const Key* keys, Key limit, Key label_mask, std::uint32_t* out, std::ptrdiff_t row,
-                   std::ptrdiff_t slice);
-  void (*squares32)(const Key* keys, int label_bits, std::uint32_t* out, std::ptrdiff_t row,
-                    std::ptrdiff_t slice);
-  void (*squares64)(const Key* keys, int label_bits, std::uint64_t* out, std::ptrdiff_t row,
-                    std::ptrdiff_t slice);
+  // Labels or squares of the nearest of some seeds. `squares` has room for 3 brick_side numbers of each seed.
+  template <class Voxel>
+  using Write = void (*)(const SeedArrays& seeds, std::int32_t count, const BrickVoxels& voxels,
+                         const BrickProduct<Key>& product, Key* squares, Voxel* out);
+  Write<std::uint8_t> labels8;
+  Write<std::uint16_t> labels16;
+  Write<std::uint32_t> labels32;
+  Write<std::uint32_t> squares32;
+  Write<std::uint64_t> squares64;
 };
 
 struct BrickKernels {

@@ -111,60 +111,83 @@ struct BrickKernelOn {
     }
   }
 
-  static void nearest(const SeedArrays& seeds, std::int32_t count, const BrickLattice& lattice, Key* squares,
-                      Key* keys) {
+  // Rows whose keys are in registers together.
+  static constexpr std::int32_t rows_at_once = 4;
+
+  // Calls put(keys of a vector, slice, row, column) for all vectors of the voxels.
+  template <class Put>
+  static void nearest(const SeedArrays& given, std::int32_t count, const BrickVoxels& voxels, int label_bits,
+                      Key* squares, Put put) {
+    const SeedArrays seeds = given;
     for (std::int32_t s = 0; s < count; ++s) {
       Key* const along = squares + 3 * brick_side * s;
-      shift_squares(seeds.x[s], lattice.first[0], lattice.step[0], lattice.label_bits, along);
-      shift_squares(seeds.y[s], lattice.first[1], lattice.step[1], lattice.label_bits, along + brick_side);
-      shift_squares(seeds.z[s], lattice.first[2], lattice.step[2], lattice.label_bits, along + 2 * brick_side);
+      shift_squares(seeds.x[s], voxels.first[0], voxels.step[0], label_bits, along);
+      shift_squares(seeds.y[s], voxels.first[1], voxels.step[1], label_bits, along + brick_side);
+      shift_squares(seeds.z[s], voxels.first[2], voxels.step[2], label_bits, along + 2 * brick_side);
+      for (std::int32_t z = 0; z < brick_side; ++z) along[2 * brick_side + z] |= seeds.label[s];
     }
-    for (std::int32_t z = 0; z < brick_side; ++z) {
-      for (std::int32_t v = 0; v < vectors; ++v) {
-        Vector best[brick_side];
-        for (std::int32_t y = 0; y < brick_side; ++y) best[y] = Vector{} - 1;
-        const Key* along = squares;
-        for (std::int32_t s = 0; s < count; ++s, along += 3 * brick_side) {
-          const Vector of_x = Keys::load(along + v * width) + (along[2 * brick_side + z] | seeds.label[s]);
-          for (std::int32_t y = 0; y < brick_side; ++y) {
-            best[y] = Keys::lesser(best[y], of_x + along[brick_side + y]);
+    for (std::int32_t z = 0; z < voxels.slices; z += 2) {
+      for (std::int32_t y = 0; y < voxels.rows; y += rows_at_once) {
+        for (std::int32_t v = 0; v < vectors; ++v) {
+          Vector low[rows_at_once], high[rows_at_once];
+          for (std::int32_t r = 0; r < rows_at_once; ++r) low[r] = high[r] = Vector{} - 1;
+          const Key* along = squares;
+          for (std::int32_t s = 0; s < count; ++s, along += 3 * brick_side) {
+            const Vector of_x = Keys::load(along + v * width);
+            const Vector of_low = of_x + along[2 * brick_side + z];
+            const Vector of_high = of_x + along[2 * brick_side + z + 1];
+            for (std::int32_t r = 0; r < rows_at_once; ++r) {
+              const Key of_y = along[brick_side + y + r];
+              low[r] = Keys::lesser(low[r], of_low + of_y);
+              high[r] = Keys::lesser(high[r], of_high + of_y);
+            }
           }
-        }
-        for (std::int32_t y = 0; y < brick_side; ++y) {
-          Keys::store(keys + (z * brick_side + y) * brick_side + v * width, best[y]);
+          for (std::int32_t r = 0; r < rows_at_once; ++r) put(low[r], z, y + r, v * width);
+          for (std::int32_t r = 0; r < rows_at_once; ++r) put(high[r], z + 1, y + r, v * width);
         }
       }
     }
   }
 
-  template <class Voxel, class Value>
-  static void put(const Key* keys, Voxel* out, std::ptrdiff_t row, std::ptrdiff_t slice, Value value) {
-    for (std::int32_t z = 0; z < brick_side; ++z) {
-      for (std::int32_t y = 0; y < brick_side; ++y, keys += brick_side) {
-        Voxel* const voxels = out + z * slice + y * row;
-        for (std::int32_t x = 0; x < brick_side; ++x) voxels[x] = static_cast<Voxel>(value(keys[x]));
-      }
-    }
+  template <class Voxel>
+  static void store(Voxel* out, Vector values) {
+    typedef Voxel Narrow __attribute__((vector_size(width * sizeof(Voxel))));
+    typedef Voxel Stored __attribute__((vector_size(width * sizeof(Voxel)), aligned(sizeof(Voxel)), may_alias));
+    *reinterpret_cast<Stored*>(out) = __builtin_convertvector(values, Narrow);
   }
 
   template <class Label>
-  static void labels(const Key* keys, Key limit, Key label_mask, Label* out, std::ptrdiff_t row,
-                     std::ptrdiff_t slice) {
-    put(keys, out, row, slice, [=](Key key) { return key < limit ? key & label_mask : 0; });
+  static void labels(const SeedArrays& seeds, std::int32_t count, const BrickVoxels& voxels,
+                     const BrickProduct<Key>& product, Key* squares, Label* out) {
+    const Key mask = static_cast<Key>((std::uint64_t{1} << product.label_bits) - 1);
+    const std::ptrdiff_t row = voxels.row, slice = voxels.slice;
+    const auto at = [=](std::int32_t z, std::int32_t y, std::int32_t x) { return out + z * slice + y * row + x; };
+    if (product.limit == static_cast<Key>(-1)) {
+      nearest(seeds, count, voxels, product.label_bits, squares,
+              [=](Vector keys, std::int32_t z, std::int32_t y, std::int32_t x) { store(at(z, y, x), keys & mask); });
+    } else {
+      const Key limit = product.limit;
+      nearest(seeds, count, voxels, product.label_bits, squares,
+              [=](Vector keys, std::int32_t z, std::int32_t y, std::int32_t x) {
+                store(at(z, y, x), keys < limit ? keys & mask : Vector{});
+              });
+    }
   }
 
   template <class Square>
-  static void squares(const Key* keys, int label_bits, Square* out, std::ptrdiff_t row, std::ptrdiff_t slice) {
-    put(keys, out, row, slice, [=](Key key) { return key >> label_bits; });
+  static void squared_distances(const SeedArrays& seeds, std::int32_t count, const BrickVoxels& voxels,
+                                const BrickProduct<Key>& product, Key* squares, Square* out) {
+    const int bits = product.label_bits;
+    const std::ptrdiff_t row = voxels.row, slice = voxels.slice;
+    nearest(seeds, count, voxels, bits, squares,
+            [=](Vector keys, std::int32_t z, std::int32_t y, std::int32_t x) {
+              store(out + z * slice + y * row + x, keys >> bits);
+            });
   }
 
   static BrickKernel<Key> table() {
-    return {nearest,
-            labels<std::uint8_t>,
-            labels<std::uint16_t>,
-            labels<std::uint32_t>,
-            squares<std::uint32_t>,
-            squares<std::uint64_t>};
+    return {labels<std::uint8_t>, labels<std::uint16_t>, labels<std::uint32_t>,
+            squared_distances<std::uint32_t>, squared_distances<std::uint64_t>};
   }
 };
 

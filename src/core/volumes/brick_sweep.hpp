@@ -40,10 +40,14 @@ class BrickSeeds {
     SeedArrays seeds;
     std::int32_t count;
     std::int32_t first[3];  // its first voxel on the lattice of the seeds
+    LatticeBox box;
+    Rival rival;
     double largest_square;  // no distance to one of them has a larger one
   };
   // Of the brick with a number along each axis, from the first one of the block.
   Brick brick(std::int32_t x, std::int32_t y, std::int32_t z);
+  // Of half its rows and half its slices, from these on. The next part takes its place.
+  Brick part(const Brick& whole, std::int32_t row, std::int32_t slice);
 
   // About how many nanoseconds a voxel takes, of the voxels of some slices.
   double nanoseconds_a_voxel(std::int32_t first, std::int32_t slices);
@@ -59,7 +63,9 @@ class BrickSeeds {
   using Voxel = std::array<std::int32_t, 3>;
 
   PlaceBox places(const Voxel& first, std::int32_t side) const;
-  void divide_block(const Voxel& first);
+  void divide(const Voxel& first);
+  BoxSeeds& box_at(const Voxel& first);
+  double widest(const LatticeBox& box, SeedList& list) const;
   Rival rival_in(const SeedArrays& seeds, std::int32_t count, const LatticeBox& box) const;
   double largest_square(const BoxSeeds& of, const PlaceBox& box);
 
@@ -70,7 +76,7 @@ class BrickSeeds {
   Voxel start_{};
   std::int32_t across_ = 0;  // boxes
   std::vector<BoxSeeds> boxes_;
-  SeedList listed_, block_, room_, found_;
+  SeedList listed_, block_, room_, found_, part_;
   std::int64_t looked_at_ = 0;
 };
 
@@ -90,7 +96,7 @@ class BrickSweep {
   void fill_brick(const BrickSeeds::Brick& brick, Voxel* to);
   template <class Key>
   void fill_with(const BrickSeeds::Brick& brick, const BrickKernel<Key>& kernel, std::vector<Key>& squares,
-                 Voxel* to);
+                 std::int32_t side, Voxel* to);
 
   BrickSeeds seeds_;
   const VolumeFrame frame_;

@@ -10,6 +10,7 @@ namespace vorotool::core::volumes {
 namespace {
 
 constexpr double seeds_a_cell = 4.0;
+constexpr std::size_t seeds_of_dense = 60;
 // Of a row of cells so many seeds are tried for one that is near.
 constexpr std::size_t seeds_to_try = 32;
 
@@ -122,6 +123,17 @@ SeedGrid::Seed SeedGrid::seed_near(const std::array<std::int64_t, 3>& place) con
     });
   }
   return best;
+}
+
+bool SeedGrid::is_dense(const PlaceBox& box) const {
+  Cell from{}, to{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    from[axis] = cell_along(axis, box.low[axis]);
+    to[axis] = cell_along(axis, box.high[axis]);
+  }
+  std::size_t seeds = 0;
+  for_each_run(from, to, [&](std::span<const Seed> some) { seeds += some.size(); });
+  return seeds > seeds_of_dense;
 }
 
 std::int64_t SeedGrid::gather(const PlaceBox& box, const BrickKernels& kernels, SeedList& list,

@@ -47,6 +47,9 @@ class SeedGrid {
   // were looked at.
   std::int64_t gather(const PlaceBox& box, const BrickKernels& kernels, SeedList& list, SeedList& room) const;
 
+  // Whether a box has so many seeds that parts of it are gathered rather than itself.
+  bool is_dense(const PlaceBox& box) const;
+
   int label_bits() const { return label_bits_; }
 
  private:
