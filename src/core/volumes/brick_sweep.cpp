@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace vorotool::core::volumes {
 
@@ -96,7 +97,8 @@ void BrickSeeds::divide(const Voxel& first) {
   if (together) looked_at_ += grid_.gather(whole, kernels_, block_, room_);
   float slack = together ? slack_of(widest(relative_to(origin, whole), block_)) : 0;
   for (std::int32_t k = 0; k < boxes_a_side * boxes_a_side * boxes_a_side; ++k) {
-    const Voxel corner{first[0] + k % boxes_a_side * box_side, first[1] + k / boxes_a_side % boxes_a_side * box_side,
+    const Voxel corner{first[0] + k % boxes_a_side * box_side,
+                       first[1] + k / boxes_a_side % boxes_a_side * box_side,
                        first[2] + k / boxes_a_side / boxes_a_side * box_side};
     if (corner[0] >= size_[0] || corner[1] >= size_[1] || corner[2] >= size_[2]) continue;
     const PlaceBox box = places(corner, box_side);
@@ -121,7 +123,8 @@ BrickSeeds::Brick BrickSeeds::brick(std::int32_t x, std::int32_t y, std::int32_t
   const Voxel first{x * brick_side, start_[1] + y * brick_side, start_[2] + z * brick_side};
   const BoxSeeds& around = box_at(first);
   const PlaceBox box = places(first, brick_side);
-  Brick made{listed_.from(around.first), around.count, {}, relative_to(around.origin, box), {}, around.largest_square};
+  Brick made{listed_.from(around.first),      around.count, {},
+             relative_to(around.origin, box), {},           around.largest_square};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     made.first[axis] = static_cast<std::int32_t>(box.low[axis] - around.origin[axis]);
   }
@@ -135,27 +138,24 @@ BrickSeeds::Brick BrickSeeds::brick(std::int32_t x, std::int32_t y, std::int32_t
   return made;
 }
 
-BrickSeeds::Brick BrickSeeds::part(const Brick& whole, std::int32_t row, std::int32_t slice) {
-  Brick made = whole;
-  const std::int32_t from[] = {row, slice};
+std::int32_t BrickSeeds::number_part(const Brick& whole, std::int32_t row, std::int32_t slice,
+                                     std::uint32_t* numbers) {
+  LatticeBox box = whole.box;
+  const std::int32_t from[] = {0, row, slice};
   for (std::size_t axis = 1; axis < 3; ++axis) {
-    made.first[axis] += from[axis - 1] * step_[axis];
-    const auto low = static_cast<float>(made.first[axis]);
-    const auto high = static_cast<float>(made.first[axis] + (brick_side / 2 - 1) * step_[axis]);
-    made.box.low[axis] = std::min(low, whole.box.high[axis]);
-    made.box.high[axis] = std::min(high, whole.box.high[axis]);
+    const std::int32_t first = whole.first[axis] + from[axis] * step_[axis];
+    box.low[axis] = std::min(static_cast<float>(first), whole.box.high[axis]);
+    box.high[axis] =
+        std::min(static_cast<float>(first + (brick_side / 2 - 1) * step_[axis]), whole.box.high[axis]);
   }
-  made.rival = rival_in(whole.seeds, whole.count, made.box);
-  made.rival.slack = whole.rival.slack;
-  part_.make_room(whole.count);
-  made.count = kernels_.keep(whole.seeds, whole.count, made.box, made.rival, part_.from(0), 0);
-  made.seeds = part_.from(0);
-  return made;
+  Rival rival = rival_in(whole.seeds, whole.count, box);
+  rival.slack = whole.rival.slack;
+  return kernels_.number(whole.seeds, whole.count, box, rival, numbers);
 }
 
 // Fitted on one thread to uniform seeds: tests of seeds, and seeds of bricks.
 double BrickSeeds::nanoseconds_a_voxel(std::int32_t first, std::int32_t slices) {
-  constexpr double a_test = 0.8, a_seed = 45, a_brick = 100;
+  constexpr double a_test = 0.8, a_seed = 70, a_brick = 150;
   constexpr std::int32_t samples = 3;  // along each axis
   double sum = 0, voxels = 0;
   looked_at_ = 0;
@@ -233,51 +233,60 @@ void BrickSweep<Voxel, product>::fill_brick(const BrickSeeds::Brick& brick, Voxe
     for (std::int32_t k = 0; k < brick_side * brick_side; ++k) std::fill_n(to + k * row_, brick_side, label);
     return;
   }
-  const auto fill = [&](const BrickSeeds::Brick& of, std::int32_t side, Voxel* at) {
-    if (brick.largest_square < std::ldexp(1.0, 32 - label_bits_)) {
-      fill_with(of, kernels_.narrow, narrow_, side, at);
-    } else {
-      fill_with(of, kernels_.wide, wide_, side, at);
-    }
-  };
-  if (brick.count <= seeds_to_divide) {
-    fill(brick, brick_side, to);
-    return;
-  }
-  constexpr std::int32_t half = brick_side / 2;
-  for (std::int32_t slice = 0; slice < brick_side; slice += half) {
-    for (std::int32_t row = 0; row < brick_side; row += half) {
-      fill(seeds_.part(brick, row, slice), half, to + (slice * brick_side + row) * row_);
-    }
+  if (label_bits_ < 32 && brick.largest_square < std::ldexp(1.0, 32 - label_bits_)) {
+    fill_with(brick, kernels_.narrow, narrow_, to);
+  } else {
+    fill_with(brick, kernels_.wide, wide_, to);
   }
 }
 
-// Fills as many rows as slices.
 template <class Voxel, Product product>
 template <class Key>
 void BrickSweep<Voxel, product>::fill_with(const BrickSeeds::Brick& brick, const BrickKernel<Key>& kernel,
-                                           std::vector<Key>& squares, std::int32_t side, Voxel* to) {
-  const std::size_t needed = static_cast<std::size_t>(brick.count) * 3 * brick_side;
-  if (squares.size() < needed) squares.resize(2 * needed);
+                                           std::vector<Key>& terms, Voxel* to) {
+  const auto count = static_cast<std::size_t>(brick.count);
+  if (terms.size() < count * 3 * brick_side) terms.resize(2 * count * 3 * brick_side);
+  if (numbers_.size() < count + seed_padding) {
+    numbers_.resize(2 * count + seed_padding);
+    std::iota(numbers_.begin(), numbers_.end(), 0U);
+    part_.resize(numbers_.size());
+  }
   const auto& plane = frame_.plane;
-  const BrickVoxels voxels{{brick.first[0], brick.first[1], brick.first[2]},
-                           {plane.pixel().x, plane.pixel().y, frame_.step_z()},
-                           side,
-                           side,
-                           row_,
-                           brick_side * row_};
-  const auto most = static_cast<std::int64_t>(static_cast<Key>(-1) >> label_bits_);
-  const bool limited = most_squared_ && *most_squared_ < most;
-  const BrickProduct<Key> wanted{
-      label_bits_, limited ? static_cast<Key>(*most_squared_ + 1) << label_bits_ : static_cast<Key>(-1)};
-  Key* const room = squares.data();
-  if constexpr (product == Product::labels) {
-    if constexpr (sizeof(Voxel) == 1) kernel.labels8(brick.seeds, brick.count, voxels, wanted, room, to);
-    if constexpr (sizeof(Voxel) == 2) kernel.labels16(brick.seeds, brick.count, voxels, wanted, room, to);
-    if constexpr (sizeof(Voxel) == 4) kernel.labels32(brick.seeds, brick.count, voxels, wanted, room, to);
-  } else {
-    if constexpr (sizeof(Voxel) == 4) kernel.squares32(brick.seeds, brick.count, voxels, wanted, room, to);
-    if constexpr (sizeof(Voxel) == 8) kernel.squares64(brick.seeds, brick.count, voxels, wanted, room, to);
+  BrickVoxels voxels{{brick.first[0], brick.first[1], brick.first[2]},
+                     {plane.pixel().x, plane.pixel().y, frame_.step_z()},
+                     0,
+                     brick_side,
+                     0,
+                     brick_side,
+                     row_,
+                     brick_side * row_};
+  kernel.find_terms(brick.seeds, brick.count, voxels, label_bits_, terms.data());
+  constexpr Key all = static_cast<Key>(-1);
+  const bool limited = most_squared_ && *most_squared_ < static_cast<std::int64_t>(all >> label_bits_);
+  const BrickProduct<Key> wanted{label_bits_,
+                                 limited ? static_cast<Key>(*most_squared_ + 1) << label_bits_ : all};
+  const auto write = [&](const BrickTerms<Key>& seeds, Voxel* out) {
+    if constexpr (product == Product::labels) {
+      if constexpr (sizeof(Voxel) == 1) kernel.labels8(seeds, voxels, wanted, out);
+      if constexpr (sizeof(Voxel) == 2) kernel.labels16(seeds, voxels, wanted, out);
+      if constexpr (sizeof(Voxel) == 4) kernel.labels32(seeds, voxels, wanted, out);
+    } else {
+      if constexpr (sizeof(Voxel) == 4) kernel.squares32(seeds, voxels, wanted, out);
+      if constexpr (sizeof(Voxel) == 8) kernel.squares64(seeds, voxels, wanted, out);
+    }
+  };
+  if (brick.count <= seeds_to_divide) {
+    write({terms.data(), numbers_.data(), brick.count}, to);
+    return;
+  }
+  voxels.rows = voxels.slices = brick_side / 2;
+  for (const std::int32_t slice : {0, brick_side / 2}) {
+    for (const std::int32_t row : {0, brick_side / 2}) {
+      voxels.first_row = row;
+      voxels.first_slice = slice;
+      const std::int32_t kept = seeds_.number_part(brick, row, slice, part_.data());
+      write({terms.data(), part_.data(), kept}, to + slice * voxels.slice + row * voxels.row);
+    }
   }
 }
 

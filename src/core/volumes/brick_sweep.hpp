@@ -46,8 +46,8 @@ class BrickSeeds {
   };
   // Of the brick with a number along each axis, from the first one of the block.
   Brick brick(std::int32_t x, std::int32_t y, std::int32_t z);
-  // Of half its rows and half its slices, from these on. The next part takes its place.
-  Brick part(const Brick& whole, std::int32_t row, std::int32_t slice);
+  // Numbers of those of its seeds that half its rows and slices, from these on, may have; gives how many.
+  std::int32_t number_part(const Brick& whole, std::int32_t row, std::int32_t slice, std::uint32_t* numbers);
 
   // About how many nanoseconds a voxel takes, of the voxels of some slices.
   double nanoseconds_a_voxel(std::int32_t first, std::int32_t slices);
@@ -76,7 +76,7 @@ class BrickSeeds {
   Voxel start_{};
   std::int32_t across_ = 0;  // boxes
   std::vector<BoxSeeds> boxes_;
-  SeedList listed_, block_, room_, found_, part_;
+  SeedList listed_, block_, room_, found_;
   std::int64_t looked_at_ = 0;
 };
 
@@ -95,8 +95,8 @@ class BrickSweep {
  private:
   void fill_brick(const BrickSeeds::Brick& brick, Voxel* to);
   template <class Key>
-  void fill_with(const BrickSeeds::Brick& brick, const BrickKernel<Key>& kernel, std::vector<Key>& squares,
-                 std::int32_t side, Voxel* to);
+  void fill_with(const BrickSeeds::Brick& brick, const BrickKernel<Key>& kernel, std::vector<Key>& terms,
+                 Voxel* to);
 
   BrickSeeds seeds_;
   const VolumeFrame frame_;
@@ -108,6 +108,7 @@ class BrickSweep {
   Voxel* const out_;
   const std::ptrdiff_t row_;  // elements of a row of `bar_`
   std::vector<Voxel> bar_;    // a brick's rows and slices
+  std::vector<std::uint32_t> numbers_, part_;
   std::vector<std::uint32_t> narrow_;
   std::vector<std::uint64_t> wide_;
 };
