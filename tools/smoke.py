@@ -15,6 +15,7 @@ from collections.abc import Mapping, Sequence
 from importlib import metadata
 from pathlib import Path
 
+SPACE = "x,y,z\n3,4,1\n28,6,7\n15,20,3\n"
 POINTS = "x,y\n3,4\n28,6\n15,20\n7,17\n22,13\n30,22\n"
 MASK = "P2 7 4 1\n0 0 0 0 0 0 0\n0 1 1 0 0 1 0\n0 1 1 0 1 1 0\n0 0 0 0 0 0 1\n"
 SHAPE = {"type": "Polygon", "coordinates": [[[0, 0], [40, 0], [40, 12], [14, 12], [14, 30], [0, 30], [0, 0]]]}
@@ -25,6 +26,8 @@ RUNS = {
         "mask.pgm --what table -o regions.csv",
         "mask.pgm --what distance -o distances.tif",
         "dots.csv more.csv --size 32x24 --what colour --out-dir many -j 2",
+        "space.csv --size 32x24x8 -o volume.tif --verify",
+        "volume.tif --volume --what table,colour -o volume",
     ],
     "delaunay": ["dots.csv -o triangles.geojson --verify", "mask.pgm -o edges.csv"],
     "alphashape": ["dots.csv -r 12 -o shape.geojson --verify", "dots.csv -r 12 -o shape.svg"],
@@ -60,6 +63,7 @@ class Smoke:
         for name, text in {
             "dots.csv": POINTS,
             "more.csv": POINTS,
+            "space.csv": SPACE,
             "mask.pgm": MASK,
             "shape.json": json.dumps(SHAPE),
         }.items():

@@ -4,7 +4,7 @@ import sys
 from collections.abc import Iterable
 
 from vorotool.products.formats import FORMATS
-from vorotool.products.inputs import names_of
+from vorotool.products.inputs import SPACE_READERS, VOLUME_NAMES, names_of
 from vorotool.products.registry import PRODUCTS
 
 
@@ -43,7 +43,13 @@ def reference() -> str:
 
 def inputs() -> dict[str, Iterable[str]]:
     """Names of formats that are read, by what they hold."""
-    return {"points": names_of("points"), "polygons and lines": names_of("polygons"), "images": names_of("image")}
+    held: dict[str, Iterable[str]] = {
+        "points": names_of("points"),
+        "polygons and lines": names_of("polygons"),
+        "images": names_of("image"),
+    }
+    space = [name for name, kind in names_of("points").items() if kind in SPACE_READERS or kind == "npy"]
+    return {**held, "volumes, slice by slice": VOLUME_NAMES, "points with a z": space}
 
 
 def outputs() -> Iterable[tuple[str, ...]]:

@@ -30,6 +30,7 @@ Columns regions_to_dict(core::label_images::Regions&& found) {
   };
   put("area", [](const Region& r) { return r.area; });
   put("perimeter", [](const Region& r) { return r.perimeter; });
+  put("vertical_sides", [](const Region& r) { return r.vertical; });
   put("components", [](const Region& r) { return r.components; });
   put("sum_x", [](const Region& r) { return r.sum_x; });
   put("sum_y", [](const Region& r) { return r.sum_y; });
@@ -40,6 +41,8 @@ Columns regions_to_dict(core::label_images::Regions&& found) {
   columns["border_a"] = column<std::uint32_t>(found.borders, [](const Border& b) { return b.a; });
   columns["border_b"] = column<std::uint32_t>(found.borders, [](const Border& b) { return b.b; });
   columns["border_length"] = column<std::int64_t>(found.borders, [](const Border& b) { return b.length; });
+  columns["border_vertical"] =
+      column<std::int64_t>(found.borders, [](const Border& b) { return b.vertical; });
   columns["labels"] = to_numpy(std::move(found.labels));
   return columns;
 }

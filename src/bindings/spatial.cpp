@@ -1,4 +1,7 @@
 // What is nearest, and which boxes are disjoint.
+#include <array>
+#include <cstdint>
+#include <span>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
@@ -18,12 +21,28 @@ namespace {
 using core::base::Monitor;
 using core::spatial::NearestOther;
 
-auto nearest_other_sites(Vector<const double> x, Vector<const double> y, Vector<const std::uint32_t> labels,
-                         unsigned threads, const Progress& progress) {
-  const auto found = run_interruptible(progress, core::spatial::nearest_other_sites, view(x), view(y),
-                                       view(labels), threads);
+template <std::size_t Axes>
+auto nearest_among(const std::array<std::span<const double>, Axes>& columns,
+                   const Vector<const std::uint32_t>& labels, unsigned threads, const Progress& progress) {
+  for (const auto& column : columns) {
+    if (column.size() != labels.size()) throw std::invalid_argument("each site must have one label");
+  }
+  const auto found =
+      run_interruptible(progress, core::spatial::nearest_other_sites<Axes>, columns, view(labels), threads);
   return std::make_tuple(column<std::int64_t>(found, [](const NearestOther& n) { return n.index; }),
                          column<double>(found, [](const NearestOther& n) { return n.distance; }));
+}
+
+auto nearest_other_sites(const Vector<const double>& x, const Vector<const double>& y,
+                         const Vector<const std::uint32_t>& labels, unsigned threads,
+                         const Progress& progress) {
+  return nearest_among<2>({view(x), view(y)}, labels, threads, progress);
+}
+
+auto nearest_other_in_space(const Vector<const double>& x, const Vector<const double>& y,
+                            const Vector<const double>& z, const Vector<const std::uint32_t>& labels,
+                            unsigned threads, const Progress& progress) {
+  return nearest_among<3>({view(x), view(y), view(z)}, labels, threads, progress);
 }
 
 // Distances of places on the lattice from the nearest of points and segments.
@@ -55,6 +74,8 @@ auto disjoint_sheets(const Matrix<const std::int64_t>& boxes, const Progress& pr
 void bind_spatial(nb::module_& room) {
   room.def("nearest_other_sites", &nearest_other_sites, "x"_a, "y"_a, "labels"_a, "threads"_a,
            "progress"_a.none(), "Of each site the nearest with another label, and its distance.");
+  room.def("nearest_other_sites", &nearest_other_in_space, "x"_a, "y"_a, "z"_a, "labels"_a, "threads"_a,
+           "progress"_a.none());
   room.def("clearances", &clearances, "points"_a, "segments"_a, "places"_a, "reach"_a, "threads"_a,
            "progress"_a.none(), "Of the nearest site within reach; infinite where there is none.");
   room.def("disjoint_sheets", &disjoint_sheets, "boxes"_a, "progress"_a.none(),

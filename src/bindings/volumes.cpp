@@ -1,4 +1,4 @@
-// The tessellation of volumes.
+// The tessellation of volumes, and the components of their masks.
 #include <nanobind/stl/string_view.h>
 
 #include <algorithm>
@@ -11,18 +11,22 @@
 #include "bindings/support/arrays.hpp"
 #include "bindings/support/monitor.hpp"
 #include "bindings/support/simd.hpp"
+#include "core/volumes/volume_components.hpp"
 #include "core/volumes/volume_tessellation.hpp"
 
 namespace vorotool::bindings {
 namespace {
 
 using core::base::Monitor;
+using core::volumes::VolumeComponents;
 using core::volumes::VolumeFrame;
 using core::volumes::VolumeTessellation;
 using core::volumes::Way;
 using Integers = Vector<const std::int64_t>;
 using Labels = Vector<const std::uint32_t>;
 using Volume = Aligned<nb::ndim<3>, nb::c_contig, nb::device::cpu>;
+template <class T>
+using Slices = Aligned<T, nb::ndim<3>, nb::c_contig, nb::device::cpu>;
 using Halves = std::pair<std::uint64_t, std::uint64_t>;  // upper and lower 64 bits
 using Origin = std::tuple<std::int64_t, std::int64_t, std::int64_t>;
 using Size = std::tuple<std::int32_t, std::int32_t, std::int32_t>;
@@ -91,6 +95,35 @@ void write_squared_distances(const VolumeTessellation& tessellation, const Volum
   });
 }
 
+void write_distances(const VolumeTessellation& tessellation, const Volume& out, std::int32_t first,
+                     double square_of_step, unsigned threads, const Progress& progress) {
+  const std::int32_t slices = slices_of(tessellation, out, first);
+  with_type<float>(out, [&](float* voxels) {
+    run_interruptible(progress, [&](const Monitor& monitor) {
+      tessellation.distances(first, slices, voxels, square_of_step, threads, monitor);
+    });
+  });
+}
+
+void add_slices(VolumeComponents& components, const Slices<const std::uint8_t>& mask,
+                const Slices<std::uint32_t>& out, const Progress& progress) {
+  if (mask.shape(2) != components.width() || mask.shape(1) != components.height() ||
+      mask.size() != out.size()) {
+    throw std::invalid_argument("the slices do not fit the components");
+  }
+  run_interruptible(progress, [&](const Monitor& monitor) {
+    components.add({mask.data(), mask.size()}, {out.data(), out.size()}, monitor);
+  });
+}
+
+std::uint32_t settle(VolumeComponents& components, const Vector<std::uint32_t>& out) {
+  if (out.size() != std::size_t{components.size()} + 1) {
+    throw std::invalid_argument("the numbers do not fit the components");
+  }
+  const nb::gil_scoped_release no_gil;
+  return components.settle(view(out));
+}
+
 }  // namespace
 
 void bind_volumes(nb::module_& room) {
@@ -113,7 +146,22 @@ void bind_volumes(nb::module_& room) {
       .def("labels", &write_labels, "out"_a, "first"_a, "most_squared"_a.none(), "threads"_a,
            "progress"_a.none())
       .def("squared_distances", &write_squared_distances, "out"_a, "first"_a, "threads"_a,
+           "progress"_a.none())
+      .def("distances", &write_distances, "out"_a, "first"_a, "square_of_step"_a, "threads"_a,
            "progress"_a.none());
+  nb::class_<VolumeComponents>(room, "VolumeComponents")
+      .def(
+          "__init__",
+          [](VolumeComponents* self, std::size_t width, std::size_t height, bool corners) {
+            using core::volumes::Connectivity;
+            new (self)
+                VolumeComponents(width, height, corners ? Connectivity::twenty_six : Connectivity::six);
+          },
+          "width"_a, "height"_a, "corners"_a)
+      .def_prop_ro("size", &VolumeComponents::size)
+      .def("add", &add_slices, "mask"_a, "out"_a, "progress"_a.none())
+      .def("settle", &settle, "out"_a);
+  bind_volume_regions(room);
 }
 
 }  // namespace vorotool::bindings

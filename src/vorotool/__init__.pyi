@@ -137,6 +137,12 @@ from vorotool.engines.tessellation.tessellate import (
 from vorotool.engines.tessellation.tessellate import (
     verify_tessellation as verify_tessellation,
 )
+from vorotool.engines.volumes.volume_seeding import (
+    seeds_from_volume as seeds_from_volume,
+)
+from vorotool.engines.volumes.volume_seeding import (
+    seeds_from_xyz as seeds_from_xyz,
+)
 from vorotool.engines.voronoi.verify_voronoi import (
     verify_voronoi as verify_voronoi,
 )
@@ -262,6 +268,24 @@ from vorotool.geometry.skeleton.tables import (
 )
 from vorotool.geometry.table import (
     Table as Table,
+)
+from vorotool.geometry.volumes.label_volume import (
+    LabelVolume as LabelVolume,
+)
+from vorotool.geometry.volumes.volume import (
+    Volume as Volume,
+)
+from vorotool.geometry.volumes.volume_points import (
+    VolumePoints as VolumePoints,
+)
+from vorotool.geometry.volumes.volume_seeds import (
+    VolumeSeeds as VolumeSeeds,
+)
+from vorotool.geometry.volumes.voxel_frame import (
+    VoxelFrame as VoxelFrame,
+)
+from vorotool.geometry.volumes.voxel_grid import (
+    VoxelGrid as VoxelGrid,
 )
 from vorotool.geometry.voronoi.voronoi_map import (
     VoronoiMap as VoronoiMap,

@@ -53,6 +53,7 @@ OUTPUT = option("-o", "path=...")
 NO_CLOBBER = option("--no-clobber", "no_clobber=True")
 AS_JSON = option("--input-format json", 'input_format="json"')
 INPUT_FORMAT = option("--input-format", "input_format=...")
+AS_VOLUME = option("tessellate --volume", 'geometry="volume"')
 """Options that many messages name."""
 
 

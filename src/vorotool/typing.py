@@ -28,6 +28,10 @@ from vorotool.geometry.points.raster import Raster
 from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.geometry.volumes.label_volume import LabelVolume
+from vorotool.geometry.volumes.volume import Volume
+from vorotool.geometry.volumes.volume_points import VolumePoints
+from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
 
 
 @runtime_checkable
@@ -62,6 +66,15 @@ ImageLike: TypeAlias = Raster | LabelImage | ArrayLike
 
 SeedsLike: TypeAlias = SeedSet | PointsLike | ImageLike
 """Seeds of a tessellation: points or an image."""
+
+VolumeLike: TypeAlias = Volume | LabelVolume | ArrayLike
+"""A mask, a label volume or grey values: a 3-D array, or what numpy makes one of."""
+
+VolumePointsLike: TypeAlias = VolumePoints | ArrayLike | DataFrameLike | Mapping[str, Any]
+"""Points of space: an (n, 3) array or list of triples x, y, z, or a data frame or mapping with these columns."""
+
+VolumeSeedsLike: TypeAlias = VolumeSeeds | VolumePointsLike | VolumeLike
+"""Seeds of the tessellation of a volume: points of space or a volume."""
 
 MeshLike: TypeAlias = Triangulation | SeedsLike
 """Points, or their triangulation, which is used as it is."""

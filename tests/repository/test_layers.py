@@ -15,23 +15,25 @@ geometry -> products
 formats/io -> geometry
 geometry/points -> geometry
 geometry/polygons -> geometry
-geometry/arguments -> geometry, geometry/points, geometry/polygons, products
 engines/common ->
 formats/parsing -> formats/io, geometry, geometry/points, geometry/polygons
 formats/zarr -> formats/compression, formats/io, geometry
 geometry/curves -> geometry, geometry/polygons
 formats/images -> formats/compression, formats/io, formats/parsing, formats/zarr, geometry, geometry/points
 formats/points -> formats/io, formats/parsing, geometry, geometry/points
+render/canvas -> geometry, geometry/curves, products
+render/label_images -> geometry, geometry/points, products, render/canvas
+geometry/voronoi -> geometry, geometry/curves, geometry/polygons, products
+render ->
+geometry/volumes -> geometry, geometry/points
+geometry/arguments -> geometry, geometry/points, geometry/polygons, geometry/volumes, products
 geometry/mesh -> geometry, geometry/arguments, geometry/curves
 geometry/skeleton -> geometry, geometry/arguments, geometry/curves, geometry/polygons
-typing -> geometry, geometry/mesh, geometry/points, geometry/polygons, geometry/skeleton
+typing -> geometry, geometry/mesh, geometry/points, geometry/polygons, geometry/skeleton, geometry/volumes
 engines/tessellation -> engines/common, geometry, geometry/arguments, geometry/curves, geometry/points,
-    geometry/polygons, typing
-render/canvas -> geometry, geometry/curves, products
+    geometry/polygons, geometry/volumes, products, typing
 engines/arrangement -> geometry, geometry/arguments, geometry/curves, geometry/polygons, geometry/skeleton, typing
 engines/delaunay -> geometry, geometry/arguments, geometry/curves, geometry/mesh, geometry/points, typing
-engines/label_images -> engines/common, engines/tessellation, geometry, geometry/arguments, geometry/points,
-    geometry/polygons, typing
 engines/segment_voronoi -> geometry, geometry/polygons, geometry/skeleton
 formats/text -> geometry, geometry/skeleton
 formats/features -> formats/io, formats/parsing, formats/points, formats/text, geometry, geometry/arguments,
@@ -39,15 +41,11 @@ formats/features -> formats/io, formats/parsing, formats/points, formats/text, g
 geometry/alpha -> geometry, geometry/curves, geometry/mesh, geometry/polygons
 formats/drawing -> formats/compression, formats/io, formats/parsing, geometry, geometry/alpha, geometry/curves,
     geometry/polygons, geometry/skeleton, products
-render/label_images -> geometry, geometry/points, products, render/canvas
 engines/alpha -> engines/delaunay, geometry, geometry/alpha, geometry/arguments, geometry/curves, geometry/mesh,
     geometry/points, geometry/polygons, typing
-engines/digital -> engines/common, engines/delaunay, engines/label_images, engines/tessellation, geometry,
-    geometry/arguments, geometry/curves, geometry/mesh, geometry/points, typing
 engines/features -> engines/arrangement, geometry, geometry/polygons, geometry/skeleton
 formats/polygons -> formats/io, formats/parsing, formats/points, formats/text, geometry, geometry/arguments,
     geometry/polygons, products
-geometry/voronoi -> geometry, geometry/curves, geometry/polygons, products
 render/layers -> geometry, geometry/alpha, geometry/mesh, geometry/polygons, geometry/skeleton, geometry/voronoi,
     render/canvas, render/label_images
 render/pages -> geometry, geometry/alpha, geometry/curves, geometry/mesh, geometry/skeleton, geometry/voronoi, products,
@@ -70,11 +68,14 @@ batch -> engines/tessellation, formats, formats/io, formats/text, formats/zarr
 engines -> engines/sampled_skeleton, engines/skeleton, geometry, geometry/arguments, geometry/skeleton, typing
 engines/centerlines -> engines/from_skeleton, engines/pruning, engines/skeleton, geometry, geometry/arguments,
     geometry/polygons, geometry/skeleton, typing
-render ->
 engines/voronoi -> engines/arrangement, engines/common, engines/segment_voronoi, engines/skeleton, geometry,
     geometry/arguments, geometry/curves, geometry/polygons, geometry/skeleton, geometry/voronoi, typing
 geometry/any -> geometry, geometry/alpha, geometry/curves, geometry/mesh, geometry/points, geometry/polygons,
     geometry/skeleton, geometry/voronoi, products
+engines/label_images -> engines/common, engines/tessellation, geometry, geometry/any, geometry/arguments,
+    geometry/points, geometry/polygons, typing
+engines/digital -> engines/common, engines/delaunay, engines/label_images, engines/tessellation, geometry,
+    geometry/arguments, geometry/curves, geometry/mesh, geometry/points, typing
 jobs -> batch, engines, engines/alpha, engines/arrangement, engines/centerlines, engines/delaunay, engines/digital,
     engines/features, engines/from_skeleton, engines/label_images, engines/offsets, engines/pruning,
     engines/sampled_skeleton, engines/segment_voronoi, engines/skeleton, engines/tessellation, engines/voronoi, formats,
@@ -86,9 +87,9 @@ cli/options -> engines/offsets, engines/pruning, geometry, jobs, products
 cli/batch -> batch, cli/options, formats/io, geometry, jobs, products
 cli/commands -> cli/batch, cli/options, jobs, products
 cli -> cli/commands, jobs
-engines/volumes -> engines/tessellation, geometry
+engines/volumes -> engines/tessellation, geometry, geometry/arguments, geometry/volumes, typing
 engines/peers -> engines, engines/delaunay, engines/from_skeleton, engines/label_images, engines/pruning,
-    engines/tessellation, engines/volumes, geometry, geometry/arguments, geometry/mesh, typing
+    engines/tessellation, engines/volumes, geometry, geometry/arguments, geometry/mesh, geometry/volumes, typing
 """
 """Rooms of the package from below, and what each may import; `errors` and `signals` are for all."""
 

@@ -114,7 +114,7 @@ class Checker {
       x.push_back(std::ldexp(p.x, scale_));
       y.push_back(std::ldexp(p.y, scale_));
     }
-    tree_.emplace(x, y, labels, monitor_);
+    tree_.emplace(Tree::Columns{x, y}, labels, monitor_);
     place_.resize(in_.sites.size());
     for (std::size_t i = 0; i < place_.size(); ++i) {
       place_[tree_->site(static_cast<std::ptrdiff_t>(i)).index] = static_cast<std::uint32_t>(i);
@@ -165,8 +165,8 @@ class Checker {
   }
 
   std::size_t nearest_site(const Point& q, std::size_t own) const {
-    const double x = std::ldexp(q.x, scale_), y = std::ldexp(q.y, scale_);
-    const Tree::Nearest nearest = tree_->nearest(x, y, tree_->bound(place_[own], x, y));
+    const Tree::Place at{std::ldexp(q.x, scale_), std::ldexp(q.y, scale_)};
+    const Tree::Nearest nearest = tree_->nearest(at, tree_->bound(place_[own], at));
     return tree_->site(nearest.place).index;
   }
 

@@ -1,31 +1,14 @@
 #include "core/label_images/digital_diagram.hpp"
 
-#include <algorithm>
 #include <stdexcept>
 
 #include "core/base/parallel.hpp"
+#include "core/label_images/diagram_row.hpp"
 #include "core/label_images/label_runs.hpp"
 
 namespace vorotool::core::label_images {
 
 using base::Monitor;
-
-namespace {
-
-// Plain comparisons without branches: the compiler makes vectors of them.
-template <class Label>
-void mark_row(const Label* __restrict row, const Label* above, const Label* below, std::size_t width,
-              std::uint8_t* __restrict out) {
-  auto mark = [&](std::size_t x, Label left, Label right) {
-    const Label largest = std::max(std::max(left, right), std::max(above[x], below[x]));
-    out[x] = static_cast<std::uint8_t>((row[x] != 0) & (row[x] < largest));
-  };
-  mark(0, row[0], row[width > 1 ? 1 : 0]);
-  for (std::size_t x = 1; x + 1 < width; ++x) mark(x, row[x - 1], row[x + 1]);
-  if (width > 1) mark(width - 1, row[width - 2], row[width - 1]);
-}
-
-}  // namespace
 
 template <class Label>
 void mark_diagram(std::span<const Label> labels, std::size_t width, std::span<const Label> above,
@@ -42,7 +25,7 @@ void mark_diagram(std::span<const Label> labels, std::size_t width, std::span<co
     // Outside the image stands the row itself: nothing is larger than itself.
     const Label* up = y > 0 ? row - width : above.empty() ? row : above.data();
     const Label* down = y + 1 < height ? row + width : below.empty() ? row : below.data();
-    mark_row(row, up, down, width, diagram.data() + y * width);
+    mark_row<Label, 2>(row, {up, down}, width, diagram.data() + y * width);
   });
 }
 

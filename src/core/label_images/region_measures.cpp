@@ -34,6 +34,7 @@ std::vector<std::uint32_t> distinct_labels(std::span<const std::unique_ptr<BandS
 void absorb(Region& into, const Region& part) {
   into.area += part.area;
   into.perimeter += part.perimeter;
+  into.vertical += part.vertical;
   into.components += part.components;
   into.sum_x += part.sum_x;
   into.sum_y += part.sum_y;
@@ -54,8 +55,8 @@ class BandJoiner {
   // `index` maps the band's region numbers to positions in labels.
   void add(BandScan& band, const std::vector<std::uint32_t>& index) {
     for (std::size_t r = 1; r < index.size(); ++r) absorb(result_.regions[index[r]], band.regions[r]);
-    band.borders.for_each([&](std::uint64_t key, std::uint64_t length) {
-      put(index[key >> 32], index[key & UINT32_MAX], static_cast<std::int64_t>(length));
+    band.borders.for_each([&](std::uint64_t key, std::uint64_t sides) {
+      put(index[key >> 32], index[key & UINT32_MAX], horizontal_sides(sides), vertical_sides(sides));
     });
     const std::uint32_t offset = components_.size();
     components_.append(band.components);
@@ -89,9 +90,9 @@ class BandJoiner {
     base::report(monitor_, 1);
   }
 
-  void put(std::uint32_t one, std::uint32_t other, std::int64_t length) {
+  void put(std::uint32_t one, std::uint32_t other, std::int64_t horizontal, std::int64_t vertical) {
     poll();
-    borders_.push_back({std::min(one, other), std::max(one, other), length});
+    borders_.push_back({std::min(one, other), std::max(one, other), horizontal + vertical, vertical});
   }
 
   void sew(const RunRow& above, const RunRow& below) {
@@ -101,7 +102,7 @@ class BandJoiner {
       const Run& other = below[overlap.below];
       if (one.label == 0 || other.label == 0) continue;
       if (one.label != other.label) {
-        put(one.region, other.region, overlap.length);
+        put(one.region, other.region, overlap.length, 0);
         continue;
       }
       Region& region = result_.regions[one.region];
@@ -130,6 +131,7 @@ class BandJoiner {
       auto& kept = result_.borders;
       if (!kept.empty() && kept.back().a == border.a && kept.back().b == border.b) {
         kept.back().length += border.length;
+        kept.back().vertical += border.vertical;
       } else {
         kept.push_back(border);
       }

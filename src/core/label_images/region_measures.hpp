@@ -14,6 +14,7 @@ struct Region {
   std::int64_t area = 0;
   // Pixel sides between the region and anything else, the outside of the image included
   std::int64_t perimeter = 0;
+  std::int64_t vertical = 0;    // of these, the left and right sides of pixels
   std::int64_t components = 0;  // 4-connected parts
   std::int64_t sum_x = 0;       // over the pixels; below 2^63 while pixels * width are
   std::int64_t sum_y = 0;
@@ -27,7 +28,8 @@ struct Region {
 struct Border {
   std::uint32_t a;  // indices of the regions, a < b
   std::uint32_t b;
-  std::int64_t length;  // pixel sides in common
+  std::int64_t length;    // pixel sides in common
+  std::int64_t vertical;  // of these, left and right sides
 };
 
 struct Regions {

@@ -35,6 +35,16 @@ void ComponentSets::append(const ComponentSets& other) {
   for (const std::uint32_t parent : other.parent_) parent_.push_back(parent + offset);
 }
 
+std::uint32_t ComponentSets::settle(std::span<std::uint32_t> number) {
+  number[0] = 0;
+  std::uint32_t count = 0;
+  for (std::uint32_t k = 0; k < size(); ++k) {
+    const std::uint32_t smallest = find(k);
+    number[k + 1] = smallest == k ? ++count : number[smallest + 1];
+  }
+  return count;
+}
+
 void find_overlaps(const RunRow& above, const RunRow& below, std::vector<Overlap>& overlaps) {
   const std::size_t count = above.size() - 1;
   overlaps.resize(count + below.size() - 1);  // each overlap ends a run of one row or of both
@@ -120,7 +130,7 @@ void BandScan::count_borders() {
   for (std::size_t k = 1; k + 1 < runs_.size(); ++k) {
     const std::uint32_t a = runs_[k - 1].region;
     const std::uint32_t b = runs_[k].region;
-    if (a != 0 && b != 0) ++borders[border_key(a, b)];
+    if (a != 0 && b != 0) borders[border_key(a, b)] += vertical_side;
   }
 }
 
@@ -134,6 +144,7 @@ void BandScan::measure() {
     Region& region = regions[runs_[k].region];
     region.area += length;
     region.perimeter += 2 * length + 2;
+    region.vertical += 2;
     region.sum_x += (start + end - 1) * length / 2;  // one of the factors is even
     region.sum_y += y_ * length;
     region.left = std::min(region.left, runs_[k].start);

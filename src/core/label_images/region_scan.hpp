@@ -18,6 +18,9 @@ class ComponentSets {
   std::uint32_t find(std::uint32_t component);
   bool unite(std::uint32_t one, std::uint32_t other);  // whether they were apart
   void append(const ComponentSets& other);             // its components follow ours
+  // Numbers the sets from 1 in the order of their smallest components: component k gets number[k + 1], and number[0] is
+  // 0. `number` has size() + 1 elements. Returns how many sets there are.
+  std::uint32_t settle(std::span<std::uint32_t> number);
   std::uint32_t size() const { return static_cast<std::uint32_t>(parent_.size()); }
 
  private:
@@ -52,6 +55,14 @@ constexpr std::uint64_t border_key(std::uint32_t a, std::uint32_t b) {
   return a < b ? (std::uint64_t{a} << 32 | b) : (std::uint64_t{b} << 32 | a);
 }
 
+// Pixel sides that two regions share in a band, in one number: vertical ones in the upper half. Neither half
+// overflows: a band of several rows has 2^19 pixels at most, and one row has no horizontal sides within.
+constexpr std::uint64_t vertical_side = std::uint64_t{1} << 32;
+constexpr std::int64_t vertical_sides(std::uint64_t sides) { return static_cast<std::int64_t>(sides >> 32); }
+constexpr std::int64_t horizontal_sides(std::uint64_t sides) {
+  return static_cast<std::int64_t>(sides & UINT32_MAX);
+}
+
 // Regions of consecutive rows. Region numbers are local: 1, 2, ... in order of appearance, labels[0] = 0.
 class BandScan {
  public:
@@ -63,7 +74,7 @@ class BandScan {
 
   std::vector<std::uint32_t> labels;
   std::vector<Region> regions;
-  base::FlatMap borders;  // border_key -> pixel sides
+  base::FlatMap borders;  // border_key -> pixel sides, horizontal and vertical ones
   ComponentSets components;
   RunRow first_runs;
   RunRow last_runs;

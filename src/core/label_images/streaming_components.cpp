@@ -47,15 +47,7 @@ void StreamingComponents::add(std::span<const std::uint8_t> mask, std::span<std:
 }
 
 // The smallest of a set is that of the component's first pixel, as no run above has it.
-std::uint32_t StreamingComponents::settle(std::span<std::uint32_t> number) {
-  number[0] = 0;
-  std::uint32_t count = 0;
-  for (std::uint32_t k = 0; k < sets_.size(); ++k) {
-    const std::uint32_t smallest = sets_.find(k);
-    number[k + 1] = smallest == k ? ++count : number[smallest + 1];
-  }
-  return count;
-}
+std::uint32_t StreamingComponents::settle(std::span<std::uint32_t> number) { return sets_.settle(number); }
 
 void number_band(std::span<const std::uint8_t> mask, Connectivity connectivity,
                  std::span<const std::uint32_t> above, std::span<const std::uint32_t> fresh,

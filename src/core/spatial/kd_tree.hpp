@@ -1,7 +1,9 @@
-// A k-d tree over labelled points that answers "which label is nearest" exactly, ties to the smallest label.
+// A k-d tree over labelled points of the plane or of space that answers "which label is nearest" exactly, ties to
+// the smallest label.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -16,17 +18,19 @@
 namespace vorotool::core::spatial {
 
 // Coordinates and squared distances of a KdTree, with their bounds:
-// - std::int64_t, std::uint64_t: exact while coordinates differ by at most 2^31: 2 * (2^31)^2 < 2^64;
-// - std::int64_t, uint128: exact while coordinates are at most 2^62: 2 * (2^63)^2 < 2^128;
+// - std::int64_t, std::uint64_t: exact while coordinates differ by at most 2^31: 3 * (2^31)^2 < 2^64;
+// - std::int64_t, uint128: exact while coordinates are at most 2^62: 3 * (2^63)^2 < 2^128;
 // - double, double: the minimum of squared distances as they are rounded, exact where they need at most 53
 //   bits. The search adds no error of its own: rounding is monotonic, so the rounded distance to a box never
 //   exceeds that to a point in it.
-template <class Coordinate, class Distance>
+template <class Coordinate, class Distance, std::size_t Axes = 2>
 class KdTree {
  public:
+  using Place = std::array<Coordinate, Axes>;
+  using Columns = std::array<std::span<const Coordinate>, Axes>;
+
   struct Site {
-    Coordinate x;
-    Coordinate y;
+    Place at;
     std::uint32_t label;
     std::uint32_t index;  // position in the input
   };
@@ -45,11 +49,12 @@ class KdTree {
   };
 
   // Polls the monitor; sorting a million points takes some tenths of a second. At most 2^32 - 1 points.
-  KdTree(std::span<const Coordinate> x, std::span<const Coordinate> y, std::span<const std::uint32_t> labels,
-         const base::Monitor& monitor) {
+  KdTree(const Columns& columns, std::span<const std::uint32_t> labels, const base::Monitor& monitor) {
     sites_.resize(labels.size());
     for (std::size_t i = 0; i < sites_.size(); ++i) {
-      sites_[i] = {x[i], y[i], labels[i], static_cast<std::uint32_t>(i)};
+      for (std::size_t axis = 0; axis < Axes; ++axis) sites_[i].at[axis] = columns[axis][i];
+      sites_[i].label = labels[i];
+      sites_[i].index = static_cast<std::uint32_t>(i);
     }
     std::size_t leaves = 1;
     while (leaves * leaf_size < sites_.size()) leaves *= 2;
@@ -61,18 +66,20 @@ class KdTree {
   std::size_t size() const { return sites_.size(); }
   const Site& site(std::ptrdiff_t place) const { return sites_[static_cast<std::size_t>(place)]; }
 
-  static Distance distance2(const Site& site, Coordinate x, Coordinate y) {
-    return square(gap(site.x, x)) + square(gap(site.y, y));
+  static Distance distance2(const Site& site, const Place& at) {
+    Distance sum = square(gap(site.at[0], at[0]));
+    for (std::size_t axis = 1; axis < Axes; ++axis) sum += square(gap(site.at[axis], at[axis]));
+    return sum;
   }
 
-  // The start of a query at (x, y) from a site that is likely to be near: a good bound from the beginning.
-  Nearest bound(std::ptrdiff_t place, Coordinate x, Coordinate y) const {
-    return {distance2(site(place), x, y), site(place).label, place};
+  // The start of a query from a site that is likely to be near: a good bound from the beginning.
+  Nearest bound(std::ptrdiff_t place, const Place& at) const {
+    return {distance2(site(place), at), site(place).label, place};
   }
 
   // Lexicographic minimum of (d2, label) over all sites but the one with index `except`, and `best`.
-  Nearest nearest(Coordinate x, Coordinate y, Nearest best = {}, std::int64_t except = -1) const {
-    if (!sites_.empty()) search(0, 0, sites_.size(), {x, y, except}, best);
+  Nearest nearest(const Place& at, Nearest best = {}, std::int64_t except = -1) const {
+    if (!sites_.empty()) search(0, 0, sites_.size(), {at, except}, best);
     return best;
   }
 
@@ -81,11 +88,11 @@ class KdTree {
 
   // Node k has the children 2k + 1 and 2k + 2, which halve its range of sites.
   struct Box {
-    Coordinate left, right, top, bottom;
+    Place low, high;
     std::uint32_t least_label;
   };
   struct Query {
-    Coordinate x, y;
+    Place at;
     std::int64_t except;
   };
 
@@ -101,35 +108,45 @@ class KdTree {
   }
   static Distance square(Distance length) { return length * length; }
 
-  static Distance box_distance2(const Box& box, Coordinate x, Coordinate y) {
-    return square(gap(x, std::clamp(x, box.left, box.right))) +
-           square(gap(y, std::clamp(y, box.top, box.bottom)));
+  static Distance box_distance2(const Box& box, const Place& at) {
+    const auto along = [&](std::size_t axis) {
+      return square(gap(at[axis], std::clamp(at[axis], box.low[axis], box.high[axis])));
+    };
+    Distance sum = along(0);
+    for (std::size_t axis = 1; axis < Axes; ++axis) sum += along(axis);
+    return sum;
   }
 
   void build(std::size_t node, std::size_t first, std::size_t last, const base::Monitor& monitor) {
     if (last - first > 4096) base::report(monitor, 0);
-    Box box{sites_[first].x, sites_[first].x, sites_[first].y, sites_[first].y, UINT32_MAX};
+    Box box{sites_[first].at, sites_[first].at, UINT32_MAX};
     for (std::size_t i = first; i < last; ++i) {
-      box.left = std::min(box.left, sites_[i].x);
-      box.right = std::max(box.right, sites_[i].x);
-      box.top = std::min(box.top, sites_[i].y);
-      box.bottom = std::max(box.bottom, sites_[i].y);
+      for (std::size_t axis = 0; axis < Axes; ++axis) {
+        box.low[axis] = std::min(box.low[axis], sites_[i].at[axis]);
+        box.high[axis] = std::max(box.high[axis], sites_[i].at[axis]);
+      }
       box.least_label = std::min(box.least_label, sites_[i].label);
     }
     boxes_[node] = box;
     if (node >= first_leaf_) return;
     const std::size_t middle = std::midpoint(first, last);
-    split(first, middle, last, gap(box.left, box.right) >= gap(box.top, box.bottom));
+    split(first, middle, last, widest_axis(box));
     build(2 * node + 1, first, middle, monitor);
     build(2 * node + 2, middle, last, monitor);
   }
 
-  void split(std::size_t first, std::size_t middle, std::size_t last, bool by_x) {
+  static std::size_t widest_axis(const Box& box) {
+    std::size_t widest = 0;
+    for (std::size_t axis = 1; axis < Axes; ++axis) {
+      if (gap(box.low[axis], box.high[axis]) > gap(box.low[widest], box.high[widest])) widest = axis;
+    }
+    return widest;
+  }
+
+  void split(std::size_t first, std::size_t middle, std::size_t last, std::size_t axis) {
     auto at = [this](std::size_t i) { return sites_.begin() + static_cast<std::ptrdiff_t>(i); };
-    std::nth_element(at(first), at(middle), at(last), [by_x](const Site& p, const Site& q) {
-      const Coordinate a = by_x ? p.x : p.y;
-      const Coordinate b = by_x ? q.x : q.y;
-      return a != b ? a < b : p.label < q.label;
+    std::nth_element(at(first), at(middle), at(last), [axis](const Site& p, const Site& q) {
+      return p.at[axis] != q.at[axis] ? p.at[axis] < q.at[axis] : p.label < q.label;
     });
   }
 
@@ -147,8 +164,8 @@ class KdTree {
     const std::size_t middle = std::midpoint(first, last);
     const std::size_t left = 2 * node + 1;
     const std::size_t right = left + 1;
-    const Distance left_d2 = box_distance2(boxes_[left], query.x, query.y);
-    const Distance right_d2 = box_distance2(boxes_[right], query.x, query.y);
+    const Distance left_d2 = box_distance2(boxes_[left], query.at);
+    const Distance right_d2 = box_distance2(boxes_[right], query.at);
     const bool left_first =
         left_d2 != right_d2 ? left_d2 < right_d2 : boxes_[left].least_label <= boxes_[right].least_label;
     if (left_first) {
@@ -163,7 +180,7 @@ class KdTree {
   void scan_leaf(std::size_t first, std::size_t last, const Query& query, Nearest& best) const {
     for (std::size_t i = first; i < last; ++i) {
       if (std::int64_t{sites_[i].index} == query.except) continue;
-      const Distance d2 = distance2(sites_[i], query.x, query.y);
+      const Distance d2 = distance2(sites_[i], query.at);
       const std::uint32_t label = sites_[i].label;
       if (d2 < best.d2 || (d2 == best.d2 && label < best.label)) {
         best = {d2, label, static_cast<std::ptrdiff_t>(i)};

@@ -1,6 +1,8 @@
 // Of each site, the nearest other one.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -16,8 +18,9 @@ struct NearestOther {
 
 // The nearest other site of each site by Euclidean distance, ties (of the squared distances in double) to the
 // smallest label; another site at the same place is at distance 0. Coordinates are finite and at most 2^500
-// in magnitude.
-std::vector<NearestOther> nearest_other_sites(std::span<const double> x, std::span<const double> y,
+// in magnitude; there are two axes or three.
+template <std::size_t Axes>
+std::vector<NearestOther> nearest_other_sites(const std::array<std::span<const double>, Axes>& columns,
                                               std::span<const std::uint32_t> labels, unsigned threads,
                                               const base::Monitor& monitor);
 

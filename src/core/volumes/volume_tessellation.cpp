@@ -158,6 +158,18 @@ void VolumeTessellation::squared_distances(std::int32_t first, std::int32_t slic
   });
 }
 
+void VolumeTessellation::distances(std::int32_t first, std::int32_t slices, float* out, double square_of_step,
+                                   unsigned threads, const Monitor& monitor) const {
+  tessellation::with_kernel(is_wide(), level_, [&]<class Arithmetic>(const RowKernel<Arithmetic>& kernel) {
+    write_slices(sites_, coverage(), frame_, kernel, first, slices, out, threads, monitor,
+                 [&](const auto& envelope, const PixelRow& pixels, float* row) {
+                   for_each_square(envelope, pixels, [&](std::int32_t p, auto square) {
+                     row[p] = static_cast<float>(std::sqrt(static_cast<double>(square) * square_of_step));
+                   });
+                 });
+  });
+}
+
 template void VolumeTessellation::labels(std::int32_t, std::int32_t, std::uint8_t*, std::optional<uint128>,
                                          unsigned, const Monitor&) const;
 template void VolumeTessellation::labels(std::int32_t, std::int32_t, std::uint16_t*, std::optional<uint128>,

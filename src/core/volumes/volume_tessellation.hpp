@@ -44,6 +44,10 @@ class VolumeTessellation {
   void squared_distances(std::int32_t first, std::int32_t slices, Square* out, unsigned threads,
                          const base::Monitor& monitor) const;
 
+  // Distances to the nearest seed: roots of squares in lattice steps times `square_of_step`.
+  void distances(std::int32_t first, std::int32_t slices, float* out, double square_of_step, unsigned threads,
+                 const base::Monitor& monitor) const;
+
  private:
   const Coverage& coverage() const;
   const SeedGrid* grid(std::int32_t first, std::int32_t slices) const;

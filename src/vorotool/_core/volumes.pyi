@@ -1,7 +1,7 @@
 """The tessellation of volumes."""
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, overload
 
 import numpy
 import numpy.typing
@@ -22,3 +22,61 @@ class VolumeTessellation:
     def labels(self, out: numpy.typing.NDArray[Any], first: int, most_squared: tuple[int, int] | None, threads: int, progress: Callable[[float], object] | None) -> None: ...
 
     def squared_distances(self, out: numpy.typing.NDArray[Any], first: int, threads: int, progress: Callable[[float], object] | None) -> None: ...
+
+    def distances(self, out: numpy.typing.NDArray[Any], first: int, square_of_step: float, threads: int, progress: Callable[[float], object] | None) -> None: ...
+
+class VolumeComponents:
+    def __init__(self, width: int, height: int, corners: bool) -> None: ...
+
+    @property
+    def size(self) -> int: ...
+
+    def add(self, mask: numpy.typing.NDArray[numpy.uint8], out: numpy.typing.NDArray[numpy.uint32], progress: Callable[[float], object] | None) -> None: ...
+
+    def settle(self, out: numpy.typing.NDArray[numpy.uint32]) -> int: ...
+
+class WrongVoxels:
+    """Their number, and the first: its place, and its right label."""
+
+    @property
+    def count(self) -> int: ...
+
+    @property
+    def first(self) -> tuple[int, int, int]: ...
+
+    @property
+    def right(self) -> int: ...
+
+class VolumeMeasurer:
+    """Of slices in their order."""
+
+    def __init__(self, width: int, height: int) -> None: ...
+
+    def finish(self, progress: Callable[[float], object] | None) -> dict[str, Any]: ...
+
+    @overload
+    def add(self, slices: numpy.typing.NDArray[numpy.uint8], threads: int, progress: Callable[[float], object] | None) -> None: ...
+
+    @overload
+    def add(self, slices: numpy.typing.NDArray[numpy.uint16], threads: int, progress: Callable[[float], object] | None) -> None: ...
+
+    @overload
+    def add(self, slices: numpy.typing.NDArray[numpy.uint32], threads: int, progress: Callable[[float], object] | None) -> None: ...
+
+@overload
+def mark_diagram(labels: numpy.typing.NDArray[numpy.uint8], before: numpy.typing.NDArray[numpy.uint8] | None, after: numpy.typing.NDArray[numpy.uint8] | None, out: numpy.typing.NDArray[numpy.uint8], threads: int, progress: Callable[[float], object] | None) -> None: ...
+
+@overload
+def mark_diagram(labels: numpy.typing.NDArray[numpy.uint16], before: numpy.typing.NDArray[numpy.uint16] | None, after: numpy.typing.NDArray[numpy.uint16] | None, out: numpy.typing.NDArray[numpy.uint8], threads: int, progress: Callable[[float], object] | None) -> None: ...
+
+@overload
+def mark_diagram(labels: numpy.typing.NDArray[numpy.uint32], before: numpy.typing.NDArray[numpy.uint32] | None, after: numpy.typing.NDArray[numpy.uint32] | None, out: numpy.typing.NDArray[numpy.uint8], threads: int, progress: Callable[[float], object] | None) -> None: ...
+
+@overload
+def verify_volume(labels: numpy.typing.NDArray[numpy.uint8], origin: tuple[int, int, int], seed_x: numpy.typing.NDArray[numpy.int64], seed_y: numpy.typing.NDArray[numpy.int64], seed_z: numpy.typing.NDArray[numpy.int64], seed_labels: numpy.typing.NDArray[numpy.uint32], side: tuple[int, int, int], limit_high: int | None, limit_low: int, threads: int, progress: Callable[[float], object] | None) -> WrongVoxels: ...
+
+@overload
+def verify_volume(labels: numpy.typing.NDArray[numpy.uint16], origin: tuple[int, int, int], seed_x: numpy.typing.NDArray[numpy.int64], seed_y: numpy.typing.NDArray[numpy.int64], seed_z: numpy.typing.NDArray[numpy.int64], seed_labels: numpy.typing.NDArray[numpy.uint32], side: tuple[int, int, int], limit_high: int | None, limit_low: int, threads: int, progress: Callable[[float], object] | None) -> WrongVoxels: ...
+
+@overload
+def verify_volume(labels: numpy.typing.NDArray[numpy.uint32], origin: tuple[int, int, int], seed_x: numpy.typing.NDArray[numpy.int64], seed_y: numpy.typing.NDArray[numpy.int64], seed_z: numpy.typing.NDArray[numpy.int64], seed_labels: numpy.typing.NDArray[numpy.uint32], side: tuple[int, int, int], limit_high: int | None, limit_low: int, threads: int, progress: Callable[[float], object] | None) -> WrongVoxels: ...

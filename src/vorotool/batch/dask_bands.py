@@ -1,4 +1,4 @@
-"""A Dask cluster that computes an image band by band and writes it into one store."""
+"""A Dask cluster that computes an image band by band, or a volume slab by slab, and writes it into one store."""
 
 from __future__ import annotations
 
@@ -12,6 +12,9 @@ from vorotool.batch.dask_cluster import ONE_AT_A_TIME, completed, connected
 from vorotool.engines.tessellation.bands import Band
 from vorotool.errors import OutputError, VorotoolError
 from vorotool.formats.zarr.arrays import open_array, write_rows
+from vorotool.formats.zarr.volumes import write_slices
+
+_PLANE = ("y", "x")
 
 MOST_UNDER_WAY = 2
 """Bands a worker that are handed over: one is computed while the next one comes."""
@@ -27,8 +30,8 @@ def write_bands(
     folder : Path
         A Zarr array.
     bands : iterator of (int, Band)
-        The first row of each, and what computes its rows, which are those of a row of chunks. A few are taken at a
-        time.
+        The first row of each, and what computes its rows, which are those of a row of chunks; of a volume the first
+        slice, and slices. A few are taken at a time.
     address, jobs
         As for `vorotool.batch.dask_cluster.cluster_results`.
 
@@ -86,7 +89,9 @@ def _write_band(folder: str, first: int, band: Band) -> str:
 
     with ONE_AT_A_TIME:
         check()
-        write_rows(open_array(folder), first, band.rows(threads=threads, progress=check), threads=threads, check=check)
+        array = open_array(folder)
+        write = write_rows if array.ndim == len(_PLANE) else write_slices
+        write(array, first, band.rows(threads=threads, progress=check), threads=threads, check=check)
     return __version__
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from os import PathLike
 from typing import TYPE_CHECKING, Literal, cast
 
@@ -14,13 +14,15 @@ if TYPE_CHECKING:
     from vorotool.geometry.polygons.polygon_set import PolygonSet
     from vorotool.geometry.skeleton.offsets import Offsets
     from vorotool.geometry.skeleton.skeleton import Skeleton
+    from vorotool.geometry.volumes.volume import Volume
+    from vorotool.geometry.volumes.volume_points import VolumePoints
     from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 
 
 def read(
     path: str | PathLike[str],
     *,
-    geometry: Literal["points", "polygons"] | None = None,
+    geometry: Literal["points", "polygons", "volume"] | None = None,
     input_format: str | None = None,
     columns: str | None = None,
     page: int | None = None,
@@ -34,7 +36,7 @@ def read(
     layer: str | None = None,
     flatten: float | None = None,
     join_tolerance: float | None = None,
-) -> PointSet | PolygonSet | Raster | Skeleton | Offsets | VoronoiMap:
+) -> PointSet | PolygonSet | Raster | Skeleton | Offsets | VoronoiMap | Volume | VolumePoints:
     """Read points, polygons and lines, an image, or a skeleton, offset curves or a Voronoi map as JSON has them.
 
     A plain JSON list of pairs holds points, unless ``geometry`` is polygons. GeoJSON and WKT hold either points or
@@ -44,18 +46,20 @@ def read(
     ----------
     path : str or path
         The file; ``-`` is standard input.
-    geometry : {"points", "polygons"}, optional
-        What must be in a file that is no image; by default its content tells.
+    geometry : {"points", "polygons", "volume"}, optional
+        What must be in a file that is no image; by default its content tells. A volume is all pages of a TIFF as slices
+        (those of ImageJ and OME with the sides of the voxels), or an NPY, Zarr or OME-Zarr array of three axes, z, y
+        and x.
     input_format : str, optional
         One of csv, csv-wkt, node, npy, npz, geojson, jsonl, wkt, wkb, json, poly, gpkg, fgb, shp, kml, gpx, parquet,
         svg, dxf, png, tiff, pnm, zarr, jpeg, bmp, gif, webp and avif (or another usual extension of one), where
         extension and content leave it unclear.
     columns : str, optional
-        ``X,Y[,LABEL]`` of a point list, by name or number from 1.
+        ``X,Y[,LABEL]`` of a point list, by name or number from 1; with ``z=Z`` among them points of space are read.
     page : int, optional
         Page of an image stack, from 0; picture of an animation.
     max_pixels, max_sites : int
-        Larger inputs are refused before memory is taken.
+        Larger inputs are refused before memory is taken; of a volume voxels are counted.
     properties : bool
         Keep the further columns of a point list, and the properties of polygons.
     threads : int
@@ -75,7 +79,7 @@ def read(
 
     Returns
     -------
-    PointSet, PolygonSet, Raster, Skeleton, Offsets or VoronoiMap
+    PointSet, PolygonSet, Raster, Skeleton, Offsets, VoronoiMap, Volume or VolumePoints
         What is in the file.
 
     Raises
@@ -95,8 +99,27 @@ def read(
     from vorotool.errors import UsageError
     from vorotool.formats.opening import opened
 
-    if geometry not in (None, "points", "polygons"):
-        raise UsageError(f"invalid geometry {geometry!r}: expected points or polygons, or none")
+    if geometry not in (None, "points", "polygons", "volume"):
+        raise UsageError(f"invalid geometry {geometry!r}: expected points, polygons or volume, or none")
+    of_maps = {"crs": crs, "to_crs": to_crs, "layer": layer, "flatten": flatten, "join_tolerance": join_tolerance}
+    if geometry == "volume":
+        from vorotool.formats.volumes.opening import read_volume
+
+        _refuse({"columns": columns, "page": page, "max_sites": max_sites, **of_maps}, "a volume")
+        return read_volume(path, input_format=input_format, max_voxels=max_pixels, note=note)
+    if geometry != "polygons" and columns is not None and _names_z(columns):
+        from vorotool.formats.volumes.points import read_xyz
+
+        _refuse({"page": page, **of_maps}, "points of space")
+        return read_xyz(
+            path,
+            input_format=input_format,
+            columns=columns,
+            max_sites=max_sites,
+            properties=properties,
+            threads=threads,
+            note=note,
+        )
     with opened(path, geometry=geometry, input_format=input_format, page=page, layer=layer) as source:
         value = source.read(
             columns=columns,
@@ -111,3 +134,16 @@ def read(
             join_tolerance=join_tolerance,
         )
     return cast("PointSet | PolygonSet | Raster | Skeleton | Offsets | VoronoiMap", value)
+
+
+def _names_z(columns: str) -> bool:
+    return any(part.strip().lower().startswith("z=") for part in columns.split(","))
+
+
+def _refuse(options: Mapping[str, object], holds: str) -> None:
+    """Refuse options that have a value and are not for what is read."""
+    from vorotool.errors import UsageError
+
+    for name, value in options.items():
+        if value is not None:
+            raise UsageError(f"{name} is not for {holds}: leave it out")

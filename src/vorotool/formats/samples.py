@@ -16,8 +16,8 @@ def sample(name: str) -> Path:
     Parameters
     ----------
     name : str
-        ``dots.csv``, ``six-seeds.csv``, ``blobs.png``, ``cells.png``, ``shape.json``, ``two-shapes.json``,
-        ``segments.wkt`` or ``great-lakes.geojson``; ``vorotool sample`` says what each is.
+        ``dots.csv``, ``six-seeds.csv``, ``blobs.png``, ``cells.png``, ``nuclei.tif``, ``shape.json``,
+        ``two-shapes.json``, ``segments.wkt`` or ``great-lakes.geojson``; ``vorotool sample`` says what each is.
 
     Returns
     -------

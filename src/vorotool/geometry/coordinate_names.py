@@ -12,6 +12,11 @@ COORDINATE_NAMES = (
     ("centroid-1", "centroid-0"),  # scikit-image: row first
     ("axis-1", "axis-0"),  # napari: row first
 )
+SPACE_NAMES = (
+    ("x", "y", "z"),
+    ("centroid-2", "centroid-1", "centroid-0"),  # scikit-image: slice first
+    ("axis-2", "axis-1", "axis-0"),  # napari: slice first
+)
 LONGITUDE_LATITUDE_NAMES = (("lon", "lat"), ("longitude", "latitude"))
 MAP_NAMES = (*LONGITUDE_LATITUDE_NAMES, ("easting", "northing"))
 """Of which the second one grows northwards."""
@@ -35,11 +40,26 @@ def coordinate_columns(names: Sequence[str]) -> list[int] | None:
     >>> coordinate_columns(["id", "Lat", "Lon"]), coordinate_columns(["label", "x", "y"])
     ([2, 1], [1, 2, 0])
     """
+    return _known_columns(names, COORDINATE_NAMES)
+
+
+def space_columns(names: Sequence[str]) -> list[int] | None:
+    """Find the columns of a table that are coordinates of space; as `coordinate_columns` with a z.
+
+    Examples
+    --------
+    >>> space_columns(["Z", "Y", "X"]), space_columns(["label", "x", "y", "z"]), space_columns(["x", "y"])
+    ([2, 1, 0], [1, 2, 3, 0], None)
+    """
+    return _known_columns(names, SPACE_NAMES)
+
+
+def _known_columns(names: Sequence[str], known: Sequence[tuple[str, ...]]) -> list[int] | None:
     plain = [plain_name(name) for name in names]
-    for pair in COORDINATE_NAMES:
-        if all(plain.count(each) == 1 for each in pair):
-            label = [plain.index("label")] if sorted(plain) == ["label", "x", "y"] else []
-            return [*(plain.index(each) for each in pair), *label]
+    for group in known:
+        if all(plain.count(each) == 1 for each in group):
+            label = [plain.index("label")] if sorted(plain) == sorted(["label", *known[0]]) else []
+            return [*(plain.index(each) for each in group), *label]
     return None
 
 

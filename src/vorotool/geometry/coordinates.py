@@ -17,19 +17,21 @@ LARGEST_INTEGER = 2**53
 """Integers up to here are doubles; of those beyond only some are, and points that differ would become one."""
 
 
-def coordinate_rows(values: Any, noun: str) -> NDArray[np.float64]:
-    """Copy (n, 2) coordinates; nothing is rounded but decimal fractions.
+def coordinate_rows(values: Any, noun: str, axes: int = 2) -> NDArray[np.float64]:
+    """Copy (n, axes) coordinates; nothing is rounded but decimal fractions.
 
     Parameters
     ----------
-    values : (n, 2) array-like
-        Integers, floating-point numbers, or fractions and decimal numbers of Python; an iterator of pairs.
+    values : (n, axes) array-like
+        Integers, floating-point numbers, or fractions and decimal numbers of Python; an iterator of rows.
     noun : str
         What a message calls one row.
+    axes : {2, 3}
+        Coordinates in a row.
 
     Returns
     -------
-    (n, 2) float64 array
+    (n, axes) float64 array
         Of its own memory; not checked for NaN and infinity.
 
     Raises
@@ -42,22 +44,21 @@ def coordinate_rows(values: Any, noun: str) -> NDArray[np.float64]:
     >>> coordinate_rows(((x, x * x) for x in range(3)), "point").tolist()
     [[0.0, 0.0], [1.0, 1.0], [2.0, 4.0]]
     """
-    array = number_array(values, noun)
+    array = number_array(values, noun, axes=axes)
     if array.size == 0:
-        array = array.reshape(0, 2)
-    if array.ndim != 2 or array.shape[1] != 2:
-        raise InputError(_wrong_shape(noun, array.shape))
+        array = array.reshape(0, axes)
+    if array.ndim != 2 or array.shape[1] != axes:
+        raise InputError(_wrong_shape(noun, array.shape, axes))
     row = first_inexact(array)
     if row is not None:
-        x, y = map(shown_number, array[row].tolist())
-        raise InputError(f"{noun} {row + 1} is ({x}, {y}): {INEXACT}")
+        raise InputError(f"{noun} {row + 1} is ({', '.join(map(shown_number, array[row].tolist()))}): {INEXACT}")
     if array.dtype.kind == "O":  # float() fails for fractions beyond all doubles
-        array = np.array([[nearest_double(value) for value in row] for row in array.tolist()]).reshape(-1, 2)
+        array = np.array([[nearest_double(value) for value in row] for row in array.tolist()]).reshape(-1, axes)
     return np.array(array, dtype=np.float64, order="C")
 
 
-def _wrong_shape(noun: str, shape: tuple[int, ...]) -> str:
-    said = f"{plural(noun)} must have shape (n, 2), but have shape {shape}"
+def _wrong_shape(noun: str, shape: tuple[int, ...], axes: int) -> str:
+    said = f"{plural(noun)} must have shape (n, {axes}), but have shape {shape}"
     if noun == "vertex" or len(shape) != 2 or min(shape) <= MOST_AXES:
         return said
     return f"{said}; an image? give vorotool.Raster(array) to tessellate, else vorotool.seeds_from_raster(array)"
@@ -70,7 +71,7 @@ INEXACT = "integers beyond 2^53 would be rounded; subtract an offset from all of
 """Describe a coordinate that `first_inexact` finds."""
 
 
-def number_array(values: Any, noun: str, expected: str | None = None) -> NDArray[Any]:
+def number_array(values: Any, noun: str, expected: str | None = None, axes: int = 2) -> NDArray[Any]:
     """Give values as an array of integers or floating-point numbers, or of objects that are numbers; not a copy.
 
     Raises
@@ -84,11 +85,11 @@ def number_array(values: Any, noun: str, expected: str | None = None) -> NDArray
     Traceback (most recent call last):
     vorotool.errors.InputError: points must be an (n, 2) array of numbers; these have type <U1
     """
-    said = expected or f"{plural(noun)} must be an (n, 2) array of numbers"
+    said = expected or f"{plural(noun)} must be an (n, {axes}) array of numbers"
     if isinstance(values, np.ma.MaskedArray):
         if np.ma.is_masked(values):
-            if values.ndim != 2 or values.shape[1] != 2:
-                raise InputError(_wrong_shape(noun, values.shape))
+            if values.ndim != 2 or values.shape[1] != axes:
+                raise InputError(_wrong_shape(noun, values.shape, axes))
             raise InputError(
                 f"{plural(noun)} are masked in part: leave them out, as in points[~points.mask.any(axis=1)]"
             )

@@ -7,7 +7,9 @@ from fractions import Fraction
 from math import sqrt
 from typing import Any, Literal
 
+from vorotool.errors import UsageError
 from vorotool.geometry.length_units import unit_name
+from vorotool.geometry.spacing import PixelSides, pixel_sides
 
 Form = Literal["tiff", "imagej", "ome", "map"]
 Transform = tuple[float, float, float, float, float, float]
@@ -79,6 +81,17 @@ class PixelGrid:
         """Whether both sides are as long as each other."""
         return abs(self.width - self.height) <= ALIKE * self.width
 
+    def has(self, sides: PixelSides) -> bool:
+        """Whether these are the sides of its pixels.
+
+        Examples
+        --------
+        >>> PixelGrid(Fraction(1, 4), Fraction(3, 4), "um").has(PixelSides((3, 1), Fraction(1, 4)))
+        True
+        """
+        pairs = zip((self.height, self.width), sides.lengths, strict=True)
+        return all(abs(own - other) <= ALIKE * own for own, other in pairs)
+
     @property
     def is_size(self) -> bool:
         """Whether it is a size: dots an inch are for print."""
@@ -114,6 +127,38 @@ class PixelGrid:
         """
         sides = [self.width] if self.is_square else [self.width, self.height]
         return " ".join([" x ".join(f"{float(side):.10g}" for side in sides), *([self.unit] if self.unit else [])])
+
+
+def sides_of_grid(grid: PixelGrid) -> PixelSides | None:
+    """Give the sides of the pixels of a grid for exact distances, if they have a common step that is coarse enough.
+
+    Sides that are alike are one. Where those of the file have no such step, each is the shortest decimal number that is
+    as near as files round them.
+
+    Examples
+    --------
+    >>> sides_of_grid(PixelGrid(Fraction(1000000, 3076923), Fraction(3, 2), "um"))
+    PixelSides(units=(60, 13), step=Fraction(1, 40))
+    """
+    height = grid.width if grid.is_square else grid.height
+    for sides in ((height, grid.width), (rounded_side(height), rounded_side(grid.width))):
+        try:
+            return pixel_sides(sides)
+        except UsageError:
+            continue
+    return None
+
+
+def rounded_side(side: Fraction) -> Fraction:
+    """Give the shortest decimal number that is alike.
+
+    Examples
+    --------
+    >>> rounded_side(Fraction(1000000, 3076923))
+    Fraction(13, 40)
+    """
+    numbers = (Fraction(f"{float(side):.{digits}g}") for digits in range(1, 18))
+    return next(number for number in numbers if abs(number - side) <= ALIKE * side)
 
 
 def map_grid(

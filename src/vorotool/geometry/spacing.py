@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from math import gcd, lcm
+from math import gcd, isfinite, lcm
 from typing import Any
 
 import numpy as np
@@ -48,6 +48,21 @@ class PixelSides:
         """Height."""
         return self.units[-2]
 
+    @property
+    def lengths(self) -> tuple[Fraction, ...]:
+        """Lengths of the sides, as arrays are ordered."""
+        return tuple(units * self.step for units in self.units)
+
+    def text(self) -> str:
+        """Words for the lengths, as arrays are ordered.
+
+        Examples
+        --------
+        >>> PixelSides((3, 2), Fraction(1, 4)).text()
+        '(0.75, 0.5)'
+        """
+        return f"({', '.join(f'{float(side):.10g}' for side in self.lengths)})"
+
 
 SQUARE = PixelSides()
 """Sides of 1."""
@@ -87,6 +102,18 @@ def pixel_sides(spacing: Any, axes: int = 2) -> PixelSides:
             "round the sides to fewer digits, or give them as fractions"
         )
     return PixelSides(tuple(each // common for each in steps), Fraction(common, whole))
+
+
+def distance_as_written(distance: Any, sides: PixelSides) -> Any:
+    """Give a distance in the unit of a spacing as the decimal number that it is written as, as the spacing is.
+
+    Examples
+    --------
+    >>> distance_as_written(0.1, pixel_sides(0.5)), distance_as_written(0.1, SQUARE)
+    (Fraction(1, 10), 0.1)
+    """
+    is_one = set(sides.units) == {1} and sides.step == 1
+    return as_decimal(distance) if isinstance(distance, float) and isfinite(distance) and not is_one else distance
 
 
 def as_decimal(number: float | Fraction) -> Fraction:

@@ -416,8 +416,8 @@ class Pictured:
         return made
 
 
-class Pixels(Pictured):
-    """A value that is an image: what takes an array takes it."""
+class Elements:
+    """A value that is an image or a volume: what takes an array takes it."""
 
     def _array(self) -> NDArray[Any]:
         raise NotImplementedError
@@ -430,13 +430,17 @@ class Pixels(Pictured):
 
     @property
     def dtype(self) -> np.dtype[Any]:
-        """Type of the pixels."""
+        """Type of the pixels or voxels."""
         return self._array().dtype
 
     @property
     def ndim(self) -> int:
         """Number of axes."""
         return self._array().ndim
+
+
+class Pixels(Pictured, Elements):
+    """A value that is an image."""
 
 
 def counted(number: int, noun: str, several: str | None = None) -> str:

@@ -15,8 +15,13 @@ from vorotool.batch.inputs import expand_inputs, is_several
 from vorotool.engines.tessellation.raster_objects import default_objects, foreground_values, numbered_components
 from vorotool.errors import BatchError, InputError, Message, UsageError, VorotoolError
 from vorotool.formats.io.atomic_output import open_output
+from vorotool.formats.io.descriptors import stream_kind
 from vorotool.formats.opening import Opened, opened
 from vorotool.formats.text.tables import json_text
+from vorotool.formats.volumes.npy_volume import NpyVolume
+from vorotool.formats.volumes.opening import open_volume
+from vorotool.formats.volumes.tiff_stack import TiffStack
+from vorotool.formats.volumes.zarr_volume import ZarrVolume
 from vorotool.geometry.arguments.sites import Sites
 from vorotool.geometry.box import bounds
 from vorotool.geometry.crs import crs_name
@@ -30,7 +35,10 @@ from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 from vorotool.jobs.inputs import refuse
 from vorotool.jobs.options import ReadingOptions
 from vorotool.jobs.run_log import tell
-from vorotool.products.inputs import NAMES_WITH, TAKEN_BY
+from vorotool.products.inputs import NAMES_WITH, TAKEN_BY, VOLUME_NAMES, VOLUMES_TAKEN_BY
+
+MOST_CHANNELS = 4
+"""Values of a pixel of an image: an array whose last axis has no more is one."""
 
 MOST_PIXELS_READ = 2**28
 """Larger images that can be read band by band are told by their headers alone."""
@@ -98,12 +106,48 @@ def described(path: str, options: ReadingOptions) -> Description:
     >>> told["format"], told["kind"], told["points"], told["bounds"]
     ('csv', 'points', 6, [2.0, 2.0, 13.0, 14.0])
     """
+    volume = _of_volume(path, options)
+    if volume is not None:
+        return volume
     notes: list[Message] = []
     with opened(path, geometry=None, input_format=options.input_format, page=options.page) as source:
         told = _of_header(source)
         if told is None:
             told = _of_content(source.fetched(), options, lambda text: notes.append(Message.of(text).typed))
     return {"input": path, **told, "notes": notes}
+
+
+def _of_volume(path: str, options: ReadingOptions) -> Description | None:
+    """Tell of a stack of images or an array of three axes by its header; None of all else."""
+    said = options.input_format
+    if options.page is not None or options.columns is not None or stream_kind(path) is not None:
+        return None
+    if said is not None and said.lower() not in VOLUME_NAMES:
+        return None
+    try:
+        source = open_volume(path, input_format=said)
+    except InputError:  # it may be something else
+        return None
+    depth, height, width = source.shape
+    if depth == 1 or (isinstance(source, NpyVolume) and width <= MOST_CHANNELS):
+        return None
+    grid = source.grid
+    return {
+        "input": path,
+        "format": _FORMAT_OF[type(source)],
+        "kind": "volume",
+        "slices": depth,
+        "width": width,
+        "height": height,
+        "type": source.dtype.name,
+        "voxel_size": None if grid is None else [float(side) for side in reversed(grid.sides)],
+        "unit": None if grid is None else grid.unit,
+        "commands": list(VOLUMES_TAKEN_BY),
+        "notes": [source.note] if source.note else [],
+    }
+
+
+_FORMAT_OF: dict[type, str] = {TiffStack: "tiff", NpyVolume: "npy", ZarrVolume: "zarr"}
 
 
 def _of_header(source: Opened) -> Description | None:
@@ -352,6 +396,7 @@ def as_text(told: Description) -> bytes:
 
 _TITLES = {
     "pixel_size": "pixel size",
+    "voxel_size": "voxel size",
     "has_labels": "labels",
     "foreground_pixels": "foreground",
     "commands": "taken by",
@@ -377,6 +422,11 @@ def _side(value: list[float], told: Description) -> str:
     return sides if told["unit"] is None else f"{sides} {told['unit']}"
 
 
+def _voxel(value: list[float], told: Description) -> str:
+    sides = " x ".join(map(_number, value))
+    return sides if told["unit"] is None else f"{sides} {told['unit']}"
+
+
 def _number(value: float) -> str:
     return repr(value).removesuffix(".0")
 
@@ -384,6 +434,7 @@ def _number(value: float) -> str:
 _WORDS: dict[str, Callable[[Any, Description], str]] = {
     "bounds": _extent,
     "pixel_size": _side,
+    "voxel_size": _voxel,
     "columns": lambda value, _: ", ".join(f"{column} ({kind})" for column, kind in value.items()),
     "has_labels": lambda value, _: "the input's own",
     "foreground_pixels": lambda value, _: f"{value} pixels",

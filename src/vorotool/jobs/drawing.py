@@ -143,7 +143,7 @@ def _of_labels(run: Run, o: DrawingOptions, given: JobInput, image: LabelImage, 
     if is_page:
         check_size(image.shape, "HTML")
         table = region_table(image, threads=o.threads)
-        page = partial(write_label_page, labels=image.labels, colours=colours, table=table, y_up=bool(o.y_up))
+        page = partial(write_label_page, image=image, colours=colours, table=table, y_up=bool(o.y_up))
         return page, counts
     picture = LabelPicture(
         image,

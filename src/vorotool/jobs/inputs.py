@@ -95,9 +95,10 @@ def read_opened(
         note_other_size(run, o, given, value.values.shape)
         return value
     if o.pixel_size is not None and o.pixel_size.is_auto:
-        raise UsageError(
-            "--pixel-size auto is for images, whose files may say it: give a number and its unit, such as 0.325um"
-        )
+        instead = "numbers and their unit, such as 0.325,0.5um" if o.pixel_size.is_spacing else (
+            "a number and its unit, such as 0.325um"
+        )  # fmt: skip
+        raise UsageError(f"{o.pixel_size.option} auto is for images, whose files may say it: give {instead}")
     if isinstance(o, SiteOptions):
         refuse(o.for_images(), "is for images, but the input is a list of points")
     return value

@@ -14,6 +14,7 @@ from vorotool.geometry.points.label_image import LabelImage
 if TYPE_CHECKING:
     from vorotool.geometry.points.seed_set import SeedSet
     from vorotool.geometry.table import Table
+    from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
     from vorotool.render.canvas.layers import Backdrop, Layer, Page
     from vorotool.render.canvas.styles import PictureStyle
     from vorotool.render.label_images.png import Names
@@ -94,7 +95,7 @@ class LabelPicture:
 
 def write_label_page(
     out: BinaryIO,
-    labels: NDArray[Any],
+    image: LabelImage,
     colours: tuple[NDArray[Any], NDArray[Any]],
     table: Table,
     more: Mapping[str, Sequence[Any]] | None = None,
@@ -107,7 +108,7 @@ def write_label_page(
     ----------
     out : binary file
         Receives UTF-8.
-    labels : (H, W) integer array
+    image : LabelImage
         0 is no label.
     colours : pair of (k,) integer arrays
         The labels that occur, increasing, and the colour class of each.
@@ -123,7 +124,9 @@ def write_label_page(
     rows = {int(label): row for row, label in enumerate(table["label"])}
     chosen = [rows[int(label)] for label in colours[0]]
     columns = {name: [table[name][row] for row in chosen] for name in table if name != "label"}
-    write_cells_html(out, shapes_of_labels(labels, y_up=y_up), colours[1], columns | dict(more or {}))
+    write_cells_html(
+        out, shapes_of_labels(image.labels, y_up=y_up, sides=image.sides), colours[1], columns | dict(more or {})
+    )
 
 
 def default_layers(image: LabelImage, layers: Sequence[str]) -> tuple[str, ...]:
@@ -133,7 +136,7 @@ def default_layers(image: LabelImage, layers: Sequence[str]) -> tuple[str, ...]:
     return tuple(layer for layer in layers if layer != "labels" or has_numbers(image.shape))
 
 
-def site_texts(seeds: SeedSet, column: str) -> dict[int, str]:
+def site_texts(seeds: SeedSet | VolumeSeeds, column: str) -> dict[int, str]:
     """Give what a column of the sites writes on the region of each label.
 
     Examples
@@ -195,11 +198,13 @@ def _write_svg(out: BinaryIO, picture: LabelPicture) -> None:
 def _page(picture: LabelPicture) -> Page:
     """Where pixels are on an SVG."""
     from vorotool.render.canvas.layers import ImagePage, Page
+    from vorotool.render.label_images.svg import aspect_of
 
     if picture.backdrop is not None:
         return ImagePage(picture.backdrop)
     rows, columns = picture.image.shape
-    return Page((0.0, 0.0, float(columns), float(rows)), width=picture.width, y_up=False)
+    bounds = (0.0, 0.0, float(columns), float(rows))
+    return Page(bounds, width=picture.width, y_up=False, aspect=aspect_of(picture.image))
 
 
 def _insets(picture: LabelPicture, page: Page, *, has_outlines: bool) -> list[Layer]:

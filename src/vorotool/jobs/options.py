@@ -25,6 +25,8 @@ Place = tuple[float, float]
 Rectangle = tuple[float, float, float, float]
 ALL_PAGES = -1
 """Of ``--page all``: each page is an input of a batch."""
+AUTO_LEVELS = -1
+"""Of ``--levels auto``: until a copy is small."""
 
 Method = Literal["exact", "digital", "digital-valid"]
 
@@ -155,7 +157,7 @@ class ComputingOptions(JobOptions):
 
     input_crs: str | None
     crs: str | None
-    connectivity: Literal["8", "4"] | None
+    connectivity: Literal["8", "4", "26", "6"] | None
     threshold: float | Literal["otsu"] | None
     invert: bool
     min_area: int | None
@@ -164,6 +166,7 @@ class ComputingOptions(JobOptions):
     verify: bool
     precision: int | None
     pixel_size: PixelSize | None
+    spacing: PixelSize | None = None
     table: str | None
     no_properties: bool
     safe_csv: bool
@@ -171,8 +174,8 @@ class ComputingOptions(JobOptions):
 
     @property
     def unit(self) -> PixelSize | None:
-        """The side of a pixel."""
-        return self.pixel_size
+        """The side of a pixel, or its sides."""
+        return self.pixel_size or self.spacing
 
     @property
     def table_of_all(self) -> str | None:
@@ -191,7 +194,7 @@ class SiteOptions(ComputingOptions):
 
     columns: str | None
     seeds: SeedMode | None
-    size: tuple[int, int] | None
+    size: Any
     window: Any
 
     @property
@@ -224,7 +227,10 @@ class TessellationOptions(SiteOptions):
     passes: Literal[1, 2] | None
     max_distance: Fraction | None
     dtype: Literal["uint8", "uint16", "uint32", "int32"] | None
-    chunk: tuple[int, int] | None
+    chunk: Any
+    volume: bool
+    slice: int | None
+    levels: int | None
     cell_size: Fraction | None
     tiled: bool
     animate: bool
@@ -235,6 +241,12 @@ class TessellationOptions(SiteOptions):
     def cell_side(self) -> Fraction | None:
         """The side of the cells of a map, where the frame is in its units."""
         return self.cell_size
+
+    @property
+    def is_of_volumes(self) -> bool:
+        """Whether the input has three axes: it says so itself, or its frame or its columns do."""
+        has_z = self.columns is not None and any(part.strip()[:2].lower() == "z=" for part in self.columns.split(","))
+        return self.volume or has_z or len(self.size or ()) == 3 or len(self.window or ()) == 6
 
     @property
     def draws_diagram(self) -> bool:

@@ -1,9 +1,10 @@
-"""``--pixel-size auto``, and images that lie on a map: what a file says of its pixels becomes the unit of results."""
+"""``--pixel-size auto``, ``--spacing auto``, and images on a map: what a file says of pixels is the unit of results."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from vorotool.errors import InputError, Kind, Message
@@ -42,18 +43,19 @@ def with_pixel_size(run: Run, o: Options, given: JobInput, grid: PixelGrid | Non
     Raises
     ------
     InputError
-        If the size is to be that of the file, and it has none, or pixels that are no squares; or if its pixels are
-        turned on the map.
+        If the size is to be that of the file, and it has none, or for ``--pixel-size`` pixels that are no squares; or
+        if its pixels are turned on the map.
     """
     asked = o.pixel_size
     if asked is not None and not asked.is_auto:
         return o
-    if not given.has_units and not measured(o):
+    is_spacing = asked is not None and asked.is_spacing
+    if not given.has_units and not measured(o) and not is_spacing:
         return o
     if grid is not None and grid.transform is not None:
-        size = _on_map(run, given, grid, is_asked=asked is not None)
+        size = _on_map(run, given, grid, asked)
     elif asked is not None:
-        size = _of_file(grid)
+        size = _of_file(grid, asked)
     else:
         size = None
         if grid is not None and grid.is_size:
@@ -62,37 +64,60 @@ def with_pixel_size(run: Run, o: Options, given: JobInput, grid: PixelGrid | Non
     return _mirrored_places(lengths_in_pixels(replace(o, pixel_size=size), size))
 
 
-def _of_file(grid: PixelGrid | None) -> PixelSize:
+def _of_file(grid: PixelGrid | None, asked: PixelSize) -> PixelSize:
     instead = "give a number and its unit, such as --pixel-size 0.325um"
+    if asked.is_spacing:
+        instead = "give numbers and their unit, such as --spacing 0.325,0.5um"
     if grid is None:
         raise InputError(f"the image carries no pixel size: {instead}")
     if not grid.is_size:
         dots = f"{float(1 / grid.width):.10g}"
         raise InputError(f"the image carries {dots} dots an inch, which is for print, and no pixel size: {instead}")
+    if asked.is_spacing:
+        return _spacing_of(grid)
     if not grid.is_square:
-        raise InputError(f"the image has pixels of {grid.size_text()}, which are no squares: {instead}")
+        raise InputError(
+            f"the image has pixels of {grid.size_text()}, which are no squares: use --spacing auto, or {instead}"
+        )
     return PixelSize(grid.width, grid.unit)
+
+
+def _spacing_of(grid: PixelGrid) -> PixelSize:
+    """Both sides as distances take them."""
+    from vorotool.geometry.pixel_grid import sides_of_grid
+
+    sides = sides_of_grid(grid)
+    if sides is None:
+        raise InputError(
+            f"the image has pixels of {grid.size_text()}, whose sides have no common step that is coarse enough for "
+            "exact distances: give rounded ones, such as --spacing 0.325,0.5um"
+        )
+    return PixelSize(Fraction(1), grid.unit, is_spacing=True, sides=sides)
 
 
 def _note_of_size(given: JobInput, grid: PixelGrid) -> str:
     if grid.is_square:
         return f"{given.name} carries a pixel size of {grid.size_text()}: --pixel-size auto uses it"
-    return f"{given.name} has pixels of {grid.size_text()}, which are no squares: results are in pixels"
+    return (
+        f"{given.name} has pixels of {grid.size_text()}, which are no squares: results are in pixels; --spacing auto "
+        "measures in their sides"
+    )
 
 
-def _on_map(run: Run, given: JobInput, grid: PixelGrid, *, is_asked: bool) -> PixelSize | None:
+def _on_map(run: Run, given: JobInput, grid: PixelGrid, asked: PixelSize | None) -> PixelSize | None:
     """Size and place of the pixels of a map; None where they are no squares, and nobody asked for them."""
     in_pixels = "--pixel-size 1 gives results in pixels"
+    is_spacing = asked is not None and asked.is_spacing
     if not grid.is_upright:
         raise InputError(
             f"the image is turned or mirrored on the map, which vectors and tables cannot follow: {in_pixels}, and "
             "gdalwarp in.tif upright.tif an image that is not"
         )
-    if not grid.is_square:
-        if is_asked:
+    if not grid.is_square and not is_spacing:
+        if asked is not None:
             raise InputError(
-                f"the image has pixels of {grid.size_text()}, which are no squares: {in_pixels}, and "
-                "gdalwarp -tr SIDE SIDE in.tif square.tif an image with squares"
+                f"the image has pixels of {grid.size_text()}, which are no squares: use --spacing auto; {in_pixels}, "
+                "and gdalwarp -tr SIDE SIDE in.tif square.tif an image with squares"
             )
         run.note(_note_of_size(given, grid))
         return None
@@ -101,10 +126,11 @@ def _on_map(run: Run, given: JobInput, grid: PixelGrid, *, is_asked: bool) -> Pi
     if is_geographic(grid.crs):
         text = f"{given.name}: longitude and latitude are treated as planar, lengths are in degrees"
         run.note(Message(text, Kind.DEGREES, source=given.name))
-    if not is_asked:
+    if asked is None:
         where = "on a map" if grid.crs is None else f"in {crs_name(grid.crs)}"
         run.note(f"{given.name} lies {where}: results are in its coordinates; {in_pixels}")
-    return PixelSize(grid.width, grid.unit, origin=grid.centre, y_up=grid.is_north_up, crs=grid.crs)
+    size = _spacing_of(grid) if is_spacing else PixelSize(grid.width, grid.unit)
+    return size._replace(origin=grid.centre, y_up=grid.is_north_up, crs=grid.crs)
 
 
 def _mirrored_places(o: Options) -> Options:

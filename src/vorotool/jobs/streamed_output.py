@@ -107,7 +107,7 @@ def write_file(out: Any, o: TessellationOptions, target: Target, stream: Stream)
         return sample.tell()
 
     most = frame.pixels * (11 if fmt == "text" else stream.dtype.itemsize)
-    check_space(target.path, most, lambda: expected_bytes(stream, next(band_limits(frame))[1], size_of))
+    check_space(target.path, most, lambda: _expected(stream, next(band_limits(frame))[1], size_of))
     stream.write(out, fmt, stream.bands(), frame.height, threads=o.threads)
 
 
@@ -126,46 +126,78 @@ def write_store(run: Run, o: TessellationOptions, target: Target, stream: Stream
         write_rows(create_array(files, rows.shape, dtype=dtype, chunks=chunks), 0, rows, threads=o.threads)
         return sum(map(len, files.values()))
 
-    check_space(target.path, frame.pixels * dtype.itemsize, lambda: expected_bytes(stream, chunks[0], size_of))
+    check_space(target.path, frame.pixels * dtype.itemsize, lambda: _expected(stream, chunks[0], size_of))
     with open_store(target.path, no_clobber=o.no_clobber, inputs=inputs) as store:
         grid = stream.kind.get("grid")
         folder = array_folder(store, target.path, grid=grid, is_labels=target.what == "labels")
         array = create_array(folder, frame.shape, dtype=dtype, chunks=chunks)
         limits = [(first, min(chunks[0], frame.height - first)) for first in range(0, frame.height, chunks[0])]
         if o.cluster is not None and o.out_dir is None:
-            _write_on_cluster(run, folder, stream, limits, address=o.cluster, jobs=o.jobs)
+            write_on_cluster(run, folder, stream.band, limits, address=o.cluster, jobs=o.jobs)
             return
         for first, count in limits:
             write_rows(array, first, stream.rows_of(first, count), threads=o.threads)
 
 
-def _write_on_cluster(
-    run: Run, folder: Path, stream: Stream, limits: Sequence[tuple[int, int]], *, address: str, jobs: int | None
+def write_on_cluster(
+    run: Run,
+    folder: Path,
+    band_of: Callable[[int, int], Band],
+    limits: Sequence[tuple[int, int]],
+    *,
+    address: str,
+    jobs: int | None,
 ) -> None:
+    """Let a cluster compute the bands of an image, or the slabs of a volume, and write them into a store.
+
+    Parameters
+    ----------
+    run : Run
+        Shows how far it is.
+    folder : Path
+        A Zarr array.
+    band_of : callable
+        ``band_of(first, count)`` gives what computes some rows or slices anywhere.
+    limits : sequence of (int, int)
+        The first one of each band, and their number.
+    address, jobs
+        As of `vorotool.batch.dask_bands.write_bands`.
+    """
     from vorotool.batch.dask_bands import write_bands
 
     show = run.progress("tessellate")
-    bands = ((first, stream.band(first, count)) for first, count in limits)
+    bands = ((first, band_of(first, count)) for first, count in limits)
     for done, _ in enumerate(write_bands(folder, bands, address=address, jobs=jobs), start=1):
         if show is not None:
             show(done / len(limits))
 
 
-def expected_bytes(stream: Stream, rows: int, size_of: Callable[[NDArray[Any]], int]) -> int:
-    """Estimate the bytes of an image from those of some bands, in which its parts differ.
+def _expected(stream: Stream, rows: int, size_of: Callable[[NDArray[Any]], int]) -> int:
+    return expected_bytes(stream.frame.height, rows, stream.rows_of, size_of)
+
+
+def expected_bytes(height: int, rows: int, rows_of: RowsOf, size_of: Callable[[NDArray[Any]], int]) -> int:
+    """Estimate the bytes of an image, or a volume, from those of some bands, in which its parts differ.
+
+    Parameters
+    ----------
+    height : int
+        Its rows, or slices.
+    rows : int
+        Those of a band.
+    rows_of, size_of : callable
+        Give any band, and the bytes of one.
 
     Examples
     --------
-    >>> rows_of = lambda first, rows: np.zeros((rows, 4))
-    >>> zeros = Stream(Frame(0, 0, 4, 100), rows_of, np.dtype(float), 0, lambda first, rows: None, {})
-    >>> expected_bytes(zeros, 10, lambda rows: rows.nbytes)
+    >>> expected_bytes(100, 10, lambda first, rows: np.zeros((rows, 4)), lambda rows: rows.nbytes)
     3200
     """
-    bands = -(-stream.frame.height // rows)
+    bands = -(-height // rows)
     chosen = {bands * (2 * k + 1) // (2 * SAMPLES) for k in range(SAMPLES)}
     seen = size = 0
     for band in sorted(chosen):
-        count = min(rows, stream.frame.height - band * rows)
-        size += size_of(stream.rows_of(band * rows, count))
+        count = min(rows, height - band * rows)
+        size += size_of(rows_of(band * rows, count))
         seen += count
-    return size * stream.frame.height // seen
+    return size * height // seen

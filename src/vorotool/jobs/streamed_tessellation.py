@@ -22,6 +22,7 @@ from vorotool.jobs.options import TessellationOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.streamed_output import Stream, check_chunks, write_file, write_store
 from vorotool.jobs.targets import Target
+from vorotool.jobs.units import sides_of, unit_text
 
 LARGE = 2**24
 """Pixels from which an image that can be read in bands is not held: a seed in memory takes some 40 bytes."""
@@ -84,6 +85,7 @@ class StreamedProducts:
             strict=options.strict,
             progress=run.progress("read"),
             note=run.note,
+            sides=sides_of(options),
         )
         if set(options.what) & {"distance", "distance2"}:
             self.image.check_distances()
@@ -109,6 +111,9 @@ class StreamedProducts:
         from vorotool.formats.io.atomic_output import open_output
 
         o, stream = self.options, self._stream(target.what)
+        if target.what == "distance2" and o.spacing is not None:
+            step = self.image.sides.step
+            self.run.note(f"squared distances are in squares of a step of {step}{unit_text(o.pixel_size)}")
         if target.fmt == "zarr":
             write_store(self.run, o, target, stream, inputs)
             return
@@ -151,7 +156,11 @@ class StreamedProducts:
     def stats(self) -> dict[str, Any]:
         """Counts and sizes."""
         frame = self.image.frame
+        with_sides: dict[str, Any] = {}
+        if self.options.spacing is not None:
+            with_sides = {"distance2_step": str(self.image.sides.step), "arithmetic": self.image.arithmetic}
         return {
+            **with_sides,
             "seeds": self.image.pixels,
             "largest_label": self.image.largest_label,
             "frame": [frame.x, frame.y, frame.width, frame.height],

@@ -47,7 +47,7 @@ from vorotool.jobs.run_log import Run
 from vorotool.jobs.streamed_output import RowsOf, Stream, check_chunks, write_file, write_store
 from vorotool.jobs.streamed_tessellation import StreamedProducts, rows_of_large
 from vorotool.jobs.targets import Target
-from vorotool.jobs.units import measured, table_in_units, unit_columns
+from vorotool.jobs.units import measured, sides_of, table_in_units, unit_columns, unit_text
 from vorotool.products.formats import ANIMATIONS
 from vorotool.products.registry import PRODUCTS
 from vorotool.products.writing import write_product
@@ -87,7 +87,7 @@ def products(run: Run, o: TessellationOptions, given: JobInput) -> Products | St
             if large is None:
                 value = read_opened(run, o, given, source, columns=o.columns, properties=with_columns)
         if large is not None:
-            o = with_pixel_size(run, o, given, large.grid) if measured(o) else o
+            o = with_pixel_size(run, o, given, large.grid) if measured(o) or o.spacing else o
             return StreamedProducts(run, o, large)
         if o.cell_size is not None and not isinstance(value, Raster):
             o, seeds = seeds_on_map(run, o, value)
@@ -119,6 +119,7 @@ def _rows_of(run: Run, o: TessellationOptions, seeds: SeedSet) -> Tessellator | 
         method=o.method,
         passes=o.passes or 2,
         max_distance=o.max_distance,
+        sides=sides_of(o),
         strict=o.strict,
         threads=o.threads,
         max_pixels=o.max_pixels,
@@ -155,7 +156,7 @@ class Products:
         rows: Tessellator | PropagatedRows,
     ) -> None:
         self.run, self.options, self.read, self.rows = run, options, read, rows
-        self.backdrop = given.backdrop
+        self.backdrop, self.sides = given.backdrop, sides_of(options)
         check_column(options.label_by, read.seeds.properties)
         self.dtype = label_dtype(rows.seeds.largest_label, options.dtype)
 
@@ -163,7 +164,7 @@ class Products:
     def image(self) -> LabelImage:
         """The whole label image, in memory."""
         require_memory(self.rows.frame, self.options.max_pixels)
-        return LabelImage(self._labels(), self.rows.frame, self.rows.seeds)
+        return LabelImage(self._labels(), self.rows.frame, self.rows.seeds, sides=self.sides)
 
     def _labels(self, first: int = 0, rows: int | None = None) -> NDArray[Any]:
         with self.run.phase("tessellate"):
@@ -234,7 +235,12 @@ class Products:
             self.run.note(
                 f"labels up to {seeds.largest_label} look black in a 16-bit PNG: --what colour draws a picture"
             )
-        if target.what == "distance2" and seeds.scale > 1:
+        if target.what != "distance2":
+            return
+        if self.options.spacing is not None:
+            step = self._exact_rows().step
+            self.run.note(f"squared distances are in squares of a step of {step}{unit_text(self.options.pixel_size)}")
+        elif seeds.scale > 1:
             self.run.note(f"squared distances are in units of 1/{seeds.scale}² square pixels: seeds lie between pixels")
 
     def _stream(self, what: str) -> Stream:
@@ -262,7 +268,7 @@ class Products:
         frame = self.rows.frame
         seeds = self._seed_bands.seeds_of(first, rows)
         place = Frame(frame.x, frame.y + first, frame.width, rows)
-        return SeedBand(seeds, place, what, dtype, self.options.max_distance)
+        return SeedBand(seeds, place, what, dtype, self.options.max_distance, self.sides)
 
     @cached_property
     def _seed_bands(self) -> SeedBands:
@@ -298,7 +304,7 @@ class Products:
         from vorotool.jobs.label_pictures import write_label_page
 
         more = unit_columns(self.options.pixel_size, len(self.colours[0]))
-        write_label_page(out, self.image.labels, self.colours, self._table(), more, y_up=self._is_y_up)
+        write_label_page(out, self.image, self.colours, self._table(), more, y_up=self._is_y_up)
 
     def _picture(self, target: Target) -> LabelPicture:
         from vorotool.jobs.label_pictures import LabelPicture, default_layers
@@ -321,14 +327,13 @@ class Products:
         """Cells that grow from their seeds until they fill the frame, or to the largest distance."""
         o, whole, rows = self.options, self._picture(target), self._exact_rows()
         squares = rows.squared_distances()
-        scale = rows.seeds.scale
-        farthest = Fraction(isqrt(int(squares.max(initial=0))) + 1, scale)
+        farthest = (isqrt(int(squares.max(initial=0))) + 1) * rows.step
         last = farthest if o.max_distance is None else min(farthest, o.max_distance)
         widths = {"cells": 1.0 if whole.shows_borders else 0.0} | dict(whole.style.widths)
         whole = replace(whole, style=replace(whole.style, widths=widths))
 
         def draw(part: Fraction) -> NDArray[np.uint8]:
-            limit = squared_limit(part * last, scale)
+            limit = squared_limit(part * last, 1 / rows.step)
             labels = np.where(squares <= limit, whole.image.labels, 0)
             return replace(whole, image=replace(whole.image, labels=labels)).pixels()
 
@@ -337,7 +342,10 @@ class Products:
     @cached_property
     def _scale_bar(self) -> ScaleBar | None:
         o, seeds = self.options, self.rows.seeds
-        return world_of(self.run, o.looks, frame=seeds.frame or self.rows.frame, size=o.pixel_size).scale_bar
+        bar = world_of(self.run, o.looks, frame=seeds.frame or self.rows.frame, size=o.pixel_size).scale_bar
+        if bar is None or o.spacing is None:
+            return bar
+        return bar._replace(factor=float(self.sides.lengths[-1]))  # of a pixel across the picture
 
     @property
     def _texts(self) -> dict[int, str] | None:
@@ -373,5 +381,6 @@ class Products:
             "threads": self.options.threads,
         }
         if isinstance(rows, Tessellator):
-            return {**counts, "arithmetic": rows.arithmetic, "simd": rows.simd}
+            step = {} if self.options.spacing is None else {"distance2_step": str(rows.step)}
+            return {**counts, **step, "arithmetic": rows.arithmetic, "simd": rows.simd}
         return {**counts, "passes": self.options.passes or 2, **rows.compare_with_exact()}

@@ -1,4 +1,4 @@
-"""Tables and vectors in units of the world."""
+"""Tables and vectors in units of the world: of ``--pixel-size``, which scales them, or of ``--spacing``."""
 
 from __future__ import annotations
 
@@ -13,20 +13,21 @@ from vorotool.jobs.pruning_choice import Pruning
 from vorotool.products.formats import FORMATS
 
 if TYPE_CHECKING:
+    from vorotool.geometry.spacing import PixelSides
     from vorotool.geometry.table import Table
-    from vorotool.jobs.options import JobOptions
+    from vorotool.jobs.options import ComputingOptions, JobOptions
     from vorotool.jobs.targets import Target
 
 Value = TypeVar("Value")
 
 
 class PixelSize(NamedTuple):
-    """The side of a pixel, and where pixels are on a map.
+    """The side of a pixel, and where pixels are on a map; or its sides, where distances are in their unit.
 
     Parameters
     ----------
     factor : Fraction
-        The side.
+        The side; with `sides` 1, as results are in their unit already.
     unit : str, optional
         Its unit.
     is_auto : bool
@@ -37,6 +38,10 @@ class PixelSize(NamedTuple):
         Rows go down on the map: what is made of the image is made with y upwards.
     crs : object, optional
         The coordinate reference system of the map.
+    is_spacing : bool
+        It is that of ``--spacing``.
+    sides : PixelSides, optional
+        Of ``--spacing``: what it says, or the file.
     """
 
     factor: Fraction
@@ -45,10 +50,62 @@ class PixelSize(NamedTuple):
     origin: tuple[float, float] | None = None
     y_up: bool = False
     crs: Any = None
+    is_spacing: bool = False
+    sides: PixelSides | None = None
+
+    @property
+    def option(self) -> str:
+        """Where it is given."""
+        return "--spacing" if self.is_spacing else "--pixel-size"
 
 
 AUTO = PixelSize(Fraction(1), None, is_auto=True)
 """What the file says."""
+
+AUTO_SPACING = AUTO._replace(is_spacing=True)
+"""What the file says of both sides."""
+
+_NUMBERS = {2: "two numbers, SX,SY", 3: "three numbers, SX,SY,SZ"}
+
+
+def with_spacing(o: Options) -> Options:
+    """Give options in which ``--spacing`` is the size of pixels.
+
+    Raises
+    ------
+    UsageError
+        If there is a size of pixels, too.
+    """
+    from vorotool.jobs.options import ComputingOptions
+
+    if not isinstance(o, ComputingOptions) or o.spacing is None:
+        return o
+    if o.pixel_size is not None:
+        raise UsageError(
+            "--spacing changes distances, --pixel-size only scales what is written: give one of them, --spacing where "
+            "pixels are no squares"
+        )
+    changed: Any = replace(o, pixel_size=o.spacing)
+    return changed  # type: ignore[no-any-return]  # of the same type
+
+
+def sides_of(o: ComputingOptions, axes: int = 2) -> PixelSides:
+    """Give the sides of a pixel, or of a voxel, in whose unit distances are: 1 without ``--spacing``.
+
+    Raises
+    ------
+    UsageError
+        If they are not as many as the input has axes.
+    """
+    from vorotool.geometry.spacing import pixel_sides
+
+    sides = None if o.pixel_size is None else o.pixel_size.sides
+    if sides is None:
+        return pixel_sides(None, axes)
+    if len(sides.units) != axes:
+        what = "an image or points in a plane" if axes == 2 else "a volume"
+        raise UsageError(f"--spacing has {len(sides.units)} sides, but the input is {what}: give {_NUMBERS[axes]}")
+    return sides
 
 
 def shows_units(targets: Sequence[Target]) -> bool:
@@ -136,7 +193,7 @@ def _pixels(name: str, length: Measured, size: PixelSize | None) -> Fraction | f
     found = None if size.unit is None else ratio(length.unit, size.unit)
     if found is None:
         its = "has none" if size.unit is None else f"is in {size.unit}, which is none that is known"
-        raise UsageError(f"{option} {length.text} has a unit, but --pixel-size {its}: give it one of {known}")
+        raise UsageError(f"{option} {length.text} has a unit, but {size.option} {its}: give it one of {known}")
     exact = length.number * found / size.factor
     rounded = _as_double(exact)
     if rounded is None:
@@ -165,7 +222,7 @@ def check_units(o: JobOptions, targets: Sequence[Target]) -> None:
     UsageError
         If there are no lengths in any output.
     """
-    if o.unit is None or measured(o):
+    if o.unit is None or o.unit.is_spacing or measured(o):
         return
     if not shows_units(targets) and not o.scale_bar:
         raise UsageError("--pixel-size is for tables and vectors: use --what table, or leave it out")
@@ -183,7 +240,7 @@ def in_units(size: PixelSize | None, value: Value) -> Value:
         return value
     from vorotool.geometry.any.scaling import scaled
 
-    with _within_doubles():
+    with _within_doubles(size):
         result: Value = scaled(value, size.factor, size.origin, unit=size.unit)
     return result
 
@@ -191,6 +248,11 @@ def in_units(size: PixelSize | None, value: Value) -> Value:
 def unit_columns(size: PixelSize | None, count: int) -> dict[str, list[str]]:
     """Give the column that names the unit of so many rows, where there is one."""
     return {} if size is None or size.unit is None else {"unit": [size.unit] * count}
+
+
+def unit_text(size: PixelSize | None) -> str:
+    """Words for the unit after a number, where there is one."""
+    return "" if size is None or size.unit is None else f" {size.unit}"
 
 
 def table_in_units(
@@ -213,13 +275,14 @@ def table_in_units(
         return table
     from vorotool.geometry.any.scaling import scaled_table
 
-    with _within_doubles():
+    pixel = (1.0, 1.0) if size.sides is None else (float(size.sides.lengths[-1]), float(size.sides.lengths[-2]))
+    with _within_doubles(size):
         y_up = has_rows and size.y_up
-        return scaled_table(table, size.factor, properties=properties, origin=size.origin, y_up=y_up)
+        return scaled_table(table, size.factor, properties=properties, origin=size.origin, y_up=y_up, pixel=pixel)
 
 
 @contextmanager
-def _within_doubles() -> Iterator[None]:
+def _within_doubles(size: PixelSize) -> Iterator[None]:
     """Refuse a size that makes numbers infinite."""
     import numpy as np
 
@@ -227,7 +290,7 @@ def _within_doubles() -> Iterator[None]:
         with np.errstate(over="raise"):
             yield
     except FloatingPointError:
-        raise UsageError("--pixel-size makes coordinates or areas too large for numbers: use a smaller one") from None
+        raise UsageError(f"{size.option} makes coordinates or areas too large for numbers: use a smaller one") from None
 
 
 def length_in_units(size: PixelSize | None, length: Any) -> Any:
@@ -241,7 +304,9 @@ def unit_stats(size: PixelSize | None) -> dict[str, Any]:
     """What statistics say of the size."""
     if size is None or size.is_auto:
         return {}
-    found = {"pixel_size": float(size.factor), "unit": size.unit}
+    found: dict[str, Any] = {"pixel_size": float(size.factor), "unit": size.unit}
+    if size.sides is not None:
+        found = {"spacing": [float(side) for side in reversed(size.sides.lengths)], "unit": size.unit}
     if size.crs is None:
         return found
     from vorotool.geometry.crs import crs_name

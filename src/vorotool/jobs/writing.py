@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from vorotool.errors import UsageError
 from vorotool.geometry.numbers import shown_number, whole_number
 from vorotool.geometry.pixel_frame import MAX_SIDE
+from vorotool.geometry.spacing import SQUARE
 from vorotool.jobs.picture_style import Looks, check_layers, looks_of, styled_page
 from vorotool.jobs.picture_world import check_column, world_of, world_of_value
 from vorotool.jobs.units import PixelSize
@@ -47,7 +48,8 @@ def write(
     ----------
     value : value of the library
         What to write: any result of the library, in the formats that its command writes it in. The PNG of a
-        `LabelImage` holds its labels.
+        `LabelImage` holds its labels. A `LabelVolume` or a `Volume` goes into TIFF, as a stack that is described as its
+        input was (see `VoxelGrid`), NPY and Zarr.
     path : str or path
         The file, replaced atomically.
     fmt : str, optional
@@ -112,6 +114,12 @@ def write(
         "label_by": label_by,
     }
     styles |= {"legend": legend or None, "scale_bar": scale_bar or None}
+    if is_of(value, "LabelVolume", "Volume"):
+        from vorotool.jobs.volume_writing import write_volume_value
+
+        more = {"what": None if what == "labels" else what, "flatten": flatten, "precision": precision}
+        write_volume_value(value, fspath(path), chosen, {**more, "layers": layers, "width": width, **styles}, threads)
+        return
     if chosen not in PICTURES or (is_of(value, "LabelImage") and chosen == "png" and what in (None, "labels")):
         for option, given in {"layers": layers, "width": width, "y_up": y_up, **styles}.items():
             if given is not None:
@@ -255,6 +263,8 @@ def _draw_labels(image: LabelImage, wanted: _Picture) -> None:
 
 
 def _pixel_size(image: LabelImage) -> PixelSize | None:
-    """The side of a pixel, if the image says that it is a square."""
+    """The width of a pixel, if the image says it of one that is a square, or of its distances."""
     grid = image.grid
+    if image.sides != SQUARE:
+        return PixelSize(image.sides.lengths[-1], grid.unit if grid is not None and grid.has(image.sides) else None)
     return PixelSize(grid.width, grid.unit) if grid is not None and grid.is_size and grid.is_square else None

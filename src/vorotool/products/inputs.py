@@ -121,6 +121,16 @@ _ALL = (
 )
 INPUTS = {each.name: each for each in _ALL}
 """By name."""
+SPACE_READERS = {
+    "csv": "formats.points.delimited:text_rows",
+    "json": "formats.points.json:json_rows",
+    "jsonl": "formats.points.json:json_rows",
+    "geojson": "formats.points.json:geojson_rows",
+    "wkt": "formats.points.wkt:wkt_rows",
+    "npz": "formats.points.tables:npz_rows",
+    **{each.name: "formats.features.reading:point_rows" for each in _ALL if each.features and each.name != "csv"},
+}
+"""Formats whose points may have a z, and ``module:function`` of ``function(source, options)`` that reads it."""
 
 
 def names_of(*held: Holds) -> dict[str, str]:
@@ -136,6 +146,8 @@ def names_of(*held: Holds) -> dict[str, str]:
 
 IMAGE_NAMES = names_of("image")
 """Formats of images by name; NPY files hold either."""
+VOLUME_NAMES = {name: kind for name, kind in IMAGE_NAMES.items() if kind in ("tiff", "npy", "zarr")}
+"""Formats of images that volumes have, too."""
 NAMES_WITH = {
     "points": names_of("points", "image"),
     "polygons": names_of("polygons", "image"),
@@ -159,6 +171,9 @@ TAKEN_BY: Mapping[Holds, tuple[str, ...]] = {
 }
 """Commands that take what an input may hold; of skeletons and Voronoi maps all but `draw` take the polygons."""
 
+
+VOLUMES_TAKEN_BY = ("tessellate",)
+"""Commands that take a volume."""
 
 DRAWINGS = tuple(name for each in _ALL if "curves" in each.has for name in each.names)
 """Names of formats that have curves, which become lines where they are read."""

@@ -107,6 +107,19 @@ _TESSELLATE = (
     _product("neighbours", "", _TABLES, TABLE_WRITER),
 )
 
+# ---- tessellate, of volumes ----------------------------------------------------------------------
+_STACKS = "tiff npy zarr"
+_SLICES = {fmt: (*layers[:1], *(name for name in layers[1:] if name != "objects")) for fmt, layers in _COLOURED.items()}
+_VOLUMES = (
+    _product("labels", "LabelVolume", _STACKS, has_page=True),
+    _product("diagram", "", _STACKS),
+    _product("colour", "", "", None, _SLICES, "cells seeds", has_page=True),
+    _product("distance", "", _STACKS),
+    _product("distance2", "", _STACKS),
+    _product("table", "Table", _TABLES, TABLE_WRITER),
+    _product("neighbours", "", _TABLES, TABLE_WRITER),
+)
+
 # ---- delaunay ------------------------------------------------------------------------------------
 _MESH = Writer("formats.results.meshes:write_mesh")
 _CELLS = Writer("formats.results.cells:write_cells", ("fmt", "precision", "threads"))
@@ -226,6 +239,8 @@ _BY_COMMAND: dict[str, Sequence[Product]] = {
 }
 PRODUCTS = {command: {each.what: each for each in products} for command, products in _BY_COMMAND.items()}
 """Products of each command, by name."""
+VOLUME_PRODUCTS = {each.what: each for each in _VOLUMES}
+"""Those of `tessellate` where the input is a volume."""
 
 
 def formats_of(command: str) -> dict[str, tuple[str, ...]]:

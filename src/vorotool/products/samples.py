@@ -7,6 +7,7 @@ SAMPLES = {
     "six-seeds.csv": "6 points in 16 x 16 pixels",
     "blobs.png": "a mask of 24 ellipses, 300 x 200 pixels",
     "cells.png": "a label image: the regions of blobs.png",
+    "nuclei.tif": "a mask of 40 nuclei, a stack of 192 x 144 x 24 voxels of 0.325 x 0.325 x 1.5 µm",
     "shape.json": "a polygon",
     "two-shapes.json": "two polygons, one with a hole",
     "segments.wkt": "four line segments",

@@ -95,7 +95,12 @@ def test_a_page_that_fails(run, stack):
         ("stack.tif --page all", 2, "name a folder for their outputs with --out-dir"),
         ("stack.tif --page -1 -o a.png", 2, "'-1': expected the number of a page, from 0, or all"),
         ("stack.tif --page x -o a.png", 2, "'x': expected the number of a page, from 0, or all"),
-        ("stack.tif -o a.png", 3, "stack.tif has 3 pages: choose one with --page 0 to --page 2, or --page all"),
+        (
+            "stack.tif -o a.png",
+            3,
+            "stack.tif has 3 pages: choose one with --page 0 to --page 2, or --page all, or read them as a volume with "
+            "tessellate --volume",
+        ),
         ("- --page all --out-dir out", 2, "- is standard input, which is one input"),
     ],
 )

@@ -26,6 +26,8 @@ LISTS = (
     f"1x{DIGITS}", f"{DIGITS}x1", "1x1", "01x01", "²x²", "0x0", "999999999999999999x999999999999999999",
     f"1/{DIGITS}", "angle=nan", f"angle={DIGITS}", "chord=1e400", "scale=inf", "length=-1", "ratio=", "angle=1e-400",
     f"1{DIGITS}um", "1e400um", "0um", "1e-400 m", "١um", "1,1,1,1,1", f"1,1,1,{DIGITS}", "1,nan", "inf,1",
+    "1x1x1", "0x1x1", "999999999999999999x999999999999999999x999999999999999999", f"1x1x{DIGITS}", "1,2,z=3", "x,y,z=",
+    "0,0,0,1,1,1", "0,0,0,1,1,0", f"0,0,{DIGITS},1,1,1", "9223372036854775807,0,0,1,1,9223372036854775807",
 )  # fmt: skip
 VALUES = tuple(dict.fromkeys((*NUMBERS, *TEXTS, *LISTS)))
 
@@ -65,6 +67,7 @@ NEEDED = {
     "chunk": {"": ("-f", "zarr")},
     "threshold": {"": ("mask.pgm",)},
     "connectivity": {"": ("mask.pgm",)},
+    "slice": {"": ("space.csv", "--size", "5x4x3", "--what", "colour", "-f", "svg")},
     "page": {"": ("mask.pgm",)},
     "simplify": {"": ("mask.pgm",)},
     "width": {"": ("-f", "svg")},
@@ -86,10 +89,11 @@ def cases():
 @pytest.mark.parametrize(("name", "option", "values"), list(cases()))
 def test_no_value_of_an_option_is_a_defect(run, folder, name, option, values):
     (folder / "shape.wkt").write_text("POLYGON ((0 0, 9 0, 9 4, 0 4, 0 0))\n")
+    (folder / "space.csv").write_text("x,y,z\n1,2,0\n4,0,2\n")
     (folder / "mask.pgm").write_text("P2\n4 3\n255\n0 9 9 0\n0 9 9 0\n0 0 0 200\n")
     needed = NEEDED.get(option.name, {})
     given = [*INPUTS[name], *needed.get(name, needed.get("", ()))]
-    if "mask.pgm" in given:
+    if {"mask.pgm", "space.csv"} & set(needed.get(name, needed.get("", ()))):
         given.remove(given[0])
     codes = {value[:60]: run(name, *given, f"{option.opts[-1]}={value}").code for value in values}
     assert {value: code for value, code in codes.items() if code not in (0, 2, 3, 4, 5)} == {}

@@ -1,6 +1,7 @@
 """Bands that are computed apart give what the whole gives."""
 
 import pickle
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ from vorotool.engines.tessellation.seeding import seeds_from_points
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.geometry.pixel_frame import Frame
 from vorotool.geometry.points.point_set import PointSet
+from vorotool.geometry.spacing import SQUARE, PixelSides
 
 FRAME = Frame(-3, 5, 60, 47)
 
@@ -28,10 +30,11 @@ def point_sets():
 
 @pytest.mark.parametrize(("name", "points"), list(point_sets()))
 @pytest.mark.parametrize("height", [1, 5, 47])
+@pytest.mark.parametrize("sides", [SQUARE, PixelSides((60, 13), Fraction(1, 40))])
 @pytest.mark.filterwarnings("ignore::vorotool.errors.VorotoolWarning")
-def test_bands_are_those_of_the_whole(name, points, height):
+def test_bands_are_those_of_the_whole(name, points, height, sides):
     seeds = seeds_from_points(points)
-    whole = Tessellator(seeds, FRAME, max_distance=20)
+    whole = Tessellator(seeds, FRAME, max_distance=20, sides=sides)
     bands = SeedBands(seeds, FRAME)
     expected = {
         "labels": whole.labels(),
@@ -43,7 +46,7 @@ def test_bands_are_those_of_the_whole(name, points, height):
         few = bands.seeds_of(first, rows)
         for what, image in expected.items():
             place = Frame(FRAME.x, FRAME.y + first, FRAME.width, rows)
-            band = pickle.loads(pickle.dumps(SeedBand(few, place, what, image.dtype, 20)))
+            band = pickle.loads(pickle.dumps(SeedBand(few, place, what, image.dtype, 20, sides)))
             np.testing.assert_array_equal(band.rows(threads=1), image[first : first + rows], f"{name}, {what}")
 
 

@@ -2,6 +2,7 @@
 
 import pickle
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -13,6 +14,7 @@ from vorotool.engines.tessellation.seeding import seeds_from_raster
 from vorotool.engines.tessellation.streamed_image import ObjectRows, StreamedImage
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import InputError, LimitError, VorotoolWarning
+from vorotool.geometry.spacing import PixelSides
 
 rng = np.random.default_rng(7)
 
@@ -90,6 +92,25 @@ def test_masks(name, mask, mode, connectivity, bands):
     squares = whole.squared_distances()
     assert StreamedImage(source).square_dtype == squares.dtype
     np.testing.assert_array_equal(streamed(source, "distance2", squares.dtype, [30]), squares)
+
+
+@pytest.mark.parametrize("dtype", [np.uint8, np.uint16, np.int64, np.float32])
+def test_rectangular_pixels(bands, dtype):
+    labels = ndimage.label(blobs((80, 60), 0.6))[0].astype(dtype)
+    sides = PixelSides((60, 13), Fraction(1, 40))
+    whole = Tessellator(seeds_from_raster(labels), max_distance=2, sides=sides)
+    image = StreamedImage(ObjectRows(Held(labels)), sides=sides)
+    assert image.square_dtype == whole.square_dtype
+    for what, expected in (("labels", whole.labels()), ("distance2", whole.squared_distances())):
+        found = [image.band(what, expected.dtype, first, 16, 2).rows(threads=1) for first in range(0, 80, 16)]
+        np.testing.assert_array_equal(np.concatenate(found), expected)
+
+
+def test_squares_of_rectangular_pixels_that_do_not_fit():
+    image = StreamedImage(ObjectRows(Held(np.eye(3000, dtype=np.uint8))), sides=PixelSides((2**21, 1)))
+    assert image.arithmetic == "float64 with int128"
+    with pytest.raises(LimitError, match="may exceed 64 bits"):
+        _ = image.square_dtype
 
 
 @pytest.mark.parametrize("dtype", [np.uint8, np.uint16, np.int64, np.float32])

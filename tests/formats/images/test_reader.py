@@ -284,7 +284,10 @@ def test_tiff_pages() -> None:
     data = tiff(*pages)
     for number, page in enumerate(pages):
         np.testing.assert_array_equal(read("a.tif", data, page=number), page)
-    with pytest.raises(InputError, match=r"a.tif has 3 pages: choose one with page=0 to page=2$"):
+    with pytest.raises(
+        InputError,
+        match=r"a.tif has 3 pages: choose one with page=0 to page=2, or read them as a volume with geometry=.volume.$",
+    ):
         read("a.tif", data)
     for number in (3, -1):
         with pytest.raises(InputError, match=f"3 pages, counted from 0: there is no page={number}"):

@@ -79,7 +79,7 @@ def test_output_that_cannot_be_sought() -> None:
 
 
 def test_large_images_are_bigtiff(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(tiff, "_CLASSIC_LIMIT", 1000)
+    monkeypatch.setattr(tiff, "CLASSIC_LIMIT", 1000)
     values = values_of("u2", (30, 20))
     data = written([values], (30, 20), dtype="u2")
     assert data[:4] == b"II+\x00"

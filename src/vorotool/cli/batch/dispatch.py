@@ -12,7 +12,7 @@ from vorotool.jobs.job import Options, Recipe, process_input
 from vorotool.jobs.options import JobOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import check_stats, plan_targets
-from vorotool.jobs.units import check_units, lengths_in_pixels
+from vorotool.jobs.units import check_units, lengths_in_pixels, with_spacing
 
 
 def run_command(recipe: Recipe[Options], o: Options) -> None:
@@ -31,6 +31,7 @@ def run_command(recipe: Recipe[Options], o: Options) -> None:
         If there is no input, or options do not go together.
     """
     _check_streams(o)
+    o = with_spacing(o)
     if _is_batch(o):
         from vorotool.cli.batch.run_many import run_many
 

@@ -11,13 +11,14 @@ from vorotool.cli.options.groups import site_options
 from vorotool.cli.options.help_page import GroupedCommand
 from vorotool.cli.options.lengths import ExactLength
 from vorotool.cli.options.picture_style import animation_options
+from vorotool.cli.options.pixel_size import spacing_option
 from vorotool.cli.options.shared import (
     Decimal,
-    Size,
     inputs_argument,
     output_options,
     what_option,
 )
+from vorotool.cli.options.volumes import VolumeSize, volume_options
 from vorotool.errors import UsageError
 from vorotool.jobs.animations import animated, check_animation
 from vorotool.jobs.inputs import JobInput, check_components, check_frame_options
@@ -25,13 +26,15 @@ from vorotool.jobs.job import Recipe
 from vorotool.jobs.options import TessellationOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target, check_picture_options, check_precision
+from vorotool.jobs.volume_checks import check_image_options, check_volume_options, check_volume_units
 from vorotool.products.formats import ANIMATIONS, picture_format
 from vorotool.products.inputs import NAMES_WITH
-from vorotool.products.registry import PRODUCTS, all_layers, formats_of, layers_of
+from vorotool.products.registry import PRODUCTS, VOLUME_PRODUCTS, all_layers, formats_of, layers_of
 
 if TYPE_CHECKING:
     from vorotool.jobs.streamed_tessellation import StreamedProducts
     from vorotool.jobs.tessellation import Products
+    from vorotool.jobs.volumes import VolumeProducts
 
 FORMATS = formats_of("tessellate")
 _PICTURES = {(what, fmt) for what, each in PRODUCTS["tessellate"].items() for fmt in each.layers}
@@ -61,8 +64,8 @@ _PICTURES = {(what, fmt) for what, each in PRODUCTS["tessellate"].items() for fm
 )
 @click.option(
     "--chunk",
-    type=Size(),
-    help="Columns x rows of the chunks of a Zarr store; by default 2048x512, fewer rows if wide.",
+    type=VolumeSize(),
+    help="Columns x rows (x slices) of the chunks of a Zarr store; by default 2048x512, fewer rows if wide.",
 )
 @click.option("--tiled", is_flag=True, help="Tiles of 512 x 512 pixels in TIFFs, instead of strips of whole rows.")
 @click.option(
@@ -70,7 +73,9 @@ _PICTURES = {(what, fmt) for what, each in PRODUCTS["tessellate"].items() for fm
     type=Decimal(),
     help="Side of a pixel in the units of points, lines or polygons on a map; --window is in these units, too.",
 )
-@site_options(all_layers("tessellate"), has_scale=False)
+@spacing_option()
+@volume_options()
+@site_options(all_layers("tessellate"), has_scale=False, has_volumes=True)
 @animation_options("cells that grow from their seeds, up to --max-distance")
 def command(**options: Any) -> None:
     """Label every pixel with its nearest seed, exactly; ties go to the smallest label.
@@ -81,15 +86,22 @@ def command(**options: Any) -> None:
       vorotool tessellate dots.csv --size 512x512 -o labels.png
 
     INPUT is a list of points (CSV, TSV, Triangle .node, NPY, GeoJSON, WKT, JSON) or an image (PNG, TIFF, PGM, JPEG,
-    NPY, Zarr); - is standard input. Label i is the i-th point; an image's own labels are kept.
+    NPY, Zarr); - is standard input. Label i is the i-th point; an image's own labels are kept. With --volume it is a
+    volume: a stack (TIFF, NPY, Zarr), or points with a z.
     """
-    run_command(RECIPE, TessellationOptions(**animated(options)))
+    o = TessellationOptions(**animated(options))
+    if o.is_of_volumes:
+        check_volume_units(o)
+    run_command(VOLUME_RECIPE if o.is_of_volumes else RECIPE, o)
 
 
 def _check_options(o: TessellationOptions, targets: list[Target]) -> None:
+    check_image_options(o)
     check_frame_options(o, is_digital=True)
     if o.method == "propagation" and o.max_distance is not None:
         raise UsageError("--max-distance needs --method exact")
+    if o.method == "propagation" and o.spacing is not None:
+        raise UsageError("--spacing needs --method exact: the paper's propagation is for square pixels")
     if o.method == "exact" and o.passes is not None:
         raise UsageError("--passes needs --method propagation")
     if o.method == "propagation" and {"distance", "distance2"} & {target.what for target in targets}:
@@ -110,6 +122,8 @@ def _check_cells(o: TessellationOptions) -> None:
         return
     if not 1e-100 < o.cell_size < 1e100:
         raise UsageError("--cell-size must be more than 0, and at most 1e100")
+    if o.spacing is not None:
+        raise UsageError("--cell-size makes cells that are squares, in the units of the map: leave out --spacing")
     if o.size is not None:
         raise UsageError("--size is in pixels: with --cell-size give --window X,Y,W,H in the units of the map")
 
@@ -135,4 +149,12 @@ def _products(run: Run, o: TessellationOptions, given: JobInput) -> Products | S
     return products(run, o, given)
 
 
+def _volume_products(run: Run, o: TessellationOptions, given: JobInput) -> VolumeProducts:
+    from vorotool.jobs.volumes import products
+
+    return products(run, o, given)
+
+
 RECIPE = Recipe("tessellate", FORMATS, _check_options, _products, "points")
+_VOLUME_FORMATS = {what: each.formats for what, each in VOLUME_PRODUCTS.items()}
+VOLUME_RECIPE = Recipe("tessellate", _VOLUME_FORMATS, check_volume_options, _volume_products, "points")

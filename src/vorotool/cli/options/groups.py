@@ -5,13 +5,19 @@ from __future__ import annotations
 from vorotool.cli.options.picture_style import picture_style_options
 from vorotool.cli.options.pixel_size import pixel_size_option
 from vorotool.cli.options.shared import Decorator, batch_options, layers_option, shared, together
+from vorotool.cli.options.volumes import connectivity_option, frame_options
 
 
-def site_options(layers: tuple[str, ...], *, has_scale: bool = True) -> Decorator:
-    """Add the options of commands whose input is points or an image, and whose pictures have these layers."""
+def site_options(layers: tuple[str, ...], *, has_scale: bool = True, has_volumes: bool = False) -> Decorator:
+    """Add the options of commands whose input is points or an image, and whose pictures have these layers.
+
+    Frames and components may be those of volumes.
+    """
     return together(
-        shared("size", "window", "columns", "input-format", "input-layer", "input-crs", "crs"),
-        shared("page", "seeds", "connectivity", "threshold", "invert", "min-area", "fill-holes"),
+        frame_options(has_volumes=has_volumes),
+        shared("columns", "input-format", "input-layer", "input-crs", "crs", "page", "seeds"),
+        connectivity_option(has_volumes=has_volumes),
+        shared("threshold", "invert", "min-area", "fill-holes"),
         result_options(layers, has_scale=has_scale),
     )
 

@@ -13,8 +13,8 @@ _GROUPS = {
     "Output": "output format what dtype chunk tiled flatten precision no_properties safe_csv no_clobber",
     "Method": "method passes by max_distance r alpha auto regions rule hole_threshold region_threshold step tolerance "
     "sampling compare side gap complete features prune start end ends distance every",
-    "Input": "columns input_format input_layer input_crs crs page pixel_size seeds connectivity threshold invert "
-    "min_area fill_holes outline simplify join_tolerance",
+    "Input": "columns input_format input_layer input_crs crs page pixel_size spacing seeds connectivity threshold "
+    "invert min_area fill_holes outline simplify join_tolerance",
     "Frame": "size window cell_size frame clip enclosures",
     "Pictures": "layers overlay width y_up scale drawing_unit aspect extent background colours "
     "line_widths label_by legend scale_bar animate frames fps",

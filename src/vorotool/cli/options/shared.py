@@ -42,14 +42,12 @@ class Size(ParameterType[tuple[int, int]]):
         return (int(parts[0]), int(parts[1]))
 
 
-class Window(ParameterType[tuple[Any, Any, Any, Any]]):
+class Window(ParameterType[tuple[Any, ...]]):
     """``X,Y,W,H``: integers in pixels, or decimal numbers in the units of a map, which are kept exactly."""
 
     name = "X,Y,W,H"
 
-    def convert(
-        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
-    ) -> tuple[Any, Any, Any, Any]:
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[Any, ...]:
         """Parse four numbers of which the last two are positive."""
         if isinstance(value, tuple):
             return value

@@ -10,28 +10,36 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError
 
 
-def label_array(labels: NDArray[Any]) -> NDArray[Any]:
+def label_array(labels: NDArray[Any], what: str = "pixel") -> NDArray[Any]:
     """Labels as the core takes them, without a copy where possible; a negative int32 becomes one >= 2^31."""
     labels = np.ascontiguousarray(labels)
     native = labels.dtype.newbyteorder("=")
     if native.itemsize == 8:
         for bad in (labels.min(initial=0), labels.max(initial=0)):
             if not 0 <= int(bad) <= 0xFFFFFFFF:
-                raise InputError(f"a pixel has label {bad}: labels must be from 0 to 4294967295")
+                raise InputError(f"a {what} has label {bad}: labels must be from 0 to 4294967295")
         return labels.astype(np.uint32)
     return labels.astype(native, copy=False).view(f"u{native.itemsize}")
 
 
+def refuse_negative(dtype: np.dtype[Any], largest: int, what: str = "pixel") -> None:
+    """Refuse negative labels: the core takes them as unsigned, so they come back beyond the signed range."""
+    bits = 8 * dtype.itemsize
+    if dtype.kind == "i" and bits < 64 and largest >= 1 << (bits - 1):
+        raise InputError(f"a {what} has label {largest - (1 << bits)}: labels must not be negative")
+
+
 def next_row(row: NDArray[Any] | None, name: str, labels: NDArray[Any]) -> NDArray[Any] | None:
-    """Return a row next to a band of labels, in the type of the band."""
+    """Return a row next to a band of labels, or a slice next to a slab, in the type of the labels."""
     if row is None:
         return None
     row = np.asarray(row)
+    called = f"the {'row' if labels.ndim == 2 else 'slice'} {name}"
     if row.shape != labels.shape[1:]:
-        raise InputError(f"the row {name} has shape {row.shape}, but the labels {labels.shape}")
+        raise InputError(f"{called} has shape {row.shape}, but the labels {labels.shape}")
     row = label_array(row)
     if not np.can_cast(row.dtype, labels.dtype):
-        raise InputError(f"the row {name} has type {row.dtype}, but the labels {labels.dtype}: use one type")
+        raise InputError(f"{called} has type {row.dtype}, but the labels {labels.dtype}: use one type")
     return row.astype(labels.dtype, copy=False)
 
 

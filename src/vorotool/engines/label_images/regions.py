@@ -3,28 +3,47 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.common.label_arrays import described, label_array, next_row
+from vorotool.engines.common.label_arrays import described, label_array, next_row, refuse_negative
+from vorotool.engines.common.site_rows import largest_by_label, nearest_sites, rows_of, spread
 from vorotool.engines.tessellation.raster_objects import numbered_components
 from vorotool.errors import InputError, LimitError
+from vorotool.geometry.any.scaling import lengths_of_steps
 from vorotool.geometry.arguments.images import as_label_image
+from vorotool.geometry.arguments.volumes import is_of_space
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.numbers import finite_double
 from vorotool.geometry.points.label_image import LabelImage
-from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.geometry.progress import Progress
+from vorotool.geometry.spacing import SQUARE
 from vorotool.geometry.table import Table
+from vorotool.products.formats import resolved
 
 if TYPE_CHECKING:
-    from vorotool.typing import ImageLike
+    from vorotool.typing import ImageLike, VolumeLike
+
+_IN_SPACE = "engines.volumes.volume_"
+"""Modules of what is made of volumes, whose room is above this one."""
 
 LARGEST_COLOUR_TABLE = 1 << 28
 """Entries that an array indexed by label may have."""
+
+
+class Bordered(Protocol):
+    """Measures that say which regions are neighbours, of an image or of a volume."""
+
+    @property
+    def labels(self) -> NDArray[np.uint32]:
+        """(k,) of the regions, increasing."""
+
+    @property
+    def borders(self) -> NDArray[np.uint32]:
+        """(b, 2) indices of neighbours."""
 
 
 @dataclass(frozen=True)
@@ -36,18 +55,22 @@ class RegionMeasures:
     labels : (k,) uint32 array
         The labels that occur, increasing, without 0.
     columns : dict of str to (k,) int64 array
-        ``area``, ``perimeter``, ``components``, ``sum_x``, ``sum_y``, and the pixels ``left``, ``right``,
-        ``top`` and ``bottom`` of the bounding box, both ends inside, counted from the corner of the image.
+        ``area``, ``perimeter``, ``vertical_sides``, ``components``, ``sum_x``, ``sum_y``, and the pixels ``left``,
+        ``right``, ``top`` and ``bottom`` of the bounding box, both ends inside, counted from the corner of the image.
+        A perimeter counts sides of pixels, and ``vertical_sides`` those of them that are left or right of a pixel.
     borders : (b, 2) uint32 array
         Indices of two regions that share a pixel side, the smaller first, in lexicographic order.
     border_length : (b,) int64 array
         Pixel sides that the two share.
+    border_vertical : (b,) int64 array
+        Of these, the vertical ones.
     """
 
     labels: NDArray[np.uint32]
     columns: dict[str, NDArray[np.int64]]
     borders: NDArray[np.uint32]
     border_length: NDArray[np.int64]
+    border_vertical: NDArray[np.int64]
 
 
 def measure_regions(image: Any, *, threads: int = 0, progress: Progress = None) -> RegionMeasures:
@@ -83,18 +106,18 @@ def measure_regions(image: Any, *, threads: int = 0, progress: Progress = None) 
     image = _labelled(image)
     found = _core.label_images.measure_regions(label_array(image.labels), checked_threads(threads), progress)
     labels = found.pop("labels")
-    _refuse_negative(image, int(labels.max(initial=0)))
+    refuse_negative(image.labels.dtype, int(labels.max(initial=0)))
     borders = np.stack([found.pop("border_a"), found.pop("border_b")], axis=1)
-    length = found.pop("border_length")
-    return RegionMeasures(labels, found, borders, length)
+    length, vertical = (found.pop(name) for name in ("border_length", "border_vertical"))
+    return RegionMeasures(labels, found, borders, length, vertical)
 
 
 def region_table(
-    image: ImageLike,
+    image: ImageLike | VolumeLike,
     *,
     distance2: NDArray[Any] | None = None,
     distance_scale: int | None = None,
-    measures: RegionMeasures | None = None,
+    measures: Any = None,
     properties: bool = True,
     threads: int = 0,
     progress: Progress = None,
@@ -103,16 +126,17 @@ def region_table(
 
     Parameters
     ----------
-    image : LabelImage, or (H, W) array of integers or truth values
+    image : LabelImage, LabelVolume, or (H, W) or (D, H, W) array of integers or truth values
         With ``seeds``, every site has a row, also one without pixels (a duplicate, or a seed far outside the
         frame): its area is 0, and its bounding box, ``touches_frame`` and ``max_distance`` do not exist.
         Without ``seeds`` every label that occurs has a row, and the centroid of its region is its site.
-    distance2 : (H, W) integer array, optional
-        Squared lattice distance of each pixel to its site; without it ``max_distance`` does not exist.
+    distance2 : integer array of the same shape, optional
+        Squared distance of each pixel to its site, in steps of the sides of the image over ``distance_scale``; without
+        it ``max_distance`` does not exist.
     distance_scale : int, optional
         Lattice steps a pixel of ``distance2``; by default the scale of the seeds, else 1.
-    measures : RegionMeasures, optional
-        The result of `measure_regions` for this image.
+    measures : RegionMeasures or VolumeMeasures, optional
+        The result of `measure_regions` for this image, or of `measure_volume`.
     properties : bool
         Whether to add the input's own columns.
     threads : int
@@ -128,7 +152,9 @@ def region_table(
         pixels). Areas in pixels; perimeters in pixel sides, those on the frame included; lengths in pixels.
         ``neighbours`` counts the labels that share a side (section 2.1); ``components`` are 4-connected.
         ``nearest_label`` is the site nearest to (x, y), ties to the smallest label; another site at the same
-        place is at distance 0. Fields that do not exist are masked.
+        place is at distance 0. Fields that do not exist are masked. Of an image whose ``sides`` are not 1, all is in
+        their unit. Of volumes ``z``, ``volume`` and ``surface``, ``bbox_z`` and ``bbox_d`` are beside or instead of
+        these, neighbours share a face, and components are 6-connected.
 
     Raises
     ------
@@ -142,22 +168,27 @@ def region_table(
     >>> table["perimeter"].tolist(), table["nearest_label"].tolist()
     ([8, 8], [2, 1])
     """
+    if is_of_space(image):
+        options = {"distance2": distance2, "distance_scale": distance_scale, "measures": measures}
+        own: Table = _in_space("tables:volume_table", image, threads, progress, properties=properties, **options)
+        return own
     image = _labelled(image)
     threads = checked_threads(threads)
     measures = measures or measure_regions(image, threads=threads, progress=progress)
     labels, sites = _sites(image, measures)
     rows = _rows_of(measures.labels, labels, image)
-    nearest_label, nearest_distance = _nearest(labels, sites, threads, progress)
+    nearest_label, nearest_distance = nearest_sites(labels, sites, threads, progress)
     degree = np.bincount(measures.borders.ravel(), minlength=len(measures.labels))
-    area = _spread(measures.columns["area"], rows, len(labels))
+    area = spread(_areas(image, measures.columns["area"]), rows, len(labels))
+    around = _border_lengths(image, measures.columns["perimeter"], measures.columns["vertical_sides"])
     absent = area == 0
     columns: dict[str, Any] = {
         "label": labels.astype(np.int64),
         "x": sites[:, 0].copy(),
         "y": sites[:, 1].copy(),
         "area": area,
-        "perimeter": _spread(measures.columns["perimeter"], rows, len(labels)),
-        "neighbours": _spread(degree.astype(np.int64), rows, len(labels)),
+        "perimeter": spread(around, rows, len(labels)),
+        "neighbours": spread(degree.astype(np.int64), rows, len(labels)),
         "nearest_label": nearest_label,
         "nearest_distance": nearest_distance,
     }
@@ -165,29 +196,29 @@ def region_table(
     if distance_scale is not None:
         finite_double(distance_scale, "distance_scale")
     largest = _max_distance(image, distance2, distance_scale, labels, threads, progress)
-    columns["touches_frame"] = np.ma.array(_spread(box.pop("touches_frame"), rows, len(labels)), mask=absent)
+    columns["touches_frame"] = np.ma.array(spread(box.pop("touches_frame"), rows, len(labels)), mask=absent)
     columns["max_distance"] = np.ma.array(largest, mask=absent | (distance2 is None))
-    columns["components"] = _spread(measures.columns["components"], rows, len(labels))
+    columns["components"] = spread(measures.columns["components"], rows, len(labels))
     for name, values in box.items():
-        columns[name] = np.ma.array(_spread(values, rows, len(labels)), mask=absent)
-    return _with_input_columns(columns, image.seeds, properties)
+        columns[name] = np.ma.array(spread(values, rows, len(labels)), mask=absent)
+    return _with_input_columns(columns, image, properties)
 
 
 def neighbour_table(
-    image: ImageLike,
+    image: ImageLike | VolumeLike,
     *,
-    measures: RegionMeasures | None = None,
+    measures: Any = None,
     threads: int = 0,
     progress: Progress = None,
 ) -> Table:
-    """Tabulate the neighbouring regions: one row a pair of labels that share a pixel side (section 2.1).
+    """Tabulate the neighbouring regions: one row a pair of labels that share a pixel side (section 2.1), or a face.
 
     Parameters
     ----------
-    image : LabelImage, or (H, W) array of integers or truth values
+    image : LabelImage, LabelVolume, or (H, W) or (D, H, W) array of integers or truth values
         Label 0 is no region.
-    measures : RegionMeasures, optional
-        The result of `measure_regions` for this image.
+    measures : RegionMeasures or VolumeMeasures, optional
+        The result of `measure_regions` for this image, or of `measure_volume`.
     threads : int
         0 for all; the result is the same for any number.
     progress : callable, optional
@@ -198,7 +229,8 @@ def neighbour_table(
     Table
         ``label_a, label_b, border_length, centroid_distance``, ordered by the labels, ``label_a < label_b``:
         the pixel sides that the two share, and the distance between their sites (region centroids, if the
-        image has no seeds).
+        image has no seeds); in the unit of the ``sides`` of the image. Of volumes ``border_area``, the area of the
+        faces that the two share, is instead of the length.
 
     Raises
     ------
@@ -212,23 +244,27 @@ def neighbour_table(
     >>> list(zip(*(table[name].tolist() for name in ("label_a", "label_b", "border_length"))))
     [(1, 2, 1), (1, 3, 2), (2, 3, 1)]
     """
+    if is_of_space(image):
+        own: Table = _in_space("tables:volume_neighbours", image, threads, progress, measures=measures)
+        return own
     image = _labelled(image)
     measures = measures or measure_regions(image, threads=threads, progress=progress)
     labels, sites = _sites(image, measures)
     position = sites[_rows_of(measures.labels, labels, image)]
     step = position[measures.borders[:, 0]] - position[measures.borders[:, 1]]
-    return Table(
+    table = Table(
         {
             "label_a": measures.labels[measures.borders[:, 0]].astype(np.int64),
             "label_b": measures.labels[measures.borders[:, 1]].astype(np.int64),
-            "border_length": measures.border_length,
+            "border_length": _border_lengths(image, measures.border_length, measures.border_vertical),
             "centroid_distance": np.sqrt(step[:, 0] * step[:, 0] + step[:, 1] * step[:, 1]),
         }
     )
+    return table if image.sides == SQUARE else lengths_of_steps(table, image.sides.step)
 
 
 def voronoi_diagram(
-    image: ImageLike,
+    image: ImageLike | VolumeLike,
     *,
     above: NDArray[Any] | None = None,
     below: NDArray[Any] | None = None,
@@ -236,15 +272,16 @@ def voronoi_diagram(
     threads: int = 0,
     progress: Progress = None,
 ) -> NDArray[np.uint8]:
-    """Mark the digital Voronoi diagram: pixels with a 4-neighbour of larger label (section 2.1).
+    """Mark the digital Voronoi diagram: pixels with a 4-neighbour of larger label (section 2.1), voxels with one of 6.
 
     Parameters
     ----------
-    image : LabelImage, or (H, W) array of integers or truth values
+    image : LabelImage, LabelVolume, or (H, W) or (D, H, W) array of integers or truth values
         Pixels of label 0 are never marked, and as neighbours never larger.
-    above, below : (W,) integer array, optional
-        The rows next to a band of a larger image, which then can be streamed in bands of any height.
-    out : (H, W) uint8 array, optional
+    above, below : (W,) or (H, W) integer array, optional
+        The rows next to a band of a larger image, which then can be streamed in bands of any height; of a volume the
+        slices before and after.
+    out : uint8 array of the same shape, optional
         C-contiguous array to write to; it must not overlap the labels.
     threads : int
         0 for all; the result is the same for any number.
@@ -253,7 +290,7 @@ def voronoi_diagram(
 
     Returns
     -------
-    (H, W) uint8 array
+    uint8 array of the same shape
         1 on the diagram, else 0.
 
     Raises
@@ -268,6 +305,9 @@ def voronoi_diagram(
     array([[1, 1, 1, 0],
            [0, 0, 0, 0]], dtype=uint8)
     """
+    if is_of_space(image):
+        given = {"before": above, "after": below, "out": out}
+        return np.asarray(_in_space("measures:volume_diagram", image, threads, progress, **given))
     labels = label_array(_labelled(image).labels)
     if out is None:
         out = np.empty(labels.shape, dtype=np.uint8)
@@ -281,7 +321,7 @@ def voronoi_diagram(
 def region_colours(
     image: Any,
     *,
-    measures: RegionMeasures | None = None,
+    measures: Bordered | None = None,
     threads: int = 0,
     progress: Progress = None,
 ) -> tuple[NDArray[np.uint32], NDArray[np.uint32]]:
@@ -289,10 +329,10 @@ def region_colours(
 
     Parameters
     ----------
-    image : LabelImage, or (H, W) array of integers or truth values
+    image : LabelImage, LabelVolume, or (H, W) or (D, H, W) array of integers or truth values
         Label 0 is no region.
-    measures : RegionMeasures, optional
-        The result of `measure_regions` for this image.
+    measures : RegionMeasures or VolumeMeasures, optional
+        The result of `measure_regions` for this image, or of `measure_volume`.
     threads : int
         0 for all; the result is the same for any number.
     progress : callable, optional
@@ -303,8 +343,8 @@ def region_colours(
     labels : (k,) uint32 array
         The labels that occur, increasing.
     colours : (k,) uint32 array
-        Colours 1, 2, … of about equal frequency: at most 6 where every region is connected (the graph is then
-        planar).
+        Colours 1, 2, … of about equal frequency: at most 6 where every region of an image is connected (the graph is
+        then planar); of a volume as many as its neighbours make necessary.
 
     Examples
     --------
@@ -312,15 +352,17 @@ def region_colours(
     >>> region_colours(LabelImage(np.array([[1, 7, 9]], dtype=np.uint16)))
     (array([1, 7, 9], dtype=uint32), array([2, 1, 2], dtype=uint32))
     """
+    if measures is None and is_of_space(image):
+        measures = _in_space("measures:measure_volume", image, threads, progress)
     measures = measures or measure_regions(image, threads=threads, progress=progress)
     a, b = (np.ascontiguousarray(measures.borders[:, side]) for side in (0, 1))
     return measures.labels, _core.graphs.colour_graph(len(measures.labels), a, b, progress)
 
 
 def colour_regions(
-    image: ImageLike,
+    image: ImageLike | VolumeLike,
     *,
-    measures: RegionMeasures | None = None,
+    measures: Bordered | None = None,
     threads: int = 0,
     progress: Progress = None,
 ) -> NDArray[Any]:
@@ -328,10 +370,10 @@ def colour_regions(
 
     Parameters
     ----------
-    image : LabelImage, or (H, W) array of integers or truth values
+    image : LabelImage, LabelVolume, or (H, W) or (D, H, W) array of integers or truth values
         Label 0 is no region.
-    measures : RegionMeasures, optional
-        The result of `measure_regions` for this image.
+    measures : RegionMeasures or VolumeMeasures, optional
+        The result of `measure_regions` for this image, or of `measure_volume`.
     threads : int
         0 for all; the result is the same for any number.
     progress : callable, optional
@@ -365,6 +407,10 @@ def colour_regions(
     return by_label
 
 
+def _in_space(function: str, image: Any, threads: int, progress: Progress, **options: Any) -> Any:
+    return resolved(f"{_IN_SPACE}{function}")(image, threads=threads, progress=progress, **options)
+
+
 def _labelled(image: Any) -> LabelImage:
     return as_label_image(image, "image", numbered_components)
 
@@ -372,56 +418,41 @@ def _labelled(image: Any) -> LabelImage:
 # ---- columns of the table -------------------------------------------------------------------------------
 
 
-def _refuse_negative(image: LabelImage, largest: int) -> None:
-    """Refuse negative labels: the core takes them as unsigned, so they come back beyond the signed range."""
-    kind, bits = image.labels.dtype.kind, 8 * image.labels.dtype.itemsize
-    if kind == "i" and bits < 64 and largest >= 1 << (bits - 1):
-        raise InputError(f"a pixel has label {largest - (1 << bits)}: labels must not be negative")
-
-
 def _sites(image: LabelImage, measures: RegionMeasures) -> tuple[NDArray[np.uint32], NDArray[np.float64]]:
-    """Labels and positions of the sites: those of the seeds, else the regions' centroids."""
+    """Labels and positions of the sites, in steps of the sides: those of the seeds, else the regions' centroids."""
+    sides = np.array([image.sides.x, image.sides.y])
     if image.seeds is not None:
         assert image.seeds.site_labels is not None
         assert image.seeds.sites is not None
-        return image.seeds.site_labels, image.seeds.sites
+        return image.seeds.site_labels, image.seeds.sites * sides
     frame, columns = image.frame, measures.columns
     assert frame is not None
     x = columns["sum_x"] / columns["area"] + frame.x
     y = columns["sum_y"] / columns["area"] + frame.y
-    return measures.labels, np.stack([x, y], axis=1)
+    return measures.labels, np.stack([x, y], axis=1) * sides
+
+
+def _areas(image: LabelImage, pixels: NDArray[Any]) -> NDArray[Any]:
+    """Areas in squares of a step of the sides."""
+    square = image.sides.x * image.sides.y
+    return pixels if square == 1 else pixels * float(square)
+
+
+def _border_lengths(image: LabelImage, count: NDArray[np.int64], vertical: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Lengths in steps of the sides, of so many sides of pixels of which some are vertical."""
+    return (count - vertical) * image.sides.x + vertical * image.sides.y
 
 
 def _rows_of(found: NDArray[np.uint32], labels: NDArray[np.uint32], image: LabelImage) -> NDArray[np.intp]:
     """Row of the table for each label that occurs in the image."""
-    rows = np.searchsorted(labels, found)
-    known = rows < len(labels)
-    known[known] = labels[rows[known]] == found[known]
-    if not known.all():
-        label = found[~known][0]
+    rows, label = rows_of(found, labels)
+    if label is not None:
         row, column = (int(k[0]) for k in np.nonzero(image.labels == label))
         raise InputError(
             f"pixel (row {row}, column {column}) has label {label}, none of the {len(labels)} sites: "
             "pass the seeds that the image was made from"
         )
     return rows
-
-
-def _spread(values: NDArray[Any], rows: NDArray[np.intp], count: int) -> NDArray[Any]:
-    """Values of the regions at their rows, 0 in the others."""
-    spread = np.zeros(count, dtype=values.dtype)
-    spread[rows] = values
-    return spread
-
-
-def _nearest(
-    labels: NDArray[np.uint32], sites: NDArray[np.float64], threads: int, progress: Progress
-) -> tuple[Any, Any]:
-    x, y = (np.ascontiguousarray(sites[:, axis]) for axis in (0, 1))
-    index, distance = _core.spatial.nearest_other_sites(x, y, np.ascontiguousarray(labels), threads, progress)
-    alone = index < 0
-    label = labels.astype(np.int64)[index] if len(labels) else index
-    return np.ma.array(np.where(alone, 0, label), mask=alone), np.ma.array(np.where(alone, 0.0, distance), mask=alone)
 
 
 def _box_columns(image: LabelImage, measures: RegionMeasures) -> dict[str, NDArray[np.int64]]:
@@ -431,10 +462,10 @@ def _box_columns(image: LabelImage, measures: RegionMeasures) -> dict[str, NDArr
     touches = (left == 0) | (top == 0) | (right == frame.width - 1) | (bottom == frame.height - 1)
     return {
         "touches_frame": touches.astype(np.int64),
-        "bbox_x": left + frame.x,
-        "bbox_y": top + frame.y,
-        "bbox_w": right - left + 1,
-        "bbox_h": bottom - top + 1,
+        "bbox_x": (left + frame.x) * image.sides.x,
+        "bbox_y": (top + frame.y) * image.sides.y,
+        "bbox_w": (right - left + 1) * image.sides.x,
+        "bbox_h": (bottom - top + 1) * image.sides.y,
     }
 
 
@@ -453,19 +484,17 @@ def _max_distance(
         raise InputError(
             f"distance2 must be an integer array of shape {image.shape}, but is {values.dtype} of shape {values.shape}"
         )
-    wide = np.uint64 if values.dtype.itemsize == 8 else np.uint32
     if scale is None:
         scale = image.seeds.scale if image.seeds is not None else 1
-    largest = _core.label_images.max_by_label(
-        label_array(image.labels), values.astype(wide, copy=False), labels, threads, progress
-    )
+    largest = largest_by_label(label_array(image.labels), values, labels, threads, progress)
     return np.sqrt(largest.astype(np.float64)) / scale
 
 
-def _with_input_columns(columns: dict[str, Any], seeds: SeedSet | None, properties: bool) -> Table:
+def _with_input_columns(columns: dict[str, Any], image: LabelImage, properties: bool) -> Table:
+    seeds = image.seeds
     if seeds is not None and seeds.object_area is not None:
-        columns["object_area"] = np.asarray(seeds.object_area, dtype=np.int64)
-    table = Table(columns)
+        columns["object_area"] = _areas(image, np.asarray(seeds.object_area, dtype=np.int64))
+    table = Table(columns) if image.sides == SQUARE else lengths_of_steps(Table(columns), image.sides.step)
     if seeds is None or not properties or not seeds.properties:
         return table
     return table.with_properties(seeds.properties)

@@ -10,22 +10,11 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError, LimitError, option
 from vorotool.geometry.arguments.images import as_raster
 from vorotool.geometry.numbers import real_number, shown_number
+from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
+from vorotool.geometry.volumes.voxel_frame import VoxelFrame
 
 if TYPE_CHECKING:
     from vorotool.typing import ImageLike
-
-
-def is_volume(values: Any) -> bool:
-    """Whether an array has three axes, of which the last one is not that of colours.
-
-    Examples
-    --------
-    >>> is_volume(np.zeros((4, 5, 6), bool)), is_volume(np.zeros((4, 5, 3), np.uint8))
-    (True, False)
-    """
-    shape = np.shape(values) if isinstance(values, list | tuple) else getattr(values, "shape", ())
-    is_colour = getattr(values, "dtype", None) == np.uint8 and shape[-1:] in ((3,), (4,))
-    return len(shape) == 3 and not is_colour
 
 
 def volume(values: Any, name: str, max_pixels: int) -> NDArray[Any]:
@@ -52,6 +41,29 @@ def volume(values: Any, name: str, max_pixels: int) -> NDArray[Any]:
         sides, most = " x ".join(map(str, array.shape)), option(f"--max-pixels {shown_number(max_pixels)}")
         raise LimitError(f"the volume has {sides} = {array.size} voxels, more than {most}")
     return array
+
+
+def bare_seeds(places: NDArray[np.int64], labels: NDArray[np.uint32], shape: tuple[int, ...]) -> VolumeSeeds:
+    """Give voxels as seeds of a volume of which no sites are wanted, which take time to find.
+
+    Parameters
+    ----------
+    places : (n, 3) int64 array
+        Slice, row and column of each.
+    labels : (n,) uint32 array
+        From 1.
+    shape : (D, H, W)
+        Of the volume.
+
+    Examples
+    --------
+    >>> bare_seeds(np.array([[1, 2, 3]]), np.array([7], dtype=np.uint32), (4, 4, 4)).places.tolist()
+    [[3, 2, 1]]
+    """
+    depth, height, width = shape
+    frame = VoxelFrame(0, 0, 0, width, height, depth)
+    places = np.asfortranarray(places[:, ::-1])
+    return VolumeSeeds(places, labels, frame=frame, sites=np.empty((0, 3)), site_labels=np.empty(0, np.uint32))
 
 
 def plane(values: ImageLike, name: str) -> NDArray[Any]:

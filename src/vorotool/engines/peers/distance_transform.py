@@ -7,12 +7,14 @@ from typing import TYPE_CHECKING, Any, Literal, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.peers.arguments import is_volume, plane, volume
+from vorotool.engines.peers.arguments import bare_seeds, plane, volume
 from vorotool.engines.tessellation.frames import require_memory
 from vorotool.engines.tessellation.seeding import seeds_from_raster
 from vorotool.engines.tessellation.tessellator import Tessellator
-from vorotool.engines.volumes.volume_sweep import VolumeSweep, outer_voxels
+from vorotool.engines.volumes.inner_voxels import outer_voxels
+from vorotool.engines.volumes.volume_tessellator import VolumeSweep
 from vorotool.errors import InputError, UsageError
+from vorotool.geometry.arguments.volumes import is_volume
 from vorotool.geometry.pixel_frame import MAX_PIXELS, Frame
 from vorotool.geometry.spacing import PixelSides, pixel_sides
 
@@ -145,7 +147,7 @@ class _Background(VolumeSweep):
         self.is_seed = background
         self.places = np.argwhere(outer_voxels(background))
         labels = np.arange(1, len(self.places) + 1, dtype=np.uint32)
-        super().__init__(self.places, labels, background.shape, sides=sides, threads=threads)
+        super().__init__(bare_seeds(self.places, labels, background.shape), sides=sides, threads=threads)
 
     @classmethod
     def of(cls, values: NDArray[Any], sides: PixelSides, threads: int) -> _Background | None:
@@ -156,17 +158,19 @@ class _Background(VolumeSweep):
         _require(background)
         return cls(background, sides, threads)
 
-    def squared_distances(self, first: int = 0, slices: int | None = None) -> NDArray[Any]:
+    def squared_distances(
+        self, first: int = 0, slices: int | None = None, *, dtype: np.dtype[Any] | None = None
+    ) -> NDArray[Any]:
         """Those of the sweep, and 0 where a seed is that it was not told of."""
-        squares = super().squared_distances(first, slices)
-        squares[self.is_seed] = 0
+        squares = super().squared_distances(first, slices, dtype=dtype)
+        squares[self.is_seed[first : first + len(squares)]] = 0
         return squares
 
     def nearest(self) -> NDArray[np.int32]:
         """(3, D, H, W) slice, row and column of the nearest zero voxel."""
         seed = self.labels(dtype=np.uint32).astype(np.int64) - 1
         own = np.nonzero(self.is_seed)
-        indices = np.empty((3, *self.shape), np.int32)
+        indices = np.empty((3, *self.frame.shape), np.int32)
         for axis in range(3):
             indices[axis] = self.places[:, axis][seed]
             indices[axis][own] = own[axis]

@@ -8,13 +8,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.peers.arguments import is_volume, plane, volume
+from vorotool.engines.peers.arguments import bare_seeds, plane, volume
 from vorotool.engines.tessellation.frames import require_memory
 from vorotool.engines.tessellation.raster_objects import LARGEST_LABEL
 from vorotool.engines.tessellation.seeding import seeds_from_raster
 from vorotool.engines.tessellation.tessellator import Tessellator
-from vorotool.engines.volumes.volume_sweep import VolumeSweep, outer_voxels
+from vorotool.engines.volumes.inner_voxels import outer_voxels
+from vorotool.engines.volumes.volume_tessellator import VolumeSweep
 from vorotool.errors import InputError, UsageError
+from vorotool.geometry.arguments.volumes import is_volume
 from vorotool.geometry.numbers import real_number, shown_number
 from vorotool.geometry.pixel_frame import MAX_PIXELS, Frame
 from vorotool.geometry.spacing import PixelSides, as_decimal, pixel_sides
@@ -104,7 +106,8 @@ def _grown_volume(values: NDArray[Any], sides: PixelSides, most: Fraction | None
         raise InputError(f"invalid labels: expected 0 to {LARGEST_LABEL}, but they are {found}")
     outer = outer_voxels(labels)
     seeds = labels[outer].astype(np.uint32)
-    sweep = VolumeSweep(np.argwhere(outer), seeds, values.shape, sides=sides, max_distance=most, threads=threads)
+    bare = bare_seeds(np.argwhere(outer), seeds, values.shape)
+    sweep = VolumeSweep(bare, sides=sides, max_distance=most, threads=threads)
     grown = sweep.labels(dtype=np.uint32).astype(values.dtype)
     np.copyto(grown, values, where=values != 0)
     return grown

@@ -13,6 +13,7 @@ from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.geometry.pixel_frame import Frame
 from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.geometry.progress import Progress
+from vorotool.geometry.spacing import SQUARE, PixelSides
 
 Quantity = Literal["labels", "distance", "distance2"]
 
@@ -40,6 +41,8 @@ class SeedBand:
         Its type, which is that of the whole image.
     max_distance : Fraction or float, optional
         Of labels.
+    sides : PixelSides
+        Of a pixel, in whose unit distances are.
     """
 
     seeds: SeedSet
@@ -47,6 +50,7 @@ class SeedBand:
     what: Quantity
     dtype: np.dtype[Any]
     max_distance: float | Fraction | None = None
+    sides: PixelSides = SQUARE
 
     def rows(self, *, threads: int = 0, progress: Progress = None) -> NDArray[Any]:
         """Compute the rows.
@@ -57,7 +61,14 @@ class SeedBand:
         >>> SeedBand(seeds, Frame(0, 5, 5, 1), "labels", np.dtype(np.uint8)).rows()
         array([[1, 2, 2, 2, 2]], dtype=uint8)
         """
-        sweep = Tessellator(self.seeds, self.frame, max_distance=self.max_distance, threads=threads, progress=progress)
+        sweep = Tessellator(
+            self.seeds,
+            self.frame,
+            max_distance=self.max_distance,
+            sides=self.sides,
+            threads=threads,
+            progress=progress,
+        )
         if self.what == "labels":
             return sweep.labels(dtype=self.dtype)
         if self.what == "distance":

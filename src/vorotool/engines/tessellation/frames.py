@@ -11,6 +11,7 @@ from operator import index
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.common.label_arrays import described
@@ -24,6 +25,10 @@ from vorotool.geometry.pixel_frame import MAX_PIXELS, Frame
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.points.seed_set import SeedSet
+from vorotool.geometry.spacing import PixelSides, pixel_sides
+from vorotool.geometry.volumes.label_volume import LabelVolume
+from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
+from vorotool.geometry.volumes.voxel_frame import VoxelFrame
 
 SIMD_LEVELS = ("portable", "avx2", "avx512")
 BAND_PIXELS = 2**24
@@ -34,6 +39,7 @@ MOST_UNASKED = 2**28
 
 
 _WINDOW = option("--window X,Y,W,H", "window=(x, y, w, h)")
+_FORMS = ((2, "shape must be two integers (H, W)"), (4, "window must be four integers (x, y, w, h)"))
 _CELLS = option("delaunay --what cells", "voronoi_cells")
 _RASTERIZED = option(
     "type --cell-size C", "a Raster of vorotool.engines.tessellation.rasterized.rasterized(polygons, frame)"
@@ -92,9 +98,9 @@ def _holds_polygons(source: Any) -> bool:
         return False
 
 
-def require_seeds(seeds: SeedSet) -> None:
-    """Refuse an empty list: nothing could be labelled. An image without foreground has been told of."""
-    if not len(seeds) and not seeds.is_empty_image:
+def require_seeds(seeds: SeedSet | VolumeSeeds) -> None:
+    """Refuse an empty list: nothing could be labelled. An image without foreground, which has a frame, is told of."""
+    if not len(seeds) and seeds.frame is None:
         raise InputError("there are no seeds, so nothing could be labelled: give at least one point")
 
 
@@ -135,17 +141,42 @@ def default_frame(
     """
     if seeds.frame is not None:
         return seeds.frame
-    for name, values in (("x", seeds.x), ("y", seeds.y)):
-        if values.min() < 0:
-            low, high = values.min() / seeds.scale, values.max() / seeds.scale
-            raise InputError(f"points span {name} {low:g}..{high:g}: use {_WINDOW}, or {_CELLS}")
-    nearest = [int((2 * v.max() + seeds.scale) // (2 * seeds.scale)) + 1 for v in (seeds.x, seeds.y)]
+    nearest = least_sides({"x": seeds.x, "y": seeds.y}, seeds.scale, f"{_WINDOW}, or {_CELLS}")
     if nearest[0] * nearest[1] > MOST_UNASKED:
         raise LimitError(
             f"no frame is given, and one that holds the points has {nearest[0]} x {nearest[1]} pixels, more than "
             f"{MOST_UNASKED}: {how}; for points in map units use {instead}"
         )
     return Frame(0, 0, nearest[0], nearest[1])
+
+
+def least_sides(places: dict[str, NDArray[np.int64]], scale: int, window: str) -> list[int]:
+    """Give the sides of the smallest frame at the origin that holds seeds.
+
+    Parameters
+    ----------
+    places : dict of str to (n,) int64 array
+        Coordinates by axis, in steps; at least one.
+    scale : int
+        Steps a pixel or voxel.
+    window : str
+        What to use for negative coordinates, for messages.
+
+    Raises
+    ------
+    InputError
+        If a coordinate is negative.
+
+    Examples
+    --------
+    >>> least_sides({"x": np.array([4, 15])}, 2, "a window")
+    [9]
+    """
+    for name, values in places.items():
+        if values.min() < 0:
+            low, high = values.min() / scale, values.max() / scale
+            raise InputError(f"points span {name} {low:g}..{high:g}: use {window}")
+    return [int((2 * values.max() + scale) // (2 * scale)) + 1 for values in places.values()]
 
 
 def asked_frame(shape: Any, window: Any) -> Frame | None:
@@ -161,9 +192,35 @@ def asked_frame(shape: Any, window: Any) -> Frame | None:
     >>> asked_frame((480, 640), None)
     Frame(x=0, y=0, width=640, height=480)
     """
+    numbers = asked_numbers(shape, window, _FORMS)
+    if numbers is None:
+        return None
+    return Frame(*numbers) if shape is None else Frame(0, 0, numbers[1], numbers[0])
+
+
+def asked_numbers(shape: Any, window: Any, forms: tuple[tuple[int, str], tuple[int, str]]) -> list[int] | None:
+    """Give the numbers of a shape or a window, whichever is given, or None.
+
+    Parameters
+    ----------
+    shape, window : object
+        What the caller gave.
+    forms : pair of (int, str)
+        How many numbers a shape and a window have, and what a message says that they must be.
+
+    Raises
+    ------
+    UsageError
+        If both are given, or not so many integers.
+
+    Examples
+    --------
+    >>> asked_numbers((480, 640), None, ((2, "two integers"), (4, "four integers")))
+    [480, 640]
+    """
     if shape is not None and window is not None:
         raise UsageError("give shape or window, not both")
-    given, size = (window, 4) if window is not None else (shape, 2)
+    given, (size, form) = (shape, forms[0]) if window is None else (window, forms[1])
     if given is None:
         return None
     try:
@@ -171,18 +228,17 @@ def asked_frame(shape: Any, window: Any) -> Frame | None:
     except TypeError:
         numbers = []
     if len(numbers) != size:
-        form = "window must be four integers (x, y, w, h)" if size == 4 else "shape must be two integers (H, W)"
         raise UsageError(f"{form}, but is {shown_number(given)}")
-    return Frame(*numbers) if size == 4 else Frame(0, 0, numbers[1], numbers[0])
+    return numbers
 
 
-def require_memory(frame: Frame, max_pixels: int) -> None:
+def require_memory(frame: Frame | VoxelFrame, max_pixels: int) -> None:
     """Refuse a frame that is too large to be held in memory."""
-    if frame.pixels > real_number(max_pixels, "max_pixels"):
-        width, height, pixels, most = map(shown_number, (frame.width, frame.height, frame.pixels, max_pixels))
-        raise LimitError(
-            f"the frame has {width} x {height} = {pixels} pixels, more than {option(f'--max-pixels {most}')}"
-        )
+    count, noun = (frame.pixels, "pixels") if isinstance(frame, Frame) else (frame.voxels, "voxels")
+    if count > real_number(max_pixels, "max_pixels"):
+        sides = " x ".join(map(shown_number, reversed(frame.shape)))
+        most = option(f"--max-pixels {shown_number(max_pixels)}")
+        raise LimitError(f"the frame has {sides} = {shown_number(count)} {noun}, more than {most}")
 
 
 def band_limits(frame: Frame) -> Iterator[tuple[int, int]]:
@@ -216,6 +272,34 @@ def squared_limit(max_distance: float | Fraction | None, scale: int | Fraction) 
     exact = Fraction(max_distance) if isinstance(max_distance, Rational) else Fraction(float(max_distance))
     steps = exact * scale
     return int(min(steps * steps, Fraction(2**127)))
+
+
+def square_dtype(largest: int) -> np.dtype[Any]:
+    """Choose the type of squared distances up to `largest`: uint32 or uint64.
+
+    Raises
+    ------
+    LimitError
+        If they may exceed 64 bits.
+    """
+    if largest >= 2**64:
+        raise LimitError(
+            f"squared distances of this frame may exceed 64 bits: use {option('--what distance', 'distances')}"
+        )
+    return np.dtype(np.uint32 if largest < 2**32 else np.uint64)
+
+
+def sides_of(source: Any, spacing: Any, axes: int = 2) -> PixelSides:
+    """Give the sides of the pixels as they are asked for, else those of labels that have sides.
+
+    Examples
+    --------
+    >>> sides_of([[1, 2]], (1.5, 0.5))
+    PixelSides(units=(3, 1), step=Fraction(1, 2))
+    """
+    if spacing is None and isinstance(source, LabelImage | LabelVolume):
+        return source.sides
+    return pixel_sides(spacing, axes)
 
 
 def check_out(out: Any, shape: tuple[int, ...]) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from math import floor
 from typing import Any, Literal, cast
 
@@ -27,11 +27,13 @@ MOSTLY = 0.75
 MASK_VALUES = (1, 255)
 """Of masks, beside the largest value of the type."""
 
-_THRESHOLD = option("--threshold T", "threshold=T (of seeds_from_raster and outlines)")
+_THRESHOLD = option("--threshold T", "threshold=T (of seeds_from_raster, seeds_from_volume and outlines)")
 _SOME_THRESHOLD = option("--threshold", "threshold=T")
 _INVERT = option("--invert", "invert=True")
 _AS_COMPONENTS = option("--seeds components", 'mode="components"')
 _AS_LABELS = option("--seeds labels", 'mode="labels"')
+
+_AXES = ("slice", "row", "column")
 
 _LUMINANCE = (0.2125, 0.7154, 0.0721)
 """Weights of red, green and blue (ITU-R BT.709, as scikit-image has them)."""
@@ -242,8 +244,37 @@ def objects_of_mask(labels: NDArray[Any]) -> NDArray[Any] | None:
     return numbered_components(labels) if is_mask and ((labels == 0) | (labels == value)).all() else None
 
 
-def report_no_foreground(*, strict: bool) -> None:
-    """Warn of an image in which there is nothing, or refuse it.
+def only_value(pieces: Iterable[tuple[int, NDArray[Any]]]) -> tuple[Any, tuple[int, NDArray[Any]] | None]:
+    """Look for a second value beside 0 in pieces of an image or a volume; none is read after the one that has it.
+
+    Parameters
+    ----------
+    pieces : iterable of (int, array)
+        Where each begins, and its values.
+
+    Returns
+    -------
+    one : NumPy scalar
+        The first value beside 0, 0 where there is none.
+    found : (int, array), optional
+        The piece in which another one is; None where none is.
+
+    Examples
+    --------
+    >>> int(only_value([(0, np.array([0, 7])), (2, np.array([7, 0]))])[0]), only_value([(0, np.array([0, 7]))])[1]
+    (7, None)
+    """
+    one: Any = np.uint8(0)
+    for first, values in pieces:
+        is_zero = values == 0
+        one = one or values.flat[int(is_zero.argmin())]  # the first that is not 0, if any is
+        if not (is_zero | (values == one)).all():
+            return one, (first, values)
+    return one, None
+
+
+def report_no_foreground(*, strict: bool, what: str = "image") -> None:
+    """Warn of an image or a volume in which there is nothing, or refuse it.
 
     Raises
     ------
@@ -251,12 +282,12 @@ def report_no_foreground(*, strict: bool) -> None:
         If it is refused.
     """
     if strict:
-        raise InputError(f"the image has no foreground: use {_INVERT} or {_SOME_THRESHOLD}, or leave out {STRICT}")
-    message = Message(f"the image has no foreground: use {_INVERT} or {_SOME_THRESHOLD}", Kind.NO_FOREGROUND)
+        raise InputError(f"the {what} has no foreground: use {_INVERT} or {_SOME_THRESHOLD}, or leave out {STRICT}")
+    message = Message(f"the {what} has no foreground: use {_INVERT} or {_SOME_THRESHOLD}", Kind.NO_FOREGROUND)
     warn(VorotoolWarning(message))
 
 
-def refuse_distances() -> None:
+def refuse_distances(what: str = "image") -> None:
     """Refuse distances to nothing.
 
     Raises
@@ -265,15 +296,14 @@ def refuse_distances() -> None:
         Always.
     """
     raise InputError(
-        f"the image has no foreground, so that there are no distances to it: use {_INVERT} or {_SOME_THRESHOLD}"
+        f"the {what} has no foreground, so that there are no distances to it: use {_INVERT} or {_SOME_THRESHOLD}"
     )
 
 
 def refuse_photograph(values: NDArray[Any]) -> None:
     """A label image has about as many fragments as labels; a photograph falls into far more."""
-    fractional = values.dtype.kind == "f" and bool((values != np.floor(values)).any())
-    distinct, fragments = (len(np.unique(values)),) * 2 if fractional else _fragments(label_values(values))
-    if fractional or (fragments > 4 * distinct and fragments > 256):
+    looks, distinct, fragments = photograph_signs(values)
+    if looks:
         if min(values.shape) <= 3 < max(values.shape):  # the sides of a list, which no photograph has
             raise InputError(
                 f"the array has the shape {values.shape}: a list of points? save x and y as one of shape (n, 2); "
@@ -283,6 +313,19 @@ def refuse_photograph(values: NDArray[Any]) -> None:
             f"the image holds {distinct} values in {fragments} fragments: a photograph? use "
             f"{mask_options(values)}, or {_AS_LABELS} if these are labels"
         )
+
+
+def photograph_signs(values: NDArray[Any]) -> tuple[bool, int, int]:
+    """Tell whether values look like a photograph rather than labels, how many there are, and in how many pieces.
+
+    Examples
+    --------
+    >>> photograph_signs(np.array([[0, 7], [7, 0]])), photograph_signs(np.array([[0.5, 1]]))
+    ((False, 2, 2), (True, 2, 2))
+    """
+    fractional = values.dtype.kind == "f" and bool((values != np.floor(values)).any())
+    distinct, fragments = (len(np.unique(values)),) * 2 if fractional else _fragments(label_values(values))
+    return fractional or (fragments > 4 * distinct and fragments > 256), distinct, fragments
 
 
 def mask_options(grey: NDArray[Any]) -> str:
@@ -314,14 +357,14 @@ def _fragments(labels: NDArray[Any]) -> tuple[int, int]:
     return len(np.unique(labels)), int(label(labels.astype(np.int64), connectivity=1).max())
 
 
-def label_values(values: NDArray[Any], *, first_row: int = 0) -> NDArray[Any]:
+def label_values(values: NDArray[Any], *, first: int = 0) -> NDArray[Any]:
     """Give labels in an unsigned type; the first value that is none is named with its place.
 
     Parameters
     ----------
-    values : (h, W) array
-        Rows of an image.
-    first_row : int
+    values : (h, W) or (d, H, W) array
+        Rows of an image, or slices of a volume.
+    first : int
         Which is the first.
 
     Raises
@@ -340,9 +383,11 @@ def label_values(values: NDArray[Any], *, first_row: int = 0) -> NDArray[Any]:
     if values.dtype.kind == "f":
         bad |= values != np.floor(values)
     if bad.any():
-        row, column = np.unravel_index(int(bad.argmax()), bad.shape)
+        at = [int(each) for each in np.unravel_index(int(bad.argmax()), bad.shape)]
+        value, at[0] = values[tuple(at)], at[0] + first
+        place = ", ".join(f"{axis} {each}" for axis, each in zip(_AXES[-len(at) :], at, strict=True))
         raise InputError(
-            f"the image holds the value {values[row, column]} in row {first_row + row}, column {column}: labels must "
+            f"the {'image' if values.ndim < len(_AXES) else 'volume'} holds the value {value} in {place}: labels must "
             f"be integers from 0 to {LARGEST_LABEL}; use {_THRESHOLD} or {_AS_COMPONENTS} for a mask"
         )
     return values.astype(np.uint32)

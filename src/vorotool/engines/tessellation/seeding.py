@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.engines.tessellation.label_sums import numbered, sums
 from vorotool.engines.tessellation.raster_objects import (
     LARGEST_LABEL,
     Note,
@@ -18,15 +19,14 @@ from vorotool.engines.tessellation.raster_objects import (
     numbered_components,
     report_no_foreground,
 )
-from vorotool.errors import NO_PROPERTIES, STRICT, InputError, LimitError, UsageError, option, warn
+from vorotool.engines.tessellation.seed_lattice import report_snapped, sites_of_points, snapped_places
+from vorotool.errors import LimitError, UsageError, option
 from vorotool.geometry.arguments.images import as_raster
 from vorotool.geometry.arguments.points import as_points
-from vorotool.geometry.curves.inverse_functions import hypotenuse
 from vorotool.geometry.numbers import shown_number
 from vorotool.geometry.pixel_frame import Frame
 from vorotool.geometry.points.point_set import PointSet
-from vorotool.geometry.points.seed_set import FINEST_SCALE, SeedSet
-from vorotool.geometry.row_index import index_of_rows
+from vorotool.geometry.points.seed_set import SeedSet
 
 if TYPE_CHECKING:
     from vorotool.typing import ImageLike, PointsLike
@@ -37,12 +37,6 @@ SeedMode = Literal["pixels", "components", "labels", "centroids"]
 
 Check = Callable[[SeedSet], object] | None
 """Raises an error for seeds that cannot be used: called before notes about them."""
-
-LARGEST_COORDINATE = float(2**44)
-"""Coordinates up to here, times 256, are exact in a double."""
-
-CHUNK = 1 << 22
-"""Pixels that are counted at a time."""
 
 
 def seeds_from_points(points: PointsLike, *, strict: bool = False, check: Check = None) -> SeedSet:
@@ -80,68 +74,21 @@ def seeds_from_points(points: PointsLike, *, strict: bool = False, check: Check 
     (2, [1, 14])
     """
     points = as_points(points)
-    far = np.flatnonzero((np.abs(points.xy) > LARGEST_COORDINATE).any(axis=1))
-    if far.size:
-        raise InputError(
-            f"point {far[0] + 1} is ({points.xy[far[0], 0]:.17g}, {points.xy[far[0], 1]:.17g}): "
-            f"coordinates of seeds must be at most 2^44 pixels; scale the points"
-        )
-    fine = points.xy * FINEST_SCALE
-    steps = np.rint(fine)
-    moved = (steps != fine).any(axis=1)
-    snapped = int(moved.sum())
-    largest_move = 0.0
-    if snapped:
-        largest_move = float(hypotenuse(*(fine - steps).T).max()) / FINEST_SCALE
-    lattice = steps.astype(np.int64)
-    scale = _coarsest_scale(lattice)
-    lattice //= FINEST_SCALE // scale
+    snapped = snapped_places(points.xy)
     labels = points.label_array.astype(np.uint32)
     seeds = SeedSet(
-        lattice[:, 0],
-        lattice[:, 1],
+        snapped.steps[:, 0],
+        snapped.steps[:, 1],
         labels,
-        scale=scale,
-        snapped=snapped,
-        largest_move=largest_move,
-        **_sites_of_points(lattice / scale, labels, points),
+        scale=snapped.scale,
+        snapped=snapped.moves,
+        largest_move=snapped.largest_move,
+        **sites_of_points(snapped.steps / snapped.scale, labels, points),
     )
     if check is not None:
         check(seeds)
-    if snapped:
-        _report_snapped(points, moved, largest_move, strict=strict)
+    report_snapped(points.xy, snapped, strict=strict)
     return seeds
-
-
-def _sites_of_points(xy: NDArray[np.float64], labels: NDArray[np.uint32], points: PointSet) -> dict[str, Any]:
-    """Sites in increasing label order; points that share a label leave the choice to SeedSet."""
-    if points.labels is None:
-        return {"sites": xy, "site_labels": labels, "properties": points.properties, "index": points.index}
-    order = np.argsort(labels, kind="stable")
-    if len(labels) and (np.diff(labels[order].astype(np.int64)) == 0).any():
-        if points.properties:
-            raise InputError(f"points that share a label cannot bring further columns: use {NO_PROPERTIES}")
-        return {}
-    properties = {name: [column[i] for i in order] for name, column in points.properties.items()}
-    index = index_of_rows(points.index, order)
-    return {"sites": xy[order], "site_labels": labels[order], "properties": properties, "index": index}
-
-
-def _report_snapped(points: PointSet, moved: NDArray[np.bool_], largest: float, *, strict: bool) -> None:
-    count = int(moved.sum())
-    if strict:
-        row = int(np.flatnonzero(moved)[0])
-        raise InputError(
-            f"point {row + 1} is ({points.xy[row, 0]}, {points.xy[row, 1]}): seeds lie on multiples of 1/256 pixel "
-            f"({count} such points); round them or leave out {STRICT}"
-        )
-    warn(f"{count} of {len(points)} seeds moved to the nearest 1/256 pixel, by at most {largest:.6f} pixels")
-
-
-def _coarsest_scale(lattice: NDArray[np.int64]) -> int:
-    """The smallest power of two of steps a pixel for coordinates given in 1/256 pixel."""
-    used = int(np.bitwise_or.reduce(lattice, axis=None)) & (FINEST_SCALE - 1)
-    return FINEST_SCALE // (used & -used) if used else 1
 
 
 def seeds_from_raster(
@@ -204,7 +151,8 @@ def seeds_from_raster(
     [1, 2, 2]
     """
     if connectivity not in (4, 8):
-        raise UsageError(f"connectivity is {shown_number(connectivity)}: it must be 4 or 8")
+        of_volumes = "; 26 and 6 are of volumes" if connectivity in (26, 6) else ""
+        raise UsageError(f"connectivity is {shown_number(connectivity)}: it must be 4 or 8{of_volumes}")
     raster = as_raster(raster, "raster", is_grey=True)
     values = foreground_values(raster, threshold, invert=invert)
     if mode not in (None, *get_args(SeedMode)):
@@ -247,43 +195,16 @@ def _foreground(objects: NDArray[Any], most: int) -> tuple[NDArray[np.int64], ND
     return x, y
 
 
-def _numbered(labels: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
-    """Distinct labels, and the index of each seed's: by a table unless the labels are sparse."""
-    largest = int(labels.max())
-    if largest > 4 * labels.size + 65536:
-        return np.unique(labels, return_inverse=True)
-    present = np.zeros(largest + 1, bool)
-    for part in _parts(len(labels), CHUNK):
-        present[labels[part]] = True
-    distinct = np.flatnonzero(present)
-    if len(distinct) == largest:
-        return distinct, labels - labels.dtype.type(1)  # labels 1 to n: the commonest
-    return distinct, (np.cumsum(present, dtype=np.uint32) - np.uint32(1))[labels]
-
-
-def _parts(count: int, size: int) -> Iterator[slice]:
-    for start in range(0, count, size):
-        yield slice(start, start + size)
-
-
-def _sums(index: NDArray[Any], kinds: int, weights: NDArray[Any] | None = None) -> NDArray[Any]:
-    """Sums of weights by index, part by part: NumPy would copy all of both to 64 bits."""
-    sums = np.zeros(kinds, np.int64 if weights is None else np.float64)
-    for part in _parts(len(index), max(CHUNK, kinds)):
-        sums += np.bincount(index[part], None if weights is None else weights[part], minlength=kinds)
-    return sums
-
-
 def _seeds_of_objects(
     objects: NDArray[Any], frame: Frame, *, centroids_only: bool, max_sites: int, strict: bool
 ) -> SeedSet:
     """Seeds of a label image: all pixels of each label, or its centroid."""
     x, y = _foreground(objects, objects.size if centroids_only else max_sites)
     labels = objects[y, x].astype(np.uint32, copy=False)
-    distinct, index = _numbered(labels)
-    area = _sums(index, len(distinct))
+    distinct, index = numbered(labels)
+    area = sums(index, len(distinct))
     # Sums of coordinates stay below 2^53, so the centroid is the rounded quotient of two exact integers.
-    sites = np.stack([_sums(index, len(distinct), weights) / area for weights in (x, y)], axis=1)
+    sites = np.stack([sums(index, len(distinct), weights) / area for weights in (x, y)], axis=1)
     known: dict[str, Any] = {
         "frame": frame,
         "sites": sites,

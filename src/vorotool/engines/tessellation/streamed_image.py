@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 import zlib
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
@@ -14,6 +15,7 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.engines.tessellation.bands import Quantity, SeedBand
 from vorotool.engines.tessellation.column_envelope import ColumnEnvelope, first_seeds, last_seeds
+from vorotool.engines.tessellation.frames import square_dtype
 from vorotool.engines.tessellation.interior_seeds import surrounded_pixels
 from vorotool.engines.tessellation.raster_objects import (
     LARGEST_LABEL,
@@ -21,15 +23,18 @@ from vorotool.engines.tessellation.raster_objects import (
     foreground_values,
     label_values,
     objects_of_value,
+    only_value,
     refuse_distances,
     refuse_photograph,
     report_no_foreground,
 )
+from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import LimitError, option
 from vorotool.geometry.pixel_frame import Frame
 from vorotool.geometry.points.raster import Raster
 from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.geometry.progress import Progress
+from vorotool.geometry.spacing import SQUARE, PixelSides
 
 StreamedMode = Literal["pixels", "components", "labels"]
 
@@ -89,7 +94,7 @@ class ObjectRows:
 
     def labels(self, first: int, count: int) -> NDArray[np.uint32]:
         """Read the values of some rows as labels."""
-        return label_values(self.values(first, count), first_row=first).astype(np.uint32, copy=False)
+        return label_values(self.values(first, count), first=first).astype(np.uint32, copy=False)
 
     def limits(self) -> Iterator[tuple[int, int]]:
         """First row and number of rows of the bands in which it is read."""
@@ -103,15 +108,11 @@ class ObjectRows:
             return self
         if self.threshold is not None or self.invert:
             return replace(self, mode="components")
-        one: Any = np.uint8(0)
-        for first, count in self.limits():
-            values = self.values(first, count)
-            is_zero = values == 0
-            one = one or values.flat[int(is_zero.argmin())]  # the first that is not 0, if any is
-            if not (is_zero | (values == one)).all():
-                refuse_photograph(values)
-                return replace(self, mode="labels")
-        return replace(self, mode=objects_of_value(one, note=note))
+        one, found = only_value((first, self.values(first, count)) for first, count in self.limits())
+        if found is None:
+            return replace(self, mode=objects_of_value(one, note=note))
+        refuse_photograph(found[1])
+        return replace(self, mode="labels")
 
 
 @dataclass(frozen=True)
@@ -168,7 +169,7 @@ class ImageBand:
         Those that have these rows.
     first, count : int
         Which rows.
-    what, dtype, max_distance
+    what, dtype, max_distance, sides
         As of `SeedBand`.
     """
 
@@ -178,6 +179,7 @@ class ImageBand:
     what: Quantity
     dtype: np.dtype[Any]
     max_distance: float | Fraction | None = None
+    sides: PixelSides = SQUARE
 
     def rows(self, *, threads: int = 0, progress: Progress = None) -> NDArray[Any]:
         """Compute the rows."""
@@ -223,7 +225,8 @@ class ImageBand:
         if not is_object.all():
             frame = Frame(0, first, objects.shape[1], len(objects))
             seeds = _seeds_near(objects, frame, above, below)
-            out[...] = SeedBand(seeds, frame, self.what, self.dtype, self.max_distance).rows(threads=threads)
+            band = SeedBand(seeds, frame, self.what, self.dtype, self.max_distance, self.sides)
+            out[...] = band.rows(threads=threads)
         np.copyto(out, objects if self.what == "labels" else 0, where=is_object, casting="unsafe")
 
 
@@ -242,6 +245,8 @@ class StreamedImage:
         Called with the fraction read, the first time.
     note : callable, optional
         As of `seeds_from_raster`.
+    sides : PixelSides
+        Of a pixel, in whose unit distances are.
 
     Raises
     ------
@@ -280,8 +285,9 @@ class StreamedImage:
         strict: bool = False,
         progress: Progress = None,
         note: Note = None,
+        sides: PixelSides = SQUARE,
     ) -> None:
-        self.source = source.with_mode(note=note)
+        self.source, self.sides = source.with_mode(note=note), sides
         height, width = source.image.shape
         self.frame = Frame(0, 0, width, height)
         self.pixels = self.largest_label = 0
@@ -307,7 +313,7 @@ class StreamedImage:
         if what != "labels":
             self.check_distances()
         parts = tuple(band for band in self._bands if band.first < first + rows and band.first + band.count > first)
-        return ImageBand(parts, first, rows, what, dtype, max_distance)
+        return ImageBand(parts, first, rows, what, dtype, max_distance, self.sides)
 
     def check_distances(self) -> None:
         """Refuse distances where there is no foreground."""
@@ -320,7 +326,16 @@ class StreamedImage:
         self.check_distances()
         x, y = self._corner or (0, 0)
         dx, dy = max(x, self.frame.width - 1 - x), max(y, self.frame.height - 1 - y)
-        return np.dtype(np.uint32 if dx * dx + dy * dy < 2**32 else np.uint64)
+        dx, dy = dx * self.sides.x, dy * self.sides.y
+        return square_dtype(dx * dx + dy * dy)
+
+    @property
+    def arithmetic(self) -> str:
+        """The narrowest arithmetic that is exact wherever in the image seeds are."""
+        x, y = np.array([0, self.frame.width - 1]), np.array([0, self.frame.height - 1])
+        corners = SeedSet(x, y, np.array([1, 1]), sites=np.empty((0, 2)), site_labels=np.empty(0, np.uint32))
+        with warnings.catch_warnings(action="ignore"):  # of an image of one pixel
+            return Tessellator(corners, self.frame, sides=self.sides).arithmetic
 
     def _scan(self, progress: Progress) -> None:
         """Read the image from top to bottom; labels are provisional yet, and the list below is that of the band."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 from numpy.typing import NDArray
 
@@ -13,6 +13,7 @@ from vorotool.engines.tessellation.frames import (
     band_limits,
     default_frame,
     require_memory,
+    sides_of,
     squared_limit,
 )
 from vorotool.engines.tessellation.propagation import PropagatedRows
@@ -20,58 +21,144 @@ from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.engines.tessellation.verify_tessellation import verify_label_image
 from vorotool.errors import UsageError
 from vorotool.geometry.arguments.values import check_value
+from vorotool.geometry.arguments.volumes import is_of_space, refuse_triples
 from vorotool.geometry.numbers import shown_number, whole_number
 from vorotool.geometry.pixel_frame import MAX_PIXELS, Frame
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.geometry.progress import Progress
+from vorotool.geometry.spacing import SQUARE, PixelSides, distance_as_written
+from vorotool.geometry.volumes.label_volume import LabelVolume
+from vorotool.products.formats import resolved
 
 if TYPE_CHECKING:
     from numpy.typing import DTypeLike
 
-    from vorotool.typing import SeedsLike
+    from vorotool.geometry.volumes.volume import Volume
+    from vorotool.geometry.volumes.volume_points import VolumePoints
+    from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
+    from vorotool.typing import SeedsLike, Spacing, VolumeSeedsLike
 
 Method = Literal["exact", "propagation"]
 
+_IN_SPACE = "engines.volumes.tessellate_volume:tessellate_volume"
+"""It is loaded where a volume is asked for: its room is above this one."""
 
+
+@overload
+def tessellate(
+    seeds: Volume | LabelVolume | VolumePoints | VolumeSeeds,
+    *,
+    shape: tuple[int, int, int] | None = ...,
+    window: tuple[int, int, int, int, int, int] | None = ...,
+    image: bool | None = ...,
+    method: Literal["exact"] = ...,
+    passes: int = ...,
+    max_distance: float | Fraction | None = ...,
+    spacing: Spacing | None = ...,
+    dtype: DTypeLike | None = ...,
+    out: NDArray[Any] | None = ...,
+    threads: int = ...,
+    max_pixels: int = ...,
+    progress: Progress = ...,
+) -> LabelVolume: ...
+@overload
+def tessellate(
+    seeds: VolumeSeedsLike,
+    *,
+    shape: tuple[int, int, int],
+    window: None = ...,
+    image: bool | None = ...,
+    method: Literal["exact"] = ...,
+    passes: int = ...,
+    max_distance: float | Fraction | None = ...,
+    spacing: Spacing | None = ...,
+    dtype: DTypeLike | None = ...,
+    out: NDArray[Any] | None = ...,
+    threads: int = ...,
+    max_pixels: int = ...,
+    progress: Progress = ...,
+) -> LabelVolume: ...
+@overload
+def tessellate(
+    seeds: VolumeSeedsLike,
+    *,
+    shape: None = ...,
+    window: tuple[int, int, int, int, int, int],
+    image: bool | None = ...,
+    method: Literal["exact"] = ...,
+    passes: int = ...,
+    max_distance: float | Fraction | None = ...,
+    spacing: Spacing | None = ...,
+    dtype: DTypeLike | None = ...,
+    out: NDArray[Any] | None = ...,
+    threads: int = ...,
+    max_pixels: int = ...,
+    progress: Progress = ...,
+) -> LabelVolume: ...
+@overload
 def tessellate(
     seeds: SeedsLike,
     *,
-    shape: tuple[int, int] | None = None,
-    window: tuple[int, int, int, int] | None = None,
+    shape: tuple[int, int] | None = ...,
+    window: tuple[int, int, int, int] | None = ...,
+    image: bool | None = ...,
+    method: Method = ...,
+    passes: int = ...,
+    max_distance: float | Fraction | None = ...,
+    spacing: Spacing | None = ...,
+    dtype: DTypeLike | None = ...,
+    out: NDArray[Any] | None = ...,
+    threads: int = ...,
+    max_pixels: int = ...,
+    progress: Progress = ...,
+) -> LabelImage: ...
+
+
+def tessellate(
+    seeds: SeedsLike | VolumeSeedsLike,
+    *,
+    shape: tuple[int, ...] | None = None,
+    window: tuple[int, ...] | None = None,
     image: bool | None = None,
     method: Method = "exact",
     passes: int = 2,
     max_distance: float | Fraction | None = None,
+    spacing: Spacing | None = None,
     dtype: DTypeLike | None = None,
     out: NDArray[Any] | None = None,
     threads: int = 0,
     max_pixels: int = MAX_PIXELS,
     progress: Progress = None,
-) -> LabelImage:
-    """Label every pixel with its nearest seed; ties go to the smallest label.
+) -> LabelImage | LabelVolume:
+    """Label every pixel, or every voxel, with its nearest seed; ties go to the smallest label.
 
     Parameters
     ----------
-    seeds : SeedSet, points or image
+    seeds : SeedSet, points, image, VolumeSeeds, VolumePoints or volume
         Where the regions come from: points in an array, a data frame, a GeoSeries, …, or an image, as a mask or a label
         image. Point i of an array has label i + 1; objects of images are those of `seeds_from_raster`.
-    shape : (H, W), optional
-        Rows and columns of the image; pixel (0, 0) is at the origin.
-    window : (x, y, w, h), optional
+        An array of three axes is a volume, but for those of colours, which are uint8 and have three or four at the end;
+        its objects are those of `seeds_from_volume`. Points of space are x, y, z, and need a shape of three numbers.
+    shape : (H, W) or (D, H, W), optional
+        Rows and columns of the image, or slices, rows and columns of the volume; the first pixel is at the origin.
+    window : (x, y, w, h) or (x, y, z, w, h, d), optional
         The same with an origin. By default an image's own frame, or what just holds the points.
     image : bool, optional
         Whether an array is an image. By default arrays of truth values are, and those of integers but for two or three
         columns, which are points.
     method : {"exact", "propagation"}
-        "propagation" is the paper's algorithm to the letter, whose labels are nearly always right.
+        "propagation" is the paper's algorithm to the letter, whose labels are nearly always right; for images only.
     passes : {2, 1}
         Passes of the propagation.
     max_distance : float or Fraction, optional
         Pixels farther than this from every seed get label 0.
+    spacing : float, (height, width) or (depth, height, width), optional
+        Sides of a pixel, in whose unit distances are, by default those of a label image, else 1; coordinates of points
+        are in pixels. A float is the decimal number that it is written as.
     dtype : dtype, optional
         As in `Tessellator.labels`.
-    out : (H, W) array, optional
+    out : (H, W) or (D, H, W) array, optional
         As in `Tessellator.labels`.
     threads : int
         0 uses all. The result does not depend on it.
@@ -82,7 +169,7 @@ def tessellate(
 
     Returns
     -------
-    LabelImage
+    LabelImage or LabelVolume
         The labels, with the seeds.
 
     Raises
@@ -102,7 +189,18 @@ def tessellate(
     --------
     >>> tessellate([[0, 0], [2, 1]], shape=(2, 3)).labels.tolist()
     [[1, 1, 2], [1, 2, 2]]
+    >>> tessellate([[0, 0], [2, 1]], shape=(2, 3), spacing=(1.5, 0.5)).labels.tolist()
+    [[1, 1, 1], [2, 2, 2]]
+    >>> tessellate([[0, 0, 0], [2, 0, 1]], shape=(2, 1, 3)).labels.tolist()
+    [[[1, 1, 2]], [[1, 2, 2]]]
     """
+    if image is not True and is_of_space(seeds, shape, window):
+        asked: dict[str, Any] = {"method": method, "passes": passes, "dtype": dtype, "out": out, "threads": threads}
+        asked |= {"max_distance": max_distance, "spacing": spacing, "max_pixels": max_pixels, "progress": progress}
+        made: LabelVolume = resolved(_IN_SPACE)(seeds, shape=shape, window=window, **asked)
+        return made
+    refuse_triples(seeds, "seeds", image=image)
+    sides = sides_of(seeds, spacing)
     frame = asked_frame(shape, window)
 
     def require_frame(made: SeedSet) -> None:
@@ -115,12 +213,13 @@ def tessellate(
         frame,
         method=method,
         passes=passes,
-        max_distance=max_distance,
+        max_distance=distance_as_written(max_distance, sides),
+        sides=sides,
         threads=threads,
         max_pixels=max_pixels,
         progress=progress,
     )
-    return LabelImage(rows.labels(dtype=dtype, out=out), rows.frame, seed_set)
+    return LabelImage(rows.labels(dtype=dtype, out=out), rows.frame, seed_set, sides=sides)
 
 
 def labelled_rows(
@@ -130,6 +229,7 @@ def labelled_rows(
     method: Method = "exact",
     passes: int = 2,
     max_distance: float | Fraction | None = None,
+    sides: PixelSides = SQUARE,
     strict: bool = False,
     threads: int = 0,
     max_pixels: int = MAX_PIXELS,
@@ -141,6 +241,8 @@ def labelled_rows(
     ----------
     frame : Frame, optional
         By default what just holds the seeds.
+    sides : PixelSides
+        Sides of a pixel, in whose unit distances are.
     strict : bool
         Refuse several seeds at one place.
 
@@ -152,12 +254,16 @@ def labelled_rows(
     if method == "propagation":
         if max_distance is not None:
             raise UsageError("max_distance needs method='exact': the paper's propagation has no distance limit")
+        if sides != SQUARE:
+            raise UsageError("spacing needs method='exact': the paper's propagation is for square pixels of side 1")
         return PropagatedRows(seeds, frame, passes=passes, strict=strict, max_pixels=max_pixels, progress=progress)
     if method != "exact":
         raise UsageError(f"method is {method!r}: it must be 'exact' or 'propagation'")
     if whole_number(passes, "passes") != 2:
         raise UsageError(f"passes is {shown_number(passes)}, which needs method='propagation'")
-    return Tessellator(seeds, frame, max_distance=max_distance, threads=threads, strict=strict, progress=progress)
+    return Tessellator(
+        seeds, frame, max_distance=max_distance, sides=sides, threads=threads, strict=strict, progress=progress
+    )
 
 
 def verify_rows(rows: Tessellator | PropagatedRows, *, threads: int = 0) -> None:
@@ -174,17 +280,20 @@ def verify_rows(rows: Tessellator | PropagatedRows, *, threads: int = 0) -> None
     """
     for first, count in band_limits(rows.frame):
         frame = Frame(rows.frame.x, rows.frame.y + first, rows.frame.width, count)
-        limit = rows.most_squared if isinstance(rows, Tessellator) else None
-        verify_label_image(rows.labels(first, count), rows.seeds, frame, max_distance2=limit, threads=threads)
+        limit, sides = (rows.most_squared, rows.sides) if isinstance(rows, Tessellator) else (None, SQUARE)
+        labels = rows.labels(first, count)
+        verify_label_image(labels, rows.seeds, frame, max_distance2=limit, sides=sides, threads=threads)
 
 
-def verify_tessellation(image: LabelImage, *, max_distance: float | Fraction | None = None, threads: int = 0) -> None:
-    """Check that every pixel of a tessellation has the smallest label of its nearest seeds.
+def verify_tessellation(
+    image: LabelImage | LabelVolume, *, max_distance: float | Fraction | None = None, threads: int = 0
+) -> None:
+    """Check that every pixel, or voxel, of a tessellation has the smallest label of its nearest seeds.
 
     Parameters
     ----------
-    image : LabelImage
-        With its seeds, as `tessellate` gives it.
+    image : LabelImage or LabelVolume
+        With its seeds and the sides of its pixels, as `tessellate` gives it.
     max_distance : float or Fraction, optional
         The limit that the tessellation was made with.
     threads : int
@@ -201,8 +310,12 @@ def verify_tessellation(image: LabelImage, *, max_distance: float | Fraction | N
     --------
     >>> verify_tessellation(tessellate([[0, 0], [2, 1]], shape=(2, 3)))
     """
+    if isinstance(image, LabelVolume):
+        resolved("engines.volumes.verify_volume:verify_volume")(image, max_distance=max_distance, threads=threads)
+        return
     check_value(image, "image", LabelImage)
     if not isinstance(image, LabelImage) or image.seeds is None or image.frame is None:
         raise UsageError("the label image carries no seeds: make it with vorotool.tessellate")
-    limit = squared_limit(max_distance, image.seeds.scale)
-    verify_label_image(image.labels, image.seeds, image.frame, max_distance2=limit, threads=threads)
+    sides = image.sides
+    limit = squared_limit(distance_as_written(max_distance, sides), image.seeds.scale / sides.step)
+    verify_label_image(image.labels, image.seeds, image.frame, max_distance2=limit, sides=sides, threads=threads)

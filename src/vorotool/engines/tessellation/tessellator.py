@@ -17,6 +17,7 @@ from vorotool.engines.tessellation.frames import (
     report_duplicates,
     require_seeds,
     simd_level,
+    square_dtype,
     squared_limit,
 )
 from vorotool.engines.tessellation.interior_seeds import needed_seeds, paint_seeds
@@ -30,18 +31,23 @@ from vorotool.geometry.progress import Progress
 from vorotool.geometry.spacing import SQUARE, PixelSides
 
 
-class _NothingLabelled:
-    """Stand-in for the core without seeds, as of an image without foreground."""
+class NothingLabelled:
+    """Stand-in for the core without seeds, as of an image or a volume without foreground."""
 
     duplicates = 0
     is_wide = False
     products_exact = True
 
+    def __init__(self, what: str = "image") -> None:
+        self._what = what
+
     def labels(self, rows: NDArray[Any], *_: Any) -> None:
+        """Give 0 everywhere."""
         rows[...] = 0
 
     def squared_distances(self, *_: Any) -> None:
-        refuse_distances()
+        """Refuse."""
+        refuse_distances(self._what)
 
     distances = squared_distances
 
@@ -117,11 +123,11 @@ class Tessellator:
         self.duplicates: int = self._core.duplicates
         report_duplicates(self.duplicates, len(seeds), strict=strict)
 
-    def _prepare(self) -> _core.tessellation.Tessellation | _NothingLabelled:
+    def _prepare(self) -> _core.tessellation.Tessellation | NothingLabelled:
         seeds, frame = self.seeds, self.frame
         self._paints = False
         if not len(seeds):
-            return _NothingLabelled()
+            return NothingLabelled()
         needed = needed_seeds(seeds)
         self._paints = needed is not None
         chosen = slice(None) if needed is None else needed
@@ -257,12 +263,7 @@ class Tessellator:
         dx = max(abs(int(self.seeds.x[0]) - scale * c) for c in (frame.x, frame.x + frame.width - 1))
         dy = max(abs(int(self.seeds.y[0]) - scale * r) for r in (frame.y, frame.y + frame.height - 1))
         dx, dy = dx * self.sides.x, dy * self.sides.y
-        largest = dx * dx + dy * dy
-        if largest >= 2**64:
-            raise LimitError(
-                f"squared distances of this frame may exceed 64 bits: use {option('--what distance', 'distances')}"
-            )
-        return np.dtype(np.uint32 if largest < 2**32 else np.uint64)
+        return square_dtype(dx * dx + dy * dy)
 
     def _output(self, first: int, rows: int | None, dtype: np.dtype[Any], out: NDArray[Any] | None) -> NDArray[Any]:
         rows = self.frame.height - first if rows is None else rows

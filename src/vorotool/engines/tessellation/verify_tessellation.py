@@ -64,8 +64,8 @@ def verify_label_image(
     vorotool.errors.VerificationError: 1 of 3 pixels is wrong: the first, (x, y) = (1, 0), has label 2, not 1
     """
     image = LabelImage(labels, frame)
-    high, low = _split_limit(max_distance2)
-    x, y = (_on_lattice(*axis) for axis in ((seeds.x, sides.x), (seeds.y, sides.y)))
+    high, low = split_limit(max_distance2)
+    x, y = (on_lattice(*axis) for axis in ((seeds.x, sides.x), (seeds.y, sides.y)))
     try:
         wrong = _core.tessellation.verify_tessellation(
             label_array(image.labels),
@@ -90,13 +90,13 @@ def verify_label_image(
         )
 
 
-def _on_lattice(coordinates: NDArray[np.int64], side: int) -> NDArray[np.int64]:
+def on_lattice(coordinates: NDArray[np.int64], side: int) -> NDArray[np.int64]:
     """Coordinates of seeds in steps of the lattice; what would not fit is left beyond the limit of the core."""
     most = 2**62 // side
     return coordinates.clip(-most, most) * side
 
 
-def _split_limit(limit: int | None) -> tuple[int | None, int]:
+def split_limit(limit: int | None) -> tuple[int | None, int]:
     """Halves of a 128-bit limit; no squared distance exceeds 128 bits."""
     if limit is None or limit >= 1 << 128:
         return None, 0

@@ -13,9 +13,9 @@ from vorotool.errors import NO_PROPERTIES, InputError, LimitError
 from vorotool.formats.parsing.geojson import MOST_CELLS
 from vorotool.formats.parsing.geometry_advice import OF_SITES, not_a_point_advice, not_a_shape_advice
 from vorotool.formats.parsing.reader_options import ReadOptions, no_points
+from vorotool.formats.points.rows import PointRows
 from vorotool.geometry.arguments.sites import Sites
 from vorotool.geometry.points.conversion import part_numbers, single_points
-from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.polygons.conversion import polygons_of_geometry
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 
@@ -149,23 +149,23 @@ def _shapes_of(features: Features, kept: NDArray[np.int64], options: ReadOptions
         raise
 
 
-def points_of_features(features: Features, options: ReadOptions) -> PointSet:
+def feature_points(features: Features, options: ReadOptions) -> PointRows:
     """Give the points of features, those of several in one as its parts; those without a geometry are left out.
 
     Raises
     ------
     InputError
-        If a geometry is no point, or a coordinate is not finite.
+        If a geometry is no point, or a coordinate is not finite, or has no z where the options want one.
     LimitError
         If there are too many points or attributes.
 
     Examples
     --------
     >>> import shapely
-    >>> made = points_of_features(
+    >>> made = feature_points(
     ...     Features("a.gpkg", np.array([shapely.Point(3, 4), None]), {"name": ["x", "y"]}, [7, 8]), ReadOptions()
     ... )
-    >>> made.xy.tolist(), made.properties
+    >>> made.coordinates.tolist(), made.properties
     ([[3.0, 4.0]], {'id': [7], 'name': ['x']})
     """
     import shapely
@@ -173,17 +173,21 @@ def points_of_features(features: Features, options: ReadOptions) -> PointSet:
     kept = _kept(features)
     options.note_left_out(features.name, len(features.geometry) - len(kept))
     geometry = features.geometry[kept]
-    if shapely.has_z(geometry).any():
+    if not options.wants_z and shapely.has_z(geometry).any():
         options.note_heights(features.name)
     _check_kinds(features, geometry, kept, _POINTS, "not a point", not_a_point_advice)
     points, items = single_points(geometry)
     owners = kept[items]
     options.check_sites(features.name, len(points))
     if not len(points):
-        return PointSet(no_points(), y_up=True, crs=features.crs)
+        return PointRows(no_points(options.axes), None, {}, {"y_up": True, "crs": features.crs})
     _check_finite(features, geometry, kept)
     columns = _point_columns(features, owners) if options.properties else {}
-    return PointSet(shapely.get_coordinates(points), None, columns, y_up=True, crs=features.crs)
+    found = shapely.get_coordinates(points, include_z=options.wants_z)
+    if options.wants_z and not np.isfinite(found[:, 2]).all():
+        owner = owners[int(np.argmin(np.isfinite(found[:, 2])))]
+        raise InputError(f"{features.name}, feature {owner + 1}: the point has no finite z; give all points one")
+    return PointRows(found, None, columns, {"y_up": True, "crs": features.crs})
 
 
 def _point_columns(features: Features, owners: NDArray[np.int64]) -> dict[str, list[Any]]:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from vorotool.formats.features.feature_table import (
     Features,
-    points_of_features,
+    feature_points,
     polygons_of_features,
     sites_of_features,
 )
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions
-from vorotool.formats.points.tables import points_of_columns
+from vorotool.formats.points.rows import PointRows, point_set
+from vorotool.formats.points.tables import rows_of_columns
 from vorotool.geometry.arguments.sites import Sites
 from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.polygons.polygon_set import PolygonSet
@@ -34,12 +35,15 @@ def features_of(source: Source) -> Features:
 
 def read_points(source: Source, options: ReadOptions) -> PointSet:
     """Read points with their attributes; where there is no geometry, as tables have them."""
+    return point_set(point_rows(source, options))
+
+
+def point_rows(source: Source, options: ReadOptions) -> PointRows:
+    """Read what `read_points` reads, with a z where the options want it."""
     features = features_of(source)
     if features.is_table:
-        return points_of_columns(
-            source.name, {name: list(values) for name, values in features.columns.items()}, options
-        )
-    return points_of_features(features, options)
+        return rows_of_columns(source.name, {name: list(values) for name, values in features.columns.items()}, options)
+    return feature_points(features, options)
 
 
 def read_sites(source: Source, options: ReadOptions) -> Sites:

@@ -12,12 +12,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError, option
+from vorotool.errors import AS_VOLUME, InputError, option
 from vorotool.formats.images.nodata import missing_values, placed_grid
 from vorotool.formats.images.tiff_grid import PageGrid, grid_of
 from vorotool.formats.images.tiff_layout import TiffLayout
 from vorotool.formats.images.tiff_reader import opened_tiff, page_layout, page_of
-from vorotool.formats.images.tiff_segments import decode_rows, is_decoded_here
+from vorotool.formats.images.tiff_segments import decode_band, is_decoded_here
 from vorotool.formats.io.descriptors import stream_kind
 from vorotool.formats.io.limits import check_pixels, decoding
 from vorotool.formats.zarr.metadata import read_metadata
@@ -95,10 +95,14 @@ class ZarrRows:
                 if steps != 1:
                     raise InputError(
                         f"{self.name} has {steps} steps along the axis {axis}: an image has one; save one of them alone"
+                        + (f", or read it as a volume with {AS_VOLUME}" if axis == "z" else "")
                     )
             shape = shape[-2:]
         if len(shape) != 2:
-            raise InputError(f"{self.name} has {len(shape)} axes, shape {shape}: an image has two, rows and columns")
+            as_volume = f"; read it as a volume with {AS_VOLUME}" if len(shape) == 3 else ""
+            raise InputError(
+                f"{self.name} has {len(shape)} axes, shape {shape}: an image has two, rows and columns{as_volume}"
+            )
         if kind.kind not in "biuf":
             raise InputError(f"{self.name} holds {kind}: an image of numbers was expected")
         check_pixels(self.name, shape[1], shape[0], shape[0] * shape[1])
@@ -116,7 +120,7 @@ class ZarrRows:
             array = self._array
             plane = (slice(first, first + count), slice(0, self.shape[1]))
             read = array.read((*[slice(0, 1)] * (len(array.shape) - 2), *plane))
-            return _plain(read.reshape(read.shape[-2:]))
+            return plain_values(read.reshape(read.shape[-2:]))
 
     def __getstate__(self) -> dict[str, Any]:
         """Leave out what is open."""
@@ -180,21 +184,14 @@ class TiffRows:
     def rows(self, first: int, count: int) -> NDArray[Any]:
         """Read some rows; bool becomes uint8, and what has no value is masked."""
         layout = self._layout
-        rows = np.empty((count, layout.width), layout.dtype)
         with decoding(self.name, "TIFF"), Path(self.path).open("rb") as file:
 
             def read(offset: int, size: int) -> bytes:
                 file.seek(offset)
                 return file.read(size)
 
-            for band in range(first // layout.rows, -(-(first + count) // layout.rows)):
-                for index in range(band * layout.across, (band + 1) * layout.across):
-                    _, y, x, height = layout.place(index)
-                    top, bottom = max(y, first), min(y + height, first + count)
-                    place = rows[top - first : bottom - first, x : x + layout.columns]
-                    decoded = decode_rows(layout, read, index, top - y, bottom - top)
-                    place[...] = decoded[:, : place.shape[1], 0]
-        values = _plain(rows)
+            rows = decode_band(layout, read, first, count)
+        values = plain_values(rows)
         missing = missing_values(values, self._opened[1].nodata)
         return values if missing is None else np.ma.MaskedArray(values, missing)
 
@@ -255,7 +252,7 @@ def read_rows(
     return Raster(rows.rows(0, height), rows.grid)
 
 
-def _plain(values: NDArray[Any]) -> NDArray[Any]:
+def plain_values(values: NDArray[Any]) -> NDArray[Any]:
     """Native bytes; two-valued images are 0 and 1."""
     if values.dtype == np.bool_:
         return values.astype(np.uint8)

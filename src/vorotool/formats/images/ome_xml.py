@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from fractions import Fraction
 from typing import Any
+from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
@@ -21,8 +23,8 @@ _XML = (
     'xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance" xsi:schemaLocation='
     '"http://www.openmicroscopy.org/Schemas/OME/2016-06 http://www.openmicroscopy.org/Schemas/OME/2016-06/ome.xsd">'
     '<Image ID="Image:0"><Pixels ID="Pixels:0" DimensionOrder="XYCZT" Type="{type}" SizeX="{width}" SizeY="{height}" '
-    'SizeC="1" SizeZ="1" SizeT="1" PhysicalSizeX="{x}" PhysicalSizeXUnit="{unit}" PhysicalSizeY="{y}" '
-    'PhysicalSizeYUnit="{unit}"><Channel ID="Channel:0:0" SamplesPerPixel="1"/><TiffData IFD="0" PlaneCount="1"/>'
+    'SizeC="1" SizeZ="{depth}" SizeT="1"{sides}>'
+    '<Channel ID="Channel:0:0" SamplesPerPixel="1"/><TiffData IFD="0" PlaneCount="{depth}"/>'
     "</Pixels></Image></OME>"
 )
 
@@ -46,28 +48,41 @@ def ome_sizes(text: str) -> tuple[Fraction, Fraction, str] | None:
     >>> ome_sizes('<!DOCTYPE x [<!ENTITY a "b">]><OME/>') is None
     True
     """
-    from xml.parsers import expat
-
     found: set[tuple[Fraction, Fraction, str] | None] = set()
+
+    def start(name: str, attributes: dict[str, str]) -> None:
+        if name == "Pixels":
+            found.add(_sizes_of(attributes))
+
+    return found.pop() if parse_ome(text, start) and len(found) == 1 else None
+
+
+def parse_ome(text: str, start: Callable[[str, dict[str, str]], None]) -> bool:
+    """Call a function with the name and the attributes of each element; tell whether the text is XML without entities.
+
+    Examples
+    --------
+    >>> parse_ome('<OME><Image ID="Image:0"/></OME>', lambda name, attributes: print(name, attributes))
+    OME {}
+    Image {'ID': 'Image:0'}
+    True
+    """
+    from xml.parsers import expat
 
     def refuse(*_: Any) -> None:
         raise _Refused
 
-    def start(name: str, attributes: dict[str, str]) -> None:
-        if name.rpartition(":")[2] == "Pixels":
-            found.add(_sizes_of(attributes))
-
     data = text.encode("utf-8", "replace")
     if len(data) > LARGEST_XML:
-        return None
+        return False
     parser = expat.ParserCreate("utf-8")
     parser.StartDoctypeDeclHandler = refuse
-    parser.StartElementHandler = start
+    parser.StartElementHandler = lambda name, attributes: start(name.rpartition(":")[2], attributes)
     try:
         parser.Parse(data, True)
     except (expat.ExpatError, _Refused):
-        return None
-    return found.pop() if len(found) == 1 else None
+        return False
+    return True
 
 
 def _sizes_of(attributes: dict[str, str]) -> tuple[Fraction, Fraction, str] | None:
@@ -104,12 +119,52 @@ def ome_xml(shape: tuple[int, int], dtype: np.dtype[Any], width: Fraction, heigh
     >>> 'PhysicalSizeX="0.25" PhysicalSizeXUnit="&#181;m"' in made
     True
     """
-    kind = "float" if dtype == np.float32 else dtype.name
-    if kind != "float" and kind not in _TYPES:
+    return ome_document((1, *shape), dtype, {"X": width, "Y": height}, unit)
+
+
+def ome_document(
+    shape: tuple[int, int, int], dtype: np.dtype[Any], sides: Mapping[str, Fraction], unit: str
+) -> bytes | None:
+    """Write the XML of slices that are the pages of a file, in order; None where OME has no such type of pixels.
+
+    Parameters
+    ----------
+    shape : (int, int, int)
+        Slices, height and width.
+    dtype : dtype
+        Of the pixels.
+    sides : mapping of str to Fraction
+        Of a pixel, along X, Y and Z, as far as they are known.
+    unit : str
+        Of these.
+
+    Examples
+    --------
+    >>> b'SizeZ="7"' in ome_document((7, 2, 3), np.dtype(np.uint16), {}, "")
+    True
+    """
+    kind = ome_type(dtype)
+    if kind is None:
         return None
-    values = {"type": kind, "width": shape[1], "height": shape[0], "unit": unit}
-    sides = {"x": shown_side(width), "y": shown_side(height)}
-    return _XML.format(**values, **sides).encode("ascii", "xmlcharrefreplace")
+    depth, height, width = shape
+    told = "".join(
+        f' PhysicalSize{axis}="{shown_side(side)}" PhysicalSize{axis}Unit={quoteattr(unit)}'
+        for axis, side in sides.items()
+    )
+    values = {"type": kind, "width": width, "height": height, "depth": depth, "sides": told}
+    return _XML.format(**values).encode("ascii", "xmlcharrefreplace")
+
+
+def ome_type(dtype: np.dtype[Any]) -> str | None:
+    """Give the name that OME has for a type of pixels; None where it has none.
+
+    Examples
+    --------
+    >>> ome_type(np.dtype(np.float32)), ome_type(np.dtype(np.uint16)), ome_type(np.dtype(np.uint64))
+    ('float', 'uint16', None)
+    """
+    kind = "float" if dtype == np.float32 else dtype.name
+    return kind if kind == "float" or kind in _TYPES else None
 
 
 def shown_side(side: Fraction) -> str:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError, option
+from vorotool.errors import AS_VOLUME, InputError, option
 from vorotool.formats.images import npy, png_reader, pnm_reader, tiff_reader
 from vorotool.formats.images.nodata import tiff_raster
 from vorotool.formats.images.picture_reader import PICTURES, is_lossy, read_picture_file
@@ -78,7 +78,10 @@ def _npy_shape(source: Source) -> tuple[int, ...]:
     """Shape of an NPY image: (H, W), or (H, W, C) with at most 4 channels."""
     shape = npy_header(source).shape
     if len(shape) not in (2, 3) or (len(shape) == 3 and not 1 <= shape[2] <= 4):
-        raise InputError(f"{source.name} has the shape {shape}: an image is (H, W), or (H, W, C) with C from 1 to 4")
+        as_volume = f"; read it as a volume with {AS_VOLUME}" if len(shape) == 3 else ""
+        raise InputError(
+            f"{source.name} has the shape {shape}: an image is (H, W), or (H, W, C) with C from 1 to 4{as_volume}"
+        )
     return shape
 
 

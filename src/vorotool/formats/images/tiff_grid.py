@@ -91,29 +91,29 @@ def _resolution_grid(file: Any, page: Any) -> PixelGrid | None:
     if named and str(named).strip() in ("pixel", "pixels"):
         return None
     if named:
-        width, height = (_side_of_imagej(*each) for each in per_unit)
-        return PixelGrid(width, height, _unescaped(str(named)), "imagej")
+        width, height = (side_of_imagej(*each) for each in per_unit)
+        return PixelGrid(width, height, unescaped(str(named)), "imagej")
     width, height = (Fraction(units, pixels) for pixels, units in per_unit)
     return None if unit is None else PixelGrid(width, height, unit)
 
 
-def _unescaped(text: str) -> str:
+def unescaped(text: str) -> str:
     r"""Undo how ImageJ writes letters that are not ASCII.
 
     Examples
     --------
-    >>> _unescaped(r"\u00B5m")
+    >>> unescaped(r"\u00B5m")
     'µm'
     """
     return re.sub(r"\\u([0-9a-fA-F]{4})", lambda match: chr(int(match[1], 16)), text)
 
 
-def _side_of_imagej(pixels: int, units: int) -> Fraction:
+def side_of_imagej(pixels: int, units: int) -> Fraction:
     """Give the side of a pixel: of those that ImageJ would write as this ratio, the one with the fewest digits.
 
     Examples
     --------
-    >>> _side_of_imagej(3076923, 1000000), _side_of_imagej(40, 13)
+    >>> side_of_imagej(3076923, 1000000), side_of_imagej(40, 13)
     (Fraction(13, 40), Fraction(13, 40))
     """
     exact = Fraction(units, pixels)

@@ -30,7 +30,7 @@ from vorotool.geometry.pixel_grid import GeoKeys, PixelGrid
 _LARGEST = 2**32 - 1
 """The largest numerator and denominator."""
 
-_INCHES, _CENTIMETRES, _NO_UNIT = 2, 3, 1
+_INCHES, _CENTIMETRES, NO_UNIT = 2, 3, 1
 _DOUBLE, _SHORT, _ASCII = 12, 3, 2
 """Types of tags."""
 
@@ -72,36 +72,47 @@ def grid_tags(
             tags.append((NODATA, _ASCII, 0, str(nodata), True))
         return {"extratags": tags}
     if grid.form == "imagej":
-        ratios = [_ratio(float(1 / side)) for side in (grid.width, grid.height)]
-        unit = "um" if grid.unit == "µm" else str(grid.unit)
-        escaped = "".join(letter if letter.isascii() else f"\\u{ord(letter) % 2**16:04x}" for letter in unit)
-        description = f"ImageJ=1.54f\nunit={escaped}\n".encode("ascii")
-        return {} if None in ratios else {**_resolution(ratios, _NO_UNIT), "description": description}
+        ratios = [ratio_of(float(1 / side)) for side in (grid.width, grid.height)]
+        description = f"ImageJ=1.54f\nunit={imagej_unit(str(grid.unit))}\n".encode("ascii")
+        return {} if None in ratios else {**resolution(ratios, NO_UNIT), "description": description}
     xml = None
     if grid.form == "ome":
         xml = ome_xml(shape, dtype, grid.width, grid.height, grid.unit or "µm")
-    return {**_resolution_tags(grid), **({} if xml is None else {"description": xml})}
+    return {**resolution_tags(grid), **({} if xml is None else {"description": xml})}
 
 
-def _resolution_tags(grid: PixelGrid) -> dict[str, Any]:
+def imagej_unit(unit: str) -> str:
+    r"""Write a unit as ImageJ does, in ASCII.
+
+    Examples
+    --------
+    >>> imagej_unit("µm"), imagej_unit("Å")
+    ('um', '\\u00c5')
+    """
+    plain = "um" if unit == "µm" else unit
+    return "".join(letter if letter.isascii() else f"\\u{ord(letter) % 2**16:04x}" for letter in plain)
+
+
+def resolution_tags(grid: PixelGrid) -> dict[str, Any]:
     """Pixels a unit; TIFF knows inches, centimetres and units without a name."""
     size = metres(grid.unit)
-    number = _INCHES if grid.unit == "inch" else _NO_UNIT if size is None else _CENTIMETRES
+    number = _INCHES if grid.unit == "inch" else NO_UNIT if size is None else _CENTIMETRES
     units = Fraction(1) if size is None else Fraction(1, 100) / size
-    ratios = [_ratio(float(1 / side) * float(units)) for side in (grid.width, grid.height)]
-    return {} if None in ratios else _resolution(ratios, number)
+    ratios = [ratio_of(float(1 / side) * float(units)) for side in (grid.width, grid.height)]
+    return {} if None in ratios else resolution(ratios, number)
 
 
-def _resolution(ratios: list[tuple[int, int] | None], unit: int) -> dict[str, Any]:
+def resolution(ratios: list[tuple[int, int] | None], unit: int) -> dict[str, Any]:
+    """Give ratios of pixels a unit along x and y, and the number of the unit, as arguments of tifffile."""
     return {"resolution": tuple(ratios), "resolutionunit": unit}
 
 
-def _ratio(value: float) -> tuple[int, int] | None:
+def ratio_of(value: float) -> tuple[int, int] | None:
     """Nearest ratio of two 32-bit integers, as TIFF stores numbers; None beyond what they can tell.
 
     Examples
     --------
-    >>> _ratio(0.5), _ratio(1e-12)
+    >>> ratio_of(0.5), ratio_of(1e-12)
     ((1, 2), None)
     """
     if not 1 / _LARGEST <= value <= _LARGEST:

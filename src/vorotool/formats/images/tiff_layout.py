@@ -109,6 +109,13 @@ class TiffLayout:
         """Bytes of a row of a segment; rows begin at whole bytes."""
         return -(-self.columns * self.values * self.bits // 8)
 
+    @property
+    def is_one_array(self) -> bool:
+        """Whether all values stand in one strip as an array has them, row after row."""
+        is_plain = self.compression == _PLAIN and self.predictor == 1 and self.fill_order == 1
+        has_all = len(self.offsets) == 1 and self.counts[0] > 0 and not self.is_tiled and self.rows == self.height
+        return is_plain and has_all and self.dtype is not None and self.bits == 8 * self.dtype.itemsize
+
     def place(self, index: int) -> tuple[int, int, int, int]:
         """Plane, first row, first column of a segment, and how many of its rows are in the image."""
         plane, within = divmod(index, self.across * self.down)

@@ -9,7 +9,7 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError, LimitError, option
+from vorotool.errors import AS_VOLUME, InputError, LimitError, option
 from vorotool.formats.images.jpeg_sizes import check_jpegs
 from vorotool.formats.images.tiff_grid import PageGrid, grid_of
 from vorotool.formats.images.tiff_layout import JPEGS, TiffLayout, layout_of
@@ -86,7 +86,7 @@ def page_of(file: Any, name: str, page: int | None) -> Any:
             return file.pages[page or 0]
     if page is None and count > 1:
         one = option(f"--page 0 to --page {count - 1}, or --page all", f"page=0 to page={count - 1}")
-        raise InputError(f"{name} has {count} pages: choose one with {one}")
+        raise InputError(f"{name} has {count} pages: choose one with {one}, or read them as a volume with {AS_VOLUME}")
     if count == 0:
         raise InputError(f"{name} is damaged: it begins as a TIFF, but there is no image in it")
     raise InputError(

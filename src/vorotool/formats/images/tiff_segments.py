@@ -91,6 +91,26 @@ def decode_rows(
     return decode_segment(layout, read(offset, size), index)[first : first + count]
 
 
+def decode_band(layout: TiffLayout, read: Callable[[int, int], bytes], first: int, count: int) -> NDArray[Any]:
+    """Decode some rows of a page that has one value a pixel: (count, W).
+
+    Parameters
+    ----------
+    layout, read
+        As of `decode_rows`.
+    first, count : int
+        Which rows of the page.
+    """
+    rows = np.empty((count, layout.width), layout.dtype)
+    for band in range(first // layout.rows, -(-(first + count) // layout.rows)):
+        for index in range(band * layout.across, (band + 1) * layout.across):
+            _, y, x, height = layout.place(index)
+            top, bottom = max(y, first), min(y + height, first + count)
+            place = rows[top - first : bottom - first, x : x + layout.columns]
+            place[...] = decode_rows(layout, read, index, top - y, bottom - top)[:, : place.shape[1], 0]
+    return rows
+
+
 def decode_segment(layout: TiffLayout, data: bytes | memoryview, index: int) -> NDArray[Any]:
     """Decode a segment: (rows, columns, values); a tile at the lower end may have only the rows of the image.
 

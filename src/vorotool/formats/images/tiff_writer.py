@@ -27,7 +27,7 @@ from vorotool.geometry.pixel_grid import PixelGrid
 TILE = 512
 """Pixels a side of a tile, as cloud-optimized GeoTIFFs have them."""
 
-_CLASSIC_LIMIT = 2**32 - 2**25
+CLASSIC_LIMIT = 2**32 - 2**25
 """Bytes of pixels from which offsets may need BigTIFF; the rest is room for tags and tables of strips."""
 
 
@@ -105,11 +105,11 @@ def _write(
 
     height, width = shape
     kind = dtype.newbyteorder("<")
-    compressed = kind.kind in "ui" and kind.itemsize <= 4
-    rows = max(1, min(height, BLOCK_BYTES // (width * kind.itemsize)))
+    compressed = is_compressed(kind)
+    rows = rows_of_strip(shape, kind)
     # named here, since the name of a temporary file is a number, which tifffile does not expect
     handle = tifffile.FileHandle(out, name="image.tif", size=0)
-    large = width * height * kind.itemsize >= _CLASSIC_LIMIT
+    large = width * height * kind.itemsize >= CLASSIC_LIMIT
     with tifffile.TiffWriter(handle, bigtiff=large, byteorder="<") as writer:
         is_tiled = "tile" in tags
         writer.write(
@@ -127,16 +127,42 @@ def _write(
         )
 
 
-def _strips(
-    bands: Iterable[NDArray[Any]], shape: tuple[int, int], kind: np.dtype[Any], compressed: bool, threads: int
-) -> Iterator[bytes]:
+def is_compressed(kind: np.dtype[Any]) -> bool:
+    """Whether pixels of a type are deflated: distances and 64-bit integers are not."""
+    return kind.kind in "ui" and kind.itemsize <= 4
+
+
+def rows_of_strip(shape: tuple[int, int], kind: np.dtype[Any]) -> int:
+    """Give the rows of a strip, which depend on the shape alone.
+
+    Examples
+    --------
+    >>> rows_of_strip((4096, 4096), np.dtype(np.uint16))
+    128
+    """
+    return max(1, min(shape[0], BLOCK_BYTES // (shape[1] * kind.itemsize)))
+
+
+def uncoded_strips(
+    bands: Iterable[NDArray[Any]], shape: tuple[int, int], kind: np.dtype[Any]
+) -> Iterator[NDArray[Any]]:
+    """Regroup bands into the rows of strips; each comes after the row before it."""
+
     def encode(rows: NDArray[Any], out: NDArray[Any]) -> None:
         out[...] = stored(rows, kind)
 
-    strips = blocks(bands, shape, columns=shape[1], dtype=kind, encode=encode)
-    if compressed:
-        return in_order(_deflated, strips, threads)
-    return (strip[1:].tobytes() for strip in strips)
+    return blocks(bands, shape, columns=shape[1], dtype=kind, encode=encode)
+
+
+def encoded(strips: Iterable[NDArray[Any]], compressed: bool, threads: int) -> Iterator[bytes]:
+    """Give strips, or tiles, as the file has them."""
+    return in_order(deflated, strips, threads) if compressed else (strip[1:].tobytes() for strip in strips)
+
+
+def _strips(
+    bands: Iterable[NDArray[Any]], shape: tuple[int, int], kind: np.dtype[Any], compressed: bool, threads: int
+) -> Iterator[bytes]:
+    return encoded(uncoded_strips(bands, shape, kind), compressed, threads)
 
 
 def _tiles(
@@ -152,7 +178,7 @@ def _tiles(
                 tile[1 : 1 + len(part), : part.shape[1]] = part
                 yield tile
 
-    return in_order(_deflated, each(), threads) if compressed else (tile[1:].tobytes() for tile in each())
+    return encoded(each(), compressed, threads)
 
 
 def _rows_of_tiles(
@@ -174,7 +200,7 @@ def _rows_of_tiles(
         yield np.concatenate(held)
 
 
-def _deflated(strip: NDArray[Any]) -> bytes:
+def deflated(strip: NDArray[Any]) -> bytes:
     """Differences along each row (TIFF's predictor 2, modulo the type's size), as a zlib stream."""
     data = strip[1:].copy()
     np.subtract(strip[1:, 1:], strip[1:, :-1], out=data[:, 1:])

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import os
+import shutil
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 from vorotool import _core
 from vorotool.errors import InputError, UsageError, VorotoolError
@@ -72,10 +73,23 @@ def read_source(path: str | os.PathLike[str]) -> Source:
         If there is no such file, it is a directory, or it cannot be read.
     """
     name = os.fspath(path)
+    with explained_reading(name):
+        return Source(STANDARD_INPUT if name == STANDARD else name, read_bytes(name))
+
+
+@contextmanager
+def explained_reading(name: str) -> Iterator[None]:
+    """Turn what the system says of a file that is read into an error that tells what to do.
+
+    Raises
+    ------
+    InputError
+        If there is no such file, it is a directory, or it cannot be read.
+    """
     if not name:
         raise InputError("the name of the input is empty: name a file, or - for standard input")
     try:
-        return Source(STANDARD_INPUT if name == STANDARD else name, read_bytes(name))
+        yield
     except FileNotFoundError:
         raise InputError(f"{name}: there is no such file; check the path ({_place(name)})") from None
     except IsADirectoryError:
@@ -155,6 +169,40 @@ def read_bytes(name: str) -> bytes:
         raise InputError(f"{spoken} is closed: name a file instead of {name}") from None
     except OSError as error:
         raise InputError(f"{spoken} cannot be read: {error.strerror}; name a file instead of {name}") from None
+
+
+def copy_stream(name: str, out: BinaryIO) -> None:
+    """Copy all that comes through a stream, or is in a file, without holding it.
+
+    Parameters
+    ----------
+    name : str
+        As of `read_bytes`.
+    out : binary file object
+        Takes it.
+
+    Raises
+    ------
+    InputError, OSError, ValueError
+        As of `read_bytes`.
+    """
+    number = 0 if name == STANDARD else descriptor_of(name)
+    if number is None:
+        with Path(name).open("rb") as file:
+            shutil.copyfileobj(file, out)
+        return
+    is_standard = name == STANDARD or _number_of_standard_input() == number
+    try:
+        waits = os.get_blocking(number) if hasattr(os, "get_blocking") else True
+    except OSError:
+        waits = False
+    if not waits or (is_standard and _number_of_standard_input() is None):
+        out.write(read_bytes(name))  # which waits itself, or says what is wrong
+    elif is_standard:
+        shutil.copyfileobj(sys.stdin.buffer, out)
+    else:
+        with open_input(number) as file:
+            shutil.copyfileobj(file, out)
 
 
 def _number_of_standard_input() -> int | None:

@@ -40,6 +40,8 @@ class ReadOptions:
         How far lines may be from the curves of drawings.
     join_tolerance : float, optional
         How far ends of curves may be apart that are joined.
+    wants_z : bool
+        Points are of space, and have a z.
     """
 
     columns: str | None = None
@@ -53,6 +55,12 @@ class ReadOptions:
     to_crs: Any = None
     flatten: float | None = None
     join_tolerance: float | None = None
+    wants_z: bool = False
+
+    @property
+    def axes(self) -> int:
+        """Coordinates of a point."""
+        return 3 if self.wants_z else 2
 
     def check_sites(self, name: str, count: int) -> None:
         """Raise LimitError if ``count`` sites are too many."""
@@ -83,13 +91,13 @@ class ReadOptions:
         self.note(f"{name}: only x and y are used, heights are left out")
 
 
-def no_points() -> NDArray[np.float64]:
+def no_points(axes: int = 2) -> NDArray[np.float64]:
     """Coordinates of no points."""
-    return np.empty((0, 2))
+    return np.empty((0, axes))
 
 
-def position_array(positions: list[Any], place: Callable[[int], str]) -> NDArray[np.float64]:
-    """Coordinates of JSON positions ``[x, y, ...]``; what follows x and y is left out.
+def position_array(positions: list[Any], place: Callable[[int], str], axes: int = 2) -> NDArray[np.float64]:
+    """Coordinates of JSON positions ``[x, y, ...]``; what follows x and y, or z, is left out.
 
     Parameters
     ----------
@@ -97,33 +105,36 @@ def position_array(positions: list[Any], place: Callable[[int], str]) -> NDArray
         As they were parsed: anything.
     place : callable
         Gives the words that name the place of position i (0-based).
+    axes : int
+        2, or 3 of points of space.
 
     Raises
     ------
     InputError
-        If one is not a list of at least two finite numbers.
+        If one is not a list of at least so many finite numbers.
     """
-    pairs = positions
-    if set(map(type, positions)) <= {list} and max(map(len, positions), default=2) > 2:
-        pairs = [position[:2] for position in positions]
-    good = set(map(type, pairs)) <= {list} and set(map(len, pairs)) <= {2}
-    if not good or not set(map(type, chain.from_iterable(pairs))) <= {int, float}:
-        _refuse_first(positions, place)
-    xy = np.fromiter(chain.from_iterable(pairs), np.float64, 2 * len(pairs)).reshape(-1, 2)
-    bad = np.flatnonzero(~np.isfinite(xy).all(axis=1))
+    tuples = positions
+    if set(map(type, positions)) <= {list} and max(map(len, positions), default=axes) > axes:
+        tuples = [position[:axes] for position in positions]
+    good = set(map(type, tuples)) <= {list} and set(map(len, tuples)) <= {axes}
+    if not good or not set(map(type, chain.from_iterable(tuples))) <= {int, float}:
+        _refuse_first(positions, place, axes)
+    found = np.fromiter(chain.from_iterable(tuples), np.float64, axes * len(tuples)).reshape(-1, axes)
+    bad = np.flatnonzero(~np.isfinite(found).all(axis=1))
     if bad.size:
-        raise _position_error(place(int(bad[0])), positions[int(bad[0])])
-    return xy
+        raise _position_error(place(int(bad[0])), positions[int(bad[0])], axes)
+    return found
 
 
-def _refuse_first(positions: list[Any], place: Callable[[int], str]) -> None:
+def _refuse_first(positions: list[Any], place: Callable[[int], str], axes: int) -> None:
     for i, p in enumerate(positions):
-        if type(p) is not list or len(p) < 2 or not {type(v) for v in p[:2]} <= {int, float}:
-            raise _position_error(place(i), p)
+        if type(p) is not list or len(p) < axes or not {type(v) for v in p[:axes]} <= {int, float}:
+            raise _position_error(place(i), p, axes)
 
 
-def _position_error(place: str, value: Any) -> InputError:
-    return InputError(f"{place}: {shortened(value)} is not a pair of finite numbers; write [x, y]")
+def _position_error(place: str, value: Any, axes: int) -> InputError:
+    wanted = "a pair of finite numbers; write [x, y]" if axes == 2 else "three finite numbers; write [x, y, z]"
+    return InputError(f"{place}: {shortened(value)} is not {wanted}")
 
 
 def shortened(value: Any, size: int = 40) -> str:

@@ -19,7 +19,8 @@ from vorotool.formats.parsing.geojson import (
 from vorotool.formats.parsing.geometry_advice import not_a_point_advice
 from vorotool.formats.parsing.reader_options import ReadOptions, position_array, shortened
 from vorotool.formats.parsing.reference_systems import note_unnamed
-from vorotool.formats.points.tables import is_table, points_of_rows
+from vorotool.formats.points.rows import PointRows, point_set
+from vorotool.formats.points.tables import is_table, points_of_objects
 from vorotool.geometry.points.point_set import PointSet
 
 _READER = option("skeleton-exact reads", 'geometry="polygons" reads')
@@ -28,22 +29,33 @@ _ALONG = option("--what points -f csv there", "points_along")
 
 def read_json(source: Source, options: ReadOptions) -> PointSet:
     """Read ``[[x, y], ...]``, the rows of a table, or GeoJSON where the document is an object."""
+    return point_set(json_rows(source, options))
+
+
+def json_rows(source: Source, options: ReadOptions) -> PointRows:
+    """Read what `read_json` reads, with a z where the options want it."""
     options.check_sites(source.name, 0 if b"{" in source.data else source.data.count(b"[") - 1)
     document = parse_json(source)
     if isinstance(document, dict):
         _refuse_columns(source.name, options)
         return _read_document(source.name, document, options)
     if not isinstance(document, list):
-        raise InputError(f"{source.name}: {shortened(document)} is no list of points; write [[x, y], …]")
+        raise InputError(f"{source.name}: {shortened(document)} is no list of points; write {_form(options)}")
     if is_table(document):
-        return points_of_rows(source.name, document, options)
+        return points_of_objects(source.name, document, options)
     _refuse_columns(source.name, options)
     for index, point in enumerate(document):
-        if type(point) is list and len(point) > 2:
+        if type(point) is list and len(point) > options.axes:
+            form = "[x, y, z]" if options.wants_z else "[x, y]"
             raise InputError(
-                f"{source.name}, point {index + 1}: {shortened(point)} has {len(point)} numbers; write [x, y]"
+                f"{source.name}, point {index + 1}: {shortened(point)} has {len(point)} numbers; write {form}"
             )
-    return PointSet(position_array(document, lambda i: f"{source.name}, point {i + 1}"))
+    found = position_array(document, lambda i: f"{source.name}, point {i + 1}", options.axes)
+    return PointRows(found, None, {}, {})
+
+
+def _form(options: ReadOptions) -> str:
+    return "[[x, y, z], …]" if options.wants_z else "[[x, y], …]"
 
 
 def _refuse_columns(name: str, options: ReadOptions) -> None:
@@ -53,9 +65,14 @@ def _refuse_columns(name: str, options: ReadOptions) -> None:
 
 def read_geojson(source: Source, options: ReadOptions) -> PointSet:
     """Read the points of a GeoJSON document with their ``id`` and properties."""
+    return point_set(geojson_rows(source, options))
+
+
+def geojson_rows(source: Source, options: ReadOptions) -> PointRows:
+    """Read what `read_geojson` reads, with a z where the options want it."""
     document = parse_json(source)
     if not isinstance(document, dict):
-        raise InputError(f"{source.name}: GeoJSON is an object with a type; use {AS_JSON} for [[x, y], …]")
+        raise InputError(f"{source.name}: GeoJSON is an object with a type; use {AS_JSON} for {_form(options)}")
     return _read_document(source.name, document, options)
 
 
@@ -69,7 +86,7 @@ class _Collected:
     without_geometry: int = 0
 
 
-def _read_document(name: str, document: Mapping[str, Any], options: ReadOptions) -> PointSet:
+def _read_document(name: str, document: Mapping[str, Any], options: ReadOptions) -> PointRows:
     if "polygons" in document:
         raise InputError(
             f"{name} holds polygons, or what was made of them, not points: {_READER} it; for places along a "
@@ -81,15 +98,15 @@ def _read_document(name: str, document: Mapping[str, Any], options: ReadOptions)
     for index, feature in enumerate(features):
         _collect(collected, index, feature, place(index))
     options.check_sites(name, len(collected.positions))
-    xy = position_array(collected.positions, lambda i: place(collected.features[i]))
+    found = position_array(collected.positions, lambda i: place(collected.features[i]), options.axes)
     options.note_left_out(name, collected.without_geometry)
-    if any(len(position) > 2 for position in collected.positions):
+    if not options.wants_z and any(len(position) > 2 for position in collected.positions):
         options.note_heights(name)
     crs = document.get("crs")
     if crs is None and options.crs is None:
-        note_unnamed(name, xy, options.note)
+        note_unnamed(name, found[:, :2], options.note)
     properties = _properties(name, features, collected) if options.properties else {}
-    return PointSet(xy, None, properties, y_up=True, crs=crs)
+    return PointRows(found, None, properties, {"y_up": True, "crs": crs})
 
 
 def _collect(collected: _Collected, index: int, feature: Any, place: str) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError
+from vorotool.errors import AS_VOLUME, InputError
 from vorotool.formats.io.npy_arrays import npy_header, npy_values
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import LARGEST_LABEL, ReadOptions
@@ -22,29 +22,47 @@ def read_npy(source: Source, options: ReadOptions) -> PointSet:
     if header.dtype.kind == "b":
         raise InputError(f"{source.name} holds truth values, not numbers; {_ADVICE}")
     if len(shape) != 2 or shape[1] not in (2, 3):
-        raise InputError(f"{source.name} holds an array of shape {shape}; {_ADVICE} (columns x, y and label)")
+        other = f"; read it as a volume with {AS_VOLUME}" if len(shape) == 3 else ""
+        raise InputError(f"{source.name} holds an array of shape {shape}; {_ADVICE} (columns x, y and label){other}")
     options.check_sites(source.name, shape[0])
     table = npy_values(source, header)
-    row = first_inexact(table[:, :2])
+    xy = check_coordinates(source.name, table[:, :2])
+    return PointSet(xy, npy_labels(source.name, table[:, 2]) if shape[1] == 3 else None)
+
+
+def check_coordinates(name: str, table: NDArray[np.generic]) -> NDArray[np.float64]:
+    """Give coordinates, a column each, as floating-point numbers, which hold them exactly and are finite.
+
+    Raises
+    ------
+    InputError
+        If they are not; the row is named.
+
+    Examples
+    --------
+    >>> check_coordinates("a.npy", np.array([[1, 2]]))
+    array([[1., 2.]])
+    """
+    row = first_inexact(table)
     if row is not None:
-        raise InputError(f"{source.name}, row {row + 1}: ({table[row, 0]}, {table[row, 1]}): {INEXACT}")
-    xy = np.ascontiguousarray(table[:, :2], dtype=np.float64)
-    _check_finite(source.name, xy)
-    return PointSet(xy, _labels(source.name, table[:, 2]) if shape[1] == 3 else None)
-
-
-def _check_finite(name: str, xy: NDArray[np.float64]) -> None:
-    finite = np.isfinite(xy)
-    bad = np.flatnonzero(~(finite[:, 0] & finite[:, 1]))  # an `all` along rows this short is slow
+        raise InputError(f"{name}, row {row + 1}: ({_shown(table[row])}): {INEXACT}")
+    places = np.ascontiguousarray(table, dtype=np.float64)
+    is_finite = np.logical_and.reduce([np.isfinite(column) for column in places.T])  # rows this short are slow
+    bad = np.flatnonzero(~is_finite)
     if bad.size:
         row = int(bad[0])
         raise InputError(
-            f"{name}, row {row + 1}: ({xy[row, 0]}, {xy[row, 1]}) is not finite; correct or remove it "
-            f"({bad.size} such rows)"
+            f"{name}, row {row + 1}: ({_shown(places[row])}) is not finite; correct or remove it ({bad.size} such rows)"
         )
+    return places
 
 
-def _labels(name: str, values: NDArray[np.generic]) -> NDArray[np.int64]:
+def _shown(row: NDArray[np.generic]) -> str:
+    return ", ".join(str(each) for each in row)
+
+
+def npy_labels(name: str, values: NDArray[np.generic]) -> NDArray[np.int64]:
+    """Give labels, which are whole numbers; the row of another value is named (InputError)."""
     good = (values >= 1) & (values <= LARGEST_LABEL)  # type: ignore[operator]
     good &= values == np.floor(values)
     bad = np.flatnonzero(~good)

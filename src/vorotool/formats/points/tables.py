@@ -13,7 +13,9 @@ from vorotool.errors import InputError, option
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.npz_columns import npz_columns
 from vorotool.formats.parsing.reader_options import LARGEST_LABEL, ReadOptions, shortened
-from vorotool.formats.points.delimited import chosen_columns, placed_by
+from vorotool.formats.points.columns import chosen_columns
+from vorotool.formats.points.delimited import placed_by
+from vorotool.formats.points.rows import PointRows, point_set
 from vorotool.geometry.coordinates import INEXACT, first_inexact
 from vorotool.geometry.numbers import shown_number
 from vorotool.geometry.points.point_set import PointSet
@@ -33,7 +35,7 @@ def is_table(document: Any) -> bool:
     return isinstance(row, dict) and bool(row) and not row.keys() & {"type", "shell", "line"}
 
 
-def points_of_rows(name: str, rows: Sequence[Any], options: ReadOptions) -> PointSet:
+def points_of_objects(name: str, rows: Sequence[Any], options: ReadOptions) -> PointRows:
     """Read points from the rows of a table.
 
     Parameters
@@ -57,11 +59,18 @@ def points_of_rows(name: str, rows: Sequence[Any], options: ReadOptions) -> Poin
             raise InputError(
                 f"{name}, row {number}: {shortened(row)} has other fields than the first; give all the same"
             )
-    return points_of_columns(name, {each: [row[each] for row in rows] for each in names}, options)
+    return rows_of_columns(name, {each: [row[each] for row in rows] for each in names}, options)
 
 
 def read_npz(source: Source, options: ReadOptions) -> PointSet:
-    """Read points from the columns of a table; what a column ``<name>_missing`` marks has no value.
+    """Read points from the columns of a table."""
+    return point_set(npz_rows(source, options))
+
+
+def npz_rows(source: Source, options: ReadOptions) -> PointRows:
+    """Read points from the columns of a table, with a z where the options want it.
+
+    What a column ``<name>_missing`` marks has no value.
 
     Raises
     ------
@@ -78,7 +87,7 @@ def read_npz(source: Source, options: ReadOptions) -> PointSet:
         )
     kept = {name: values for name, values in columns.items() if not name.endswith(_MISSING)}
     values = {name: _present(values, columns.get(f"{name}{_MISSING}")) for name, values in kept.items()}
-    return points_of_columns(source.name, values, options)
+    return rows_of_columns(source.name, values, options)
 
 
 def _present(values: NDArray[Any], missing: NDArray[Any] | None) -> list[Any]:
@@ -88,7 +97,7 @@ def _present(values: NDArray[Any], missing: NDArray[Any] | None) -> list[Any]:
     return [None if none else value for value, none in zip(listed, missing.tolist(), strict=True)]
 
 
-def points_of_columns(name: str, columns: Mapping[str, list[Any]], options: ReadOptions) -> PointSet:
+def rows_of_columns(name: str, columns: Mapping[str, list[Any]], options: ReadOptions) -> PointRows:
     """Choose coordinates and labels as in CSV; the other columns are properties.
 
     Raises
@@ -97,11 +106,13 @@ def points_of_columns(name: str, columns: Mapping[str, list[Any]], options: Read
         If a coordinate is no finite number, or no columns are known as coordinates.
     """
     names = list(columns)
-    x, y, *label = (names[column] for column in chosen_columns(name, names, options))
-    xy = np.stack([_numbers(name, each, columns[each]) for each in (x, y)], axis=1)
-    labels = None if not label else _labels(name, columns[label[0]])
-    others = [each for each in names if each not in (x, y, *label)] if options.properties else []
-    return PointSet(xy, labels, {each: columns[each] for each in others}, **placed_by(x, y, options))
+    chosen = chosen_columns(name, names, options)
+    coordinates = [names[column] for column in chosen.coordinates]
+    found = np.stack([_numbers(name, each, columns[each]) for each in coordinates], axis=1)
+    labels = None if chosen.label is None else _labels(name, columns[names[chosen.label]])
+    used = {names[column] for column in chosen.used}
+    properties = {each: columns[each] for each in names if each not in used} if options.properties else {}
+    return PointRows(found, labels, properties, placed_by(coordinates[0], coordinates[1], options))
 
 
 def _numbers(name: str, column: str, values: list[Any]) -> NDArray[np.float64]:

@@ -11,6 +11,7 @@ from vorotool.formats.io.sources import Source, check_nesting
 from vorotool.formats.parsing.geometry_advice import not_a_point_advice
 from vorotool.formats.parsing.reader_options import ReadOptions, no_points, shortened
 from vorotool.formats.parsing.reference_systems import crs_of_numbers
+from vorotool.formats.points.rows import PointRows, point_set
 from vorotool.geometry.crs import without_number
 from vorotool.geometry.points.conversion import COLLECTION, MULTIPOINT, POINT, part_numbers, single_points
 from vorotool.geometry.points.point_set import PointSet
@@ -18,6 +19,11 @@ from vorotool.geometry.points.point_set import PointSet
 
 def read_wkt(source: Source, options: ReadOptions) -> PointSet:
     """Read POINT, MULTIPOINT and collections of them; several points of one geometry are its parts."""
+    return point_set(wkt_rows(source, options))
+
+
+def wkt_rows(source: Source, options: ReadOptions) -> PointRows:
+    """Read what `read_wkt` reads, with a z where the options want it."""
     import shapely
 
     check_nesting(source.data, name=source.name)
@@ -30,17 +36,20 @@ def read_wkt(source: Source, options: ReadOptions) -> PointSet:
     points, owners = single_points(geometries)
     options.check_sites(source.name, len(points))
     if not len(points):
-        return PointSet(no_points(), y_up=True, crs=crs)
-    xy = shapely.get_coordinates(points)
-    bad = np.flatnonzero(~np.isfinite(xy).all(axis=1))
+        return PointRows(no_points(options.axes), None, {}, {"y_up": True, "crs": crs})
+    found = shapely.get_coordinates(points, include_z=options.wants_z)
+    bad = np.flatnonzero(~np.isfinite(found).all(axis=1))
     if bad.size:
         owner = int(owners[bad[0]])
-        raise InputError(f"{source.name}, line {lines[owner]}: {texts[owner][:40]!r} is not finite; correct it")
-    if shapely.has_z(points).any():
+        place = f"{source.name}, line {lines[owner]}: {texts[owner][:40]!r}"
+        if options.wants_z and not shapely.has_z(points[bad[0]]):
+            raise InputError(f"{place} has no z; write for example POINT Z (3 4 5)")
+        raise InputError(f"{place} is not finite; correct it")
+    if not options.wants_z and shapely.has_z(points).any():
         options.note_heights(source.name)
     parts = part_numbers(owners)
     properties = {"part": parts.tolist()} if options.properties and parts.max() > 1 else {}
-    return PointSet(xy, None, properties, y_up=True, crs=crs)
+    return PointRows(found, None, properties, {"y_up": True, "crs": crs})
 
 
 def geometry_texts(source: Source) -> tuple[list[str], list[int], list[int]]:

@@ -58,26 +58,26 @@ def chunks_of(shape: tuple[int, int], dtype: DTypeLike, asked: tuple[int, int] |
     return min(rows, shape[0]), min(columns, shape[1])
 
 
-def create_array(store: Any, shape: tuple[int, int], *, dtype: DTypeLike, chunks: tuple[int, int]) -> Any:
-    """Make an array for an image in an empty folder.
+def create_array(store: Any, shape: tuple[int, ...], *, dtype: DTypeLike, chunks: tuple[int, ...]) -> Any:
+    """Make an array for an image or a volume in an empty folder.
 
     Parameters
     ----------
     store : path or dict
         The folder, or what takes the files by name.
-    shape : (int, int)
-        Height and width.
+    shape : (int, int) or (int, int, int)
+        Height and width, or slices, rows and columns.
     dtype : dtype
         Type of the pixels.
-    chunks : (int, int)
-        Rows and columns of a chunk. One whose pixels are all 0 takes no file.
+    chunks : tuple of int
+        The same of a chunk. One whose pixels are all 0 takes no file.
 
     Returns
     -------
     zarr.Array
     """
     zarr = zarr_module()
-    return _to_its_end(
+    return to_its_end(
         lambda: zarr.create_array(
             store if isinstance(store, dict) else os.fspath(store),
             shape=shape,
@@ -85,7 +85,7 @@ def create_array(store: Any, shape: tuple[int, int], *, dtype: DTypeLike, chunks
             dtype=np.dtype(dtype),
             compressors=[zarr.codecs.ZstdCodec(level=_LEVEL)],
             fill_value=0,
-            dimension_names=("y", "x"),
+            dimension_names=("z", "y", "x")[-len(shape) :],
             overwrite=False,
             zarr_format=3,
         )
@@ -139,10 +139,10 @@ def write_rows(
         for _ in in_order(write, range(0, array.shape[1], width), threads):
             pass
 
-    _to_its_end(write_all, stopped.set)
+    to_its_end(write_all, stopped.set)
 
 
-def _to_its_end(function: Callable[[], Result], stop: Callable[[], None] = lambda: None) -> Result:
+def to_its_end(function: Callable[[], Result], stop: Callable[[], None] = lambda: None) -> Result:
     """Call what writes in a store, and wait until it has ended, through an interrupt, too, which asks it to stop.
 
     Zarr writes in threads of its own, which would go on in a folder that is being removed. An interrupt comes between

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path, PurePosixPath
@@ -18,6 +19,9 @@ VERSION = "0.5"
 
 OME_ENDING = ".ome.zarr"
 """Names with it are written as OME-Zarr; other stores are plain arrays."""
+
+DECIMATED = {"method": "vorotool: every second voxel along each axis"}
+"""How coarser images are made, as their metadata have it."""
 
 _PLANE = ["y", "x"]
 _LONG_UNITS = {"pm": "picometer", "nm": "nanometer", "µm": "micrometer", "mm": "millimeter", "cm": "centimeter"}
@@ -43,6 +47,28 @@ class Level:
     grid: PixelGrid | None
 
 
+@dataclass(frozen=True)
+class Described:
+    """What the metadata of a group say of the largest image in it.
+
+    Parameters
+    ----------
+    path : str
+        Of its array, from the group.
+    axes : tuple of str
+        Names of the axes.
+    scale : tuple of Fraction
+        The products of all scales, one for each axis.
+    units : tuple
+        Of the axes: anything, None where there is none.
+    """
+
+    path: str
+    axes: tuple[str, ...]
+    scale: tuple[Fraction, ...]
+    units: tuple[Any, ...]
+
+
 def full_size(name: str, folder: str) -> Level | None:
     """Find the image of an OME-Zarr group; None if the group is none.
 
@@ -58,6 +84,22 @@ def full_size(name: str, folder: str) -> Level | None:
     InputError
         If its metadata are damaged, or its last two axes are not y and x.
     """
+    found = largest_image(name, folder)
+    if found is None:
+        return None
+    if list(found.axes[-2:]) != _PLANE:
+        raise InputError(f"{name} has the axes {', '.join(found.axes)}: an image has y and x for the last ones")
+    return Level(found.path, found.axes, _grid(found))
+
+
+def largest_image(name: str, folder: str) -> Described | None:
+    """Read what an OME-Zarr group says of its image, whatever its axes; None if the group is none.
+
+    Raises
+    ------
+    InputError
+        If its metadata are damaged.
+    """
     about = _ome_attributes(folder)
     scales = about.get("multiscales")
     if not scales:
@@ -67,7 +109,8 @@ def full_size(name: str, folder: str) -> Level | None:
         dataset, axes = first["datasets"][0], tuple(_axis_name(axis) for axis in first["axes"])
         path = str(dataset["path"])
         changes = [*dataset.get("coordinateTransformations", ()), *first.get("coordinateTransformations", ())]
-        grid = _grid(first["axes"], changes)
+        units = tuple(axis.get("unit") if isinstance(axis, dict) else None for axis in first["axes"])
+        found = Described(path, axes, _scale(len(axes), changes), units)
     except (AttributeError, KeyError, TypeError, ValueError, IndexError):
         raise InputError(
             f"{name}: its multiscales are no metadata of OME-Zarr 0.4 or 0.5; name an array in it"
@@ -75,9 +118,7 @@ def full_size(name: str, folder: str) -> Level | None:
     place = PurePosixPath(path)
     if place.is_absolute() or ".." in place.parts or not place.parts or "\\" in path or "\0" in path:
         raise InputError(f"{name}: its image is {path!r}, which is not in the store")
-    if list(axes[-2:]) != _PLANE:
-        raise InputError(f"{name} has the axes {', '.join(axes)}: an image has y and x for the last ones")
-    return Level(path, axes, grid)
+    return found
 
 
 def label_images(folder: str) -> list[str]:
@@ -109,19 +150,27 @@ def _ome_attributes(folder: str) -> dict[str, Any]:
     return inner if isinstance(inner, dict) else attributes
 
 
-def _grid(axes: list[Any], changes: list[dict[str, Any]]) -> PixelGrid | None:
-    """Sides of the pixels: the products of all scales, if there is a unit."""
-    sides = [Fraction(1), Fraction(1)]
+def _scale(axes: int, changes: list[dict[str, Any]]) -> tuple[Fraction, ...]:
+    """The products of all scales."""
+    sides = [Fraction(1)] * axes
     for change in changes:
         if change.get("type") == "scale":
-            sides = [
-                side * Fraction(repr(float(factor))) for side, factor in zip(sides, change["scale"][-2:], strict=True)
-            ]
-    units = {axis.get("unit") if isinstance(axis, dict) else None for axis in axes[-2:]}
+            factors = [Fraction(repr(float(factor))) for factor in change["scale"]][-axes:]
+            if len(factors) < len(_PLANE):
+                raise ValueError("a plane has two")
+            for axis, factor in enumerate(factors, axes - len(factors)):
+                sides[axis] *= factor
+    return tuple(sides)
+
+
+def _grid(found: Described) -> PixelGrid | None:
+    """Sides of the pixels, if there is a unit."""
+    height, width = found.scale[-2:]
+    units = set(found.units[-2:])
     unit = units.pop() if len(units) == 1 else None
-    if not unit or not all(1e-100 < side < 1e100 for side in sides):
+    if not unit or not all(1e-100 < side < 1e100 for side in (height, width)):
         return None
-    return PixelGrid(sides[1], sides[0], str(unit), "ome")
+    return PixelGrid(width, height, str(unit), "ome")
 
 
 def write_group(folder: Path, *, grid: PixelGrid | None, name: str, is_labels: bool) -> None:
@@ -138,16 +187,62 @@ def write_group(folder: Path, *, grid: PixelGrid | None, name: str, is_labels: b
     is_labels : bool
         Whether it is a label image.
     """
-    axes: list[dict[str, str]] = [{"name": axis, "type": "space"} for axis in _PLANE]
-    scale = [1.0, 1.0]
+    unit, scale = None, [1.0, 1.0]
     if grid is not None and grid.unit in _LONG_UNITS and grid.is_size:
-        axes = [{**axis, "unit": _LONG_UNITS[grid.unit]} for axis in axes]
-        scale = [float(grid.height), float(grid.width)]
-    dataset = {"path": "0", "coordinateTransformations": [{"type": "scale", "scale": scale}]}
-    ome: dict[str, Any] = {"version": VERSION, "multiscales": [{"name": name, "axes": axes, "datasets": [dataset]}]}
+        unit, scale = grid.unit, [float(grid.height), float(grid.width)]
+    write_image(folder, name, dict(zip(_PLANE, scale, strict=True)), unit, is_labels=is_labels)
+
+
+def write_image(folder: Path, name: str, scale: Mapping[str, float], unit: str | None, *, is_labels: bool) -> None:
+    """Write the metadata of a group whose array ``0`` is an image.
+
+    Parameters
+    ----------
+    folder : Path
+        Of the group.
+    name : str
+        Of the image.
+    scale : mapping of str to float
+        Sides of its pixels, by the names of the axes, in their order.
+    unit : str, optional
+        Of the sides; one that OME-Zarr does not know is left out.
+    is_labels : bool
+        Whether it is a label image.
+    """
+    told = {"unit": _LONG_UNITS[unit]} if unit in _LONG_UNITS else {}
+    axes = [{"name": axis, "type": "space", **told} for axis in scale]
+    datasets = [_dataset(0, list(scale.values()))]
+    ome: dict[str, Any] = {"version": VERSION, "multiscales": [{"name": name, "axes": axes, "datasets": datasets}]}
     if is_labels:
         ome["image-label"] = {}
-    made = {"zarr_format": 3, "node_type": "group", "attributes": {"ome": ome}}
+    _write_metadata(folder, {"zarr_format": 3, "node_type": "group", "attributes": {"ome": ome}})
+
+
+def add_scales(folder: Path, factors: Sequence[Sequence[int]]) -> None:
+    """Say of a group whose metadata `write_image` wrote that there are coarser images, too.
+
+    Parameters
+    ----------
+    folder : Path
+        Of the group.
+    factors : sequence of sequence of int
+        Of the arrays ``1``, ``2`` and so on: how often a pixel of ``0`` goes into one of theirs, along each axis.
+    """
+    made = read_json(folder / "zarr.json")
+    image = made["attributes"]["ome"]["multiscales"][0]
+    sides = image["datasets"][0]["coordinateTransformations"][0]["scale"]
+    for level, each in enumerate(factors, start=1):
+        scale = [side * factor for side, factor in zip(sides, each, strict=True)]
+        image["datasets"].append(_dataset(level, scale))
+    image |= {"type": "decimation", "metadata": DECIMATED}
+    _write_metadata(folder, made)
+
+
+def _dataset(level: int, scale: list[float]) -> dict[str, Any]:
+    return {"path": str(level), "coordinateTransformations": [{"type": "scale", "scale": scale}]}
+
+
+def _write_metadata(folder: Path, made: dict[str, Any]) -> None:
     (folder / "zarr.json").write_text(json.dumps(made, indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
 
 
@@ -171,10 +266,13 @@ def array_folder(store: Path, path: str | os.PathLike[str], *, grid: PixelGrid |
 
 
 def is_single_image(folder: Path) -> bool:
-    """Whether a folder is what `write_group` makes, and nothing else: what may be replaced."""
+    """Whether a folder is what is written here, and nothing else: what may be replaced."""
     try:
-        return {path.name for path in folder.iterdir()} == {"zarr.json", "0"} and "multiscales" in _ome_attributes(
-            str(folder)
-        )
-    except (OSError, InputError):
+        names = {path.name for path in folder.iterdir()}
+        scales = _ome_attributes(str(folder)).get("multiscales")
+        if not scales or names == {"zarr.json", "0"}:
+            return scales is not None and names == {"zarr.json", "0"}
+        paths = {str(each["path"]) for each in scales[0]["datasets"]}
+        return scales[0].get("metadata") == DECIMATED and names == {"zarr.json", *paths}
+    except (OSError, InputError, AttributeError, KeyError, TypeError, IndexError):
         return False

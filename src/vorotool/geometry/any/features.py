@@ -21,7 +21,6 @@ from vorotool.geometry.mesh.cells import CellSet
 from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation, DigitalTriangulation
 from vorotool.geometry.mesh.tables import edge_table, point_table, triangle_table
 from vorotool.geometry.mesh.triangulation import Triangulation
-from vorotool.geometry.pixel_grid import PixelGrid
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.points.seed_set import SeedSet
@@ -34,6 +33,7 @@ from vorotool.geometry.skeleton.offsets import Offsets
 from vorotool.geometry.skeleton.points_along import SkeletonPoints
 from vorotool.geometry.skeleton.skeleton import Skeleton
 from vorotool.geometry.skeleton.tables import ids_of
+from vorotool.geometry.spacing import SQUARE, PixelSides
 from vorotool.geometry.table import Table
 from vorotool.geometry.voronoi.shapes import cell_polygons
 from vorotool.geometry.voronoi.tables import cell_table
@@ -334,7 +334,7 @@ def _of_labels(image: LabelImage) -> Features:
     table = resolved("engines.label_images.regions:region_table")(image)
     own = {} if image.seeds is None else image.seeds.properties
     labels = np.asarray(table["voro_label" if "label" in own else "label"])
-    table = _on_map(table, image.grid, own)
+    table = _on_map(table, image, own)
     seeds, item = image.seeds, None
     if seeds is not None and seeds.site_labels is not None:
         item = np.searchsorted(seeds.site_labels, labels)
@@ -342,13 +342,14 @@ def _of_labels(image: LabelImage) -> Features:
     return Features(_regions(image, labels), table, source, item)
 
 
-def _on_map(table: Table, grid: PixelGrid | None, own: Mapping[str, Any]) -> Table:
-    """A table of regions in the unit of the map, without boxes; in pixels where the image lies on none."""
+def _on_map(table: Table, image: LabelImage, own: Mapping[str, Any]) -> Table:
+    """A table of regions in the unit of the map, without boxes; as it is where the image lies on none."""
     left_out = {"bbox_x", "bbox_y", "bbox_w", "bbox_h"}
+    grid = image.grid
     if grid is not None and grid.transform is not None:
-        if grid.is_square and grid.is_upright and grid.is_north_up:
+        if grid.is_square and grid.is_upright and grid.is_north_up and image.sides == SQUARE:
             table = scaled_table(table, grid.width, properties=own, origin=grid.centre, y_up=True)
-        else:  # a length in pixels is none on the map
+        else:  # a length in pixels, or in the unit of a spacing, is none on the map
             left_out |= LENGTHS | AREAS
     columns = table.stored().items()
     return Table(
@@ -357,7 +358,10 @@ def _on_map(table: Table, grid: PixelGrid | None, own: Mapping[str, Any]) -> Tab
 
 
 def _regions(image: LabelImage, labels: NDArray[Any]) -> NDArray[Any]:
-    """(n,) outlines of the pixels of each label, on the map where the image lies on one; None of those without."""
+    """(n,) outlines of the pixels of each label, on the map where the image lies on one, else in the unit of its sides.
+
+    None of labels without pixels.
+    """
     geometry = np.full(len(labels), None, dtype=object)
     if not image.labels.any():
         return geometry
@@ -372,7 +376,7 @@ def _regions(image: LabelImage, labels: NDArray[Any]) -> NDArray[Any]:
         geometry[row[first[several]]] = shapely.multipolygons(parts[within], indices=numbers)
     grid = image.grid
     if grid is None or grid.transform is None:
-        return geometry
+        return _in_unit(geometry, image.sides)
     assert image.frame is not None
     a, b, c, d, e, f = grid.transform
     left, top = image.frame.x - 0.5, image.frame.y - 0.5
@@ -382,6 +386,15 @@ def _regions(image: LabelImage, labels: NDArray[Any]) -> NDArray[Any]:
         return np.stack([a * column + b * row + c, d * column + e * row + f], axis=1)
 
     made: NDArray[Any] = shapely.transform(geometry, on_map)
+    return made
+
+
+def _in_unit(geometry: NDArray[Any], sides: PixelSides) -> NDArray[Any]:
+    """Shapes of pixels in the unit of their sides."""
+    if sides == SQUARE:
+        return geometry
+    height, width = (float(side) for side in sides.lengths)
+    made: NDArray[Any] = shapely.transform(geometry, lambda xy: xy * (width, height))
     return made
 
 

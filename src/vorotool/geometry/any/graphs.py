@@ -17,6 +17,7 @@ from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.skeleton.graph import skeleton_graph
 from vorotool.geometry.skeleton.skeleton import Skeleton
 from vorotool.geometry.table import Table
+from vorotool.geometry.volumes.label_volume import LabelVolume
 from vorotool.geometry.voronoi.tables import neighbour_pairs
 from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 from vorotool.products.formats import resolved
@@ -24,7 +25,7 @@ from vorotool.products.formats import resolved
 if TYPE_CHECKING:
     import networkx
 
-GraphLike = Skeleton | Triangulation | DigitalTriangulation | LabelImage | PlanarGraph | VoronoiMap
+GraphLike = Skeleton | Triangulation | DigitalTriangulation | LabelImage | LabelVolume | PlanarGraph | VoronoiMap
 """What there are graphs of."""
 
 
@@ -37,16 +38,16 @@ def to_networkx(
 
     Parameters
     ----------
-    value : Skeleton, Triangulation, DigitalTriangulation, LabelImage, PlanarGraph or VoronoiMap
+    value : Skeleton, Triangulation, DigitalTriangulation, LabelImage, LabelVolume, PlanarGraph or VoronoiMap
         Of a skeleton nodes are numbers of vertices, with ``x``, ``y`` and ``r``; edges have the number of their branch
         or arc for a key, and ``branch`` (also ``arc``), ``polygon``, ``id``, ``side``, ``kind``, ``length``, ``r_min``,
         ``r_max``, ``r_mean`` as `branch_table` has them, and ``geometry``, a shapely LineString; the properties of the
         polygon, too. Of a triangulation nodes are numbers of points, from 0, with ``x``, ``y``, ``label`` and the
-        properties, edges have ``length``. Of a label image nodes are labels, with the columns of `region_table`, edges
-        join neighbours, with those of `neighbour_table`. Of a planar graph nodes are numbers of its points, with ``x``
-        and ``y``, edges have ``segment``, ``length``, ``face_left`` and ``face_right``. Of a Voronoi map nodes are
-        numbers of its cells, from 0, with the columns of its table, edges join neighbours, with ``border_length`` and
-        ``distance``.
+        properties, edges have ``length``. Of a label image or volume nodes are labels, with the columns of
+        `region_table`, edges join neighbours, with those of `neighbour_table`. Of a planar graph nodes are numbers of
+        its points, with ``x`` and ``y``, edges have ``segment``, ``length``, ``face_left`` and ``face_right``. Of a
+        Voronoi map nodes are numbers of its cells, from 0, with the columns of its table, edges join neighbours, with
+        ``border_length`` and ``distance``.
     by : {"branch", "arc"}, optional
         What an edge of a skeleton is; by default a branch. A closed branch joins a node with itself.
     flatten : float, optional
@@ -76,7 +77,7 @@ def to_networkx(
         return _of_skeleton(_library(), value, by or "branch", flatten)
     makers: list[tuple[Any, Callable[[Any, Any], Any]]] = [
         (Triangulation | DigitalTriangulation, _of_mesh),
-        (LabelImage, _of_labels),
+        (LabelImage | LabelVolume, _of_labels),
         (PlanarGraph, _of_planar_graph),
         (VoronoiMap, _of_voronoi),
     ]
@@ -90,7 +91,7 @@ def to_networkx(
         return made
     raise UsageError(
         f"there is no graph of a {type(value).__name__}: give a Skeleton, Triangulation, DigitalTriangulation, "
-        "LabelImage, PlanarGraph or VoronoiMap"
+        "LabelImage, LabelVolume, PlanarGraph or VoronoiMap"
     )
 
 
@@ -140,14 +141,16 @@ def _of_mesh(library: Any, mesh: AnyTriangulation) -> Any:
     return graph
 
 
-def _of_labels(library: Any, image: LabelImage) -> Any:
+def _of_labels(library: Any, image: LabelImage | LabelVolume) -> Any:
     room = "engines.label_images.regions"
-    measures = resolved(f"{room}:measure_regions")(image)
+    is_volume = isinstance(image, LabelVolume)
+    measure = "engines.volumes.volume_measures:measure_volume" if is_volume else f"{room}:measure_regions"
+    measures = resolved(measure)(image)
     regions = resolved(f"{room}:region_table")(image, measures=measures)
     borders = dict(resolved(f"{room}:neighbour_table")(image, measures=measures))
     own = {} if image.seeds is None else image.seeds.properties
     labels = regions["voro_label" if "label" in own else "label"]
-    graph = library.Graph(**_named(None if image.grid is None else image.grid.crs))
+    graph = library.Graph(**_named(getattr(image.grid, "crs", None)))
     graph.add_nodes_from(zip(labels.tolist(), _rows(regions), strict=True))
     a, b = borders.pop("label_a").tolist(), borders.pop("label_b").tolist()
     graph.add_edges_from(zip(a, b, _rows(borders), strict=True))

@@ -119,7 +119,13 @@ def _scaled(part: Any, factor: Fraction, origin: Place, unit: str | None) -> Any
 
 
 def scaled_table(
-    table: Table, factor: Fraction, *, properties: Collection[str] = (), origin: Place = None, y_up: bool = False
+    table: Table,
+    factor: Fraction,
+    *,
+    properties: Collection[str] = (),
+    origin: Place = None,
+    y_up: bool = False,
+    pixel: tuple[float, float] = (1.0, 1.0),
 ) -> Table:
     """Give a table of tessellations, triangulations or alpha shapes in other units.
 
@@ -135,6 +141,8 @@ def scaled_table(
         Where the centre of the first pixel is in the new coordinates: boxes then begin at the outer sides of pixels.
     y_up : bool
         With an origin: the new y goes upwards, where the old one goes downwards.
+    pixel : (float, float)
+        With an origin: width and height of a pixel in the old units.
 
     Examples
     --------
@@ -145,12 +153,33 @@ def scaled_table(
     columns = table.stored()
     made = {name: _scaled_column(name, column, factor, properties) for name, column in columns.items()}
     if origin is not None:
-        made |= _placed_columns(columns, float(factor), origin, y_up=y_up, properties=properties)
+        made |= _placed_columns(columns, float(factor), origin, pixel, y_up=y_up, properties=properties)
     return Table(made)
 
 
+def lengths_of_steps(table: Table, step: Fraction) -> Table:
+    """Give a table whose lengths and areas are counted in steps in the unit of the step; each is rounded once.
+
+    Examples
+    --------
+    >>> lengths_of_steps(Table({"label": [1], "area": np.array([8])}), Fraction(1, 10))["area"]
+    array([0.08])
+    """
+    columns = {}
+    for name, column in table.stored().items():
+        power = step if name in LENGTHS else step * step if name in AREAS else None
+        columns[name] = column if power is None else column * float(power.numerator) / float(power.denominator)
+    return Table(columns)
+
+
 def _placed_columns(
-    columns: Mapping[str, Any], side: float, origin: tuple[float, float], *, y_up: bool, properties: Collection[str]
+    columns: Mapping[str, Any],
+    side: float,
+    origin: tuple[float, float],
+    pixel: tuple[float, float],
+    *,
+    y_up: bool,
+    properties: Collection[str],
 ) -> dict[str, Any]:
     """Coordinates on the map: of sites, and of the left and the lower side of boxes."""
     own = {"" if name in properties else name.removeprefix("voro_"): name for name in columns}
@@ -159,17 +188,19 @@ def _placed_columns(
         for name in ("x", "y", "bbox_x", "bbox_y", "bbox_h")
     )
     made: dict[str, Any] = {}
+    across, down = pixel[0] / 2, pixel[1] / 2
     if x is not None and y is not None:
         made[own["x"]] = x * side + origin[0]
         made[own["y"]] = (-y if y_up else y) * side + origin[1]
     if left is not None and top is not None and high is not None:
-        made[own["bbox_x"]] = (left - 0.5) * side + origin[0]
-        made[own["bbox_y"]] = (-(top + high - 0.5) if y_up else top - 0.5) * side + origin[1]
+        made[own["bbox_x"]] = (left - across) * side + origin[0]
+        made[own["bbox_y"]] = (-(top + high - down) if y_up else top - down) * side + origin[1]
     return made
 
 
 def _scaled_column(name: str, column: Any, factor: Fraction, properties: Collection[str]) -> Any:
     ours = "" if name in properties else name.removeprefix("voro_")
-    if ours in LENGTHS:
-        return np.ma.asanyarray(column) * float(factor)
-    return np.ma.asanyarray(column) * float(factor * factor) if ours in AREAS else column
+    if ours not in LENGTHS | AREAS:
+        return column
+    values = column if isinstance(column, np.ndarray) else np.ma.asanyarray(column)
+    return values * float(factor if ours in LENGTHS else factor * factor)

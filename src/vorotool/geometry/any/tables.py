@@ -31,6 +31,7 @@ from vorotool.geometry.skeleton.points_along import SkeletonPoints
 from vorotool.geometry.skeleton.skeleton import Skeleton
 from vorotool.geometry.skeleton.tables import arc_table
 from vorotool.geometry.table import Table
+from vorotool.geometry.volumes.label_volume import LabelVolume
 from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 from vorotool.products.formats import resolved
 
@@ -49,8 +50,8 @@ def table(value: Any) -> dict[str, NDArray[Any]]:
     Parameters
     ----------
     value : Table, or a value of the library that has one
-        What to tell about, by one row an edge of a triangulation, a region of a label image or an alpha shape, an arc
-        of a skeleton; fields that do not exist are masked, None, or NaN.
+        What to tell about, by one row an edge of a triangulation, a region of a label image, a label volume or an alpha
+        shape, an arc of a skeleton; fields that do not exist are masked, None, or NaN.
 
     Returns
     -------
@@ -108,7 +109,7 @@ def _of_seeds(seeds: SeedSet) -> IndexedTable:
     return IndexedTable(Table(columns).with_properties(seeds.properties), seeds, np.arange(len(x)))
 
 
-def _of_labels(image: LabelImage) -> IndexedTable:
+def _of_labels(image: LabelImage | LabelVolume) -> IndexedTable:
     own: Table = resolved("engines.label_images.regions:region_table")(image)
     seeds = image.seeds
     if seeds is None or seeds.site_labels is None:
@@ -156,6 +157,7 @@ _MAKERS: dict[type, Callable[[Any], IndexedTable]] = {
     PointSet: _of_points,
     SeedSet: _of_seeds,
     LabelImage: _of_labels,
+    LabelVolume: _of_labels,
     Triangulation: lambda mesh: IndexedTable(edge_table(mesh)),
     DigitalTriangulation: lambda mesh: IndexedTable(edge_table(mesh)),
     DigitalComparison: lambda found: IndexedTable(found.table),

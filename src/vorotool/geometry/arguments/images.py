@@ -182,7 +182,10 @@ def _check_shape(source: Any, name: str, *, is_grey: bool, max_pixels: int) -> N
     if len(shape) == 3 and shape[2] in COLOUR_CHANNELS and not is_grey:
         raise InputError(f"it is a colour image, {described(source)}: give {_thresholded(name)}")
     if len(shape) == 3 and shape[2] not in COLOUR_CHANNELS:
-        raise InputError(f"it is a stack of {shape[0]} images, {described(source)}: give one of them, {name}[0]")
+        raise InputError(
+            f"it is a stack of {shape[0]} images, {described(source)}: give one of them, {name}[0]; "
+            f"vorotool.tessellate takes it as a volume"
+        )
     if len(shape) not in (2, 3):
         raise unexpected(source, EXPECTED)
     pixels = shape[0] * shape[1]

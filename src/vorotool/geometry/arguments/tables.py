@@ -15,11 +15,13 @@ from vorotool.geometry.coordinate_names import (
     is_longitude_latitude,
     is_map,
     plain_name,
+    space_columns,
 )
 from vorotool.geometry.coordinates import INEXACT, first_inexact, number_array
 from vorotool.geometry.crs import LONGITUDE_LATITUDE, crs_member
 from vorotool.geometry.numbers import shown_number
 from vorotool.geometry.points.point_set import PointSet
+from vorotool.geometry.volumes.volume_points import VolumePoints
 
 ROWS_FIRST = ("y", "lat", "north", "row", "r", "i")
 """How names begin, or are, of a first column that may be the y of two."""
@@ -64,30 +66,71 @@ def points_of_table(table: Any, name: str) -> PointSet:
     >>> points.xy.tolist(), points.properties, points.y_up
     ([[8.5, 47.5]], {'town': ['a']}, True)
     """
-    names = list(table) if isinstance(table, Mapping) else column_names(table) or []
-    columns = [_column(table, place, each) for place, each in enumerate(names)]
+    names, columns = _columns_of(table)
     texts = [str(each) for each in names]
     chosen = coordinate_columns(texts) or _two_numeric(texts, columns)
     if chosen is None:
         raise _unknown(table, names, columns, name)
-    x, y, *label = chosen
+    x, y, *_ = chosen
+    is_geographic = is_longitude_latitude(texts[x], texts[y])
+    return PointSet(
+        **_taken(table, texts, columns, chosen),
+        y_up=is_map(texts[x], texts[y]),
+        crs=crs_member(LONGITUDE_LATITUDE) if is_geographic else None,
+    )
+
+
+def volume_points_of_table(table: Any) -> VolumePoints:
+    """Take coordinates of space, labels, further columns and the index of a table.
+
+    Parameters
+    ----------
+    table : data frame, structured array or mapping
+        With columns as `space_columns` finds them.
+
+    Raises
+    ------
+    InputError
+        If no columns are known as coordinates, or they do not hold numbers.
+
+    Examples
+    --------
+    >>> points = volume_points_of_table({"x": [4], "y": [5], "z": [6], "cell": ["a"]})
+    >>> points.xyz.tolist(), points.properties
+    ([[4.0, 5.0, 6.0]], {'cell': ['a']})
+    """
+    names, columns = _columns_of(table)
+    texts = [str(each) for each in names]
+    chosen = space_columns(texts)
+    if chosen is None:
+        raise InputError(f"expected columns x, y, z, but got {described(table)}; name them so")
+    taken = _taken(table, texts, columns, chosen, axes=3)
+    return VolumePoints(taken.pop("xy"), **taken)
+
+
+def _columns_of(table: Any) -> tuple[list[Any], list[Any]]:
+    """Names and columns of a table."""
+    names = list(table) if isinstance(table, Mapping) else column_names(table) or []
+    return names, [_column(table, place, each) for place, each in enumerate(names)]
+
+
+def _taken(table: Any, texts: list[str], columns: list[Any], chosen: list[int], axes: int = 2) -> dict[str, Any]:
+    """Coordinates, labels, further columns and the index, by the names that points have for them."""
     for place in chosen:
         if not hasattr(columns[place], "__len__"):
             raise InputError(f"the column {texts[place]} is {described(columns[place])}, and no list of numbers")
     lengths = {len(columns[place]) for place in chosen}
     if len(lengths) > 1:
-        raise InputError(f"the columns {texts[x]} and {texts[y]} differ in length")
-    xy = np.stack([_numbers(columns[place], texts[place]) for place in (x, y)], axis=1)
-    others = [place for place in range(len(names)) if place not in chosen]
-    is_geographic = is_longitude_latitude(texts[x], texts[y])
-    return PointSet(
-        xy,
-        _labels(columns[label[0]]) if label else None,
-        {texts[place]: listed(columns[place]) for place in others},
-        y_up=is_map(texts[x], texts[y]),
-        crs=crs_member(LONGITUDE_LATITUDE) if is_geographic else None,
-        index=index_of(table),
-    )
+        *first, last = (texts[place] for place in chosen[:axes])
+        raise InputError(f"the columns {', '.join(first)} and {last} differ in length")
+    label = chosen[axes:]
+    others = [place for place in range(len(texts)) if place not in chosen]
+    return {
+        "xy": np.stack([_numbers(columns[place], texts[place]) for place in chosen[:axes]], axis=1),
+        "labels": _labels(columns[label[0]]) if label else None,
+        "properties": {texts[place]: listed(columns[place]) for place in others},
+        "index": index_of(table),
+    }
 
 
 def index_of(value: Any) -> Any:

@@ -12,6 +12,7 @@ from vorotool.errors import InputError
 from vorotool.geometry.pixel_frame import Frame
 from vorotool.geometry.pixel_grid import PixelGrid
 from vorotool.geometry.points.seed_set import SeedSet
+from vorotool.geometry.spacing import SQUARE, PixelSides
 from vorotool.geometry.values import Geometric, Graph, Pixels, Tabular, Value, counted, placed
 
 COUNTED = 1 << 24
@@ -32,6 +33,8 @@ class LabelImage(Value, Tabular, Geometric, Graph, Pixels):
         The seeds that the labels come from.
     grid : PixelGrid, optional
         Sides and places of the pixels in units of the world; by default those of the image that the seeds come from.
+    sides : PixelSides
+        Sides of a pixel, in whose unit distances and tables are.
 
     Examples
     --------
@@ -43,6 +46,7 @@ class LabelImage(Value, Tabular, Geometric, Graph, Pixels):
     frame: Frame | None = None
     seeds: SeedSet | None = None
     grid: PixelGrid | None = None
+    sides: PixelSides = SQUARE
 
     def __post_init__(self) -> None:
         labels = self.labels
@@ -74,7 +78,7 @@ class LabelImage(Value, Tabular, Geometric, Graph, Pixels):
         if seeds is not None and frame is not None:
             last = 2 * frame.y + frame.height - 1  # y of a seed becomes last - y
             seeds = replace(seeds, y=last * seeds.scale - seeds.y)
-        return LabelImage(self.labels[::-1], frame, seeds)
+        return LabelImage(self.labels[::-1], frame, seeds, sides=self.sides)
 
     def _array(self) -> NDArray[Any]:
         return self.labels
@@ -82,6 +86,8 @@ class LabelImage(Value, Tabular, Geometric, Graph, Pixels):
     def _summary(self) -> str:
         height, width = self.shape
         size = "" if self.grid is None else f", pixels of {self.grid.size_text()}"
+        if self.sides != SQUARE:
+            size = f", spacing {self.sides.text()}"
         text = f"{width} x {height}, {self._label_count()}, {self.labels.dtype}{size}"
         return placed(text, None if self.grid is None else self.grid.crs)
 

@@ -57,19 +57,10 @@ class PointSet(Value, Tabular, Geometric, Pictured):
     index: Any = None
 
     def __post_init__(self) -> None:
-        xy = coordinate_rows(self.xy, "point")
-        finite = np.isfinite(xy)
-        bad = np.flatnonzero(~(finite[:, 0] & finite[:, 1]))  # an `all` along rows this short is slow
-        if bad.size:
-            row = int(bad[0])
-            raise InputError(
-                f"point {row + 1} is ({xy[row, 0]}, {xy[row, 1]}): coordinates must be finite; "
-                f"remove or repair it ({bad.size} such points)"
-            )
-        object.__setattr__(self, "xy", xy)
+        object.__setattr__(self, "xy", finite_rows(self.xy, 2))
         if self.labels is not None:
-            object.__setattr__(self, "labels", _checked_labels(self.labels, len(xy)))
-        check_index(self.index, len(xy), "point")
+            object.__setattr__(self, "labels", checked_labels(self.labels, len(self.xy)))
+        check_index(self.index, len(self.xy), "point")
 
     def __len__(self) -> int:
         return len(self.xy)
@@ -93,7 +84,44 @@ def known_of_points(points: Any) -> dict[str, Any]:
     return {name: getattr(points, name) for name in ("labels", "properties", "y_up", "crs", "index")}
 
 
-def _checked_labels(labels: Any, count: int) -> NDArray[np.int64]:
+def finite_rows(values: Any, axes: int) -> NDArray[np.float64]:
+    """Copy the coordinates of points, all of them finite.
+
+    Raises
+    ------
+    InputError
+        If they are not, or no (n, axes) array of numbers; the row is named.
+
+    Examples
+    --------
+    >>> finite_rows([[0, 1, 2]], 3)
+    array([[0., 1., 2.]])
+    """
+    rows = coordinate_rows(values, "point", axes)
+    finite = np.isfinite(rows)
+    bad = np.flatnonzero(~np.logical_and.reduce(finite.T))  # an `all` along rows this short is slow
+    if bad.size:
+        row = int(bad[0])
+        raise InputError(
+            f"point {row + 1} is ({', '.join(map(str, rows[row].tolist()))}): coordinates must be finite; "
+            f"remove or repair it ({bad.size} such points)"
+        )
+    return rows
+
+
+def checked_labels(labels: Any, count: int) -> NDArray[np.int64]:
+    """Give the labels of so many points, each from 1 to 4294967295.
+
+    Raises
+    ------
+    InputError
+        If they are not; the point is named.
+
+    Examples
+    --------
+    >>> checked_labels([7, 3], 2)
+    array([7, 3])
+    """
     array = whole_numbers(labels, "label of point", np.int64)
     if array.shape != (count,):
         raise InputError(f"labels must have shape ({count},), but have shape {array.shape}")

@@ -123,6 +123,18 @@ def has_numbers(shape: tuple[int, int]) -> bool:
     return max(shape) <= MOST_NUMBERED
 
 
+def aspect_of(image: LabelImage) -> float:
+    """Give how much higher than wide a pixel is.
+
+    Examples
+    --------
+    >>> from vorotool.geometry.spacing import pixel_sides
+    >>> aspect_of(LabelImage(np.array([[1]]), sides=pixel_sides((1.5, 0.5))))
+    3.0
+    """
+    return image.sides.y / image.sides.x
+
+
 def check_size(shape: tuple[int, int], fmt: str = "SVG") -> None:
     """Refuse an image that is too large for a picture with a path a label, as SVG or on a page.
 
@@ -142,28 +154,33 @@ def check_size(shape: tuple[int, int], fmt: str = "SVG") -> None:
 class _Page:
     """Where pixels are on the page: it is as wide as the image and 2 % of its larger side as a margin.
 
-    Over another image it has that one's size.
+    Pixels have the aspect of their sides. Over another image it has that one's size.
     """
 
     def __init__(self, image: LabelImage, width: int, backdrop: Backdrop | None, style: PictureStyle) -> None:
         rows, columns = image.shape
-        margin = _MARGIN * max(rows, columns)
+        aspect = aspect_of(image)
+        margin = _MARGIN * max(rows * aspect, columns)
         self.image, self.width, self.backdrop, self.style = image, width, backdrop, style
         if backdrop is not None:
             self.height, self.width = backdrop.pixels.shape[:2]
-            self.scale, self.offset = 1.0, 0.0
+            self.scale = self.scale_down = 1.0
+            self.offset = 0.0
             return
         self.scale = width / (columns + 2 * margin)
+        self.scale_down = self.scale * aspect
         self.offset = margin * self.scale
-        self.height = max(1, round((rows + 2 * margin) * self.scale))
+        self.height = max(1, round((rows * aspect + 2 * margin) * self.scale))
 
-    def corner(self, index: int) -> str:
-        """Return the page coordinate, across or down, of a line of the lattice of pixel corners."""
-        return _short(index * self.scale + self.offset)
+    def corners(self) -> tuple[list[str], list[str]]:
+        """Return the page coordinates, across and down, of the lines of the lattice of pixel corners."""
+        rows, columns = self.image.shape
+        across = [_short(index * self.scale + self.offset) for index in range(columns + 1)]
+        return across, [_short(index * self.scale_down + self.offset) for index in range(rows + 1)]
 
     def place(self, x: float, y: float) -> tuple[str, str]:
         """Return the page coordinates of a point given in pixels, whose centres are at integers."""
-        return _short((x + 0.5) * self.scale + self.offset), _short((y + 0.5) * self.scale + self.offset)
+        return _short((x + 0.5) * self.scale + self.offset), _short((y + 0.5) * self.scale_down + self.offset)
 
     def seeds(self) -> NDArray[np.float64]:
         """(k, 2) positions in pixels of the image, of the seeds that lie in it."""
@@ -223,17 +240,18 @@ def _stroke(page: _Page, layer: str, usual: str, *, wider: bool = False) -> str:
 
 def _paths(page: _Page, labels: NDArray[np.integer]) -> Iterator[tuple[int, str]]:
     """Each label, and its outline in the coordinates of the page."""
-    corners = [page.corner(index) for index in range(max(labels.shape) + 1)]
+    corners = page.corners()
     for label, loops in crack_loops(labels):
         yield label, "".join(_loop_path(loop, corners) for loop in loops)
 
 
-def _loop_path(loop: Loop, corners: list[str]) -> str:
+def _loop_path(loop: Loop, corners: tuple[list[str], list[str]]) -> str:
     """Horizontal and vertical steps in turn; the last one closes the loop."""
     (x, y), steps = loop[0], []
+    across, down = corners
     for number, (next_x, next_y) in enumerate(loop[1:]):
-        steps.append(f"V{corners[next_y]}" if number % 2 else f"H{corners[next_x]}")
-    return f"M{corners[x]} {corners[y]}{''.join(steps)}Z"
+        steps.append(f"V{down[next_y]}" if number % 2 else f"H{across[next_x]}")
+    return f"M{across[x]} {down[y]}{''.join(steps)}Z"
 
 
 def _numbers(page: _Page, mark_seeds: bool) -> Iterator[str]:
@@ -244,7 +262,7 @@ def _numbers(page: _Page, mark_seeds: bool) -> Iterator[str]:
         column, row = np.floor(page.seeds() + 0.5).astype(np.int64).T
         marked[row, column] = True
     digits = len(str(int(labels.max())))
-    size = page.scale * min(0.5, 1.3 / max(digits, 1))
+    size = min(page.scale_down * 0.5, page.scale * min(0.5, 1.3 / max(digits, 1)))
     style = f'text-anchor="middle" font-family="Helvetica, Arial, sans-serif" font-size="{_short(size)}"'
     yield f'<g id="labels" {style} fill="{page.style.of("labels")[0] or INK}">'
     yield from _texts(page, ~marked, size, "")
@@ -256,7 +274,7 @@ def _numbers(page: _Page, mark_seeds: bool) -> Iterator[str]:
 
 
 def _texts(page: _Page, chosen: NDArray[np.bool_], size: float, attributes: str) -> Iterator[str]:
-    below_centre = 0.36 * size / page.scale  # half the height of a digit
+    below_centre = 0.36 * size / page.scale_down  # half the height of a digit
     for row, column in np.argwhere(chosen).tolist():
         label = int(page.image.labels[row, column])
         x, y = page.place(column, row + below_centre)
@@ -271,7 +289,7 @@ def _names(page: _Page, names: Names) -> Iterator[str]:
     style = f'text-anchor="middle" font-family="Helvetica, Arial, sans-serif" font-size="{_short(size)}"'
     yield f'<g id="labels" {style} fill="{page.style.of("labels")[0] or INK}" {halo_style(WHITE, size)}>'
     for text, (column, row) in zip(names.texts, names.places.tolist(), strict=True):
-        x, y = page.place(column, row + CAPITAL * size / page.scale / 2)
+        x, y = page.place(column, row + CAPITAL * size / page.scale_down / 2)
         yield f'<text x="{x}" y="{y}">{escape(text)}</text>'
     yield "</g>"
 

@@ -16,6 +16,7 @@ from vorotool.errors import LimitError
 from vorotool.geometry.curves.flatten import FLATTEN
 from vorotool.geometry.mesh.cells import CellSet
 from vorotool.geometry.ragged import starts_of
+from vorotool.geometry.spacing import SQUARE, PixelSides
 from vorotool.geometry.voronoi.shapes import cell_rings
 from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 from vorotool.products.formats import AS_SVG
@@ -87,8 +88,10 @@ def shapes_of_map(cells: VoronoiMap, *, y_up: bool | None = None) -> Shapes:
     return Shapes(xy, rings, cells.polygon_start[cells.cell_start], ids, (x, y, x + w, y + h), up)
 
 
-def shapes_of_labels(labels: NDArray[Any], *, y_up: bool = False) -> Shapes:
+def shapes_of_labels(labels: NDArray[Any], *, y_up: bool = False, sides: PixelSides = SQUARE) -> Shapes:
     """Give the outlines of the labels of an image along the cracks between its pixels; 0 is none.
+
+    They are in the unit of the sides of a pixel.
 
     Examples
     --------
@@ -102,8 +105,9 @@ def shapes_of_labels(labels: NDArray[Any], *, y_up: bool = False) -> Shapes:
     ids = [str(label) for label, _ in found]
     rings = starts_of(np.array([len(loop) for loop in loops], dtype=np.int64))
     shapes = starts_of(np.array([len(own) for _, own in found], dtype=np.int64))
+    down, across = map(float, sides.lengths)
     height, width = labels.shape
-    return Shapes(xy, rings, shapes, ids, (0.0, 0.0, float(width), float(height)), y_up)
+    return Shapes(xy * (across, down), rings, shapes, ids, (0.0, 0.0, width * across, height * down), y_up)
 
 
 def write_cells_html(out: BinaryIO, shapes: Shapes, classes: ArrayLike, columns: Mapping[str, Sequence[Any]]) -> None:
@@ -167,18 +171,24 @@ def _data(shapes: Shapes, classes: NDArray[Any], columns: Mapping[str, Sequence[
     return {
         "width": float(span[0]) / size or 1e-9,
         "height": float(span[1]) / size or 1e-9,
-        "xy": _packed(np.stack([points[:, 0] - low[0], y], axis=1) / size, "<f4"),
-        "rings": _packed(shapes.rings, "<i4"),
-        "shapes": _packed(shapes.shapes, "<i4"),
-        "classes": _packed(classes, "<i4"),
+        "xy": packed(np.stack([points[:, 0] - low[0], y], axis=1) / size, "<f4"),
+        "rings": packed(shapes.rings, "<i4"),
+        "shapes": packed(shapes.shapes, "<i4"),
+        "classes": packed(classes, "<i4"),
         "colours": [cell_colour(number) for number in range(int(classes.max(initial=0)) + 1)],
         "ids": list(shapes.ids),
-        "columns": [{"name": name, "values": [_json_value(each) for each in own]} for name, own in columns.items()],
+        "columns": [{"name": name, "values": [json_value(each) for each in own]} for name, own in columns.items()],
     }
 
 
-def _json_value(value: Any) -> Any:
-    """Numbers and texts as JSON has them; what is missing or no number is None."""
+def json_value(value: Any) -> Any:
+    """Give a number or a text as JSON has them; what is missing or no number is None.
+
+    Examples
+    --------
+    >>> json_value(np.int64(3)), json_value(float("nan"))
+    (3, None)
+    """
     if value is np.ma.masked:
         return None
     value = value.item() if isinstance(value, np.generic) else value
@@ -187,5 +197,12 @@ def _json_value(value: Any) -> Any:
     return value if value is None or isinstance(value, bool | int | str) else str(value)
 
 
-def _packed(values: NDArray[Any], dtype: DTypeLike) -> str:
+def packed(values: NDArray[Any], dtype: DTypeLike) -> str:
+    """Give the bytes of an array as text.
+
+    Examples
+    --------
+    >>> packed(np.array([1, 2]), "<i1")
+    'AQI='
+    """
     return b64encode(np.ascontiguousarray(values, dtype=dtype).tobytes()).decode()

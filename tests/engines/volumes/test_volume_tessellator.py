@@ -9,13 +9,23 @@ from skimage import segmentation
 
 import vorotool
 from vorotool import _core
-from vorotool.engines.volumes.volume_sweep import VolumeSweep, outer_voxels
+from vorotool.engines.peers.arguments import bare_seeds
+from vorotool.engines.volumes.inner_voxels import outer_voxels
+from vorotool.engines.volumes.volume_tessellator import VolumeSweep
 from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.geometry.spacing import PixelSides
 
 LEVELS = ("portable", "avx2", "avx512")
 WAYS = ("rows", "bricks")
 KINDS = ("uniform", "lattice", "plane", "line", "sphere", "outside")
+
+
+pytestmark = pytest.mark.filterwarnings("ignore:.*lie on another seed")
+
+
+def swept(places, labels, shape, **known):
+    """The sweep of voxels: slice, row and column of each."""
+    return VolumeSweep(bare_seeds(places, labels, shape), **known)
 
 
 def brute(places, labels, shape, units):
@@ -59,7 +69,7 @@ def test_every_voxel_has_the_smallest_label_of_its_nearest_seeds(kind, level, se
     sides = PixelSides(units)
     monkeypatch.setenv("VOROTOOL_SIMD", level)
     try:
-        sweeps = [VolumeSweep(places, labels, shape, sides=sides, threads=1 + seed % 2, way=way) for way in WAYS]
+        sweeps = [swept(places, labels, shape, sides=sides, threads=1 + seed % 2, way=way) for way in WAYS]
     except UsageError:
         pytest.skip("this machine has it not")
     nearest, least = brute(places, labels, shape, units)
@@ -69,7 +79,7 @@ def test_every_voxel_has_the_smallest_label_of_its_nearest_seeds(kind, level, se
         assert np.array_equal(sweep.squared_distances(), least)
         slices = [sweep.labels(k, 1) for k in range(shape[0])]
         assert np.array_equal(np.concatenate(slices), nearest)
-        limited = VolumeSweep(places, labels, shape, sides=sides, max_distance=limit, way=way)
+        limited = swept(places, labels, shape, sides=sides, max_distance=limit, way=way)
         assert np.array_equal(limited.labels(), np.where(least <= limit * limit, nearest, 0))
 
 
@@ -81,7 +91,7 @@ def test_every_voxel_has_the_smallest_label_of_its_nearest_seeds(kind, level, se
 def test_every_arithmetic_is_exact(units, arithmetic, kind):
     random = np.random.default_rng(4)
     places, labels = seeds_of(random, kind, 80, (17, 21, 25))
-    sweep = VolumeSweep(places, labels, (17, 21, 25), sides=PixelSides(units))
+    sweep = swept(places, labels, (17, 21, 25), sides=PixelSides(units))
     assert kind == "outside" or sweep.arithmetic == arithmetic
     nearest, least = brute(places, labels, (17, 21, 25), units)
     assert np.array_equal(sweep.labels(), nearest)
@@ -93,12 +103,12 @@ def test_axes_may_be_exchanged(axes):
     random = np.random.default_rng(6)
     shape, units = (12, 30, 21), (5, 2, 3)
     places, labels = seeds_of(random, "lattice", 70, shape)
-    whole = VolumeSweep(places, labels, shape, sides=PixelSides(units)).labels()
-    turned = VolumeSweep(
+    whole = swept(places, labels, shape, sides=PixelSides(units)).labels()
+    turned = swept(
         places[:, axes], labels, tuple(shape[k] for k in axes), sides=PixelSides(tuple(units[k] for k in axes))
     )
     assert np.array_equal(turned.labels(), whole.transpose(axes))
-    mirrored = VolumeSweep(np.array(shape) - 1 - places, labels, shape, sides=PixelSides(units))
+    mirrored = swept(np.array(shape) - 1 - places, labels, shape, sides=PixelSides(units))
     assert np.array_equal(mirrored.labels(), whole[::-1, ::-1, ::-1])
 
 
@@ -108,15 +118,15 @@ def test_a_slice_is_an_image():
     labels = np.arange(1, len(points) + 1, dtype=np.uint32)
     flat = vorotool.tessellate(points, shape=(90, 90)).labels
     places = np.stack([np.zeros(len(points), np.int64), points[:, 1], points[:, 0]], axis=1)
-    assert np.array_equal(VolumeSweep(places, labels, (1, 90, 90)).labels()[0], flat)
-    assert np.array_equal(VolumeSweep(places[:, [1, 0, 2]], labels, (90, 1, 90)).labels()[:, 0], flat)
+    assert np.array_equal(swept(places, labels, (1, 90, 90)).labels()[0], flat)
+    assert np.array_equal(swept(places[:, [1, 0, 2]], labels, (90, 1, 90)).labels()[:, 0], flat)
 
 
 def test_many_slabs_give_what_one_gives():
     random = np.random.default_rng(9)
     shape = (220, 200, 190)  # more voxels than a slab has
     places, labels = random.integers(0, shape, (500, 3)), np.arange(1, 501, dtype=np.uint32)
-    sweep = VolumeSweep(places, labels, shape, threads=2)
+    sweep = swept(places, labels, shape, threads=2)
     whole = sweep.labels()
     assert np.array_equal(whole[100:103], sweep.labels(100, 3))
     at = random.integers(0, shape, (2000, 3))
@@ -134,7 +144,7 @@ def test_both_ways_agree_where_blocks_are_cut(density, units, first_label):
     places = places[(places[:, 0] < 60) | (places[:, 2] < 40)]  # an empty part
     labels = first_label + random.permutation(len(places)).astype(np.uint32)
     sides = PixelSides(units)
-    rows, bricks = (VolumeSweep(places, labels, shape, sides=sides, threads=2, way=way) for way in WAYS)
+    rows, bricks = (swept(places, labels, shape, sides=sides, threads=2, way=way) for way in WAYS)
     assert np.array_equal(rows.labels(), bricks.labels())
     assert np.array_equal(rows.squared_distances(), bricks.squared_distances())
     assert np.array_equal(rows.labels(40, 7), bricks.labels(40, 7))
@@ -143,7 +153,7 @@ def test_both_ways_agree_where_blocks_are_cut(density, units, first_label):
 def test_outputs_are_written_where_they_are_given():
     random = np.random.default_rng(11)
     places, labels = random.integers(0, 20, (30, 3)), np.arange(1, 31, dtype=np.uint32)
-    sweep = VolumeSweep(places, labels, (20, 20, 20))
+    sweep = swept(places, labels, (20, 20, 20))
     for dtype in (np.uint8, np.uint16, np.uint32, np.int32):
         out = np.empty((20, 20, 20), dtype)
         assert sweep.labels(out=out) is out
@@ -156,7 +166,7 @@ def test_outputs_are_written_where_they_are_given():
     with pytest.raises(UsageError, match="of type uint32"):
         sweep.squared_distances(out=np.empty((20, 20, 20), np.uint64))
     with pytest.raises(ValueError, match="the way is"):
-        VolumeSweep(places, labels, (20, 20, 20), way="best")
+        swept(places, labels, (20, 20, 20), way="best")
 
 
 def test_outputs_that_do_not_fit_are_refused():

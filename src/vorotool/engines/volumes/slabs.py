@@ -1,0 +1,157 @@
+"""Slabs of slices of a tessellation that are computed apart, each from the seeds that it needs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.engines.volumes.volume_measures import volume_diagram
+from vorotool.engines.volumes.volume_tessellator import VolumeSweep
+from vorotool.geometry.progress import Progress
+from vorotool.geometry.spacing import PixelSides
+from vorotool.geometry.volumes.label_volume import CUBE
+from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
+from vorotool.geometry.volumes.voxel_frame import VoxelFrame
+
+Quantity = Literal["labels", "distance", "distance2", "diagram"]
+
+
+def with_neighbours(frame: VoxelFrame, first: int, slices: int) -> tuple[int, int]:
+    """Give the first slice and the number of slices, with one more on each side where the frame has one.
+
+    Examples
+    --------
+    >>> with_neighbours(VoxelFrame(0, 0, 0, 9, 9, 5), 0, 3), with_neighbours(VoxelFrame(0, 0, 0, 9, 9, 5), 3, 2)
+    ((0, 4), (2, 3))
+    """
+    begin, end = max(first - 1, 0), min(first + slices + 1, frame.depth)
+    return begin, end - begin
+
+
+@dataclass(frozen=True)
+class SeedSlab:
+    """Slices of a tessellation, with the seeds that they need: it can be pickled.
+
+    Parameters
+    ----------
+    seeds : VolumeSeeds
+        Enough of them.
+    frame : VoxelFrame
+        The whole volume.
+    first, slices : int
+        Which slices.
+    what : {"labels", "distance", "distance2", "diagram"}
+        What is computed.
+    dtype : dtype
+        Its type, which is that of the whole volume.
+    sides : PixelSides
+        Of a voxel.
+    max_distance : Fraction or float, optional
+        Of labels.
+    """
+
+    seeds: VolumeSeeds
+    frame: VoxelFrame
+    first: int
+    slices: int
+    what: Quantity
+    dtype: np.dtype[Any]
+    sides: PixelSides = CUBE
+    max_distance: float | Fraction | None = None
+
+    def rows(self, *, threads: int = 0, progress: Progress = None) -> NDArray[Any]:
+        """Compute the slices.
+
+        Examples
+        --------
+        >>> seeds = VolumeSeeds(np.array([[0, 0, 0], [4, 0, 9]]), np.array([1, 2]))
+        >>> frame = VoxelFrame(0, 0, 0, 5, 1, 10)
+        >>> SeedSlab(seeds, frame, 5, 1, "labels", np.dtype(np.uint8)).rows()
+        array([[[1, 2, 2, 2, 2]]], dtype=uint8)
+        """
+        sweep = VolumeSweep(
+            self.seeds,
+            self.frame,
+            sides=self.sides,
+            max_distance=self.max_distance,
+            threads=threads,
+            progress=progress,
+        )
+        if self.what == "labels":
+            return sweep.labels(self.first, self.slices, dtype=self.dtype)
+        if self.what == "diagram":
+            begin, count = with_neighbours(self.frame, self.first, self.slices)
+            lines = volume_diagram(sweep.labels(begin, count), threads=threads)
+            return lines[self.first - begin :][: self.slices]
+        if self.what == "distance":
+            return sweep.distances(self.first, self.slices)
+        return sweep.squared_distances(self.first, self.slices, dtype=self.dtype)
+
+
+class SeedSlabs:
+    """Cuts seeds into those that slabs of slices need.
+
+    In each column of seeds along z a voxel's nearest one is within the slices of its slab, or it is the nearest before
+    these, or behind. So a slab needs the seeds in its slices and two lists with at most one seed a column: any slab is
+    computed apart from the others, with the same result.
+
+    Parameters
+    ----------
+    seeds : VolumeSeeds
+        All of them.
+    frame : VoxelFrame
+        The whole volume.
+
+    Examples
+    --------
+    >>> places = np.array([[3, 3, 0], [3, 3, 1], [3, 3, 9], [8, 8, 0]])
+    >>> slabs = SeedSlabs(VolumeSeeds(places, np.array([1, 2, 3, 4])), VoxelFrame(0, 0, 0, 9, 9, 10))
+    >>> slabs.seeds_of(4, 2).labels.tolist()
+    [4, 2, 3]
+    """
+
+    def __init__(self, seeds: VolumeSeeds, frame: VoxelFrame) -> None:
+        self.frame, self.seeds = frame, seeds
+        order = np.lexsort((seeds.labels, seeds.x, seeds.y, seeds.z))  # rows stay whole, with what is inside objects
+        places = seeds.places[order]
+        is_first = np.ones(len(order), bool)  # of those at one place: the one with the smallest label
+        is_first[1:] = (places[1:] != places[:-1]).any(axis=1)
+        self._places, self._labels = places[is_first], seeds.labels[order][is_first]
+        self._filled = None if seeds.filled is None else seeds.filled[order][is_first]
+        x, y, _ = self._places.T
+        by_column = np.lexsort((y, x))
+        is_next = (x[by_column][1:] != x[by_column][:-1]) | (y[by_column][1:] != y[by_column][:-1])
+        self._column = np.empty(len(by_column), np.int64)
+        self._column[by_column] = np.append(0, np.cumsum(is_next))[: len(by_column)]
+        self._columns = int(self._column.max(initial=-1)) + 1
+
+    def seeds_of(self, first: int, slices: int) -> VolumeSeeds:
+        """Give the seeds that some slices of the frame need, from the first to the last."""
+        scale, z = self.seeds.scale, self._places[:, 2]
+        top = scale * (self.frame.z + first)
+        before, behind = np.searchsorted(z, [top, top + scale * slices])
+        above, below = self._nearest(np.arange(before)), self._nearest(np.arange(behind, len(z))[::-1])
+        chosen = np.concatenate([above, np.arange(before, behind), below])
+        filled = None
+        if self._filled is not None:
+            filled = np.zeros(len(chosen), bool)
+            filled[len(above) : len(chosen) - len(below)] = self._filled[before:behind]
+        return VolumeSeeds(
+            self._places[chosen],
+            self._labels[chosen],
+            scale=scale,
+            frame=self.seeds.frame,
+            sites=np.empty((0, 3)),
+            site_labels=np.empty(0, np.uint32),
+            filled=filled,
+        )
+
+    def _nearest(self, seeds: NDArray[np.intp]) -> NDArray[np.intp]:
+        """The last seed in each column, of seeds in the order in which they come nearer."""
+        nearest = np.full(self._columns, -1)
+        nearest[self._column[seeds]] = seeds  # of values for one index the last one stays
+        return np.sort(nearest[nearest >= 0])

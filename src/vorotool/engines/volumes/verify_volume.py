@@ -1,0 +1,128 @@
+"""An exact check of tessellations of volumes, by another way than the one that makes them."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Any
+
+from numpy.typing import NDArray
+
+from vorotool import _core
+from vorotool.engines.common.label_arrays import label_array
+from vorotool.engines.tessellation.frames import squared_limit
+from vorotool.engines.tessellation.verify_tessellation import on_lattice, split_limit
+from vorotool.errors import InputError, UsageError, VerificationError
+from vorotool.geometry.checks import checked_threads
+from vorotool.geometry.progress import Progress
+from vorotool.geometry.spacing import PixelSides, distance_as_written
+from vorotool.geometry.volumes.label_volume import CUBE, LabelVolume
+from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
+from vorotool.geometry.volumes.voxel_frame import VoxelFrame
+
+
+def verify_volume(volume: LabelVolume, *, max_distance: float | Fraction | None = None, threads: int = 0) -> None:
+    """Check that every voxel of a tessellation has the smallest label of its nearest seeds.
+
+    Parameters
+    ----------
+    volume : LabelVolume
+        With its seeds.
+    max_distance : float or Fraction, optional
+        The limit that the tessellation was made with.
+    threads : int
+        0 uses all.
+
+    Raises
+    ------
+    VerificationError
+        If a label is wrong; the first such voxel is named.
+    UsageError
+        If the volume carries no seeds.
+
+    Examples
+    --------
+    >>> seeds = VolumeSeeds(np.array([[0, 0, 0], [2, 0, 0]]), np.array([1, 2]))
+    >>> verify_volume(LabelVolume(np.array([[[1, 1, 2]]]), seeds=seeds))
+    """
+    seeds, frame, sides = volume.seeds, volume.frame, volume.sides
+    if seeds is None or frame is None:
+        raise UsageError("the label volume carries no seeds: make it with vorotool.tessellate")
+    limit = squared_limit(distance_as_written(max_distance, sides), seeds.scale / sides.step)
+    verify_label_volume(volume.labels, seeds, frame, sides=sides, max_distance2=limit, threads=threads)
+
+
+def verify_label_volume(
+    labels: NDArray[Any],
+    seeds: VolumeSeeds,
+    frame: VoxelFrame,
+    *,
+    sides: PixelSides = CUBE,
+    max_distance2: int | None = None,
+    threads: int = 0,
+    progress: Progress = None,
+) -> None:
+    """Check the tessellation of a volume exactly, by another way than the one that makes it.
+
+    Every voxel must have the label of the nearest seed, ties to the smallest label; the nearest seed is found
+    in a k-d tree with integers of 64 or 128 bits.
+
+    Parameters
+    ----------
+    labels : (D, H, W) integer array
+        The labels to check: of all slices, or of those of `frame`.
+    seeds : VolumeSeeds
+        All seeds, also those outside the frame; coordinates up to 2^40 lattice steps.
+    frame : VoxelFrame
+        Where the voxels lie.
+    sides : PixelSides
+        Of a voxel, on the lattice.
+    max_distance2 : int, optional
+        Squared distance in lattice steps; voxels beyond it must be 0.
+    threads : int
+        0 for all.
+    progress : callable, optional
+        Called with the fraction done.
+
+    Raises
+    ------
+    VerificationError
+        If a voxel is wrong: the message counts them and names the first by slice, row and column.
+    InputError
+        If the shapes differ, or coordinates are beyond 2^40 lattice steps.
+
+    Examples
+    --------
+    >>> seeds = VolumeSeeds(np.array([[0, 0, 0], [2, 0, 0]]), np.array([1, 2]))
+    >>> verify_label_volume(np.array([[[1, 1, 2]]]), seeds, VoxelFrame(0, 0, 0, 3, 1, 1))
+    >>> verify_label_volume(np.array([[[1, 2, 2]]]), seeds, VoxelFrame(0, 0, 0, 3, 1, 1))
+    Traceback (most recent call last):
+        ...
+    vorotool.errors.VerificationError: 1 of 3 voxels is wrong: the first, (x, y, z) = (1, 0, 0), has label 2, not 1
+    """
+    volume = LabelVolume(labels, frame)
+    high, low = split_limit(max_distance2)
+    steps = sides.units[::-1]
+    x, y, z = (on_lattice(axis, side) for axis, side in zip(seeds.places.T, steps, strict=True))
+    try:
+        wrong = _core.volumes.verify_volume(
+            label_array(volume.labels, "voxel"),
+            (frame.x, frame.y, frame.z),
+            x,
+            y,
+            z,
+            seeds.labels,
+            (seeds.scale * steps[0], seeds.scale * steps[1], seeds.scale * steps[2]),
+            high,
+            low,
+            checked_threads(threads),
+            progress,
+        )
+    except IndexError as error:
+        raise InputError(f"cannot verify: {error}; move the frame and the seeds nearer to the origin") from error
+    if wrong.count:
+        column, row, slice_ = wrong.first
+        raise VerificationError(
+            f"{wrong.count} of {frame.voxels} voxels {'is' if wrong.count == 1 else 'are'} wrong: the first, (x, y, z) "
+            f"= ({frame.x + column}, {frame.y + row}, {frame.z + slice_}), has label "
+            f"{volume.labels[slice_, row, column]}, not {wrong.right}"
+        )

@@ -1,0 +1,267 @@
+"""Tables of a label volume: its regions, and which are neighbours."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.engines.common.label_arrays import label_array
+from vorotool.engines.common.site_rows import largest_by_label, nearest_sites, rows_of, spread
+from vorotool.engines.volumes.volume_measures import VolumeMeasures, labelled, measure_volume
+from vorotool.errors import InputError
+from vorotool.geometry.checks import checked_threads
+from vorotool.geometry.numbers import finite_double
+from vorotool.geometry.progress import Progress
+from vorotool.geometry.spacing import PixelSides
+from vorotool.geometry.table import Table
+from vorotool.geometry.volumes.label_volume import LabelVolume
+
+if TYPE_CHECKING:
+    from vorotool.typing import VolumeLike
+
+_AXES = ("x", "y", "z")
+_SIDES = ("w", "h", "d")
+
+
+def volume_table(
+    volume: VolumeLike,
+    *,
+    distance2: NDArray[Any] | None = None,
+    distance_scale: int | None = None,
+    measures: VolumeMeasures | None = None,
+    properties: bool = True,
+    threads: int = 0,
+    progress: Progress = None,
+) -> Table:
+    """Tabulate the regions of a tessellation: one row a site, in increasing label order.
+
+    Parameters
+    ----------
+    volume : LabelVolume, or (D, H, W) array of integers or truth values
+        With ``seeds``, every site has a row, also one without voxels: its volume is 0, and its bounding box,
+        ``touches_frame`` and ``max_distance`` do not exist. Without ``seeds`` every label that occurs has a row, and
+        the centroid of its region is its site.
+    distance2 : (D, H, W) integer array, optional
+        Squared distance of each voxel to its site, in steps of the sides of the volume over ``distance_scale``; without
+        it ``max_distance`` does not exist.
+    distance_scale : int, optional
+        Lattice steps a voxel of ``distance2``; by default the scale of the seeds, else 1.
+    measures : VolumeMeasures, optional
+        The result of `measure_volume` for this volume.
+    properties : bool
+        Whether to add the input's own columns.
+    threads : int
+        0 for all; the result is the same for any number.
+    progress : callable, optional
+        Called with the fraction done.
+
+    Returns
+    -------
+    Table
+        ``label, x, y, z, volume, surface, neighbours, nearest_label, nearest_distance, touches_frame, max_distance,
+        components, bbox_x, bbox_y, bbox_z, bbox_w, bbox_h, bbox_d`` (and ``object_volume`` for objects of several
+        voxels), in the unit of the ``sides`` of the volume; where these are 1, what is counted is an integer.
+        ``surface`` is the area of the faces between a region and anything else, those on the frame included.
+        ``neighbours`` counts the labels that share a face; ``components`` are 6-connected. ``nearest_label`` is the
+        site nearest to (x, y, z), ties to the smallest label. Fields that do not exist are masked.
+
+    Raises
+    ------
+    InputError
+        If a label of the volume is none of the seeds, or ``distance2`` does not fit the volume.
+
+    Examples
+    --------
+    >>> table = volume_table(np.array([[[1, 1, 2]], [[1, 2, 2]]], dtype=np.uint16))
+    >>> table["surface"].tolist(), table["nearest_label"].tolist()
+    ([14, 14], [2, 1])
+    """
+    volume = labelled(volume)
+    threads = checked_threads(threads)
+    measures = measures or measure_volume(volume, threads=threads, progress=progress)
+    if distance_scale is not None:
+        finite_double(distance_scale, "distance_scale")
+    labels, sites = _sites(volume, measures)
+    rows = _rows_of(measures.labels, labels, volume)
+    step, count = volume.sides.step, len(labels)
+    nearest_label, nearest_distance = nearest_sites(labels, sites, threads, progress)
+    degree = np.bincount(measures.borders.ravel(), minlength=len(measures.labels)).astype(np.int64)
+    voxels = spread(measures.voxels, rows, count)
+    absent = voxels == 0
+    largest = _largest_distance(volume, distance2, distance_scale, labels, threads, progress)
+    columns: dict[str, Any] = {
+        "label": labels.astype(np.int64),
+        **{name: _times(sites[:, axis].copy(), step) for axis, name in enumerate(_AXES)},
+        "volume": _volumes(voxels, volume.sides),
+        "surface": _areas(spread(measures.faces, rows, count), volume.sides),
+        "neighbours": spread(degree, rows, count),
+        "nearest_label": nearest_label,
+        "nearest_distance": _times(nearest_distance, step),
+        "touches_frame": np.ma.array(
+            spread(measures.touches_frame(volume.shape).astype(np.int64), rows, count), mask=absent
+        ),
+        "max_distance": np.ma.array(_times(largest, step), mask=absent | (distance2 is None)),
+        "components": spread(measures.components, rows, count),
+    }
+    for name, values in _boxes(volume, measures).items():
+        columns[name] = np.ma.array(_times(spread(values, rows, count), step), mask=absent)
+    return _with_input_columns(columns, volume, properties)
+
+
+def volume_neighbours(
+    volume: VolumeLike,
+    *,
+    measures: VolumeMeasures | None = None,
+    threads: int = 0,
+    progress: Progress = None,
+) -> Table:
+    """Tabulate the neighbouring regions: one row a pair of labels that share a face.
+
+    Parameters
+    ----------
+    volume : LabelVolume, or (D, H, W) array of integers or truth values
+        Label 0 is no region.
+    measures : VolumeMeasures, optional
+        The result of `measure_volume` for this volume.
+    threads : int
+        0 for all; the result is the same for any number.
+    progress : callable, optional
+        Called with the fraction done.
+
+    Returns
+    -------
+    Table
+        ``label_a, label_b, border_area, centroid_distance``, ordered by the labels, ``label_a < label_b``: the area of
+        the faces that the two share, and the distance between their sites (region centroids, if the volume has no
+        seeds), in the unit of the ``sides`` of the volume.
+
+    Raises
+    ------
+    InputError
+        If a label of the volume is none of the seeds.
+
+    Examples
+    --------
+    >>> table = volume_neighbours(np.array([[[1, 1, 2]], [[3, 3, 2]]], dtype=np.uint16))
+    >>> list(zip(*(table[name].tolist() for name in ("label_a", "label_b", "border_area"))))
+    [(1, 2, 1), (1, 3, 2), (2, 3, 1)]
+    """
+    volume = labelled(volume)
+    measures = measures or measure_volume(volume, threads=threads, progress=progress)
+    labels, sites = _sites(volume, measures)
+    position = sites[_rows_of(measures.labels, labels, volume)]
+    a, b = measures.borders.T
+    way = position[a] - position[b]
+    return Table(
+        {
+            "label_a": measures.labels[a].astype(np.int64),
+            "label_b": measures.labels[b].astype(np.int64),
+            "border_area": _areas(measures.border_faces, volume.sides),
+            "centroid_distance": _times(np.sqrt((way * way).sum(axis=1)), volume.sides.step),
+        }
+    )
+
+
+# ---- columns --------------------------------------------------------------------------------------------
+
+
+def _steps(sides: PixelSides) -> NDArray[np.int64]:
+    """Width, height and depth of a voxel, in steps."""
+    return np.array(sides.units[::-1], dtype=np.int64)
+
+
+def _times(values: Any, factor: Fraction) -> Any:
+    """Values times a factor; integers where it is 1."""
+    return values if factor == 1 else values * float(factor)
+
+
+def _volumes(voxels: NDArray[np.int64], sides: PixelSides) -> NDArray[Any]:
+    """Volumes of so many voxels, in the unit of the sides."""
+    depth, height, width = sides.units
+    made: NDArray[Any] = _times(voxels, depth * height * width * sides.step**3)
+    return made
+
+
+def _areas(faces: NDArray[np.int64], sides: PixelSides) -> NDArray[Any]:
+    """Areas of so many faces across x, y and z, in the unit of the sides."""
+    depth, height, width = sides.units
+    across = (height * depth, width * depth, width * height)
+    most = int(faces.max(initial=0)) * sum(across)
+    exact = np.dot(
+        faces.astype(np.int64 if most < 2**63 else object), np.array(across, np.int64 if most < 2**63 else object)
+    )
+    return _times(exact, sides.step**2) if most < 2**63 else _times(exact.astype(np.float64), sides.step**2)
+
+
+def _sites(volume: LabelVolume, measures: VolumeMeasures) -> tuple[NDArray[np.uint32], NDArray[np.float64]]:
+    """Labels and positions of the sites, in steps of the sides: those of the seeds, else the regions' centroids."""
+    steps = _steps(volume.sides)
+    if volume.seeds is not None:
+        assert volume.seeds.site_labels is not None
+        assert volume.seeds.sites is not None
+        return volume.seeds.site_labels, volume.seeds.sites * steps
+    centroids = measures.sums / measures.voxels[:, None] + _corner(volume)
+    return measures.labels, centroids * steps
+
+
+def _corner(volume: LabelVolume) -> NDArray[np.int64]:
+    frame = volume.frame
+    assert frame is not None
+    return np.array([frame.x, frame.y, frame.z], dtype=np.int64)
+
+
+def _rows_of(found: NDArray[np.uint32], labels: NDArray[np.uint32], volume: LabelVolume) -> NDArray[np.intp]:
+    """Row of the table for each label that occurs in the volume."""
+    rows, label = rows_of(found, labels)
+    if label is not None:
+        place = np.unravel_index(int(np.argmax(volume.labels == label)), volume.shape)
+        slice_, row, column = map(int, place)
+        raise InputError(
+            f"voxel (slice {slice_}, row {row}, column {column}) has label {label}, none of the {len(labels)} sites: "
+            "pass the seeds that the volume was made from"
+        )
+    return rows
+
+
+def _boxes(volume: LabelVolume, measures: VolumeMeasures) -> dict[str, NDArray[np.int64]]:
+    """Bounding boxes, in steps."""
+    steps = _steps(volume.sides)
+    low = (measures.low + _corner(volume)) * steps
+    size = (measures.high - measures.low + 1) * steps
+    return {
+        **{f"bbox_{name}": low[:, axis] for axis, name in enumerate(_AXES)},
+        **{f"bbox_{name}": size[:, axis] for axis, name in enumerate(_SIDES)},
+    }
+
+
+def _largest_distance(
+    volume: LabelVolume,
+    distance2: NDArray[Any] | None,
+    scale: int | None,
+    labels: NDArray[np.uint32],
+    threads: int,
+    progress: Progress,
+) -> NDArray[np.float64]:
+    """The largest distance in each region, in steps."""
+    if distance2 is None:
+        return np.zeros(len(labels))
+    values = np.asarray(distance2)
+    if values.shape != volume.shape or values.dtype.kind not in "ui":
+        raise InputError(
+            f"distance2 must be an integer array of shape {volume.shape}, but is {values.dtype} of shape {values.shape}"
+        )
+    if scale is None:
+        scale = volume.seeds.scale if volume.seeds is not None else 1
+    largest = largest_by_label(label_array(volume.labels, "voxel"), values, labels, threads, progress)
+    return np.sqrt(largest.astype(np.float64)) / scale
+
+
+def _with_input_columns(columns: dict[str, Any], volume: LabelVolume, properties: bool) -> Table:
+    seeds = volume.seeds
+    if seeds is not None and seeds.object_volume is not None:
+        columns["object_volume"] = _volumes(np.asarray(seeds.object_volume, dtype=np.int64), volume.sides)
+    table = Table(columns)
+    return table.with_properties(seeds.properties) if seeds is not None and properties and seeds.properties else table

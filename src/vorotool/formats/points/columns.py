@@ -1,0 +1,213 @@
+"""Which columns of a table are the coordinates of its points, and which is the label."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from vorotool.errors import InputError, UsageError, option
+from vorotool.formats.parsing.reader_options import ReadOptions, shortened
+from vorotool.geometry.coordinate_names import coordinate_columns, plain_name, space_columns
+
+COLUMNS, _X_Y = option("--columns"), option("--columns X,Y", 'columns="X,Y"')
+_BEGINNINGS = (("x", "y"), ("longitude", "latitude"), ("lon", "lat"), ("lng", "lat"), ("east", "north"))
+"""Of names that may be a pair of coordinates, such as x0 and y0."""
+
+_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?|[+-]?(nan|inf|infinity)", re.IGNORECASE)
+DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+(e[+-]?\d+)?", re.IGNORECASE)
+_X_Y_Z = option("--columns X,Y,z=Z", 'columns="X,Y,z=Z"')
+_MOST_LISTED = 12
+
+
+class Chosen(NamedTuple):
+    """Which columns are what, from 0."""
+
+    x: int
+    y: int
+    label: int | None = None
+    z: int | None = None
+
+    @property
+    def coordinates(self) -> list[int]:
+        """Those of x, y, and z if there is one."""
+        return [self.x, self.y] if self.z is None else [self.x, self.y, self.z]
+
+    @property
+    def used(self) -> list[int]:
+        """All."""
+        return self.coordinates if self.label is None else [*self.coordinates, self.label]
+
+
+class Wanted(NamedTuple):
+    """Columns as the user names them: x, y and perhaps the label, and z."""
+
+    plane: list[str]
+    z: str | None = None
+
+    @property
+    def all(self) -> list[str]:
+        """With that of z last."""
+        return self.plane if self.z is None else [*self.plane, self.z]
+
+
+def parse_columns(columns: str, *, wants_z: bool = False) -> Wanted:
+    """Take the names apart; that of z has ``z=`` before it.
+
+    Raises
+    ------
+    UsageError
+        If there are fewer than two or more than three without z, or one comes twice.
+
+    Examples
+    --------
+    >>> parse_columns("1,2,z=4", wants_z=True).z
+    '4'
+    """
+    parts = [part.strip() for part in columns.split(",")]
+    of_z = [part for part in parts if wants_z and part.lower().startswith("z=")]
+    wanted = Wanted([part for part in parts if part not in of_z], of_z[0][2:].strip() if of_z else None)
+    is_zero = [_is_number(part) and not part.strip("0") for part in wanted.all]
+    is_unclear = not all(wanted.all) or any(is_zero) or len(set(wanted.all)) < len(wanted.all)
+    if len(wanted.plane) not in (2, 3) or len(of_z) > 1 or is_unclear:
+        form = "two or three different columns as X,Y or X,Y,LABEL"
+        raise UsageError(
+            f"{COLUMNS} is {shortened(columns)}: name {'X,Y,z=Z or X,Y,z=Z,LABEL' if wants_z else form}, by name or "
+            "by number from 1"
+        )
+    return wanted
+
+
+def choose(name: str, fields: list[str], wanted: Wanted | None, options: ReadOptions) -> tuple[bool, Chosen]:
+    """Whether the first record is a header, and which columns are x, y and, if one is, the label."""
+    return _recognise(name, fields, options) if wanted is None else _look_up(name, fields, wanted, options)
+
+
+def chosen_columns(name: str, fields: list[str], options: ReadOptions) -> Chosen:
+    """Choose the columns of a table that are x, y and, if one is, the label: as in delimited text.
+
+    Raises
+    ------
+    InputError
+        If the names are not known as coordinates, or ``--columns`` names one that is not there.
+
+    Examples
+    --------
+    >>> chosen_columns("a.json", ["label", "x", "y"], ReadOptions())
+    Chosen(x=1, y=2, label=0, z=None)
+    """
+    wanted = None if options.columns is None else parse_columns(options.columns, wants_z=options.wants_z)
+    return choose(name, fields, wanted, options)[1]
+
+
+def _recognise(name: str, fields: list[str], options: ReadOptions) -> tuple[bool, Chosen]:
+    """Find the coordinates by the header; two columns without one are x, y."""
+    chosen = space_columns(fields) if options.wants_z else coordinate_columns(fields)
+    if chosen is not None:
+        used = [fields[column] for column in chosen]
+        plain = ["x", "y", "z"][: options.axes]
+        meanings = [*plain, "label"][: len(chosen)]
+        if [plain_name(each) for each in used] != plain:  # plain x, y need no word
+            options.note(f"{name}: columns {', '.join(used)} are read as {', '.join(meanings)}")
+        return True, _chosen(chosen, options)
+    header = not any(_looks_numeric(field) for field in fields) and any(fields)
+    if not header and len(fields) == 2 and not options.wants_z:
+        return False, Chosen(0, 1)
+    raise _no_z(name, fields) if options.wants_z else _unknown_columns(name, fields, header)
+
+
+def _chosen(columns: Sequence[int], options: ReadOptions) -> Chosen:
+    """Columns of x, y, z if it is wanted, and the label if there is one."""
+    label = columns[options.axes] if len(columns) > options.axes else None
+    return Chosen(columns[0], columns[1], label, columns[2] if options.wants_z else None)
+
+
+def _look_up(name: str, fields: list[str], wanted: Wanted, options: ReadOptions) -> tuple[bool, Chosen]:
+    """Find the columns that the user named; a name makes the first record a header."""
+    plane = [_find_column(name, fields, column) for column in wanted.plane]
+    z = None
+    if options.wants_z:
+        names = [plain_name(field) for field in fields]
+        if wanted.z is None and names.count("z") != 1:
+            raise _no_z(name, fields)
+        z = names.index("z") if wanted.z is None else _find_column(name, fields, wanted.z)
+    chosen = Chosen(plane[0], plane[1], plane[2] if len(plane) > 2 else None, z)
+    if len(set(chosen.used)) < len(chosen.used):
+        shown = _cut(",".join(wanted.all))
+        raise InputError(f"{name}: {COLUMNS} {shown} names one column twice; {_listing(fields)}")
+    named = not all(map(_is_number, wanted.all)) or (options.wants_z and wanted.z is None)
+    values = [fields[i] for i in chosen.used]
+    return named or (any(values) and not any(_looks_numeric(value) for value in values)), chosen
+
+
+def _no_z(name: str, fields: list[str]) -> InputError:
+    return InputError(f"{name}: no columns are known as x, y and z; say which are with {_X_Y_Z} ({_listing(fields)})")
+
+
+def _is_number(column: str) -> bool:
+    """Whether a column is named by its number; digits of other scripts may be a name."""
+    return column.isascii() and column.isdecimal()
+
+
+def _find_column(name: str, fields: list[str], wanted: str) -> int:
+    if _is_number(wanted):
+        digits = wanted.lstrip("0")
+        if len(digits) > len(str(len(fields))) or int(digits) > len(fields):
+            raise InputError(
+                f"{name}: {COLUMNS} names column {_cut(wanted)}, but there are {len(fields)}; {_listing(fields)}"
+            )
+        return int(digits) - 1
+    for names, key in ((fields, wanted), ([plain_name(field) for field in fields], plain_name(wanted))):
+        if names.count(key) == 1:
+            return names.index(key)
+        if names.count(key) > 1:
+            raise InputError(f"{name}: several columns are called {shortened(wanted)}; give {COLUMNS} by number")
+    raise InputError(f"{name}: there is no column {shortened(wanted)}; {_listing(fields)}; correct {COLUMNS}")
+
+
+def _unknown_columns(name: str, fields: list[str], header: bool) -> InputError:
+    if len(fields) == 1:
+        return InputError(
+            f"{name}: the first line has one column, {fields[0][:40]!r}; give x and y, separated by "
+            "a comma, a semicolon, a tab or blanks"
+        )
+    what = "the header names no known pair of coordinates" if header else f"{len(fields)} columns without a header"
+    example = _example(fields) if header else _numeric_example(fields)
+    if example is None:
+        return InputError(
+            f"{name}: {what}, and no two columns look like one; give the points that the table was made from, or say "
+            f"which are x and y with {_X_Y} ({_listing(fields)})"
+        )
+    chosen = option(f"--columns {example}", f'columns="{example}"')
+    return InputError(f"{name}: {what}; say which are x and y, for example {chosen} ({_listing(fields)})")
+
+
+def _example(fields: list[str]) -> str | None:
+    """Two columns that may be x and y, as their names begin alike and go on the same; None where no two do."""
+    names = {plain_name(field): field for field in fields}
+    for first, second in _BEGINNINGS:
+        for key, field in names.items():
+            other = names.get(second + key.removeprefix(first))
+            if key.startswith(first) and other is not None and "," not in field + other:
+                return f"{field},{other}"
+    return None
+
+
+def _numeric_example(fields: list[str]) -> str | None:
+    """The numbers of the first two columns that hold numbers; None where no two do."""
+    numeric = [str(i) for i, field in enumerate(fields, 1) if _looks_numeric(field)]
+    return ",".join(numeric[:2]) if len(numeric) > 1 else None
+
+
+def _listing(fields: list[str]) -> str:
+    shown = ", ".join(f"{i} = {field[:24] or 'empty'}" for i, field in enumerate(fields[:_MOST_LISTED], 1))
+    more = f", … {len(fields)} in all" if len(fields) > _MOST_LISTED else ""
+    return f"its columns are {shown}{more}"
+
+
+def _cut(text: str) -> str:
+    return text if len(text) <= 40 else f"{text[:39]}…"
+
+
+def _looks_numeric(text: str) -> bool:
+    return bool(_NUMBER.fullmatch(text) or DECIMAL_COMMA.fullmatch(text))

@@ -1,0 +1,137 @@
+"""OME-XML of stacks: how many slices there are, on which pages they are, and how large a voxel is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+from vorotool.errors import InputError
+from vorotool.formats.images.ome_xml import decimal_side, parse_ome
+from vorotool.formats.volumes.source import refuse_axes
+from vorotool.geometry.length_units import ratio
+from vorotool.geometry.volumes.voxel_grid import VoxelGrid
+
+PIXEL = "pixel"
+"""What OME calls a length that is in no unit."""
+
+_NO_LENGTH = "reference frame"
+_MOST_DIGITS = 12
+
+
+@dataclass
+class OmeStack:
+    """The image of an OME-TIFF.
+
+    Parameters
+    ----------
+    attributes : dict
+        Of its Pixels.
+    planes : list of dict
+        Its TiffData.
+    files : set of str
+        That hold its planes, as far as they are named.
+    images : int
+        How many images there are; this is the first.
+    """
+
+    attributes: dict[str, str] = field(default_factory=dict)
+    planes: list[dict[str, str]] = field(default_factory=list)
+    files: set[str] = field(default_factory=set)
+    images: int = 0
+
+    def pages(self, name: str, count: int) -> tuple[int, ...]:
+        """Give the page of each slice, of a file of so many pages.
+
+        Raises
+        ------
+        InputError
+            If there are several images, channels or points in time, or slices that are not in the file.
+        """
+        if self.images > 1:
+            raise InputError(f"{name} holds {self.images} images of OME: save one of them alone, or name its pages")
+        if len(self.files) > 1:
+            raise InputError(
+                f"{name} has its planes in {len(self.files)} files, such as {min(self.files)}: save them in one, for "
+                "example with bfconvert"
+            )
+        refuse_axes(name, {"channels": self._size(name, "C"), "time steps": self._size(name, "T")})
+        depth = self._size(name, "Z")
+        if depth > count:
+            raise InputError(f"{name} has {count} pages, but its XML says that there are {depth} slices")
+        if not self.planes:
+            return tuple(range(depth))
+        place: dict[int, int] = {}
+        for plane in self.planes:
+            first, page = (_whole(name, plane.get(key, "0"), key) for key in ("FirstZ", "IFD"))
+            planes = _whole(name, plane.get("PlaneCount", "1" if "IFD" in plane else str(depth)), "PlaneCount")
+            place |= {first + k: page + k for k in range(min(planes, depth))}
+        missing = next((k for k in range(depth) if not 0 <= place.get(k, -1) < count), None)
+        if missing is not None:
+            raise InputError(
+                f"{name} has no page for slice {missing}, counted from 0: its XML gives it none that is there"
+            )
+        return tuple(place[k] for k in range(depth))
+
+    def _size(self, name: str, axis: str) -> int:
+        size = _whole(name, self.attributes.get(f"Size{axis}", "1"), f"Size{axis}")
+        if not size:
+            raise InputError(f"{name} is damaged: its Size{axis} is 0")
+        return size
+
+    def grid(self) -> VoxelGrid | None:
+        """Sides of the voxels; None where not all three are stated in units that can be compared."""
+        sides = self._sides()
+        if len(sides) < 3:
+            return None
+        (width, unit), others = sides["X"], [sides["Y"], sides["Z"]]
+        factors = [ratio(each, unit) for _, each in others]
+        if None in factors or any(each == _NO_LENGTH for _, each in sides.values()):
+            return None
+        height, depth = (side * (factor or 1) for (side, _), factor in zip(others, factors, strict=True))
+        return VoxelGrid(width, height, depth, None if unit == PIXEL else unit, "ome")
+
+    def note(self, name: str) -> str:
+        """Say that the depth of a voxel is missing where the rest is there."""
+        sides = self._sides()
+        if "Z" in sides or "X" not in sides:
+            return ""
+        return f"{name} says how wide its voxels are, but not how deep: it has no PhysicalSizeZ"
+
+    def _sides(self) -> dict[str, tuple[Fraction, str]]:
+        """Sides by axes, each with its unit."""
+        found: dict[str, tuple[Fraction, str]] = {}
+        for axis in "XYZ":
+            side = decimal_side(self.attributes.get(f"PhysicalSize{axis}", ""))
+            if side is not None:
+                found[axis] = (side, self.attributes.get(f"PhysicalSize{axis}Unit", "µm"))
+        return found
+
+
+def ome_stack(text: str) -> OmeStack | None:
+    """Read the description of an OME-TIFF; None where it describes no image.
+
+    Examples
+    --------
+    >>> made = ome_stack('<OME><Image><Pixels SizeZ="2" PhysicalSizeX="1"/></Image></OME>')
+    >>> made.pages("a.tif", 2)
+    (0, 1)
+    """
+    stack = OmeStack()
+
+    def start(name: str, attributes: dict[str, str]) -> None:
+        if name == "Pixels":
+            stack.images += 1
+            stack.attributes = stack.attributes or attributes
+        elif stack.images == 1 and name == "TiffData":
+            stack.planes.append(attributes)
+        elif stack.images == 1 and name == "UUID" and "FileName" in attributes:
+            stack.files.add(attributes["FileName"])
+
+    return stack if parse_ome(text, start) and stack.images else None
+
+
+def _whole(name: str, text: str, what: str) -> int:
+    plain = text.strip()
+    if not (plain.isascii() and plain.isdecimal() and len(plain) <= _MOST_DIGITS):
+        raise InputError(f"{name} is damaged: its {what} is {text[:40]!r}, which is no whole number")
+    return int(plain)

@@ -1,0 +1,145 @@
+"""Volumes that are open: read some slices at a time, or whole."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from os import PathLike, fspath
+from pathlib import Path
+
+import numpy as np
+
+from vorotool.errors import INPUT_FORMAT, InputError, option
+from vorotool.formats.io.descriptors import STANDARD, stream_kind
+from vorotool.formats.io.npy_arrays import MAGIC
+from vorotool.formats.io.sources import STANDARD_INPUT, explained_reading, reading
+from vorotool.formats.volumes.mapping import Spool
+from vorotool.formats.volumes.npy_volume import NpyVolume
+from vorotool.formats.volumes.source import VolumeSource, check_voxels, slabs_of
+from vorotool.formats.volumes.tiff_stack import TiffStack
+from vorotool.formats.volumes.zarr_volume import ZarrVolume
+from vorotool.formats.zarr.store import is_folder, is_store
+from vorotool.geometry.pixel_frame import MAX_PIXELS
+from vorotool.geometry.volumes.volume import Volume
+from vorotool.products.inputs import VOLUME_NAMES, known_input_format
+
+_HEADS = ((b"II*\x00", "tiff"), (b"MM\x00*", "tiff"), (b"II+\x00", "tiff"), (b"MM\x00+", "tiff"), (MAGIC, "npy"))
+_LONGEST_HEAD = 8
+
+
+def open_volume(path: str | PathLike[str], *, input_format: str | None = None) -> VolumeSource:
+    """Open a volume, to read it some slices at a time; its header is checked, and nothing is held.
+
+    Parameters
+    ----------
+    path : str or path
+        A TIFF or NPY file, a Zarr array or an OME-Zarr group; ``-`` is standard input. What comes through a stream is
+        put in a temporary file first.
+    input_format : str, optional
+        One of tiff, npy and zarr, where the content leaves it unclear.
+
+    Returns
+    -------
+    VolumeSource
+        With ``shape``, ``dtype``, ``grid`` and ``slices(first, count)``; it can be pickled, and is then opened again by
+        its path.
+
+    Raises
+    ------
+    InputError
+        If it is no volume, or damaged.
+    UsageError
+        If the format is none that volumes have.
+
+    Examples
+    --------
+    >>> np.save("build/cube.npy", np.arange(24).reshape(2, 3, 4))
+    >>> volume = open_volume("build/cube.npy")
+    >>> volume.shape, volume.slices(1, 1).sum()
+    ((2, 3, 4), np.int64(210))
+    """
+    said = known_input_format(input_format, VOLUME_NAMES)
+    if not isinstance(path, str | PathLike):
+        raise InputError(f"{path!r} is no path: give the name of a file; arrays need not be read")
+    name = fspath(path)
+    with reading(name):
+        source = _opened(name, said)
+        check_voxels(source.name, source.shape, np.iinfo(np.int64).max)
+        return source
+
+
+def read_volume(
+    path: str | PathLike[str],
+    *,
+    input_format: str | None = None,
+    max_voxels: int = MAX_PIXELS,
+    note: Callable[[str], None] | None = None,
+) -> Volume:
+    """Read a whole volume.
+
+    Parameters
+    ----------
+    path, input_format
+        As of `open_volume`.
+    max_voxels : int
+        Larger ones are refused before memory is taken.
+    note : callable, optional
+        Told in words what of the file is not used.
+
+    Raises
+    ------
+    InputError, UsageError
+        As of `open_volume`.
+    LimitError
+        If it has more than ``max_voxels`` voxels.
+
+    Examples
+    --------
+    >>> np.save("build/cube.npy", np.zeros((2, 3, 4), np.uint16))
+    >>> read_volume("build/cube.npy")
+    Volume: 4 x 3 x 2, uint16
+    """
+    source = open_volume(path, input_format=input_format)
+    with reading(fspath(path)):
+        check_voxels(source.name, source.shape, max_voxels)
+        if note is not None and source.note:
+            note(source.note)
+        values = np.empty(source.shape, source.dtype)
+        for first, slab in slabs_of(source):
+            values[first : first + len(slab)] = slab
+    return Volume(values, source.grid)
+
+
+def _opened(name: str, said: str | None) -> VolumeSource:
+    if is_folder(name) and (said in (None, "zarr")):
+        if said is None and not is_store(name) and not name.rstrip(os.sep).lower().endswith(".zarr"):
+            raise InputError(f"{name} is a directory: name the files in it, for example {name}/*")
+        return ZarrVolume(name, str(Path(name).absolute()))
+    spool, path = None, name
+    with explained_reading(name):
+        if name == STANDARD or stream_kind(name) is not None:
+            spool = Spool(name)
+            path = spool.path
+        with Path(path).open("rb") as file:
+            head = file.read(_LONGEST_HEAD)
+    spoken = STANDARD_INPUT if name == STANDARD else name
+    kind = _kind(spoken, head, said)
+    place = str(Path(path).absolute())
+    return NpyVolume(spoken, place, spool) if kind == "npy" else TiffStack(spoken, place, spool)
+
+
+def _kind(name: str, head: bytes, said: str | None) -> str:
+    """Tell the format by the content, which must be what the caller says."""
+    found = next((kind for start, kind in _HEADS if head.startswith(start)), None)
+    if not head:
+        raise InputError(f"{name} is empty: a volume was expected")
+    if said == "zarr":
+        raise InputError(f"{name} is a file, but a Zarr store is a folder: leave out {INPUT_FORMAT}")
+    if found is None:
+        raise InputError(
+            f"{name} is no volume that is read: give a TIFF stack, an NPY array of three axes, Zarr or OME-Zarr"
+        )
+    if said not in (None, found):
+        right = option(f"--input-format {found}", f'input_format="{found}"')
+        raise InputError(f"{name} is no {said} file, it begins as {found}: use {right}")
+    return found

@@ -1,0 +1,36 @@
+"""Volumes that pass by as slabs of slices."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+def checked_slabs(slabs: Iterable[NDArray[Any]], shape: tuple[int, int, int]) -> Iterator[NDArray[Any]]:
+    """Pass on slabs of shape (slices, H, W), and see that they are D slices together.
+
+    Raises
+    ------
+    ValueError
+        If they are not: a defect of the caller.
+
+    Examples
+    --------
+    >>> [slab.shape for slab in checked_slabs([np.zeros((2, 4, 5)), np.ones((1, 4, 5))], (3, 4, 5))]
+    [(2, 4, 5), (1, 4, 5)]
+    """
+    depth, height, width = shape
+    seen = 0
+    for item in slabs:
+        slab = np.asarray(item)
+        if slab.ndim != 3 or slab.shape[1:] != (height, width):
+            raise ValueError(f"a slab has shape {slab.shape}: it must be (slices, {height}, {width})")
+        seen += len(slab)
+        if seen > depth:
+            break
+        yield slab
+    if seen != depth:
+        raise ValueError(f"the slabs have {'more than ' * (seen > depth)}{min(seen, depth)} slices, not {depth}")

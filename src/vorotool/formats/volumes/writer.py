@@ -1,0 +1,132 @@
+"""Writing volumes slab by slab: TIFF stacks through tifffile, and NPY."""
+
+from __future__ import annotations
+
+import shutil
+import tempfile
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any, BinaryIO, Literal
+
+import numpy as np
+from numpy.typing import DTypeLike, NDArray
+
+from vorotool.errors import UsageError, option
+from vorotool.formats.images.tiff_writer import CLASSIC_LIMIT, encoded, is_compressed, rows_of_strip, uncoded_strips
+from vorotool.formats.volumes.npy_volume import write_npy_volume
+from vorotool.formats.volumes.slabs import checked_slabs
+from vorotool.formats.volumes.stack_tags import stack_tags
+from vorotool.geometry.volumes.voxel_grid import VoxelGrid
+
+VolumeFormat = Literal["tiff", "npy"]
+
+_PAGE_BYTES = 512
+"""That the tags of a page take at most, its table of strips aside."""
+
+
+def write_volume(
+    out: BinaryIO,
+    slabs: Iterable[NDArray[Any]],
+    *,
+    shape: tuple[int, int, int],
+    dtype: DTypeLike,
+    fmt: VolumeFormat,
+    grid: VoxelGrid | None = None,
+    nodata: int | None = None,
+    threads: int = 0,
+) -> None:
+    r"""Write a volume from slabs of slices, in bounded memory; the bytes do not depend on the slabs or the threads.
+
+    A TIFF has a page for each slice, deflated where it holds integers, and is a BigTIFF where that may be needed. Its
+    first page describes all of them: see `vorotool.formats.volumes.stack_tags.stack_form`.
+
+    Parameters
+    ----------
+    out : binary file
+        Where to write. Where it cannot be sought, a TIFF is made in a temporary file first.
+    slabs : iterable of (slices, H, W) arrays
+        In order.
+    shape : (int, int, int)
+        Slices, rows and columns.
+    dtype : dtype
+        Type in the file: an integer, bool (stored as uint8), or float32.
+    fmt : {"tiff", "npy"}
+        File format.
+    grid : VoxelGrid, optional
+        Of the voxels, for TIFF.
+    nodata : int, optional
+        What voxels without a value have, for TIFF.
+    threads : int
+        0 for all processors.
+
+    Raises
+    ------
+    LimitError
+        If an integer does not fit in ``dtype``.
+    UsageError
+        If volumes are not written in such a format.
+
+    Examples
+    --------
+    >>> import io
+    >>> out = io.BytesIO()
+    >>> write_volume(out, [np.ones((2, 3, 4), np.uint16)], shape=(2, 3, 4), dtype=np.uint16, fmt="tiff")
+    >>> out.getvalue()[:4]
+    b'II*\x00'
+    """
+    kind = np.dtype(np.uint8 if np.dtype(dtype) == np.bool_ else dtype).newbyteorder("<")
+    if fmt == "npy":
+        write_npy_volume(out, slabs, shape, dtype=kind)
+        return
+    if fmt != "tiff":
+        one = option("-o labels.tif, labels.npy or labels.zarr", "the path labels.tif, labels.npy or labels.zarr")
+        raise UsageError(f"a volume cannot be written as {fmt!r}: use {one}")
+    is_large = _most_bytes(shape, kind) >= CLASSIC_LIMIT
+    tags = stack_tags(grid, shape, np.dtype(kind).newbyteorder("="), is_large=is_large, nodata=nodata)
+    if out.seekable():
+        _write_stack(out, slabs, shape, kind, tags, is_large, threads)
+        return
+    with tempfile.TemporaryFile() as spool:
+        _write_stack(spool, slabs, shape, kind, tags, is_large, threads)
+        spool.seek(0)
+        shutil.copyfileobj(spool, out)
+
+
+def _most_bytes(shape: tuple[int, int, int], kind: np.dtype[Any]) -> int:
+    depth, height, width = shape
+    return depth * (height * width * kind.itemsize + _PAGE_BYTES)
+
+
+def _write_stack(
+    out: BinaryIO,
+    slabs: Iterable[NDArray[Any]],
+    shape: tuple[int, int, int],
+    kind: np.dtype[Any],
+    tags: Mapping[str, Any],
+    is_large: bool,
+    threads: int,
+) -> None:
+    import tifffile
+
+    # named here, since the name of a temporary file is a number, which tifffile does not expect
+    handle = tifffile.FileHandle(out, name="volume.tif", size=0)
+    compressed = is_compressed(kind)
+    with tifffile.TiffWriter(handle, bigtiff=is_large, byteorder="<") as writer:
+        writer.write(
+            encoded(_strips(slabs, shape, kind), compressed, threads),
+            shape=shape,
+            dtype=kind,
+            photometric="minisblack",
+            compression="zlib" if compressed else None,
+            predictor=2 if compressed else None,
+            rowsperstrip=rows_of_strip(shape[1:], kind),
+            metadata=None,
+            software=False,
+            **tags,
+        )
+
+
+def _strips(slabs: Iterable[NDArray[Any]], shape: tuple[int, int, int], kind: np.dtype[Any]) -> Iterator[NDArray[Any]]:
+    """Strips of all slices; none goes over from one to the next."""
+    for slab in checked_slabs(slabs, shape):
+        for image in slab:
+            yield from uncoded_strips([image], shape[1:], kind)

@@ -1,0 +1,297 @@
+"""Volumes in Zarr stores (format 3), slab by slab; OME-Zarr with coarser copies."""
+
+from __future__ import annotations
+
+import os
+import threading
+from collections.abc import Callable, Sequence
+from itertools import product
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import DTypeLike, NDArray
+
+from vorotool.errors import UsageError, option
+from vorotool.formats.zarr.arrays import BAND_BYTES, create_array, open_array, to_its_end, zarr_module
+from vorotool.formats.zarr.multiscales import OME_ENDING, add_scales, write_image
+from vorotool.formats.zarr.reader import StoredArray
+from vorotool.formats.zarr.store import open_store
+from vorotool.geometry.parallel import in_order
+from vorotool.geometry.volumes.voxel_grid import VoxelGrid
+
+Shape = tuple[int, int, int]
+
+CHUNK = (64, 256, 256)
+"""Slices, rows and columns of a chunk of bytes: of larger values it has fewer slices."""
+
+CHUNK_BYTES = 2**22
+"""Of a chunk, before it is compressed."""
+
+_SMALL = 256
+"""Voxels of the longest side of a copy that needs no coarser one."""
+
+_AXES = ("z", "y", "x")
+
+
+def volume_chunks(shape: Shape, dtype: DTypeLike, asked: Shape | None = None) -> Shape:
+    """Choose the chunks of a volume, if they are not asked for: near 4 MiB, and so that a slab of them can be held.
+
+    Examples
+    --------
+    >>> volume_chunks((512, 512, 512), np.uint8), volume_chunks((512, 512, 512), np.uint32)
+    ((64, 256, 256), (16, 256, 256))
+    >>> volume_chunks((1024, 4096, 4096), np.uint32), volume_chunks((3, 2, 1), np.uint8)
+    ((4, 512, 512), (3, 2, 1))
+    """
+    size = np.dtype(dtype).itemsize
+    slices, rows, columns = asked or CHUNK
+    if asked is None:
+        while slices > 1 and (
+            slices * rows * columns * size > CHUNK_BYTES or slices * shape[1] * shape[2] * size > BAND_BYTES
+        ):
+            slices //= 2
+        while 4 * min(slices, shape[0]) * rows * columns * size <= CHUNK_BYTES and (rows, columns) < shape[1:]:
+            rows, columns = 2 * rows, 2 * columns
+    return min(slices, shape[0]), min(rows, shape[1]), min(columns, shape[2])
+
+
+def create_volume(folder: Any, shape: Shape, *, dtype: DTypeLike, chunks: Shape) -> Any:
+    """Make an array for a volume in an empty folder: see `vorotool.formats.zarr.arrays.create_array`.
+
+    Examples
+    --------
+    >>> create_volume({}, (3, 4, 5), dtype=np.uint8, chunks=(2, 4, 5)).chunks
+    (2, 4, 5)
+    """
+    return create_array(folder, shape, dtype=dtype, chunks=chunks)
+
+
+def write_slices(
+    array: Any, first: int, slab: NDArray[Any], *, threads: int = 0, check: Callable[[], object] | None = None
+) -> None:
+    """Write all chunks of some slices, each chunk by itself: an interrupt waits for some milliseconds only.
+
+    Parameters
+    ----------
+    array : zarr.Array
+        From `create_volume` or `vorotool.formats.zarr.arrays.open_array`.
+    first : int
+        Slice of the volume, a multiple of the slices of a chunk.
+    slab : (k, H, W) array
+        All slices of one chunk, or of several, or those at the end.
+    threads : int
+        0 for all processors.
+    check : callable, optional
+        Called before each chunk; what it raises stops the work.
+
+    Examples
+    --------
+    >>> array = create_volume({}, (3, 1, 2), dtype=np.uint8, chunks=(2, 1, 2))
+    >>> write_slices(array, 2, np.array([[[5, 6]]]), threads=1)
+    >>> array[:].tolist()
+    [[[0, 0]], [[0, 0]], [[5, 6]]]
+    """
+    depth = array.chunks[0]
+    if first % depth or (len(slab) % depth and first + len(slab) != array.shape[0]):
+        raise ValueError(f"slices {first} to {first + len(slab) - 1} are not those of chunks of {depth} slices")
+
+    def write(place: tuple[slice, ...]) -> None:
+        z, y, x = place
+        array[first + z.start : first + z.stop, y, x] = slab[z, y, x]
+
+    _write_parts(write, _parts(slab.shape, array.chunks), threads, check)
+
+
+def volume_folder(
+    store: Path, path: str | os.PathLike[str], *, grid: VoxelGrid | None = None, is_labels: bool = True
+) -> Path:
+    """Where the array of a volume goes: in the store itself, or in the group of what is to be called as OME-Zarr.
+
+    Parameters
+    ----------
+    store : Path
+        The empty folder.
+    path : str or path
+        What it will be called.
+    grid : VoxelGrid, optional
+        Of the voxels, which OME-Zarr tells.
+    is_labels : bool
+        Whether it is a label image.
+    """
+    name = Path(path).name
+    if not name.lower().endswith(OME_ENDING):
+        return store
+    sides = [1.0, 1.0, 1.0] if grid is None else [float(side) for side in grid.sides]
+    scale = dict(zip(_AXES, sides, strict=True))
+    write_image(store, name[: -len(OME_ENDING)], scale, None if grid is None else grid.unit, is_labels=is_labels)
+    return store / "0"
+
+
+def check_levels(path: str | os.PathLike[str], levels: int) -> None:
+    """Refuse coarser copies in what is not named as OME-Zarr, or fewer than none of them.
+
+    Raises
+    ------
+    UsageError
+        If there are to be some.
+
+    Examples
+    --------
+    >>> check_levels("a.ome.zarr", 3)
+    """
+    if levels < 0:
+        raise UsageError(f"invalid number of coarser copies {levels}: expected one from 0 on")
+    if levels and not Path(path).name.lower().endswith(OME_ENDING):
+        end = option(f"-o NAME{OME_ENDING}", f"a path that ends in {OME_ENDING}")
+        raise UsageError(f"coarser copies are for OME-Zarr: use {end}, or leave them out")
+
+
+def usual_levels(shape: Shape) -> int:
+    """Give the number of coarser copies after which one is small enough to be shown as a whole.
+
+    Examples
+    --------
+    >>> usual_levels((100, 1024, 800)), usual_levels((3, 200, 256))
+    (2, 0)
+    """
+    levels = 0
+    while max(shape) > _SMALL:
+        shape, levels = _coarser(shape), levels + 1
+    return levels
+
+
+def add_levels(store: Path, levels: int, *, threads: int = 0, check: Callable[[], object] | None = None) -> None:
+    """Make coarser copies of the array ``0`` of a group, each of every second voxel of the one before along each axis.
+
+    Labels stay labels, the first voxel stays where it is, and some chunks are held at a time. The metadata of the
+    group name them when they are there.
+
+    Parameters
+    ----------
+    store : Path
+        The group, whose array ``0`` is complete.
+    levels : int
+        How many.
+    threads : int
+        0 for all processors.
+    check : callable, optional
+        Called before each chunk; what it raises stops the work.
+    """
+    factors, product_of_steps = [], (1, 1, 1)
+    for level in range(1, levels + 1):
+        finer = StoredArray(store.name, store / str(level - 1))
+        shape = _three(finer.shape)
+        steps = _steps(shape)
+        _write_coarser(store / str(level), finer, steps, threads, check)
+        product_of_steps = _three([step * by for step, by in zip(product_of_steps, steps, strict=True)])
+        factors.append(product_of_steps)
+    if factors:
+        add_scales(store, factors)
+
+
+def _write_coarser(
+    folder: Path, finer: StoredArray, steps: Shape, threads: int, check: Callable[[], object] | None
+) -> None:
+    """Make a copy of every so manieth voxel."""
+    shape = _coarser(_three(finer.shape))
+    chunks = _three([min(sides) for sides in zip(finer.metadata.chunks, shape, strict=True)])
+    array = create_volume(folder, shape, dtype=finer.dtype, chunks=chunks)
+
+    def write(place: tuple[slice, ...]) -> None:
+        region = tuple(
+            slice(part.start * step, min(part.stop * step, side))
+            for part, step, side in zip(place, steps, finer.shape, strict=True)
+        )
+        array[place] = finer.read(region, threads=1)[tuple(slice(None, None, step) for step in steps)]
+
+    _write_parts(write, _parts(shape, chunks), threads, check)
+
+
+def write_zarr_volume(
+    path: str | os.PathLike[str],
+    values: NDArray[Any],
+    *,
+    grid: VoxelGrid | None = None,
+    is_labels: bool = True,
+    levels: int = 0,
+    threads: int = 0,
+) -> None:
+    """Write a volume that is held to a store, which replaces an older one when all is written.
+
+    Parameters
+    ----------
+    path : str or path
+        Of the store.
+    values : (D, H, W) array
+        Labels, or others.
+    grid, is_labels
+        As of `volume_folder`.
+    levels : int
+        Coarser copies, for OME-Zarr: see `add_levels`.
+    threads : int
+        0 for all processors.
+
+    Raises
+    ------
+    OutputError
+        If it cannot be written.
+
+    Examples
+    --------
+    >>> write_zarr_volume("build/cube.ome.zarr", np.ones((2, 3, 4), np.uint8), levels=1)
+    """
+    shape = _three(values.shape)
+    chunks = volume_chunks(shape, values.dtype)
+    check_levels(path, levels)
+    zarr_module()
+    with open_store(path) as store:
+        folder = volume_folder(store, path, grid=grid, is_labels=is_labels)
+        create_volume(folder, shape, dtype=values.dtype, chunks=chunks)
+        write_slices(open_array(folder), 0, values, threads=threads)
+        add_levels(store, levels, threads=threads)
+
+
+def _three(sizes: Sequence[int]) -> Shape:
+    depth, height, width = sizes
+    return depth, height, width
+
+
+def _steps(shape: Shape) -> Shape:
+    """How many voxels make one of the next copy: an axis of one voxel stays as it is."""
+    return _three([1 if side == 1 else 2 for side in shape])
+
+
+def _coarser(shape: Shape) -> Shape:
+    return _three([-(-side // step) for side, step in zip(shape, _steps(shape), strict=True)])
+
+
+def _parts(shape: Sequence[int], chunks: Sequence[int]) -> list[tuple[slice, ...]]:
+    """The chunks that a box is made of."""
+    axes = [
+        [slice(start, min(start + step, side)) for start in range(0, side, step)]
+        for side, step in zip(shape, chunks, strict=True)
+    ]
+    return list(product(*axes))
+
+
+def _write_parts(
+    write: Callable[[tuple[slice, ...]], None],
+    parts: Sequence[tuple[slice, ...]],
+    threads: int,
+    check: Callable[[], object] | None,
+) -> None:
+    """Write chunks in threads of our own, to the end of each."""
+    stopped = threading.Event()
+
+    def one(place: tuple[slice, ...]) -> None:
+        if not stopped.is_set():
+            if check is not None:
+                check()
+            write(place)
+
+    def write_all() -> None:
+        for _ in in_order(one, parts, threads):
+            pass
+
+    to_its_end(write_all, stopped.set)

@@ -1,0 +1,156 @@
+"""Volumes from whatever a caller holds, and whether it is a matter of three dimensions."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from vorotool.errors import InputError, LimitError
+from vorotool.geometry.arguments.descriptions import column_names, described, naming, refuse_paths, unexpected
+from vorotool.geometry.numbers import real_number
+from vorotool.geometry.pixel_frame import MAX_PIXELS
+from vorotool.geometry.volumes.label_volume import LabelVolume
+from vorotool.geometry.volumes.volume import Volume
+from vorotool.geometry.volumes.volume_points import VolumePoints
+from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
+
+AXES = 3
+
+EXPECTED = "a volume: a Volume, a LabelVolume, or a 3-D array of truth values or integers"
+
+
+def is_volume(values: Any) -> bool:
+    """Whether an array has three axes, of which the last one is not that of colours.
+
+    Examples
+    --------
+    >>> is_volume(np.zeros((4, 5, 6), bool)), is_volume(np.zeros((4, 5, 3), np.uint8))
+    (True, False)
+    """
+    shape = np.shape(values) if isinstance(values, list | tuple) else getattr(values, "shape", ())
+    is_colour = getattr(values, "dtype", None) == np.uint8 and shape[-1:] in ((3,), (4,))
+    return len(shape) == AXES and not is_colour
+
+
+def is_of_space(source: Any, shape: Any = None, window: Any = None) -> bool:
+    """Tell whether seeds are those of a volume: by their type, their shape, or what is asked for.
+
+    Parameters
+    ----------
+    source : object
+        What the caller gave as seeds.
+    shape, window : object
+        As of `vorotool.tessellate`: three or six numbers are of a volume, others are not.
+
+    Examples
+    --------
+    >>> points = np.zeros((5, 3))
+    >>> is_of_space(points, (2, 3, 4)), is_of_space(points, (3, 4)), is_of_space(points)
+    (True, False, False)
+    >>> is_of_space(np.zeros((4, 5, 6), bool)), is_of_space(VolumePoints(points))
+    (True, True)
+    """
+    if isinstance(source, Volume | LabelVolume | VolumePoints | VolumeSeeds):
+        return True
+    for given, numbers in ((shape, AXES), (window, 2 * AXES)):
+        if given is not None and np.ndim(given) == 1:
+            return len(given) == numbers
+    return hasattr(source, "shape") and is_volume(source)
+
+
+def refuse_triples(source: Any, name: str, *, image: bool | None = None) -> None:
+    """Refuse an array or a list of triples where no volume is asked for: they may be points of space, or of the plane.
+
+    Parameters
+    ----------
+    source : object
+        What the caller gave.
+    name : str
+        Of the parameter, for messages.
+    image : bool, optional
+        Whether it is said to be an image.
+
+    Raises
+    ------
+    InputError
+        With what says which it is.
+
+    Examples
+    --------
+    >>> refuse_triples([[1, 2]], "seeds")
+    >>> refuse_triples(np.ones((5, 3)), "seeds")  # doctest: +ELLIPSIS
+    Traceback (most recent call last):
+    vorotool.errors.InputError: invalid seeds: ... for points of space give shape=(D, H, W) as well; ...
+    """
+    if image or column_names(source) is not None:
+        return
+    shape = getattr(source, "shape", None)
+    if isinstance(source, list | tuple) and source and isinstance(source[0], list | tuple | np.ndarray):
+        shape = (len(source), len(source[0]))
+    is_number = getattr(getattr(source, "dtype", None), "kind", "f") in "iuf"
+    if isinstance(shape, tuple) and len(shape) == AXES - 1 and shape[1] == AXES and is_number:
+        raise InputError(
+            f"invalid {name}: expected shape (n, 2), but got {described(source)}: for points of space give "
+            f"shape=(D, H, W) as well; {name}[:, :2] gives the plan"
+        )
+
+
+def as_volume(source: Any, name: str, *, is_grey: bool = False, max_pixels: int = MAX_PIXELS) -> Volume:
+    """Give a volume from whatever holds it.
+
+    Parameters
+    ----------
+    source : object
+        A `Volume`, which is given back; a `LabelVolume`; a 3-D array; what makes an array of itself, as arrays of Dask
+        and Zarr do.
+    name : str
+        Of the parameter, for messages.
+    is_grey : bool
+        Floating-point numbers are right, since there may be a threshold.
+    max_pixels : int
+        More voxels are refused before what is not yet in memory is read.
+
+    Raises
+    ------
+    InputError
+        If it is no volume.
+    LimitError
+        If it is too large.
+
+    Examples
+    --------
+    >>> as_volume(np.zeros((2, 3, 4), bool), "volume").shape
+    (2, 3, 4)
+    """
+    if isinstance(source, Volume):
+        return source
+    if isinstance(source, LabelVolume):
+        return Volume(source.labels, source.grid)
+    with naming(name):
+        refuse_paths(source, texts=True)
+        shape = getattr(source, "shape", None)
+        if isinstance(shape, tuple) and len(shape) != AXES:
+            raise unexpected(source, EXPECTED)
+        if not isinstance(source, np.ndarray) and isinstance(shape, tuple):
+            _check_size(shape, max_pixels)
+        try:
+            array = source if isinstance(source, np.ma.MaskedArray) else np.asarray(source)
+        except (TypeError, ValueError):
+            raise unexpected(source, EXPECTED) from None
+        if array.ndim != AXES or array.dtype.kind not in "biuf":
+            raise unexpected(source, EXPECTED)
+        if array.dtype.kind == "f" and not is_grey:
+            how = f"vorotool.seeds_from_volume({name}, threshold=…) takes grey values"
+            raise InputError(f"expected truth values or integers, but got {described(array)}; {how}")
+        return Volume(array)
+
+
+def _check_size(shape: tuple[int, ...], max_pixels: int) -> None:
+    depth, height, width = shape
+    voxels = depth * height * width
+    if voxels > real_number(max_pixels, "max_pixels"):
+        raise LimitError(
+            f"it has {width} x {height} x {depth} = {voxels} voxels, more than max_pixels {max_pixels}: the "
+            "command line reads volumes of TIFF, NPY and Zarr slice by slice"
+        )

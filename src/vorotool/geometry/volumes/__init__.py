@@ -1,0 +1,1 @@
+"""Volumes: their voxels, seeds and labels."""

@@ -1,0 +1,242 @@
+"""The input of a tessellation of a volume: a stack, read slab by slab, or points of space; and its voxels' sides."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from pathlib import Path
+
+from vorotool.engines.volumes.volume_frames import default_voxel_frame
+from vorotool.engines.volumes.volume_objects import SLAB_VOXELS, VolumeObjects
+from vorotool.engines.volumes.volume_seeding import seeds_from_xyz, seeds_of_slabs
+from vorotool.errors import InputError, UsageError
+from vorotool.formats.io.descriptors import STANDARD, stream_kind
+from vorotool.formats.io.npy_arrays import MAGIC
+from vorotool.formats.io.sources import reading
+from vorotool.formats.volumes.opening import open_volume
+from vorotool.formats.volumes.points import read_xyz
+from vorotool.formats.volumes.source import VolumeSource
+from vorotool.formats.zarr.store import is_folder
+from vorotool.geometry.pixel_grid import ALIKE, rounded_side
+from vorotool.geometry.spacing import PixelSides, pixel_sides
+from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
+from vorotool.geometry.volumes.voxel_frame import VoxelFrame
+from vorotool.geometry.volumes.voxel_grid import VoxelGrid
+from vorotool.jobs.inputs import JobInput, refuse
+from vorotool.jobs.options import TessellationOptions
+from vorotool.jobs.run_log import Run
+from vorotool.jobs.units import PixelSize, lengths_in_pixels, sides_of, unit_stats
+from vorotool.products.inputs import VOLUME_NAMES
+
+_TIFF_HEADS = (b"II*\x00", b"MM\x00*", b"II+\x00", b"MM\x00+")
+
+
+@dataclass(frozen=True)
+class ReadVolume:
+    """Seeds, and what else an input says.
+
+    Parameters
+    ----------
+    seeds : VolumeSeeds
+        Of the input.
+    frame : VoxelFrame, optional
+        What is tessellated; None where there are no seeds.
+    sides : PixelSides
+        Of a voxel, in whose unit distances are.
+    grid : VoxelGrid, optional
+        Sides of the voxels, for files that are written.
+    """
+
+    seeds: VolumeSeeds
+    frame: VoxelFrame | None
+    sides: PixelSides
+    grid: VoxelGrid | None
+
+
+def read_volume_seeds(run: Run, o: TessellationOptions, given: JobInput) -> tuple[TessellationOptions, ReadVolume]:
+    """Read a volume, or points of space; options with a unit are in that of the voxels then.
+
+    Parameters
+    ----------
+    run : Run
+        Takes notes and statistics.
+    o : TessellationOptions
+        Of the command line.
+    given : JobInput
+        The input.
+
+    Raises
+    ------
+    InputError
+        If it is none of both, or its file does not say the sides that are asked of it.
+    UsageError
+        If options are given that it has no use for.
+    """
+    if not _is_volume(o, given.path):
+        return _read_points(run, o, given)
+    refuse({"columns": o.columns, **o.of_frame()}, "is for lists of points, but the input is a volume, with its own")
+    with reading(given.path):
+        source = open_volume(given.path, input_format=o.input_format)
+        if source.note:
+            run.note(source.note)
+        o = with_voxel_sides(run, o, given, source.grid)
+        threshold, invert = _foreground(run, o, source)
+        seeds = seeds_of_slabs(
+            source,
+            mode=o.seeds,
+            connectivity=int(o.connectivity or 26),
+            threshold=threshold,
+            invert=invert,
+            max_sites=o.max_sites,
+            strict=o.strict,
+            note=run.note,
+            progress=run.progress("read"),
+            slices=_slices_at_a_time(source),
+        )
+    sides = sides_of(o, 3)
+    return o, ReadVolume(seeds, seeds.frame, sides, _written_grid(o.pixel_size, sides, source.grid))
+
+
+def _read_points(run: Run, o: TessellationOptions, given: JobInput) -> tuple[TessellationOptions, ReadVolume]:
+    if o.pixel_size is not None and o.pixel_size.is_auto:
+        raise UsageError(
+            "--spacing auto is for volumes, whose files may say it: give numbers and their unit, such as "
+            "0.325,0.325,1.5um"
+        )
+    of_volumes = {key: value for key, value in o.for_images().items() if key in _OF_VOLUMES}
+    refuse(of_volumes, "is for volumes, but the input is a list of points")
+    run.stats |= unit_stats(o.pixel_size)
+    with reading(given.path):
+        points = read_xyz(
+            given.path,
+            input_format=o.input_format,
+            columns=o.columns,
+            max_sites=o.max_sites,
+            properties=("table" in o.what or o.label_by is not None or given.has_page) and not o.no_properties,
+            note=run.note,
+        )
+        seeds = seeds_from_xyz(points, strict=o.strict, check=lambda seeds: _frame_of(o, seeds))
+    sides = sides_of(o, 3)
+    return o, ReadVolume(seeds, _frame_of(o, seeds), sides, _written_grid(o.pixel_size, sides, None))
+
+
+_OF_VOLUMES = frozenset({"seeds", "connectivity", "threshold", "invert"})
+"""Options that images and volumes have, and points have not."""
+
+
+def _frame_of(o: TessellationOptions, seeds: VolumeSeeds) -> VoxelFrame | None:
+    if o.window is not None:
+        return VoxelFrame(*o.window)
+    if o.size is not None:
+        return VoxelFrame(0, 0, 0, *o.size)
+    if not len(seeds):
+        return None
+    return default_voxel_frame(seeds, how="give one with --size WxHxD or --window X,Y,Z,W,H,D")
+
+
+def _is_volume(o: TessellationOptions, path: str) -> bool:
+    """Whether an input is a stack, not points: by what is said, else by how it begins, of streams by other options."""
+    if o.input_format is not None:
+        kind = VOLUME_NAMES.get(o.input_format.lower())
+        return kind is not None and not (kind == "npy" and o.columns is not None)
+    if is_folder(path):
+        return True
+    if path == STANDARD or stream_kind(path) is not None:
+        return o.columns is None and o.size is None and o.window is None
+    try:
+        with Path(path).open("rb") as file:
+            head = file.read(len(MAGIC))
+    except (OSError, ValueError):
+        return False  # who reads it says what is wrong
+    return head.startswith(_TIFF_HEADS) or (head == MAGIC and o.columns is None)
+
+
+def _foreground(run: Run, o: TessellationOptions, source: VolumeSource) -> tuple[float | None, bool]:
+    """Give the threshold, which is in the statistics, and whether foreground is what is not above it."""
+    threshold, invert = o.threshold, o.invert
+    if threshold == "otsu":
+        found = VolumeObjects.of(source, "otsu", invert=invert, slices=_slices_at_a_time(source))
+        threshold, invert = found.threshold, found.invert
+        run.note(f"threshold {threshold:.17g}, by Otsu's method")
+    if threshold is not None:
+        run.stats["threshold"] = threshold
+    return threshold, invert
+
+
+def _slices_at_a_time(source: VolumeSource) -> int:
+    """Whole layers of the chunks of the file, which are decoded once."""
+    _, height, width = source.shape
+    layer = source.chunk_depth
+    return layer * max(1, SLAB_VOXELS // (layer * height * width))
+
+
+# ---- sides of voxels
+def with_voxel_sides(run: Run, o: TessellationOptions, given: JobInput, grid: VoxelGrid | None) -> TessellationOptions:
+    """Give options with the sides of voxels: as the user says, or what the file says where that is asked for.
+
+    Parameters
+    ----------
+    run : Run
+        Takes notes and statistics.
+    o : TessellationOptions
+        Of the command line.
+    given : JobInput
+        The volume.
+    grid : VoxelGrid, optional
+        What its file says of its voxels.
+
+    Raises
+    ------
+    InputError
+        If the file is to say it, and does not.
+    """
+    asked = o.pixel_size
+    if asked is None:
+        if grid is not None and not grid.is_cube:
+            run.note(
+                f"{given.name} has voxels of {grid.size_text()}, which are no cubes: distances are in voxels; "
+                "--spacing auto measures in their sides"
+            )
+        elif grid is not None and given.has_units:
+            run.note(f"{given.name} carries voxels of {grid.size_text()}: --spacing auto uses that")
+        return o
+    if asked.is_auto:
+        asked = _of_file(grid)
+        o = lengths_in_pixels(replace(o, pixel_size=asked), asked)
+    run.stats |= unit_stats(asked)
+    return o
+
+
+def _of_file(grid: VoxelGrid | None) -> PixelSize:
+    instead = "give numbers and their unit, such as --spacing 0.325,0.325,1.5um"
+    if grid is None:
+        raise InputError(f"the volume carries no size of its voxels: {instead}")
+    sides = _exact_sides(grid)
+    if sides is None:
+        raise InputError(
+            f"the volume has voxels of {grid.size_text()}, whose sides have no common step that is coarse enough for "
+            f"exact distances: {instead}"
+        )
+    return PixelSize(Fraction(1), grid.unit, is_spacing=True, sides=sides)
+
+
+def _exact_sides(grid: VoxelGrid) -> PixelSides | None:
+    """Sides with a common step: as the file has them, else as the shortest decimal numbers that are alike."""
+    depth, height, width = grid.sides
+    alike = {side: width for side in (height, depth) if abs(side - width) <= ALIKE * width}
+    exact = [alike.get(side, side) for side in (depth, height, width)]
+    for sides in (exact, [*map(rounded_side, exact)]):
+        try:
+            return pixel_sides(sides, 3)
+        except UsageError:
+            continue
+    return None
+
+
+def _written_grid(size: PixelSize | None, sides: PixelSides, grid: VoxelGrid | None) -> VoxelGrid | None:
+    """What files say of the voxels: the spacing that is given, else what the input says."""
+    if size is None:
+        return grid
+    depth, height, width = sides.lengths
+    form = "imagej" if grid is None else grid.form
+    return VoxelGrid(width, height, depth, size.unit, form)

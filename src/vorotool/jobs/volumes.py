@@ -1,0 +1,296 @@
+"""What the tessellation of a volume can be written as: each from slabs, or from the label volume held in memory."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.engines.label_images.regions import region_colours
+from vorotool.engines.tessellation.frames import label_dtype
+from vorotool.engines.volumes.slabs import Quantity, SeedSlab, SeedSlabs, with_neighbours
+from vorotool.engines.volumes.verify_volume import verify_label_volume
+from vorotool.engines.volumes.volume_frames import slab_limits
+from vorotool.engines.volumes.volume_measures import VolumeMeasures, measure_volume, volume_diagram
+from vorotool.engines.volumes.volume_tables import volume_neighbours, volume_table
+from vorotool.engines.volumes.volume_tessellator import VolumeSweep
+from vorotool.errors import LimitError
+from vorotool.geometry.length_units import unit_name
+from vorotool.geometry.progress import Progress
+from vorotool.geometry.table import Table
+from vorotool.geometry.volumes.label_volume import LabelVolume
+from vorotool.jobs.inputs import JobInput
+from vorotool.jobs.options import TessellationOptions
+from vorotool.jobs.picture_world import check_column, world_of
+from vorotool.jobs.run_log import Run
+from vorotool.jobs.targets import Target
+from vorotool.jobs.units import PixelSize, unit_columns
+from vorotool.jobs.volume_input import ReadVolume, read_volume_seeds
+from vorotool.jobs.volume_output import VolumeStream, check_volume_chunks, write_volume_file, write_volume_store
+from vorotool.jobs.volume_pictures import SlicePicture, write_slices
+from vorotool.products.registry import VOLUME_PRODUCTS
+from vorotool.products.writing import write_product
+
+if TYPE_CHECKING:
+    from vorotool.render.canvas.styles import PictureStyle
+
+_HELD = frozenset({"table", "neighbours", "colour"})
+"""Results that need the whole volume in memory."""
+
+
+def products(run: Run, o: TessellationOptions, given: JobInput) -> VolumeProducts:
+    """Read points or a volume, and prepare what labels any slices."""
+    with run.phase("read"):
+        o, read = read_volume_seeds(run, o, given)
+    if len(read.seeds) > o.max_sites:
+        raise LimitError(f"there are {len(read.seeds)} seeds, more than --max-sites {o.max_sites}")
+    with run.phase("prepare"):
+        sweep = VolumeSweep(
+            read.seeds,
+            read.frame,
+            sides=read.sides,
+            max_distance=o.max_distance,
+            threads=o.threads,
+            strict=o.strict,
+            progress=run.progress("tessellate"),
+        )
+        if {"distance", "distance2"} & set(o.what):
+            sweep.check_distances()
+    return VolumeProducts(run, o, read, sweep)
+
+
+class VolumeProducts:
+    """Results of one tessellation.
+
+    Parameters
+    ----------
+    run : Run
+        Takes notes and seconds.
+    options : TessellationOptions
+        Of the command line.
+    read : ReadVolume
+        What was read of the input.
+    sweep : VolumeSweep
+        Gives any slices of labels.
+    """
+
+    def __init__(self, run: Run, options: TessellationOptions, read: ReadVolume, sweep: VolumeSweep) -> None:
+        self.run, self.options, self.read, self.sweep = run, options, read, sweep
+        check_column(options.label_by, read.seeds.properties)
+        self.dtype = label_dtype(read.seeds.largest_label, options.dtype)
+
+    @cached_property
+    def volume(self) -> LabelVolume:
+        """The whole label volume, in memory."""
+        self._require_memory()
+        read, sweep = self.read, self.sweep
+        return LabelVolume(self._labels(0, sweep.frame.depth), sweep.frame, read.seeds, read.sides, read.grid)
+
+    def _require_memory(self) -> None:
+        frame, most = self.sweep.frame, self.options.max_pixels
+        if frame.voxels > most:
+            size = f"{frame.width} x {frame.height} x {frame.depth} = {frame.voxels}"
+            raise LimitError(f"the volume has {size} voxels, more than --max-pixels {most}")
+
+    def _labels(self, first: int, slices: int) -> NDArray[Any]:
+        with self.run.phase("tessellate"):
+            return self.sweep.labels(first, slices, dtype=self.dtype)
+
+    @cached_property
+    def measures(self) -> VolumeMeasures:
+        """Volumes, faces and boxes of the regions: one pass that tables and colours share."""
+        return measure_volume(self.volume, threads=self.options.threads)
+
+    @cached_property
+    def colours(self) -> tuple[NDArray[np.uint32], NDArray[np.uint32]]:
+        """Labels, and the colour class of each."""
+        return region_colours(self.volume, measures=self.measures)
+
+    @cached_property
+    def _views(self) -> SlicePicture:
+        return SlicePicture(self.sweep.frame, self.read.sides.units, self.options.slice)
+
+    def check(self, target: Target) -> None:
+        """Refuse what cannot be written, before anything is."""
+        from vorotool.render.pages.volume_html import check_volume_page
+
+        what, fmt = target.what, target.fmt
+        if fmt == "html":
+            check_volume_page(self.sweep.frame.shape)
+        elif what == "colour":
+            self._views.check(self.options.max_pixels)
+        elif what == "distance2":
+            _ = self.sweep.square_dtype
+        if what in _HELD or fmt == "html":
+            self._require_memory()
+            return
+        stream = self._stream(what)
+        if fmt == "zarr":
+            check_volume_chunks(self.options, stream.frame, stream.dtype)
+        elif self.sweep.frame.width * self.sweep.frame.height > self.options.max_pixels:
+            size = f"{self.sweep.frame.width} x {self.sweep.frame.height}"
+            raise LimitError(f"a slice has {size} voxels, more than --max-pixels {self.options.max_pixels}")
+
+    def write(self, target: Target, *, inputs: Sequence[str]) -> None:
+        """Write one result."""
+        from vorotool.formats.io.atomic_output import open_output
+
+        what, o = target.what, self.options
+        if what == "distance2" and self.sweep.step != 1:
+            self.run.note(f"squared distances are in units of {self._unit_of_squares}")
+        if target.fmt == "zarr":
+            write_volume_store(self.run, o, target, self._stream(what), inputs)
+            return
+        with open_output(target.path, binary=target.is_binary, no_clobber=o.no_clobber, inputs=inputs) as out:
+            if target.fmt == "html":
+                self._write_page(out)
+            elif what == "colour":
+                self._write_picture(out, target.fmt)
+            elif what in ("table", "neighbours"):
+                table = self._table if what == "table" else self._neighbours()
+                write_product(
+                    out,
+                    table,
+                    VOLUME_PRODUCTS[what],
+                    target.fmt,
+                    precision=o.precision,
+                    threads=o.threads,
+                    path=target.path,
+                )
+            else:
+                write_volume_file(out, o, target, self._stream(what))
+
+    @property
+    def _unit_of_squares(self) -> str:
+        """What squared distances are counted in, exactly: ``(1/40 µm)²``."""
+        size, step = self.options.pixel_size, self.sweep.step
+        unit = "voxel" if size is None else size.unit
+        return f"{step}²" if unit is None else f"({step} {unit_name(unit)})²"
+
+    # ---- what is streamed
+    def _stream(self, what: str) -> VolumeStream:
+        """Labels, the diagram or distances, which need not be in memory."""
+        sweep = self.sweep
+        made: dict[str, tuple[Callable[[int, int], NDArray[Any]], Any]] = {
+            "labels": (self._labels, self.dtype),
+            "diagram": (self._diagram, np.uint8),
+            "distance": (sweep.distances, np.float32),
+            "distance2": (sweep.squared_distances, None),
+        }
+        slices_of, dtype = made[what]
+        is_cut = what == "labels" and self.options.max_distance is not None
+        return VolumeStream(
+            sweep.frame,
+            slices_of,
+            sweep.square_dtype if dtype is None else np.dtype(dtype),
+            lambda first, slices: self._slab(what, first, slices),  # type: ignore[arg-type]  # it is one of these
+            list(slab_limits(sweep.frame, len(sweep.seeds))),
+            self.read.grid,
+            0 if is_cut else None,
+        )
+
+    def _diagram(self, first: int, slices: int) -> NDArray[Any]:
+        begin, count = with_neighbours(self.sweep.frame, first, slices)
+        lines = volume_diagram(self._labels(begin, count), threads=self.options.threads)
+        return lines[first - begin : first - begin + slices]
+
+    def _slab(self, what: Quantity, first: int, slices: int) -> SeedSlab:
+        """Give some slices as what computes them anywhere."""
+        read, frame = self.read, self.sweep.frame
+        own = with_neighbours(frame, first, slices) if what == "diagram" else (first, slices)
+        seeds, dtype = self._seed_slabs.seeds_of(*own), self._stream(what).dtype
+        return SeedSlab(seeds, frame, first, slices, what, dtype, read.sides, self.options.max_distance)
+
+    @cached_property
+    def _seed_slabs(self) -> SeedSlabs:
+        return SeedSlabs(self.read.seeds, self.sweep.frame)
+
+    # ---- what is made of the whole
+    @cached_property
+    def _table(self) -> Table:
+        volume, measures = self.volume, self.measures
+        squares = self.sweep.squared_distances() if len(self.read.seeds) else None
+        return volume_table(volume, distance2=squares, measures=measures, threads=self.options.threads)
+
+    def _neighbours(self) -> Table:
+        return volume_neighbours(self.volume, measures=self.measures, threads=self.options.threads)
+
+    def _write_page(self, out: BinaryIO) -> None:
+        from vorotool.render.pages.volume_html import write_volume_html
+
+        table, labels = self._table, self.colours[0]
+        rows = {int(label): row for row, label in enumerate(table["label"])}
+        chosen = [rows[int(label)] for label in labels]
+        columns = {name: [table[name][row] for row in chosen] for name in table if name != "label"}
+        columns |= unit_columns(self._size, len(labels))
+        first, units = self.sweep.frame.z, self.read.sides.units
+        write_volume_html(out, self.volume.labels, self.colours, columns, first=first, units=units)
+
+    @property
+    def _size(self) -> PixelSize | None:
+        """The side of a pixel of pictures, which is the shortest of a voxel."""
+        size = self.options.pixel_size
+        return None if size is None else PixelSize(min(self.read.sides.lengths), size.unit)
+
+    def _write_picture(self, out: BinaryIO, fmt: str) -> None:
+        from vorotool.jobs.label_pictures import site_texts
+
+        o, seeds = self.options, self.read.seeds
+        write_slices(
+            out,
+            self.volume,
+            self._views,
+            self.colours,
+            fmt=fmt,
+            layers=o.drawn(VOLUME_PRODUCTS["colour"].usual_layers),
+            style=self._style,
+            width=o.width or 1000,
+            texts=None if o.label_by is None else site_texts(seeds, o.label_by),
+            threads=o.threads,
+        )
+
+    @property
+    def _style(self) -> PictureStyle:
+        from vorotool.geometry.pixel_frame import Frame
+
+        height, width = self._views.shape
+        looks = self.options.looks
+        return looks.style(world_of(self.run, looks, frame=Frame(0, 0, width, height), size=self._size).scale_bar)
+
+    def verify(self, progress: Progress) -> None:
+        """Check the labels of every slab against an independent nearest-seed search."""
+        sweep, read, frame = self.sweep, self.read, self.sweep.frame
+        for first, slices in slab_limits(frame, len(sweep.seeds)):
+            verify_label_volume(
+                sweep.labels(first, slices),
+                read.seeds,
+                replace(frame, z=frame.z + first, depth=slices),
+                sides=read.sides,
+                max_distance2=sweep.most_squared,
+                threads=self.options.threads,
+            )
+            if progress is not None:
+                progress((first + slices) / frame.depth)
+
+    def stats(self) -> dict[str, Any]:
+        """Counts and sizes."""
+        sweep, seeds, frame = self.sweep, self.read.seeds, self.sweep.frame
+        return {
+            "seeds": len(seeds),
+            "labels": len(seeds.site_labels) if seeds.site_labels is not None else 0,
+            "largest_label": seeds.largest_label,
+            "duplicates": sweep.duplicates,
+            "snapped": seeds.snapped,
+            "largest_move": seeds.largest_move,
+            "steps_per_voxel": seeds.scale,
+            "frame": [frame.x, frame.y, frame.z, frame.width, frame.height, frame.depth],
+            "voxels": frame.voxels,
+            "unit_of_distance2": self._unit_of_squares,
+            "method": "exact",
+            "threads": self.options.threads,
+            "arithmetic": sweep.arithmetic,
+        }

@@ -1,0 +1,161 @@
+"""A page that shows the labels of a volume slice by slice, with the values of the one that is pointed at: one file."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, BinaryIO, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from vorotool.errors import LimitError
+from vorotool.geometry.ragged import starts_of
+from vorotool.render.canvas.palettes import cell_colour
+from vorotool.render.pages.cells_html import MOST_CELLS, json_value, packed
+
+MOST_VOXELS = 1 << 26
+"""Voxels of a page: 512 x 512 x 256 of them."""
+
+MOST_RUNS = 3_000_000
+"""Runs of voxels of one label: some 30 MB of data."""
+
+PAGE = "volume_page.html"
+_PLACE = "/*DATA*/null"
+
+
+class Runs(NamedTuple):
+    """A volume of labels as runs along its rows.
+
+    Parameters
+    ----------
+    rows : (D * H + 1,) int64 array
+        Where the runs of each row begin, and their number.
+    ends : (r,) int64 array
+        The column behind each run.
+    regions : (r,) int64 array
+        Index of the label of each run among the known ones, from 1; 0 is none.
+    """
+
+    rows: NDArray[np.int64]
+    ends: NDArray[np.int64]
+    regions: NDArray[np.int64]
+
+
+def runs_of(labels: NDArray[Any], known: NDArray[Any]) -> Runs:
+    """Give the runs of a volume.
+
+    Parameters
+    ----------
+    labels : (D, H, W) integer array
+        0 is none.
+    known : (k,) integer array
+        The labels that occur, increasing.
+
+    Examples
+    --------
+    >>> runs = runs_of(np.array([[[7, 7, 0], [9, 9, 9]]]), np.array([7, 9]))
+    >>> runs.rows.tolist(), runs.ends.tolist(), runs.regions.tolist()
+    ([0, 2, 3], [2, 3, 3], [1, 0, 2])
+    """
+    _, height, width = labels.shape
+    counts, ends, regions = [], [], []
+    for values in labels:
+        is_last = np.ones((height, width), bool)
+        is_last[:, :-1] = values[:, 1:] != values[:, :-1]
+        counts.append(is_last.sum(axis=1))
+        ends.append(np.nonzero(is_last)[1] + 1)
+        own = values[is_last]
+        regions.append(np.where(own == 0, 0, np.searchsorted(known, own) + 1))
+    return Runs(starts_of(np.concatenate(counts)), np.concatenate(ends), np.concatenate(regions))
+
+
+def check_volume_page(shape: tuple[int, ...], labels: int = 0, runs: int = 0) -> None:
+    """Refuse a page that no browser would show.
+
+    Raises
+    ------
+    LimitError
+        If the volume has too many voxels, labels, or runs of voxels of one label.
+
+    Examples
+    --------
+    >>> check_volume_page((64, 512, 512))
+    """
+    depth, height, width = shape
+    instead = "use --what colour as PNG, or --what labels"
+    if depth * height * width > MOST_VOXELS:
+        size = f"{width} x {height} x {depth}"
+        raise LimitError(f"{size} voxels are too many for a page, at most {MOST_VOXELS}: {instead}")
+    for count, most, what in ((labels, MOST_CELLS, "labels"), (runs, MOST_RUNS, "runs of voxels")):
+        if count > most:
+            raise LimitError(f"{count} {what} are too many for a page, at most {most}: {instead}")
+
+
+def write_volume_html(
+    out: BinaryIO,
+    labels: NDArray[Any],
+    colours: tuple[NDArray[Any], NDArray[Any]],
+    columns: Mapping[str, Sequence[Any]],
+    *,
+    first: int = 0,
+    units: ArrayLike = (1, 1, 1),
+) -> None:
+    """Write a page with a slider over the slices of a volume, on which the region that is pointed at is named.
+
+    It is opened from a file as well as from a server, works without a network, on light and on dark ground, and shows
+    the region and the slice that its address ends with (``page.html#id=10&z=3``).
+
+    Parameters
+    ----------
+    out : binary file
+        Receives UTF-8.
+    labels : (D, H, W) integer array
+        0 is no label.
+    colours : pair of (k,) integer arrays
+        The labels that occur, increasing, and the colour class of each, from 1.
+    columns : mapping of str to sequence
+        Values of each, such as volumes: numbers, texts, or None.
+    first : int
+        z of the first slice.
+    units : (3,) array of numbers
+        Sides of a voxel along z, y and x.
+
+    Raises
+    ------
+    LimitError
+        If it would be too large: see `check_volume_page`.
+
+    Examples
+    --------
+    >>> import io
+    >>> out = io.BytesIO()
+    >>> write_volume_html(out, np.array([[[7, 7, 2]]]), (np.array([2, 7]), np.array([1, 2])), {"volume": [1, 2]})
+    >>> out.getvalue()[:15]
+    b'<!DOCTYPE html>'
+    """
+    known, classes = np.asarray(colours[0]), np.asarray(colours[1])
+    check_volume_page(labels.shape, len(known))
+    runs = runs_of(labels, known)
+    check_volume_page(labels.shape, len(known), len(runs.ends))
+    depth, height, width = labels.shape
+    _, side_y, side_x = (float(unit) for unit in np.asarray(units))
+    data = {
+        "width": width,
+        "height": height,
+        "depth": depth,
+        "first": first,
+        "sides": [side_x, side_y],
+        "rows": packed(runs.rows, "<i4"),
+        "ends": packed(runs.ends, "<i4"),
+        "regions": packed(runs.regions, "<i4"),
+        "classes": packed(np.append(0, classes), "<i4"),
+        "colours": [cell_colour(number) for number in range(int(classes.max(initial=0)) + 1)],
+        "ids": [str(label) for label in known.tolist()],
+        "columns": [{"name": name, "values": [json_value(each) for each in own]} for name, own in columns.items()],
+    }
+    page = Path(__file__).with_name(PAGE).read_text(encoding="utf-8")
+    before, after = page.split(_PLACE)
+    text = json.dumps(data, separators=(",", ":"), allow_nan=False)
+    out.write(f"{before}{text.replace('<', chr(92) + 'u003c')}{after}".encode())  # no text ends the script

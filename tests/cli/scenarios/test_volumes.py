@@ -1,0 +1,451 @@
+"""Volumes on the command line: what the library makes of them, whatever the format, the slabs, the chunks, the threads."""
+
+import json
+import signal
+
+import numpy as np
+import pytest
+import tifffile
+
+import vorotool
+from support.processes.leftovers import contents, wait_until
+from support.processes.peak_memory import peak_memory
+from support.readers.written import rows_of
+from vorotool.formats.samples import sample
+
+MASK = np.zeros((7, 9, 11), np.uint8)
+MASK[1:4, 1:5, 1:4] = MASK[4:6, 5:9, 6:11] = MASK[0, 0, 9] = 255
+SPACING = (1.5, 0.325, 0.325)
+"""Along z, y and x."""
+
+ABOUT = {"spacing": SPACING[0], "unit": "um", "axes": "ZYX"}
+PLACES = np.array([[1, 2, 0], [8, 3, 4], [5, 7, 6], [8, 3, 4], [2.5, 0, 3.5]])
+
+
+@pytest.fixture
+def stack(tmp_path):
+    """A stack as ImageJ writes it, and the same as NPY."""
+    steps = (1 / SPACING[2], 1 / SPACING[1])
+    tifffile.imwrite(tmp_path / "stack.tif", MASK, imagej=True, resolution=steps, metadata=ABOUT)
+    np.save(tmp_path / "stack.npy", MASK)
+    return tmp_path
+
+
+@pytest.fixture
+def points(tmp_path):
+    lines = [",".join(map(str, place)) for place in PLACES.tolist()]
+    (tmp_path / "points.csv").write_text("\n".join(["x,y,z", *lines, ""]))
+    return tmp_path
+
+
+def written(path):
+    if path.suffix == ".npy":
+        return np.load(path)
+    if path.suffix == ".zarr":
+        zarr = pytest.importorskip("zarr")
+        found = zarr.open(path, mode="r")
+        return (found["0"] if isinstance(found, zarr.Group) else found)[...]
+    return tifffile.imread(path)
+
+
+# ---- what is written is what the library gives ---------------------------------------------------
+@pytest.mark.parametrize("source", ["stack.tif", "stack.npy"])
+@pytest.mark.parametrize("name", ["out.tif", "out.npy", "out.zarr", "out.ome.zarr"])
+def test_labels_of_a_stack(run, stack, source, name):
+    done = run("tessellate", "--volume", source, "-o", name, "-q")
+    assert (done.code, done.out, done.err) == (0, "", "")
+    expected = vorotool.tessellate(MASK != 0)
+    np.testing.assert_array_equal(written(stack / name), expected.labels)
+    assert expected.labels.max() == 3
+
+
+@pytest.mark.parametrize("what", ["labels", "distance", "distance2", "diagram"])
+@pytest.mark.parametrize("spacing", [None, SPACING])
+def test_every_volume_that_is_written(run, stack, what, spacing):
+    given = [] if spacing is None else ["--spacing", "auto"]
+    result = vorotool.tessellate(MASK != 0, spacing=spacing)
+    mask, sides = MASK != 0, [1, 1, 1] if spacing is None else [60, 13, 13]
+    places = np.argwhere(mask)
+    voxels = np.indices(MASK.shape).reshape(3, -1).T
+    squares = (((voxels[:, None] - places) * sides) ** 2).sum(axis=-1).min(axis=1).reshape(MASK.shape)
+    expected = {
+        "labels": result.labels,
+        "distance": (np.sqrt(squares) * (1 if spacing is None else 1 / 40)).astype(np.float32),
+        "distance2": squares,
+        "diagram": vorotool.voronoi_diagram(result),
+    }[what]
+    for name in ("out.tif", "out.npy", "out.zarr"):
+        assert run("tessellate", "--volume", "stack.tif", "--what", what, "-o", name, "-q", *given).code == 0
+        found = written(stack / name)
+        np.testing.assert_allclose(found, expected, rtol=1e-7 if what == "distance" else 0)
+
+
+def test_points_of_space(run, points):
+    with pytest.warns(vorotool.VorotoolWarning, match="on another seed"):
+        expected = vorotool.tessellate(PLACES, shape=(7, 8, 9), spacing=(2, 1, 1))
+    done = run("tessellate", "points.csv", "--size", "9x8x7", "--spacing", "1,1,2", "-o", "out.npy")
+    assert (done.code, "warning" in done.err) == (0, True)
+    np.testing.assert_array_equal(np.load(points / "out.npy"), expected.labels)
+    run("tessellate", "points.csv", "--window", "-2,-1,-3,12,11,13", "-o", "window.npy", "-q")
+    run("tessellate", "points.csv", "--volume", "-o", "usual.npy", "-q")
+    window = np.load(points / "window.npy")
+    usual = np.load(points / "usual.npy")
+    assert usual.shape == (7, 8, 9)
+    np.testing.assert_array_equal(window[3:10, 1:9, 2:11], usual)
+
+
+def test_columns_are_chosen(run, points):
+    (points / "named.csv").write_text("height;east;north;name\n0;1;2;a\n4;8;3;b\n")
+    np.save(points / "array.npy", PLACES)
+    run("tessellate", "points.csv", "--size", "9x8x7", "-o", "a.npy", "-q")
+    run("tessellate", "array.npy", "--columns", "1,2,z=3", "--size", "9x8x7", "-o", "b.npy", "-q")
+    np.testing.assert_array_equal(np.load(points / "a.npy"), np.load(points / "b.npy"))
+    done = run("tessellate", "named.csv", "--columns", "east,north,z=height", "--what", "table", "-q")
+    assert [(row["x"], row["y"], row["z"], row["name"]) for row in done.rows] == [
+        ("1", "2", "0", "a"),
+        ("8", "3", "4", "b"),
+    ]
+
+
+@pytest.mark.parametrize(("connectivity", "labels"), [("26", 3), ("6", 4)])
+def test_components(run, tmp_path, connectivity, labels):
+    mask = MASK.copy()
+    mask[6, 8, 5] = 255  # by a corner beside another object
+    np.save(tmp_path / "mask.npy", mask)
+    run("tessellate", "--volume", "mask.npy", "--connectivity", connectivity, "-o", "out.npy", "-q")
+    assert np.load(tmp_path / "out.npy").max() == labels
+
+
+def test_labels_stay_and_values_are_cut(run, tmp_path):
+    values = MASK.astype(np.uint16)
+    values[MASK > 0] = 7
+    values[0, 0, 9] = 300
+    np.save(tmp_path / "labels.npy", values)
+    run("tessellate", "--volume", "labels.npy", "-o", "out.npy", "-q")
+    np.testing.assert_array_equal(np.load(tmp_path / "out.npy"), vorotool.tessellate(values).labels)
+    run("tessellate", "--volume", "labels.npy", "--threshold", "7", "--stats", "s.json", "-o", "cut.npy", "-q")
+    assert (np.load(tmp_path / "cut.npy") == 1).all()
+    assert json.loads((tmp_path / "s.json").read_text())["threshold"] == 7
+    run("tessellate", "--volume", "labels.npy", "--threshold", "otsu", "--stats", "s.json", "-o", "otsu.npy", "-q")
+    assert json.loads((tmp_path / "s.json").read_text())["threshold"] in (0, 7)
+
+
+def test_the_largest_distance_leaves_objects_whole(run, stack):
+    solid = np.zeros((9, 9, 9), np.uint8)
+    solid[1:8, 1:8, 1:8] = 1
+    np.save(stack / "solid.npy", solid)
+    run("tessellate", "--volume", "solid.npy", "--max-distance", "0", "-o", "out.tif", "-q")
+    np.testing.assert_array_equal(tifffile.imread(stack / "out.tif"), solid)
+    options = ["--volume", "stack.tif", "--spacing", "auto", "-q"]
+    run("tessellate", *options, "--max-distance", "0.7um", "-o", "out.tif")
+    expected = vorotool.tessellate(MASK != 0, spacing=SPACING, max_distance=0.7)
+    np.testing.assert_array_equal(tifffile.imread(stack / "out.tif"), expected.labels)
+
+
+# ---- tables --------------------------------------------------------------------------------------
+@pytest.mark.parametrize("what", ["table", "neighbours"])
+def test_tables_are_those_of_the_library_in_the_unit_of_the_spacing(run, stack, what):
+    result = vorotool.tessellate(vorotool.read(stack / "stack.tif", geometry="volume"), spacing=SPACING)
+    table = vorotool.region_table(result) if what == "table" else vorotool.neighbour_table(result)
+    rows = run("tessellate", "--volume", "stack.tif", "--spacing", "auto", "--what", what, "-q").rows
+    for name in table:
+        found = [float(row[name]) if row[name] else np.nan for row in rows]
+        np.testing.assert_allclose(found, np.ma.filled(np.ma.asarray(table[name], float), np.nan), err_msg=name)
+    assert {row["unit"] for row in rows} == {"µm"}
+
+
+def test_volumes_add_up(run, stack):
+    rows = run("tessellate", "--volume", "stack.tif", "--spacing", "auto", "--what", "table", "-q").rows
+    assert sum(float(row["volume"]) for row in rows) == pytest.approx(MASK.size * np.prod(SPACING))
+    plain = run("tessellate", "--volume", "stack.npy", "--what", "table", "-q").rows
+    assert sum(int(row["volume"]) for row in plain) == MASK.size
+    assert "unit" not in plain[0]
+
+
+def test_every_format_of_tables(run, stack):
+    for fmt in ("csv", "tsv", "json", "jsonl", "npz"):
+        assert run("tessellate", "--volume", "stack.tif", "--what", "table", "-o", f"t.{fmt}", "-q").code == 0
+    assert len(json.loads((stack / "t.json").read_text())["label"]) == 3
+
+
+# ---- files say how large voxels are --------------------------------------------------------------
+def test_a_stack_carries_its_spacing_on(run, stack):
+    for options in ([], ["--spacing", "auto"]):
+        assert run("tessellate", "--volume", "stack.tif", "-o", "out.tif", "-q", *options).code == 0
+        with tifffile.TiffFile(stack / "out.tif") as file:
+            about, tag = file.imagej_metadata, file.pages[0].tags["XResolution"].value
+            assert (about["spacing"], about["slices"], tag[0] / tag[1]) == (1.5, 7, pytest.approx(1 / 0.325))
+        run("tessellate", "--volume", "stack.tif", "-o", "out.ome.zarr", "-q", *options)
+        ome = json.loads((stack / "out.ome.zarr/zarr.json").read_text())["attributes"]["ome"]
+        (scale,) = ome["multiscales"]
+        assert [axis["name"] for axis in scale["axes"]] == ["z", "y", "x"]
+        assert scale["datasets"][0]["coordinateTransformations"][0]["scale"] == list(SPACING)
+
+
+def test_a_spacing_that_is_given_is_written(run, points):
+    run("tessellate", "points.csv", "--volume", "--spacing", "0.5um,0.5um,2um", "-o", "out.tif", "-q")
+    assert vorotool.read(points / "out.tif", geometry="volume").grid.size_text() == "0.5 x 0.5 x 2 µm"
+
+
+def test_what_the_file_says_is_told(run, stack):
+    done = run("tessellate", "--volume", "stack.tif", "-o", "out.tif")
+    assert "voxels of 0.325 x 0.325 x 1.5 µm, which are no cubes: distances are in voxels; --spacing auto" in done.err
+    done = run("tessellate", "--volume", "stack.tif", "--spacing", "auto", "-o", "out.tif", "--stats", "-")
+    stats = json.loads(done.out)
+    assert (stats["spacing"], stats["unit"], stats["unit_of_distance2"]) == ([0.325, 0.325, 1.5], "µm", "(1/40 µm)²")
+    assert (stats["frame"], stats["voxels"], stats["labels"]) == ([0, 0, 0, 11, 9, 7], 693, 3)
+    assert stats["arithmetic"].startswith("float64")
+
+
+def test_coarser_copies(run, tmp_path):
+    pytest.importorskip("zarr")
+    values = np.random.default_rng(1).integers(0, 4, (3, 300, 290)).astype(np.uint16)
+    np.save(tmp_path / "labels.npy", values)
+    options = ["tessellate", "--volume", "labels.npy", "--seeds", "labels", "-q", "-o", "out.ome.zarr"]
+    assert run(*options, "--levels", "auto").code == 0
+    assert sorted(path.name for path in (tmp_path / "out.ome.zarr").iterdir()) == ["0", "1", "zarr.json"]
+    assert run(*options, "--levels", "2").code == 0  # replaces it
+    whole = vorotool.tessellate(vorotool.seeds_from_volume(values, mode="labels")).labels
+    zarr = pytest.importorskip("zarr")
+    for level in range(3):
+        step = 2**level
+        found = zarr.open_array(tmp_path / f"out.ome.zarr/{level}", mode="r")[...]
+        np.testing.assert_array_equal(found, whole[::step, ::step, ::step])
+
+
+# ---- slabs, chunks, threads, workers -------------------------------------------------------------
+def test_bytes_depend_neither_on_slabs_nor_threads(run, stack, monkeypatch):
+    options = ["tessellate", "--volume", "stack.tif", "--spacing", "auto", "-q"]
+    chunks = ["--chunk", "4x4x2"]
+    for what in ("labels", "diagram", "distance"):
+        monkeypatch.undo()
+        monkeypatch.chdir(stack)
+        for name in ("a.tif", "a.npy"):
+            run(*options, "--what", what, "-o", name)
+        run(*options, "--what", what, "-o", "a.zarr", *chunks)
+        monkeypatch.setattr("vorotool.engines.volumes.volume_frames.BAND_PIXELS", 2 * 9 * 11)
+        monkeypatch.setattr("vorotool.engines.volumes.volume_frames._VOXELS_A_SEED", 0)
+        for threads in ("1", "3"):
+            for name in ("b.tif", "b.npy"):
+                run(*options, "--what", what, "-o", name, "--threads", threads)
+                assert (stack / name).read_bytes() == (stack / name.replace("b", "a")).read_bytes()
+            run(*options, "--what", what, "-o", "b.zarr", *chunks, "--threads", threads)
+            assert contents(stack / "a.zarr") == contents(stack / "b.zarr")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("what", ["labels", "diagram", "distance", "distance2"])
+def test_a_cluster_writes_the_same_store(run, stack, what):
+    pytest.importorskip("distributed")
+    pytest.importorskip("zarr")
+    options = ["tessellate", "--volume", "stack.tif", "--what", what, "--spacing", "auto", "--chunk", "4x4x2", "-q"]
+    options += ["--max-distance", "1.5um"] if what == "labels" else []
+    assert run(*options, "-o", "a.ome.zarr", "--levels", "1").code == 0
+    done = run(*options, "-o", "b.ome.zarr", "--levels", "1", "--cluster", "local", "-j", "2")
+    assert (done.code, done.err) == (0, "")
+    assert {path: data for path, data in contents(stack / "a.ome.zarr").items() if path != "zarr.json"} == {
+        path: data for path, data in contents(stack / "b.ome.zarr").items() if path != "zarr.json"
+    }
+
+
+@pytest.mark.slow
+def test_memory_does_not_grow_with_the_depth(tmp_path):
+    pytest.importorskip("zarr")
+    np.save(tmp_path / "points.npy", np.random.default_rng(3).integers(0, 512, (200, 3)))
+    frame = ["points.npy", "--columns", "1,2,z=3", "-q"]
+    low, high = (
+        peak_memory(["tessellate", *frame, "--size", f"512x512x{depth}", "-o", f"{depth}.zarr"], tmp_path)
+        for depth in (256, 1024)
+    )
+    assert high < low + 60e6
+
+
+def test_an_interrupt_leaves_nothing(process, tmp_path):
+    np.save(tmp_path / "points.npy", np.random.default_rng(3).integers(0, 2000, (20000, 3)))
+    options = ["--columns", "1,2,z=3", "--size", "2000x2000x2000", "-o", "out.npy"]
+    running = process("tessellate", "points.npy", *options)
+    wait_until(lambda: list(tmp_path.glob(".vorotool-*")) or running.poll() is not None)
+    running.send_signal(signal.SIGINT)
+    assert running.wait(20) == 130
+    assert [path.name for path in tmp_path.iterdir()] == ["points.npy"]
+
+
+# ---- streams and batches -------------------------------------------------------------------------
+def test_streams(process, stack):
+    data = (stack / "stack.tif").read_bytes()
+    running = process("tessellate", "--volume", "-", "-f", "npy", "-o", "-", "-q", stdin=-1)
+    out, err = running.communicate(data)
+    assert (running.returncode, err) == (0, b"")
+    assert process("tessellate", "--volume", "stack.tif", "-o", "out.npy", "-q").wait() == 0
+    assert out == (stack / "out.npy").read_bytes()
+    running = process("tessellate", "--volume", "-", "-f", "tiff", "-o", "-", "-q", stdin=-1)
+    assert process("tessellate", "--volume", "stack.tif", "-o", "out.tif", "-q").wait() == 0
+    assert running.communicate(data)[0] == (stack / "out.tif").read_bytes()
+
+
+def test_points_through_a_stream(process, points):
+    running = process("tessellate", "-", "--size", "9x8x7", "--what", "table", "-q", stdin=-1)
+    out, err = running.communicate((points / "points.csv").read_bytes())
+    assert (running.returncode, err) == (0, b"")
+    assert len(rows_of(out.decode())) == 5
+
+
+def test_a_folder_of_stacks(run, tmp_path):
+    (tmp_path / "stacks").mkdir()
+    for number in range(3):
+        tifffile.imwrite(tmp_path / f"stacks/s{number}.tif", np.roll(MASK, number, axis=2), photometric="minisblack")
+    tifffile.imwrite(tmp_path / "stacks/rgb.tif", np.zeros((5, 5, 3), np.uint8), photometric="rgb")
+    options = ["tessellate", "--volume", "stacks", "--out-dir", "out", "--what", "labels,table", "-q"]
+    done = run(*options, "--keep-going")
+    assert (done.code, "stacks/rgb.tif" in done.err) == (6, True)
+    names = sorted(path.name for path in (tmp_path / "out").iterdir())
+    made = [f"s{number}.{what}" for number in range(3) for what in ("labels.tif", "table.csv")]
+    assert names == [*made, "tessellate.manifest.jsonl"]
+    np.testing.assert_array_equal(
+        tifffile.imread(tmp_path / "out/s1.labels.tif"), vorotool.tessellate(np.roll(MASK, 1, axis=2) != 0).labels
+    )
+    (tmp_path / "stacks/rgb.tif").unlink()
+    plan = [json.loads(line) for line in run(*options, "--resume", "--dry-run").out.splitlines()]
+    assert [each["status"] for each in plan] == ["kept"] * 3
+    again = run(*options[:-3], "--table", "all.csv", "-j", "2", "-q", "--what", "labels")
+    assert (again.code, again.err) == (0, "")
+    assert len(rows_of((tmp_path / "all.csv").read_text())) == 9
+
+
+# ---- pictures ------------------------------------------------------------------------------------
+@pytest.mark.parametrize("fmt", ["png", "svg"])
+@pytest.mark.parametrize("options", [[], ["--slice", "2"], ["--layers", "cells,labels"], ["--scale-bar", "--legend"]])
+def test_pictures(run, stack, fmt, options):
+    start = ["tessellate", "--volume", "stack.tif", "--spacing", "auto", "--what", "colour", "-q", "-o", f"a.{fmt}"]
+    assert run(*start, *options).code == 0
+    first = (stack / f"a.{fmt}").read_bytes()
+    assert run(*start, *options, "--threads", "1").code == 0
+    assert (stack / f"a.{fmt}").read_bytes() == first
+
+
+def test_neighbours_never_share_a_colour_in_a_slice(run, stack):
+    from PIL import Image
+
+    options = ["--layers", "cells", "--line-width", "cells=0", "-q"]
+    run("tessellate", "--volume", "stack.npy", "--what", "colour", "-o", "a.png", "--slice", "4", *options)
+    labels = vorotool.tessellate(MASK != 0).labels[4]
+    colours = np.asarray(Image.open(stack / "a.png").convert("RGB")).reshape(*labels.shape, 3)
+    assert len({tuple(colours[labels == label][0]) for label in np.unique(labels)}) == len(np.unique(labels))
+    for label in np.unique(labels):
+        assert len(np.unique(colours[labels == label], axis=0)) == 1
+
+
+def test_the_page(run, stack):
+    options = ["--spacing", "auto", "--what", "labels", "-q", "-o", "a.html"]
+    assert run("tessellate", "--volume", "stack.tif", *options).code == 0
+    page = (stack / "a.html").read_text(encoding="utf-8")
+    assert '"depth":7' in page
+    assert '"name":"volume"' in page
+    assert '"name":"unit","values":["µm","µm","µm"]' in page
+
+
+# ---- checks --------------------------------------------------------------------------------------
+def test_the_result_is_checked(run, stack, monkeypatch):
+    from vorotool.engines.volumes.volume_tessellator import VolumeSweep
+
+    options = ["tessellate", "--volume", "stack.tif", "--spacing", "auto", "-o", "out.tif", "--verify", "-q"]
+    assert run(*options).code == 0
+    assert run(*options, "--max-distance", "1um").code == 0
+    right = VolumeSweep.labels
+
+    def wrong(self, *given, **more):
+        labels = right(self, *given, **more)
+        labels[-1, -1, -1] = 1
+        return labels
+
+    monkeypatch.setattr(VolumeSweep, "labels", wrong)
+    assert run(*options).code == 1
+
+
+def test_nothing_in_a_volume(run, tmp_path):
+    np.save(tmp_path / "none.npy", np.zeros((3, 4, 5), np.uint8))
+    done = run("tessellate", "--volume", "none.npy", "-o", "out.npy")
+    assert (done.code, "no foreground" in done.err) == (0, True)
+    assert not np.load(tmp_path / "out.npy").any()
+    assert run("tessellate", "--volume", "none.npy", "-o", "out.npy", "--strict").code == 3
+    assert run("tessellate", "--volume", "none.npy", "--what", "distance", "-o", "out.npy", "-q").code == 3
+    assert run("tessellate", "--volume", "none.npy", "--what", "table", "-q").out.count("\n") == 1
+
+
+REFUSED = [
+    ("stack.tif -o a.tif", 3, "has 7 pages: choose one with --page 0 to --page 6, or --page all; tessellate --volume"),
+    ("stack.npy -o a.tif", 3, "(H, W, C) with C from 1 to 4; tessellate --volume reads (D, H, W)"),
+    ("stack.tif --volume --page 1 -o a.tif", 2, "--page chooses a page of a stack, and --volume takes them all"),
+    ("stack.tif --volume --page all --out-dir out", 2, "--page chooses a page"),
+    ("stack.tif --volume --connectivity 8 -o a.tif", 2, "--connectivity 8 is for images: voxels have 26 or 6"),
+    ("stack.tif --page 0 --connectivity 6 -o a.tif", 2, "--connectivity 6 is for volumes: pixels have 8 or 4"),
+    ("stack.tif --volume --seeds labels --connectivity 6 -o a.tif", 2, "--connectivity is for components"),
+    ("stack.tif --volume --size 9x9 -o a.tif", 2, "--size 9x9 has no depth: give --size WxHxD for a volume"),
+    ("stack.tif --volume --size 9x9x9 -o a.tif", 2, "--size is for lists of points, but the input is a volume"),
+    ("stack.tif --volume --window 1,2,3,4 -o a.tif", 2, "--window has four numbers: give six for a volume"),
+    ("points.csv --window 1,2,3,4,5,0 -o a.tif", 2, "is an empty window: W, H and D must be at least 1"),
+    ("points.csv --window 1,2,3,4,5,x -o a.tif", 2, "expected six integers X,Y,Z,W,H,D"),
+    ("points.csv --window 1,2,3,4,5 -o a.tif", 2, "expected four integers X,Y,W,H"),
+    ("points.csv --size 1x2x3x4 -o a.tif", 2, "expected width and height in pixels, such as 640x480, and of a volume"),
+    ("points.csv --size 9x8x7 --window 0,0,0,1,1,1 -o a.tif", 2, "give --size or --window, not both"),
+    ("points.csv --size 9x8x7 --seeds pixels -o a.tif", 2, "--seeds is for volumes, but the input is a list of points"),
+    ("points.csv --size 9x8x7 --spacing auto -o a.tif", 2, "--spacing auto is for volumes, whose files may say it"),
+    ("points.csv --size 9x8x7 --spacing 1,2 -o a.tif", 2, "--spacing has 2 sides, but the input is a volume"),
+    ("points.csv --size 9x8 --slice 1 -o a.png", 2, "--slice is for volumes"),
+    ("points.csv --size 9x8 --levels 1 -o a.ome.zarr", 2, "--levels is for volumes in OME-Zarr"),
+    ("points.csv --size 9x8 --chunk 9x9x9 -o a.zarr", 2, "--chunk 9x9x9 has a depth"),
+    ("stack.tif --volume -o a.png", 2, "labels cannot be written as png: use --what colour, or one of tiff, npy, zarr"),
+    ("stack.tif --volume --what colour -o a.gif", 2, "colour cannot be written as gif"),
+    ("stack.tif --volume --method propagation -o a.tif", 2, "volumes are tessellated exactly, leave it out"),
+    ("stack.tif --volume --pixel-size 1 --what table", 2, "--pixel-size is for images: use --spacing SX,SY,SZ"),
+    ("stack.tif --volume --max-distance 1um -o a.tif", 2, "but that of the voxels is not known: give --spacing"),
+    ("stack.tif --volume --overlay stack.tif --what colour -o a.png", 2, "--overlay is for images: leave it out with"),
+    ("stack.tif --volume --y-down --what colour -o a.png", 2, "--y-down is for images"),
+    ("stack.tif --volume --cell-size 2 -o a.tif", 2, "--cell-size is for maps: leave it out with a volume"),
+    ("stack.tif --volume --min-area 2 -o a.tif", 2, "--min-area is for images"),
+    ("stack.tif --volume --tiled -o a.tif", 2, "--tiled is for images"),
+    ("stack.tif --volume --slice 1 -o a.tif", 2, "--slice is for pictures: use --what colour"),
+    ("stack.tif --volume --slice 7 --what colour -o a.png", 2, "there is no --slice 7: the volume has slices 0 to 6"),
+    ("stack.tif --volume --levels 1 -o a.zarr", 2, "--levels is for OME-Zarr: use -o NAME.ome.zarr"),
+    ("stack.tif --volume --levels 31 -o a.ome.zarr", 2, "expected a number of coarser copies up to 30, or auto"),
+    ("stack.tif --volume --chunk 9x9 -o a.zarr", 2, "--chunk 9x9 has no depth: give --chunk WxHxD"),
+    ("stack.tif --volume --chunk 9x9x9 -o a.tif", 2, "--chunk is for Zarr stores"),
+    ("stack.tif --volume --dtype uint8 --what distance -o a.tif", 2, "--dtype is for labels"),
+    ("stack.tif --volume --layers cells -o a.tif", 2, "--layers is for pictures: use --what colour"),
+    ("stack.tif --volume --layers objects --what colour -o a.png", 2, "--layers objects: a picture in PNG has cells, "),
+    ("stack.tif --volume --max-pixels 98 -o a.tif", 5, "a slice has 11 x 9 voxels, more than --max-pixels 98"),
+    ("stack.tif --volume --max-pixels 692 --what table", 5, "the volume has 11 x 9 x 7 = 693 voxels, more than"),
+    ("stack.tif --volume --max-pixels 500 --chunk 9x9x6 -o a.zarr", 5, "a layer of chunks has 11 x 9 x 6 voxels"),
+    ("stack.tif --volume --max-sites 9 -o a.tif", 5, "more than --max-sites 9"),
+    ("stack.npy --volume --spacing auto -o a.tif", 3, "the volume carries no size of its voxels: give numbers"),
+    ("none.tif --volume -o a.tif", 3, "none.tif: there is no such file"),
+    ("points.csv --volume --input-format tiff -o a.tif", 3, "points.csv is no volume that is read"),
+]
+
+
+@pytest.mark.parametrize(("words", "code", "said"), REFUSED, ids=[words for words, _, _ in REFUSED])
+def test_what_is_refused(run, stack, points, words, code, said):
+    done = run("tessellate", *words.split(), *([] if "-q" in words else ["-q"]))
+    assert (done.code, said in done.err) == (code, True), done.err
+    assert sorted(path.name for path in stack.iterdir()) == ["points.csv", "stack.npy", "stack.tif"]
+
+
+# ---- as a microscopist ---------------------------------------------------------------------------
+def test_nuclei(run, tmp_path):
+    run("sample", "nuclei.tif", "-o", "nuclei.tif")
+    options = ["tessellate", "--volume", "nuclei.tif", "--spacing", "auto", "-q", "--max-distance", "5um", "--verify"]
+    assert run(*options, "--what", "labels,table,neighbours,colour", "-o", "cells").code == 0
+    assert sorted(path.name for path in tmp_path.glob("cells.*")) == [
+        "cells.colour.png",
+        "cells.labels.tif",
+        "cells.neighbours.csv",
+        "cells.table.csv",
+    ]
+    labels, mask = tifffile.imread(tmp_path / "cells.labels.tif"), tifffile.imread(sample("nuclei.tif")) > 0
+    assert labels[mask].all()
+    assert (labels.max(), labels.dtype) == (40, np.uint16)
+    rows = rows_of((tmp_path / "cells.table.csv").read_text(encoding="utf-8"))
+    cube = 0.325 * 0.325 * 1.5
+    counts = np.bincount(labels.ravel())
+    for row in rows:
+        assert float(row["volume"]) == pytest.approx(counts[int(row["label"])] * cube)
