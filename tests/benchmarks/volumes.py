@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import resource
 import sys
+import warnings
 from collections.abc import Callable
 from pathlib import Path
 
@@ -22,7 +23,9 @@ from skimage.segmentation import expand_labels
 sys.path.insert(0, str(Path(__file__).parents[1]))
 from benchmarks.timing import best, in_own_process, options
 from vorotool import _core_testing
-from vorotool.engines.volumes.volume_sweep import VolumeSweep
+from vorotool.engines.volumes.volume_tessellator import VolumeSweep
+from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
+from vorotool.geometry.volumes.voxel_frame import VoxelFrame
 
 PEERS: dict[str, Callable[[np.ndarray], object]] = {
     "scipy": lambda volume: volume[
@@ -33,10 +36,10 @@ PEERS: dict[str, Callable[[np.ndarray], object]] = {
 }
 
 
-def seeds_in(side: int, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Uniform seeds, in a row each: slice, row, column; and their labels."""
+def seeds_in(side: int, count: int) -> VolumeSeeds:
+    """Uniform seeds, of which several may be at one place."""
     places = np.random.default_rng(count).integers(0, side, (count, 3))
-    return places, np.arange(1, count + 1, dtype=np.uint32)
+    return VolumeSeeds(places, np.arange(1, count + 1))
 
 
 def output(side: int, count: int) -> np.ndarray:
@@ -44,33 +47,35 @@ def output(side: int, count: int) -> np.ndarray:
     return np.full((side,) * 3, 1, np.uint16 if count < 2**16 else np.uint32)
 
 
-def labelled(side: int, count: int, threads: int, out: np.ndarray) -> np.ndarray:
+def labelled(seeds: VolumeSeeds, threads: int, out: np.ndarray) -> np.ndarray:
     """Labels, from the seeds on."""
-    return VolumeSweep(*seeds_in(side, count), out.shape, threads=threads).labels(out=out)
+    depth, height, width = out.shape
+    return VolumeSweep(seeds, VoxelFrame(0, 0, 0, width, height, depth), threads=threads).labels(out=out)
 
 
 def memory(side: int, count: int, threads: int) -> int:
     """Bytes beside the output: the most that the process has had, less what it had before."""
     out = output(side, count)
-    labelled(8, 8, threads, output(8, 8))
+    warnings.simplefilter("ignore")
+    labelled(seeds_in(8, 8), threads, output(8, 8))
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    labelled(side, count, threads, out)
+    labelled(seeds_in(side, count), threads, out)
     return 1024 * (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before)
 
 
 def ours(side: int, count: int, threads: int, runs: int) -> tuple[float, float]:
     """Nanoseconds a voxel to fill the output, and to label it."""
-    out, (places, labels) = output(side, count), seeds_in(side, count)
+    out, seeds = output(side, count), seeds_in(side, count)
     floor = best(lambda: _core_testing.tessellation.stream_fill(out, threads), runs)
-    taken = best(lambda: VolumeSweep(places, labels, out.shape, threads=threads).labels(out=out), runs)
+    taken = best(lambda: labelled(seeds, threads, out), runs)
     return 1e9 * floor / out.size, 1e9 * taken / out.size
 
 
 def peers(side: int, count: int, threads: int, runs: int) -> str:
     """Columns of the peers: nanoseconds a voxel, and how many times ours beside them."""
-    places, labels = seeds_in(side, count)
+    seeds = seeds_in(side, count)
     volume = np.zeros((side,) * 3, np.int32)
-    volume[tuple(places[::-1].T)] = labels[::-1]
+    volume[seeds.z[::-1], seeds.y[::-1], seeds.x[::-1]] = seeds.labels[::-1]
     _, beside = ours(side, count, threads, runs)
     row = f" {beside:.3f} |"
     for peer in PEERS.values():
@@ -82,6 +87,7 @@ def peers(side: int, count: int, threads: int, runs: int) -> str:
 def main() -> None:
     """Print the table."""
     parser = options("seeds", [100, 10_000, 1_000_000], 3)
+    warnings.simplefilter("ignore")  # of seeds at one place
     parser.add_argument("--side", type=int, default=512)
     parser.add_argument("--peers-side", type=int, default=256)
     arguments = parser.parse_args()
