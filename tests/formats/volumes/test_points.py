@@ -72,7 +72,7 @@ def test_npz_and_npy(tmp_path):
     assert (points.xyz.tolist(), points.properties) == (XYZ, {"n": [0, 1, 2]})
     np.save(tmp_path / "a.npy", table)
     assert read_xyz(tmp_path / "a.npy", columns="1,2,z=3").xyz.tolist() == XYZ
-    assert vorotool.read(tmp_path / "a.npy", columns="1,2,z=3").xyz.tolist() == XYZ
+    assert vorotool.read(tmp_path / "a.npy", geometry="space", columns="1,2,z=3").xyz.tolist() == XYZ
     with pytest.raises(InputError, match='whose third column is the label: say that it is z with columns="1,2,z=3"'):
         read_xyz(tmp_path / "a.npy")
     for columns, error, words in (
@@ -141,4 +141,4 @@ def test_a_z_stays_a_property_of_points_in_the_plane(tmp_path):
     assert points.xy.tolist() == [row[:2] for row in XYZ]
     assert list(points.properties) == ["z"]
     with pytest.raises(UsageError, match="crs is not for points of space"):
-        vorotool.read(tmp_path / "a.csv", columns="x,y,z=z", crs="EPSG:2056")
+        vorotool.read(tmp_path / "a.csv", geometry="space", crs="EPSG:2056")
