@@ -41,6 +41,7 @@ class ApproximateProducts(SkeletonProducts[ApproximateSkeletonOptions]):
 
     def __init__(self, run: Run, options: ApproximateSkeletonOptions, given: JobInput) -> None:
         super().__init__(run, options, given)
+        options = self.options  # lengths are in pixels, or in steps
         self._sampling = SamplingOptions(options.step, options.tolerance, options.sampling)
         self._complete = (options.tolerance is not None) if options.complete is None else options.complete
         self._wanted: dict[str, Any] = {

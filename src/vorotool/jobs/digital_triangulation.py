@@ -20,7 +20,7 @@ from vorotool.jobs.inputs import JobInput, window_of
 from vorotool.jobs.options import TriangulationOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.triangulation import MeshProducts, ReadPoints
-from vorotool.jobs.units import table_in_units
+from vorotool.jobs.units import sides_of, table_in_units
 
 
 class DigitalProducts(MeshProducts):
@@ -39,8 +39,9 @@ class DigitalProducts(MeshProducts):
 
     @property
     def where(self) -> dict[str, Any]:
-        """Options of the engines: the frame, and the threads."""
-        return {"window": window_of(self.options, self.seeds), "threads": self.options.threads}
+        """Options of the engines: the frame, the sides of pixels in steps, and the threads."""
+        o = self.options
+        return {"window": window_of(o, self.seeds), "spacing": sides_of(o).units, "threads": o.threads}
 
     def _triangulate(self, points: PointSet | SeedSet, progress: Progress) -> AnyTriangulation:
         return self._as_input(
@@ -53,7 +54,8 @@ class DigitalProducts(MeshProducts):
     @cached_property
     def comparison(self) -> DigitalComparison:
         """Differences from the exact triangulation."""
-        return compare_digital(self.seeds, **self.where, max_pixels=self.options.max_pixels)
+        o = self.options  # which the command refuses to have a spacing
+        return compare_digital(self.seeds, window=window_of(o, self.seeds), threads=o.threads, max_pixels=o.max_pixels)
 
     def _tell_comparison(self) -> None:
         self.run.note(self.comparison.summary())

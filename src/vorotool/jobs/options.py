@@ -166,7 +166,6 @@ class ComputingOptions(JobOptions):
     verify: bool
     precision: int | None
     pixel_size: PixelSize | None
-    spacing: PixelSize | None = None
     table: str | None
     no_properties: bool
     safe_csv: bool
@@ -175,7 +174,7 @@ class ComputingOptions(JobOptions):
     @property
     def unit(self) -> PixelSize | None:
         """The side of a pixel, or its sides."""
-        return self.pixel_size or self.spacing
+        return self.pixel_size
 
     @property
     def table_of_all(self) -> str | None:
@@ -223,6 +222,7 @@ class SiteOptions(ComputingOptions):
 class TessellationOptions(SiteOptions):
     """Of ``tessellate``."""
 
+    spacing: PixelSize | None
     method: Literal["exact", "propagation"]
     passes: Literal[1, 2] | None
     max_distance: Fraction | None
@@ -258,6 +258,7 @@ class TessellationOptions(SiteOptions):
 class TriangulationOptions(SiteOptions):
     """Of ``delaunay``."""
 
+    spacing: PixelSize | None
     scale: Scale | None
     drawing_unit: str | None
     aspect: float | None
@@ -311,6 +312,7 @@ class AlphaShapeOptions(SiteOptions):
 class ShapeOptions(ComputingOptions):
     """What each command has that takes shapes, or the outlines of an image."""
 
+    spacing: PixelSize | None
     frame: Rectangle | None
     flatten: float | None
     join_tolerance: float | None
@@ -330,6 +332,7 @@ class ShapeOptions(ComputingOptions):
     def for_images(self) -> dict[str, Any]:
         """Give the options that mean nothing for polygons and lines, by their names."""
         return {
+            "spacing": self.spacing,
             "page": self.page,
             "seeds": self.seeds,
             "connectivity": self.connectivity,

@@ -67,7 +67,7 @@ def world_of(
                 run.note("there is no scale bar: the length of a degree of longitude differs from place to place")
         else:
             bar = _scale_bar(crs, unit, size, is_image=frame is not None)
-    return World(bar, unit, aspect, None if frame is None else _sides(frame))
+    return World(bar, unit, aspect, None if frame is None else _sides(frame, size))
 
 
 def world_of_sites(run: Run, o: SiteOptions, mesh: AnyTriangulation, sites: PointSet | SeedSet) -> World:
@@ -195,10 +195,11 @@ def _unit_of(crs: Any) -> str | None:
     return unit_name(axes[0].unit_name) if axes else None
 
 
-def _sides(frame: Frame) -> tuple[float, float, float, float]:
-    """The outer sides of the pixels, whose centres are at integers."""
+def _sides(frame: Frame, size: PixelSize | None) -> tuple[float, float, float, float]:
+    """The outer sides of the pixels, whose centres are at integers, or at steps of ``--spacing``."""
+    across, down = (1, 1) if size is None or size.sides is None else (size.sides.x, size.sides.y)
     left, low = frame.x - 0.5, frame.y - 0.5
-    return (left, low, left + frame.width, low + frame.height)
+    return (left * across, low * down, (left + frame.width) * across, (low + frame.height) * down)
 
 
 def check_column(label_by: str | None, columns: Iterable[str], option: str = "--label-by") -> None:

@@ -7,11 +7,19 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from vorotool.errors import InputError, Kind, Message
+from vorotool.errors import InputError, Kind, Message, UsageError
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.options import ComputingOptions, ShapeOptions, SkeletonOptions, TriangulationOptions
 from vorotool.jobs.run_log import Run
-from vorotool.jobs.units import PixelSize, lengths_in_pixels, measured, unit_stats
+from vorotool.jobs.units import (
+    PixelSize,
+    lengths_in_pixels,
+    lengths_in_steps,
+    measured,
+    sides_of,
+    takes_spacing,
+    unit_stats,
+)
 
 if TYPE_CHECKING:
     from vorotool.geometry.pixel_grid import PixelGrid
@@ -22,6 +30,7 @@ if TYPE_CHECKING:
 
 Options = TypeVar("Options", bound=ComputingOptions)
 Placed = TypeVar("Placed")
+Sites = TypeVar("Sites", "PointSet", "SeedSet", "PointSet | SeedSet")
 
 
 def with_pixel_size(run: Run, o: Options, given: JobInput, grid: PixelGrid | None) -> Options:
@@ -53,32 +62,32 @@ def with_pixel_size(run: Run, o: Options, given: JobInput, grid: PixelGrid | Non
     if not given.has_units and not measured(o) and not is_spacing:
         return o
     if grid is not None and grid.transform is not None:
-        size = _on_map(run, given, grid, asked)
+        size = _on_map(run, given, grid, o)
     elif asked is not None:
-        size = _of_file(grid, asked)
+        size = _of_file(grid, o)
     else:
         size = None
         if grid is not None and grid.is_size:
-            run.note(_note_of_size(given, grid))
+            run.note(_note_of_size(given, grid, o))
     run.stats |= unit_stats(size)
     return _mirrored_places(lengths_in_pixels(replace(o, pixel_size=size), size))
 
 
-def _of_file(grid: PixelGrid | None, asked: PixelSize) -> PixelSize:
+def _of_file(grid: PixelGrid | None, o: ComputingOptions) -> PixelSize:
     instead = "give a number and its unit, such as --pixel-size 0.325um"
-    if asked.is_spacing:
+    is_spacing = o.pixel_size is not None and o.pixel_size.is_spacing
+    if is_spacing:
         instead = "give numbers and their unit, such as --spacing 0.325,0.5um"
     if grid is None:
         raise InputError(f"the image carries no pixel size: {instead}")
     if not grid.is_size:
         dots = f"{float(1 / grid.width):.10g}"
         raise InputError(f"the image carries {dots} dots an inch, which is for print, and no pixel size: {instead}")
-    if asked.is_spacing:
+    if is_spacing:
         return _spacing_of(grid)
     if not grid.is_square:
-        raise InputError(
-            f"the image has pixels of {grid.size_text()}, which are no squares: use --spacing auto, or {instead}"
-        )
+        measure = "use --spacing auto, or " if takes_spacing(o) else ""
+        raise InputError(f"the image has pixels of {grid.size_text()}, which are no squares: {measure}{instead}")
     return PixelSize(grid.width, grid.unit)
 
 
@@ -95,18 +104,16 @@ def _spacing_of(grid: PixelGrid) -> PixelSize:
     return PixelSize(Fraction(1), grid.unit, is_spacing=True, sides=sides)
 
 
-def _note_of_size(given: JobInput, grid: PixelGrid) -> str:
+def _note_of_size(given: JobInput, grid: PixelGrid, o: ComputingOptions) -> str:
     if grid.is_square:
         return f"{given.name} carries a pixel size of {grid.size_text()}: --pixel-size auto uses it"
-    return (
-        f"{given.name} has pixels of {grid.size_text()}, which are no squares: results are in pixels; --spacing auto "
-        "measures in their sides"
-    )
+    measure = "; --spacing auto measures in their sides" if takes_spacing(o) else ""
+    return f"{given.name} has pixels of {grid.size_text()}, which are no squares: results are in pixels{measure}"
 
 
-def _on_map(run: Run, given: JobInput, grid: PixelGrid, asked: PixelSize | None) -> PixelSize | None:
+def _on_map(run: Run, given: JobInput, grid: PixelGrid, o: ComputingOptions) -> PixelSize | None:
     """Size and place of the pixels of a map; None where they are no squares, and nobody asked for them."""
-    in_pixels = "--pixel-size 1 gives results in pixels"
+    asked, in_pixels = o.pixel_size, "--pixel-size 1 gives results in pixels"
     is_spacing = asked is not None and asked.is_spacing
     if not grid.is_upright:
         raise InputError(
@@ -115,11 +122,12 @@ def _on_map(run: Run, given: JobInput, grid: PixelGrid, asked: PixelSize | None)
         )
     if not grid.is_square and not is_spacing:
         if asked is not None:
+            measure = "use --spacing auto; " if takes_spacing(o) else ""
             raise InputError(
-                f"the image has pixels of {grid.size_text()}, which are no squares: use --spacing auto; {in_pixels}, "
-                "and gdalwarp -tr SIDE SIDE in.tif square.tif an image with squares"
+                f"the image has pixels of {grid.size_text()}, which are no squares: {measure}{in_pixels}, and "
+                "gdalwarp -tr SIDE SIDE in.tif square.tif an image with squares"
             )
-        run.note(_note_of_size(given, grid))
+        run.note(_note_of_size(given, grid, o))
         return None
     from vorotool.geometry.crs import crs_name, is_geographic
 
@@ -147,7 +155,9 @@ def _mirrored_places(o: Options) -> Options:
 
 
 def placed_polygons(size: PixelSize | None, polygons: PolygonSet) -> PolygonSet:
-    """Give outlines of an image as they lie on its map, in pixels."""
+    """Give outlines of an image as they lie on its map, in pixels; in steps where these have sides."""
+    if size is not None and size.sides is not None:
+        polygons = replace(polygons, xy=polygons.xy * (size.sides.x, size.sides.y))
     if size is None or size.origin is None:
         return polygons
     from vorotool.geometry.any.mirroring import mirrored_polygons
@@ -162,8 +172,8 @@ def placed_sites(
     from vorotool.geometry.points.seed_set import SeedSet
 
     if not isinstance(points, SeedSet):
-        return o, points
-    o = with_pixel_size(run, o, given, points.grid)
+        return lengths_in_steps(o), points
+    o = lengths_in_steps(with_pixel_size(run, o, given, points.grid))
     if o.pixel_size is None or not o.pixel_size.y_up:
         return o, points
     from vorotool.geometry.any.mirroring import mirrored_seeds
@@ -172,17 +182,42 @@ def placed_sites(
 
 
 def clip_in_pixels(o: ComputingOptions, clip: Sequence[Any]) -> Sequence[Any]:
-    """Give the polygons of ``--clip``, which are on the map where results are, in pixels."""
+    """Give the polygons of ``--clip``, which are on the map where results are, in pixels, or in steps."""
     size = o.pixel_size
-    if size is None or size.origin is None:
+    if size is None or (size.origin is None and size.sides is None):
         return clip
     import numpy as np
     import shapely
 
     placed: Sequence[Any] = shapely.transform(
-        np.asarray(clip, dtype=object), lambda xy: (xy - np.asarray(size.origin)) / float(size.factor)
+        np.asarray(clip, dtype=object), lambda xy: (xy - np.asarray(size.origin or (0.0, 0.0))) / float(size.factor)
     )
     return placed
+
+
+def in_steps(o: ComputingOptions, points: Sites) -> Sites:
+    """Give points in pixels, or the sites of an image, in steps of ``--spacing``."""
+    from vorotool.geometry.points.point_set import PointSet
+
+    sides = sides_of(o)
+    steps = (sides.x, sides.y)
+    if isinstance(points, PointSet):
+        return replace(points, xy=points.xy * steps)
+    assert points.sites is not None  # SeedSet has filled them in
+    return replace(points, sites=points.sites * steps)
+
+
+def written_grid(size: PixelSize | None, grid: PixelGrid | None) -> PixelGrid | None:
+    """Give what images that are written say of their pixels: the sides of ``--spacing``, else what the input says.
+
+    A map keeps its place, and sides without a unit are no size.
+    """
+    if size is None or size.sides is None or size.unit is None or (grid is not None and grid.transform is not None):
+        return grid
+    from vorotool.geometry.pixel_grid import PixelGrid
+
+    height, width = size.sides.lengths
+    return PixelGrid(width, height, size.unit, "imagej" if grid is None else grid.form)
 
 
 def placed_mesh(size: PixelSize | None, mesh: Placed) -> Placed:
@@ -194,7 +229,15 @@ def placed_mesh(size: PixelSize | None, mesh: Placed) -> Placed:
 
 
 def placed_backdrop(size: PixelSize | None, backdrop: Backdrop | None) -> Backdrop | None:
-    """Give the image of ``--overlay`` as what is drawn over it lies."""
+    """Give the image of ``--overlay`` as what is drawn over it lies.
+
+    Raises
+    ------
+    UsageError
+        If that has rectangular pixels.
+    """
+    if backdrop is not None and size is not None and size.sides is not None:
+        raise UsageError("--overlay shows pixels as squares: leave it out with --spacing")
     if backdrop is None or size is None or not size.y_up:
         return backdrop
     return replace(backdrop, y_up=True)

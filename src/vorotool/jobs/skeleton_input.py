@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
 
 from vorotool.jobs.inputs import JobInput, opened_input, read_opened, refuse
@@ -9,6 +10,7 @@ from vorotool.jobs.masks import settled_foreground
 from vorotool.jobs.options import ShapeOptions
 from vorotool.jobs.pixel_sizes import placed_polygons, with_pixel_size
 from vorotool.jobs.run_log import Run
+from vorotool.jobs.units import lengths_in_steps, sides_of
 
 if TYPE_CHECKING:
     from vorotool.geometry.pixel_frame import Frame
@@ -60,10 +62,18 @@ def outlined(run: Run, o: Options, given: JobInput, image: Raster) -> ReadPolygo
     from vorotool.geometry.pixel_frame import Frame
 
     o = with_pixel_size(run, o, given, image.grid)
+    sides_of(o)
+    o = lengths_in_steps(o)
     height, width = image.values.shape[:2]
     is_mirrored = o.pixel_size is not None and o.pixel_size.y_up
     frame = Frame(0, 1 - height if is_mirrored else 0, width, height)
-    polygons = placed_polygons(o.pixel_size, _outlines(run, o, image))
+    if o.simplify is None or o.spacing is None:
+        polygons = placed_polygons(o.pixel_size, _outlines(run, o, image))
+    else:
+        from vorotool.engines.label_images.simplification import simplified_polygons
+
+        whole = placed_polygons(o.pixel_size, _outlines(run, replace(o, simplify=None), image))
+        polygons = simplified_polygons(whole, o.simplify)
     return ReadPolygons(polygons, is_mask=True, options=o, frame=frame)
 
 

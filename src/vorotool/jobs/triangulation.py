@@ -21,7 +21,7 @@ from vorotool.jobs.options import Rectangle, TriangulationOptions
 from vorotool.jobs.picture_style import styled_page
 from vorotool.jobs.picture_world import check_column, world_of_sites
 from vorotool.jobs.pictures import write_layers
-from vorotool.jobs.pixel_sizes import clip_in_pixels, placed_backdrop, placed_mesh, placed_sites
+from vorotool.jobs.pixel_sizes import clip_in_pixels, in_steps, placed_backdrop, placed_mesh, placed_sites
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import in_units, table_in_units, unit_columns
@@ -100,7 +100,8 @@ class MeshProducts:
         return self.options.what != ("compare",)
 
     def _triangulate(self, points: PointSet | SeedSet, progress: Progress) -> AnyTriangulation:
-        return delaunay(points, strict=self.options.strict, threads=self.options.threads, progress=progress)
+        o = self.options
+        return delaunay(in_steps(o, points), strict=o.strict, threads=o.threads, progress=progress)
 
     def check(self, target: Target) -> None:
         """Refuse what cannot be written, and say what will be empty, before anything is written."""

@@ -9,6 +9,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from vorotool.errors import UsageError
+from vorotool.jobs.pruning_choice import LENGTHS as PRUNED_LENGTHS
 from vorotool.jobs.pruning_choice import Pruning
 from vorotool.products.formats import FORMATS
 
@@ -65,6 +66,12 @@ AUTO = PixelSize(Fraction(1), None, is_auto=True)
 AUTO_SPACING = AUTO._replace(is_spacing=True)
 """What the file says of both sides."""
 
+_IN_STEPS = (
+    *("frame", "flatten", "simplify", "max_distance", "distance", "every", "gap", "step", "tolerance"),
+    *("start", "end"),
+)
+"""Options of shapes and meshes that are lengths or places, and no fractions of others."""
+
 _NUMBERS = {2: "two numbers, SX,SY", 3: "three numbers, SX,SY,SZ"}
 
 
@@ -76,17 +83,21 @@ def with_spacing(o: Options) -> Options:
     UsageError
         If there is a size of pixels, too.
     """
-    from vorotool.jobs.options import ComputingOptions
-
-    if not isinstance(o, ComputingOptions) or o.spacing is None:
+    spacing: PixelSize | None = next((getattr(o, field.name) for field in fields(o) if field.name == "spacing"), None)
+    if spacing is None:
         return o
-    if o.pixel_size is not None:
+    if o.unit is not None:
         raise UsageError(
             "--spacing changes distances, --pixel-size only scales what is written: give one of them, --spacing where "
             "pixels are no squares"
         )
-    changed: Any = replace(o, pixel_size=o.spacing)
-    return changed  # type: ignore[no-any-return]  # of the same type
+    changed: dict[str, Any] = {"pixel_size": spacing}
+    return replace(o, **changed)
+
+
+def takes_spacing(o: JobOptions) -> bool:
+    """Whether a command has ``--spacing``."""
+    return any(field.name == "spacing" for field in fields(o))
 
 
 def sides_of(o: ComputingOptions, axes: int = 2) -> PixelSides:
@@ -106,6 +117,35 @@ def sides_of(o: ComputingOptions, axes: int = 2) -> PixelSides:
         what = "an image or points in a plane" if axes == 2 else "a volume"
         raise UsageError(f"--spacing has {len(sides.units)} sides, but the input is {what}: give {_NUMBERS[axes]}")
     return sides
+
+
+def lengths_in_steps(o: Computing) -> Computing:
+    """Give options for shapes whose coordinates are counted in steps of ``--spacing``: lengths are in steps as well.
+
+    So coordinates are integers, or halves of these: what is decided with them is exact. Results are then scaled by the
+    step, once.
+    """
+    size = o.pixel_size
+    if size is None or size.sides is None:
+        return o
+    step = size.sides.step
+    given = {field.name: getattr(o, field.name) for field in fields(o)}
+    changed: dict[str, Any] = {name: _in_steps(given[name], step) for name in given if name in _IN_STEPS}
+    prune: Pruning | None = given.get("prune")
+    if prune is not None and prune.criterion in PRUNED_LENGTHS:
+        changed["prune"] = prune._replace(threshold=_in_steps(prune.threshold, step))
+    return replace(o, **changed, pixel_size=size._replace(factor=step))
+
+
+def _in_steps(value: Any, step: Fraction) -> Any:
+    """A number, or several, in steps: as the decimal number that it is written as."""
+    from vorotool.geometry.spacing import as_decimal
+
+    if value is None:
+        return None
+    if isinstance(value, tuple):
+        return tuple(_in_steps(each, step) for each in value)
+    return float(as_decimal(value) / step)
 
 
 def shows_units(targets: Sequence[Target]) -> bool:
@@ -136,6 +176,7 @@ class Measured:
 
 
 Options = TypeVar("Options", bound="JobOptions")
+Computing = TypeVar("Computing", bound="ComputingOptions")
 
 
 def lengths_in_pixels(o: Options, size: PixelSize | None) -> Options:
@@ -241,7 +282,7 @@ def in_units(size: PixelSize | None, value: Value) -> Value:
     from vorotool.geometry.any.scaling import scaled
 
     with _within_doubles(size):
-        result: Value = scaled(value, size.factor, size.origin, unit=size.unit)
+        result: Value = scaled(value, size.factor, size.origin, unit=size.unit, of_steps=size.is_spacing)
     return result
 
 
@@ -278,7 +319,15 @@ def table_in_units(
     pixel = (1.0, 1.0) if size.sides is None else (float(size.sides.lengths[-1]), float(size.sides.lengths[-2]))
     with _within_doubles(size):
         y_up = has_rows and size.y_up
-        return scaled_table(table, size.factor, properties=properties, origin=size.origin, y_up=y_up, pixel=pixel)
+        return scaled_table(
+            table,
+            size.factor,
+            properties=properties,
+            origin=size.origin,
+            y_up=y_up,
+            pixel=pixel,
+            of_steps=size.is_spacing,
+        )
 
 
 @contextmanager
@@ -306,7 +355,8 @@ def unit_stats(size: PixelSize | None) -> dict[str, Any]:
         return {}
     found: dict[str, Any] = {"pixel_size": float(size.factor), "unit": size.unit}
     if size.sides is not None:
-        found = {"spacing": [float(side) for side in reversed(size.sides.lengths)], "unit": size.unit}
+        sides = [float(side) for side in reversed(size.sides.lengths)]
+        found = {"spacing": sides, "spacing_step": str(size.sides.step), "unit": size.unit}
     if size.crs is None:
         return found
     from vorotool.geometry.crs import crs_name

@@ -100,8 +100,8 @@ def _chosen(polygons: PolygonSet, chosen: NDArray[np.int64]) -> PolygonSet:
 
 
 def _in_pixels(o: VoronoiOptions, cut: PolygonSet) -> PolygonSet:
-    """What is on the map where results are, in pixels."""
+    """What is on the map where results are, in pixels, or in steps."""
     size = o.pixel_size
-    if size is None or size.origin is None:
+    if size is None or (size.origin is None and size.sides is None):
         return cut
-    return replace(cut, xy=(cut.xy - size.origin) / float(size.factor))
+    return replace(cut, xy=(cut.xy - (size.origin or (0.0, 0.0))) / float(size.factor))

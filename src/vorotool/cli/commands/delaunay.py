@@ -9,6 +9,7 @@ import click
 from vorotool.cli.batch.dispatch import run_command
 from vorotool.cli.options.groups import site_options
 from vorotool.cli.options.help_page import GroupedCommand
+from vorotool.cli.options.pixel_size import spacing_option
 from vorotool.cli.options.shared import (
     Rectangle,
     inputs_argument,
@@ -60,6 +61,7 @@ OF_TRIANGULATIONS = frozenset(
     help="File of polygons that cells are clipped to as well.",
     shell_complete=files(names_of("polygons")),
 )
+@spacing_option()
 @site_options(all_layers("delaunay"))
 def command(**options: Any) -> None:
     """Triangulate points exactly: no circle through a triangle's vertices holds another point.
@@ -104,6 +106,8 @@ def _check_method(o: TriangulationOptions, targets: list[Target]) -> None:
     check_frame_options(o, is_digital=o.triangulated_by != "exact")
     if "compare" in o.what and (o.method == "digital-valid" or (o.method == "exact" and len(o.what) > 1)):
         raise UsageError("--what compare is about the digital rule: use --method digital")
+    if "compare" in o.what and o.spacing is not None:
+        raise UsageError("--what compare explains differences by the sides of square pixels: leave out --spacing")
     if o.triangulated_by == "digital" and {"cells", "diagram"} & set(o.layers or ()):
         raise UsageError("--layers cells and diagram are of the exact cells: use --method exact or digital-valid")
     for target in targets:

@@ -10,6 +10,7 @@ from vorotool.cli.batch.dispatch import run_command
 from vorotool.cli.options.groups import result_options
 from vorotool.cli.options.help_page import GroupedCommand
 from vorotool.cli.options.lengths import Length
+from vorotool.cli.options.pixel_size import spacing_option
 from vorotool.cli.options.shapes import frame_option, shape_options
 from vorotool.cli.options.shared import inputs_argument, output_options, what_option
 from vorotool.cli.options.suggestions import files
@@ -52,6 +53,7 @@ FORMATS = formats_of("voronoi")
     shell_complete=files(names_of("polygons")),
 )
 @shape_options("columns")
+@spacing_option()
 @result_options(all_layers("voronoi"))
 def command(**options: Any) -> None:
     """Share out the plane among points, lines and polygons of any shape: to each all places that are nearest to it.

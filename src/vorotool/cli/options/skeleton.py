@@ -7,6 +7,7 @@ import click
 from vorotool.cli.options.groups import result_options
 from vorotool.cli.options.lengths import Distances, Length
 from vorotool.cli.options.picture_style import animation_options
+from vorotool.cli.options.pixel_size import spacing_option
 from vorotool.cli.options.pruning import FORMS, Place, PruningType
 from vorotool.cli.options.shapes import frame_option, shape_options
 from vorotool.cli.options.shared import (
@@ -80,4 +81,4 @@ _READING: tuple[Decorator, ...] = (
 def skeleton_options(*own: Decorator, layers: tuple[str, ...] = all_layers("skeleton-exact")) -> Decorator:
     """Add the options that skeletons have in common, and a command's own among them."""
     animation = animation_options("offset curves whose distances grow to those of -d")
-    return together(*_BEFORE, *own, *_READING, result_options(layers), animation)
+    return together(*_BEFORE, *own, *_READING, spacing_option(), result_options(layers), animation)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,7 +21,8 @@ from vorotool.engines.tessellation.frames import (
     require_memory,
 )
 from vorotool.engines.tessellation.tessellator import Tessellator
-from vorotool.errors import InputError, LimitError, option, warn
+from vorotool.errors import InputError, LimitError, UsageError, option, warn
+from vorotool.geometry.any.scaling import scaled
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation
 from vorotool.geometry.mesh.triangulation import Triangulation
@@ -29,9 +30,12 @@ from vorotool.geometry.pixel_frame import MAX_PIXELS
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.geometry.progress import Progress
+from vorotool.geometry.spacing import PixelSides, pixel_sides
 
 if TYPE_CHECKING:
-    from vorotool.typing import SeedsLike
+    from vorotool.typing import SeedsLike, Spacing
+
+Mesh = TypeVar("Mesh", DigitalTriangulation, Triangulation)
 
 _ONE_A_LABEL = option(
     "--seeds pixels or centroids, or --method digital",
@@ -46,6 +50,7 @@ def digital_triangulation(
     shape: tuple[int, int] | None = None,
     window: tuple[int, int, int, int] | None = None,
     image: bool | None = None,
+    spacing: Spacing | None = None,
     strict: bool = False,
     threads: int = 0,
     progress: Progress = None,
@@ -66,6 +71,8 @@ def digital_triangulation(
         As in `tessellate`; not for a label image.
     image : bool, optional
         As in `tessellate`.
+    spacing : float or (height, width), optional
+        As in `tessellate`: coordinates of the result are in its unit. That of a label image holds for it.
     strict : bool
         Refuse several seeds at one place.
     threads : int
@@ -96,13 +103,18 @@ def digital_triangulation(
     ([[0, 1], [0, 2], [1, 2]], [[0, 1, 2]])
     """
     threads = checked_threads(threads)
+    sides = pixel_sides(spacing)
     if isinstance(source, LabelImage):
-        return _read(source, _sites_of_image(source, threads), [label_array(source.labels)], threads, progress)
+        if spacing is not None and sides != source.sides:
+            raise UsageError(f"spacing is that of the label image, {source.sides.text()}: leave it out")
+        sites = _sites_of_image(source, threads)
+        return _in_unit(_read(source, sites, [label_array(source.labels)], threads, progress), source.sides)
     seeds, frame = as_seeds(source, "source", image=image), asked_frame(shape, window)
+    sites = _sites_of_seeds(seeds, sides)
     if not len(seeds):
-        return _read(seeds, _sites_of_seeds(seeds), [], threads, None)
-    sweep = Tessellator(seeds, frame, threads=threads, strict=strict, progress=progress)
-    return _read(seeds, _sites_of_seeds(seeds), _bands(sweep), threads, None)
+        return _read(seeds, sites, [], threads, None)
+    sweep = Tessellator(seeds, frame, sides=sides, threads=threads, strict=strict, progress=progress)
+    return _in_unit(_read(seeds, sites, _bands(sweep), threads, None), sides)
 
 
 def _bands(sweep: Tessellator) -> Iterator[NDArray[Any]]:
@@ -112,20 +124,29 @@ def _bands(sweep: Tessellator) -> Iterator[NDArray[Any]]:
         yield sweep.labels(first - lap, count + lap)
 
 
-def _sites_of_seeds(seeds: SeedSet) -> tuple[NDArray[np.float64], NDArray[np.uint32]]:
+def _in_unit(mesh: Mesh, sides: PixelSides) -> Mesh:
+    """What was found in steps of the sides of a pixel in their unit; what was decided stays."""
+    if sides.step == 1:
+        return mesh
+    made: Mesh = scaled(mesh, sides.step, of_steps=True)
+    return made
+
+
+def _sites_of_seeds(seeds: SeedSet, sides: PixelSides) -> tuple[NDArray[np.float64], NDArray[np.uint32]]:
+    """Places in steps of the sides of a pixel, and labels."""
     assert seeds.sites is not None  # SeedSet has filled them in
     assert seeds.site_labels is not None
-    return seeds.sites, seeds.site_labels
+    return seeds.sites * (sides.x, sides.y), seeds.site_labels
 
 
 def _sites_of_image(image: LabelImage, threads: int) -> tuple[NDArray[np.float64], NDArray[np.uint32]]:
     if image.seeds is not None:
-        return _sites_of_seeds(image.seeds)
+        return _sites_of_seeds(image.seeds, image.sides)
     assert image.frame is not None
     measures = measure_regions(image, threads=threads)
     area = measures.columns["area"]
     x, y = (measures.columns[name] / area for name in ("sum_x", "sum_y"))
-    return np.stack([x + image.frame.x, y + image.frame.y], axis=1), measures.labels
+    return np.stack([x + image.frame.x, y + image.frame.y], axis=1) * (image.sides.x, image.sides.y), measures.labels
 
 
 def _read(
@@ -247,6 +268,7 @@ def repair_digital(
     shape: tuple[int, int] | None = None,
     window: tuple[int, int, int, int] | None = None,
     image: bool | None = None,
+    spacing: Spacing | None = None,
     strict: bool = False,
     threads: int = 0,
     max_pixels: int = MAX_PIXELS,
@@ -268,6 +290,8 @@ def repair_digital(
         As in `tessellate`.
     image : bool, optional
         As in `tessellate`.
+    spacing : float or (height, width), optional
+        As in `tessellate`: the mesh is that of the seeds in its unit.
     strict : bool
         Refuse several seeds at one place.
     threads : int
@@ -306,6 +330,7 @@ def repair_digital(
     >>> len(mesh), repair.route, repair.filled
     (3, 'repaired', 1)
     """
+    sides = pixel_sides(spacing)
     seeds, frame = as_seeds(source, "source", image=image, max_pixels=max_pixels), asked_frame(shape, window)
     order = one_seed_a_label(seeds)
     if not len(seeds):
@@ -314,9 +339,9 @@ def repair_digital(
     require_memory(frame, max_pixels)
     threads = checked_threads(threads)
     ranked = SeedSet(seeds.x[order], seeds.y[order], np.arange(1, len(order) + 1, dtype=np.uint32), scale=seeds.scale)
-    points, labels = _sites_of_seeds(seeds)
+    points, labels = _sites_of_seeds(seeds, sides)
     points = np.ascontiguousarray(points)
-    sweep = Tessellator(ranked, frame, threads=threads, strict=strict, progress=progress)
+    sweep = Tessellator(ranked, frame, sides=sides, threads=threads, strict=strict, progress=progress)
     core, counts = _core.digital.digital_mesh(
         points, ranked.x, ranked.y, seeds.scale, sweep.labels(dtype=np.uint32), frame.x, frame.y, threads, progress
     )
@@ -333,7 +358,7 @@ def repair_digital(
         mesh = mesh_of(_core.digital.inserted_mesh(points, threads, progress))
     repair = DigitalRepair(**counts, fault=fault)
     _report_rebuilt(repair)
-    return mesh, repair
+    return _in_unit(mesh, sides), repair
 
 
 def one_seed_a_label(seeds: SeedSet) -> NDArray[np.intp]:

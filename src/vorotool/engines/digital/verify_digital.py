@@ -14,9 +14,10 @@ from vorotool.errors import VerificationError
 from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation
 from vorotool.geometry.pixel_frame import Frame
+from vorotool.geometry.spacing import pixel_sides
 
 if TYPE_CHECKING:
-    from vorotool.typing import SeedsLike
+    from vorotool.typing import SeedsLike, Spacing
 
 
 def verify_digital_triangulation(
@@ -26,6 +27,7 @@ def verify_digital_triangulation(
     shape: tuple[int, int] | None = None,
     window: tuple[int, int, int, int] | None = None,
     image: bool | None = None,
+    spacing: Spacing | None = None,
     threads: int = 0,
 ) -> None:
     """Check edges and triangles against the definitions of section 2.1, band by band.
@@ -43,6 +45,8 @@ def verify_digital_triangulation(
         As in `digital_triangulation`.
     image : bool, optional
         As in `digital_triangulation`.
+    spacing : float or (height, width), optional
+        As in `digital_triangulation`.
     threads : int
         0 uses all.
 
@@ -59,15 +63,16 @@ def verify_digital_triangulation(
     """
     check_value(found, "found", DigitalTriangulation)
     seeds, frame = as_seeds(source, "source", image=image), asked_frame(shape, window)
+    sides = pixel_sides(spacing)
     edges, triangles = np.empty((0, 2), np.int64), np.empty((0, 3), np.int64)
     if len(seeds):
         frame = frame or default_frame(seeds)
-        sweep = Tessellator(seeds, frame, threads=threads)
+        sweep = Tessellator(seeds, frame, sides=sides, threads=threads)
         for first, count in band_limits(frame):
             lap = min(first, 1)
             labels = sweep.labels(first - lap, count + lap)
             band = Frame(frame.x, frame.y + first - lap, frame.width, count + lap)
-            verify_label_image(labels, seeds, band, threads=threads)
+            verify_label_image(labels, seeds, band, sides=sides, threads=threads)
             edges = np.concatenate([edges, _edges(labels)])
             triangles = np.concatenate([triangles, _triangles(labels)])
     for name, rows, right in (("edge", found.edges, edges), ("triangle", found.triangles, triangles)):

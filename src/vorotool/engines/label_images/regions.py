@@ -13,7 +13,7 @@ from vorotool.engines.common.label_arrays import described, label_array, next_ro
 from vorotool.engines.common.site_rows import largest_by_label, nearest_sites, rows_of, spread
 from vorotool.engines.tessellation.raster_objects import numbered_components
 from vorotool.errors import InputError, LimitError
-from vorotool.geometry.any.scaling import lengths_of_steps
+from vorotool.geometry.any.scaling import scaled_table
 from vorotool.geometry.arguments.images import as_label_image
 from vorotool.geometry.arguments.volumes import is_of_space
 from vorotool.geometry.checks import checked_threads
@@ -260,7 +260,7 @@ def neighbour_table(
             "centroid_distance": np.sqrt(step[:, 0] * step[:, 0] + step[:, 1] * step[:, 1]),
         }
     )
-    return table if image.sides == SQUARE else lengths_of_steps(table, image.sides.step)
+    return table if image.sides == SQUARE else scaled_table(table, image.sides.step, of_steps=True)
 
 
 def voronoi_diagram(
@@ -494,7 +494,7 @@ def _with_input_columns(columns: dict[str, Any], image: LabelImage, properties: 
     seeds = image.seeds
     if seeds is not None and seeds.object_area is not None:
         columns["object_area"] = _areas(image, np.asarray(seeds.object_area, dtype=np.int64))
-    table = Table(columns) if image.sides == SQUARE else lengths_of_steps(Table(columns), image.sides.step)
+    table = Table(columns) if image.sides == SQUARE else scaled_table(Table(columns), image.sides.step, of_steps=True)
     if seeds is None or not properties or not seeds.properties:
         return table
     return table.with_properties(seeds.properties)

@@ -63,7 +63,9 @@ _DISTANCES = frozenset(
 """What of these is a length, and no place."""
 
 
-def scaled(value: Any, factor: Fraction, origin: Place = None, *, unit: str | None = None) -> Any:
+def scaled(
+    value: Any, factor: Fraction, origin: Place = None, *, unit: str | None = None, of_steps: bool = False
+) -> Any:
     """Give a result in units of which one is ``1 / factor`` of the old.
 
     What was decided in the old units stays: edges, ranks, classes, ties. Each number is rounded once.
@@ -79,6 +81,8 @@ def scaled(value: Any, factor: Fraction, origin: Place = None, *, unit: str | No
         Where the origin of the old coordinates is in the new ones; by default theirs.
     unit : str, optional
         Of the result.
+    of_steps : bool
+        The old numbers are mostly integers, steps of which one is the factor: three of a tenth are 0.3.
 
     Raises
     ------
@@ -94,27 +98,32 @@ def scaled(value: Any, factor: Fraction, origin: Place = None, *, unit: str | No
     if type(value) not in _LENGTHS_OF:
         raise UsageError(f"a {type(value).__name__} is not scaled")
     parts = {
-        name: _scaled(getattr(value, name), factor, None if name in _DISTANCES else origin, unit)
+        name: _scaled(getattr(value, name), factor, None if name in _DISTANCES else origin, unit, of_steps=of_steps)
         for name in _LENGTHS_OF[type(value)].split()
     }
     return replace(value, **parts, unit=unit) if isinstance(value, PolygonSet) else replace(value, **parts)
 
 
-def _scaled(part: Any, factor: Fraction, origin: Place, unit: str | None) -> Any:
+def _scale(factor: Fraction, *, of_steps: bool) -> tuple[float, float]:
+    """What numbers are multiplied by, and then divided by."""
+    return (float(factor.numerator), float(factor.denominator)) if of_steps else (float(factor), 1.0)
+
+
+def _scaled(part: Any, factor: Fraction, origin: Place, unit: str | None, *, of_steps: bool) -> Any:
     if type(part) in _LENGTHS_OF:
-        return scaled(part, factor, origin, unit=unit)
-    number = float(factor)
+        return scaled(part, factor, origin, unit=unit, of_steps=of_steps)
+    times, over = _scale(factor, of_steps=of_steps)
     if isinstance(part, Box):
-        sides = (side * number for side in part.sides)
+        sides = (side * times / over for side in part.sides)
         return Box(
             *(sides if origin is None else (side + shift for side, shift in zip(sides, 2 * origin, strict=True)))
         )
     if isinstance(part, tuple):  # a frame: x, y, width, height
         shifts = (*(origin or (0.0, 0.0)), 0.0, 0.0)
-        return tuple(side * number + shift for side, shift in zip(part, shifts, strict=True))
+        return tuple(side * times / over + shift for side, shift in zip(part, shifts, strict=True))
     if part is None:
         return None
-    made = part * (factor if isinstance(part, Fraction) else number)
+    made = part * factor if isinstance(part, Fraction) else part * times / over
     return made if origin is None else made + np.asarray(origin)
 
 
@@ -126,6 +135,7 @@ def scaled_table(
     origin: Place = None,
     y_up: bool = False,
     pixel: tuple[float, float] = (1.0, 1.0),
+    of_steps: bool = False,
 ) -> Table:
     """Give a table of tessellations, triangulations or alpha shapes in other units.
 
@@ -143,6 +153,8 @@ def scaled_table(
         With an origin: the new y goes upwards, where the old one goes downwards.
     pixel : (float, float)
         With an origin: width and height of a pixel in the old units.
+    of_steps : bool
+        As of `scaled`.
 
     Examples
     --------
@@ -151,30 +163,16 @@ def scaled_table(
     ([1], [2.0], [6.0])
     """
     columns = table.stored()
-    made = {name: _scaled_column(name, column, factor, properties) for name, column in columns.items()}
+    scale = {LENGTHS: _scale(factor, of_steps=of_steps), AREAS: _scale(factor * factor, of_steps=of_steps)}
+    made = {name: _scaled_column(name, column, scale, properties) for name, column in columns.items()}
     if origin is not None:
-        made |= _placed_columns(columns, float(factor), origin, pixel, y_up=y_up, properties=properties)
+        made |= _placed_columns(columns, scale[LENGTHS], origin, pixel, y_up=y_up, properties=properties)
     return Table(made)
-
-
-def lengths_of_steps(table: Table, step: Fraction) -> Table:
-    """Give a table whose lengths and areas are counted in steps in the unit of the step; each is rounded once.
-
-    Examples
-    --------
-    >>> lengths_of_steps(Table({"label": [1], "area": np.array([8])}), Fraction(1, 10))["area"]
-    array([0.08])
-    """
-    columns = {}
-    for name, column in table.stored().items():
-        power = step if name in LENGTHS else step * step if name in AREAS else None
-        columns[name] = column if power is None else column * float(power.numerator) / float(power.denominator)
-    return Table(columns)
 
 
 def _placed_columns(
     columns: Mapping[str, Any],
-    side: float,
+    scale: tuple[float, float],
     origin: tuple[float, float],
     pixel: tuple[float, float],
     *,
@@ -188,19 +186,22 @@ def _placed_columns(
         for name in ("x", "y", "bbox_x", "bbox_y", "bbox_h")
     )
     made: dict[str, Any] = {}
-    across, down = pixel[0] / 2, pixel[1] / 2
+    (across, down), (times, over) = (pixel[0] / 2, pixel[1] / 2), scale
     if x is not None and y is not None:
-        made[own["x"]] = x * side + origin[0]
-        made[own["y"]] = (-y if y_up else y) * side + origin[1]
+        made[own["x"]] = x * times / over + origin[0]
+        made[own["y"]] = (-y if y_up else y) * times / over + origin[1]
     if left is not None and top is not None and high is not None:
-        made[own["bbox_x"]] = (left - across) * side + origin[0]
-        made[own["bbox_y"]] = (-(top + high - down) if y_up else top - down) * side + origin[1]
+        made[own["bbox_x"]] = (left - across) * times / over + origin[0]
+        made[own["bbox_y"]] = (-(top + high - down) if y_up else top - down) * times / over + origin[1]
     return made
 
 
-def _scaled_column(name: str, column: Any, factor: Fraction, properties: Collection[str]) -> Any:
+def _scaled_column(
+    name: str, column: Any, scale: Mapping[frozenset[str], tuple[float, float]], properties: Collection[str]
+) -> Any:
     ours = "" if name in properties else name.removeprefix("voro_")
     if ours not in LENGTHS | AREAS:
         return column
+    times, over = scale[LENGTHS if ours in LENGTHS else AREAS]
     values = column if isinstance(column, np.ndarray) else np.ma.asanyarray(column)
-    return values * float(factor if ours in LENGTHS else factor * factor)
+    return values * times / over

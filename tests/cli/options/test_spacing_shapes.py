@@ -1,0 +1,141 @@
+"""``--spacing`` of triangulations, skeletons and Voronoi maps: what they are of outlines and sites in its unit."""
+
+import json
+
+import numpy as np
+import pytest
+import shapely
+from PIL import Image
+
+import vorotool
+from vorotool.engines.label_images.outlines import outlines
+
+MASK = np.zeros((24, 32), np.uint8)
+MASK[3:9, 4:11] = MASK[12:20, 15:30] = 255
+MASK[14:17, 18:22] = 0
+STEPS = (20, 13)  # of 0.025, in 0.5 and 0.325
+
+
+@pytest.fixture
+def masks(tmp_path):
+    Image.fromarray(MASK).save(tmp_path / "mask.png")
+    (tmp_path / "dots.csv").write_text("x,y\n2,3\n9,4\n4,12\n15,9\n11,14\n")
+    return tmp_path
+
+
+def in_units(polygons):
+    return polygons * (0.5, 0.325)
+
+
+def shapes(path):
+    features = json.loads(path.read_text())["features"]
+    return shapely.from_geojson([json.dumps(each["geometry"]) for each in features])
+
+
+@pytest.mark.parametrize("options", [[], ["--prune", "none"], ["--prune", "length=0.3um"], ["--outline", "contour"]])
+def test_exact_skeletons_are_those_of_outlines_in_the_unit(run, masks, options):
+    args = ["--spacing", "0.5,0.325um", "--verify", *options]
+    assert run("skeleton-exact", "mask.png", "-o", "a.geojson", *args).code == 0
+    polygons = outlines(MASK, outline="contour" if "contour" in options else "crack")
+    steps = shapely.transform(polygons.to_shapely(), lambda xy: xy * STEPS)
+    skeleton = vorotool.skeleton_exact(steps)
+    if "none" not in options:
+        criterion = {"length": 0.3 / 0.025} if "length=0.3um" in options else {"scale": 1.5}
+        skeleton = vorotool.prune(skeleton, **criterion)
+    expected = shapely.transform(skeleton.to_shapely(), lambda xy: xy / 40)
+    found = shapes(masks / "a.geojson")
+    assert shapely.hausdorff_distance(shapely.union_all(found), shapely.union_all(expected)) < 0.01
+    assert sum(shapely.length(found)) == pytest.approx(sum(shapely.length(expected)), rel=1e-3)
+
+
+def test_measures_of_shapes_are_in_the_unit(run, masks):
+    rows = run("skeleton-exact", "mask.png", "--what", "table", "--spacing", "0.5,0.325um").rows
+    assert [float(row["area"]) for row in rows] == pytest.approx([42 * 0.1625, 108 * 0.1625])
+    assert [float(row["width_max"]) for row in rows] == [1.95, 2.6]
+    assert {row["unit"] for row in rows} == {"um"}
+
+
+def test_approximate_skeletons_sample_in_the_unit(run, masks):
+    args = ["--spacing", "0.5,0.325um", "--step", "0.1", "--verify"]
+    rows = run("skeleton-approx", "mask.png", "--what", "table", *args).rows
+    assert [float(row["width_max"]) for row in rows] == pytest.approx([1.95, 2.6], abs=0.01)
+
+
+@pytest.mark.parametrize("distance", ["-0.3", "-300nm"])
+def test_offsets_are_at_distances_in_the_unit(run, masks, distance):
+    args = ["--what", "offset", "-d", distance, "--spacing", "0.5,0.325um"]
+    assert run("skeleton-exact", "mask.png", *args, "-o", "a.geojson").code == 0
+    first = shapes(masks / "a.geojson")[0]
+    assert first.bounds == pytest.approx((3.5 * 0.5 + 0.3, 2.5 * 0.325 + 0.3, 10.5 * 0.5 - 0.3, 8.5 * 0.325 - 0.3))
+
+
+def test_simplification_moves_outlines_by_lengths_in_the_unit(run, masks):
+    stairs = np.tril(np.ones((30, 30), np.uint8)) * 255
+    Image.fromarray(np.pad(stairs, 2)).save(masks / "stairs.png")
+    rows = run("skeleton-exact", "stairs.png", "--what", "table", "--spacing", "0.5,0.5", "--simplify", "0.4").rows
+    plain = run("skeleton-exact", "stairs.png", "--what", "table", "--simplify", "0.8").rows
+    assert float(rows[0]["perimeter"]) == pytest.approx(float(plain[0]["perimeter"]) / 2)
+
+
+def test_voronoi_maps(run, masks):
+    args = ["--spacing", "0.5,0.325um", "--frame", "0,0,16,8", "--max-distance", "1.5", "--verify"]
+    rows = run("voronoi", "mask.png", "--what", "table", *args).rows
+    polygons = shapely.transform(outlines(MASK).to_shapely(), in_units)
+    cells = vorotool.voronoi(polygons, frame=(0, 0, 16, 8), max_distance=1.5)
+    assert [float(row["area"]) for row in rows] == pytest.approx(cells.areas.tolist(), rel=1e-5)
+
+
+@pytest.mark.parametrize("method", ["exact", "digital-valid"])
+def test_triangulations_are_of_places_in_the_unit(run, masks, method):
+    args = ["--method", method, "--spacing", "0.5,0.325um", "--verify", "-q"]
+    rows = run("delaunay", "dots.csv", "-f", "csv", *args).rows
+    points = np.loadtxt(masks / "dots.csv", delimiter=",", skiprows=1)
+    mesh = vorotool.delaunay(points * STEPS)
+    assert [(int(row["label_a"]) - 1, int(row["label_b"]) - 1) for row in rows] == [
+        tuple(e) for e in mesh.edges.tolist()
+    ]
+    assert [float(row["length"]) for row in rows] == pytest.approx((mesh.edge_lengths() / 40).tolist())
+    assert {row["unit"] for row in rows} == {"um"}
+
+
+@pytest.mark.parametrize("name", ["dots.csv", "mask.png"])
+def test_the_paper_rule(run, masks, name):
+    rows = run("delaunay", name, "--method", "digital", "--spacing", "0.5,0.325um", "--verify", "-f", "csv").rows
+    source = MASK if name == "mask.png" else np.loadtxt(masks / name, delimiter=",", skiprows=1)
+    found = vorotool.digital_triangulation(source, spacing=(0.325, 0.5))
+    assert len(rows) == len(found.edges) > 0
+    assert [float(row["length"]) for row in rows] == found.edge_lengths().tolist()
+
+
+def test_cells_of_centroids(run, masks):
+    row = run("delaunay", "mask.png", "--what", "table", "--spacing", "0.5,0.325um", "--verify").rows[0]
+    assert (float(row["x"]), float(row["y"])) == (7 * 0.5, 5.5 * 0.325)
+
+
+@pytest.mark.parametrize("command", ["skeleton-exact", "voronoi", "delaunay --seeds pixels"])
+@pytest.mark.parametrize("fmt", ["svg", "png"])
+def test_pictures_have_the_aspect(run, masks, command, fmt):
+    args = [*command.split(), "mask.png", "--spacing", "0.5,1um", "-o", f"a.{fmt}", "--scale-bar"]
+    assert run(*args).code == 0
+    if fmt == "png":
+        with Image.open(masks / "a.png") as picture:
+            width, height = picture.size
+        assert height / width == pytest.approx(24 / 16, abs=0.01)
+    done = run(*args, "--overlay", "mask.png")
+    assert (done.code, "--overlay shows pixels as squares: leave it out with --spacing" in done.err) == (2, True)
+
+
+REFUSED = [
+    ("skeleton-exact mask.png", "1,2,3", "--spacing has 3 sides, but the input is an image"),
+    ("delaunay mask.png", "1,2,3", "--spacing has 3 sides, but the input is an image"),
+    ("voronoi mask.png", "1,2,3", "--spacing has 3 sides, but the input is an image"),
+    ("voronoi dots.csv", "1,2", "--spacing is for images, but the input holds points, lines or polygons"),
+    ("delaunay dots.csv --what compare", "1,2", "--what compare explains differences by the sides of square pixels"),
+    ("skeleton-exact mask.png --pixel-size 3", "1,2", "--pixel-size only scales what is written"),
+]
+
+
+@pytest.mark.parametrize(("command", "spacing", "message"), REFUSED)
+def test_what_does_not_go_together_is_refused(run, masks, command, spacing, message):
+    done = run(*command.split(), "--spacing", spacing, "-o", "a.csv" if command.startswith("d") else "a.svg")
+    assert (done.code, message in done.err) == (2, True)
