@@ -31,7 +31,7 @@ offsets -> base, graphs, kernel, numbers, segment_voronoi/build, skeleton
 pruning -> base, graphs, kernel, numbers, skeleton
 sampled_skeleton -> base, delaunay, kernel, numbers, segment_voronoi/build, skeleton, spatial
 voronoi -> base, kernel, segment_voronoi/build, skeleton
-volumes -> base, label_images, numbers, tessellation
+volumes -> base, label_images, numbers, spatial, tessellation
 """)
 """What each room includes, after all that it may include."""
 

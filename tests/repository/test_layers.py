@@ -15,11 +15,9 @@ geometry -> products
 formats/io -> geometry
 geometry/points -> geometry
 geometry/polygons -> geometry
-engines/common ->
+engines/common -> geometry
 formats/parsing -> formats/io, geometry, geometry/points, geometry/polygons
-formats/zarr -> formats/compression, formats/io, geometry
 geometry/curves -> geometry, geometry/polygons
-formats/images -> formats/compression, formats/io, formats/parsing, formats/zarr, geometry, geometry/points
 formats/points -> formats/io, formats/parsing, geometry, geometry/points
 render/canvas -> geometry, geometry/curves, products
 render/label_images -> geometry, geometry/points, products, render/canvas
@@ -27,6 +25,8 @@ geometry/voronoi -> geometry, geometry/curves, geometry/polygons, products
 render ->
 geometry/volumes -> geometry, geometry/points
 geometry/arguments -> geometry, geometry/points, geometry/polygons, geometry/volumes, products
+formats/zarr -> formats/compression, formats/io, geometry, geometry/volumes
+formats/images -> formats/compression, formats/io, formats/parsing, formats/zarr, geometry, geometry/points
 geometry/mesh -> geometry, geometry/arguments, geometry/curves
 geometry/skeleton -> geometry, geometry/arguments, geometry/curves, geometry/polygons
 typing -> geometry, geometry/mesh, geometry/points, geometry/polygons, geometry/skeleton, geometry/volumes
@@ -63,7 +63,7 @@ engines/sampled_skeleton -> engines/arrangement, engines/common, engines/feature
     engines/skeleton, geometry, geometry/curves, geometry/polygons, geometry/skeleton
 formats -> formats/drawing, formats/features, formats/images, formats/io, formats/parsing, formats/points,
     formats/polygons, geometry, geometry/arguments, geometry/points, geometry/polygons, geometry/skeleton,
-    geometry/voronoi, products
+    geometry/volumes, geometry/voronoi, products
 batch -> engines/tessellation, formats, formats/io, formats/text, formats/zarr
 engines -> engines/sampled_skeleton, engines/skeleton, geometry, geometry/arguments, geometry/skeleton, typing
 engines/centerlines -> engines/from_skeleton, engines/pruning, engines/skeleton, geometry, geometry/arguments,
@@ -71,25 +71,27 @@ engines/centerlines -> engines/from_skeleton, engines/pruning, engines/skeleton,
 engines/voronoi -> engines/arrangement, engines/common, engines/segment_voronoi, engines/skeleton, geometry,
     geometry/arguments, geometry/curves, geometry/polygons, geometry/skeleton, geometry/voronoi, typing
 geometry/any -> geometry, geometry/alpha, geometry/curves, geometry/mesh, geometry/points, geometry/polygons,
-    geometry/skeleton, geometry/voronoi, products
+    geometry/skeleton, geometry/volumes, geometry/voronoi, products
 engines/label_images -> engines/common, engines/tessellation, geometry, geometry/any, geometry/arguments,
-    geometry/points, geometry/polygons, typing
-engines/digital -> engines/common, engines/delaunay, engines/label_images, engines/tessellation, geometry, geometry/any,
+    geometry/points, geometry/polygons, products, typing
+engines/digital -> engines/common, engines/delaunay, engines/label_images, engines/tessellation, geometry,
     geometry/arguments, geometry/curves, geometry/mesh, geometry/points, typing
+engines/volumes -> engines/common, engines/tessellation, geometry, geometry/arguments, geometry/volumes, typing
+engines/peers -> engines, engines/delaunay, engines/from_skeleton, engines/label_images, engines/pruning,
+    engines/tessellation, engines/volumes, geometry, geometry/arguments, geometry/mesh, geometry/volumes, typing
+formats/volumes -> formats, formats/images, formats/io, formats/parsing, formats/points, formats/zarr, geometry,
+    geometry/volumes, products
 jobs -> batch, engines, engines/alpha, engines/arrangement, engines/centerlines, engines/delaunay, engines/digital,
     engines/features, engines/from_skeleton, engines/label_images, engines/offsets, engines/pruning,
-    engines/sampled_skeleton, engines/segment_voronoi, engines/skeleton, engines/tessellation, engines/voronoi, formats,
-    formats/images, formats/io, formats/parsing, formats/points, formats/text, formats/zarr, geometry, geometry/alpha,
-    geometry/any, geometry/arguments, geometry/curves, geometry/mesh, geometry/points, geometry/polygons,
-    geometry/skeleton, geometry/voronoi, products, render/canvas, render/label_images, render/layers, render/pages,
-    typing
+    engines/sampled_skeleton, engines/segment_voronoi, engines/skeleton, engines/tessellation, engines/volumes,
+    engines/voronoi, formats, formats/images, formats/io, formats/parsing, formats/points, formats/text,
+    formats/volumes, formats/zarr, geometry, geometry/alpha, geometry/any, geometry/arguments, geometry/curves,
+    geometry/mesh, geometry/points, geometry/polygons, geometry/skeleton, geometry/volumes, geometry/voronoi, products,
+    render/canvas, render/label_images, render/layers, render/pages, typing
 cli/options -> engines/offsets, engines/pruning, geometry, jobs, products
 cli/batch -> batch, cli/options, formats/io, geometry, jobs, products
 cli/commands -> cli/batch, cli/options, jobs, products
 cli -> cli/commands, jobs
-engines/volumes -> engines/tessellation, geometry, geometry/arguments, geometry/volumes, typing
-engines/peers -> engines, engines/delaunay, engines/from_skeleton, engines/label_images, engines/pruning,
-    engines/tessellation, engines/volumes, geometry, geometry/arguments, geometry/mesh, geometry/volumes, typing
 """
 """Rooms of the package from below, and what each may import; `errors` and `signals` are for all."""
 

@@ -106,7 +106,10 @@ MISUSES = [
     ),
     (lambda: vorotool.tessellate([[1.5, 2]], shape=(9, 9), method="propagation"), 'use method="exact"'),
     (lambda: vorotool.tessellate([[20, 2]], shape=(9, 9), method="propagation"), "use a larger shape or window"),
-    (lambda: vorotool.seeds_from_raster(COLOUR), "use threshold=T (of seeds_from_raster and outlines)"),
+    (
+        lambda: vorotool.seeds_from_raster(COLOUR),
+        "use threshold=T (of seeds_from_raster, seeds_from_volume and outlines)",
+    ),
     (lambda: vorotool.seeds_from_raster(PHOTO), 'or mode="labels" if these are labels'),
     (lambda: vorotool.seeds_from_raster(PHOTO / 7.0), 'use threshold="otsu"'),
     (lambda: vorotool.seeds_from_raster(np.array([[0.0, np.nan]])), "use threshold=T"),

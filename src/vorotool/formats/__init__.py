@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from os import PathLike
-from typing import TYPE_CHECKING, Literal, cast
+from typing import TYPE_CHECKING, Any, Literal, cast
 
 from vorotool.geometry.pixel_frame import MAX_PIXELS
 
@@ -98,28 +98,20 @@ def read(
     """
     from vorotool.errors import UsageError
     from vorotool.formats.opening import opened
+    from vorotool.products.formats import resolved
+    from vorotool.products.inputs import SPACE_READER, VOLUME_READER
 
     if geometry not in (None, "points", "polygons", "volume"):
         raise UsageError(f"invalid geometry {geometry!r}: expected points, polygons or volume, or none")
     of_maps = {"crs": crs, "to_crs": to_crs, "layer": layer, "flatten": flatten, "join_tolerance": join_tolerance}
     if geometry == "volume":
-        from vorotool.formats.volumes.opening import read_volume
-
         _refuse({"columns": columns, "page": page, "max_sites": max_sites, **of_maps}, "a volume")
-        return read_volume(path, input_format=input_format, max_voxels=max_pixels, note=note)
+        options: dict[str, Any] = {"input_format": input_format, "max_voxels": max_pixels, "note": note}
+        return cast("Volume", resolved(VOLUME_READER)(path, **options))
     if geometry != "polygons" and columns is not None and _names_z(columns):
-        from vorotool.formats.volumes.points import read_xyz
-
         _refuse({"page": page, **of_maps}, "points of space")
-        return read_xyz(
-            path,
-            input_format=input_format,
-            columns=columns,
-            max_sites=max_sites,
-            properties=properties,
-            threads=threads,
-            note=note,
-        )
+        options = {"input_format": input_format, "columns": columns, "max_sites": max_sites, "note": note}
+        return cast("VolumePoints", resolved(SPACE_READER)(path, **options, properties=properties, threads=threads))
     with opened(path, geometry=geometry, input_format=input_format, page=page, layer=layer) as source:
         value = source.read(
             columns=columns,

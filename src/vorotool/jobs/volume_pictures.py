@@ -191,7 +191,8 @@ class SlicePicture:
 
     def _inside(self, voxels: NDArray[np.int64]) -> NDArray[np.bool_]:
         is_on_axis: NDArray[np.bool_] = (voxels >= 0) & (voxels < np.array(self.frame.shape[::-1]))
-        return np.logical_and.reduce(is_on_axis, axis=1)
+        inside: NDArray[np.bool_] = np.logical_and.reduce(is_on_axis, axis=1)
+        return inside
 
     def _places(self, view: View, xyz: NDArray[np.float64]) -> NDArray[np.int64]:
         """Column and row in the picture of places in a slice, in steps of a part of a pixel."""
@@ -218,7 +219,7 @@ class SlicePicture:
         return SeedSet(column, row, painted[row, column], frame=Frame(0, 0, width, height))
 
     def _object_voxels(self, seeds: VolumeSeeds, view: View) -> Iterator[tuple[NDArray[np.int64], NDArray[np.uint32]]]:
-        """Voxels of objects in a slice, (x, y, z) from the first one of the frame, and labels: outer ones, then inner."""
+        """Voxels of objects in a slice, (x, y, z) from the first one of the frame, and labels: outer and inner ones."""
         outer = self._voxels_of(seeds.places, seeds.scale)
         chosen = outer[:, 2 - view.across] == view.number
         yield outer[chosen], seeds.labels[chosen]

@@ -144,6 +144,9 @@ def names_of(*held: Holds) -> dict[str, str]:
     return {name: each.name for each in _ALL if each.readers.keys() & set(held) for name in each.names}
 
 
+VOLUME_READER, SPACE_READER = "formats.volumes.opening:read_volume", "formats.volumes.points:read_xyz"
+"""``module:function`` that read volumes, and points with a z, from a path."""
+
 IMAGE_NAMES = names_of("image")
 """Formats of images by name; NPY files hold either."""
 VOLUME_NAMES = {name: kind for name, kind in IMAGE_NAMES.items() if kind in ("tiff", "npy", "zarr")}

@@ -90,7 +90,6 @@ def largest_by_label(
     """
     wide = np.uint64 if values.dtype.itemsize == 8 else np.uint32
     rows = np.ascontiguousarray(values).astype(wide, copy=False).reshape(-1, values.shape[-1])
-    found: NDArray[np.uint64] = _core.label_images.max_by_label(
-        labels.reshape(rows.shape), rows, wanted, threads, progress
-    )
+    by_label: Any = _core.label_images.max_by_label  # of several types
+    found: NDArray[np.uint64] = by_label(labels.reshape(rows.shape), rows, wanted, threads, progress)
     return found

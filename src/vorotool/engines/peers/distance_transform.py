@@ -159,10 +159,15 @@ class _Background(VolumeSweep):
         return cls(background, sides, threads)
 
     def squared_distances(
-        self, first: int = 0, slices: int | None = None, *, dtype: np.dtype[Any] | None = None
+        self,
+        first: int = 0,
+        slices: int | None = None,
+        *,
+        dtype: np.dtype[Any] | None = None,
+        out: NDArray[Any] | None = None,
     ) -> NDArray[Any]:
         """Those of the sweep, and 0 where a seed is that it was not told of."""
-        squares = super().squared_distances(first, slices, dtype=dtype)
+        squares = super().squared_distances(first, slices, dtype=dtype, out=out)
         squares[self.is_seed[first : first + len(squares)]] = 0
         return squares
 

@@ -191,7 +191,7 @@ def seeds_of_slabs(
 
     Notes
     -----
-    Memory: 29 bytes a seed are kept and up to 50 needed while the seeds are made, and some 16 a voxel of a slab.
+    Memory: 29 bytes a seed are kept and up to 55 needed while the seeds are made, and some 16 a voxel of a slab.
 
     Examples
     --------

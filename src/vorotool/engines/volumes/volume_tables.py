@@ -189,11 +189,10 @@ def _areas(faces: NDArray[np.int64], sides: PixelSides) -> NDArray[Any]:
     """Areas of so many faces across x, y and z, in the unit of the sides."""
     depth, height, width = sides.units
     across = (height * depth, width * depth, width * height)
-    most = int(faces.max(initial=0)) * sum(across)
-    exact = np.dot(
-        faces.astype(np.int64 if most < 2**63 else object), np.array(across, np.int64 if most < 2**63 else object)
-    )
-    return _times(exact, sides.step**2) if most < 2**63 else _times(exact.astype(np.float64), sides.step**2)
+    fits = int(faces.max(initial=0)) * sum(across) < 2**63
+    exact = faces.astype(np.int64 if fits else object) @ np.array(across, np.int64 if fits else object)
+    made: NDArray[Any] = _times(exact if fits else exact.astype(np.float64), sides.step**2)
+    return made
 
 
 def _sites(volume: LabelVolume, measures: VolumeMeasures) -> tuple[NDArray[np.uint32], NDArray[np.float64]]:

@@ -25,7 +25,7 @@ class VolumeSeeds(Value):
     Parameters
     ----------
     places : (n, 3) int64 array
-        x, y and z in steps of 1 / ``scale`` voxel; stored column by column.
+        Coordinates x, y and z in steps of 1 / ``scale`` voxel; stored column by column.
     labels : (n,) uint32 array
         Label of each seed, at least 1.
     scale : int
