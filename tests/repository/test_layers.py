@@ -74,7 +74,7 @@ geometry/any -> geometry, geometry/alpha, geometry/curves, geometry/mesh, geomet
     geometry/skeleton, geometry/volumes, geometry/voronoi, products
 engines/label_images -> engines/common, engines/tessellation, geometry, geometry/any, geometry/arguments,
     geometry/points, geometry/polygons, products, typing
-engines/digital -> engines/common, engines/delaunay, engines/label_images, engines/tessellation, geometry,
+engines/digital -> engines/common, engines/delaunay, engines/label_images, engines/tessellation, geometry, geometry/any,
     geometry/arguments, geometry/curves, geometry/mesh, geometry/points, typing
 engines/volumes -> engines/common, engines/tessellation, geometry, geometry/arguments, geometry/volumes, typing
 engines/peers -> engines, engines/delaunay, engines/from_skeleton, engines/label_images, engines/pruning,
