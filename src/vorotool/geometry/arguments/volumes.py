@@ -10,6 +10,8 @@ from vorotool.errors import InputError, LimitError
 from vorotool.geometry.arguments.descriptions import column_names, described, naming, refuse_paths, unexpected
 from vorotool.geometry.numbers import real_number
 from vorotool.geometry.pixel_frame import MAX_PIXELS
+from vorotool.geometry.points.label_image import LabelImage
+from vorotool.geometry.points.raster import Raster
 from vorotool.geometry.volumes.label_volume import LabelVolume
 from vorotool.geometry.volumes.volume import Volume
 from vorotool.geometry.volumes.volume_points import VolumePoints
@@ -83,7 +85,7 @@ def refuse_triples(source: Any, name: str, *, image: bool | None = None) -> None
     Traceback (most recent call last):
     vorotool.errors.InputError: invalid seeds: ... for points of space give shape=(D, H, W) as well; ...
     """
-    if image or column_names(source) is not None:
+    if image or isinstance(source, Raster | LabelImage) or column_names(source) is not None:
         return
     shape = getattr(source, "shape", None)
     if isinstance(source, list | tuple) and source and isinstance(source[0], list | tuple | np.ndarray):
