@@ -10,6 +10,8 @@ from vorotool.errors import InputError, LimitError
 from vorotool.geometry.arguments.descriptions import column_names, described, naming, refuse_paths, unexpected
 from vorotool.geometry.numbers import real_number
 from vorotool.geometry.pixel_frame import MAX_PIXELS
+from vorotool.geometry.points.label_image import LabelImage
+from vorotool.geometry.points.raster import Raster
 from vorotool.geometry.volumes.label_volume import LabelVolume
 from vorotool.geometry.volumes.volume import Volume
 from vorotool.geometry.volumes.volume_points import VolumePoints
@@ -94,7 +96,7 @@ def refuse_triples(source: Any, name: str, *, image: bool | None = None) -> None
 
 def _width(source: Any) -> int | None:
     """How many numbers a row of a list of points has; None of what is none, as are tables and images by their type."""
-    if column_names(source) is not None:
+    if column_names(source) is not None or isinstance(source, Raster | LabelImage):
         return None
     if isinstance(source, list | tuple) and source and isinstance(source[0], list | tuple | np.ndarray):
         return len(source[0]) if all(np.ndim(each) == 0 for each in source[0]) else None
