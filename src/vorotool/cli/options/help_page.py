@@ -10,13 +10,13 @@ import click
 from vorotool.cli.options.shared import Names
 
 _GROUPS = {
-    "Output": "output format what dtype chunk tiled flatten precision no_properties safe_csv no_clobber",
+    "Output": "output format what dtype chunk levels tiled flatten precision no_properties safe_csv no_clobber",
     "Method": "method passes by max_distance r alpha auto regions rule hole_threshold region_threshold step tolerance "
     "sampling compare side gap complete features prune start end ends distance every",
-    "Input": "columns input_format input_layer input_crs crs page pixel_size spacing seeds connectivity threshold "
-    "invert min_area fill_holes outline simplify join_tolerance",
+    "Input": "columns input_format input_layer input_crs crs page volume pixel_size spacing seeds connectivity "
+    "threshold invert min_area fill_holes outline simplify join_tolerance",
     "Frame": "size window cell_size frame clip enclosures",
-    "Pictures": "layers overlay width y_up scale drawing_unit aspect extent background colours "
+    "Pictures": "layers slice overlay width y_up scale drawing_unit aspect extent background colours "
     "line_widths label_by legend scale_bar animate frames fps",
     "Many inputs": "out_dir files_from null jobs keep_going dry_run resume shard table cluster",
     "Checks and resources": "verify strict stats threads max_pixels max_sites quiet verbose",

@@ -10,7 +10,7 @@ from typing import Any, BinaryIO, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from vorotool.errors import LimitError
+from vorotool.errors import LimitError, option
 from vorotool.geometry.ragged import starts_of
 from vorotool.render.canvas.palettes import cell_colour
 from vorotool.render.pages.cells_html import MOST_CELLS, json_value, packed
@@ -84,7 +84,7 @@ def check_volume_page(shape: tuple[int, ...], labels: int = 0, runs: int = 0) ->
     >>> check_volume_page((64, 512, 512))
     """
     depth, height, width = shape
-    instead = "use --what colour as PNG, or --what labels"
+    instead = f"use {option('--what colour -f png, or --what labels', 'labels in TIFF, NPY or Zarr')}"
     if depth * height * width > MOST_VOXELS:
         size = f"{width} x {height} x {depth}"
         raise LimitError(f"{size} voxels are too many for a page, at most {MOST_VOXELS}: {instead}")
