@@ -2,14 +2,13 @@
 
 Every figure is the least of several runs, in nanoseconds a voxel; ratios are what to compare, since machines differ.
 `floor` fills the same output past the caches with as many threads: no program can write labels faster. `ours` prepares
-the seeds and writes labels into an output that exists (`out=`). Memory is what is beside the output, of a process of
-its own. Peers: scipy's exact transform (other ties), `edt`'s distances alone, scikit-image's expand_labels; they take a
-volume of `--peers-side`, with as many voxels a seed, which ours takes beside them, too.
+the seeds and writes labels into an output that exists (`out=`). Memory is that beside the seeds and the output, of a
+process of its own. Peers: scipy's exact transform (other ties), `edt`'s distances alone, scikit-image's expand_labels;
+they take a volume of `--peers-side`, with as many voxels a seed, which ours takes beside them, too.
 """
 
 from __future__ import annotations
 
-import resource
 import sys
 import warnings
 from collections.abc import Callable
@@ -53,20 +52,26 @@ def labelled(seeds: VolumeSeeds, threads: int, out: np.ndarray) -> np.ndarray:
     return VolumeSweep(seeds, VoxelFrame(0, 0, 0, width, height, depth), threads=threads).labels(out=out)
 
 
+def memory_of(what: str) -> int:
+    """Bytes of the process that Linux tells: what it has, or had at the most."""
+    lines = Path("/proc/self/status").read_text().splitlines()
+    return 1024 * next(int(line.split()[1]) for line in lines if line.startswith(what))
+
+
 def memory(side: int, count: int, threads: int) -> int:
-    """Bytes beside the output: the most that the process has had, less what it had before."""
-    out = output(side, count)
+    """Bytes beside the seeds and the output: the most that the process had, less what it had before."""
     warnings.simplefilter("ignore")
+    out, seeds = output(side, count), seeds_in(side, count)
     labelled(seeds_in(8, 8), threads, output(8, 8))
-    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    labelled(seeds_in(side, count), threads, out)
-    return 1024 * (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before)
+    before = memory_of("VmRSS")
+    labelled(seeds, threads, out)
+    return memory_of("VmHWM") - before
 
 
 def ours(side: int, count: int, threads: int, runs: int) -> tuple[float, float]:
     """Nanoseconds a voxel to fill the output, and to label it."""
     out, seeds = output(side, count), seeds_in(side, count)
-    floor = best(lambda: _core_testing.tessellation.stream_fill(out, threads), runs)
+    floor = best(lambda: _core_testing.tessellation.stream_fill(out.reshape(-1, side), threads), runs)
     taken = best(lambda: labelled(seeds, threads, out), runs)
     return 1e9 * floor / out.size, 1e9 * taken / out.size
 

@@ -28,39 +28,23 @@ struct SeedLoops {
   static Vector square(Vector v) { return v * v; }
 
   static std::int32_t near(const SeedArrays& given, std::int32_t count, const float* place) {
-    // positive floats are ordered as their bits: the lowest ones make room for the number of the vector
-    constexpr std::int32_t numbers = std::int32_t{1} << 11;
+    // positive floats are ordered as their bits, of which the lowest make room for the number of the seed
+    constexpr std::int32_t numbers = std::int32_t{1} << 14;
     const SeedArrays seeds = given;
     const float x = place[0], y = place[1], z = place[2];
-    typename Words::Vector best = typename Words::Vector{} + 0x7fffffff;
-    const std::int32_t vectors = count / width < numbers ? count / width : numbers;
-    for (std::int32_t k = 0; k < vectors; ++k) {
-      const Vector distance = square(Floats::load(seeds.x + k * width) - x) +
-                              square(Floats::load(seeds.y + k * width) - y) +
-                              square(Floats::load(seeds.z + k * width) - z);
+    const std::int32_t most = count < numbers ? count : numbers;
+    const typename Words::Vector none = typename Words::Vector{} + 0x7fffffff;
+    typename Words::Vector best = none, number{};
+    for (std::int32_t lane = 0; lane < width; ++lane) number[lane] = lane;
+    for (std::int32_t s = 0; s < most; s += width, number += width) {
+      const Vector distance = square(Floats::load(seeds.x + s) - x) + square(Floats::load(seeds.y + s) - y) +
+                              square(Floats::load(seeds.z + s) - z);
       const auto bits = reinterpret_cast<typename Words::Vector>(distance);
-      best = Words::lesser(best, (bits & ~(numbers - 1)) | k);
+      best = Words::lesser(best, number < most ? (bits & -numbers) | number : none);
     }
-    std::int32_t nearest = 0, least = 0x7fffffff;
-    for (std::int32_t lane = 0; lane < width; ++lane) {
-      if (best[lane] >= least) continue;
-      least = best[lane];
-      nearest = (least & (numbers - 1)) * width + lane;
-    }
-    if (vectors == numbers) return nearest;
-    float square_of_nearest = vectors > 0 ? distance_to(seeds, nearest, place) : 0;
-    for (std::int32_t s = vectors * width; s < count; ++s) {
-      const float distance = distance_to(seeds, s, place);
-      if (s > 0 && distance >= square_of_nearest) continue;
-      square_of_nearest = distance;
-      nearest = s;
-    }
-    return nearest;
-  }
-
-  static float distance_to(const SeedArrays& seeds, std::int32_t s, const float* place) {
-    const float x = seeds.x[s] - place[0], y = seeds.y[s] - place[1], z = seeds.z[s] - place[2];
-    return x * x + y * y + z * z;
+    std::int32_t least = best[0];
+    for (std::int32_t lane = 1; lane < width; ++lane) least = best[lane] < least ? best[lane] : least;
+    return least & (numbers - 1);
   }
 
   // How much farther than the rival seeds are at least, along one axis: linear, so least at an end of the box.
@@ -122,28 +106,38 @@ struct BrickKernelOn {
   static constexpr std::int32_t vectors = brick_side / width;  // of a row
   static_assert(vectors >= 1);
 
-  // Squares from a seed to the voxels along one axis, shifted to their place in a key, with a label.
-  static void shift_squares(float seed, std::int32_t first, std::int32_t step, int label_bits, Key label,
-                            Key* squares) {
-    const std::int32_t start = first - static_cast<std::int32_t>(seed);
-    for (std::int32_t k = 0; k < brick_side; ++k) {
-      const auto distance = static_cast<Key>(start + k * step);  // modulo 2^bits, as is its square
-      squares[k] = ((distance * distance) << label_bits) | label;
+  // The places of the voxels along one axis; like all here modulo 2^bits, as are their squares.
+  struct Axis {
+    Vector places[vectors];
+
+    Axis(std::int32_t first, std::int32_t step) {
+      for (std::int32_t k = 0; k < brick_side; ++k)
+        places[k / width][k % width] = static_cast<Key>(first + k * step);
     }
-  }
+
+    // Squares of the ways to a seed, shifted to their place in a key, with a label.
+    void put_terms(float seed, int label_bits, Key label, Key* terms) const {
+      const auto at = static_cast<Key>(static_cast<std::int32_t>(seed));
+      for (std::int32_t v = 0; v < vectors; ++v) {
+        const Vector way = places[v] - at;
+        Keys::store(terms + v * width, ((way * way) << label_bits) | label);
+      }
+    }
+  };
 
   // Of each of two slices, rows whose keys are in registers together.
   static constexpr std::int32_t rows_at_once = 4;
 
-  static void find_terms(const SeedArrays& given, std::int32_t count, const BrickVoxels& given_voxels,
+  static void find_terms(const SeedArrays& given, std::int32_t count, const BrickVoxels& voxels,
                          int label_bits, Key* terms) {
     const SeedArrays seeds = given;
-    const BrickVoxels voxels = given_voxels;
+    const Axis x(voxels.first[0], voxels.step[0]);
+    const Axis y(voxels.first[1], voxels.step[1]);
+    const Axis z(voxels.first[2], voxels.step[2]);
     for (std::int32_t s = 0; s < count; ++s, terms += 3 * brick_side) {
-      shift_squares(seeds.x[s], voxels.first[0], voxels.step[0], label_bits, 0, terms);
-      shift_squares(seeds.y[s], voxels.first[1], voxels.step[1], label_bits, 0, terms + brick_side);
-      shift_squares(seeds.z[s], voxels.first[2], voxels.step[2], label_bits, seeds.label[s],
-                    terms + 2 * brick_side);
+      x.put_terms(seeds.x[s], label_bits, 0, terms);
+      y.put_terms(seeds.y[s], label_bits, 0, terms + brick_side);
+      z.put_terms(seeds.z[s], label_bits, seeds.label[s], terms + 2 * brick_side);
     }
   }
 

@@ -209,9 +209,7 @@ void BrickSweep<Voxel, product>::write(const Rows& rows) {
   seeds_.start(rows);
   for (std::int32_t z = 0; rows.first_slice + z * brick_side <= rows.last_slice; ++z) {
     for (std::int32_t y = 0; rows.first_row + y * brick_side <= rows.last_row; ++y) {
-      for (std::int32_t x = 0; x * brick_side < frame_.plane.width; ++x) {
-        fill_brick(seeds_.brick(x, y, z), bar_.data() + x * brick_side);
-      }
+      fill_bar(y, z);
       const std::int32_t slice = rows.first_slice + z * brick_side, row = rows.first_row + y * brick_side;
       const std::int32_t slices = std::min(brick_side, rows.last_slice - slice + 1);
       const std::int32_t count = std::min(brick_side, rows.last_row - row + 1);
@@ -226,13 +224,36 @@ void BrickSweep<Voxel, product>::write(const Rows& rows) {
   }
 }
 
+// Fills the bricks along x; those that follow each other and have the same seed alone at once.
+template <class Voxel, Product product>
+void BrickSweep<Voxel, product>::fill_bar(std::int32_t y, std::int32_t z) {
+  const auto bricks = static_cast<std::int32_t>(row_ / brick_side);
+  const bool with_labels = product == Product::labels && !most_squared_;
+  std::int32_t first = 0;  // of those with one seed that are to be filled
+  std::uint32_t label = 0;
+  const auto fill_until = [&](std::int32_t end) {
+    for (std::int32_t k = 0; first < end && k < brick_side * brick_side; ++k) {
+      Voxel* const row = bar_.data() + k * row_;
+      std::fill(row + first * brick_side, row + end * brick_side, static_cast<Voxel>(label));
+    }
+    first = end;
+  };
+  for (std::int32_t x = 0; x < bricks; ++x) {
+    const BrickSeeds::Brick brick = seeds_.brick(x, y, z);
+    const bool alone = with_labels && brick.count == 1;
+    if (!alone || *brick.seeds.label != label) fill_until(x);
+    if (alone) {
+      label = *brick.seeds.label;
+    } else {
+      fill_brick(brick, bar_.data() + x * brick_side);
+      first = x + 1;
+    }
+  }
+  fill_until(bricks);
+}
+
 template <class Voxel, Product product>
 void BrickSweep<Voxel, product>::fill_brick(const BrickSeeds::Brick& brick, Voxel* to) {
-  if (product == Product::labels && brick.count == 1 && !most_squared_) {
-    const auto label = static_cast<Voxel>(*brick.seeds.label);
-    for (std::int32_t k = 0; k < brick_side * brick_side; ++k) std::fill_n(to + k * row_, brick_side, label);
-    return;
-  }
   if (label_bits_ < 32 && brick.largest_square < std::ldexp(1.0, 32 - label_bits_)) {
     fill_with(brick, kernels_.narrow, narrow_, to);
   } else {

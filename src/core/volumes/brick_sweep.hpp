@@ -93,6 +93,7 @@ class BrickSweep {
   void write(const Rows& rows);
 
  private:
+  void fill_bar(std::int32_t y, std::int32_t z);
   void fill_brick(const BrickSeeds::Brick& brick, Voxel* to);
   template <class Key>
   void fill_with(const BrickSeeds::Brick& brick, const BrickKernel<Key>& kernel, std::vector<Key>& terms,
