@@ -86,6 +86,7 @@ notebooks: build $(BUILD)/.tests ## run the notebooks of docs, and keep in them 
 bench: build $(BUILD)/.tests ## measure beside the peers, in one run
 	$(BIN)/$(PIP) $$($(NEEDED) bench)
 	$(RUN) tests/benchmarks/tessellate.py
+	$(RUN) tests/benchmarks/volumes.py
 	$(RUN) tests/benchmarks/delaunay.py
 	$(RUN) tests/benchmarks/alphashape.py
 	$(RUN) tests/benchmarks/mesh_files.py
@@ -98,11 +99,12 @@ bench: build $(BUILD)/.tests ## measure beside the peers, in one run
 	$(RUN) tests/benchmarks/libraries.py
 
 .PHONY: fuzz
-fuzz: build $(BUILD)/.tests ## all comparisons and harnesses: for MINUTES=... in all, or by counts (PIXELS=..., CASES=..., FAULTS=..., SEED=...)
+fuzz: build $(BUILD)/.tests ## all comparisons and harnesses: for MINUTES=... in all, or by counts (PIXELS=..., VOXELS=..., CASES=..., FAULTS=..., SEED=...)
 ifdef MINUTES
 	$(RUN) tests/fuzz/together.py --minutes $(MINUTES) --seed $(or $(SEED),1)
 else
 	$(RUN) tests/fuzz/tessellate.py --pixels $(or $(PIXELS),100000000) --seed $(or $(SEED),1)
+	$(RUN) tests/fuzz/volumes.py --voxels $(or $(VOXELS),100000000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/predicates.py --calls $(or $(CALLS),1000000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/delaunay.py --cases $(or $(CASES),100000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/cells.py --cases $(or $(CASES),20000) --seed $(or $(SEED),1)

@@ -11,11 +11,19 @@ import pandas
 import pytest
 
 import vorotool
-from support.families.values import NOT_VALUES, empty_values, example_values, label_image, point_set, polygon_set
+from support.families.values import (
+    NOT_VALUES,
+    empty_values,
+    example_values,
+    label_image,
+    point_set,
+    polygon_set,
+    volume_values,
+)
 from support.processes.ended import ended_python
 from vorotool.geometry.equality import is_equal
 
-VALUES = example_values()
+VALUES = {**example_values(), **volume_values()}
 TYPES = sorted(
     name
     for name in vorotool.__all__
@@ -30,10 +38,14 @@ METHODS = {
     "_repr_svg_": {"Table", "DigitalComparison", "CriticalValues"},
     "_repr_html_": {"DigitalComparison", "CriticalValues"},
 }
-"""The types without a method."""
+"""The types without a method, beside those of volumes."""
+VOLUME_METHODS = {"to_pandas": {"LabelVolume"}}
 ONLY = {
-    "to_networkx": {"Skeleton", "Triangulation", "DigitalTriangulation", "LabelImage", "PlanarGraph", "VoronoiMap"},
-    "__array__": {"LabelImage", "Raster", "PointSet"},
+    "to_networkx": {
+        *("Skeleton", "Triangulation", "DigitalTriangulation", "LabelImage", "LabelVolume", "PlanarGraph"),
+        "VoronoiMap",
+    },
+    "__array__": {"LabelImage", "LabelVolume", "Raster", "PointSet", "VolumePoints"},
 }
 """The types with a method."""
 
@@ -47,7 +59,8 @@ def test_each_type_has_the_methods_that_make_sense(name):
     kind = type(VALUES[name])
     assert kind.__name__ == name
     for method, without in METHODS.items():
-        assert hasattr(kind, method) == (name not in without), method
+        has = name in VOLUME_METHODS.get(method, ()) if name in volume_values() else name not in without
+        assert hasattr(kind, method) == has, method
     for method, having in ONLY.items():
         assert hasattr(kind, method) == (name in having), method
 

@@ -83,14 +83,16 @@ formats/volumes -> formats, formats/images, formats/io, formats/parsing, formats
     geometry/volumes, products
 jobs -> batch, engines, engines/alpha, engines/arrangement, engines/centerlines, engines/delaunay, engines/digital,
     engines/features, engines/from_skeleton, engines/label_images, engines/offsets, engines/pruning,
-    engines/sampled_skeleton, engines/segment_voronoi, engines/skeleton, engines/tessellation, engines/volumes,
-    engines/voronoi, formats, formats/images, formats/io, formats/parsing, formats/points, formats/text,
-    formats/volumes, formats/zarr, geometry, geometry/alpha, geometry/any, geometry/arguments, geometry/curves,
-    geometry/mesh, geometry/points, geometry/polygons, geometry/skeleton, geometry/volumes, geometry/voronoi, products,
-    render/canvas, render/label_images, render/layers, render/pages, typing
+    engines/sampled_skeleton, engines/segment_voronoi, engines/skeleton, engines/tessellation, engines/voronoi, formats,
+    formats/images, formats/io, formats/parsing, formats/points, formats/text, formats/volumes, formats/zarr, geometry,
+    geometry/alpha, geometry/any, geometry/arguments, geometry/curves, geometry/mesh, geometry/points,
+    geometry/polygons, geometry/skeleton, geometry/volumes, geometry/voronoi, products, render/canvas,
+    render/label_images, render/layers, render/pages, typing
 cli/options -> engines/offsets, engines/pruning, geometry, jobs, products
 cli/batch -> batch, cli/options, formats/io, geometry, jobs, products
-cli/commands -> cli/batch, cli/options, jobs, products
+jobs/volumes -> engines/label_images, engines/tessellation, engines/volumes, formats/io, formats/volumes, formats/zarr,
+    geometry, geometry/points, geometry/volumes, jobs, products, render/canvas, render/pages
+cli/commands -> cli/batch, cli/options, jobs, jobs/volumes, products
 cli -> cli/commands, jobs
 """
 """Rooms of the package from below, and what each may import; `errors` and `signals` are for all."""

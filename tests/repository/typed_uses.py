@@ -79,7 +79,9 @@ def values() -> None:
         | vorotool.Raster
         | vorotool.Skeleton
         | vorotool.Offsets
-        | vorotool.VoronoiMap,
+        | vorotool.VoronoiMap
+        | vorotool.Volume
+        | vorotool.VolumePoints,
     )
 
 
@@ -90,6 +92,10 @@ def results_by_arguments() -> None:
     distances, indices = vorotool.distance_transform(MASK, spacing=(2, 0.5), return_indices=True)
     assert_type(distances, npt.NDArray[np.float64])
     assert_type(indices, npt.NDArray[np.int32])
+    assert_type(vorotool.tessellate([[1, 1]], shape=(3, 3)), vorotool.LabelImage)
+    assert_type(vorotool.tessellate([[1, 1, 1]], shape=(3, 3, 3)), vorotool.LabelVolume)
+    assert_type(vorotool.tessellate([[1, 1, 1]], window=(0, 0, 0, 3, 3, 3)), vorotool.LabelVolume)
+    assert_type(vorotool.tessellate(vorotool.VolumePoints(np.ones((1, 3)))), vorotool.LabelVolume)
     assert_type(vorotool.medial_axis(MASK), npt.NDArray[np.bool_])
     assert_type(vorotool.medial_axis(MASK, return_distance=True), tuple[npt.NDArray[np.bool_], npt.NDArray[np.float64]])
 
@@ -97,10 +103,10 @@ def results_by_arguments() -> None:
 def misuses() -> None:
     """Each is an error."""
     mesh, skeleton = vorotool.delaunay(POINTS), vorotool.skeleton_exact(POINTS)
-    vorotool.tessellate([[1, 1]], shap=(3, 3))  # type: ignore[call-arg]
-    vorotool.tessellate([[1, 1]], shape=3)  # type: ignore[arg-type]
-    vorotool.tessellate([[1, 1]], method="fast")  # type: ignore[arg-type]
-    vorotool.tessellate()  # type: ignore[call-arg]
+    vorotool.tessellate([[1, 1]], shap=(3, 3))  # type: ignore[call-overload]
+    vorotool.tessellate([[1, 1]], shape=3)  # type: ignore[call-overload]
+    vorotool.tessellate([[1, 1]], method="fast")  # type: ignore[call-overload]
+    vorotool.tessellate()  # type: ignore[call-overload]
     vorotool.delaunay(None)  # type: ignore[arg-type]
     vorotool.delaunay(POINTS, True)  # type: ignore[call-arg]
     vorotool.delauney(POINTS)  # type: ignore[attr-defined]
@@ -119,8 +125,8 @@ def misuses() -> None:
     vorotool.prune(mesh)  # type: ignore[arg-type]
     vorotool.prune(skeleton, scale="1.5")  # type: ignore[arg-type]
     vorotool.centerline(skeleton, ends="round")  # type: ignore[arg-type]
-    vorotool.read("a.csv", geometry="lines")  # type: ignore[arg-type]
-    vorotool.read(3)  # type: ignore[arg-type]
+    vorotool.read("a.csv", geometry="lines")  # type: ignore[call-overload]
+    vorotool.read(3)  # type: ignore[call-overload]
     vorotool.write(mesh)  # type: ignore[call-arg]
     vorotool.voronoi_polygons(POINTS, extend_to=4)  # type: ignore[arg-type]
     vorotool.expand_labels(MASK, "far")  # type: ignore[arg-type]

@@ -40,30 +40,45 @@ struct Rival {
   float slack;  // a seed that is farther by less may be as near, by roundings
 };
 
-// How voxels lie on the lattice, and what a key holds.
-struct BrickLattice {
-  std::int32_t first[3];  // the first voxel of the brick
-  std::int32_t step[3];
+// Some rows and slices of a brick: even numbers of slices, and of rows whole fours.
+struct BrickVoxels {
+  std::int32_t first[3];  // the first voxel of the brick on the lattice
+  std::int32_t step[3];   // along the lattice from one voxel to the next
+  std::int32_t first_row, rows;
+  std::int32_t first_slice, slices;
+  std::ptrdiff_t row, slice;  // elements from one to the next in the output
+};
+
+// The seeds that may be nearest, each with what it adds to the key of a voxel by its column, its row and its slice, of
+// which the last has the label: 3 brick_side keys.
+template <class Key>
+struct BrickTerms {
+  const Key* terms;
+  const std::uint32_t* numbers;  // [count]
+  std::int32_t count;
+};
+
+// What is written of the keys: labels of those less than `limit`, else 0, or squares.
+template <class Key>
+struct BrickProduct {
   int label_bits;
+  Key limit;
 };
 
 template <class Key>
 struct BrickKernel {
-  // Keys of the voxels of a brick, x fastest. `squares` has room for 3 brick_side numbers of each seed.
-  void (*nearest)(const SeedArrays& seeds, std::int32_t count, const BrickLattice& lattice, Key* squares,
-                  Key* keys);
-  // Labels of keys less than `limit`, else 0, or squares of all, to the rows of a brick: rows and slices are so many
-  // elements apart.
-  void (*labels8)(const Key* keys, Key limit, Key label_mask, std::uint8_t* out, std::ptrdiff_t row,
-                  std::ptrdiff_t slice);
-  void (*labels16)(const Key* keys, Key limit, Key label_mask, std::uint16_t* out, std::ptrdiff_t row,
-                   std::ptrdiff_t slice);
-  void (*labels32)(const Key* keys, Key limit, Key label_mask, std::uint32_t* out, std::ptrdiff_t row,
-                   std::ptrdiff_t slice);
-  void (*squares32)(const Key* keys, int label_bits, std::uint32_t* out, std::ptrdiff_t row,
-                    std::ptrdiff_t slice);
-  void (*squares64)(const Key* keys, int label_bits, std::uint64_t* out, std::ptrdiff_t row,
-                    std::ptrdiff_t slice);
+  // The terms of all voxels of a brick.
+  void (*find_terms)(const SeedArrays& seeds, std::int32_t count, const BrickVoxels& voxels, int label_bits,
+                     Key* terms);
+  // Labels or squares of the nearest, of the rows and slices from these on.
+  template <class Voxel>
+  using Write = void (*)(const BrickTerms<Key>& seeds, const BrickVoxels& voxels,
+                         const BrickProduct<Key>& product, Voxel* out);
+  Write<std::uint8_t> labels8;
+  Write<std::uint16_t> labels16;
+  Write<std::uint32_t> labels32;
+  Write<std::uint32_t> squares32;
+  Write<std::uint64_t> squares64;
 };
 
 struct BrickKernels {
@@ -72,6 +87,9 @@ struct BrickKernels {
   // Appends the seeds that a rival does not hide to `kept`, which has `count_kept`; gives the new count.
   std::int32_t (*keep)(const SeedArrays& seeds, std::int32_t count, const LatticeBox& box, const Rival& rival,
                        const SeedArrays& kept, std::int32_t count_kept);
+  // The same, but tells the numbers of the seeds.
+  std::int32_t (*number)(const SeedArrays& seeds, std::int32_t count, const LatticeBox& box,
+                         const Rival& rival, std::uint32_t* numbers);
   // Keys of 32 bits, and of 64.
   BrickKernel<std::uint32_t> narrow;
   BrickKernel<std::uint64_t> wide;

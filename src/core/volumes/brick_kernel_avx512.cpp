@@ -24,6 +24,12 @@ struct Avx512 {
   static std::uint32_t mask(const Vector& chosen) {
     return _mm256_movepi32_mask(reinterpret_cast<const __m256i&>(chosen));
   }
+  template <class Element>
+  static void compress(Element* out, std::uint32_t stays, const Element* from) {
+    const __m256i values = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from));
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(out),
+                        _mm256_maskz_compress_epi32(static_cast<__mmask8>(stays), values));
+  }
 };
 
 }  // namespace

@@ -28,39 +28,23 @@ struct SeedLoops {
   static Vector square(Vector v) { return v * v; }
 
   static std::int32_t near(const SeedArrays& given, std::int32_t count, const float* place) {
-    // positive floats are ordered as their bits: the lowest ones make room for the number of the vector
-    constexpr std::int32_t numbers = std::int32_t{1} << 11;
+    // positive floats are ordered as their bits, of which the lowest make room for the number of the seed
+    constexpr std::int32_t numbers = std::int32_t{1} << 14;
     const SeedArrays seeds = given;
     const float x = place[0], y = place[1], z = place[2];
-    typename Words::Vector best = typename Words::Vector{} + 0x7fffffff;
-    const std::int32_t vectors = count / width < numbers ? count / width : numbers;
-    for (std::int32_t k = 0; k < vectors; ++k) {
-      const Vector distance = square(Floats::load(seeds.x + k * width) - x) +
-                              square(Floats::load(seeds.y + k * width) - y) +
-                              square(Floats::load(seeds.z + k * width) - z);
+    const std::int32_t most = count < numbers ? count : numbers;
+    const typename Words::Vector none = typename Words::Vector{} + 0x7fffffff;
+    typename Words::Vector best = none, number{};
+    for (std::int32_t lane = 0; lane < width; ++lane) number[lane] = lane;
+    for (std::int32_t s = 0; s < most; s += width, number += width) {
+      const Vector distance = square(Floats::load(seeds.x + s) - x) + square(Floats::load(seeds.y + s) - y) +
+                              square(Floats::load(seeds.z + s) - z);
       const auto bits = reinterpret_cast<typename Words::Vector>(distance);
-      best = Words::lesser(best, (bits & ~(numbers - 1)) | k);
+      best = Words::lesser(best, number < most ? (bits & -numbers) | number : none);
     }
-    std::int32_t nearest = 0, least = 0x7fffffff;
-    for (std::int32_t lane = 0; lane < width; ++lane) {
-      if (best[lane] >= least) continue;
-      least = best[lane];
-      nearest = (least & (numbers - 1)) * width + lane;
-    }
-    if (vectors == numbers) return nearest;
-    float square_of_nearest = vectors > 0 ? distance_to(seeds, nearest, place) : 0;
-    for (std::int32_t s = vectors * width; s < count; ++s) {
-      const float distance = distance_to(seeds, s, place);
-      if (s > 0 && distance >= square_of_nearest) continue;
-      square_of_nearest = distance;
-      nearest = s;
-    }
-    return nearest;
-  }
-
-  static float distance_to(const SeedArrays& seeds, std::int32_t s, const float* place) {
-    const float x = seeds.x[s] - place[0], y = seeds.y[s] - place[1], z = seeds.z[s] - place[2];
-    return x * x + y * y + z * z;
+    std::int32_t least = best[0];
+    for (std::int32_t lane = 1; lane < width; ++lane) least = best[lane] < least ? best[lane] : least;
+    return least & (numbers - 1);
   }
 
   // How much farther than the rival seeds are at least, along one axis: linear, so least at an end of the box.
@@ -71,25 +55,45 @@ struct SeedLoops {
     return Floats::lesser(rise * (sum - 2 * low), rise * (sum - 2 * high));
   }
 
-  static std::int32_t keep(const SeedArrays& given, std::int32_t count, const LatticeBox& box,
-                           const Rival& rival, const SeedArrays& given_kept, std::int32_t kept) {
-    const SeedArrays seeds = given;
-    const SeedArrays out = given_kept;
+  // Calls take(mask of those that stay, first) for the seeds, a vector at a time.
+  template <class Take>
+  static void for_kept(const SeedArrays& seeds, std::int32_t count, const LatticeBox& given_box,
+                       const Rival& given_rival, Take take) {
+    const LatticeBox box = given_box;
+    const Rival rival = given_rival;
     for (std::int32_t s = 0; s < count; s += width) {
       const Vector lead = farther(seeds.x + s, rival.at[0], box.low[0], box.high[0]) +
                           farther(seeds.y + s, rival.at[1], box.low[1], box.high[1]) +
                           farther(seeds.z + s, rival.at[2], box.low[2], box.high[2]);
       std::uint32_t stays = Level::mask(lead <= rival.slack);
       if (count - s < width) stays &= (std::uint32_t{1} << (count - s)) - 1;
-      for (; stays != 0; stays &= stays - 1) {
-        const std::int32_t from = s + __builtin_ctz(stays);
-        out.x[kept] = seeds.x[from];
-        out.y[kept] = seeds.y[from];
-        out.z[kept] = seeds.z[from];
-        out.label[kept] = seeds.label[from];
-        ++kept;
-      }
+      take(stays, s);
     }
+  }
+
+  static std::int32_t keep(const SeedArrays& given, std::int32_t count, const LatticeBox& box,
+                           const Rival& rival, const SeedArrays& given_kept, std::int32_t kept) {
+    const SeedArrays seeds = given;
+    const SeedArrays out = given_kept;
+    for_kept(seeds, count, box, rival, [&](std::uint32_t stays, std::int32_t s) {
+      Level::compress(out.x + kept, stays, seeds.x + s);
+      Level::compress(out.y + kept, stays, seeds.y + s);
+      Level::compress(out.z + kept, stays, seeds.z + s);
+      Level::compress(out.label + kept, stays, seeds.label + s);
+      kept += __builtin_popcount(stays);
+    });
+    return kept;
+  }
+
+  static std::int32_t number(const SeedArrays& given, std::int32_t count, const LatticeBox& box,
+                             const Rival& rival, std::uint32_t* numbers) {
+    std::int32_t kept = 0;
+    for_kept(given, count, box, rival, [&](std::uint32_t stays, std::int32_t s) {
+      std::uint32_t all[width];
+      for (std::int32_t lane = 0; lane < width; ++lane) all[lane] = static_cast<std::uint32_t>(s + lane);
+      Level::compress(numbers + kept, stays, all);
+      kept += __builtin_popcount(stays);
+    });
     return kept;
   }
 };
@@ -102,76 +106,123 @@ struct BrickKernelOn {
   static constexpr std::int32_t vectors = brick_side / width;  // of a row
   static_assert(vectors >= 1);
 
-  // Squares from a seed to the voxels along one axis, shifted to their place in a key.
-  static void shift_squares(float seed, std::int32_t first, std::int32_t step, int label_bits, Key* squares) {
-    const std::int32_t start = first - static_cast<std::int32_t>(seed);
-    for (std::int32_t k = 0; k < brick_side; ++k) {
-      const auto distance = static_cast<Key>(start + k * step);  // modulo 2^bits, as is its square
-      squares[k] = (distance * distance) << label_bits;
-    }
-  }
+  // The places of the voxels along one axis; like all here modulo 2^bits, as are their squares.
+  struct Axis {
+    Vector places[vectors];
 
-  static void nearest(const SeedArrays& seeds, std::int32_t count, const BrickLattice& lattice, Key* squares,
-                      Key* keys) {
-    for (std::int32_t s = 0; s < count; ++s) {
-      Key* const along = squares + 3 * brick_side * s;
-      shift_squares(seeds.x[s], lattice.first[0], lattice.step[0], lattice.label_bits, along);
-      shift_squares(seeds.y[s], lattice.first[1], lattice.step[1], lattice.label_bits, along + brick_side);
-      shift_squares(seeds.z[s], lattice.first[2], lattice.step[2], lattice.label_bits, along + 2 * brick_side);
+    Axis(std::int32_t first, std::int32_t step) {
+      for (std::int32_t k = 0; k < brick_side; ++k)
+        places[k / width][k % width] = static_cast<Key>(first + k * step);
     }
-    for (std::int32_t z = 0; z < brick_side; ++z) {
+
+    // Squares of the ways to a seed, shifted to their place in a key, with a label.
+    void put_terms(float seed, int label_bits, Key label, Key* terms) const {
+      const auto at = static_cast<Key>(static_cast<std::int32_t>(seed));
       for (std::int32_t v = 0; v < vectors; ++v) {
-        Vector best[brick_side];
-        for (std::int32_t y = 0; y < brick_side; ++y) best[y] = Vector{} - 1;
-        const Key* along = squares;
-        for (std::int32_t s = 0; s < count; ++s, along += 3 * brick_side) {
-          const Vector of_x = Keys::load(along + v * width) + (along[2 * brick_side + z] | seeds.label[s]);
-          for (std::int32_t y = 0; y < brick_side; ++y) {
-            best[y] = Keys::lesser(best[y], of_x + along[brick_side + y]);
+        const Vector way = places[v] - at;
+        Keys::store(terms + v * width, ((way * way) << label_bits) | label);
+      }
+    }
+  };
+
+  // Of each of two slices, rows whose keys are in registers together.
+  static constexpr std::int32_t rows_at_once = 4;
+
+  static void find_terms(const SeedArrays& given, std::int32_t count, const BrickVoxels& voxels,
+                         int label_bits, Key* terms) {
+    const SeedArrays seeds = given;
+    const Axis x(voxels.first[0], voxels.step[0]);
+    const Axis y(voxels.first[1], voxels.step[1]);
+    const Axis z(voxels.first[2], voxels.step[2]);
+    for (std::int32_t s = 0; s < count; ++s, terms += 3 * brick_side) {
+      x.put_terms(seeds.x[s], label_bits, 0, terms);
+      y.put_terms(seeds.y[s], label_bits, 0, terms + brick_side);
+      z.put_terms(seeds.z[s], label_bits, seeds.label[s], terms + 2 * brick_side);
+    }
+  }
+
+  // Calls put(keys of a vector, slice, row, column) for all vectors of the voxels.
+  template <class Put>
+  static void nearest(const BrickTerms<Key>& given, const BrickVoxels& voxels, Put put) {
+    const BrickTerms<Key> seeds = given;
+    for (std::int32_t z = 0; z < voxels.slices; z += 2) {
+      for (std::int32_t y = 0; y < voxels.rows; y += rows_at_once) {
+        for (std::int32_t v = 0; v < vectors; ++v) {
+          const Key* const of_columns = seeds.terms + v * width;
+          const Key* const of_rows = seeds.terms + brick_side + voxels.first_row + y;
+          const Key* const of_slices = seeds.terms + 2 * brick_side + voxels.first_slice + z;
+          Vector low[rows_at_once], high[rows_at_once];
+          for (std::int32_t r = 0; r < rows_at_once; ++r) low[r] = high[r] = Vector{} - 1;
+          for (std::int32_t s = 0; s < seeds.count; ++s) {
+            const std::size_t at = std::size_t{3 * brick_side} * seeds.numbers[s];
+            const Vector column = Keys::load(of_columns + at);
+            const Vector of_low = column + of_slices[at];
+            const Vector of_high = column + of_slices[at + 1];
+            for (std::int32_t r = 0; r < rows_at_once; ++r) {
+              const Key of_row = of_rows[at + static_cast<std::size_t>(r)];
+              low[r] = Keys::lesser(low[r], of_low + of_row);
+              high[r] = Keys::lesser(high[r], of_high + of_row);
+            }
           }
-        }
-        for (std::int32_t y = 0; y < brick_side; ++y) {
-          Keys::store(keys + (z * brick_side + y) * brick_side + v * width, best[y]);
+          for (std::int32_t r = 0; r < rows_at_once; ++r) put(low[r], z, y + r, v * width);
+          for (std::int32_t r = 0; r < rows_at_once; ++r) put(high[r], z + 1, y + r, v * width);
         }
       }
     }
   }
 
-  template <class Voxel, class Value>
-  static void put(const Key* keys, Voxel* out, std::ptrdiff_t row, std::ptrdiff_t slice, Value value) {
-    for (std::int32_t z = 0; z < brick_side; ++z) {
-      for (std::int32_t y = 0; y < brick_side; ++y, keys += brick_side) {
-        Voxel* const voxels = out + z * slice + y * row;
-        for (std::int32_t x = 0; x < brick_side; ++x) voxels[x] = static_cast<Voxel>(value(keys[x]));
-      }
-    }
+  template <class Voxel>
+  static void store(Voxel* out, Vector values) {
+    typedef Voxel Narrow __attribute__((vector_size(width * sizeof(Voxel))));
+    typedef Voxel Stored
+        __attribute__((vector_size(width * sizeof(Voxel)), aligned(sizeof(Voxel)), may_alias));
+    *reinterpret_cast<Stored*>(out) = __builtin_convertvector(values, Narrow);
   }
 
   template <class Label>
-  static void labels(const Key* keys, Key limit, Key label_mask, Label* out, std::ptrdiff_t row,
-                     std::ptrdiff_t slice) {
-    put(keys, out, row, slice, [=](Key key) { return key < limit ? key & label_mask : 0; });
+  static void labels(const BrickTerms<Key>& seeds, const BrickVoxels& voxels,
+                     const BrickProduct<Key>& product, Label* out) {
+    const Key mask = static_cast<Key>((std::uint64_t{1} << product.label_bits) - 1);
+    const std::ptrdiff_t row = voxels.row, slice = voxels.slice;
+    const auto at = [=](std::int32_t z, std::int32_t y, std::int32_t x) {
+      return out + z * slice + y * row + x;
+    };
+    if (product.limit == static_cast<Key>(-1)) {
+      nearest(seeds, voxels, [=](Vector keys, std::int32_t z, std::int32_t y, std::int32_t x) {
+        store(at(z, y, x), keys & mask);
+      });
+    } else {
+      const Key limit = product.limit;
+      nearest(seeds, voxels, [=](Vector keys, std::int32_t z, std::int32_t y, std::int32_t x) {
+        store(at(z, y, x), keys < limit ? keys & mask : Vector{});
+      });
+    }
   }
 
   template <class Square>
-  static void squares(const Key* keys, int label_bits, Square* out, std::ptrdiff_t row, std::ptrdiff_t slice) {
-    put(keys, out, row, slice, [=](Key key) { return key >> label_bits; });
+  static void squared_distances(const BrickTerms<Key>& seeds, const BrickVoxels& voxels,
+                                const BrickProduct<Key>& product, Square* out) {
+    const int bits = product.label_bits;
+    const std::ptrdiff_t row = voxels.row, slice = voxels.slice;
+    nearest(seeds, voxels, [=](Vector keys, std::int32_t z, std::int32_t y, std::int32_t x) {
+      store(out + z * slice + y * row + x, keys >> bits);
+    });
   }
 
   static BrickKernel<Key> table() {
-    return {nearest,
+    return {find_terms,
             labels<std::uint8_t>,
             labels<std::uint16_t>,
             labels<std::uint32_t>,
-            squares<std::uint32_t>,
-            squares<std::uint64_t>};
+            squared_distances<std::uint32_t>,
+            squared_distances<std::uint64_t>};
   }
 };
 
 template <class Level>
 BrickKernels brick_kernels_of() {
-  return {SeedLoops<Level>::near, SeedLoops<Level>::keep, BrickKernelOn<Level, std::uint32_t>::table(),
-          BrickKernelOn<Level, std::uint64_t>::table()};
+  return {SeedLoops<Level>::near, SeedLoops<Level>::keep, SeedLoops<Level>::number,
+          BrickKernelOn<Level, std::uint32_t>::table(), BrickKernelOn<Level, std::uint64_t>::table()};
 }
 
 }  // namespace vorotool::core::volumes

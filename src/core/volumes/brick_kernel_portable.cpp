@@ -12,6 +12,10 @@ struct Portable {
     for (std::uint32_t lane = 0; lane < 4; ++lane) bits |= (chosen[lane] != 0 ? 1U : 0U) << lane;
     return bits;
   }
+  template <class Element>
+  static void compress(Element* out, std::uint32_t stays, const Element* from) {
+    for (; stays != 0; stays &= stays - 1) *out++ = from[__builtin_ctz(stays)];
+  }
 };
 
 }  // namespace

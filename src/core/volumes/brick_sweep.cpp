@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace vorotool::core::volumes {
 
@@ -9,6 +10,8 @@ namespace {
 
 constexpr std::int32_t box_side = 2 * brick_side;
 constexpr std::int32_t boxes_a_side = block_side / box_side;
+// Of more seeds, halves of rows and slices have so much fewer that a look for them pays.
+constexpr std::int32_t seeds_to_divide = 10;
 
 LatticeBox relative_to(const std::array<std::int64_t, 3>& origin, const PlaceBox& box) {
   LatticeBox local{};
@@ -66,65 +69,93 @@ void BrickSeeds::start(const Rows& rows) {
   across_ = (size_[0] + block_side - 1) / block_side * boxes_a_side;
   boxes_.resize(static_cast<std::size_t>(across_) * boxes_a_side * boxes_a_side);
   listed_.count = 0;
-  for (std::int32_t x = 0; x < size_[0]; x += block_side) divide_block({x, rows.first_row, rows.first_slice});
+  for (std::int32_t x = 0; x < size_[0]; x += block_side) divide({x, rows.first_row, rows.first_slice});
 }
 
-void BrickSeeds::divide_block(const Voxel& first) {
+BrickSeeds::BoxSeeds& BrickSeeds::box_at(const Voxel& first) {
+  const std::int32_t x = first[0] / box_side;
+  const std::int32_t y = (first[1] - start_[1]) / box_side;
+  const std::int32_t z = (first[2] - start_[2]) / box_side;
+  return boxes_[static_cast<std::size_t>((z * boxes_a_side + y) * across_ + x)];
+}
+
+// The largest coordinate of a box and of seeds.
+double BrickSeeds::widest(const LatticeBox& box, SeedList& list) const {
+  float largest = std::max({box.high[0], box.high[1], box.high[2]});
+  const SeedArrays seeds = list.from(0);
+  for (std::int32_t s = 0; s < list.count; ++s) {
+    largest = std::max({largest, std::fabs(seeds.x[s]), std::fabs(seeds.y[s]), std::fabs(seeds.z[s])});
+  }
+  return static_cast<double>(largest) + 1;
+}
+
+// The seeds of the boxes of a block: from those of the block, or where these are many each from the grid.
+void BrickSeeds::divide(const Voxel& first) {
   const PlaceBox whole = places(first, block_side);
   const auto origin = whole.middle();
-  looked_at_ += grid_.gather(whole, kernels_, block_, room_);
-  const LatticeBox all = relative_to(origin, whole);
-  double largest = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) largest = std::max<double>(largest, all.high[axis]);
-  for (std::int32_t s = 0; s < block_.count; ++s) {
-    const SeedArrays seeds = block_.from(0);
-    largest = std::max<double>(
-        largest, std::max({std::fabs(seeds.x[s]), std::fabs(seeds.y[s]), std::fabs(seeds.z[s])}));
-  }
-  const float slack = slack_of(largest + 1);
-  for (std::int32_t z = 0; z < boxes_a_side; ++z) {
-    for (std::int32_t y = 0; y < boxes_a_side; ++y) {
-      for (std::int32_t x = 0; x < boxes_a_side; ++x) {
-        const Voxel corner{first[0] + x * box_side, first[1] + y * box_side, first[2] + z * box_side};
-        if (corner[0] >= size_[0] || corner[1] >= size_[1] || corner[2] >= size_[2]) continue;
-        const PlaceBox box = places(corner, box_side);
-        const LatticeBox local = relative_to(origin, box);
-        Rival rival = rival_in(block_.from(0), block_.count, local);
-        rival.slack = slack;
-        listed_.make_room(block_.count);
-        looked_at_ += block_.count;
-        BoxSeeds made{listed_.count, 0, origin, slack, 0};
-        listed_.count = kernels_.keep(block_.from(0), block_.count, local, rival, listed_.from(0), listed_.count);
-        made.count = listed_.count - made.first;
-        made.largest_square = largest_square(made, box);
-        boxes_[static_cast<std::size_t>((z * boxes_a_side + y) * across_ + corner[0] / box_side)] = made;
-      }
+  const bool together = !grid_.is_dense(whole);
+  if (together) looked_at_ += grid_.gather(whole, kernels_, block_, room_);
+  float slack = together ? slack_of(widest(relative_to(origin, whole), block_)) : 0;
+  for (std::int32_t k = 0; k < boxes_a_side * boxes_a_side * boxes_a_side; ++k) {
+    const Voxel corner{first[0] + k % boxes_a_side * box_side,
+                       first[1] + k / boxes_a_side % boxes_a_side * box_side,
+                       first[2] + k / boxes_a_side / boxes_a_side * box_side};
+    if (corner[0] >= size_[0] || corner[1] >= size_[1] || corner[2] >= size_[2]) continue;
+    const PlaceBox box = places(corner, box_side);
+    BoxSeeds made{listed_.count, 0, together ? origin : box.middle(), slack, 0};
+    const LatticeBox local = relative_to(made.origin, box);
+    if (!together) {
+      looked_at_ += grid_.gather(box, kernels_, block_, room_);
+      made.slack = slack_of(widest(local, block_));
     }
+    Rival rival = rival_in(block_.from(0), block_.count, local);
+    rival.slack = made.slack;
+    listed_.make_room(block_.count);
+    looked_at_ += block_.count;
+    listed_.count = kernels_.keep(block_.from(0), block_.count, local, rival, listed_.from(0), listed_.count);
+    made.count = listed_.count - made.first;
+    made.largest_square = largest_square(made, box);
+    box_at(corner) = made;
   }
 }
 
 BrickSeeds::Brick BrickSeeds::brick(std::int32_t x, std::int32_t y, std::int32_t z) {
-  const BoxSeeds& around = boxes_[static_cast<std::size_t>((z / 2 * boxes_a_side + y / 2) * across_ + x / 2)];
-  const Voxel first{start_[0] + x * brick_side, start_[1] + y * brick_side, start_[2] + z * brick_side};
+  const Voxel first{x * brick_side, start_[1] + y * brick_side, start_[2] + z * brick_side};
+  const BoxSeeds& around = box_at(first);
   const PlaceBox box = places(first, brick_side);
-  Brick made{listed_.from(around.first), around.count, {}, around.largest_square};
+  Brick made{listed_.from(around.first),      around.count, {},
+             relative_to(around.origin, box), {},           around.largest_square};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     made.first[axis] = static_cast<std::int32_t>(box.low[axis] - around.origin[axis]);
   }
   if (around.count == 1) return made;
-  const LatticeBox local = relative_to(around.origin, box);
-  Rival rival = rival_in(made.seeds, made.count, local);
-  rival.slack = around.slack;
+  made.rival = rival_in(made.seeds, made.count, made.box);
+  made.rival.slack = around.slack;
   found_.make_room(around.count);
   looked_at_ += around.count;
-  made.count = kernels_.keep(made.seeds, made.count, local, rival, found_.from(0), 0);
+  made.count = kernels_.keep(made.seeds, made.count, made.box, made.rival, found_.from(0), 0);
   made.seeds = found_.from(0);
   return made;
 }
 
+std::int32_t BrickSeeds::number_part(const Brick& whole, std::int32_t row, std::int32_t slice,
+                                     std::uint32_t* numbers) {
+  LatticeBox box = whole.box;
+  const std::int32_t from[] = {0, row, slice};
+  for (std::size_t axis = 1; axis < 3; ++axis) {
+    const std::int32_t first = whole.first[axis] + from[axis] * step_[axis];
+    box.low[axis] = std::min(static_cast<float>(first), whole.box.high[axis]);
+    box.high[axis] =
+        std::min(static_cast<float>(first + (brick_side / 2 - 1) * step_[axis]), whole.box.high[axis]);
+  }
+  Rival rival = rival_in(whole.seeds, whole.count, box);
+  rival.slack = whole.rival.slack;
+  return kernels_.number(whole.seeds, whole.count, box, rival, numbers);
+}
+
 // Fitted on one thread to uniform seeds: tests of seeds, and seeds of bricks.
 double BrickSeeds::nanoseconds_a_voxel(std::int32_t first, std::int32_t slices) {
-  constexpr double a_test = 0.8, a_seed = 45, a_brick = 100;
+  constexpr double a_test = 0.8, a_seed = 70, a_brick = 150;
   constexpr std::int32_t samples = 3;  // along each axis
   double sum = 0, voxels = 0;
   looked_at_ = 0;
@@ -138,13 +169,13 @@ double BrickSeeds::nanoseconds_a_voxel(std::int32_t first, std::int32_t slices) 
     across_ = (size_[0] + block_side - 1) / block_side * boxes_a_side;
     boxes_.resize(static_cast<std::size_t>(across_) * boxes_a_side * boxes_a_side);
     listed_.count = 0;
-    divide_block({column, start_[1], start_[2]});
+    divide({column, start_[1], start_[2]});
     constexpr std::int32_t bricks = block_side / brick_side;
     for (std::int32_t b = 0; b < bricks * bricks * bricks; ++b) {
       const Voxel at{column / brick_side + b % bricks, b / bricks % bricks, b / bricks / bricks};
       bool inside = true;
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        inside = inside && start_[axis] + at[axis] * brick_side < size_[axis];
+        inside = inside && (axis > 0 ? start_[axis] : 0) + at[axis] * brick_side < size_[axis];
       }
       if (!inside) continue;
       sum += a_brick + a_seed * brick(at[0], at[1], at[2]).count;
@@ -178,9 +209,7 @@ void BrickSweep<Voxel, product>::write(const Rows& rows) {
   seeds_.start(rows);
   for (std::int32_t z = 0; rows.first_slice + z * brick_side <= rows.last_slice; ++z) {
     for (std::int32_t y = 0; rows.first_row + y * brick_side <= rows.last_row; ++y) {
-      for (std::int32_t x = 0; x * brick_side < frame_.plane.width; ++x) {
-        fill_brick(seeds_.brick(x, y, z), bar_.data() + x * brick_side);
-      }
+      fill_bar(y, z);
       const std::int32_t slice = rows.first_slice + z * brick_side, row = rows.first_row + y * brick_side;
       const std::int32_t slices = std::min(brick_side, rows.last_slice - slice + 1);
       const std::int32_t count = std::min(brick_side, rows.last_row - row + 1);
@@ -195,14 +224,37 @@ void BrickSweep<Voxel, product>::write(const Rows& rows) {
   }
 }
 
+// Fills the bricks along x; those that follow each other and have the same seed alone at once.
+template <class Voxel, Product product>
+void BrickSweep<Voxel, product>::fill_bar(std::int32_t y, std::int32_t z) {
+  const auto bricks = static_cast<std::int32_t>(row_ / brick_side);
+  const bool with_labels = product == Product::labels && !most_squared_;
+  std::int32_t first = 0;  // of those with one seed that are to be filled
+  std::uint32_t label = 0;
+  const auto fill_until = [&](std::int32_t end) {
+    for (std::int32_t k = 0; first < end && k < brick_side * brick_side; ++k) {
+      Voxel* const row = bar_.data() + k * row_;
+      std::fill(row + first * brick_side, row + end * brick_side, static_cast<Voxel>(label));
+    }
+    first = end;
+  };
+  for (std::int32_t x = 0; x < bricks; ++x) {
+    const BrickSeeds::Brick brick = seeds_.brick(x, y, z);
+    const bool alone = with_labels && brick.count == 1;
+    if (!alone || *brick.seeds.label != label) fill_until(x);
+    if (alone) {
+      label = *brick.seeds.label;
+    } else {
+      fill_brick(brick, bar_.data() + x * brick_side);
+      first = x + 1;
+    }
+  }
+  fill_until(bricks);
+}
+
 template <class Voxel, Product product>
 void BrickSweep<Voxel, product>::fill_brick(const BrickSeeds::Brick& brick, Voxel* to) {
-  if (product == Product::labels && brick.count == 1 && !most_squared_) {
-    const auto label = static_cast<Voxel>(*brick.seeds.label);
-    for (std::int32_t k = 0; k < brick_side * brick_side; ++k) std::fill_n(to + k * row_, brick_side, label);
-    return;
-  }
-  if (brick.largest_square < std::ldexp(1.0, 32 - label_bits_)) {
+  if (label_bits_ < 32 && brick.largest_square < std::ldexp(1.0, 32 - label_bits_)) {
     fill_with(brick, kernels_.narrow, narrow_, to);
   } else {
     fill_with(brick, kernels_.wide, wide_, to);
@@ -212,28 +264,50 @@ void BrickSweep<Voxel, product>::fill_brick(const BrickSeeds::Brick& brick, Voxe
 template <class Voxel, Product product>
 template <class Key>
 void BrickSweep<Voxel, product>::fill_with(const BrickSeeds::Brick& brick, const BrickKernel<Key>& kernel,
-                                           std::vector<Key>& squares, Voxel* to) {
-  const std::size_t needed = static_cast<std::size_t>(brick.count) * 3 * brick_side;
-  if (squares.size() < needed) squares.resize(2 * needed);
+                                           std::vector<Key>& terms, Voxel* to) {
+  const auto count = static_cast<std::size_t>(brick.count);
+  if (terms.size() < count * 3 * brick_side) terms.resize(2 * count * 3 * brick_side);
+  if (numbers_.size() < count + seed_padding) {
+    numbers_.resize(2 * count + seed_padding);
+    std::iota(numbers_.begin(), numbers_.end(), 0U);
+    part_.resize(numbers_.size());
+  }
   const auto& plane = frame_.plane;
-  const BrickLattice lattice{{brick.first[0], brick.first[1], brick.first[2]},
-                             {plane.pixel().x, plane.pixel().y, frame_.step_z()},
-                             label_bits_};
-  alignas(64) Key keys[brick_voxels];
-  kernel.nearest(brick.seeds, brick.count, lattice, squares.data(), keys);
-  const std::ptrdiff_t slice = brick_side * row_;
-  if constexpr (product == Product::labels) {
-    constexpr Key all = ~Key{0};
-    const bool limited =
-        most_squared_ && static_cast<std::uint64_t>(*most_squared_) < static_cast<std::uint64_t>(all >> label_bits_);
-    const Key limit = limited ? static_cast<Key>(*most_squared_ + 1) << label_bits_ : all;
-    const Key mask = static_cast<Key>((std::uint64_t{1} << label_bits_) - 1);
-    if constexpr (sizeof(Voxel) == 1) kernel.labels8(keys, limit, mask, to, row_, slice);
-    if constexpr (sizeof(Voxel) == 2) kernel.labels16(keys, limit, mask, to, row_, slice);
-    if constexpr (sizeof(Voxel) == 4) kernel.labels32(keys, limit, mask, to, row_, slice);
-  } else {
-    if constexpr (sizeof(Voxel) == 4) kernel.squares32(keys, label_bits_, to, row_, slice);
-    if constexpr (sizeof(Voxel) == 8) kernel.squares64(keys, label_bits_, to, row_, slice);
+  BrickVoxels voxels{{brick.first[0], brick.first[1], brick.first[2]},
+                     {plane.pixel().x, plane.pixel().y, frame_.step_z()},
+                     0,
+                     brick_side,
+                     0,
+                     brick_side,
+                     row_,
+                     brick_side * row_};
+  kernel.find_terms(brick.seeds, brick.count, voxels, label_bits_, terms.data());
+  constexpr Key all = static_cast<Key>(-1);
+  const bool limited = most_squared_ && *most_squared_ < static_cast<std::int64_t>(all >> label_bits_);
+  const BrickProduct<Key> wanted{label_bits_,
+                                 limited ? static_cast<Key>(*most_squared_ + 1) << label_bits_ : all};
+  const auto write = [&](const BrickTerms<Key>& seeds, Voxel* out) {
+    if constexpr (product == Product::labels) {
+      if constexpr (sizeof(Voxel) == 1) kernel.labels8(seeds, voxels, wanted, out);
+      if constexpr (sizeof(Voxel) == 2) kernel.labels16(seeds, voxels, wanted, out);
+      if constexpr (sizeof(Voxel) == 4) kernel.labels32(seeds, voxels, wanted, out);
+    } else {
+      if constexpr (sizeof(Voxel) == 4) kernel.squares32(seeds, voxels, wanted, out);
+      if constexpr (sizeof(Voxel) == 8) kernel.squares64(seeds, voxels, wanted, out);
+    }
+  };
+  if (brick.count <= seeds_to_divide) {
+    write({terms.data(), numbers_.data(), brick.count}, to);
+    return;
+  }
+  voxels.rows = voxels.slices = brick_side / 2;
+  for (const std::int32_t slice : {0, brick_side / 2}) {
+    for (const std::int32_t row : {0, brick_side / 2}) {
+      voxels.first_row = row;
+      voxels.first_slice = slice;
+      const std::int32_t kept = seeds_.number_part(brick, row, slice, part_.data());
+      write({terms.data(), part_.data(), kept}, to + slice * voxels.slice + row * voxels.row);
+    }
   }
 }
 

@@ -40,10 +40,14 @@ class BrickSeeds {
     SeedArrays seeds;
     std::int32_t count;
     std::int32_t first[3];  // its first voxel on the lattice of the seeds
+    LatticeBox box;
+    Rival rival;
     double largest_square;  // no distance to one of them has a larger one
   };
   // Of the brick with a number along each axis, from the first one of the block.
   Brick brick(std::int32_t x, std::int32_t y, std::int32_t z);
+  // Numbers of those of its seeds that half its rows and slices, from these on, may have; gives how many.
+  std::int32_t number_part(const Brick& whole, std::int32_t row, std::int32_t slice, std::uint32_t* numbers);
 
   // About how many nanoseconds a voxel takes, of the voxels of some slices.
   double nanoseconds_a_voxel(std::int32_t first, std::int32_t slices);
@@ -59,7 +63,9 @@ class BrickSeeds {
   using Voxel = std::array<std::int32_t, 3>;
 
   PlaceBox places(const Voxel& first, std::int32_t side) const;
-  void divide_block(const Voxel& first);
+  void divide(const Voxel& first);
+  BoxSeeds& box_at(const Voxel& first);
+  double widest(const LatticeBox& box, SeedList& list) const;
   Rival rival_in(const SeedArrays& seeds, std::int32_t count, const LatticeBox& box) const;
   double largest_square(const BoxSeeds& of, const PlaceBox& box);
 
@@ -87,9 +93,10 @@ class BrickSweep {
   void write(const Rows& rows);
 
  private:
+  void fill_bar(std::int32_t y, std::int32_t z);
   void fill_brick(const BrickSeeds::Brick& brick, Voxel* to);
   template <class Key>
-  void fill_with(const BrickSeeds::Brick& brick, const BrickKernel<Key>& kernel, std::vector<Key>& squares,
+  void fill_with(const BrickSeeds::Brick& brick, const BrickKernel<Key>& kernel, std::vector<Key>& terms,
                  Voxel* to);
 
   BrickSeeds seeds_;
@@ -102,6 +109,7 @@ class BrickSweep {
   Voxel* const out_;
   const std::ptrdiff_t row_;  // elements of a row of `bar_`
   std::vector<Voxel> bar_;    // a brick's rows and slices
+  std::vector<std::uint32_t> numbers_, part_;
   std::vector<std::uint32_t> narrow_;
   std::vector<std::uint64_t> wide_;
 };

@@ -9,7 +9,11 @@ namespace vorotool::core::volumes {
 
 namespace {
 
+// Floats hold differences up to this one, and their doubles.
+constexpr std::int64_t largest_difference = std::int64_t{1} << 23;
+
 constexpr double seeds_a_cell = 4.0;
+constexpr std::size_t seeds_of_dense = 60;
 // Of a row of cells so many seeds are tried for one that is near.
 constexpr std::size_t seeds_to_try = 32;
 
@@ -26,7 +30,7 @@ void SeedList::make_room(std::int64_t more) {
 }
 
 bool SeedGrid::suits(const VolumeSites& sites) {
-  if (sites.largest_coordinate > narrow_bound) return false;
+  if (sites.largest_coordinate > largest_difference / 2) return false;
   std::uint32_t labels = 0;
   for (const Site& site : sites.sites) labels |= site.label;
   // squared distances are at most 12 N^2
@@ -34,7 +38,8 @@ bool SeedGrid::suits(const VolumeSites& sites) {
   return square_bits + std::bit_width(labels) < 64;
 }
 
-SeedGrid::SeedGrid(std::span<const Site> sites, const VolumeFrame& frame) : seeds_(sites.size()) {
+SeedGrid::SeedGrid(std::span<const Site> sites, const VolumeFrame& frame)
+    : x_(sites.size()), y_(sites.size()), z_(sites.size()), label_(sites.size()) {
   const auto& plane = frame.plane;
   const Cell voxels{plane.width, plane.height, frame.depth};
   const Cell step{plane.pixel().x, plane.pixel().y, frame.step_z()};
@@ -67,8 +72,11 @@ SeedGrid::SeedGrid(std::span<const Site> sites, const VolumeFrame& frame) : seed
   // each cell's first seed moves to the next one's, and then back
   for (std::size_t s = 0; s < sites.size(); ++s) {
     const Site& site = sites[s];
-    seeds_[first_[cell[s]]++] = {static_cast<std::int32_t>(site.x), static_cast<std::int32_t>(site.y),
-                                 static_cast<std::int32_t>(site.z), site.label};
+    const std::size_t at = first_[cell[s]]++;
+    x_[at] = static_cast<std::int32_t>(site.x);
+    y_[at] = static_cast<std::int32_t>(site.y);
+    z_[at] = static_cast<std::int32_t>(site.z);
+    label_[at] = site.label;
   }
   std::copy_backward(first_.begin(), first_.end() - 1, first_.end());
   first_.front() = 0;
@@ -80,26 +88,22 @@ std::int64_t SeedGrid::cell_along(std::size_t axis, std::int64_t place) const {
   return std::min((place - low_[axis]) / side_[axis], count_[axis] - 1);
 }
 
-std::span<const SeedGrid::Seed> SeedGrid::run(std::int64_t from_x, std::int64_t to_x, std::int64_t y,
-                                              std::int64_t z) const {
-  const std::int64_t row = (z * count_[1] + y) * count_[0];
-  return {seeds_.data() + first_[static_cast<std::size_t>(row + from_x)],
-          seeds_.data() + first_[static_cast<std::size_t>(row + to_x + 1)]};
-}
-
+// Calls body(first, count) for the seeds of each row of cells.
 template <class Body>
 void SeedGrid::for_each_run(const Cell& from, const Cell& to, Body body) const {
   for (std::int64_t z = from[2]; z <= to[2]; ++z) {
     for (std::int64_t y = from[1]; y <= to[1]; ++y) {
-      const auto seeds = run(from[0], to[0], y, z);
-      if (!seeds.empty()) body(seeds);
+      const std::int64_t row = (z * count_[1] + y) * count_[0];
+      const std::size_t first = first_[static_cast<std::size_t>(row + from[0])];
+      const std::size_t end = first_[static_cast<std::size_t>(row + to[0]) + 1];
+      if (first < end) body(first, end - first);
     }
   }
 }
 
-// A seed that is not much farther from a place than the nearest one, mostly.
-SeedGrid::Seed SeedGrid::seed_near(const std::array<std::int64_t, 3>& place) const {
-  Seed best = seeds_.front();
+// The place of a seed that is not much farther from a place than the nearest one, mostly.
+std::array<std::int64_t, 3> SeedGrid::place_near(const std::array<std::int64_t, 3>& place) const {
+  std::size_t best = 0;
   double least = std::numeric_limits<double>::infinity();
   for (std::int64_t around = 1; std::isinf(least); around *= 2) {
     Cell from{}, to{};
@@ -108,27 +112,36 @@ SeedGrid::Seed SeedGrid::seed_near(const std::array<std::int64_t, 3>& place) con
       from[axis] = std::max<std::int64_t>(0, cell - around);
       to[axis] = std::min(count_[axis] - 1, cell + around);
     }
-    for_each_run(from, to, [&](std::span<const Seed> seeds) {
-      const std::size_t stride = 1 + seeds.size() / seeds_to_try;
-      for (std::size_t s = 0; s < seeds.size(); s += stride) {
-        const auto x = static_cast<double>(seeds[s].x - place[0]);
-        const auto y = static_cast<double>(seeds[s].y - place[1]);
-        const auto z = static_cast<double>(seeds[s].z - place[2]);
+    for_each_run(from, to, [&](std::size_t first, std::size_t count) {
+      for (std::size_t s = first; s < first + count; s += 1 + count / seeds_to_try) {
+        const auto x = static_cast<double>(x_[s] - place[0]);
+        const auto y = static_cast<double>(y_[s] - place[1]);
+        const auto z = static_cast<double>(z_[s] - place[2]);
         const double square = x * x + y * y + z * z;
         if (square >= least) continue;
         least = square;
-        best = seeds[s];
+        best = s;
       }
     });
   }
-  return best;
+  return {x_[best], y_[best], z_[best]};
+}
+
+bool SeedGrid::is_dense(const PlaceBox& box) const {
+  Cell from{}, to{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    from[axis] = cell_along(axis, box.low[axis]);
+    to[axis] = cell_along(axis, box.high[axis]);
+  }
+  std::size_t seeds = 0;
+  for_each_run(from, to, [&](std::size_t, std::size_t count) { seeds += count; });
+  return seeds > seeds_of_dense;
 }
 
 std::int64_t SeedGrid::gather(const PlaceBox& box, const BrickKernels& kernels, SeedList& list,
                               SeedList& room) const {
   const auto middle = box.middle();
-  const Seed near = seed_near(middle);
-  const std::array<std::int64_t, 3> at{near.x, near.y, near.z};
+  const auto at = place_near(middle);
   LatticeBox local{};
   Rival rival{};
   double square = 0, widest = 0;
@@ -136,8 +149,8 @@ std::int64_t SeedGrid::gather(const PlaceBox& box, const BrickKernels& kernels, 
     local.low[axis] = static_cast<float>(box.low[axis] - middle[axis]);
     local.high[axis] = static_cast<float>(box.high[axis] - middle[axis]);
     rival.at[axis] = static_cast<float>(at[axis] - middle[axis]);
-    const auto farthest =
-        static_cast<double>(std::max(std::abs(at[axis] - box.low[axis]), std::abs(at[axis] - box.high[axis])));
+    const auto farthest = static_cast<double>(
+        std::max(std::abs(at[axis] - box.low[axis]), std::abs(at[axis] - box.high[axis])));
     square += farthest * farthest;
     widest = std::max(widest, static_cast<double>(box.high[axis] - middle[axis]) + 1);
   }
@@ -149,32 +162,27 @@ std::int64_t SeedGrid::gather(const PlaceBox& box, const BrickKernels& kernels, 
     from[axis] = cell_along(axis, box.low[axis] - reach);
     to[axis] = cell_along(axis, box.high[axis] + reach);
   }
-  std::int64_t looked_at = 0;
-  list.count = 0;
-  room.count = 0;
-  for_each_run(from, to, [&](std::span<const Seed> seeds) {
-    const auto count = static_cast<std::int64_t>(seeds.size());
-    looked_at += count;
-    room.make_room(count);
-    list.make_room(count);
-    const SeedArrays relative = room.from(0);
-    std::int32_t inside = 0;
-    for (const Seed& seed : seeds) {
-      // cells at the ends of the grid have seeds that are out of reach, of which floats may not hold the place
-      const std::array<std::int64_t, 3> place{seed.x, seed.y, seed.z};
-      bool within = true;
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        within = within && place[axis] >= box.low[axis] - reach && place[axis] <= box.high[axis] + reach;
-      }
-      relative.x[inside] = static_cast<float>(seed.x - middle[0]);
-      relative.y[inside] = static_cast<float>(seed.y - middle[1]);
-      relative.z[inside] = static_cast<float>(seed.z - middle[2]);
-      relative.label[inside] = seed.label;
-      inside += within;
-    }
-    list.count = kernels.keep(relative, inside, local, rival, list.from(0), list.count);
+  std::size_t found = 0;
+  for_each_run(from, to, [&](std::size_t, std::size_t count) { found += count; });
+  room.count = list.count = 0;
+  room.make_room(static_cast<std::int64_t>(found));
+  list.make_room(static_cast<std::int64_t>(found));
+  const SeedArrays all = room.from(0);
+  const auto relative = [](const std::int32_t* places, std::int64_t origin, std::size_t count,
+                           float* to_floats) {
+    const auto shift = static_cast<std::int32_t>(origin);
+    for (std::size_t s = 0; s < count; ++s) to_floats[s] = static_cast<float>(places[s] - shift);
+  };
+  std::size_t copied = 0;
+  for_each_run(from, to, [&](std::size_t first, std::size_t count) {
+    relative(x_.data() + first, middle[0], count, all.x + copied);
+    relative(y_.data() + first, middle[1], count, all.y + copied);
+    relative(z_.data() + first, middle[2], count, all.z + copied);
+    std::copy_n(label_.data() + first, count, all.label + copied);
+    copied += count;
   });
-  return looked_at;
+  list.count = kernels.keep(all, static_cast<std::int32_t>(found), local, rival, list.from(0), 0);
+  return static_cast<std::int64_t>(found);
 }
 
 }  // namespace vorotool::core::volumes

@@ -47,24 +47,23 @@ class SeedGrid {
   // were looked at.
   std::int64_t gather(const PlaceBox& box, const BrickKernels& kernels, SeedList& list, SeedList& room) const;
 
+  // Whether a box has so many seeds that parts of it are gathered rather than itself.
+  bool is_dense(const PlaceBox& box) const;
+
   int label_bits() const { return label_bits_; }
 
  private:
-  struct Seed {
-    std::int32_t x, y, z;
-    std::uint32_t label;
-  };
   using Cell = std::array<std::int64_t, 3>;
 
   std::int64_t cell_along(std::size_t axis, std::int64_t place) const;
-  std::span<const Seed> run(std::int64_t from_x, std::int64_t to_x, std::int64_t y, std::int64_t z) const;
   template <class Body>
   void for_each_run(const Cell& from, const Cell& to, Body body) const;
-  Seed seed_near(const std::array<std::int64_t, 3>& place) const;
+  std::array<std::int64_t, 3> place_near(const std::array<std::int64_t, 3>& place) const;
 
   Cell low_{}, side_{}, count_{};
-  std::vector<std::uint32_t> first_;  // [cells + 1]
-  std::vector<Seed> seeds_;
+  std::vector<std::uint32_t> first_;     // [cells + 1]
+  std::vector<std::int32_t> x_, y_, z_;  // by cell
+  std::vector<std::uint32_t> label_;
   int label_bits_ = 0;
 };
 

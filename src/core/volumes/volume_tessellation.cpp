@@ -8,8 +8,8 @@
 #include "core/base/parallel.hpp"
 #include "core/tessellation/row_output.hpp"
 #include "core/tessellation/watch.hpp"
-#include "core/volumes/slab_sweep.hpp"
 #include "core/volumes/brick_sweep.hpp"
+#include "core/volumes/slab_sweep.hpp"
 
 namespace vorotool::core::volumes {
 
@@ -116,7 +116,7 @@ const SeedGrid* VolumeTessellation::grid(std::int32_t first, std::int32_t slices
   if (!grid_ || way_ == Way::bricks) return grid_.get();
   // of a sweep by rows, fitted to uniform seeds on one thread
   const double voxels = double{1} * frame_.plane.width * frame_.plane.height * frame_.depth;
-  const double by_rows = 0.3 + 200 * std::sqrt(static_cast<double>(sites_.sites.size()) / voxels);
+  const double by_rows = 0.15 + 190 * std::sqrt(static_cast<double>(sites_.sites.size()) / voxels);
   BrickSeeds bricks(*grid_, frame_, brick_kernels(level_));
   return bricks.nanoseconds_a_voxel(first, slices) < by_rows ? grid_.get() : nullptr;
 }

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from os import PathLike
-from typing import TYPE_CHECKING, Any, Literal, cast
+from typing import TYPE_CHECKING, Any, Literal, cast, overload
 
 from vorotool.geometry.pixel_frame import MAX_PIXELS
 
@@ -19,10 +19,52 @@ if TYPE_CHECKING:
     from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 
 
+@overload
 def read(
     path: str | PathLike[str],
     *,
-    geometry: Literal["points", "polygons", "volume"] | None = None,
+    geometry: Literal["volume"],
+    input_format: str | None = None,
+    max_pixels: int = MAX_PIXELS,
+    note: Callable[[str], None] | None = None,
+) -> Volume: ...
+@overload
+def read(
+    path: str | PathLike[str],
+    *,
+    geometry: Literal["space"],
+    input_format: str | None = None,
+    columns: str | None = None,
+    max_sites: int | None = None,
+    properties: bool = True,
+    threads: int = 0,
+    note: Callable[[str], None] | None = None,
+) -> VolumePoints: ...
+@overload
+def read(
+    path: str | PathLike[str],
+    *,
+    geometry: Literal["points", "polygons"] | None = None,
+    input_format: str | None = None,
+    columns: str | None = None,
+    page: int | None = None,
+    max_pixels: int = MAX_PIXELS,
+    max_sites: int | None = None,
+    properties: bool = True,
+    threads: int = 0,
+    note: Callable[[str], None] | None = None,
+    crs: str | None = None,
+    to_crs: str | None = None,
+    layer: str | None = None,
+    flatten: float | None = None,
+    join_tolerance: float | None = None,
+) -> PointSet | PolygonSet | Raster | Skeleton | Offsets | VoronoiMap: ...
+
+
+def read(
+    path: str | PathLike[str],
+    *,
+    geometry: Literal["points", "polygons", "volume", "space"] | None = None,
     input_format: str | None = None,
     columns: str | None = None,
     page: int | None = None,
@@ -46,16 +88,16 @@ def read(
     ----------
     path : str or path
         The file; ``-`` is standard input.
-    geometry : {"points", "polygons", "volume"}, optional
+    geometry : {"points", "polygons", "volume", "space"}, optional
         What must be in a file that is no image; by default its content tells. A volume is all pages of a TIFF as slices
         (those of ImageJ and OME with the sides of the voxels), or an NPY, Zarr or OME-Zarr array of three axes, z, y
-        and x.
+        and x. Space is points with a z: a column of this name, or the third number of a position.
     input_format : str, optional
         One of csv, csv-wkt, node, npy, npz, geojson, jsonl, wkt, wkb, json, poly, gpkg, fgb, shp, kml, gpx, parquet,
         svg, dxf, png, tiff, pnm, zarr, jpeg, bmp, gif, webp and avif (or another usual extension of one), where
         extension and content leave it unclear.
     columns : str, optional
-        ``X,Y[,LABEL]`` of a point list, by name or number from 1; with ``z=Z`` among them points of space are read.
+        ``X,Y[,LABEL]`` of a point list, by name or number from 1; of points of space ``X,Y,z=Z[,LABEL]``.
     page : int, optional
         Page of an image stack, from 0; picture of an animation.
     max_pixels, max_sites : int
@@ -101,14 +143,14 @@ def read(
     from vorotool.products.formats import resolved
     from vorotool.products.inputs import SPACE_READER, VOLUME_READER
 
-    if geometry not in (None, "points", "polygons", "volume"):
-        raise UsageError(f"invalid geometry {geometry!r}: expected points, polygons or volume, or none")
+    if geometry not in (None, "points", "polygons", "volume", "space"):
+        raise UsageError(f"invalid geometry {geometry!r}: expected points, polygons, volume or space, or none")
     of_maps = {"crs": crs, "to_crs": to_crs, "layer": layer, "flatten": flatten, "join_tolerance": join_tolerance}
     if geometry == "volume":
         _refuse({"columns": columns, "page": page, "max_sites": max_sites, **of_maps}, "a volume")
         options: dict[str, Any] = {"input_format": input_format, "max_voxels": max_pixels, "note": note}
         return cast("Volume", resolved(VOLUME_READER)(path, **options))
-    if geometry != "polygons" and columns is not None and _names_z(columns):
+    if geometry == "space":
         _refuse({"page": page, **of_maps}, "points of space")
         options = {"input_format": input_format, "columns": columns, "max_sites": max_sites, "note": note}
         return cast("VolumePoints", resolved(SPACE_READER)(path, **options, properties=properties, threads=threads))
@@ -126,10 +168,6 @@ def read(
             join_tolerance=join_tolerance,
         )
     return cast("PointSet | PolygonSet | Raster | Skeleton | Offsets | VoronoiMap", value)
-
-
-def _names_z(columns: str) -> bool:
-    return any(part.strip().lower().startswith("z=") for part in columns.split(","))
 
 
 def _refuse(options: Mapping[str, object], holds: str) -> None:

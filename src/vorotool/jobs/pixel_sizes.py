@@ -207,6 +207,19 @@ def in_steps(o: ComputingOptions, points: Sites) -> Sites:
     return replace(points, sites=points.sites * steps)
 
 
+def written_grid(size: PixelSize | None, grid: PixelGrid | None) -> PixelGrid | None:
+    """Give what images that are written say of their pixels: the sides of ``--spacing``, else what the input says.
+
+    A map keeps its place, and sides without a unit are no size.
+    """
+    if size is None or size.sides is None or size.unit is None or (grid is not None and grid.transform is not None):
+        return grid
+    from vorotool.geometry.pixel_grid import PixelGrid
+
+    height, width = size.sides.lengths
+    return PixelGrid(width, height, size.unit, "imagej" if grid is None else grid.form)
+
+
 def placed_mesh(size: PixelSize | None, mesh: Placed) -> Placed:
     """Give a triangulation of such seeds the coordinate reference system of the map."""
     if size is None or size.origin is None:

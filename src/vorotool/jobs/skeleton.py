@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO, Generic, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import Kind, Message, RepairWarning, VorotoolWarning
+from vorotool.errors import InputError, Kind, Message, RepairWarning, VorotoolWarning
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.skeleton import EXTERIOR, Skeleton
@@ -28,7 +28,7 @@ from vorotool.jobs.run_log import Run
 from vorotool.jobs.skeleton_extras import Derived
 from vorotool.jobs.skeleton_input import read_polygons
 from vorotool.jobs.targets import Target
-from vorotool.jobs.units import in_units, length_in_units
+from vorotool.jobs.units import in_units, length_in_units, unit_text
 from vorotool.products.formats import PICTURES, picture_format
 from vorotool.products.registry import PRODUCTS
 from vorotool.products.writing import write_product
@@ -117,7 +117,13 @@ class SkeletonProducts(ABC, Generic[Options]):
 
         skeleton = self.skeleton
         with self.run.phase("centerline") as progress:
-            return centerline(skeleton, start=start, end=end, ends=self.options.ends or "middle", progress=progress)
+            try:
+                return centerline(skeleton, start=start, end=end, ends=self.options.ends or "middle", progress=progress)
+            except InputError as error:
+                size = self.options.pixel_size
+                if size is None or size.sides is None:
+                    raise
+                raise InputError(f"{error.marked} (places in steps of {size.factor}{unit_text(size)})") from None
 
     @cached_property
     def diagram(self) -> Skeleton:

@@ -19,6 +19,7 @@ from vorotool.formats.opening import Opened
 from vorotool.geometry.progress import Progress
 from vorotool.jobs.inputs import refuse
 from vorotool.jobs.options import TessellationOptions
+from vorotool.jobs.pixel_sizes import written_grid
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.streamed_output import Stream, check_chunks, write_file, write_store
 from vorotool.jobs.targets import Target
@@ -64,7 +65,7 @@ class StreamedProducts:
             {"cell-size": options.cell_size, **options.of_frame()},
             "is for lists of points, but the input is an image, which brings its own",
         )
-        self.run, self.options, self.grid = run, options, image.grid
+        self.run, self.options, self.grid = run, options, written_grid(options.pixel_size, image.grid)
         if image.note:
             run.note(image.note)
         from vorotool.formats.zarr.arrays import CHUNK

@@ -42,7 +42,7 @@ from vorotool.jobs.inputs import JobInput, frame_of, opened_input, read_opened, 
 from vorotool.jobs.map_cells import seeds_on_map
 from vorotool.jobs.options import TessellationOptions
 from vorotool.jobs.picture_world import check_column, world_of
-from vorotool.jobs.pixel_sizes import with_pixel_size
+from vorotool.jobs.pixel_sizes import with_pixel_size, written_grid
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.streamed_output import RowsOf, Stream, check_chunks, write_file, write_store
 from vorotool.jobs.streamed_tessellation import StreamedProducts, rows_of_large
@@ -260,7 +260,8 @@ class Products:
     def _streamed(self, what: Any, rows_of: RowsOf, dtype: np.dtype[Any], largest: int, **kind: Any) -> Stream:
         band = partial(self._band, what, dtype)
         is_cut = what == "labels" and self.options.max_distance is not None
-        about = {"grid": self.read.grid, "nodata": 0 if is_cut else None, "tiled": self.options.tiled}
+        grid = written_grid(self.options.pixel_size, self.read.grid)
+        about = {"grid": grid, "nodata": 0 if is_cut else None, "tiled": self.options.tiled}
         return Stream(self.rows.frame, rows_of, dtype, largest, band, {**about, **kind})
 
     def _band(self, what: Quantity, dtype: np.dtype[Any], first: int, rows: int) -> Band:

@@ -167,6 +167,20 @@ def test_auto_takes_what_the_file_says(run, tmp_path, kind):
     assert np.array_equal(np.load(tmp_path / "a.npy"), right)
 
 
+@pytest.mark.parametrize("large", [2**24, 100])
+@pytest.mark.parametrize("name", ["dots.csv", "in.tif"])
+def test_images_that_are_written_say_the_spacing(run, dots, monkeypatch, name, large):
+    monkeypatch.setattr("vorotool.jobs.streamed_tessellation.LARGE", large)
+    write(dots / "in.tif", "ome", (2, 2))
+    frame = FRAME if name == "dots.csv" else []
+    for end in (".tif", ".ome.zarr"):
+        assert run("tessellate", name, *frame, "--spacing", "0.325,0.5um", "-q", "-o", f"out{end}").code == 0
+        args = ["tessellate", f"out{end}", "--what", "table", "--stats", "s.json"]
+        assert run(*args, "--spacing", "auto").code == 0
+        stats = json.loads((dots / "s.json").read_text())
+        assert (stats["spacing"], stats["unit"].replace("µ", "u")) == ([0.325, 0.5], "um")
+
+
 def test_auto_needs_a_file_that_says_it(run, tmp_path):
     np.save(tmp_path / "in.npy", MASK)
     done = run("tessellate", "in.npy", "--spacing", "auto", "-o", "a.png")

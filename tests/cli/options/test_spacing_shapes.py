@@ -139,3 +139,14 @@ REFUSED = [
 def test_what_does_not_go_together_is_refused(run, masks, command, spacing, message):
     done = run(*command.split(), "--spacing", spacing, "-o", "a.csv" if command.startswith("d") else "a.svg")
     assert (done.code, message in done.err) == (2, True)
+
+
+def test_places_are_in_the_unit(run, masks):
+    args = ["skeleton-exact", "mask.png", "--what", "centerline", "-f", "wkt", "--spacing", "0.5,0.325um", "--from"]
+    assert (
+        run(*args, "2,1.7875", "--to", "5,1.7875").out
+        == "LINESTRING (2 1.7875, 2.725 1.7875, 4.275 1.7875, 5 1.7875)\n"
+    )
+    done = run(*args, "2,2", "--to", "14,5")
+    assert (done.code, "leads from (80, 80) to (560, 200)" in done.err) == (3, True)
+    assert "(places in steps of 1/40 um)" in done.err

@@ -180,7 +180,7 @@ def test_what_does_not_go_is_refused(asked, error, match):
 @pytest.mark.parametrize(
     ("seeds", "match"),
     [
-        (np.zeros((4, 2)), r"invalid seeds: expected points of space: an \(n, 3\) array"),
+        (np.zeros((4, 4)), r"invalid seeds: expected points of space: an \(n, 3\) array"),
         (np.zeros((4, 5, 6)), r"invalid seeds: expected truth values or integers.*vorotool.seeds_from_volume\(seeds"),
         (np.zeros((0, 3)), "there are no seeds, so nothing could be labelled"),
         ({"x": [1], "y": [2]}, "expected columns x, y, z"),
@@ -189,6 +189,12 @@ def test_what_does_not_go_is_refused(asked, error, match):
 def test_what_is_no_seed_of_a_volume_is_refused(seeds, match):
     with pytest.raises(InputError, match=match):
         vorotool.tessellate(seeds, shape=(4, 5, 6))
+
+
+@pytest.mark.parametrize("points", [[[1, 2]], np.zeros((4, 2)), np.zeros((4, 2), int)])
+def test_points_of_the_plane_have_a_shape_of_two_numbers(points):
+    with pytest.raises(UsageError, match=r"shape must be two integers \(H, W\), but is \(4, 5, 6\)"):
+        vorotool.tessellate(points, shape=(4, 5, 6))
 
 
 def test_integer_triples_are_points_or_say_that_they_are_an_image():

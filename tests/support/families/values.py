@@ -12,7 +12,7 @@ from vorotool.geometry.crs import crs_member
 
 CRS = "EPSG:2056"
 ARCS = ("arcs", "control", "sites", "polygon", "side", "branch", "length", "error_bound")
-NOT_VALUES = {"Box", "Frame", "PixelGrid"}
+NOT_VALUES = {"Box", "Frame", "PixelGrid", "VoxelFrame", "VoxelGrid"}
 """Small records of numbers, which are dataclasses as Python has them."""
 
 
@@ -94,6 +94,19 @@ def example_values():
         "SkeletonPoints": vorotool.points_along(skeleton, every=3),
         "Offsets": vorotool.offset(polygons, [-1, 2]),
         "VoronoiMap": vorotool.voronoi(polygons),
+    }
+
+
+@cache
+def volume_values():
+    """Give a value of each public type of volumes by its name."""
+    points = vorotool.VolumePoints(np.random.default_rng(4).integers(0, 9, (6, 3)).astype(float))
+    labels = vorotool.tessellate(points, shape=(7, 8, 9))
+    return {
+        "Volume": vorotool.Volume(labels.labels),
+        "VolumePoints": points,
+        "VolumeSeeds": labels.seeds,
+        "LabelVolume": labels,
     }
 
 

@@ -26,7 +26,7 @@ from vorotool.jobs.job import Recipe
 from vorotool.jobs.options import TessellationOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target, check_picture_options, check_precision
-from vorotool.jobs.volume_checks import check_image_options, check_volume_options, check_volume_units
+from vorotool.jobs.volumes.checks import check_image_options, check_volume_options, check_volume_units
 from vorotool.products.formats import ANIMATIONS, picture_format
 from vorotool.products.inputs import NAMES_WITH
 from vorotool.products.registry import PRODUCTS, VOLUME_PRODUCTS, all_layers, formats_of, layers_of
@@ -34,7 +34,7 @@ from vorotool.products.registry import PRODUCTS, VOLUME_PRODUCTS, all_layers, fo
 if TYPE_CHECKING:
     from vorotool.jobs.streamed_tessellation import StreamedProducts
     from vorotool.jobs.tessellation import Products
-    from vorotool.jobs.volumes import VolumeProducts
+    from vorotool.jobs.volumes.products import VolumeProducts
 
 FORMATS = formats_of("tessellate")
 _PICTURES = {(what, fmt) for what, each in PRODUCTS["tessellate"].items() for fmt in each.layers}
@@ -150,7 +150,7 @@ def _products(run: Run, o: TessellationOptions, given: JobInput) -> Products | S
 
 
 def _volume_products(run: Run, o: TessellationOptions, given: JobInput) -> VolumeProducts:
-    from vorotool.jobs.volumes import products
+    from vorotool.jobs.volumes.products import products
 
     return products(run, o, given)
 

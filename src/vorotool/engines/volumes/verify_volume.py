@@ -41,6 +41,7 @@ def verify_volume(volume: LabelVolume, *, max_distance: float | Fraction | None 
 
     Examples
     --------
+    >>> import numpy as np
     >>> seeds = VolumeSeeds(np.array([[0, 0, 0], [2, 0, 0]]), np.array([1, 2]))
     >>> verify_volume(LabelVolume(np.array([[[1, 1, 2]]]), seeds=seeds))
     """
@@ -92,6 +93,7 @@ def verify_label_volume(
 
     Examples
     --------
+    >>> import numpy as np
     >>> seeds = VolumeSeeds(np.array([[0, 0, 0], [2, 0, 0]]), np.array([1, 2]))
     >>> verify_label_volume(np.array([[[1, 1, 2]]]), seeds, VoxelFrame(0, 0, 0, 3, 1, 1))
     >>> verify_label_volume(np.array([[[1, 2, 2]]]), seeds, VoxelFrame(0, 0, 0, 3, 1, 1))

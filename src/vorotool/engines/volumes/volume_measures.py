@@ -182,7 +182,7 @@ def volume_diagram(
     Examples
     --------
     >>> volume_diagram(np.array([[[1, 1, 2]], [[3, 1, 0]]], dtype=np.uint16)).tolist()
-    [[[1, 1, 0]], [[0, 0, 0]]]
+    [[[1, 1, 0]], [[0, 1, 0]]]
     """
     own = label_array(labelled(labels).labels, "voxel")
     if out is None:

@@ -66,10 +66,10 @@ class VolumeSweep:
     Notes
     -----
     On a row seeds are nearest in the order of their columns, and what hides one there hides it on a half-plane of rows
-    and slices. So each waits until it may be nearest again. Where seeds are dense, each tells the voxels around it in
-    its slice, and a voxel takes the least over the slices near it. Results depend neither on that, nor on threads, nor
-    on instruction sets, nor on which slices are asked for together. Memory: some 40 bytes a seed beside the seeds
-    themselves, and for each thread some 40 a seed more.
+    and slices. So each waits until it may be nearest again. Where seeds are many, boxes are halved until few may be
+    nearest in a brick of voxels, which takes the least of their distances. Results depend neither on that, nor on
+    threads, nor on instruction sets, nor on which slices are asked for together. Memory: some 60 bytes a seed beside
+    the seeds themselves, and by rows for each thread some 40 a seed more.
 
     Examples
     --------
@@ -198,7 +198,7 @@ class VolumeSweep:
         dtype : dtype, optional
             uint32 or uint64, where it is known that they fit; by default `square_dtype`.
         out : (slices, H, W) array, optional
-            Written instead of a new array; C-contiguous, of that type.
+            Written instead of a new array; C-contiguous, of this type.
 
         Returns
         -------
@@ -210,7 +210,7 @@ class VolumeSweep:
         LimitError
             If a squared distance may exceed 64 bits.
         UsageError
-            If `out` has another type, shape or layout.
+            If `out` has another shape, type or layout.
         """
         array = self._output(first, slices, np.dtype(dtype or self.square_dtype), out)
         self._core.squared_distances(array, first, self._threads, self._progress_of(first, len(array)))

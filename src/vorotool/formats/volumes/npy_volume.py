@@ -60,7 +60,7 @@ class NpyVolume:
     @property
     def shape(self) -> tuple[int, int, int]:
         """Slices, rows and columns."""
-        depth, height, width = self._header.shape
+        depth, height, width = self._values.shape  # which says if the file ends before
         return depth, height, width
 
     @property

@@ -10,6 +10,8 @@ from vorotool.errors import InputError, LimitError
 from vorotool.geometry.arguments.descriptions import column_names, described, naming, refuse_paths, unexpected
 from vorotool.geometry.numbers import real_number
 from vorotool.geometry.pixel_frame import MAX_PIXELS
+from vorotool.geometry.points.label_image import LabelImage
+from vorotool.geometry.points.raster import Raster
 from vorotool.geometry.volumes.label_volume import LabelVolume
 from vorotool.geometry.volumes.volume import Volume
 from vorotool.geometry.volumes.volume_points import VolumePoints
@@ -48,11 +50,13 @@ def is_of_space(source: Any, shape: Any = None, window: Any = None) -> bool:
     >>> points = np.zeros((5, 3))
     >>> is_of_space(points, (2, 3, 4)), is_of_space(points, (3, 4)), is_of_space(points)
     (True, False, False)
-    >>> is_of_space(np.zeros((4, 5, 6), bool)), is_of_space(VolumePoints(points))
-    (True, True)
+    >>> is_of_space(np.zeros((4, 5, 6), bool)), is_of_space(VolumePoints(points)), is_of_space([[1, 2]], (2, 3, 4))
+    (True, True, False)
     """
     if isinstance(source, Volume | LabelVolume | VolumePoints | VolumeSeeds):
         return True
+    if _width(source) == 2:  # points of the plane, of which another shape is wrong
+        return False
     for given, numbers in ((shape, AXES), (window, 2 * AXES)):
         if given is not None and np.ndim(given) == 1:
             return len(given) == numbers
@@ -83,17 +87,21 @@ def refuse_triples(source: Any, name: str, *, image: bool | None = None) -> None
     Traceback (most recent call last):
     vorotool.errors.InputError: invalid seeds: ... for points of space give shape=(D, H, W) as well; ...
     """
-    if image or column_names(source) is not None:
-        return
-    shape = getattr(source, "shape", None)
-    if isinstance(source, list | tuple) and source and isinstance(source[0], list | tuple | np.ndarray):
-        shape = (len(source), len(source[0]))
-    is_number = getattr(getattr(source, "dtype", None), "kind", "f") in "iuf"
-    if isinstance(shape, tuple) and len(shape) == AXES - 1 and shape[1] == AXES and is_number:
+    if not image and _width(source) == AXES:
         raise InputError(
             f"invalid {name}: expected shape (n, 2), but got {described(source)}: for points of space give "
             f"shape=(D, H, W) as well; {name}[:, :2] gives the plan"
         )
+
+
+def _width(source: Any) -> int | None:
+    """How many numbers a row of a list of points has; None of what is none, as are tables and images by their type."""
+    if column_names(source) is not None or isinstance(source, Raster | LabelImage):
+        return None
+    if isinstance(source, list | tuple) and source and isinstance(source[0], list | tuple | np.ndarray):
+        return len(source[0]) if all(np.ndim(each) == 0 for each in source[0]) else None
+    shape, kind = getattr(source, "shape", ()), getattr(getattr(source, "dtype", None), "kind", "f")
+    return shape[1] if isinstance(shape, tuple) and len(shape) == AXES - 1 and kind in "iuf" else None
 
 
 def as_volume(source: Any, name: str, *, is_grey: bool = False, max_pixels: int = MAX_PIXELS) -> Volume:

@@ -29,9 +29,9 @@ from vorotool.jobs.picture_world import check_column, world_of
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import PixelSize, unit_columns
-from vorotool.jobs.volume_input import ReadVolume, read_volume_seeds
-from vorotool.jobs.volume_output import VolumeStream, check_volume_chunks, write_volume_file, write_volume_store
-from vorotool.jobs.volume_pictures import SlicePicture, write_slices
+from vorotool.jobs.volumes.inputs import ReadVolume, read_volume_seeds
+from vorotool.jobs.volumes.output import VolumeStream, check_volume_chunks, write_volume_file, write_volume_store
+from vorotool.jobs.volumes.pictures import SlicePicture, write_slices
 from vorotool.products.registry import VOLUME_PRODUCTS
 from vorotool.products.writing import write_product
 

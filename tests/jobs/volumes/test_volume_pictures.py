@@ -9,7 +9,7 @@ from vorotool.geometry.spacing import PixelSides
 from vorotool.geometry.volumes.label_volume import LabelVolume
 from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
 from vorotool.geometry.volumes.voxel_frame import VoxelFrame
-from vorotool.jobs.volume_pictures import SlicePicture
+from vorotool.jobs.volumes.pictures import SlicePicture
 
 FRAME = VoxelFrame(-3, 5, 2, 7, 6, 5)
 

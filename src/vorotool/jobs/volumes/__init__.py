@@ -1,0 +1,1 @@
+"""Jobs of volumes: what `tessellate` reads and writes in three dimensions."""

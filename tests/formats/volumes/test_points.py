@@ -1,0 +1,144 @@
+"""Points with a z, of all formats that have one."""
+
+import json
+
+import numpy as np
+import pytest
+import shapely
+
+import vorotool
+from vorotool.errors import InputError, LimitError, UsageError
+from vorotool.formats.volumes.points import read_xyz
+
+XYZ = [[1.5, 2, 3], [4, 5, 6.25], [0, 0, 9]]
+LABELS = [7, 9, 7]
+
+
+def collection(points):
+    features = [
+        {"type": "Feature", "properties": {"n": k}, "geometry": {"type": "Point", "coordinates": point}}
+        for k, point in enumerate(points)
+    ]
+    return json.dumps({"type": "FeatureCollection", "features": features})
+
+
+def rows(*names):
+    columns = {"x": 0, "y": 1, "z": 2}
+    return [[LABELS[k] if name not in columns else XYZ[k][columns[name]] for name in names] for k in range(3)]
+
+
+def text(*names, by=",", header=True):
+    lines = [by.join(map(str, row)) for row in rows(*names)]
+    return "\n".join([by.join(names), *lines] if header else lines) + "\n"
+
+
+@pytest.mark.parametrize(
+    ("name", "data", "columns", "has_labels"),
+    [
+        ("a.csv", text("x", "y", "z"), None, False),
+        ("a.csv", text("label", "z", "y", "x"), None, True),
+        ("a.csv", text("x", "y", "z", "kind"), None, False),
+        ("a.tsv", text("x", "kind", "y", "z", by="\t"), "x,y,kind", True),
+        ("a.csv", text("x", "y", "z", "kind", by=";"), "x,y,z=z,kind", True),
+        ("a.txt", text("x", "y", "z", by=" ", header=False), "1,2,z=3", False),
+        ("a.txt", text("z", "x", "y", "k", by=" ", header=False), "2,3,Z=1,4", True),
+        ("a.csv", text("x", "y", "z").replace("x,y,z", "centroid-2,centroid-1,centroid-0"), None, False),
+        ("a.json", json.dumps(XYZ), None, False),
+        ("a.json", json.dumps([dict(zip("xyz", row, strict=True)) for row in XYZ]), None, False),
+        ("a.jsonl", "\n".join(json.dumps(dict(zip("xyz", row, strict=True))) for row in XYZ), "x,y,z=z", False),
+        ("a.geojson", collection(XYZ), None, False),
+        ("a.wkt", "\n".join(f"POINT Z ({x} {y} {z})" for x, y, z in XYZ), None, False),
+        ("a.csv", "wkt\n" + "\n".join(f'"POINT Z ({x} {y} {z})"' for x, y, z in XYZ), None, False),
+        ("a.wkb", shapely.to_wkb(shapely.multipoints(shapely.points(XYZ))), None, False),
+    ],
+)
+def test_formats(tmp_path, name, data, columns, has_labels):
+    path = tmp_path / name
+    path.write_bytes(data if isinstance(data, bytes) else data.encode())
+    points = read_xyz(path, columns=columns)
+    assert points.xyz.tolist() == XYZ
+    assert (points.labels is not None) == has_labels
+    if has_labels:
+        assert points.labels.tolist() == LABELS
+    assert read_xyz(path, columns=columns, properties=False).properties == {}
+    with pytest.raises(LimitError, match="3 points"):
+        read_xyz(path, columns=columns, max_sites=2)
+
+
+def test_npz_and_npy(tmp_path):
+    table = np.array(XYZ)
+    np.savez(tmp_path / "a.npz", x=table[:, 0], y=table[:, 1], z=table[:, 2], n=np.arange(3))
+    points = read_xyz(tmp_path / "a.npz")
+    assert (points.xyz.tolist(), points.properties) == (XYZ, {"n": [0, 1, 2]})
+    np.save(tmp_path / "a.npy", table)
+    assert read_xyz(tmp_path / "a.npy", columns="1,2,z=3").xyz.tolist() == XYZ
+    assert vorotool.read(tmp_path / "a.npy", geometry="space", columns="1,2,z=3").xyz.tolist() == XYZ
+    with pytest.raises(InputError, match='whose third column is the label: say that it is z with columns="1,2,z=3"'):
+        read_xyz(tmp_path / "a.npy")
+    for columns, error, words in (
+        ("1,2", UsageError, "names no z"),
+        ("1,2,z=4", InputError, "has 3 columns without names: there is no column '4'"),
+        ("x,y,z=z", InputError, "there is no column 'x'"),
+        ("1,2,z=2", UsageError, "name X,Y,z=Z"),
+        ("01,2,z=1", InputError, "names one column twice"),
+    ):
+        with pytest.raises(error, match=words):
+            read_xyz(tmp_path / "a.npy", columns=columns)
+    np.save(tmp_path / "b.npy", np.column_stack([LABELS, table]))
+    points = read_xyz(tmp_path / "b.npy", columns="2,3,1,z=4")
+    assert (points.xyz.tolist(), points.labels.tolist()) == (XYZ, LABELS)
+    table[1, 2] = np.nan
+    np.save(tmp_path / "a.npy", table)
+    with pytest.raises(InputError, match=r"a.npy, row 2: \(4.0, 5.0, nan\) is not finite"):
+        read_xyz(tmp_path / "a.npy", columns="1,2,z=3")
+    np.save(tmp_path / "a.npy", table[:, :2])
+    with pytest.raises(InputError, match=r"holds float64 of shape \(3, 2\): points with a z are an \(n, 3\) array"):
+        read_xyz(tmp_path / "a.npy", columns="1,2,z=3")
+
+
+@pytest.mark.parametrize(
+    ("name", "data", "columns", "words"),
+    [
+        ("a.csv", "x,y\n1,2\n", None, r"no columns are known as x, y and z; say which are with columns=\"X,Y,z=Z\""),
+        ("a.csv", "1,2,3\n", None, "no columns are known as x, y and z"),
+        ("a.csv", "a,b,c\n1,2,3\n", "a,b", "no columns are known as x, y and z"),
+        ("a.csv", "a,b,c\n1,2,3\n", "a,b,z=d", "there is no column 'd'"),
+        ("a.csv", "a,b,c\n1,2,3\n", "1,2,z=a", "names one column twice"),
+        ("a.csv", "x,y,z\n1,2,nan\n", None, r"a.csv, line 2: 'nan' in column 3 \(z\) is not a finite number"),
+        ("a.csv", "x,y,z\n1,2,\n", None, "is empty; fill in a number"),
+        ("a.json", "[[1, 2]]", None, r"point 1: \[1, 2\] is not three finite numbers; write \[x, y, z\]"),
+        ("a.json", "[[1, 2, 3, 4]]", None, r"has 4 numbers; write \[x, y, z\]"),
+        ("a.geojson", collection([[1, 2]]), None, "is not three finite numbers"),
+        ("a.wkt", "POINT Z (1 2 3)\nPOINT (4 5)", None, r"a.wkt, line 2: 'POINT \(4 5\)' has no z"),
+        ("a.wkb", shapely.to_wkb(shapely.Point(1, 2)), None, "feature 1: the point has no finite z"),
+        ("a.node", "1 2 0 0\n1 5 6\n", None, "in the format node, from which no points with a z are read"),
+    ],
+)
+def test_what_has_no_z(tmp_path, name, data, columns, words):
+    path = tmp_path / name
+    path.write_bytes(data if isinstance(data, bytes) else data.encode())
+    with pytest.raises(InputError, match=words) as caught:
+        read_xyz(path, columns=columns)
+    assert name in str(caught.value)
+
+
+@pytest.mark.parametrize("columns", ["x", "x,y,z=", "x,y,z=z,z=w", "x,y,z=x", "0,1,z=2", "a,b,c,d,z=e"])
+def test_columns_that_are_malformed(tmp_path, columns):
+    (tmp_path / "a.csv").write_text(text("x", "y", "z"))
+    with pytest.raises(UsageError, match="name X,Y,z=Z or X,Y,z=Z,LABEL"):
+        read_xyz(tmp_path / "a.csv", columns=columns)
+
+
+def test_an_image(tmp_path):
+    vorotool.write(vorotool.LabelImage(np.ones((3, 4), np.uint8)), tmp_path / "a.png")
+    with pytest.raises(InputError, match=r"a.png is an image, from which no points with a z are read"):
+        read_xyz(tmp_path / "a.png")
+
+
+def test_a_z_stays_a_property_of_points_in_the_plane(tmp_path):
+    (tmp_path / "a.csv").write_text(text("x", "y", "z"))
+    points = vorotool.read(tmp_path / "a.csv")
+    assert points.xy.tolist() == [row[:2] for row in XYZ]
+    assert list(points.properties) == ["z"]
+    with pytest.raises(UsageError, match="crs is not for points of space"):
+        vorotool.read(tmp_path / "a.csv", geometry="space", crs="EPSG:2056")

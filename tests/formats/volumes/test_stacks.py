@@ -1,0 +1,308 @@
+"""TIFF stacks: what tifffile writes is read, what is written tifffile reads, and damage is refused by name."""
+
+import io
+import json
+import pickle
+from contextlib import contextmanager, suppress
+from fractions import Fraction
+
+import numpy as np
+import pytest
+import tifffile
+
+import vorotool
+from support.families.tiff_files import grey, tiff_file
+from vorotool.errors import InputError, LimitError, UsageError
+from vorotool.formats.volumes import writer
+from vorotool.formats.volumes.opening import open_volume, read_volume
+from vorotool.formats.volumes.writer import write_volume
+from vorotool.geometry.volumes.voxel_grid import VoxelGrid
+
+VALUES = np.random.default_rng(3).integers(0, 200, (5, 40, 30))
+SIDES = (Fraction(13, 40), Fraction(1, 4), Fraction(3, 2))
+
+
+def stack(path, values, **options):
+    tifffile.imwrite(path, values, photometric="minisblack", **options)
+    return path
+
+
+def check(path, expected):
+    source = pickle.loads(pickle.dumps(open_volume(path)))
+    assert (source.shape, source.dtype) == (expected.shape, expected.dtype)
+    for first, count in ((0, len(expected)), (len(expected) // 2, (len(expected) + 1) // 2), (len(expected) - 1, 1)):
+        np.testing.assert_array_equal(source.slices(first, count), expected[first : first + count])
+        assert source.slices(first, count).dtype == expected.dtype
+    return source
+
+
+@pytest.mark.parametrize("dtype", [bool, np.uint8, ">u2", np.int16, np.uint32, np.float32, np.float64, np.uint64])
+@pytest.mark.parametrize(
+    "layout",
+    [
+        {},
+        {"bigtiff": True, "rowsperstrip": 7},
+        {"tile": (16, 16)},
+        {"compression": "zlib"},
+        {"compression": "zlib", "predictor": True},
+    ],
+)
+def test_stacks_of_tifffile(tmp_path, dtype, layout):
+    values = VALUES > 100 if dtype is bool else VALUES.astype(dtype)
+    if layout.get("predictor") and (values.dtype.kind in "bf" or values.dtype.itemsize > 4):
+        layout = {"compression": "zlib"}
+    stack(tmp_path / "a.tif", values, byteorder=">" if dtype == ">u2" else "<", **layout)
+    expected = values.astype(np.uint8) if dtype is bool else values.astype(values.dtype.newbyteorder("="))
+    source = check(tmp_path / "a.tif", expected)
+    assert source.grid is None
+    np.testing.assert_array_equal(vorotool.read(tmp_path / "a.tif", geometry="volume").values, expected)
+
+
+def test_what_imagej_says(tmp_path):
+    said = {"axes": "ZYX", "spacing": 1.5, "unit": "um"}
+    options = {"imagej": True, "resolution": (1 / 0.325, 4.0)}
+    stack(tmp_path / "a.tif", VALUES.astype(np.uint16), metadata=said, **options)
+    assert open_volume(tmp_path / "a.tif").grid.size_text() == "0.325 x 0.25 x 1.5 µm"
+    stack(tmp_path / "a.tif", VALUES.astype(np.uint16), metadata=said, truncate=True, **options)  # one page for all
+    check(tmp_path / "a.tif", VALUES.astype(np.uint16))
+    data = (tmp_path / "a.tif").read_bytes()
+    (tmp_path / "a.tif").write_bytes(data[:-1])
+    with pytest.raises(InputError, match=rf"a.tif is cut off after {len(data) - 1} bytes: its 5 slices end at byte"):
+        read_volume(tmp_path / "a.tif")
+    stack(tmp_path / "a.tif", VALUES.astype(np.uint8), imagej=True, metadata={"axes": "ZYX", "spacing": 3})
+    assert open_volume(tmp_path / "a.tif").grid == VoxelGrid(Fraction(1), Fraction(1), Fraction(3), None, "imagej")
+    stack(tmp_path / "a.tif", VALUES.astype(np.uint8), imagej=True, metadata={"axes": "ZYX"})
+    assert open_volume(tmp_path / "a.tif").grid is None
+
+
+@pytest.mark.parametrize(
+    ("said", "expected"),
+    [
+        ({"PhysicalSizeX": 0.325, "PhysicalSizeY": 0.25, "PhysicalSizeZ": 1.5}, "0.325 x 0.25 x 1.5 µm"),
+        (
+            {"PhysicalSizeX": 325, "PhysicalSizeXUnit": "nm", "PhysicalSizeY": 1, "PhysicalSizeZ": 2},
+            "325 x 1000 x 2000 nm",
+        ),
+        ({"PhysicalSizeX": 2, "PhysicalSizeY": 2}, None),
+        ({"PhysicalSizeX": 2, "PhysicalSizeY": 2, "PhysicalSizeZ": 1, "PhysicalSizeZUnit": "reference frame"}, None),
+        ({}, None),
+    ],
+)
+def test_what_ome_says(tmp_path, said, expected):
+    stack(tmp_path / "a.ome.tif", VALUES.astype(np.uint16), ome=True, metadata={"axes": "ZYX", **said})
+    source = check(tmp_path / "a.ome.tif", VALUES.astype(np.uint16))
+    assert (None if source.grid is None else source.grid.size_text()) == expected
+    assert ("no PhysicalSizeZ" in source.note) == (set(said) == {"PhysicalSizeX", "PhysicalSizeY"})
+
+
+def ome(pixels, planes):
+    return f'<?xml version="1.0"?><OME><Image><Pixels {pixels}>{planes}</Pixels></Image></OME>'.encode()
+
+
+def described(path, description, pages=5):
+    tifffile.imwrite(
+        path, VALUES[:pages].astype(np.uint8), photometric="minisblack", description=description, metadata=None
+    )
+    return path
+
+
+def test_the_order_of_slices_in_ome(tmp_path):
+    planes = "".join(f'<TiffData IFD="{4 - k}" FirstZ="{k}"/>' for k in range(5))
+    path = described(tmp_path / "a.tif", ome('SizeZ="5"', planes))
+    check(path, VALUES[::-1].astype(np.uint8))
+
+
+@pytest.mark.parametrize(
+    ("description", "words"),
+    [
+        (ome('SizeZ="5" SizeC="2"', ""), r"has 2 channels: a volume has one of each.*page=N"),
+        (ome('SizeZ="5" SizeC="2" SizeT="3"', ""), "has 2 channels and 3 time steps"),
+        (ome('SizeZ="6"', ""), "has 5 pages, but its XML says that there are 6 slices"),
+        (ome('SizeZ="5"', '<TiffData IFD="0" FirstZ="1"/>'), "has no page for slice 0"),
+        (ome('SizeZ="5"', '<TiffData IFD="7"/>'), "has no page for slice 0"),
+        (ome('SizeZ="five"', ""), "its SizeZ is 'five', which is no whole number"),
+        (ome('SizeZ="0"', ""), "its SizeZ is 0"),
+        (ome(f'SizeZ="{"9" * 50}"', ""), "no whole number"),
+        (
+            ome('SizeZ="5"', '<TiffData><UUID FileName="a"/></TiffData><TiffData><UUID FileName="b"/></TiffData>'),
+            "2 files",
+        ),
+        (b"<OME><Image><Pixels/></Image><Image><Pixels/></Image></OME>", "holds 2 images"),
+        (b"ImageJ=1.54f\nimages=10\nchannels=2\nslices=5\n", "has 2 channels"),
+        (b"ImageJ=1.54f\nimages=5\nframes=5\n", r"has 5 time steps \(frames\)"),
+        (b"ImageJ=1.54f\nimages=7\nslices=7\n", "has 5 pages, but its description says that there are 7 slices"),
+        (b"ImageJ=1.54f\nimages=-7\n", "damaged: its description says images=-7"),
+        (b"ImageJ=1.54f\nimages=x\n", "damaged: its description says images="),
+    ],
+)
+def test_what_is_no_stack_of_slices(tmp_path, description, words):
+    path = described(tmp_path / "a.tif", description)
+    with pytest.raises(InputError, match=words) as caught:
+        open_volume(path)
+    assert "a.tif" in str(caught.value)
+    assert caught.value.exit_code == 3
+
+
+def test_axes_that_tifffile_names(tmp_path):
+    values = VALUES.astype(np.uint8).reshape(5, 1, 40, 30)
+    check(stack(tmp_path / "a.tif", values), VALUES.astype(np.uint8))
+    stack(tmp_path / "a.tif", values.reshape(5, 2, 20, 30))
+    with pytest.raises(InputError, match=r"a.tif has the shape \(5, 2, 20, 30\): a volume has three axes"):
+        open_volume(tmp_path / "a.tif")
+    stack(tmp_path / "a.tif", values, metadata={"axes": "TZYX"})
+    with pytest.raises(InputError, match="has 5 time steps"):
+        open_volume(tmp_path / "a.tif")
+
+
+def test_pages_that_differ(tmp_path):
+    for other, words in (
+        (VALUES[0, :39].astype(np.uint8), "30 x 40 uint8 on page 0 and 30 x 39 uint8 on page 1"),
+        (VALUES[0].astype(np.uint16), "uint8 on page 0 and 30 x 40 uint16 on page 1"),
+    ):
+        with tifffile.TiffWriter(tmp_path / "a.tif") as out:
+            out.write(VALUES[0].astype(np.uint8), metadata=None)
+            out.write(other, metadata=None)
+        with pytest.raises(InputError, match=words):
+            open_volume(tmp_path / "a.tif")
+    tifffile.imwrite(tmp_path / "a.tif", np.zeros((4, 5, 3), np.uint8), photometric="rgb")
+    with pytest.raises(InputError, match="has 3 values a pixel: a volume has one"):
+        open_volume(tmp_path / "a.tif")
+
+
+def test_smaller_copies_are_left_out(tmp_path):
+    with tifffile.TiffWriter(tmp_path / "a.tif") as out:
+        for image in VALUES.astype(np.uint8):
+            out.write(image, metadata=None)
+        out.write(VALUES[0, ::2, ::2].astype(np.uint8), metadata=None, subfiletype=1)
+    check(tmp_path / "a.tif", VALUES.astype(np.uint8))
+
+
+def test_one_page_is_one_slice(tmp_path):
+    check(stack(tmp_path / "a.tif", VALUES[:1].astype(np.uint8)), VALUES[:1].astype(np.uint8))
+    (tmp_path / "b.tif").write_bytes(tiff_file(grey(3, 2, 1), [b"abc", b"def"]))
+    check(tmp_path / "b.tif", np.frombuffer(b"abcdef", np.uint8).reshape(1, 2, 3))
+
+
+def test_damage(tmp_path):
+    path = tmp_path / "a.tif"
+    whole = stack(path, VALUES.astype(np.uint16), compression="zlib").read_bytes()
+    for length in [*range(0, 600, 37), *range(600, len(whole), len(whole) // 23)]:
+        path.write_bytes(whole[:length])
+        with pytest.raises(InputError, match=r"a\.tif"):
+            read_volume(path)
+    generator = np.random.default_rng(5)
+    for _ in range(120):  # anything but another exception
+        torn = bytearray(whole)
+        for place in generator.integers(0, len(whole), 6):
+            torn[place] = generator.integers(0, 256)
+        path.write_bytes(torn)
+        with suppress(LimitError), naming("a.tif"):
+            read_volume(path, max_voxels=10**6)
+
+
+@contextmanager
+def naming(name):
+    """An input is refused with its name, or read."""
+    try:
+        yield
+    except InputError as error:
+        if name not in str(error):
+            raise AssertionError(name) from error
+
+
+def test_limits(tmp_path):
+    path = stack(tmp_path / "a.tif", VALUES.astype(np.uint8))
+    with pytest.raises(LimitError, match=r"a.tif is 30 x 40 x 5 = 6000 voxels, more than max_pixels=5999"):
+        vorotool.read(path, geometry="volume", max_pixels=5999)
+    huge = {256: (4, [2**31 - 1]), 257: (4, [2**31 - 1]), 278: (4, [2**31 - 1])}
+    (tmp_path / "b.tif").write_bytes(tiff_file(grey(8, 8, 8) | huge, [bytes(64)]))
+    with pytest.raises(InputError, match=r"b.tif"):
+        read_volume(tmp_path / "b.tif")
+    with pytest.raises(UsageError, match="page is not for a volume"):
+        vorotool.read(path, geometry="volume", page=1)
+
+
+def made(values, slabs=1, **options):
+    out = io.BytesIO()
+    parts = np.array_split(values, slabs)
+    write_volume(out, parts, shape=values.shape, dtype=values.dtype, fmt="tiff", **options)
+    return out.getvalue()
+
+
+@pytest.mark.parametrize("dtype", [np.uint8, np.uint16, np.uint32, np.int32, np.uint64, np.float32])
+@pytest.mark.parametrize("form", [None, "imagej", "ome", "zarr", "tiff"])
+def test_what_is_written_tifffile_reads(tmp_path, dtype, form):
+    values = VALUES.astype(dtype)
+    grid = None if form is None else VoxelGrid(*SIDES, "um", form)
+    data = made(values, grid=grid, threads=1)
+    assert data == made(values, 3, grid=grid, threads=2) == made(values, 5, grid=grid)
+    path = tmp_path / "a.tif"
+    path.write_bytes(data)
+    source = check(path, values)
+    with tifffile.TiffFile(path) as file:
+        series = file.series[0]
+        np.testing.assert_array_equal(series.asarray(), values)
+        in_imagej = form in (None, "imagej") and dtype in (np.uint8, np.uint16, np.float32)
+        is_plain = form == "tiff" or dtype == np.uint64
+        assert series.kind == ("generic" if is_plain else "imagej" if in_imagej else "ome")
+        assert is_plain or series.axes == "ZYX"
+        if in_imagej and form:
+            assert (file.imagej_metadata["spacing"], file.imagej_metadata["unit"]) == (1.5, "um")
+            assert file.pages[0].tags["XResolution"].value == (40, 13)
+        if series.kind == "ome" and form:
+            assert (
+                'PhysicalSizeZ="1.5" PhysicalSizeZUnit="&#181;m"' in file.pages[0].description
+                or "µm" in file.ome_metadata
+            )
+    if form and not is_plain:
+        assert source.grid == VoxelGrid(*SIDES, "um", "imagej" if in_imagej else "ome")
+
+
+@pytest.mark.parametrize("form", ["imagej", "ome"])
+def test_sides_without_a_unit(tmp_path, form):
+    grid = VoxelGrid(Fraction(1), Fraction(2), Fraction(7, 2), None, form)
+    vorotool.write(vorotool.LabelVolume(VALUES.astype(np.uint8), grid=grid), tmp_path / "a.tif")
+    assert vorotool.read(tmp_path / "a.tif", geometry="volume").grid == grid
+
+
+def test_large_stacks_are_bigtiff_and_ome(monkeypatch):
+    monkeypatch.setattr(writer, "CLASSIC_LIMIT", 1000)
+    data = made(VALUES.astype(np.uint8))
+    with tifffile.TiffFile(io.BytesIO(data)) as file:
+        assert (file.is_bigtiff, file.series[0].kind, file.series[0].axes) == (True, "ome", "ZYX")
+        np.testing.assert_array_equal(file.asarray(), VALUES)
+
+
+def test_edges_of_shapes(tmp_path):
+    for shape in ((1, 3, 2), (2, 3, 1), (1, 1, 1), (3, 1, 1)):
+        values = np.arange(np.prod(shape), dtype=np.uint16).reshape(shape)
+        for name in ("a.tif", "a.npy"):
+            vorotool.write(vorotool.Volume(values), tmp_path / name)
+            np.testing.assert_array_equal(vorotool.read(tmp_path / name, geometry="volume").values, values)
+    with pytest.raises(ValueError, match="the slabs have 1 slices, not 2"):
+        write_volume(io.BytesIO(), [np.zeros((1, 2, 2), np.uint8)], shape=(2, 2, 2), dtype=np.uint8, fmt="npy")
+    wide = np.full((1, 2, 2), 300)
+    with pytest.raises(LimitError, match="does not fit"):
+        write_volume(io.BytesIO(), [wide], shape=(1, 2, 2), dtype=np.uint8, fmt="tiff")
+    with pytest.raises(UsageError, match="cannot be written as 'png'"):
+        vorotool.write(vorotool.Volume(values), tmp_path / "a.png")
+    with pytest.raises(UsageError, match="width is not for volumes"):
+        vorotool.write(vorotool.Volume(values), tmp_path / "a.tif", width=9)
+
+
+def test_what_info_tells(tmp_path, capsysbinary):
+    from vorotool.jobs.description import describe_inputs
+    from vorotool.jobs.options import ReadingOptions
+
+    grid = VoxelGrid(*SIDES, "um")
+    vorotool.write(vorotool.Volume(VALUES.astype(np.uint16), grid), tmp_path / "a.tif")
+    describe_inputs(ReadingOptions(inputs=(str(tmp_path / "a.tif"),), json=True))
+    told = json.loads(capsysbinary.readouterr().out)
+    assert {name: told[name] for name in ("kind", "slices", "width", "height", "voxel_size", "unit")} == {
+        "kind": "volume",
+        "slices": 5,
+        "width": 30,
+        "height": 40,
+        "voxel_size": [0.325, 0.25, 1.5],
+        "unit": "µm",
+    }
