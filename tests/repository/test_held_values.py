@@ -278,7 +278,7 @@ def test_narrow_arrays_of_integers_are_points_unless_they_are_said_to_be_images(
 def test_a_narrow_mask_is_an_image():
     mask = np.array([[1, 0], [0, 0], [0, 1]], dtype=bool)
     assert v.tessellate(mask).labels.shape == (3, 2)
-    with pytest.raises(InputError, match=r"^invalid seeds: .*points have two coordinates; seeds\[:, :2\]"):
+    with pytest.raises(InputError, match=r"^invalid seeds: .*give shape=\(D, H, W\) as well; seeds\[:, :2\]"):
         v.tessellate(mask.repeat(2, axis=1)[:, :3].astype(int))
 
 

@@ -48,7 +48,8 @@ SeedGrid::SeedGrid(std::span<const Site> sites, const VolumeFrame& frame)
   for (std::size_t axis = 0; axis < 3; ++axis) {
     volume *= static_cast<double>(voxels[axis]) * static_cast<double>(step[axis]);
   }
-  const double side = std::cbrt(volume);
+  double side = 1;  // the cube root, by operations that all machines round alike
+  for (int step_of_root = 0; step_of_root < 16; ++step_of_root) side = std::sqrt(std::sqrt(volume * side));
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto across = static_cast<std::int64_t>(side / static_cast<double>(step[axis]));
     const std::int64_t of_cell = std::clamp<std::int64_t>(across, 1, voxels[axis]);

@@ -181,7 +181,7 @@ def _times(values: Any, factor: Fraction) -> Any:
 def _volumes(voxels: NDArray[np.int64], sides: PixelSides) -> NDArray[Any]:
     """Volumes of so many voxels, in the unit of the sides."""
     depth, height, width = sides.units
-    made: NDArray[Any] = _times(voxels, depth * height * width * sides.step**3)
+    made: NDArray[Any] = _times(voxels, depth * height * width * sides.step * sides.step * sides.step)
     return made
 
 
@@ -190,8 +190,9 @@ def _areas(faces: NDArray[np.int64], sides: PixelSides) -> NDArray[Any]:
     depth, height, width = sides.units
     across = (height * depth, width * depth, width * height)
     fits = int(faces.max(initial=0)) * sum(across) < 2**63
-    exact = faces.astype(np.int64 if fits else object) @ np.array(across, np.int64 if fits else object)
-    made: NDArray[Any] = _times(exact if fits else exact.astype(np.float64), sides.step**2)
+    kind = np.int64 if fits else object
+    exact = (faces.astype(kind) * np.array(across, kind)).sum(axis=1)
+    made: NDArray[Any] = _times(exact if fits else exact.astype(np.float64), sides.step * sides.step)
     return made
 
 

@@ -248,8 +248,8 @@ class VolumeSweep:
             (y, frame.y, frame.height, self.sides.units[1]),
             (z, frame.z, frame.depth, self.sides.units[0]),
         ):
-            farthest = max(abs(at - scale * end) for end in (start, start + side - 1))
-            largest += (unit * farthest) ** 2
+            farthest = unit * max(abs(at - scale * end) for end in (start, start + side - 1))
+            largest += farthest * farthest
         if largest >= 2**64:
             raise LimitError(
                 "squared distances of this volume may exceed 64 bits: round the sides of voxels to fewer digits, or "
