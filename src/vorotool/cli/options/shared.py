@@ -46,6 +46,7 @@ class Window(ParameterType[tuple[Any, ...]]):
     """``X,Y,W,H``: integers in pixels, or decimal numbers in the units of a map, which are kept exactly."""
 
     name = "X,Y,W,H"
+    expected = "four integers X,Y,W,H, such as -10,-10,640,480"
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[Any, ...]:
         """Parse four numbers of which the last two are positive."""
@@ -54,7 +55,7 @@ class Window(ParameterType[tuple[Any, ...]]):
         try:
             x, y, w, h = (_number(part) for part in value.split(","))
         except (ValueError, ZeroDivisionError):
-            self.fail(f"{value!r}: expected four integers X,Y,W,H, such as -10,-10,640,480", param, ctx)
+            self.fail(f"{value!r}: expected {self.expected}", param, ctx)
         if w <= 0 or h <= 0:
             self.fail(f"{value!r} is an empty window: W and H must be at least 1", param, ctx)
         return (x, y, w, h)

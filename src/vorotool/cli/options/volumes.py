@@ -34,6 +34,7 @@ class VolumeWindow(Window):
     """``X,Y,W,H`` as of images, or six integers in voxels."""
 
     name = "X,Y[,Z],W,H[,D]"
+    expected = f"{Window.expected}, or of a volume six, X,Y,Z,W,H,D"
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[Any, ...]:
         """Parse four numbers, or six of which the last three are positive."""
