@@ -24,6 +24,5 @@ void bind_tessellation(nanobind::module_& room);
 void bind_text(nanobind::module_& room);
 void bind_voronoi(nanobind::module_& room);
 void bind_volumes(nanobind::module_& room);
-void bind_volume_regions(nanobind::module_& room);
 
 }  // namespace vorotool::bindings

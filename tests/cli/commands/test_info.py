@@ -148,6 +148,8 @@ def test_large_images_are_told_by_their_headers(info, tmp_path, monkeypatch):
 
 # ---- which commands ------------------------------------------------------------------------------
 OPTIONS = {"tessellate": ["--size", "600x600"], "skeleton-approx": ["--step", "9"], "draw": ["-f", "svg"]}
+OF_IMAGES = {"png": [], "tif": ["--volume", "--what", "colour"]}
+"""Options of `tessellate` for them."""
 
 
 @pytest.mark.parametrize(
@@ -163,7 +165,9 @@ def test_the_commands_that_are_named_take_it_and_no_others(run, info, name):
     (told,) = info(name)
     taken = []
     for command in PRODUCTS:
-        options = OPTIONS.get(command, []) if not (command == "tessellate" and name.endswith("png")) else []
+        options = OPTIONS.get(command, [])
+        if command == "tessellate":
+            options = OF_IMAGES.get(name.rpartition(".")[2], options)
         done = run(command, name, *options, "-o", f"{command}-out.{'png' if command == 'tessellate' else 'svg'}", "-q")
         assert done.code in (0, 3)
         taken += [command] if done.code == 0 else []
