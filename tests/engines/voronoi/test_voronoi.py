@@ -284,6 +284,15 @@ def test_spikes_bound_nothing():
     np.testing.assert_allclose(cells.areas, plain.areas)
 
 
+def test_spikes_along_other_sites_are_said():
+    spike = shapely.Polygon([(0, 0), (4, 0), (4, 4), (2, 4), (2, 10), (2, 4), (0, 4)])
+    line = shapely.LineString([(2, 2), (2, 20)])
+    with pytest.warns(RepairWarning, match="2 segments that bound nothing left out"):
+        cells = voronoi([spike, line], frame=FRAME)
+    plain = voronoi([shapely.box(0, 0, 4, 4), line], frame=FRAME)
+    np.testing.assert_allclose(cells.areas, plain.areas)
+
+
 @pytest.mark.parametrize("frame", [(0, 0, 0, 1), (0, 0, 1, -1), (0, 0, np.nan, 1), (0, 0, 1)])
 def test_frames_that_are_none(frame):
     with pytest.raises(UsageError, match=r"invalid frame .*expected"):

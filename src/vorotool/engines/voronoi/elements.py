@@ -124,13 +124,28 @@ def graph_of_sites(given: PolygonSet, placement: Placement, *, progress: Progres
     """
     made = arranged(given, placement, progress=progress)
     found = {name: each if name in _FAULTS else (0, -1, -1) for name, each in made.found.items()}
-    report_repairs(given, found, made.graph.scale, strict=False)
     is_empty = ~given.is_line
     is_empty[made.graph.face_polygon] = False
+    found["idle_segments"] = _with_hidden_spikes(found["idle_segments"], made.graph, given, is_empty)
+    report_repairs(given, found, made.graph.scale, strict=False)
     if is_empty.any():
         given, taken = _as_lines(given, is_empty)
         made = arranged(given, replace(placement, vertices=placement.vertices[taken]), progress=progress)
     return made.graph
+
+
+def _with_hidden_spikes(
+    found: tuple[int, int, int], graph: PlanarGraph, given: PolygonSet, is_empty: NDArray[np.bool_]
+) -> tuple[int, int, int]:
+    """Count segments that bound nothing of their polygon among those that are there, since others lie on them, too."""
+    if not len(graph):
+        return found
+    is_part, polygon = _bounding_sources(graph, given)
+    hidden = np.flatnonzero(~is_part & ~is_empty[polygon])
+    if not hidden.size:
+        return found
+    count, edge, other = found
+    return (count + hidden.size, int(graph.source_edge[hidden].min()) if count == 0 else edge, other)
 
 
 def _as_lines(polygons: PolygonSet, chosen: NDArray[np.bool_]) -> tuple[PolygonSet, NDArray[np.int64]]:
