@@ -9,6 +9,7 @@ from typing import Any, BinaryIO
 
 import numpy as np
 
+from vorotool.engines.voronoi.measures import ties
 from vorotool.engines.voronoi.verify_voronoi import verify_voronoi
 from vorotool.engines.voronoi.voronoi import voronoi
 from vorotool.errors import STRICT, InputError, Kind, Message, RepairWarning
@@ -159,6 +160,7 @@ class VoronoiProducts:
             "borders": int(cells.is_border.sum()),
             "parabolas": int(cells.is_parabola.sum()),
             "circles": int(cells.is_circle.sum()),
+            **ties(cells),
             "frame": list(cells.frame),
             "threads": o.threads,
         }

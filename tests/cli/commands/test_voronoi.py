@@ -204,6 +204,7 @@ def test_the_frame(run, mixed, folder):
     assert stats["frame"] == [-5, -5, 40, 30.5]
     assert (stats["features"], stats["sites"], stats["empty_cells"], stats["sites_without_geometry"]) == (6, 6, 1, 1)
     assert stats["parabolas"] > 0
+    assert {"shared_points", "shared_segments", "overlaps"} <= set(stats)
     assert set(stats["seconds"]) >= {"read", "voronoi", "write cells"}
 
 

@@ -9,6 +9,7 @@ from tests.support.families.site_families import mixed_sites, row_houses
 
 import vorotool
 from vorotool import voronoi
+from vorotool.engines.voronoi.measures import ties
 from vorotool.errors import RepairWarning
 
 BOX = shapely.box(0, 0, 10, 10)
@@ -203,3 +204,16 @@ def test_repairs_are_told_once():
         cells = voronoi([ring])
     assert cells.own_areas.tolist() == [8]
     assert cells.reaches[0] > 0
+
+
+def test_what_several_sites_have_is_counted():
+    apart = voronoi([shapely.box(0, 0, 2, 2), shapely.Point(5, 1)])
+    assert ties(apart) == {"shared_points": 0, "shared_segments": 0, "overlaps": 0}
+    row = [shapely.box(k, 0, k + 1, 1) for k in range(4)]
+    assert ties(voronoi(row)) == {"shared_points": 6, "shared_segments": 3, "overlaps": 0}
+    assert ties(voronoi([row[0], row[0], row[0]])) == {"shared_points": 4, "shared_segments": 4, "overlaps": 1}
+    assert ties(voronoi(row, by=[0, 0, 0, 0])) == {"shared_points": 0, "shared_segments": 0, "overlaps": 0}
+    cross = [shapely.LineString([(0, 0), (2, 2)]), shapely.LineString([(0, 2), (2, 0)]), shapely.Point(1, 1)]
+    assert ties(voronoi(cross)) == {"shared_points": 1, "shared_segments": 0, "overlaps": 0}
+    corner = [shapely.Point(0, 0), shapely.box(0, 0, 2, 2), shapely.box(1, 1, 3, 3)]
+    assert ties(voronoi(corner)) == {"shared_points": 3, "shared_segments": 0, "overlaps": 1}

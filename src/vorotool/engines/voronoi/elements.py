@@ -97,6 +97,47 @@ def owners_of(graph: PlanarGraph, site: Sites) -> OwnedGraph:
     return OwnedGraph(graph, _element_owners(graph, given, site), _face_owners(graph, site))
 
 
+def shared_elements(owned: OwnedGraph, site: Sites) -> tuple[int, int, int]:
+    """Count the points, segments and faces that several sites have, of which the smallest was given each.
+
+    Parameters
+    ----------
+    owned : OwnedGraph
+        With its input.
+    site : (p,) int32 array
+        Of each polygon of that.
+
+    Examples
+    --------
+    >>> from vorotool.geometry.arguments.polygons import as_polygons
+    >>> squares = as_polygons([[[0, 0], [2, 0], [2, 2], [0, 2]], [[2, 0], [4, 0], [4, 2], [2, 2]]])
+    >>> both = np.array([0, 1], dtype=np.int32)
+    >>> shared_elements(owned_graph(squares, both), both)
+    (2, 1, 0)
+    """
+    graph, given = owned.graph, owned.graph.polygons
+    assert given is not None
+    points = [_lone_places(graph, given)]
+    segments = faces = 0
+    if len(graph):
+        is_part, polygon = _bounding_sources(graph, given)
+        segment = np.repeat(np.arange(len(graph)), graph.source_count)[is_part]
+        segments = _with_several(segment, site[polygon[is_part]], len(graph))
+        points += [(graph.segments[segment, end], polygon[is_part]) for end in (0, 1)]
+    if len(graph.face_polygon):
+        faces = _with_several(owners(np.diff(graph.face_start)), site[graph.face_polygon], graph.faces)
+    at, of = (np.concatenate(each) for each in zip(*points, strict=True))
+    return _with_several(at, site[of], len(graph.points)), segments, faces
+
+
+def _with_several(element: NDArray[np.integer], site: Sites, count: int) -> int:
+    """How many of so many elements have more than one site."""
+    least, most = np.full(count, NOBODY), np.full(count, -1, dtype=np.int32)
+    np.minimum.at(least, element, site)
+    np.maximum.at(most, element, site)
+    return int((least < most).sum())
+
+
 def _graph(polygons: PolygonSet, threads: int, progress: Progress) -> PlanarGraph:
     given = with_flat_shells_as_lines(polygons)
     check_magnitude(given.xy)

@@ -7,7 +7,7 @@ import warnings
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.voronoi.elements import OwnedGraph, owned_graph
+from vorotool.engines.voronoi.elements import OwnedGraph, owned_graph, shared_elements
 from vorotool.errors import RepairWarning
 from vorotool.geometry.curves.flatten import checked_flatten
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
@@ -22,6 +22,19 @@ def graph_again(cells: VoronoiMap) -> OwnedGraph:
     """The graph that cells were made from; what was repaired has been reported then."""
     with warnings.catch_warnings(action="ignore", category=RepairWarning):
         return owned_graph(cells.polygons, cells.polygon_site)
+
+
+def ties(cells: VoronoiMap) -> dict[str, int]:
+    """Count what several sites have, and the smallest was given: points and segments of their boundaries, and areas.
+
+    Examples
+    --------
+    >>> from vorotool import voronoi
+    >>> ties(voronoi([[[0, 0], [2, 0], [2, 2], [0, 2]], [[1, 0], [4, 0], [4, 2], [1, 2]]]))
+    {'shared_points': 4, 'shared_segments': 2, 'overlaps': 1}
+    """
+    counts = shared_elements(graph_again(cells), cells.polygon_site)
+    return dict(zip(("shared_points", "shared_segments", "overlaps"), counts, strict=True))
 
 
 def own_areas(cells: VoronoiMap) -> Floats:
