@@ -79,10 +79,10 @@ def values() -> None:
         | vorotool.Raster
         | vorotool.Skeleton
         | vorotool.Offsets
-        | vorotool.VoronoiMap
-        | vorotool.Volume
-        | vorotool.VolumePoints,
+        | vorotool.VoronoiMap,
     )
+    assert_type(vorotool.read("a.tif", geometry="volume"), vorotool.Volume)
+    assert_type(vorotool.read("a.csv", geometry="space"), vorotool.VolumePoints)
 
 
 def results_by_arguments() -> None:
