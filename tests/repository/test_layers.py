@@ -81,18 +81,20 @@ engines/peers -> engines, engines/delaunay, engines/from_skeleton, engines/label
     engines/tessellation, engines/volumes, geometry, geometry/arguments, geometry/mesh, geometry/volumes, typing
 formats/volumes -> formats, formats/images, formats/io, formats/parsing, formats/points, formats/zarr, geometry,
     geometry/volumes, products
-jobs -> batch, engines, engines/alpha, engines/arrangement, engines/centerlines, engines/delaunay, engines/digital,
-    engines/features, engines/from_skeleton, engines/label_images, engines/offsets, engines/pruning,
-    engines/sampled_skeleton, engines/segment_voronoi, engines/skeleton, engines/tessellation, engines/voronoi, formats,
-    formats/images, formats/io, formats/parsing, formats/points, formats/text, formats/volumes, formats/zarr, geometry,
-    geometry/alpha, geometry/any, geometry/arguments, geometry/curves, geometry/mesh, geometry/points,
-    geometry/polygons, geometry/skeleton, geometry/volumes, geometry/voronoi, products, render/canvas,
-    render/label_images, render/layers, render/pages, typing
+jobs -> batch, engines/alpha, engines/arrangement, engines/centerlines, engines/delaunay, engines/digital,
+    engines/label_images, engines/pruning, engines/tessellation, engines/voronoi, formats, formats/images, formats/io,
+    formats/parsing, formats/points, formats/text, formats/volumes, formats/zarr, geometry, geometry/alpha,
+    geometry/any, geometry/arguments, geometry/curves, geometry/mesh, geometry/points, geometry/polygons,
+    geometry/skeleton, geometry/volumes, geometry/voronoi, products, render/canvas, render/label_images, render/layers,
+    render/pages, typing
 cli/options -> engines/offsets, engines/pruning, geometry, jobs, products
 cli/batch -> batch, cli/options, formats/io, geometry, jobs, products
 jobs/volumes -> engines/label_images, engines/tessellation, engines/volumes, formats/io, formats/volumes, formats/zarr,
     geometry, geometry/points, geometry/volumes, jobs, products, render/canvas, render/pages
-cli/commands -> cli/batch, cli/options, jobs, jobs/volumes, products
+jobs/skeletons -> engines, engines/arrangement, engines/centerlines, engines/features, engines/from_skeleton,
+    engines/offsets, engines/pruning, engines/sampled_skeleton, engines/segment_voronoi, engines/skeleton, formats/io,
+    geometry, geometry/polygons, geometry/skeleton, jobs, products, render/canvas, render/layers, render/pages
+cli/commands -> cli/batch, cli/options, jobs, jobs/skeletons, jobs/volumes, products
 cli -> cli/commands, jobs
 """
 """Rooms of the package from below, and what each may import; `errors` and `signals` are for all."""

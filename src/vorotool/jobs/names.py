@@ -6,5 +6,10 @@ METHODS = ("exact", "digital", "digital-valid")
 """Ways of triangulating."""
 OF_ONE_SHAPE = frozenset({"edges", "polygons", "complex", "general", "hull", "points", "table"})
 """Results of `alphashape` that are of one radius; the others are of all."""
-DERIVED = frozenset({"offset", "shape", "points", "transects"})
-"""Results of the skeleton commands that follow from a skeleton or its diagram."""
+DERIVED = {
+    "offset": "jobs.skeletons.offset_curves:OffsetCurves",
+    "shape": "jobs.skeletons.rebuilt_shape:RebuiltShape",
+    "points": "jobs.skeletons.steps:Steps",
+    "transects": "jobs.skeletons.steps:Steps",
+}
+"""Results of the skeleton commands that follow from a skeleton or its diagram, and what makes each."""

@@ -20,7 +20,7 @@ from vorotool.jobs.skeleton_checks import check_options
 from vorotool.products.registry import all_layers, formats_of
 
 if TYPE_CHECKING:
-    from vorotool.jobs.approximate_skeleton import ApproximateProducts
+    from vorotool.jobs.skeletons.approximate import ApproximateProducts
 
 
 @click.command("skeleton-approx", cls=GroupedCommand)
@@ -66,7 +66,7 @@ def command(**options: Any) -> None:
 
 
 def _products(run: Run, o: ApproximateSkeletonOptions, given: JobInput) -> ApproximateProducts:
-    from vorotool.jobs.approximate_skeleton import ApproximateProducts
+    from vorotool.jobs.skeletons.approximate import ApproximateProducts
 
     return ApproximateProducts(run, o, given)
 

@@ -20,7 +20,7 @@ from vorotool.jobs.skeleton_checks import check_options
 from vorotool.products.registry import formats_of
 
 if TYPE_CHECKING:
-    from vorotool.jobs.exact_skeleton import ExactProducts
+    from vorotool.jobs.skeletons.exact import ExactProducts
 
 
 @click.command("skeleton-exact", cls=GroupedCommand)
@@ -59,7 +59,7 @@ def command(**options: Any) -> None:
 
 
 def _products(run: Run, o: ExactSkeletonOptions, given: JobInput) -> ExactProducts:
-    from vorotool.jobs.exact_skeleton import ExactProducts
+    from vorotool.jobs.skeletons.exact import ExactProducts
 
     return ExactProducts(run, o, given)
 

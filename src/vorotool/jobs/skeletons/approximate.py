@@ -26,7 +26,7 @@ from vorotool.geometry.skeleton.skeleton import Skeleton
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.options import ApproximateSkeletonOptions
 from vorotool.jobs.run_log import Run
-from vorotool.jobs.skeleton import SkeletonProducts
+from vorotool.jobs.skeletons.products import SkeletonProducts
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import table_in_units
 from vorotool.products.registry import PRODUCTS
@@ -55,7 +55,7 @@ class ApproximateProducts(SkeletonProducts[ApproximateSkeletonOptions]):
         # what is refused is refused here, where the input has its name
         if set(options.what) & ALL_TOGETHER:
             _ = self.shapes
-        _ = self.found if options.wants_skeleton else self.derived.offset
+        _ = self.found if options.wants_skeleton else self.derived.value("offset")
 
     @cached_property
     def graph(self) -> PlanarGraph:

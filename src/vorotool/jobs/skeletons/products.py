@@ -25,7 +25,8 @@ from vorotool.jobs.pictures import write_layers
 from vorotool.jobs.pixel_sizes import placed_backdrop
 from vorotool.jobs.pruning_choice import CRITERIA, LENGTHS, Pruning, chosen_pruning
 from vorotool.jobs.run_log import Run
-from vorotool.jobs.skeleton_extras import Derived
+from vorotool.jobs.skeletons.derived import Derived
+from vorotool.jobs.skeletons.result import Origin
 from vorotool.jobs.skeleton_input import read_polygons
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import in_units, length_in_units, unit_text
@@ -63,8 +64,9 @@ class SkeletonProducts(ABC, Generic[Options]):
         self._is_told = False  # what was repaired, once
         check_column(options.label_by, self._polygons.properties)
         world = world_of_polygons(run, options, self._polygons, frame=frame, size=options.pixel_size)
-        self._styled = styled = partial(styled_page, looks=options.looks, world=world)
-        self.derived = Derived(run, options, self.backdrop, lambda: self.skeleton, self._shapes, styled)
+        self._styled = partial(styled_page, looks=options.looks, world=world)
+        origin = Origin(run, options, lambda: self.skeleton, lambda: self.whole, self._shapes)
+        self.derived = Derived(origin, self.backdrop, self._styled)
 
     @contextmanager
     def telling_once(self) -> Iterator[None]:

@@ -24,7 +24,7 @@ from vorotool.geometry.skeleton.skeleton import Skeleton
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.options import ExactSkeletonOptions
 from vorotool.jobs.run_log import Run
-from vorotool.jobs.skeleton import SkeletonProducts
+from vorotool.jobs.skeletons.products import SkeletonProducts
 
 
 @dataclass(frozen=True)
@@ -55,7 +55,7 @@ class ExactProducts(SkeletonProducts[ExactSkeletonOptions]):
         elif options.wants_skeleton:
             _ = self.whole
         else:
-            _ = self.derived.offset
+            _ = self.derived.value("offset")
 
     @property
     def _is_inside_only(self) -> bool:

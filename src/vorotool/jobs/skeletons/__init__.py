@@ -1,0 +1,1 @@
+"""Jobs of skeletons: what `skeleton-exact` and `skeleton-approx` compute, check and write."""

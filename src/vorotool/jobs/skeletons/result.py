@@ -1,0 +1,71 @@
+"""One result that follows from a skeleton or its diagram: what makes it, checks it and counts it."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+from vorotool.geometry.progress import Progress
+from vorotool.jobs.options import SkeletonOptions
+from vorotool.jobs.run_log import Run
+
+if TYPE_CHECKING:
+    from vorotool.engines.skeleton.exact import ShapeDiagram
+    from vorotool.geometry.polygons.polygon_set import PolygonSet
+    from vorotool.geometry.skeleton.skeleton import Skeleton
+
+
+@dataclass(frozen=True)
+class Origin:
+    """What results follow from.
+
+    Parameters
+    ----------
+    run : Run
+        Takes seconds and what is to be said.
+    options : SkeletonOptions
+        Of the command line.
+    skeleton : callable
+        Gives the skeleton, pruned as the options say.
+    whole : callable
+        Gives it before it is pruned.
+    shapes : callable
+        Gives the shapes, or their exact diagram.
+    """
+
+    run: Run
+    options: SkeletonOptions
+    skeleton: Callable[[], Skeleton]
+    whole: Callable[[], Skeleton]
+    shapes: Callable[[], ShapeDiagram | PolygonSet]
+
+
+class Result(ABC):
+    """A result, made when it is asked for.
+
+    Parameters
+    ----------
+    origin : Origin
+        What it follows from.
+    """
+
+    def __init__(self, origin: Origin) -> None:
+        self.origin, self.run, self.options = origin, origin.run, origin.options
+
+    @cached_property
+    def value(self) -> Any:
+        """What is written, of a public type."""
+        return self._make()
+
+    @abstractmethod
+    def _make(self) -> Any: ...
+
+    def verify(self, progress: Progress) -> None:
+        """Check the value by another way than it was made."""
+
+    def stats(self) -> dict[str, Any]:
+        """Counts of it."""
+        return {}
