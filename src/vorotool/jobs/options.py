@@ -368,6 +368,7 @@ class SkeletonOptions(ShapeOptions):
     features: Literal["separate", "together"]
     complete: bool | None
     prune: Pruning | None
+    join_junctions: bool
     start: Place | None
     end: Place | None
     ends: Ends | None

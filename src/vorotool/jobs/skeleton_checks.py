@@ -39,6 +39,7 @@ def check_options(o: SkeletonOptions, targets: list[Target]) -> None:
     if o.frame is not None:
         check_frame(o.frame)
     _check_centerline(o)
+    _check_joining(o, formats)
     pictures = sorted({picture_format(fmt) for fmt in formats} & set(PICTURES))
     check_animation(o, targets)
     if o.layers is not None and not pictures:
@@ -98,6 +99,19 @@ def _check_centerline(o: SkeletonOptions) -> None:
         )
     if (o.start is not None or o.end is not None) and "centerline" not in o.what:
         raise UsageError("--from and --to are ends of centerlines: use --what centerline, or leave them out")
+
+
+def _check_joining(o: SkeletonOptions, formats: set[str]) -> None:
+    """Junctions are those of skeletons, branches and tables; what is measured along an axis stays on it."""
+    if not o.join_junctions:
+        return
+    if not {"skeleton", "branches", "table"} & set(o.what):
+        raise UsageError(
+            "--join-junctions is for skeletons, branches and tables: use --what skeleton, branches or table, or leave "
+            "it out"
+        )
+    if "html" in formats:
+        raise UsageError("--join-junctions does not show in a page of all prunings: use -f svg, or leave it out")
 
 
 def _check_measures(o: SkeletonOptions) -> None:
