@@ -389,6 +389,16 @@ class ExactSkeletonOptions(SkeletonOptions):
     """Of ``skeleton-exact``."""
 
     gap: float
+    border: Literal["closed", "open"] | None
+
+    @property
+    def has_open_border(self) -> bool:
+        """Whether objects go on beyond the image that cuts them."""
+        return self.border == "open"
+
+    def for_images(self) -> dict[str, Any]:
+        """Give the options that mean nothing for polygons and lines, by their names."""
+        return ShapeOptions.for_images(self) | {"border": self.border}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False, eq=False)

@@ -19,6 +19,9 @@ from vorotool.products.formats import FORMATS, PICTURES, picture_format
 from vorotool.products.inputs import DRAWINGS
 from vorotool.products.registry import PRODUCTS, Product, formats_of, layers_of
 
+OF_OPEN_BORDERS = ("skeleton", "branches", "table", "centerline", "points", "transects")
+"""Results that need no closed outlines."""
+
 
 def check_options(o: SkeletonOptions, targets: list[Target]) -> None:
     """Refuse what does not go together, or what no output would show."""
@@ -40,6 +43,7 @@ def check_options(o: SkeletonOptions, targets: list[Target]) -> None:
         check_frame(o.frame)
     _check_centerline(o)
     _check_joining(o, formats)
+    _check_border(o)
     pictures = sorted({picture_format(fmt) for fmt in formats} & set(PICTURES))
     check_animation(o, targets)
     if o.layers is not None and not pictures:
@@ -112,6 +116,25 @@ def _check_joining(o: SkeletonOptions, formats: set[str]) -> None:
         )
     if "html" in formats:
         raise UsageError("--join-junctions does not show in a page of all prunings: use -f svg, or leave it out")
+
+
+def _check_border(o: SkeletonOptions) -> None:
+    """With an open border there is what follows from the axis inside each object, and no closed outline."""
+    if not (isinstance(o, ExactSkeletonOptions) and o.has_open_border):
+        return
+    given = {
+        "--side": o.side != "interior",
+        "--features": o.features != "separate",
+        "--gap": o.gap > 0,
+        "--simplify": o.simplify is not None,
+        "--frame": o.frame is not None,
+    }
+    for name in (name for name, is_given in given.items() if is_given):
+        raise UsageError(f"--border open is for what is inside each object as it is: leave {name} out")
+    for what in (what for what in o.what if what not in OF_OPEN_BORDERS):
+        raise UsageError(
+            f"--what {what} is of closed outlines: leave --border open out, or use {', '.join(OF_OPEN_BORDERS)}"
+        )
 
 
 def _check_measures(o: SkeletonOptions) -> None:

@@ -60,6 +60,7 @@ class SkeletonProducts(ABC, Generic[Options]):
         self.run = run
         with run.phase("read"):
             self._polygons, self.is_mask, options, frame = read_polygons(run, options, given)
+        self._frame = frame
         self.options, self.backdrop = options, placed_backdrop(options.pixel_size, given.backdrop)
         self._is_told = False  # what was repaired, once
         check_column(options.label_by, self._polygons.properties)
