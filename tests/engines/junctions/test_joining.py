@@ -34,7 +34,7 @@ def skeletons():
         outline = vorotool.outlines(blobs(seed), connectivity=4 + 4 * (seed % 2))
         whole = skeleton_exact(outline)
         yield from (whole, prune(whole, scale=1.5))
-    yield skeleton_exact([star(1), star(2) + 1.5, star(3) + [3, 0]], side="both")
+    yield skeleton_exact([star(1), star(2) + 1.5, star(3) + np.array([3, 0])], side="both")
     yield vorotool.skeleton_approx(star(4), step=0.02)
 
 
@@ -84,7 +84,9 @@ def test_groups_are_those_of_paths(skeleton):
     left = left[~np.isin(left, list(gone))]
     places = {tuple(row) for row in joined.vertices[joined.degree > 2].tolist()}
     assert places == {tuple(row) for row in skeleton.vertices[left].tolist()}
-    degree = {tuple(place): count for place, count in zip(joined.vertices.tolist(), joined.degree.tolist(), strict=True)}
+    degree = {
+        tuple(place): count for place, count in zip(joined.vertices.tolist(), joined.degree.tolist(), strict=True)
+    }
     for centre, taken in expected.items():
         total = skeleton.degree[list(taken)].sum() - 2 * (len(taken) - 1)
         assert degree[tuple(skeleton.vertices[centre].tolist())] == total
@@ -136,7 +138,7 @@ def test_a_ring_stays_a_ring():
 
 
 def test_each_feature_is_what_it_is_alone():
-    shapes = [star(seed) + [3 * seed, 0] for seed in range(6)]
+    shapes = [star(seed) + np.array([3 * seed, 0]) for seed in range(6)]
     joined = join_junctions(skeleton_exact(shapes))
     turned = join_junctions(skeleton_exact(shapes[::-1]))
     for number in range(6):
@@ -164,5 +166,5 @@ def test_faults_are_found():
     with pytest.raises(VerificationError, match="junctions that it joins are not one"):
         verify_joining(made, made)
     apart = replace(joined, arcs=np.where(joined.arcs == joined.arcs[-1, 1], joined.arcs[0, 0], joined.arcs))
-    with pytest.raises(VerificationError, match="cycles|connected parts|ends"):
+    with pytest.raises(VerificationError, match=r"cycles|connected parts|ends"):
         verify_joining(apart, made)

@@ -8,7 +8,6 @@ import pytest
 import shapely
 from scipy import ndimage
 
-import vorotool
 from vorotool import outlines, prune, skeleton_exact, verify_skeleton
 from vorotool.errors import InputError, UsageError, VerificationError, VorotoolWarning
 
@@ -97,7 +96,9 @@ def test_labels_each_by_itself(seed):
 def test_polygons_that_are_cut(seed):
     rng = np.random.default_rng(seed)
     angle = np.sort(rng.random(12)) * 2 * np.pi
-    star = shapely.make_valid(shapely.Polygon(np.column_stack([np.cos(angle), np.sin(angle)]) * rng.uniform(4, 12, (12, 1))))
+    star = shapely.make_valid(
+        shapely.Polygon(np.column_stack([np.cos(angle), np.sin(angle)]) * rng.uniform(4, 12, (12, 1)))
+    )
     cut = shapely.set_precision(shapely.intersection(star, shapely.box(-5, -4, 5, 6)), 2.0**-12)
     made = quietly(skeleton_exact, cut, border=(-5, -4, 10, 10))
     verify_skeleton(made)

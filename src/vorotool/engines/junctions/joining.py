@@ -169,9 +169,7 @@ class _Cuts:
     junction: Indices
 
     @classmethod
-    def at(
-        cls, end: int, skeleton: Skeleton, branches: Branches, place: Indices, vanishes: NDArray[np.bool_]
-    ) -> _Cuts:
+    def at(cls, end: int, skeleton: Skeleton, branches: Branches, place: Indices, vanishes: NDArray[np.bool_]) -> _Cuts:
         """Find those at one end of all branches."""
         old = branches.ends[end]
         branch = np.flatnonzero((place[old] != old) & ~vanishes)
@@ -229,9 +227,7 @@ def _led(skeleton: Skeleton, branches: Branches, place: Indices, vanishes: NDArr
     number = np.empty(len(used), dtype=np.int32)
     number[by_use] = np.arange(len(used))
     made |= {"arcs": number[ends.reshape(-1, 2)], "branch": made["branch"].reshape(-1).astype(np.int32)}
-    return replace(
-        skeleton, **made, vertices=columns["vertices"][used[by_use]], radius=columns["radius"][used[by_use]]
-    )
+    return replace(skeleton, **made, vertices=columns["vertices"][used[by_use]], radius=columns["radius"][used[by_use]])
 
 
 def _with_cuts(

@@ -70,7 +70,9 @@ def _check_arcs(joined: Skeleton, skeleton: Skeleton) -> None:
     leads = (is_junction[a] & on_part[b]) | (is_junction[b] & on_part[a])
     way = joined.vertices[b] - joined.vertices[a]
     length = np.sqrt((way * way).sum(axis=1))
-    tolerance = PRECISION * float(np.abs(joined.vertices).max(initial=0.0) + np.abs(skeleton.polygons.xy).max(initial=0.0))
+    tolerance = PRECISION * float(
+        np.abs(joined.vertices).max(initial=0.0) + np.abs(skeleton.polygons.xy).max(initial=0.0)
+    )
     covered = length <= joined.radius[a] + joined.radius[b] + tolerance
     right = leads & covered & ~joined.is_parabola & (np.abs(joined.length - length) <= tolerance)
     at = first_wrong(~(is_part | right))

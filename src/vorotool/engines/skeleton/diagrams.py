@@ -57,9 +57,7 @@ def skeleton_inside(
     (4, 12)
     """
     if not gap:
-        return feature_skeleton(
-            polygons, look=look, border=border, strict=strict, threads=threads, progress=progress
-        )
+        return feature_skeleton(polygons, look=look, border=border, strict=strict, threads=threads, progress=progress)
     return feature_elements(
         polygons, gap, complete=complete, look=look, strict=strict, threads=threads, progress=progress
     )

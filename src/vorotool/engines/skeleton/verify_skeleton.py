@@ -34,8 +34,9 @@ def verify_skeleton(skeleton: Skeleton, *, threads: int = 0, progress: Progress 
     components less one, and one end in each corner under 180 degrees, which nothing else shares; the regions between
     the arcs and their feet sum to its area within 1e-9 of it and 8 ulp of the extent times its perimeter. Outside, all
     is connected with the frame. With an open border, what is left of the outlines is looked at: ends are in corners or
-    on the border, and the regions sum to the areas with those between the border and its nearest places. Branches are chains that end where they should. Where pixels hang together at corners
-    (`PolygonSet.connectivity`), arcs of one polygon, or outside, share a node there; all else is as if they did not.
+    on the border, and the regions sum to the areas with those between the border and its nearest places.
+    Branches are chains that end where they should. Where pixels hang together at corners (`PolygonSet.connectivity`),
+    arcs of one polygon, or outside, share a node there; all else is as if they did not.
     Unless features are together (`Skeleton.features`), each is looked at as if there were no others.
 
     Parameters

@@ -42,8 +42,9 @@ def to_networkx(
         Of a skeleton nodes are numbers of vertices, with ``x``, ``y``, the radius ``r`` and the ``degree``; edges have
         the number of their branch or arc for a key, and ``branch`` (also ``arc``), ``polygon``, ``id``, ``side``,
         ``kind``, ``length``, ``r_min``, ``r_max``, ``r_mean``, of branches ``type`` and ``tortuosity`` as
-        `branch_table` has them, and ``geometry``, a shapely LineString; the properties of the polygon, too. Of a triangulation nodes are numbers of points, from 0, with ``x``, ``y``, ``label`` and the
-        properties, edges have ``length``. Of a label image or volume nodes are labels, with the columns of
+        `branch_table` has them, and ``geometry``, a shapely LineString; the properties of the polygon, too. Of a
+        triangulation nodes are numbers of points, from 0, with ``x``, ``y``, ``label`` and the properties, edges have
+        ``length``. Of a label image or volume nodes are labels, with the columns of
         `region_table`, edges join neighbours, with those of `neighbour_table`. Of a planar graph nodes are numbers of
         its points, with ``x`` and ``y``, edges have ``segment``, ``length``, ``face_left`` and ``face_right``. Of a
         Voronoi map nodes are numbers of its cells, from 0, with the columns of its table, edges join neighbours, with
