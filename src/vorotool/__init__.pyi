@@ -71,6 +71,12 @@ from vorotool.engines.from_skeleton.points_along import (
 from vorotool.engines.from_skeleton.reconstruction import (
     rebuild as rebuild,
 )
+from vorotool.engines.junctions.joining import (
+    join_junctions as join_junctions,
+)
+from vorotool.engines.junctions.verify_joining import (
+    verify_joining as verify_joining,
+)
 from vorotool.engines.label_images.outlines import (
     outlines as outlines,
 )
