@@ -26,7 +26,7 @@ struct LatticeToInput {
 
 struct ClippedGroup {
   std::int32_t group;  // `every_group`: all arcs are clipped
-  Frame frame;  // on the lattice
+  Frame frame;         // on the lattice
 };
 
 // Groups from `first` to before `last`, in which arcs that end in corners at one place are connected there.

@@ -47,10 +47,6 @@ def join_junctions(skeleton: Skeleton) -> Skeleton:
     Skeleton
         The same one if no branch is that short.
 
-    See Also
-    --------
-    prune : leaves out side branches.
-
     Examples
     --------
     >>> from vorotool import skeleton_exact
