@@ -23,6 +23,7 @@ from vorotool.geometry.progress import Progress
 from vorotool.geometry.ragged import owners, starts_of
 from vorotool.geometry.skeleton.critical_values import CRITERIA, ArcProfiles, CriticalValues
 from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.geometry.sorted_sets import distinct
 
 if TYPE_CHECKING:
     from vorotool.typing import Criterion
@@ -154,7 +155,7 @@ def independent_parts(skeleton: Skeleton, group: NDArray[np.int32]) -> list[tupl
     step = np.diff(group)
     starts = np.flatnonzero(step != 0) + 1
     wanted = np.searchsorted(starts, np.arange(PART, len(group), PART))
-    inner = np.unique(starts[wanted[wanted < len(starts)]])
+    inner = distinct(starts[wanted[wanted < len(starts)]])
     ends = skeleton.arcs.reshape(-1)
     cuts = np.concatenate([[0], inner])
     arcs = [*cuts.tolist(), len(group)]
