@@ -1,9 +1,9 @@
 """Compare volumes with all distances for a number of voxels: `make fuzz VOXELS=100000000 SEED=1`.
 
 Every configuration is checked both ways, on each instruction set of this machine, with 1 to 5 threads, whole and from
-some slice on, with a largest distance, as squared distances and as distances; a voxel counts once a configuration. The comparison
-comparison takes the least of a distance and a label axis by axis, or seed by seed where seeds are not on voxels, in 64-bit
-integers and in NumPy alone.
+some slice on, with a largest distance, as squared distances and as distances; a voxel counts once a configuration. The
+comparison takes the least of a distance and a label axis by axis, or seed by seed where seeds are not on voxels, in
+64-bit integers and in NumPy alone.
 """
 
 from __future__ import annotations
