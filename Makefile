@@ -104,6 +104,7 @@ ifdef MINUTES
 	$(RUN) tests/fuzz/together.py --minutes $(MINUTES) --seed $(or $(SEED),1)
 else
 	$(RUN) tests/fuzz/tessellate.py --pixels $(or $(PIXELS),100000000) --seed $(or $(SEED),1)
+	$(RUN) tests/fuzz/spacing.py --pixels $(or $(PIXELS),100000000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/volumes.py --voxels $(or $(VOXELS),100000000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/predicates.py --calls $(or $(CALLS),1000000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/delaunay.py --cases $(or $(CASES),100000) --seed $(or $(SEED),1)

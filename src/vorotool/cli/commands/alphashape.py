@@ -35,11 +35,12 @@ if TYPE_CHECKING:
 
 FORMATS = formats_of("alphashape")
 _OF_POLYGONS = ", ".join(PRODUCTS["alphashape"]["polygons"].usual_for)
+_OF_SPACING = "give it what vorotool tessellate --spacing SX,SY --what table writes, whose x and y are in that unit"
 OF_DIGITAL_RULE = frozenset({"edges", "complex", "family", "spectrum"})
 """Results that need no more than edges and the triangles beside them."""
 
 
-@click.command("alphashape", cls=GroupedCommand)
+@click.command("alphashape", cls=GroupedCommand, instead={"--spacing": _OF_SPACING})
 @inputs_argument(NAMES_WITH["points"])
 @click.option("-r", "r", type=Radius(), help="Radius, in units of the input; inf gives the convex hull.")
 @click.option("--alpha", type=Decimal(), metavar="A", help="The paper's α = −1/r, negative.")
