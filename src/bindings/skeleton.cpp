@@ -9,7 +9,9 @@
 #include "bindings/support/monitor.hpp"
 #include "bindings/support/segment_diagram.hpp"
 #include "bindings/support/skeleton_arrays.hpp"
+#include "core/base/indices.hpp"
 #include "core/base/parallel.hpp"
+#include "core/skeleton/clearance_course.hpp"
 #include "core/skeleton/edges.hpp"
 #include "core/skeleton/extraction.hpp"
 
@@ -49,6 +51,27 @@ Columns extract_skeleton(const SegmentDiagram& input, const Indices& kept, const
   }));
 }
 
+auto clearance_course(const Places& vertices, const Vector<const double>& radius, const IndexRows& arcs,
+                      const IndexRows& sites, const IndexRows& site_places, double error,
+                      bool sites_are_exact, unsigned threads, const Progress& progress) {
+  static constexpr const char* outside = "an index of the skeleton is out of range";
+  const core::skeleton::PlacedSkeleton skeleton{rows<core::kernel::Point>(vertices),
+                                                view(radius),
+                                                rows<core::base::IndexPair>(arcs),
+                                                rows<core::base::IndexPair>(sites),
+                                                rows<core::kernel::LatticeSite>(site_places),
+                                                error,
+                                                sites_are_exact};
+  if (radius.size() != skeleton.vertices.size() || skeleton.sites.size() != skeleton.arcs.size()) {
+    throw std::invalid_argument("the arrays of a skeleton have lengths that do not go together");
+  }
+  core::base::check_range(skeleton.arcs, 0, skeleton.vertices.size(), outside);
+  core::base::check_range(skeleton.sites, 0, skeleton.site_places.size(), outside);
+  auto made = run_interruptible(progress, core::skeleton::clearance_course, skeleton,
+                                core::base::resolve_threads(threads));
+  return std::make_tuple(two_columns(std::move(made.slope)), to_numpy(std::move(made.least)));
+}
+
 }  // namespace
 
 void bind_skeleton(nb::module_& room) {
@@ -58,6 +81,11 @@ void bind_skeleton(nb::module_& room) {
            "joined"_a, "origin_x"_a, "origin_y"_a, "scale"_a, "threads"_a, "progress"_a.none(),
            "Frames are least x, most x, least y, most y on the lattice; joined are groups from one to before "
            "another.");
+  room.def("clearance_course", &clearance_course, "vertices"_a, "radius"_a, "arcs"_a, "sites"_a,
+           "site_places"_a, "error"_a, "sites_are_exact"_a, "threads"_a, "progress"_a.none(),
+           "How the clearance begins to change at the source and target of each arc, and where it is least; "
+           "all on "
+           "the lattice.");
 }
 
 }  // namespace vorotool::bindings
