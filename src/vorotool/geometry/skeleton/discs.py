@@ -1,0 +1,157 @@
+"""Discs that fit into shapes, or between them, with the places where they touch."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.geometry.checks import set_array
+from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.ragged import within
+from vorotool.geometry.skeleton.skeleton import SiteTable
+from vorotool.geometry.skeleton.tables import ids_of
+from vorotool.geometry.table import Table
+from vorotool.geometry.values import Curved, Pictured, Tabular, Value, counted, placed
+
+SHOWN_FEET = 3
+"""Feet that a row of the table has: as many as it takes to hold a disc."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Discs(Value, Tabular, Curved, Pictured):
+    """Discs that no shape enters, from the largest to the smallest of each feature.
+
+    Parameters
+    ----------
+    xy : (n, 2) float64 array
+        Centres.
+    radius : (n,) float64 array
+        Radii: the distance from the nearest place on the boundary.
+    polygon : (n,) int32 array
+        The polygon that each is in, the first of several; -1 outside.
+    rank : (n,) int32 array
+        From 1 for the first of a feature.
+    foot_start : (n + 1,) int64 array
+        The feet of disc i are ``feet[foot_start[i]:foot_start[i + 1]]``.
+    feet : (k, 2) float64 array
+        Where discs touch the boundary.
+    foot_site : (k,) int32 array
+        What each foot is on: a row of `site_table`; -1 on the border of a region.
+    site_table : SiteTable
+        Vertices and edges of `polygons`.
+    polygons : PolygonSet
+        The shapes as they were used.
+    local : bool
+        They are all that are larger than those around them, and may overlap; else those of a feature are disjoint.
+    features : {"separate", "together"}
+        Whether each feature was taken by itself.
+
+    Raises
+    ------
+    InputError
+        If an array has another shape.
+
+    Examples
+    --------
+    >>> from vorotool import largest_discs
+    >>> discs = largest_discs([[0, 0], [8, 0], [8, 2], [0, 2]], count=2)
+    >>> discs.xy.tolist(), discs.radius.tolist()
+    ([[4.0, 1.0], [1.0, 1.0]], [1.0, 1.0])
+    >>> discs.feet_of(0).tolist()
+    [[4.0, 0.0], [4.0, 2.0]]
+    """
+
+    xy: NDArray[np.float64]
+    radius: NDArray[np.float64]
+    polygon: NDArray[np.int32]
+    rank: NDArray[np.int32]
+    foot_start: NDArray[np.int64]
+    feet: NDArray[np.float64]
+    foot_site: NDArray[np.int32]
+    site_table: SiteTable
+    polygons: PolygonSet
+    local: bool = False
+    features: str = "separate"
+
+    def __post_init__(self) -> None:
+        count, feet = len(self.radius), len(self.foot_site)
+        for name, dtype, shape in (
+            ("xy", np.float64, (count, 2)),
+            ("radius", np.float64, (count,)),
+            ("polygon", np.int32, (count,)),
+            ("rank", np.int32, (count,)),
+            ("foot_start", np.int64, (count + 1,)),
+            ("feet", np.float64, (feet, 2)),
+            ("foot_site", np.int32, (feet,)),
+        ):
+            set_array(self, name, dtype, shape)
+
+    def __len__(self) -> int:
+        return len(self.radius)
+
+    @property
+    def y_up(self) -> bool:
+        """Whether pictures are drawn y upwards."""
+        return self.polygons.y_up
+
+    def feet_of(self, disc: int) -> NDArray[np.float64]:
+        """Places where a disc touches the boundary, by the numbers of their sites."""
+        return self.feet[self.foot_start[disc] : self.foot_start[disc + 1]]
+
+    def held_by(self) -> NDArray[np.float64]:
+        """(n, 3, 2) feet that hold each disc, NaN for those that there are not.
+
+        The first foot, and of the others the nearest on each side of what is opposite: these hold a disc that cannot
+        grow, and one of them does if it is opposite.
+        """
+        made = np.full((len(self), SHOWN_FEET, 2), np.nan)
+        counts = np.diff(self.foot_start)
+        few = counts <= SHOWN_FEET
+        disc = np.repeat(np.arange(len(self)), counts)
+        place = within(counts)
+        own = few[disc]
+        made[disc[own], place[own]] = self.feet[own]
+        for i in np.flatnonzero(~few).tolist():
+            chosen = _holding(self.feet_of(i), self.xy[i])
+            made[i, : len(chosen)] = chosen
+        return made
+
+    def table(self) -> Table:
+        """Give one row a disc.
+
+        Returns
+        -------
+        Table
+            ``polygon, id, rank, x, y, r, feet, x_1, y_1, x_2, y_2, x_3, y_3``. ``feet`` is how many places the disc
+            touches, of which two or three are given: those that hold it, where they are more.
+        """
+        held = self.held_by()
+        columns = {
+            "polygon": np.ma.array(self.polygon, mask=self.polygon < 0),
+            "id": ids_of(self.polygons, self.polygon),
+            "rank": self.rank,
+            "x": self.xy[:, 0].copy(),
+            "y": self.xy[:, 1].copy(),
+            "r": self.radius,
+            "feet": np.diff(self.foot_start),
+        }
+        for k in range(SHOWN_FEET):
+            for axis, name in enumerate("xy"):
+                columns[f"{name}_{k + 1}"] = np.ma.masked_invalid(held[:, k, axis])
+        return Table(columns)
+
+    def _summary(self) -> str:
+        return placed(counted(len(self), "disc"), self.polygons.crs, self.polygons.unit)
+
+
+def _holding(feet: NDArray[np.float64], centre: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The first foot, and on each side the nearest to what is opposite."""
+    ways = feet - centre
+    ways /= np.sqrt((ways * ways).sum(axis=1, keepdims=True))
+    turn = ways[0, 0] * ways[:, 1] - ways[0, 1] * ways[:, 0]
+    forward = ways @ ways[0]
+    left, right = (np.flatnonzero(side) for side in (turn >= 0, turn < 0))
+    chosen = [0, *(int(side[np.argmin(forward[side])]) for side in (left, right) if len(side))]
+    return feet[list(dict.fromkeys(chosen))]
