@@ -373,6 +373,8 @@ class SkeletonOptions(ShapeOptions):
     ends: Ends | None
     distance: tuple[float, ...] | None
     every: float | None
+    count: int | None
+    local: bool
     animate: bool
     frames: int | None
     fps: float | None

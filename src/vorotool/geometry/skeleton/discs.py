@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.errors import InputError
 from vorotool.geometry.checks import set_array
-from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.curves.circular_arcs import chords_of
+from vorotool.geometry.numbers import nearest_double, real_number, shown_number
+from vorotool.geometry.polygons.polygon_set import SHELL, PolygonSet
 from vorotool.geometry.ragged import within
+from vorotool.geometry.row_index import index_of_rows
 from vorotool.geometry.skeleton.skeleton import SiteTable
 from vorotool.geometry.skeleton.tables import ids_of
 from vorotool.geometry.table import Table
@@ -141,6 +146,59 @@ class Discs(Value, Tabular, Curved, Pictured):
             for axis, name in enumerate("xy"):
                 columns[f"{name}_{k + 1}"] = np.ma.masked_invalid(held[:, k, axis])
         return Table(columns)
+
+    def flattened(self, tolerance: float) -> PolygonSet:
+        """Circles as polygons, arcs as chords between places on them.
+
+        Parameters
+        ----------
+        tolerance : float
+            How far a chord may be from its circle.
+
+        Returns
+        -------
+        PolygonSet
+            One polygon a disc, with the id and the properties of its polygon, and ``rank``, ``x``, ``y``, ``r`` and
+            ``feet``.
+
+        Raises
+        ------
+        InputError
+            If the tolerance is not positive.
+        UsageError
+            If it is no number.
+        """
+        tolerance = nearest_double(real_number(tolerance, "the tolerance"))
+        if not tolerance > 0:
+            raise InputError(f"the tolerance is {shown_number(tolerance)}: it must be positive")
+        count = len(self)
+        across = self.radius[:, None] * (1, 0)
+        start = np.stack([self.xy + across, self.xy - across], axis=1)
+        ends = start[:, ::-1].reshape(-1, 2)
+        is_left = np.ones(2 * count, dtype=bool)
+        xy, first = chords_of(start.reshape(-1, 2), ends, np.repeat(self.xy, 2, axis=0), is_left, tolerance)
+        polygons = self.polygons
+        return PolygonSet(
+            xy,
+            first[::2],
+            np.full(count, SHELL),
+            np.arange(count, dtype=np.int32),
+            **self._described(),
+            y_up=polygons.y_up,
+            unit=polygons.unit,
+            crs=polygons.crs,
+            index=index_of_rows(polygons.index, self.polygon),
+        )
+
+    def _described(self) -> dict[str, Any]:
+        """Ids and properties of the discs."""
+        polygons, of = self.polygons, self.polygon.tolist()
+        own: dict[str, NDArray[Any]] = {"rank": self.rank, "x": self.xy[:, 0], "y": self.xy[:, 1], "r": self.radius}
+        own["feet"] = np.diff(self.foot_start)
+        properties = {key: [values[p] if p >= 0 else None for p in of] for key, values in polygons.properties.items()}
+        named = {f"voro_{key}" if key in properties else key: values.tolist() for key, values in own.items()}
+        ids = None if polygons.ids is None else [polygons.ids[p] if p >= 0 else None for p in of]
+        return {"ids": ids, "properties": {**properties, **named}}
 
     def _summary(self) -> str:
         return placed(counted(len(self), "disc"), self.polygons.crs, self.polygons.unit)
