@@ -91,6 +91,7 @@ _HOME = {
     "SkeletonPoints": "vorotool.geometry.skeleton.points_along",
     "Discs": "vorotool.geometry.skeleton.discs",
     "largest_discs": "vorotool.engines.from_skeleton.largest_discs",
+    "largest_empty_discs": "vorotool.engines.from_skeleton.empty_discs",
     "verify_discs": "vorotool.engines.from_skeleton.verify_discs",
     "points_along": "vorotool.engines.from_skeleton.points_along",
     "to_networkx": "vorotool.geometry.any.graphs",

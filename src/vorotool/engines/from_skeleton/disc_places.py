@@ -69,7 +69,7 @@ class DiscPlaces:
         least, most = coefficients.min(axis=0), coefficients.max(axis=0)
         covered = np.flatnonzero((least > 0) & ~self.is_parting[rows])
         crossed = np.flatnonzero((most > 0) & (least <= 0))
-        roots = _roots(*coefficients[:, crossed])
+        roots = bernstein_roots(*coefficients[:, crossed])
         hand, place = np.nonzero((roots > 0) & (roots < 1))
         at, u = crossed[place], roots[hand, place]
         kept = rest[0, at] * (1 - u) + rest[1, at] * u >= 0
@@ -129,7 +129,7 @@ def _growth(m: ArcMeasures, u: Floats) -> Floats:
     return np.where(m.is_parabola, m.along * slope, np.where(m.is_parting, parting, m.r1 - m.r0))
 
 
-def _roots(first: Floats, middle: Floats, last: Floats) -> Floats:
+def bernstein_roots(first: Floats, middle: Floats, last: Floats) -> Floats:
     """(2, n) real roots of first (1 - u)^2 + 2 middle u (1 - u) + last u^2, without cancellation; NaN where none is."""
     b = middle - first
     a = first - 2 * middle + last

@@ -105,7 +105,11 @@ def discs_of_skeleton(skeleton: Skeleton, *, count: int | None = None, local: bo
     >>> discs_of_skeleton(skeleton_exact([[0, 0], [4, 0], [4, 4], [0, 4]])).radius.tolist()
     [2.0]
     """
-    axis = _Axis(skeleton, threads)
+    own = skeleton.polygons.feature
+    assert own is not None
+    is_inside = skeleton.side == INTERIOR
+    feature = np.where(is_inside, own[skeleton.polygon] if len(own) else -1, -1).astype(np.intp)
+    axis = Axis(skeleton, feature, threads)
     if local:
         found = axis.maxima().in_order()
         rank = within(np.bincount(found.feature)) if len(found) else np.zeros(0, dtype=np.intp)
@@ -114,16 +118,22 @@ def discs_of_skeleton(skeleton: Skeleton, *, count: int | None = None, local: bo
     return axis.discs(*axis.largest(1 if count is None else count), local=False)
 
 
-class _Axis:
-    """The skeleton inside features, with the places that may be centres."""
+class Axis:
+    """The skeleton inside features, with the places that may be centres.
 
-    def __init__(self, skeleton: Skeleton, threads: int) -> None:
-        self.skeleton = skeleton
+    Parameters
+    ----------
+    skeleton : Skeleton
+        Of what.
+    feature : (a,) int array
+        Whose each arc is; -1 of arcs that are left out.
+    threads : int
+        0 uses all.
+    """
+
+    def __init__(self, skeleton: Skeleton, feature: Numbers, threads: int) -> None:
+        self.skeleton, self.feature = skeleton, feature
         self.sites = SitePlaces(skeleton)
-        feature = skeleton.polygons.feature
-        assert feature is not None
-        is_inside = skeleton.side == INTERIOR
-        self.feature = np.where(is_inside, feature[skeleton.polygon] if len(feature) else -1, -1).astype(np.intp)
         self.course = clearance_course(skeleton, threads=threads)
         self.plateau = plateaus(skeleton, self.course)
         self.segments = Plateaus.of(skeleton, self.plateau)
@@ -140,9 +150,26 @@ class _Axis:
         chosen = is_maximum(self.skeleton, self.course, self.plateau) & (self.middles.feature >= 0)
         return self.middles[np.flatnonzero(chosen)]
 
+    def first(self) -> Candidates:
+        """What may be the largest disc of each feature."""
+        return self.maxima()
+
+    def is_allowed(self, _candidates: Candidates) -> NDArray[np.bool_] | None:
+        """Which places may be centres; None if all may."""
+        return None
+
+    @property
+    def is_whole(self) -> NDArray[np.bool_]:
+        """(p,) plateaus that may be centres everywhere."""
+        return np.asarray(self.middles.feature >= 0)
+
+    def more(self) -> Candidates | None:
+        """Give candidates that are no nodes."""
+        return None
+
     def largest(self, count: int) -> tuple[Candidates, Numbers]:
         """Discs that are disjoint, and the rank of each in its feature, from 0."""
-        left = self.maxima()
+        left = self.first()
         taken = [left[left.largest(self.rounding)]]
         more = _MoreDiscs(self) if count > 1 else None
         while more is not None and len(taken) < count and len(taken[-1]):
@@ -158,7 +185,7 @@ class _Axis:
     def discs(self, found: Candidates, rank: Numbers, *, local: bool) -> Discs:
         """Give discs with their feet."""
         disc, site = self._touched(found)
-        kept = self._distinct(disc, site)
+        kept = self.distinct(disc, site)
         disc, site = disc[kept], site[kept]
         return Discs(
             found.xy,
@@ -189,7 +216,7 @@ class _Axis:
         disc, site = np.unique(np.concatenate(pairs, axis=1), axis=1).astype(np.intp)
         return disc, site.astype(np.int32)
 
-    def _distinct(self, disc: Numbers, site: NDArray[np.int32]) -> NDArray[np.bool_]:
+    def distinct(self, disc: Numbers, site: NDArray[np.int32]) -> NDArray[np.bool_]:
         """Leave out edges that are touched at an end which is a site, too."""
         ends = self.sites.ends[site]
         keys = np.column_stack([np.repeat(disc, 2), ends.reshape(-1, 2)])
@@ -203,15 +230,18 @@ class _Axis:
 class _MoreDiscs:
     """What is left of the axis beside discs that were taken."""
 
-    def __init__(self, axis: _Axis) -> None:
+    def __init__(self, axis: Axis) -> None:
         skeleton = axis.skeleton
         self.axis = axis
         self.places = DiscPlaces(skeleton, np.flatnonzero(axis.feature >= 0))
         self.rows = np.arange(len(self.places.arcs))
         is_node = axis.segments.first == axis.segments.last
-        alone = is_node & (axis.middles.feature >= 0) & (axis.middles.radius > axis.rounding)
-        self.whole = np.flatnonzero(~is_node & (axis.middles.feature >= 0))
-        self.left = axis.middles[np.flatnonzero(alone)]
+        self.whole = np.flatnonzero(~is_node & axis.is_whole)
+        is_open = np.ones(len(axis.middles), dtype=bool)
+        is_open[self.whole] = False
+        left = axis.nodes[np.flatnonzero(is_open[axis.plateau] & (axis.nodes.feature >= 0))]
+        more = axis.more()
+        self.left = self._centres(left if more is None else left.joined(more))
 
     def after(self, taken: list[Candidates]) -> Candidates:
         """Give what may be the next disc of each feature."""
@@ -222,13 +252,19 @@ class _MoreDiscs:
         new = self._ends_of_touched(last, at).joined(self._on_arcs(last, at))
         for each in taken:
             new = new[np.flatnonzero(self._is_apart(new, each, self._of_features(each)[new.feature]))]
-        self.left = self.left.joined(new[np.flatnonzero(new.radius > self.axis.rounding)])
+        self.left = self.left.joined(self._centres(new))
         whole = self.axis.middles[self.whole]
         return self.left.joined(whole[np.flatnonzero(at[whole.feature] >= 0)])
 
+    def _centres(self, some: Candidates) -> Candidates:
+        """Those of discs of some size, where centres may be."""
+        some = some[np.flatnonzero(some.radius > self.axis.rounding)]
+        allowed = self.axis.is_allowed(some)
+        return some if allowed is None else some[np.flatnonzero(allowed)]
+
     def _of_features(self, discs: Candidates) -> Numbers:
         """The disc of each feature; -1 where there is none."""
-        found = np.full(int(self.axis.feature.max(initial=-1)) + 1, -1, dtype=np.intp)
+        found = np.full(int(self.axis.feature.max(initial=0)) + 1, -1, dtype=np.intp)
         found[discs.feature] = np.arange(len(discs))
         return found
 

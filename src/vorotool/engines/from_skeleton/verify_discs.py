@@ -11,6 +11,7 @@ from vorotool.engines.common.faults import fail, first_wrong
 from vorotool.engines.skeleton.site_distances import ULPS, largest_coordinate
 from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.polygons.conversion import to_shapely
+from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.discs import Discs
 
@@ -55,19 +56,23 @@ def verify_discs(discs: Discs, *, progress: Progress = None) -> None:
     check_value(discs, "discs", Discs)
     tolerance = _tolerance(discs)
     _check_feet(discs, tolerance)
+    if discs.within is not None:
+        _check_empty(discs, discs.within, tolerance)
+        return
     feature = discs.polygons.feature
     assert feature is not None
-    if (discs.polygon < 0).any():
-        fail(f"disc {first_wrong(discs.polygon < 0)} is in no polygon")
+    at = first_wrong(discs.polygon < 0)
+    if at is not None:
+        fail(f"disc {at} is in no polygon")
     of_disc = feature[discs.polygon]
-    for number, own in enumerate(np.unique(of_disc)):
+    owners = np.unique(of_disc)
+    for number, own in enumerate(owners):
         chosen = np.flatnonzero(of_disc == own)
         _check_order(discs, chosen, tolerance)
-        polygons = np.flatnonzero(feature == own)
         if discs.features == "separate":
-            _check_feature(discs, chosen, polygons, tolerance)
+            _check_feature(discs, chosen, np.flatnonzero(feature == own), tolerance)
         if progress is not None:
-            progress((number + 1) / len(np.unique(of_disc)))
+            progress((number + 1) / len(owners))
     if discs.features == "together" and len(discs):
         _check_clear(discs, np.arange(len(discs)), _edges(discs, np.arange(len(feature))), tolerance)
 
@@ -79,7 +84,7 @@ def _tolerance(discs: Discs) -> float:
 def _check_feet(discs: Discs, tolerance: float) -> None:
     counts = np.diff(discs.foot_start)
     disc = np.repeat(np.arange(len(discs)), counts)
-    at = first_wrong(counts < 2)
+    at = first_wrong(counts < (2 if discs.within is None else 1))
     if at is not None:
         fail(f"disc {at} has {counts[at]} feet")
     way = discs.feet - discs.xy[disc]
@@ -122,7 +127,11 @@ def _edges(discs: Discs, polygons: NDArray[np.intp]) -> Any:
     shapes = discs.polygons
     starts = shapes.ring_start[shapes.polygon_start]
     own = np.concatenate([np.arange(starts[k], starts[k + 1]) for k in polygons.tolist()])
-    return shapely.linestrings(np.stack([shapes.xy[own], shapes.xy[shapes.following[own]]], axis=1))
+    ring_polygon = shapes.ring_polygon
+    open_end = np.zeros(len(shapes.xy), dtype=bool)
+    open_end[shapes.ring_start[1:][shapes.is_line[ring_polygon]] - 1] = True
+    following = np.where(open_end, np.arange(len(shapes.xy)), shapes.following)
+    return shapely.linestrings(np.stack([shapes.xy[own], shapes.xy[following[own]]], axis=1))
 
 
 def _distances(tree: STRtree, places: Floats) -> Floats:
@@ -160,6 +169,25 @@ def _check_feature(discs: Discs, chosen: NDArray[np.intp], polygons: NDArray[np.
     _check_none_larger(discs, int(chosen[0]), tree, inside, tolerance)
 
 
+def _check_empty(discs: Discs, within: PolygonSet, tolerance: float) -> None:
+    """Discs between shapes, whose centres are in a region."""
+    import shapely
+
+    everything = np.arange(len(discs))
+    if not len(discs):
+        return
+    _check_order(discs, everything, tolerance)
+    tree = _check_clear(discs, everything, _edges(discs, np.arange(len(discs.polygons))), tolerance)
+    filled = [shape for shape in to_shapely(discs.polygons) if shape.geom_type.endswith("Polygon")]
+    region = shapely.union_all(shapely.make_valid(to_shapely(within)))
+    space = shapely.difference(region, shapely.union_all(shapely.make_valid(filled)))
+    shapely.prepare(space)
+    at = first_wrong(~(shapely.distance(space, shapely.points(discs.xy)) <= tolerance))
+    if at is not None:
+        fail(f"the centre of disc {at} is not in the region, or in a shape")
+    _check_none_larger(discs, 0, tree, space, tolerance)
+
+
 def _is_held(discs: Discs, disc: int, tolerance: float) -> bool:
     ways = discs.feet_of(disc) - discs.xy[disc]
     angles = np.sort(np.arctan2(ways[:, 1], ways[:, 0]))
@@ -173,18 +201,18 @@ def _check_none_larger(discs: Discs, disc: int, tree: STRtree, inside: Any, tole
 
     enough = float(discs.radius[disc]) * (1 + LARGER) + tolerance
     x0, y0, x1, y1 = inside.bounds
-    side = min(x1 - x0, y1 - y0)
-    x, y = (np.arange(low + side / 2, high + side / 2, side) for low, high in ((x0, x1), (y0, y1)))
+    side = min(x1 - x0, y1 - y0) or max(x1 - x0, y1 - y0)
+    x, y = (np.arange(low + side / 2, max(high, low + side) + side / 2, side) for low, high in ((x0, x1), (y0, y1)))
     places = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
     while len(places) and len(places) <= _MOST_CELLS:
         away = _distances(tree, places)
-        is_inside = shapely.contains_xy(inside, *places.T)
-        larger = first_wrong(is_inside & (away > enough))
+        larger = first_wrong((away > enough) & shapely.contains_xy(inside, *places.T))
         if larger is not None:
-            fail(
-                f"at {tuple(places[larger].tolist())} there is a disc of radius {away[larger]}, larger than disc {disc}"
-            )
+            place = tuple(places[larger].tolist())
+            fail(f"at {place} there is a disc of radius {away[larger]}, larger than disc {disc}")
+        reach = side * np.sqrt(0.5)
+        places = places[away + reach > enough]
+        places = places[shapely.distance(inside, shapely.points(places)) <= reach]
         side /= 2
-        open_ones = places[np.where(is_inside, away, -away) + side * np.sqrt(2) > enough]
         quarter = np.array([[-1, -1], [-1, 1], [1, -1], [1, 1]]) * side / 2
-        places = (open_ones[:, None] + quarter).reshape(-1, 2)
+        places = (places[:, None] + quarter).reshape(-1, 2)

@@ -50,7 +50,7 @@ _LENGTHS_OF = {
     Skeleton: "polygons site_table frame vertices radius control length error_bound gap",
     Centerlines: "path ends",
     SkeletonPoints: "skeleton along xy radius feet",
-    Discs: "polygons site_table xy radius feet",
+    Discs: "polygons site_table xy radius feet within",
     Offsets: "polygons site_table start end centre distance",
     VoronoiMap: "polygons clip enclosures vertices radius control center frame max_distance",
 }

@@ -52,6 +52,8 @@ class Discs(Value, Tabular, Curved, Pictured):
         They are all that are larger than those around them, and may overlap; else those of a feature are disjoint.
     features : {"separate", "together"}
         Whether each feature was taken by itself.
+    within : PolygonSet, optional
+        Of empty discs: where their centres are.
 
     Raises
     ------
@@ -79,6 +81,7 @@ class Discs(Value, Tabular, Curved, Pictured):
     polygons: PolygonSet
     local: bool = False
     features: str = "separate"
+    within: PolygonSet | None = None
 
     def __post_init__(self) -> None:
         count, feet = len(self.radius), len(self.foot_site)
