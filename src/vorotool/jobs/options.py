@@ -353,6 +353,7 @@ class VoronoiOptions(ShapeOptions):
     clip: str | None
     max_distance: float | None
     enclosures: str | None
+    count: int | None
 
     def files_of_inputs(self) -> dict[str, str]:
         """Give the files that are read beside each input, by the names of the options."""

@@ -103,6 +103,26 @@ def _region(given: PolygonSet, within: Any) -> PolygonSet:
     return as_polygons([[x, y], [x + w, y], [x + w, y + h], [x, y + h]])
 
 
+def shared_region(given: PolygonSet, clip: PolygonSet | None, frame: Frame | None) -> PolygonSet:
+    """Give what a map in a frame and a clip shares out: what lies in both, if there are both.
+
+    Raises
+    ------
+    InputError
+        If they have nothing in common.
+    """
+    if clip is None or frame is None:
+        return _region(given, clip or frame)
+    import shapely
+
+    x, y, w, h = frame
+    area = shapely.union_all(shapely.make_valid(to_shapely(clip)[~clip.is_line]))
+    common = shapely.intersection(area, shapely.box(x, y, x + w, y + h))
+    if not common.area > 0:
+        raise InputError("the frame and the clip have nothing in common: choose others")
+    return as_polygons([each for each in shapely.get_parts(common) if each.area > 0])
+
+
 def _discs_in(diagram: Any, region: PolygonSet, count: int, threads: int, progress: Progress) -> Discs:
     low, high = bounds(region.xy)
     frame = (*low.tolist(), *(high - low).tolist())

@@ -108,22 +108,22 @@ class Discs(Value, Tabular, Curved, Pictured):
         """Places where a disc touches the boundary, by the numbers of their sites."""
         return self.feet[self.foot_start[disc] : self.foot_start[disc + 1]]
 
-    def held_by(self) -> NDArray[np.float64]:
-        """(n, 3, 2) feet that hold each disc, NaN for those that there are not.
+    def held_by(self) -> NDArray[np.int64]:
+        """(n, 3) feet that hold each disc, as rows of `feet`; -1 for those that there are not.
 
         The first foot, and of the others the nearest on each side of what is opposite: these hold a disc that cannot
         grow, and one of them does if it is opposite.
         """
-        made = np.full((len(self), SHOWN_FEET, 2), np.nan)
+        made = np.full((len(self), SHOWN_FEET), -1, dtype=np.int64)
         counts = np.diff(self.foot_start)
         few = counts <= SHOWN_FEET
         disc = np.repeat(np.arange(len(self)), counts)
         place = within(counts)
         own = few[disc]
-        made[disc[own], place[own]] = self.feet[own]
+        made[disc[own], place[own]] = np.flatnonzero(own)
         for i in np.flatnonzero(~few).tolist():
-            chosen = _holding(self.feet_of(i), self.xy[i])
-            made[i, : len(chosen)] = chosen
+            chosen = np.array(_holding(self.feet_of(i), self.xy[i]))
+            made[i, : len(chosen)] = self.foot_start[i] + chosen
         return made
 
     def table(self) -> Table:
@@ -133,9 +133,11 @@ class Discs(Value, Tabular, Curved, Pictured):
         -------
         Table
             ``polygon, id, rank, x, y, r, feet, x_1, y_1, x_2, y_2, x_3, y_3``. ``feet`` is how many places the disc
-            touches, of which two or three are given: those that hold it, where they are more.
+            touches, of which two or three are given: those that hold it, where they are more. Of empty discs instead of
+            ``polygon, id`` there are ``shape_1, shape_2, shape_3``: what the feet are on.
         """
         held = self.held_by()
+        is_missing = held < 0
         columns = {
             "polygon": np.ma.array(self.polygon, mask=self.polygon < 0),
             "id": ids_of(self.polygons, self.polygon),
@@ -147,7 +149,12 @@ class Discs(Value, Tabular, Curved, Pictured):
         }
         for k in range(SHOWN_FEET):
             for axis, name in enumerate("xy"):
-                columns[f"{name}_{k + 1}"] = np.ma.masked_invalid(held[:, k, axis])
+                values = np.append(self.feet[:, axis], np.nan)[held[:, k]]
+                columns[f"{name}_{k + 1}"] = np.ma.array(values, mask=is_missing[:, k])
+        if self.within is not None:
+            del columns["polygon"], columns["id"]
+            shape = np.append(self.site_table.polygon[self.foot_site], -1)[held]
+            columns |= {f"shape_{k + 1}": np.ma.array(shape[:, k], mask=is_missing[:, k]) for k in range(SHOWN_FEET)}
         return Table(columns)
 
     def flattened(self, tolerance: float) -> PolygonSet:
@@ -207,7 +214,7 @@ class Discs(Value, Tabular, Curved, Pictured):
         return placed(counted(len(self), "disc"), self.polygons.crs, self.polygons.unit)
 
 
-def _holding(feet: NDArray[np.float64], centre: NDArray[np.float64]) -> NDArray[np.float64]:
+def _holding(feet: NDArray[np.float64], centre: NDArray[np.float64]) -> list[int]:
     """The first foot, and on each side the nearest to what is opposite."""
     ways = feet - centre
     ways /= np.sqrt((ways * ways).sum(axis=1, keepdims=True))
@@ -215,4 +222,4 @@ def _holding(feet: NDArray[np.float64], centre: NDArray[np.float64]) -> NDArray[
     forward = ways @ ways[0]
     left, right = (np.flatnonzero(side) for side in (turn >= 0, turn < 0))
     chosen = [0, *(int(side[np.argmin(forward[side])]) for side in (left, right) if len(side))]
-    return feet[list(dict.fromkeys(chosen))]
+    return list(dict.fromkeys(chosen))

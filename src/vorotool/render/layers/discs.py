@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+import numpy as np
+
 from vorotool.geometry.skeleton.discs import Discs
 from vorotool.render.canvas.circles import circles
 from vorotool.render.canvas.layers import Layer, Page, Points, bounds_of
@@ -43,13 +45,20 @@ def disc_layers(discs: Discs, page: Page, layers: Iterable[str]) -> list[Layer]:
     spacing = page.spacing(max(len(discs), 1))
     width = min(max(spacing / 16, 0.2), 1.5)
     made: dict[str, list[Layer]] = {
-        "polygons": polygon_layers(discs.polygons, width),
+        "polygons": [*polygon_layers(discs.polygons, width), *_points(discs, spacing)],
         "discs": [circles("discs", discs.xy, discs.radius, RESULT, width)],
         "feet": [Points("feet", discs.feet, SEED, min(max(spacing / 16, 0.3), 3.0))],
     }
     if "labels" in wanted:
         made["labels"] = [names_of_features(discs.polygons, page)]
     return [layer for name in LAYERS if name in wanted for layer in made[name]]
+
+
+def _points(discs: Discs, spacing: float) -> list[Layer]:
+    """Shapes of one place."""
+    polygons = discs.polygons
+    alone = polygons.ring_start[:-1][np.diff(polygons.ring_start) == 1]
+    return [Points("points", polygons.xy[alone], SEED, min(max(spacing / 16, 0.3), 3.0))] if len(alone) else []
 
 
 def disc_page(discs: Discs, *, width: int = 1000, y_up: bool | None = None) -> Page:
