@@ -92,6 +92,7 @@ bench: build $(BUILD)/.tests ## measure beside the peers, in one run
 	$(RUN) tests/benchmarks/mesh_files.py
 	$(RUN) tests/benchmarks/skeleton_exact.py
 	$(RUN) tests/benchmarks/skeleton_approx.py
+	$(RUN) tests/benchmarks/discs.py
 	$(RUN) tests/benchmarks/masks.py
 	$(RUN) tests/benchmarks/segment_voronoi.py
 	$(RUN) tests/benchmarks/voronoi.py
@@ -119,6 +120,7 @@ else
 	$(RUN) tests/fuzz/skeleton_bounds.py
 	$(RUN) tests/fuzz/pruning.py --cases $(or $(CASES),1000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/offsets.py --cases $(or $(CASES),1000) --seed $(or $(SEED),1)
+	$(RUN) tests/fuzz/discs.py --cases $(or $(CASES),1000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/rotation.py --cases $(or $(CASES),1000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/outlines.py --cases $(or $(CASES),20000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/segment_voronoi.py --cases $(or $(CASES),800000) --seed $(or $(SEED),1)

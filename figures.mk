@@ -208,6 +208,10 @@ $(FIGURES)/gallery-lakes.svg: data/great-lakes.geojson $(BUILD)/.installed | $(F
 $(FIGURES)/gallery-offsets.svg: data/great-lakes.geojson $(BUILD)/.installed | $(FIGURES)
 	$(VOROTOOL) skeleton-exact $< --what offset -d -0.1,-0.2,-0.3,-0.4 -q -o $@
 
+# Purpose: the same lakes, and the largest discs in them.
+$(FIGURES)/gallery-discs.svg: data/great-lakes.geojson $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) skeleton-exact $< --what discs --count 40 -q -o $@
+
 # Purpose: labels that touch: each is an object of its own. The elements are the outlines.
 $(FIGURES)/gallery-cells.svg: data/cells.png $(BUILD)/.installed | $(FIGURES)
 	$(VOROTOOL) skeleton-exact $< --prune chord=9 --layers polygons,elements,skeleton -o $@

@@ -10,7 +10,9 @@
 #include "bindings/support/segment_diagram.hpp"
 #include "bindings/support/skeleton_arrays.hpp"
 #include "bindings/support/skeleton_input.hpp"
+#include "core/base/indices.hpp"
 #include "core/base/parallel.hpp"
+#include "core/skeleton/clearance_course.hpp"
 #include "core/skeleton/edges.hpp"
 #include "core/skeleton/extraction.hpp"
 #include "core/skeleton/steps.hpp"
@@ -77,6 +79,27 @@ Columns steps_along(const SkeletonInput& input, const Vector<const std::int64_t>
   return result;
 }
 
+auto clearance_course(const Places& vertices, const Vector<const double>& radius, const IndexRows& arcs,
+                      const IndexRows& sites, const IndexRows& site_places, double error,
+                      bool sites_are_exact, unsigned threads, const Progress& progress) {
+  static constexpr const char* outside = "an index of the skeleton is out of range";
+  const core::skeleton::PlacedSkeleton skeleton{rows<core::kernel::Point>(vertices),
+                                                view(radius),
+                                                rows<core::base::IndexPair>(arcs),
+                                                rows<core::base::IndexPair>(sites),
+                                                rows<core::kernel::LatticeSite>(site_places),
+                                                error,
+                                                sites_are_exact};
+  if (radius.size() != skeleton.vertices.size() || skeleton.sites.size() != skeleton.arcs.size()) {
+    throw std::invalid_argument("the arrays of a skeleton have lengths that do not go together");
+  }
+  core::base::check_range(skeleton.arcs, 0, skeleton.vertices.size(), outside);
+  core::base::check_range(skeleton.sites, 0, skeleton.site_places.size(), outside);
+  auto made = run_interruptible(progress, core::skeleton::clearance_course, skeleton,
+                                core::base::resolve_threads(threads));
+  return std::make_tuple(two_columns(std::move(made.slope)), to_numpy(std::move(made.least)));
+}
+
 }  // namespace
 
 void bind_skeleton(nb::module_& room) {
@@ -94,6 +117,11 @@ void bind_skeleton(nb::module_& room) {
            "another.");
   room.def("steps_along", &steps_along, "skeleton"_a, "first"_a, "counts"_a, "every"_a, "threads"_a,
            "progress"_a.none(), "Places at equal steps along branches, whose first arcs are given.");
+  room.def("clearance_course", &clearance_course, "vertices"_a, "radius"_a, "arcs"_a, "sites"_a,
+           "site_places"_a, "error"_a, "sites_are_exact"_a, "threads"_a, "progress"_a.none(),
+           "How the clearance begins to change at the source and target of each arc, and where it is least; "
+           "all on "
+           "the lattice.");
 }
 
 }  // namespace vorotool::bindings

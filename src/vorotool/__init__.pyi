@@ -65,11 +65,20 @@ from vorotool.engines.digital.triangulation import (
 from vorotool.engines.digital.verify_digital import (
     verify_digital_triangulation as verify_digital_triangulation,
 )
+from vorotool.engines.from_skeleton.empty_discs import (
+    largest_empty_discs as largest_empty_discs,
+)
+from vorotool.engines.from_skeleton.largest_discs import (
+    largest_discs as largest_discs,
+)
 from vorotool.engines.from_skeleton.points_along import (
     points_along as points_along,
 )
 from vorotool.engines.from_skeleton.reconstruction import (
     rebuild as rebuild,
+)
+from vorotool.engines.from_skeleton.verify_discs import (
+    verify_discs as verify_discs,
 )
 from vorotool.engines.label_images.outlines import (
     outlines as outlines,
@@ -244,6 +253,9 @@ from vorotool.geometry.skeleton.centerline import (
 )
 from vorotool.geometry.skeleton.critical_values import (
     CriticalValues as CriticalValues,
+)
+from vorotool.geometry.skeleton.discs import (
+    Discs as Discs,
 )
 from vorotool.geometry.skeleton.offsets import (
     Offsets as Offsets,

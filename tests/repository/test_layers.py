@@ -83,11 +83,11 @@ engines/peers -> engines, engines/delaunay, engines/from_skeleton, engines/label
 formats/volumes -> formats, formats/images, formats/io, formats/parsing, formats/points, formats/zarr, geometry,
     geometry/volumes, products
 jobs -> batch, engines/alpha, engines/arrangement, engines/centerlines, engines/delaunay, engines/digital,
-    engines/label_images, engines/pruning, engines/tessellation, engines/voronoi, formats, formats/images, formats/io,
-    formats/parsing, formats/points, formats/text, formats/volumes, formats/zarr, geometry, geometry/alpha,
-    geometry/any, geometry/arguments, geometry/curves, geometry/mesh, geometry/points, geometry/polygons,
-    geometry/skeleton, geometry/volumes, geometry/voronoi, products, render/canvas, render/label_images, render/layers,
-    render/pages, typing
+    engines/from_skeleton, engines/label_images, engines/pruning, engines/tessellation, engines/voronoi, formats,
+    formats/images, formats/io, formats/parsing, formats/points, formats/text, formats/volumes, formats/zarr, geometry,
+    geometry/alpha, geometry/any, geometry/arguments, geometry/curves, geometry/mesh, geometry/points,
+    geometry/polygons, geometry/skeleton, geometry/volumes, geometry/voronoi, products, render/canvas,
+    render/label_images, render/layers, render/pages, typing
 cli/options -> engines/offsets, engines/pruning, geometry, jobs, products
 cli/batch -> batch, cli/options, formats/io, geometry, jobs, products
 jobs/volumes -> engines/label_images, engines/tessellation, engines/volumes, formats/io, formats/volumes, formats/zarr,

@@ -9,6 +9,7 @@ OF_ONE_SHAPE = frozenset({"edges", "polygons", "complex", "general", "hull", "po
 DERIVED = {
     "offset": "jobs.skeletons.offset_curves:OffsetCurves",
     "shape": "jobs.skeletons.rebuilt_shape:RebuiltShape",
+    "discs": "jobs.skeletons.inscribed_discs:InscribedDiscs",
     "points": "jobs.skeletons.steps:Steps",
     "transects": "jobs.skeletons.steps:Steps",
 }

@@ -353,6 +353,7 @@ class VoronoiOptions(ShapeOptions):
     clip: str | None
     max_distance: float | None
     enclosures: str | None
+    count: int | None
 
     def files_of_inputs(self) -> dict[str, str]:
         """Give the files that are read beside each input, by the names of the options."""
@@ -373,6 +374,8 @@ class SkeletonOptions(ShapeOptions):
     ends: Ends | None
     distance: tuple[float, ...] | None
     every: float | None
+    count: int | None
+    local: bool
     animate: bool
     frames: int | None
     fps: float | None

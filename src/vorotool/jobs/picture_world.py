@@ -129,6 +129,7 @@ def _input_of(value: Any) -> AnyTriangulation | CellSet | PolygonSet:
     from vorotool.geometry.alpha.hull import AlphaHull
     from vorotool.geometry.alpha.shape import AlphaShape
     from vorotool.geometry.skeleton.centerline import Centerlines
+    from vorotool.geometry.skeleton.discs import Discs
     from vorotool.geometry.skeleton.offsets import Offsets
     from vorotool.geometry.skeleton.points_along import SkeletonPoints
     from vorotool.geometry.skeleton.skeleton import Skeleton
@@ -138,7 +139,7 @@ def _input_of(value: Any) -> AnyTriangulation | CellSet | PolygonSet:
         (AlphaShape, lambda shape: shape.family.mesh),
         (Centerlines, lambda lines: lines.path.polygons),
         (SkeletonPoints, lambda points: points.skeleton.polygons),
-        ((Skeleton, Offsets), lambda of: of.polygons),
+        ((Skeleton, Offsets, Discs), lambda of: of.polygons),
     ]
     found: AnyTriangulation | CellSet | PolygonSet = next(
         (get(value) for kind, get in inside if isinstance(value, kind)), value

@@ -94,8 +94,8 @@ def drawing_of(
     Parameters
     ----------
     value : value of the library
-        A triangulation, cells, an alpha shape or hull, polygons, a skeleton, points along one, offset curves, or a
-        Voronoi map.
+        A triangulation, cells, an alpha shape or hull, polygons, a skeleton, points along one, discs, offset curves, or
+        a Voronoi map.
     what : str, optional
         Which part, by its name in the registry of products; by default the first that is drawn.
     layers : sequence of str, optional
@@ -148,12 +148,14 @@ def _drawings() -> list[tuple[Any, Callable[..., Page], Callable[..., list[Layer
     from vorotool.geometry.mesh.triangulation import Triangulation
     from vorotool.geometry.polygons.polygon_set import PolygonSet
     from vorotool.geometry.skeleton.centerline import Centerlines
+    from vorotool.geometry.skeleton.discs import Discs
     from vorotool.geometry.skeleton.offsets import Offsets
     from vorotool.geometry.skeleton.points_along import SkeletonPoints
     from vorotool.geometry.skeleton.skeleton import Skeleton
     from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
     from vorotool.render.layers.alpha import alpha_layers
     from vorotool.render.layers.cells import cells_page
+    from vorotool.render.layers.discs import disc_layers, disc_page
     from vorotool.render.layers.mesh import mesh_layers, mesh_page
     from vorotool.render.layers.offsets import offset_layers, offset_page
     from vorotool.render.layers.points_along import point_page, skeleton_point_layers
@@ -179,6 +181,7 @@ def _drawings() -> list[tuple[Any, Callable[..., Page], Callable[..., list[Layer
         ),
         (SkeletonPoints, point_page, skeleton_point_layers),
         (Offsets, offset_page, offset_layers),
+        (Discs, disc_page, disc_layers),
         (VoronoiMap, voronoi_page, voronoi_layers),
     ]
 

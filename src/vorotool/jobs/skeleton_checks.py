@@ -34,6 +34,7 @@ def check_options(o: SkeletonOptions, targets: list[Target]) -> None:
     check_join_tolerance(o)
     _check_measures(o)
     _check_shapes(o)
+    _check_discs(o)
     if o.frame is not None and o.side == "interior" and "diagram" not in o.what:
         raise UsageError("--frame cuts what is outside: use --side exterior or both, or leave it out")
     if o.frame is not None:
@@ -109,6 +110,19 @@ def _check_measures(o: SkeletonOptions) -> None:
         if not wanted and value is not None:
             what = " or ".join(f"--what {user}" for user in sorted(users))
             raise UsageError(f"{name} is for other results: use {what}, or leave it out")
+
+
+def _check_discs(o: SkeletonOptions) -> None:
+    """How many discs are wanted matters to these alone; they are inside."""
+    for name, is_given in (("--count", o.count is not None), ("--local", o.local)):
+        if is_given and "discs" not in o.what:
+            raise UsageError(f"{name} is for discs: use --what discs, or leave it out")
+    if "discs" in o.what and o.side == "exterior":
+        raise UsageError("discs are inside polygons: use --side interior or both")
+    has_gap = isinstance(o, ExactSkeletonOptions) and o.gap > 0
+    for name, is_given in (("--prune", o.prune is not None), ("--gap", has_gap)):
+        if is_given and set(o.what) == {"discs"}:
+            raise UsageError(f"{name} is for skeletons, but discs are of the shapes: leave it out")
 
 
 def _check_shapes(o: SkeletonOptions) -> None:

@@ -159,7 +159,12 @@ _LINES = ("fmt", "flatten", "precision", "threads")
 _SKELETON = Writer("formats.results.skeletons:write_skeleton", ("what", *_LINES))
 _CENTERLINES = Writer("formats.results.centerlines:write_centerlines", _LINES)
 _OFFSETS = Writer("formats.results.offsets:write_offsets", _LINES)
+_DISCS = Writer("formats.results.discs:write_discs", _LINES)
 _RINGS = Writer("formats.polygons.writer:write_polygons", ("fmt", "precision"))
+_DISC_LAYERS = _pictures("polygons discs feet labels")
+_DISC_PRODUCT = _product(
+    "discs", "Discs", f"{_TABLES} geojson wkt", _DISCS, _DISC_LAYERS, "polygons discs", is_curved=True
+)
 _POINTS = Writer("formats.results.points_along:write_skeleton_points")
 _CURVES = "json csv tsv geojson npz wkt"
 _ARCS = _pictures("polygons elements points skeleton nodes labels")
@@ -182,6 +187,7 @@ _SKELETONS = (
         moves=True,
     ),
     _product("shape", "PolygonSet", "json geojson wkt poly", _RINGS, _pictures("shape labels"), "shape"),
+    _DISC_PRODUCT,
     _product("points", "SkeletonPoints", f"{_TABLES} npy geojson wkt", _POINTS, _ALONG, "polygons skeleton points"),
     _product("transects", "SkeletonPoints", f"geojson wkt {_TABLES}", _POINTS, _ALONG, "polygons skeleton transects"),
     _product("branches", "Skeleton", _TABLES, _SKELETON),
@@ -206,6 +212,7 @@ _VORONOI = (
     _product("edges", "VoronoiMap", f"{_TABLES} geojson wkt", _MAP, _MAP_LAYERS, "edges objects", is_curved=True),
     _product("neighbours", "VoronoiMap", _TABLES, _MAP),
     _product("table", "VoronoiMap", _TABLES, _MAP),
+    _DISC_PRODUCT,
 )
 
 

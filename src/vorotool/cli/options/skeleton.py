@@ -73,6 +73,14 @@ _READING: tuple[Decorator, ...] = (
         metavar="D",
         help="Step along branches, of --what points and transects.",
     ),
+    click.option(
+        "--count",
+        type=click.IntRange(min=1),
+        metavar="N",
+        help="How many --what discs of each feature: the largest, then the largest that is disjoint from those before "
+        "(default 1); with --local the largest so many.",
+    ),
+    click.option("--local", is_flag=True, help="Of --what discs all that are larger than those around them."),
     shape_options(flattened=" or --what shape"),
 )
 """Options before a command's own, and after them."""

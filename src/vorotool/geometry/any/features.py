@@ -28,6 +28,7 @@ from vorotool.geometry.polygons.conversion import to_shapely
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.skeleton.centerline import Centerlines
+from vorotool.geometry.skeleton.discs import Discs
 from vorotool.geometry.skeleton.graph import skeleton_graph
 from vorotool.geometry.skeleton.offsets import Offsets
 from vorotool.geometry.skeleton.points_along import SkeletonPoints
@@ -315,6 +316,13 @@ def _of_offsets(offsets: Offsets, flatten: float | None = None) -> Features:
     return Features(to_shapely(shapes), _with_polygons(columns, polygons, of), polygons, of)
 
 
+def _of_discs(discs: Discs, flatten: float | None = None) -> Features:
+    polygons = discs.polygons
+    shapes = discs.flattened(checked_flatten(flatten, polygons))
+    columns = _with_polygons(discs.table().stored(), polygons, discs.polygon)
+    return Features(to_shapely(shapes), columns, polygons, discs.polygon)
+
+
 def _of_voronoi(cells: VoronoiMap, flatten: float | None = None) -> Features:
     geometry = cell_polygons(cells, checked_flatten(flatten, cells.polygons))
     return Features(geometry, cell_table(cells), cells, _every(len(cells)))
@@ -414,5 +422,6 @@ _MAKERS: dict[type, Callable[..., Features]] = {
     Centerlines: _of_centerlines,
     SkeletonPoints: _of_points_along,
     Offsets: _of_offsets,
+    Discs: _of_discs,
     VoronoiMap: _of_voronoi,
 }

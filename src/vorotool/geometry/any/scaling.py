@@ -19,6 +19,7 @@ from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation
 from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.skeleton.centerline import Centerlines
+from vorotool.geometry.skeleton.discs import Discs
 from vorotool.geometry.skeleton.offsets import Offsets
 from vorotool.geometry.skeleton.points_along import SkeletonPoints
 from vorotool.geometry.skeleton.skeleton import SiteTable, Skeleton
@@ -49,6 +50,7 @@ _LENGTHS_OF = {
     Skeleton: "polygons site_table frame vertices radius control length error_bound gap",
     Centerlines: "path ends",
     SkeletonPoints: "skeleton along xy radius feet",
+    Discs: "polygons site_table xy radius feet within",
     Offsets: "polygons site_table start end centre distance",
     VoronoiMap: "polygons clip enclosures vertices radius control center frame max_distance",
 }
@@ -73,7 +75,7 @@ def scaled(
     Parameters
     ----------
     value : PolygonSet, Triangulation, DigitalTriangulation, CellSet, AlphaComplex, AlphaShape, AlphaHull, Skeleton,
-        SkeletonPoints, Offsets, Centerlines or VoronoiMap
+        SkeletonPoints, Offsets, Centerlines, Discs or VoronoiMap
         What to scale; for a table see `scaled_table`.
     factor : Fraction
         More than 0.

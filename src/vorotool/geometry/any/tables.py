@@ -26,6 +26,7 @@ from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.skeleton.centerline import Centerlines, centerline_table
 from vorotool.geometry.skeleton.critical_values import CriticalValues
+from vorotool.geometry.skeleton.discs import Discs
 from vorotool.geometry.skeleton.offsets import Offsets
 from vorotool.geometry.skeleton.points_along import SkeletonPoints
 from vorotool.geometry.skeleton.skeleton import Skeleton
@@ -137,6 +138,10 @@ def _of_offsets(offsets: Offsets) -> IndexedTable:
     )
 
 
+def _of_discs(discs: Discs) -> IndexedTable:
+    return IndexedTable(discs.table(), discs.polygons, discs.polygon)
+
+
 def _of_voronoi(cells: VoronoiMap) -> IndexedTable:
     return IndexedTable(cells.table, cells, np.arange(len(cells)))
 
@@ -171,6 +176,7 @@ _MAKERS: dict[type, Callable[[Any], IndexedTable]] = {
     Centerlines: _of_centerlines,
     SkeletonPoints: _of_points_along,
     Offsets: _of_offsets,
+    Discs: _of_discs,
     VoronoiMap: _of_voronoi,
     CriticalValues: _of_values,
 }

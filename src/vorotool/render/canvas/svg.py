@@ -14,6 +14,7 @@ from vorotool import _core
 from vorotool.geometry.curves.circular_arcs import middles_of
 from vorotool.geometry.curves.inverse_functions import hypotenuse
 from vorotool.geometry.xml_text import xml_characters
+from vorotool.render.canvas.circles import Circles
 from vorotool.render.canvas.layers import (
     Arcs,
     Backdrop,
@@ -106,7 +107,7 @@ def fill_style(backdrop: Backdrop | None, *, is_sheer: bool = False) -> str:
 def layer_parts(layer: Layer, page: Page, threads: int) -> Iterator[bytes]:
     """Give the group of a layer, piece by piece."""
     if isinstance(layer, Arcs):
-        return _arcs(layer, page)
+        return _circles(layer, page, threads) if isinstance(layer, Circles) else _arcs(layer, page)
     x, y = np.ascontiguousarray(np.round(page.place(layer.points), page.decimals).T + 0.0)  # no -0
     if isinstance(layer, Lines):
         return _lines(layer, x, y, threads)
@@ -335,6 +336,19 @@ def _arcs(layer: Arcs, page: Page) -> Iterator[bytes]:
     yield b"</g>\n"
 
 
+def _circles(layer: Circles, page: Page, threads: int) -> Iterator[bytes]:
+    """An element of each, in which a page with different scales along x and y has ellipses."""
+    x, y = np.ascontiguousarray(np.round(page.place(layer.centre[::2]), page.decimals).T + 0.0)
+    across = np.round(np.array([page.length(each) for each in layer.radius.tolist()]), page.decimals + 1)
+    columns, around = [x, y, across], _CIRCLE
+    if page.aspect != 1:
+        columns, around = [*columns, np.round(across * page.aspect, page.decimals + 1)], _ELLIPSE
+    yield f'<g id="{_escaped(layer.name)}" fill="none" {_stroke(layer.edge, layer.width)}>\n'.encode()
+    for rows in _chunks(len(x), SLICE_ROWS):
+        yield from _rows([column[rows] for column in columns], around, threads)
+    yield b"</g>\n"
+
+
 def _escaped(text: str) -> str:
     return escape(xml_characters(text))
 
@@ -344,6 +358,10 @@ def _short(number: float, decimals: int) -> str:
 
 
 _UNSCALED = 'vector-effect="non-scaling-stroke"'
+
+
+_CIRCLE: tuple[str, ...] = ('<circle cx="', '" cy="', '" r="', f'" {_UNSCALED}/>\n')
+_ELLIPSE: tuple[str, ...] = ('<ellipse cx="', '" cy="', '" rx="', '" ry="', f'" {_UNSCALED}/>\n')
 
 
 def _stroke(colour: str, width: float) -> str:
