@@ -10,6 +10,7 @@
 #include "bindings/rooms.hpp"
 #include "bindings/support/arrays.hpp"
 #include "bindings/support/monitor.hpp"
+#include "bindings/support/skeleton.hpp"
 #include "core/base/indices.hpp"
 #include "core/pruning/arc_profile.hpp"
 #include "core/pruning/critical_values.hpp"
@@ -23,51 +24,6 @@ using core::base::Monitor;
 using core::kernel::Point;
 using core::pruning::Criterion;
 using core::skeleton::SkeletonView;
-
-// A skeleton that comes from Python: its arrays are kept, and its indices in range.
-class Skeleton {
- public:
-  // Ends of sites, four numbers each.
-  Skeleton(const Places& vertices, const Vector<const double>& radius, const IndexRows& arcs,
-           const Places& control, const IndexRows& sites, const Vector<const double>& length,
-           const std::optional<Places>& site_ends, const Vector<const std::uint8_t>& is_anchored,
-           bool has_gap, double reach)
-      : kept_(keep(vertices, radius, arcs, control, sites, length, site_ends, is_anchored)),
-        has_sites_(site_ends),
-        view_{rows<Point>(vertices),
-              bindings::view(radius),
-              rows<IndexPair>(arcs),
-              rows<Point>(control),
-              rows<IndexPair>(sites),
-              bindings::view(length),
-              {},
-              bindings::view(is_anchored),
-              has_gap,
-              reach} {
-    const std::size_t nodes = view_.vertices.size(), count = view_.arcs.size();
-    if (view_.radius.size() != nodes || view_.is_anchored.size() != nodes || view_.control.size() != count ||
-        view_.sites.size() != count || view_.length.size() != count) {
-      throw std::invalid_argument("the arrays of a skeleton have lengths that do not go together");
-    }
-    core::base::check_range(view_.arcs, 0, nodes, outside);
-    if (!site_ends) return;
-    view_.site_ends = rows<std::array<Point, 2>>(*site_ends);
-    core::base::check_range(view_.sites, 0, view_.site_ends.size(), outside);
-  }
-
-  const SkeletonView& view(Criterion criterion = Criterion::angle) const {
-    if (!has_sites_ && criterion != Criterion::scale)
-      throw std::invalid_argument("the ends of sites are needed");
-    return view_;
-  }
-
-  static constexpr const char* outside = "an index of the skeleton is out of range";
-
- private:
-  std::shared_ptr<const void> kept_;
-  bool has_sites_;
-  SkeletonView view_;
-};
 
 // Some that follow each other.
 struct Range {
@@ -109,7 +65,7 @@ SkeletonView part_of(const SkeletonView& whole, const Range& arcs, const Range& 
 }
 
 auto critical_values(const Skeleton& input, Criterion criterion, const Progress& progress) {
-  const SkeletonView& skeleton = input.view(criterion);
+  const SkeletonView& skeleton = input.view(criterion != Criterion::scale);
   core::pruning::CriticalValues values =
       run_interruptible(progress, core::pruning::critical_values, skeleton, criterion);
   return std::make_tuple(two_columns(std::move(values.ends)), to_numpy(std::move(values.most)),
@@ -121,7 +77,7 @@ auto critical_values(const Skeleton& input, Criterion criterion, const Progress&
 Columns prune_skeleton(const Skeleton& input, const nb::slice& arcs, const nb::slice& nodes,
                        Criterion criterion, double threshold, const Indices& group,
                        const Progress& progress) {
-  const SkeletonView& whole = input.view(criterion);
+  const SkeletonView& whole = input.view(criterion != Criterion::scale);
   if (group.size() != whole.arcs.size()) throw std::invalid_argument("each arc must have a group");
   const Range own_arcs(arcs, whole.arcs.size()), own_nodes(nodes, whole.vertices.size());
   const std::vector<IndexPair> ends = renumbered(own_arcs.of(whole.arcs), own_nodes);
