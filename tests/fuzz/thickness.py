@@ -1,4 +1,4 @@
-"""Local thickness of random masks and labels, beside all arcs and bounds without a skeleton: `--cases 2000 --seed 1`."""
+"""Local thickness of random images, beside all arcs and bounds without a skeleton: `--cases 2000 --seed 1`."""
 
 from __future__ import annotations
 

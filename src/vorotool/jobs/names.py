@@ -11,5 +11,6 @@ DERIVED = {
     "shape": "jobs.skeletons.rebuilt_shape:RebuiltShape",
     "points": "jobs.skeletons.steps:Steps",
     "transects": "jobs.skeletons.steps:Steps",
+    "thickness": "jobs.skeletons.thickness:Thickness",
 }
 """Results of the skeleton commands that follow from a skeleton or its diagram, and what makes each."""

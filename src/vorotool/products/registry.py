@@ -160,6 +160,7 @@ _SKELETON = Writer("formats.results.skeletons:write_skeleton", ("what", *_LINES)
 _CENTERLINES = Writer("formats.results.centerlines:write_centerlines", _LINES)
 _OFFSETS = Writer("formats.results.offsets:write_offsets", _LINES)
 _RINGS = Writer("formats.polygons.writer:write_polygons", ("fmt", "precision"))
+_THICKNESS = Writer("formats.results.thickness:write_thickness", ("fmt", "threads"))
 _POINTS = Writer("formats.results.points_along:write_skeleton_points")
 _CURVES = "json csv tsv geojson npz wkt"
 _ARCS = _pictures("polygons elements points skeleton nodes labels")
@@ -184,6 +185,7 @@ _SKELETONS = (
     _product("shape", "PolygonSet", "json geojson wkt poly", _RINGS, _pictures("shape labels"), "shape"),
     _product("points", "SkeletonPoints", f"{_TABLES} npy geojson wkt", _POINTS, _ALONG, "polygons skeleton points"),
     _product("transects", "SkeletonPoints", f"geojson wkt {_TABLES}", _POINTS, _ALONG, "polygons skeleton transects"),
+    _product("thickness", "", "tiff npy", _THICKNESS, {"png": ("thickness",)}, "thickness"),
     _product("branches", "Skeleton", _TABLES, _SKELETON),
     _product("table", "Skeleton", _TABLES, _SKELETON),
 )

@@ -156,7 +156,7 @@ class _Discs:
         centre = self.source[arc] + u[:, None] * (self.way[arc] + u[:, None] * self.bend[arc])
         source, target = self.radius[arc].T
         from_focus = np.sqrt(np.square(centre - self.focus[arc]).sum(axis=1))
-        return np.where(self.is_linear[arc], source + u * (target - source), from_focus)
+        return np.asarray(np.where(self.is_linear[arc], source + u * (target - source), from_focus))
 
     def distance(self, place: Floats) -> float:
         """From the nearest outline."""

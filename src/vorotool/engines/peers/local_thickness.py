@@ -92,5 +92,5 @@ def local_thickness(
 
         shapes = replace(shapes, xy=shapes.xy * (sides.x, sides.y))
     skeleton = skeleton_exact(shapes, threads=threads, progress=progress)
-    made = thickness_of_pixels(skeleton, values.shape, sides=sides.units, threads=threads, progress=progress)
+    made = thickness_of_pixels(skeleton, values.shape, sides=(sides.y, sides.x), threads=threads, progress=progress)
     return made if sides.step == 1 else made * sides.step.numerator / sides.step.denominator

@@ -22,6 +22,7 @@ from vorotool.geometry.skeleton.centerline import Centerlines
 from vorotool.geometry.skeleton.offsets import Offsets
 from vorotool.geometry.skeleton.points_along import SkeletonPoints
 from vorotool.geometry.skeleton.skeleton import SiteTable, Skeleton
+from vorotool.geometry.skeleton.thickness import ThicknessImage
 from vorotool.geometry.table import Table
 from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 
@@ -50,6 +51,7 @@ _LENGTHS_OF = {
     Centerlines: "path ends",
     SkeletonPoints: "skeleton along xy radius feet",
     Offsets: "polygons site_table start end centre distance",
+    ThicknessImage: "values",
     VoronoiMap: "polygons clip enclosures vertices radius control center frame max_distance",
 }
 """What of each type is a length, or has lengths; all else stays."""
@@ -57,7 +59,7 @@ _LENGTHS_OF = {
 _DISTANCES = frozenset(
     {
         *("r", "r_min", "r_mid", "r_max", "spectrum", "radius", "length"),
-        *("error_bound", "gap", "along", "distance", "max_distance"),
+        *("error_bound", "gap", "along", "distance", "max_distance", "values"),
     }
 )
 """What of these is a length, and no place."""
