@@ -93,6 +93,7 @@ bench: build $(BUILD)/.tests ## measure beside the peers, in one run
 	$(RUN) tests/benchmarks/skeleton_exact.py
 	$(RUN) tests/benchmarks/skeleton_approx.py
 	$(RUN) tests/benchmarks/masks.py
+	$(RUN) tests/benchmarks/thickness.py
 	$(RUN) tests/benchmarks/segment_voronoi.py
 	$(RUN) tests/benchmarks/voronoi.py
 	$(RUN) tests/benchmarks/batch.py

@@ -1,7 +1,5 @@
 // Critical values of skeletons, and what is left for a threshold.
 #include <array>
-#include <memory>
-#include <optional>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -10,7 +8,7 @@
 #include "bindings/rooms.hpp"
 #include "bindings/support/arrays.hpp"
 #include "bindings/support/monitor.hpp"
-#include "bindings/support/skeleton.hpp"
+#include "bindings/support/skeleton_input.hpp"
 #include "core/base/indices.hpp"
 #include "core/pruning/arc_profile.hpp"
 #include "core/pruning/critical_values.hpp"
@@ -46,7 +44,7 @@ std::vector<IndexPair> renumbered(std::span<const IndexPair> arcs, const Range& 
   for (IndexPair& pair : ends) {
     for (std::int32_t& node : pair) node -= static_cast<std::int32_t>(nodes.first);
   }
-  core::base::check_range(ends, 0, nodes.count, Skeleton::outside);
+  core::base::check_range(ends, 0, nodes.count, SkeletonInput::outside);
   return ends;
 }
 
@@ -64,7 +62,7 @@ SkeletonView part_of(const SkeletonView& whole, const Range& arcs, const Range& 
           whole.reach};
 }
 
-auto critical_values(const Skeleton& input, Criterion criterion, const Progress& progress) {
+auto critical_values(const SkeletonInput& input, Criterion criterion, const Progress& progress) {
   const SkeletonView& skeleton = input.view(criterion != Criterion::scale);
   core::pruning::CriticalValues values =
       run_interruptible(progress, core::pruning::critical_values, skeleton, criterion);
@@ -74,7 +72,7 @@ auto critical_values(const Skeleton& input, Criterion criterion, const Progress&
 }
 
 // What is left of some arcs, whose nodes have nothing in common with others.
-Columns prune_skeleton(const Skeleton& input, const nb::slice& arcs, const nb::slice& nodes,
+Columns prune_skeleton(const SkeletonInput& input, const nb::slice& arcs, const nb::slice& nodes,
                        Criterion criterion, double threshold, const Indices& group,
                        const Progress& progress) {
   const SkeletonView& whole = input.view(criterion != Criterion::scale);
@@ -99,7 +97,7 @@ Columns prune_skeleton(const Skeleton& input, const nb::slice& arcs, const nb::s
   return result;
 }
 
-auto arc_profiles(const Skeleton& input) {
+auto arc_profiles(const SkeletonInput& input) {
   const SkeletonView& skeleton = input.view();
   const std::size_t count = skeleton.arcs.size();
   std::vector<std::int8_t> kind(count);
@@ -114,7 +112,7 @@ auto arc_profiles(const Skeleton& input) {
   return std::make_tuple(to_numpy(std::move(kind)), two_columns(std::move(ends)), to_numpy(std::move(size)));
 }
 
-Columns part_geometry(const Skeleton& input, const Indices& arc, const Vector<const double>& first,
+Columns part_geometry(const SkeletonInput& input, const Indices& arc, const Vector<const double>& first,
                       const Vector<const double>& last) {
   const SkeletonView& skeleton = input.view();
   if (first.size() != arc.size() || last.size() != arc.size())
@@ -151,12 +149,6 @@ void bind_pruning(nb::module_& room) {
       .value("scale", Criterion::scale)
       .value("length", Criterion::length)
       .value("ratio", Criterion::ratio);
-  nb::class_<Skeleton>(room, "Skeleton", "Of sites only the scale needs no ends.")
-      .def(nb::init<const Places&, const Vector<const double>&, const IndexRows&, const Places&,
-                    const IndexRows&, const Vector<const double>&, const std::optional<Places>&,
-                    const Vector<const std::uint8_t>&, bool, double>(),
-           "vertices"_a, "radius"_a, "arcs"_a, "control"_a, "sites"_a, "length"_a, "site_ends"_a.none(),
-           "is_anchored"_a, "has_gap"_a, "reach"_a);
   room.def(
       "critical_values", &critical_values, "skeleton"_a, "criterion"_a, "progress"_a.none(),
       "Values at the ends of arcs and the largest of each; arcs on which a place is kept, and where. Of the "

@@ -2,14 +2,14 @@
 #include "bindings/rooms.hpp"
 #include "bindings/support/arrays.hpp"
 #include "bindings/support/monitor.hpp"
-#include "bindings/support/skeleton.hpp"
+#include "bindings/support/skeleton_input.hpp"
 #include "core/base/large_array.hpp"
 #include "core/thickness/local_thickness.hpp"
 
 namespace vorotool::bindings {
 namespace {
 
-Array<double> local_thickness(const Skeleton& input, std::pair<double, double> first,
+Array<double> local_thickness(const SkeletonInput& input, std::pair<double, double> first,
                               std::pair<double, double> step, std::size_t height, std::size_t width,
                               double slack, unsigned threads, const Progress& progress) {
   if (!(step.first > 0 && step.second > 0)) throw std::invalid_argument("steps must be positive");

@@ -58,7 +58,8 @@ engines/from_skeleton -> engines/arrangement, engines/skeleton, geometry, geomet
     geometry/polygons, geometry/skeleton
 engines/offsets -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi, engines/skeleton,
     geometry, geometry/arguments, geometry/curves, geometry/polygons, geometry/skeleton, typing
-engines/pruning -> engines/common, geometry, geometry/arguments, geometry/curves, geometry/skeleton, typing
+engines/pruning -> engines/common, engines/skeleton, geometry, geometry/arguments, geometry/curves, geometry/skeleton,
+    typing
 engines/sampled_skeleton -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi,
     engines/skeleton, geometry, geometry/curves, geometry/polygons, geometry/skeleton
 formats -> formats/drawing, formats/features, formats/images, formats/io, formats/parsing, formats/points,
@@ -66,8 +67,8 @@ formats -> formats/drawing, formats/features, formats/images, formats/io, format
     geometry/volumes, geometry/voronoi, products
 batch -> engines/tessellation, formats, formats/io, formats/text, formats/zarr
 engines -> engines/sampled_skeleton, engines/skeleton, geometry, geometry/arguments, geometry/skeleton, typing
-engines/centerlines -> engines/from_skeleton, engines/pruning, engines/skeleton, geometry, geometry/arguments,
-    geometry/polygons, geometry/skeleton, typing
+engines/centerlines -> engines/from_skeleton, engines/skeleton, geometry, geometry/arguments, geometry/polygons,
+    geometry/skeleton, typing
 engines/voronoi -> engines/arrangement, engines/common, engines/segment_voronoi, engines/skeleton, geometry,
     geometry/arguments, geometry/curves, geometry/polygons, geometry/skeleton, geometry/voronoi, typing
 geometry/any -> geometry, geometry/alpha, geometry/curves, geometry/mesh, geometry/points, geometry/polygons,

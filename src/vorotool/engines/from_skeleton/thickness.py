@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.pruning.pruning import core_skeleton
+from vorotool.engines.skeleton.core_skeleton import core_skeleton
 from vorotool.engines.skeleton.parts import with_arcs
 from vorotool.errors import InputError
 from vorotool.geometry.arguments.values import check_value

@@ -76,7 +76,7 @@ class Result(ABC):
     @abstractmethod
     def _make(self) -> Any: ...
 
-    def verify(self, progress: Progress) -> None:
+    def verify(self, progress: Progress) -> None:  # noqa: B027 - some are not checked
         """Check the value by another way than it was made."""
 
     def stats(self) -> dict[str, Any]:

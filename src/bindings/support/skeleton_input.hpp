@@ -1,4 +1,4 @@
-// A skeleton that comes from Python, for what follows from it.
+// A skeleton that comes from Python.
 #pragma once
 
 #include <array>
@@ -14,20 +14,23 @@
 namespace vorotool::bindings {
 
 // Its arrays are kept, and its indices in range.
-class Skeleton {
+class SkeletonInput {
  public:
+  using View = core::skeleton::SkeletonView;
+  using IndexPair = core::base::IndexPair;
+
   // Ends of sites, four numbers each.
-  Skeleton(const Places& vertices, const Vector<const double>& radius, const IndexRows& arcs,
-           const Places& control, const IndexRows& sites, const Vector<const double>& length,
-           const std::optional<Places>& site_ends, const Vector<const std::uint8_t>& is_anchored,
-           bool has_gap, double reach)
+  SkeletonInput(const Places& vertices, const Vector<const double>& radius, const IndexRows& arcs,
+                const Places& control, const IndexRows& sites, const Vector<const double>& length,
+                const std::optional<Places>& site_ends, const Vector<const std::uint8_t>& is_anchored,
+                bool has_gap, double reach)
       : kept_(keep(vertices, radius, arcs, control, sites, length, site_ends, is_anchored)),
         has_sites_(site_ends),
         view_{rows<core::kernel::Point>(vertices),
               bindings::view(radius),
-              rows<core::base::IndexPair>(arcs),
+              rows<IndexPair>(arcs),
               rows<core::kernel::Point>(control),
-              rows<core::base::IndexPair>(sites),
+              rows<IndexPair>(sites),
               bindings::view(length),
               {},
               bindings::view(is_anchored),
@@ -44,8 +47,8 @@ class Skeleton {
     core::base::check_range(view_.sites, 0, view_.site_ends.size(), outside);
   }
 
-  const core::skeleton::SkeletonView& view(bool needs_sites = true) const {
-    if (!has_sites_ && needs_sites) throw std::invalid_argument("the ends of sites are needed");
+  const View& view(bool needs_sites = true) const {
+    if (needs_sites && !has_sites_) throw std::invalid_argument("the ends of sites are needed");
     return view_;
   }
 
@@ -54,7 +57,7 @@ class Skeleton {
  private:
   std::shared_ptr<const void> kept_;
   bool has_sites_;
-  core::skeleton::SkeletonView view_;
+  View view_;
 };
 
 }  // namespace vorotool::bindings
