@@ -36,7 +36,9 @@ def by_transforms(mask):
 
 def main():
     side = int(sys.argv[1]) if len(sys.argv) > 1 else 4096
-    print(f"local thickness of masks of {side} x {side} pixels, seconds: outlines / skeleton / thickness / all; transforms")
+    print(
+        f"local thickness of masks of {side} x {side} pixels, seconds: outlines / skeleton / thickness / all; transforms"
+    )
     for name, mask in masks(side):
         outlined, polygons = timed(partial(vorotool.outlines, mask), runs=RUNS)
         made, skeleton = timed(partial(vorotool.skeleton_exact, polygons), runs=RUNS)
@@ -44,7 +46,9 @@ def main():
         other, radii = timed(partial(by_transforms, mask), runs=1)
         total = outlined + made + drawn
         apart = np.abs(thickness - (2 * radii - 1))[mask & (radii > 0)]
-        print(f"  {name}: {100 * mask.mean():.0f} % foreground, mean {thickness[mask].mean():.2f}, {len(skeleton)} arcs")
+        print(
+            f"  {name}: {100 * mask.mean():.0f} % foreground, mean {thickness[mask].mean():.2f}, {len(skeleton)} arcs"
+        )
         print(f"    {outlined:.2f} / {made:.2f} / {drawn:.2f} / {total:.2f}; {other:.1f}, 1/{other / total:.0f}")
         print(f"    the transforms' values are off by {apart.mean():.2f} in the mean, {apart.max():.1f} at most")
 
