@@ -94,6 +94,7 @@ bench: build $(BUILD)/.tests ## measure beside the peers, in one run
 	$(RUN) tests/benchmarks/skeleton_approx.py
 	$(RUN) tests/benchmarks/discs.py
 	$(RUN) tests/benchmarks/masks.py
+	$(RUN) tests/benchmarks/thickness.py
 	$(RUN) tests/benchmarks/segment_voronoi.py
 	$(RUN) tests/benchmarks/voronoi.py
 	$(RUN) tests/benchmarks/batch.py
@@ -123,6 +124,7 @@ else
 	$(RUN) tests/fuzz/discs.py --cases $(or $(CASES),1000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/rotation.py --cases $(or $(CASES),1000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/outlines.py --cases $(or $(CASES),20000) --seed $(or $(SEED),1)
+	$(RUN) tests/fuzz/thickness.py --cases $(or $(CASES),2000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/segment_voronoi.py --cases $(or $(CASES),800000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/segment_voronoi.py --cases 10000 --seed $(or $(SEED),1) --family clusters --largest 100 --symmetries 1
 	$(RUN) tests/fuzz/voronoi.py --cases $(or $(CASES),100000) --seed $(or $(SEED),1)

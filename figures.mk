@@ -7,7 +7,8 @@ TABLE_1_SIZES := 64 128 256 512
 FIGURE_9_STEPS := 20 15 10 5
 GALLERY_PICTURES := letters-all.svg letters.svg letters-angle.svg vessels.png vessels.csv river.svg widths.svg \
                     silhouettes.svg silhouettes-chord.svg silhouettes.csv slider.html lakes.svg offsets.svg \
-                    cells.svg outside.svg alpha.svg houses.svg territories.svg nuclei.svg
+                    cells.svg outside.svg alpha.svg houses.svg territories.svg nuclei.svg thickness.png \
+                    thickness-dark.png
 
 NAMES := figure-01 figure-02 figure-03a figure-03b figure-03c figure-03d figure-04a figure-04b figure-04c \
          figure-05 figure-06 figure-07 figure-08 figure-09 figure-10 figure-11 figure-lakes table-1 error-vs-h gallery
@@ -171,6 +172,14 @@ $(FIGURES)/gallery-letters-angle.svg: $(GALLERY)/letters.png $(BUILD)/.installed
 # Purpose: the skeleton of a network over its image,
 $(FIGURES)/gallery-vessels.png: $(GALLERY)/vessels.png $(BUILD)/.installed | $(FIGURES)
 	$(VOROTOOL) skeleton-exact $< --overlay $< -o $@
+
+# Purpose: how thick it is, in colours: at each pixel the largest disc over it,
+$(FIGURES)/gallery-thickness.png: $(GALLERY)/vessels.png $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) skeleton-exact $< --what thickness --legend -o $@
+
+# Purpose: and on dark ground.
+$(FIGURES)/gallery-thickness-dark.png: $(GALLERY)/vessels.png $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) skeleton-exact $< --what thickness --legend --background "#1c1c1c" -o $@
 
 # Purpose: and the length and the radii of its branches.
 $(FIGURES)/gallery-vessels.csv: $(GALLERY)/vessels.png $(BUILD)/.installed | $(FIGURES)

@@ -34,6 +34,7 @@ constexpr Room rooms[] = {
     {"tessellation", bind_tessellation, "The tessellation of frames, and its check."},
     {"text", bind_text,
      "Numbers, fields and polygons as text, read and written: a delimiter is one of , ; tab and blank."},
+    {"thickness", bind_thickness, "The largest disc inside an outline that covers each pixel."},
     {"voronoi", bind_voronoi, "Borders between sites, which are points, lines and polygons."},
     {"volumes", bind_volumes, "The tessellation of volumes."},
 };

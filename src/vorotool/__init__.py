@@ -112,7 +112,9 @@ _HOME = {
     "verify_alpha_shape": "vorotool.engines.alpha.verify_alpha",
     "distance_transform": "vorotool.engines.peers.distance_transform",
     "expand_labels": "vorotool.engines.peers.expand_labels",
+    "local_thickness": "vorotool.engines.peers.local_thickness",
     "medial_axis": "vorotool.engines.peers.medial_axis",
+    "verify_thickness": "vorotool.engines.from_skeleton.verify_thickness",
     "voronoi_polygons": "vorotool.engines.peers.voronoi_polygons",
 }
 

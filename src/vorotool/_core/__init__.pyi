@@ -18,6 +18,7 @@ from vorotool._core import (
     spatial as spatial,
     tessellation as tessellation,
     text as text,
+    thickness as thickness,
     volumes as volumes,
     voronoi as voronoi
 )

@@ -12,5 +12,6 @@ DERIVED = {
     "discs": "jobs.skeletons.inscribed_discs:InscribedDiscs",
     "points": "jobs.skeletons.steps:Steps",
     "transects": "jobs.skeletons.steps:Steps",
+    "thickness": "jobs.skeletons.thickness:Thickness",
 }
 """Results of the skeleton commands that follow from a skeleton or its diagram, and what makes each."""

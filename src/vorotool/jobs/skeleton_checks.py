@@ -35,6 +35,7 @@ def check_options(o: SkeletonOptions, targets: list[Target]) -> None:
     _check_measures(o)
     _check_shapes(o)
     _check_discs(o)
+    _check_thickness(o, targets)
     if o.frame is not None and o.side == "interior" and "diagram" not in o.what:
         raise UsageError("--frame cuts what is outside: use --side exterior or both, or leave it out")
     if o.frame is not None:
@@ -135,3 +136,29 @@ def _check_shapes(o: SkeletonOptions) -> None:
     given = {"--side": o.side != "interior", "--prune": o.prune is not None, "--gap": has_gap}
     for name in (name for name, is_given in given.items() if is_given and set(o.what) == {"offset"}):
         raise UsageError(f"{name} is for skeletons, but offset curves are of the shapes: leave it out")
+
+
+def _check_thickness(o: SkeletonOptions, targets: list[Target]) -> None:
+    """Thickness is of what is inside, of the whole exact skeleton, and its picture has the pixels of the image."""
+    if "thickness" not in o.what:
+        return
+    if isinstance(o, ApproximateSkeletonOptions):
+        raise UsageError("thickness is measured by the exact skeleton: use skeleton-exact --what thickness")
+    if o.side == "exterior":
+        raise UsageError("thickness is measured inside objects: use --side interior or both")
+    if isinstance(o, ExactSkeletonOptions) and o.gap:
+        raise UsageError(
+            "a skeleton with a gap has no discs that touch the outline: use --what thickness without --gap"
+        )
+    if o.prune is not None and set(o.what) == {"thickness"}:
+        raise UsageError("--prune is for skeletons, but thickness is of all discs: leave it out")
+    if not any((target.what, target.fmt) == ("thickness", "png") for target in targets):
+        return
+    given = {
+        "--width": o.width is not None,
+        "--overlay": o.overlay is not None,
+        "--y-up or --y-down": o.y_up is not None,
+        **{f"--{name}": name in o.looks.given() for name in ("color", "line-width", "label-by", "aspect", "extent")},
+    }
+    for name in (name for name, is_given in given.items() if is_given):
+        raise UsageError(f"a picture of thickness has the pixels of the image and colours of its own: leave out {name}")

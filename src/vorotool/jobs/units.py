@@ -270,9 +270,9 @@ def check_units(o: JobOptions, targets: Sequence[Target]) -> None:
 
 
 def _has_units(target: Target) -> bool:
-    """Whether there are lengths in an output: of images in the plot of curves, and in arrays of places and radii."""
+    """Whether there are lengths in an output: of images in thickness and curves, and in arrays of places and radii."""
     is_array = target.fmt == "npy" and target.what in ("points", "spectrum")
-    return is_array or target.what == "curves" or not FORMATS[target.fmt].is_image
+    return is_array or target.what in ("curves", "thickness") or not FORMATS[target.fmt].is_image
 
 
 def in_units(size: PixelSize | None, value: Value) -> Value:

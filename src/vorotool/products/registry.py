@@ -165,6 +165,7 @@ _DISC_LAYERS = _pictures("polygons discs feet labels")
 _DISC_PRODUCT = _product(
     "discs", "Discs", f"{_TABLES} geojson wkt", _DISCS, _DISC_LAYERS, "polygons discs", is_curved=True
 )
+_THICKNESS = Writer("formats.results.thickness:write_thickness", ("fmt", "threads"))
 _POINTS = Writer("formats.results.points_along:write_skeleton_points")
 _CURVES = "json csv tsv geojson npz wkt"
 _ARCS = _pictures("polygons elements points skeleton nodes labels")
@@ -190,6 +191,7 @@ _SKELETONS = (
     _DISC_PRODUCT,
     _product("points", "SkeletonPoints", f"{_TABLES} npy geojson wkt", _POINTS, _ALONG, "polygons skeleton points"),
     _product("transects", "SkeletonPoints", f"geojson wkt {_TABLES}", _POINTS, _ALONG, "polygons skeleton transects"),
+    _product("thickness", "", "tiff npy", _THICKNESS, {"png": ("thickness",)}, "thickness"),
     _product("branches", "Skeleton", _TABLES, _SKELETON),
     _product("table", "Skeleton", _TABLES, _SKELETON),
 )

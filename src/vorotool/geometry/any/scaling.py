@@ -23,6 +23,7 @@ from vorotool.geometry.skeleton.discs import Discs
 from vorotool.geometry.skeleton.offsets import Offsets
 from vorotool.geometry.skeleton.points_along import SkeletonPoints
 from vorotool.geometry.skeleton.skeleton import SiteTable, Skeleton
+from vorotool.geometry.skeleton.thickness import ThicknessImage
 from vorotool.geometry.table import Table
 from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 
@@ -52,6 +53,7 @@ _LENGTHS_OF = {
     SkeletonPoints: "skeleton along xy radius feet",
     Discs: "polygons site_table xy radius feet within",
     Offsets: "polygons site_table start end centre distance",
+    ThicknessImage: "values",
     VoronoiMap: "polygons clip enclosures vertices radius control center frame max_distance",
 }
 """What of each type is a length, or has lengths; all else stays."""
@@ -59,7 +61,7 @@ _LENGTHS_OF = {
 _DISTANCES = frozenset(
     {
         *("r", "r_min", "r_mid", "r_max", "spectrum", "radius", "length"),
-        *("error_bound", "gap", "along", "distance", "max_distance"),
+        *("error_bound", "gap", "along", "distance", "max_distance", "values"),
     }
 )
 """What of these is a length, and no place."""

@@ -16,7 +16,7 @@ from vorotool.errors import InputError, Kind, Message, RepairWarning, VorotoolWa
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.skeleton import EXTERIOR, Skeleton
-from vorotool.jobs.inputs import JobInput
+from vorotool.jobs.inputs import JobInput, refuse
 from vorotool.jobs.names import DERIVED
 from vorotool.jobs.options import Place, SkeletonOptions
 from vorotool.jobs.picture_style import styled_page
@@ -59,13 +59,15 @@ class SkeletonProducts(ABC, Generic[Options]):
     def __init__(self, run: Run, options: Options, given: JobInput) -> None:
         self.run = run
         with run.phase("read"):
-            self._polygons, self.is_mask, options, frame = read_polygons(run, options, given)
+            self._polygons, self.is_mask, options, frame, grid = read_polygons(run, options, given)
+        if frame is None:
+            refuse({"what thickness": "thickness" in options.what}, "is for images, but the input is polygons or lines")
         self.options, self.backdrop = options, placed_backdrop(options.pixel_size, given.backdrop)
         self._is_told = False  # what was repaired, once
         check_column(options.label_by, self._polygons.properties)
         world = world_of_polygons(run, options, self._polygons, frame=frame, size=options.pixel_size)
         self._styled = partial(styled_page, looks=options.looks, world=world)
-        origin = Origin(run, options, lambda: self.skeleton, lambda: self.whole, self._shapes)
+        origin = Origin(run, options, lambda: self.skeleton, lambda: self.whole, self._shapes, frame, grid)
         self.derived = Derived(origin, self.backdrop, self._styled)
 
     @contextmanager
