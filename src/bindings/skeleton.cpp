@@ -113,7 +113,7 @@ void bind_skeleton(nb::module_& room) {
            "Edges that are not deleted, and the face that each lies in.");
   room.def("extract_skeleton", &extract_skeleton, "diagram"_a, "kept"_a, "groups"_a, "clipped"_a.none(),
            "joined"_a, "origin_x"_a, "origin_y"_a, "scale"_a, "threads"_a, "progress"_a.none(),
-           "Frames are least x, most x, least y, most y on the lattice; joined are groups from one to before "
+           "Frames are least x, most x, least y, most y on the lattice, of group -1 for all; joined are groups from one to before "
            "another.");
   room.def("steps_along", &steps_along, "skeleton"_a, "first"_a, "counts"_a, "every"_a, "threads"_a,
            "progress"_a.none(), "Places at equal steps along branches, whose first arcs are given.");

@@ -78,6 +78,8 @@ _HOME = {
     "critical_values": "vorotool.engines.pruning.pruning",
     "prune": "vorotool.engines.pruning.pruning",
     "verify_pruning": "vorotool.engines.pruning.verify_pruning",
+    "join_junctions": "vorotool.engines.junctions.joining",
+    "verify_joining": "vorotool.engines.junctions.verify_joining",
     "skeleton_approx": "vorotool.engines.skeleton_api",
     "skeleton_exact": "vorotool.engines.skeleton_api",
     "verify_skeleton": "vorotool.engines.skeleton.verify_skeleton",

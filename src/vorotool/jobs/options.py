@@ -369,6 +369,7 @@ class SkeletonOptions(ShapeOptions):
     features: Literal["separate", "together"]
     complete: bool | None
     prune: Pruning | None
+    join_junctions: bool
     start: Place | None
     end: Place | None
     ends: Ends | None
@@ -391,6 +392,16 @@ class ExactSkeletonOptions(SkeletonOptions):
     """Of ``skeleton-exact``."""
 
     gap: float
+    border: Literal["closed", "open"] | None
+
+    @property
+    def has_open_border(self) -> bool:
+        """Whether objects go on beyond the image that cuts them."""
+        return self.border == "open"
+
+    def for_images(self) -> dict[str, Any]:
+        """Give the options that mean nothing for polygons and lines, by their names."""
+        return ShapeOptions.for_images(self) | {"border": self.border}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False, eq=False)

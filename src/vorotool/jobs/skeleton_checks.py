@@ -19,6 +19,9 @@ from vorotool.products.formats import FORMATS, PICTURES, picture_format
 from vorotool.products.inputs import DRAWINGS
 from vorotool.products.registry import PRODUCTS, Product, formats_of, layers_of
 
+OF_OPEN_BORDERS = ("skeleton", "branches", "table", "centerline", "points", "transects")
+"""Results that need no closed outlines."""
+
 
 def check_options(o: SkeletonOptions, targets: list[Target]) -> None:
     """Refuse what does not go together, or what no output would show."""
@@ -41,6 +44,8 @@ def check_options(o: SkeletonOptions, targets: list[Target]) -> None:
     if o.frame is not None:
         check_frame(o.frame)
     _check_centerline(o)
+    _check_joining(o, formats)
+    _check_border(o)
     pictures = sorted({picture_format(fmt) for fmt in formats} & set(PICTURES))
     check_animation(o, targets)
     if o.layers is not None and not pictures:
@@ -100,6 +105,38 @@ def _check_centerline(o: SkeletonOptions) -> None:
         )
     if (o.start is not None or o.end is not None) and "centerline" not in o.what:
         raise UsageError("--from and --to are ends of centerlines: use --what centerline, or leave them out")
+
+
+def _check_joining(o: SkeletonOptions, formats: set[str]) -> None:
+    """Junctions are those of skeletons, branches and tables; what is measured along an axis stays on it."""
+    if not o.join_junctions:
+        return
+    if not {"skeleton", "branches", "table"} & set(o.what):
+        raise UsageError(
+            "--join-junctions is for skeletons, branches and tables: use --what skeleton, branches or table, or leave "
+            "it out"
+        )
+    if "html" in formats:
+        raise UsageError("--join-junctions does not show in a page of all prunings: use -f svg, or leave it out")
+
+
+def _check_border(o: SkeletonOptions) -> None:
+    """With an open border there is what follows from the axis inside each object, and no closed outline."""
+    if not (isinstance(o, ExactSkeletonOptions) and o.has_open_border):
+        return
+    given = {
+        "--side": o.side != "interior",
+        "--features": o.features != "separate",
+        "--gap": o.gap > 0,
+        "--simplify": o.simplify is not None,
+        "--frame": o.frame is not None,
+    }
+    for name in (name for name, is_given in given.items() if is_given):
+        raise UsageError(f"--border open is for what is inside each object as it is: leave {name} out")
+    for what in (what for what in o.what if what not in OF_OPEN_BORDERS):
+        raise UsageError(
+            f"--what {what} is of closed outlines: leave --border open out, or use {', '.join(OF_OPEN_BORDERS)}"
+        )
 
 
 def _check_measures(o: SkeletonOptions) -> None:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
 
 from vorotool.jobs.inputs import JobInput, opened_input, read_opened, refuse
 from vorotool.jobs.masks import settled_foreground
-from vorotool.jobs.options import ShapeOptions
+from vorotool.jobs.options import ExactSkeletonOptions, ShapeOptions
 from vorotool.jobs.pixel_sizes import placed_polygons, with_pixel_size
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.units import lengths_in_steps, sides_of
@@ -89,6 +89,7 @@ def _outlines(run: Run, o: ShapeOptions, image: Raster) -> PolygonSet:
         return outlines(
             image,
             outline=o.outline or "crack",
+            border="open" if isinstance(o, ExactSkeletonOptions) and o.has_open_border else "closed",
             mode=o.seeds,
             connectivity=int(o.connectivity or 8),
             threshold=threshold,
@@ -100,6 +101,18 @@ def _outlines(run: Run, o: ShapeOptions, image: Raster) -> PolygonSet:
             progress=progress,
             note=run.note,
         )
+
+
+def border_of(o: ShapeOptions, frame: Frame) -> tuple[float, float, float, float]:
+    """Give the rectangle that the pixels of an image cover, in the coordinates of their outlines."""
+    sides = None if o.pixel_size is None else o.pixel_size.sides
+    across, down = (1, 1) if sides is None else (sides.x, sides.y)
+    return (
+        (frame.x - 0.5) * across,
+        (frame.y - 0.5) * down,
+        float(frame.width * across),
+        float(frame.height * down),
+    )
 
 
 def _simplified(run: Run, o: ShapeOptions, polygons: PolygonSet, tolerance: float) -> PolygonSet:

@@ -43,6 +43,11 @@ _BEFORE: tuple[Decorator, ...] = (
         "By default mask for images, none for polygons.",
     ),
     click.option(
+        "--join-junctions",
+        is_flag=True,
+        help="Make junctions one that are joined by branches shorter than the radius at the largest: >-< becomes ><.",
+    ),
+    click.option(
         "--from", "start", type=Place(), help="Begin the centerline at the place on the skeleton nearest to this."
     ),
     click.option("--to", "end", type=Place(), help="End it at the nearest place."),

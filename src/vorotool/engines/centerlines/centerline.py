@@ -175,10 +175,18 @@ def _made(network: Network, paths: Paths, ends: Ends, *, wanted: tuple[bool, boo
         path = _joined(network.skeleton, _with_length(left))
         return _rounded(Centerlines(path, np.full((int(path.branch.max(initial=-1)) + 1, 2, 2), np.nan)))
     lines = Centerlines(_joined(network.skeleton, left), middles)
-    is_open = ((paths.end_nodes < network.leaves) | rounds) & ~leads & np.array(wanted)
+    asked = np.array(wanted) & ~_at_open_border(network.skeleton, lines)
+    is_open = ((paths.end_nodes < network.leaves) | rounds) & ~leads & asked
     if ends == "middle":
-        lines = led_to_oblique_ends(lines, (is_open | leads) & ~rounds & np.array(wanted))
+        lines = led_to_oblique_ends(lines, (is_open | leads) & ~rounds & asked)
     return _rounded(_led_on(lines, is_open & np.isnan(lines.ends[:, :, 0]), to_middles=ends == "middle"))
+
+
+def _at_open_border(skeleton: Skeleton, lines: Centerlines) -> Booleans:
+    """(k, 2) which ends are where the polygon goes on beyond the frame: there is nothing to lead them on to."""
+    if skeleton.border != "open":
+        return np.zeros((len(lines), 2), dtype=bool)
+    return replace(lines.path, frame=skeleton.frame).touches_frame[lines.end_nodes]
 
 
 def _marked(axis: Unforked, pieces: _Pieces, start: NDArray[np.int64]) -> tuple[Booleans, Booleans]:

@@ -130,9 +130,12 @@ def _sides(skeleton: Skeleton) -> tuple[_Sides, _Sides]:
     arc = np.concatenate([inside, inside])
     left, right = (skeleton.sites[inside][:, order].T.reshape(-1).astype(np.intp) for order in ([0, 1], [1, 0]))
     keys = [node * len(table) + site for site in (left, right)]
+    is_pruned = skeleton.radius[node] > 0
+    if skeleton.border == "open":  # what is missing there was cut off
+        is_pruned &= ~skeleton.touches_frame[node]
     made = []
     for site, own, others in ((left, *keys), (right, *keys[::-1])):
-        maybe = np.flatnonzero((skeleton.radius[node] > 0) & (table.kind[site] == EDGE))
+        maybe = np.flatnonzero(is_pruned & (table.kind[site] == EDGE))
         chosen = maybe[~is_among(own[maybe], others)]
         ring = polygons.polygon_start[table.polygon[site[chosen]]] + table.ring[site[chosen]]
         vertex = polygons.ring_start[ring] + table.index[site[chosen]]

@@ -163,6 +163,7 @@ def in_batches(
     *,
     reach: Callable[[PolygonSet, float], NDArray[np.int64]] | None = None,
     alone: bool = False,
+    around: NDArray[np.float64] | None = None,
     drops: bool = True,
     strict: bool = False,
     threads: int = 0,
@@ -180,6 +181,8 @@ def in_batches(
         Gives for polygons and the step of their lattice by how many steps features of a batch must be farther apart.
     alone : bool
         One feature a batch: what is done depends on others however far they are.
+    around : (k, 2) array, optional
+        Further places that the lattice has room for.
     drops : bool
         Leave out vertices in which outlines of pixels go straight on. A checker takes them as it finds them.
     strict : bool
@@ -217,7 +220,7 @@ def in_batches(
     is_cracks = polygons.connectivity is not None and reach is None and not polygons.is_line.any()
     corners = own_corners(polygons) if is_cracks and drops else None
     used = polygons if corners is None else corners.polygons
-    placement = placed_vertices(used, threads=threads, progress=progress)
+    placement = placed_vertices(used, around=around, threads=threads, progress=progress)
     features = Features.of(used)
     made: list[tuple[BatchShapes, Result]] | None = None
     if alone:

@@ -211,16 +211,10 @@ def border_components(graph: PlanarGraph) -> Indices:
 def _check_areas(regions: SkeletonRegions, wanted: NDArray[np.bool_]) -> None:
     """Regions between arcs and their feet on both sides sum to the area of each bounded face."""
     skeleton, graph, sites = regions.skeleton, regions.graph, regions.sites
-    source, target = skeleton.vertices[skeleton.arcs].swapaxes(0, 1)
-    total = np.zeros(len(skeleton))
-    for hand, sign in ((0, 0.5), (1, -0.5)):
-        site = skeleton.sites[:, hand]
-        from_source, from_target = sites.feet(site, source), sites.feet(site, target)
-        a, b = from_target - source, from_source - target  # diagonals
-        total += sign * (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
+    total = areas_beside(skeleton, sites)
     face = np.maximum(regions.face[regions.root[skeleton.arcs[:, 0]]], 0)
     summed = np.bincount(face, total, graph.faces)
-    area, perimeter = _face_measures(graph)
+    area, perimeter = face_measures(graph)
     allowed = AREA * np.abs(area) + AREA_ULPS * np.spacing(sites.largest) * perimeter
     wrong = wanted & ~(np.abs(summed - area) <= allowed)
     wrong[0] = False
@@ -229,7 +223,19 @@ def _check_areas(regions: SkeletonRegions, wanted: NDArray[np.bool_]) -> None:
         fail(f"the regions around the arcs in region {at} sum to {summed[at]}, but its area is {area[at]}")
 
 
-def _face_measures(graph: PlanarGraph) -> tuple[Floats, Floats]:
+def areas_beside(skeleton: Skeleton, sites: SitePlaces) -> Floats:
+    """(a,) areas between arcs and their feet, on both sides."""
+    source, target = skeleton.vertices[skeleton.arcs].swapaxes(0, 1)
+    total = np.zeros(len(skeleton))
+    for hand, sign in ((0, 0.5), (1, -0.5)):
+        site = skeleton.sites[:, hand]
+        from_source, from_target = sites.feet(site, source), sites.feet(site, target)
+        a, b = from_target - source, from_source - target  # diagonals
+        total += sign * (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
+    return total
+
+
+def face_measures(graph: PlanarGraph) -> tuple[Floats, Floats]:
     """Areas and perimeters of faces; the unbounded one's means nothing."""
     way = graph.coordinates()[graph.segments]
     length = np.sqrt(np.square(way[:, 1] - way[:, 0]).sum(axis=1))

@@ -39,11 +39,12 @@ def to_networkx(
     Parameters
     ----------
     value : Skeleton, Triangulation, DigitalTriangulation, LabelImage, LabelVolume, PlanarGraph or VoronoiMap
-        Of a skeleton nodes are numbers of vertices, with ``x``, ``y`` and ``r``; edges have the number of their branch
-        or arc for a key, and ``branch`` (also ``arc``), ``polygon``, ``id``, ``side``, ``kind``, ``length``, ``r_min``,
-        ``r_max``, ``r_mean`` as `branch_table` has them, and ``geometry``, a shapely LineString; the properties of the
-        polygon, too. Of a triangulation nodes are numbers of points, from 0, with ``x``, ``y``, ``label`` and the
-        properties, edges have ``length``. Of a label image or volume nodes are labels, with the columns of
+        Of a skeleton nodes are numbers of vertices, with ``x``, ``y``, the radius ``r`` and the ``degree``; edges have
+        the number of their branch or arc for a key, and ``branch`` (also ``arc``), ``polygon``, ``id``, ``side``,
+        ``kind``, ``length``, ``r_min``, ``r_max``, ``r_mean``, of branches ``type`` and ``tortuosity`` as
+        `branch_table` has them, and ``geometry``, a shapely LineString; the properties of the polygon, too. Of a
+        triangulation nodes are numbers of points, from 0, with ``x``, ``y``, ``label`` and the properties, edges have
+        ``length``. Of a label image or volume nodes are labels, with the columns of
         `region_table`, edges join neighbours, with those of `neighbour_table`. Of a planar graph nodes are numbers of
         its points, with ``x`` and ``y``, edges have ``segment``, ``length``, ``face_left`` and ``face_right``. Of a
         Voronoi map nodes are numbers of its cells, from 0, with the columns of its table, edges join neighbours, with
@@ -117,7 +118,7 @@ def _of_skeleton(library: Any, skeleton: Skeleton, by: str, flatten: float | Non
     polygons = skeleton.polygons
     graph = library.MultiGraph(**_named(polygons.crs))
     x, y = skeleton.vertices[parts.nodes].T
-    nodes = _rows({"x": x, "y": y, "r": skeleton.radius[parts.nodes]})
+    nodes = _rows({"x": x, "y": y, "r": skeleton.radius[parts.nodes], "degree": skeleton.degree[parts.nodes]})
     graph.add_nodes_from(zip(parts.nodes.tolist(), nodes, strict=True))
     geometry = lines(parts.points, parts.start)
     ends = zip(parts.source.tolist(), parts.target.tolist(), strict=True)

@@ -30,7 +30,8 @@ class SkeletonGraph:
     source, target : (e,) int64 array
         The vertices at the ends of each edge.
     edges : Table
-        ``branch`` or ``arc``, ``polygon``, ``id``, ``side``, ``kind``, ``length``, ``r_min``, ``r_max``, ``r_mean``.
+        ``branch`` or ``arc``, ``polygon``, ``id``, ``side``, ``kind``, ``length``, ``r_min``, ``r_max``, ``r_mean``; of
+        branches ``type`` and ``tortuosity``, too.
     points : (k, 2) float64 array
         Places along the edges, from source to target, the ends included.
     start : (e + 1,) int64 array
@@ -90,7 +91,7 @@ def skeleton_graph(skeleton: Skeleton, *, by: str = "branch", flatten: float | N
 
 def _branches(skeleton: Skeleton, first: NDArray[np.int64]) -> Table:
     table = branch_table(skeleton, threads=1)
-    names = ("branch", "polygon", "id", "kind", "length", "r_min", "r_max", "r_mean")
+    names = ("branch", "polygon", "id", "kind", "length", "r_min", "r_max", "r_mean", "type", "tortuosity")
     columns = {name: table.stored()[name] for name in names}
     return Table({"branch": columns.pop("branch"), "side": _sides(skeleton, first), **columns})
 

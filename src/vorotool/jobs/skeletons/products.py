@@ -62,6 +62,7 @@ class SkeletonProducts(ABC, Generic[Options]):
             self._polygons, self.is_mask, options, frame, grid = read_polygons(run, options, given)
         if frame is None:
             refuse({"what thickness": "thickness" in options.what}, "is for images, but the input is polygons or lines")
+        self._frame = frame
         self.options, self.backdrop = options, placed_backdrop(options.pixel_size, given.backdrop)
         self._is_told = False  # what was repaired, once
         check_column(options.label_by, self._polygons.properties)
@@ -101,6 +102,17 @@ class SkeletonProducts(ABC, Generic[Options]):
         threshold: dict[str, Any] = {self.pruning.criterion: self.pruning.threshold}
         with self.run.phase("prune") as progress:
             return prune(whole, **threshold, threads=self.options.threads, progress=progress)
+
+    @cached_property
+    def joined(self) -> Skeleton:
+        """What is left, with near junctions made one: of what is drawn and counted, but not of what is measured."""
+        if not self.options.join_junctions:
+            return self.skeleton
+        from vorotool.engines.junctions.joining import join_junctions
+
+        skeleton = self.skeleton
+        with self.run.phase("join"):
+            return join_junctions(skeleton)
 
     @cached_property
     def centerlines(self) -> Centerlines:
@@ -176,6 +188,10 @@ class SkeletonProducts(ABC, Generic[Options]):
             from vorotool.engines.pruning.verify_pruning import verify_pruning
 
             verify_pruning(self.skeleton, self.whole)
+        if self.options.join_junctions:
+            from vorotool.engines.junctions.verify_joining import verify_joining
+
+            verify_joining(self.joined, self.skeleton)
 
     @abstractmethod
     def _verify_whole(self, progress: Progress) -> None: ...
@@ -183,7 +199,7 @@ class SkeletonProducts(ABC, Generic[Options]):
     def _value(self, what: str) -> Skeleton:
         if what == "centerline":
             return self.centerlines.path
-        return self.diagram if what == "diagram" else self.skeleton
+        return self.diagram if what == "diagram" else self.joined
 
     def check(self, target: Target) -> None:
         """Compute a result, and refuse what cannot be written, before anything is written."""
@@ -301,7 +317,7 @@ class SkeletonProducts(ABC, Generic[Options]):
         if self.is_mask:
             found |= {"outline": self.options.outline or "crack", "connectivity": int(self.options.connectivity or 8)}
         if self.options.wants_skeleton:
-            found |= self._skeleton_stats(self.skeleton)
+            found |= self._skeleton_stats(self.joined)
         return found | self.derived.stats()
 
     def _shape_stats(self) -> dict[str, Any]:
@@ -326,6 +342,9 @@ class SkeletonProducts(ABC, Generic[Options]):
             "nodes": len(skeleton.vertices),
             "prune": self.pruning.stats(),
         }
+        if self.options.join_junctions:
+            junctions = [int(np.count_nonzero(value.degree > 2)) for value in (self.skeleton, skeleton)]
+            found["junctions_joined"] = junctions[0] - junctions[1]
         if skeleton.frame is not None:
             found["frame"] = list(skeleton.frame)
         return found | self._more_stats()
