@@ -33,7 +33,7 @@ typing -> geometry, geometry/mesh, geometry/points, geometry/polygons, geometry/
 engines/tessellation -> engines/common, geometry, geometry/arguments, geometry/curves, geometry/points,
     geometry/polygons, geometry/volumes, products, typing
 engines/arrangement -> geometry, geometry/arguments, geometry/curves, geometry/polygons, geometry/skeleton, typing
-engines/delaunay -> geometry, geometry/arguments, geometry/curves, geometry/mesh, geometry/points, typing
+engines/delaunay -> geometry, geometry/arguments, geometry/curves, geometry/mesh, geometry/points, products, typing
 engines/segment_voronoi -> geometry, geometry/polygons, geometry/skeleton
 formats/text -> geometry, geometry/skeleton
 formats/features -> formats/io, formats/parsing, formats/points, formats/text, geometry, geometry/arguments,

@@ -1,0 +1,54 @@
+"""Proximity graphs by their definitions, in rational numbers: no triangulation, no code of the package."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from itertools import combinations
+
+
+def squares_of(points):
+    """Squared distances of all pairs."""
+    places = [(Fraction(x), Fraction(y)) for x, y in points]
+    return {
+        frozenset((a, b)): (places[a][0] - places[b][0]) ** 2 + (places[a][1] - places[b][1]) ** 2
+        for a, b in combinations(range(len(places)), 2)
+    }
+
+
+def gabriel_edges(points):
+    """Pairs without another point in the closed disc over them."""
+    square = squares_of(points)
+    return {
+        pair
+        for pair in square
+        if all(
+            sum(square[frozenset((p, end))] for end in pair) > square[pair] for p in range(len(points)) if p not in pair
+        )
+    }
+
+
+def relative_edges(points):
+    """Pairs without another point that is nearer to both ends."""
+    square = squares_of(points)
+    return {
+        pair
+        for pair in square
+        if all(
+            max(square[frozenset((p, end))] for end in pair) >= square[pair]
+            for p in range(len(points))
+            if p not in pair
+        )
+    }
+
+
+def tree_lengths(points):
+    """Squared lengths of a minimum spanning tree of the complete graph (Prim), sorted: all of them have the same."""
+    square = squares_of(points)
+    reached, found = {0} if points else set(), []
+    while len(reached) < len(points):
+        least, new = min(
+            (square[frozenset((a, b))], b) for a in reached for b in range(len(points)) if b not in reached
+        )
+        found.append(least)
+        reached.add(new)
+    return sorted(found)
