@@ -96,7 +96,7 @@ class MeshProducts:
                 self.mesh: Any = placed_mesh(options.pixel_size, self._triangulate(points, progress))
             check_column(options.label_by, self.mesh.properties)
             self._world = world_of_sites(run, options, self.mesh, points)
-        self.edged = self._with_graph() if self.wants_mesh else None
+        self.edged: Any = self._with_graph() if self.wants_mesh else None
 
     def _with_graph(self) -> Any:
         """What has the edges that are written and drawn: the triangulation, or a graph that is a part of it."""
@@ -160,8 +160,8 @@ class MeshProducts:
             found = self._statistics_in_units()
             table = found.cells if what == "measures" else found.summary
             return table
-        values = {"cells": lambda: self.cells, "edges": lambda: self.edged}
-        return in_units(self.options.pixel_size, values.get(what, lambda: self.mesh)())
+        value = self.cells if what == "cells" else self.edged if what == "edges" else self.mesh
+        return in_units(self.options.pixel_size, value)
 
     def _statistics_in_units(self) -> CellStatistics:
         """Measures of cells, decided in the units of the input, in those of files."""

@@ -99,7 +99,7 @@ def test_sizes_are_those_of_the_shape_before_the_death():
 
 def two_clusters(seed):
     rng = np.random.default_rng(seed)
-    return np.concatenate([rng.random((80, 2)), rng.random((60, 2)) + [4, 1]])
+    return np.concatenate([rng.random((80, 2)), rng.random((60, 2)) + np.array([4, 1])])
 
 
 def test_what_stands_out():

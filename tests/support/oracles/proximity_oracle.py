@@ -17,28 +17,22 @@ def squares_of(points):
 
 def gabriel_edges(points):
     """Pairs without another point in the closed disc over them."""
-    square = squares_of(points)
-    return {
-        pair
-        for pair in square
-        if all(
-            sum(square[frozenset((p, end))] for end in pair) > square[pair] for p in range(len(points)) if p not in pair
-        )
-    }
+    return _joined(points, lambda square, to_ends: sum(to_ends) > square)
 
 
 def relative_edges(points):
     """Pairs without another point that is nearer to both ends."""
-    square = squares_of(points)
-    return {
-        pair
-        for pair in square
-        if all(
-            max(square[frozenset((p, end))] for end in pair) >= square[pair]
-            for p in range(len(points))
-            if p not in pair
-        )
-    }
+    return _joined(points, lambda square, to_ends: max(to_ends) >= square)
+
+
+def _joined(points, is_outside):
+    square, numbers = squares_of(points), range(len(points))
+    found = set()
+    for pair in square:
+        others = ([square[frozenset((p, end))] for end in pair] for p in numbers if p not in pair)
+        if all(is_outside(square[pair], to_ends) for to_ends in others):
+            found.add(pair)
+    return found
 
 
 def tree_lengths(points):

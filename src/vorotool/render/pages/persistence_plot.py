@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import ceil, floor
+from math import floor
 from typing import BinaryIO
 
 import numpy as np
@@ -112,4 +112,4 @@ class _Axis:
         power = floor(float(decimal_logarithm(self.largest / _TICKS)))
         decades = (float(f"{s}e{power + k}") for k in (0, 1) for s in (1, 2, 5))
         step = next((each for each in decades if self.largest / each <= _TICKS), self.largest)
-        return np.arange(ceil(self.largest / step) + 1)[: floor(self.largest / step) + 1] * step
+        return np.arange(floor(self.largest / step) + 1, dtype=np.float64) * step
