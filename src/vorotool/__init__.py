@@ -72,6 +72,7 @@ _HOME = {
     "cell_statistics": "vorotool.engines.delaunay.cell_statistics",
     "ProximityGraph": "vorotool.geometry.mesh.proximity",
     "proximity_graph": "vorotool.engines.delaunay.proximity",
+    "verify_proximity_graph": "vorotool.engines.delaunay.verify_proximity",
     "outlines": "vorotool.engines.label_images.outlines",
     "planar_graph": "vorotool.engines.arrangement.planar_graph",
     "verify_planar_graph": "vorotool.engines.arrangement.planar_graph",

@@ -11,9 +11,11 @@ from vorotool.engines.delaunay.cells import cell_colours, verify_cells, voronoi_
 from vorotool.engines.delaunay.delaunay import delaunay, verify_triangulation
 from vorotool.engines.delaunay.proximity import proximity_graph
 from vorotool.engines.delaunay.site_table import site_table
+from vorotool.engines.delaunay.verify_proximity import verify_proximity_graph
 from vorotool.errors import Kind, Message
 from vorotool.formats.io.sources import reading
 from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation
+from vorotool.geometry.mesh.proximity import ProximityGraph
 from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.geometry.progress import Progress
@@ -240,6 +242,8 @@ class MeshProducts:
     def verify(self, progress: Progress) -> None:
         """Check the triangulation exactly, from its arrays alone; and cells before they are clipped to polygons."""
         verify_triangulation(self.mesh, threads=self.options.threads, progress=progress)
+        if isinstance(self.edged, ProximityGraph):
+            verify_proximity_graph(self.edged)
         if {"cells", "table", "statistics", "measures"} & set(self.options.what):
             cells = self.cells if self.clip is None else self._cells_in(self.cells.frame, progress)
             verify_cells(cells, threads=self.options.threads, progress=progress)

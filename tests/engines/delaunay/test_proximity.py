@@ -10,7 +10,15 @@ import pytest
 import vorotool
 from support.families.point_families import FAMILIES, draw
 from support.oracles.proximity_oracle import gabriel_edges, relative_edges, squares_of, tree_lengths
-from vorotool import InputError, UsageError, VorotoolWarning, delaunay, proximity_graph
+from vorotool import (
+    InputError,
+    UsageError,
+    VerificationError,
+    VorotoolWarning,
+    delaunay,
+    proximity_graph,
+    verify_proximity_graph,
+)
 
 KINDS = ("gabriel", "relative", "mst")
 
@@ -31,6 +39,20 @@ def test_the_definitions_in_rationals(name):
         square = squares_of(given)
         assert sorted(square[pair] for pair in pairs(tree)) == tree_lengths(given)
         assert pairs(tree) <= pairs(relative) <= pairs(gabriel)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("name", FAMILIES)
+def test_the_check_finds_every_edge_that_is_wrong(name, kind):
+    points = np.unique(draw(name, 40, 2), axis=0)
+    graph = proximity_graph(points, kind)
+    verify_proximity_graph(graph)
+    rng = np.random.default_rng(1)
+    for number in rng.permutation(len(graph.mesh.edges))[:8].tolist():
+        index = np.setxor1d(graph.edge_index, [number]).astype(np.int32)
+        a, b = sorted((graph.mesh.edges[number] + 1).tolist())
+        with pytest.raises(VerificationError, match=f"from point {a} to point {b} (is missing|does not belong)"):
+            verify_proximity_graph(replace(graph, edge_index=index))
 
 
 def places(points, graph):
