@@ -41,7 +41,7 @@ def test_the_pictures_are_drawn(figures):
     assert set(made) == {Path(command.split()[-1]).name for command in COMMANDS}
     for name, path in made.items():
         if name.endswith(".svg"):
-            assert re.search(r'<g id="(skeleton|centerline|transects|offset|cells)"[^>]*>\s*<path', path.read_text()), (
+            assert re.search(r'<g id="(skeleton|centerline|transects|offset|cells|polygons|regions)"[^>]*>\s*<(path|text)', path.read_text()), (
                 name
             )
     with Image.open(made["gallery-vessels.png"]) as image:

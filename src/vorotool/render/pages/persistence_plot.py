@@ -68,7 +68,7 @@ def write_persistence_svg(out: BinaryIO, regions: Table, suggested: int, *, widt
 def _title(count: int, suggested: int) -> str:
     if not count:
         return "there are no regions"
-    shown = f", {MOST} of them shown" if count > MOST else ""
+    shown = f"; the {MOST} that last longest are shown" if count > MOST else ""
     return f"{suggested} of {count} regions {'stands' if suggested == 1 else 'stand'} out{shown}"
 
 
