@@ -59,6 +59,9 @@ from vorotool.engines.delaunay.proximity import (
 from vorotool.engines.delaunay.site_table import (
     site_table as site_table,
 )
+from vorotool.engines.delaunay.verify_proximity import (
+    verify_proximity_graph as verify_proximity_graph,
+)
 from vorotool.engines.digital.comparison import (
     compare_digital as compare_digital,
 )
