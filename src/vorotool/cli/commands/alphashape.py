@@ -130,7 +130,7 @@ def _check_method(o: AlphaShapeOptions, formats: set[str]) -> None:
     needs_corrected = (is_automatic and set(o.what) & OF_ONE_SHAPE) or set(PLOTS) & set(o.what) or "html" in formats
     if o.rule == "printed" and needs_corrected:
         raise UsageError(
-            "curves, persistence, pages and the automatic r need --rule corrected: give -r, or leave out --rule"
+            "persistence, curves, pages and the automatic r need --rule corrected: give -r, or leave out --rule"
         )
     if o.rule == "printed" and o.verify:
         raise UsageError("the printed rule fails the check, as it should: leave out --verify or --rule")
