@@ -8,7 +8,7 @@ FIGURE_9_STEPS := 20 15 10 5
 GALLERY_PICTURES := letters-all.svg letters.svg letters-angle.svg vessels.png vessels.csv river.svg widths.svg \
                     silhouettes.svg silhouettes-chord.svg silhouettes.csv slider.html lakes.svg offsets.svg \
                     cells.svg outside.svg alpha.svg houses.svg territories.svg nuclei.svg thickness.png \
-                    thickness-dark.png
+                    thickness-dark.png sociology.svg sociology.csv colonies.svg persistence.svg
 
 NAMES := figure-01 figure-02 figure-03a figure-03b figure-03c figure-03d figure-04a figure-04b figure-04c \
          figure-05 figure-06 figure-07 figure-08 figure-09 figure-10 figure-11 figure-lakes table-1 error-vs-h gallery
@@ -244,6 +244,22 @@ $(FIGURES)/gallery-territories.svg: data/nuclei.ome.tif $(BUILD)/.installed | $(
 # Purpose: territories of nuclei in three dimensions: slices across z, x and y.
 $(FIGURES)/gallery-nuclei.svg: data/nuclei.tif $(BUILD)/.installed | $(FIGURES)
 	$(VOROTOOL) tessellate $< --volume --spacing auto --max-distance 5um --what colour --width 918 -o $@
+
+# Purpose: cell sociology: the Voronoi cells of objects, relative neighbours,
+$(FIGURES)/gallery-sociology.svg: data/blobs.png $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) delaunay $< --what cells --layers cells,edges,points --graph relative -o $@
+
+# Purpose: and what their cells are like on the whole.
+$(FIGURES)/gallery-sociology.csv: data/blobs.png $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) delaunay $< --what statistics -o $@
+
+# Purpose: clusters of a dot pattern: the regions of one alpha shape,
+$(FIGURES)/gallery-colonies.svg: $(GALLERY)/colonies.png $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) alphashape $< -r 30 --what polygons --layers polygons,points -o $@
+
+# Purpose: and how long the regions of all shapes last.
+$(FIGURES)/gallery-persistence.svg: $(GALLERY)/colonies.png $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) alphashape $< --what persistence -q -o $@
 
 # Purpose: the errors of section 3.1 against the step, measured and certified, beside the paper's estimates.
 $(FIGURES)/error-vs-h.md: data/shape.json data/two-shapes.json data/two-segments.wkt docs/scripts/error_vs_h.py $(BUILD)/.installed | $(FIGURES)

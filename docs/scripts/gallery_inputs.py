@@ -1,6 +1,6 @@
 """Draw the masks of the gallery: `docs/scripts/gallery_inputs.py NAME`, one PNG on standard output.
 
-letters, vessels and river are masks; silhouettes are labels 1 to 3.
+letters, vessels, river and colonies are masks; silhouettes are labels 1 to 3.
 """
 
 import sys
@@ -159,11 +159,27 @@ def silhouettes() -> NDArray[np.uint8]:
     return labels
 
 
+def colonies() -> NDArray[np.uint8]:
+    """Dots in three colonies, one of which lies around another."""
+    random = np.random.default_rng(7)
+    canvas = Canvas(1000, 420)
+    places: list[tuple[float, float]] = []
+    while len(places) < 330:
+        x, y = float(random.uniform(0, 1000)), float(random.uniform(0, 420))
+        from_middle = np.hypot(x - 300, y - 210)
+        is_in = from_middle < 55 or 125 < from_middle < 185 or ((x - 760) / 190) ** 2 + ((y - 210) / 120) ** 2 < 1
+        if is_in and all((x - u) ** 2 + (y - v) ** 2 > 11**2 for u, v in places):
+            places.append((x, y))
+            canvas.disc(x, y, 3)
+    return canvas.mask().astype(np.uint8) * 255
+
+
 PICTURES: dict[str, Callable[[], NDArray[np.uint8]]] = {
     "letters": letters,
     "vessels": vessels,
     "river": river,
     "silhouettes": silhouettes,
+    "colonies": colonies,
 }
 
 if __name__ == "__main__":

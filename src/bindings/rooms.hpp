@@ -15,6 +15,7 @@ void bind_graphs(nanobind::module_& room);
 void bind_kernel(nanobind::module_& room);
 void bind_label_images(nanobind::module_& room);
 void bind_offsets(nanobind::module_& room);
+void bind_proximity(nanobind::module_& room);
 void bind_pruning(nanobind::module_& room);
 void bind_sampled_skeleton(nanobind::module_& room);
 void bind_segment_voronoi(nanobind::module_& room);

@@ -17,6 +17,9 @@ from vorotool.engines.alpha.alpha_shape import (
 from vorotool.engines.alpha.alpha_shape import (
     alpha_shape as alpha_shape,
 )
+from vorotool.engines.alpha.persistence import (
+    persistence as persistence,
+)
 from vorotool.engines.alpha.verify_alpha import (
     verify_alpha_shape as verify_alpha_shape,
 )
@@ -28,6 +31,9 @@ from vorotool.engines.arrangement.planar_graph import (
 )
 from vorotool.engines.centerlines.centerline import (
     centerline as centerline,
+)
+from vorotool.engines.delaunay.cell_statistics import (
+    cell_statistics as cell_statistics,
 )
 from vorotool.engines.delaunay.cells import (
     cell_colours as cell_colours,
@@ -47,8 +53,14 @@ from vorotool.engines.delaunay.delaunay import (
 from vorotool.engines.delaunay.insertion import (
     insert_points as insert_points,
 )
+from vorotool.engines.delaunay.proximity import (
+    proximity_graph as proximity_graph,
+)
 from vorotool.engines.delaunay.site_table import (
     site_table as site_table,
+)
+from vorotool.engines.delaunay.verify_proximity import (
+    verify_proximity_graph as verify_proximity_graph,
 )
 from vorotool.engines.digital.comparison import (
     compare_digital as compare_digital,
@@ -191,6 +203,9 @@ from vorotool.geometry.alpha.complex import (
 from vorotool.geometry.alpha.hull import (
     AlphaHull as AlphaHull,
 )
+from vorotool.geometry.alpha.persistence import (
+    RegionPersistence as RegionPersistence,
+)
 from vorotool.geometry.alpha.shape import (
     AlphaShape as AlphaShape,
 )
@@ -211,6 +226,12 @@ from vorotool.geometry.mesh.digital_comparison import (
 )
 from vorotool.geometry.mesh.digital_triangulation import (
     DigitalTriangulation as DigitalTriangulation,
+)
+from vorotool.geometry.mesh.proximity import (
+    ProximityGraph as ProximityGraph,
+)
+from vorotool.geometry.mesh.statistics import (
+    CellStatistics as CellStatistics,
 )
 from vorotool.geometry.mesh.tables import (
     edge_table as edge_table,

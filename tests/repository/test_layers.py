@@ -30,7 +30,7 @@ geometry/mesh -> geometry, geometry/arguments, geometry/curves
 geometry/skeleton -> geometry, geometry/arguments, geometry/curves, geometry/polygons
 typing -> geometry, geometry/mesh, geometry/points, geometry/polygons, geometry/skeleton, geometry/volumes
 engines/arrangement -> geometry, geometry/arguments, geometry/curves, geometry/polygons, geometry/skeleton, typing
-engines/delaunay -> geometry, geometry/arguments, geometry/curves, geometry/mesh, geometry/points, typing
+engines/delaunay -> geometry, geometry/arguments, geometry/curves, geometry/mesh, geometry/points, products, typing
 engines/segment_voronoi -> geometry, geometry/polygons, geometry/skeleton
 formats/text -> geometry, geometry/skeleton
 formats/features -> formats/io, formats/parsing, formats/points, formats/text, geometry, geometry/arguments,

@@ -264,6 +264,7 @@ class TriangulationOptions(SiteOptions):
     aspect: float | None
     extent: Literal["image", "data"] | None
     method: Method
+    graph: Literal["delaunay", "gabriel", "relative", "mst"]
     frame: Rectangle | None
     clip: str | None
 

@@ -145,6 +145,7 @@ def _drawings() -> list[tuple[Any, Callable[..., Page], Callable[..., list[Layer
     from vorotool.geometry.alpha.shape import AlphaShape
     from vorotool.geometry.mesh.cells import CellSet
     from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation
+    from vorotool.geometry.mesh.proximity import ProximityGraph
     from vorotool.geometry.mesh.triangulation import Triangulation
     from vorotool.geometry.polygons.polygon_set import PolygonSet
     from vorotool.geometry.skeleton.centerline import Centerlines
@@ -164,7 +165,7 @@ def _drawings() -> list[tuple[Any, Callable[..., Page], Callable[..., list[Layer
     from vorotool.render.layers.voronoi import voronoi_layers, voronoi_page
 
     return [
-        ((Triangulation, DigitalTriangulation), mesh_page, mesh_layers),
+        ((Triangulation, DigitalTriangulation, ProximityGraph), mesh_page, mesh_layers),
         (CellSet, cells_page, _cell_layers),
         (AlphaShape, lambda value, **options: mesh_page(value.family.mesh, **options), alpha_layers),
         (

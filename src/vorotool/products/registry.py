@@ -124,14 +124,18 @@ _VOLUMES = (
 _MESH = Writer("formats.results.meshes:write_mesh")
 _CELLS = Writer("formats.results.cells:write_cells", ("fmt", "precision", "threads"))
 _MESHES = "Triangulation DigitalTriangulation"
+_EDGED = f"{_MESHES} ProximityGraph"
+_STATISTICS = Writer("formats.results.statistics:write_statistics")
 _MESH_LAYERS = _pictures("cells triangles diagram edges points labels")
 _DELAUNAY = (
-    _product("edges", _MESHES, "csv tsv json geojson npz npy edge obj", _MESH, _MESH_LAYERS, "edges points"),
+    _product("edges", _EDGED, "csv tsv json geojson npz npy edge obj", _MESH, _MESH_LAYERS, "edges points"),
     _product(
         "triangles", _MESHES, "csv tsv json geojson npz npy ele obj", _MESH, _MESH_LAYERS, "triangles edges points"
     ),
     _product("cells", "CellSet", "geojson csv tsv json npz wkt", _CELLS, _MESH_LAYERS, "cells points", has_page=True),
     _product("table", _MESHES, f"{_TABLES} node", _MESH),
+    _product("statistics", "CellStatistics", _TABLES, _STATISTICS),
+    _product("measures", "CellStatistics", _TABLES, _STATISTICS),
     _product("compare", "", _TABLES, TABLE_WRITER),
 )
 
@@ -149,6 +153,7 @@ _ALPHASHAPE = (
     _product("family", "AlphaComplex", _TABLES, _SHAPE, has_page=True),
     _product("spectrum", "AlphaComplex", f"{_TABLES} npy", _SHAPE),
     _product("curves", "", _TABLES, TABLE_WRITER, {"svg": ()}, has_page=True),
+    _product("persistence", "RegionPersistence", _TABLES, _SHAPE, {"svg": ()}),
     _product("hull", "AlphaHull", f"geojson {_TABLES}", _SHAPE, _SHAPE_LAYERS, "hull points"),
     _product("points", "AlphaShape", _TABLES, _SHAPE),
     _product("table", "AlphaShape", _TABLES, _SHAPE),

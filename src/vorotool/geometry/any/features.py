@@ -19,6 +19,7 @@ from vorotool.geometry.any.scaling import AREAS, LENGTHS, scaled_table
 from vorotool.geometry.curves.flatten import checked_flatten
 from vorotool.geometry.mesh.cells import CellSet
 from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation, DigitalTriangulation
+from vorotool.geometry.mesh.proximity import ProximityGraph
 from vorotool.geometry.mesh.tables import edge_table, point_table, triangle_table
 from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.points.label_image import LabelImage
@@ -165,11 +166,15 @@ def _of_mesh(mesh: AnyTriangulation, what: str | None = None) -> Features:
     return _chosen(mesh, what, {"triangles": _mesh_triangles, "edges": _mesh_edges, "points": _mesh_points})
 
 
+def _of_proximity(graph: ProximityGraph) -> Features:
+    return _mesh_edges(graph)
+
+
 def _mesh_triangles(mesh: AnyTriangulation) -> Features:
     return Features(_triangles(mesh.points, mesh.triangles), triangle_table(mesh), mesh)
 
 
-def _mesh_edges(mesh: AnyTriangulation) -> Features:
+def _mesh_edges(mesh: AnyTriangulation | ProximityGraph) -> Features:
     return Features(_pairs(mesh.points, mesh.edges), without_places(edge_table(mesh)), mesh)
 
 
@@ -412,6 +417,7 @@ _MAKERS: dict[type, Callable[..., Features]] = {
     LabelImage: _of_labels,
     Triangulation: _of_mesh,
     DigitalTriangulation: _of_mesh,
+    ProximityGraph: _of_proximity,
     CellSet: _of_cells,
     AlphaComplex: _of_complex,
     AlphaShape: _of_shape,

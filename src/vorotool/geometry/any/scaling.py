@@ -16,6 +16,7 @@ from vorotool.geometry.alpha.shape import AlphaShape
 from vorotool.geometry.box import Box
 from vorotool.geometry.mesh.cells import CellSet
 from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation
+from vorotool.geometry.mesh.proximity import ProximityGraph
 from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.skeleton.centerline import Centerlines
@@ -33,6 +34,7 @@ LENGTHS = frozenset(
     {
         *("x", "y", "perimeter", "nearest_distance", "max_distance", "bbox_x", "bbox_y", "bbox_w", "bbox_h"),
         *("border_length", "centroid_distance", "voronoi_length", "r", "length"),
+        *("birth", "death", "persistence"),
     }
 )
 AREAS = frozenset({"area", "object_area"})
@@ -43,6 +45,7 @@ _LENGTHS_OF = {
     PolygonSet: "xy",
     Triangulation: "points",
     DigitalTriangulation: "points",
+    ProximityGraph: "mesh",
     CellSet: "sites coordinates frame",
     AlphaComplex: "mesh r_min r_mid r_max spectrum",
     AlphaShape: "family r polygons",
@@ -76,8 +79,8 @@ def scaled(
 
     Parameters
     ----------
-    value : PolygonSet, Triangulation, DigitalTriangulation, CellSet, AlphaComplex, AlphaShape, AlphaHull, Skeleton,
-        SkeletonPoints, Offsets, Centerlines, Discs or VoronoiMap
+    value : PolygonSet, Triangulation, DigitalTriangulation, ProximityGraph, CellSet, AlphaComplex, AlphaShape,
+        AlphaHull, Skeleton, SkeletonPoints, Offsets, Centerlines, Discs or VoronoiMap
         What to scale; for a table see `scaled_table`.
     factor : Fraction
         More than 0.

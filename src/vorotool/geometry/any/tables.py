@@ -11,12 +11,15 @@ from numpy.typing import NDArray
 from vorotool.errors import UsageError
 from vorotool.geometry.alpha.complex import AlphaComplex
 from vorotool.geometry.alpha.hull import AlphaHull
+from vorotool.geometry.alpha.persistence import RegionPersistence
 from vorotool.geometry.alpha.shape import AlphaShape
 from vorotool.geometry.alpha.tables import family_table, region_table
 from vorotool.geometry.any.features import features_of
 from vorotool.geometry.mesh.cells import CellSet
 from vorotool.geometry.mesh.digital_comparison import DigitalComparison
 from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation
+from vorotool.geometry.mesh.proximity import ProximityGraph
+from vorotool.geometry.mesh.statistics import CellStatistics
 from vorotool.geometry.mesh.tables import edge_table
 from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.points.label_image import LabelImage
@@ -165,6 +168,9 @@ _MAKERS: dict[type, Callable[[Any], IndexedTable]] = {
     LabelVolume: _of_labels,
     Triangulation: lambda mesh: IndexedTable(edge_table(mesh)),
     DigitalTriangulation: lambda mesh: IndexedTable(edge_table(mesh)),
+    ProximityGraph: lambda graph: IndexedTable(edge_table(graph)),
+    CellStatistics: lambda found: IndexedTable(found.summary),
+    RegionPersistence: lambda found: IndexedTable(found.table()),
     DigitalComparison: lambda found: IndexedTable(found.table),
     CellSet: _of_features,
     AlphaComplex: lambda family: IndexedTable(family_table(family)),

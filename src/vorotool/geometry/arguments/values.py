@@ -11,6 +11,7 @@ _MAKERS = {
     "LabelImage": "tessellate",
     "Triangulation": "delaunay",
     "DigitalTriangulation": "digital_triangulation",
+    "ProximityGraph": "proximity_graph",
     "CellSet": "voronoi_cells",
     "AlphaComplex": "alpha_complex",
     "AlphaShape": "alpha_shape",
