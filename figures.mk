@@ -8,7 +8,7 @@ FIGURE_9_STEPS := 20 15 10 5
 GALLERY_PICTURES := letters-all.svg letters.svg letters-angle.svg vessels.png vessels.csv river.svg widths.svg \
                     silhouettes.svg silhouettes-chord.svg silhouettes.csv slider.html lakes.svg offsets.svg \
                     cells.svg outside.svg alpha.svg houses.svg territories.svg nuclei.svg thickness.png \
-                    thickness-dark.png sociology.svg sociology.csv colonies.svg persistence.svg
+                    thickness-dark.png discs.svg sociology.svg sociology.csv colonies.svg persistence.svg
 
 NAMES := figure-01 figure-02 figure-03a figure-03b figure-03c figure-03d figure-04a figure-04b figure-04c \
          figure-05 figure-06 figure-07 figure-08 figure-09 figure-10 figure-11 figure-lakes table-1 error-vs-h gallery
