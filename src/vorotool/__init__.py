@@ -73,6 +73,8 @@ _HOME = {
     "verify_planar_graph": "vorotool.engines.arrangement.planar_graph",
     "Centerlines": "vorotool.geometry.skeleton.centerline",
     "centerline": "vorotool.engines.centerlines.centerline",
+    "ExtendedSkeleton": "vorotool.geometry.skeleton.extended",
+    "extend_ends": "vorotool.engines.centerlines.extended_ends",
     "CriticalValues": "vorotool.geometry.skeleton.critical_values",
     "arc_profiles": "vorotool.engines.pruning.pruning",
     "critical_values": "vorotool.engines.pruning.pruning",
