@@ -373,6 +373,7 @@ class SkeletonOptions(ShapeOptions):
     ends: Ends | None
     distance: tuple[float, ...] | None
     every: float | None
+    smooth: float | None
     animate: bool
     frames: int | None
     fps: float | None

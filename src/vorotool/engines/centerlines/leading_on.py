@@ -1,8 +1,6 @@
-"""Straight on from ends that are inside to the boundary: to the middle of the edge ahead, or where the line meets it."""
+"""Straight on from ends that are inside to the boundary: to the middle of the edge ahead, or wherever it is met."""
 
 from __future__ import annotations
-
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray

@@ -19,7 +19,7 @@ NEARNESS = 16
 """How many times nearer the polylines are than the tolerance."""
 
 LEAST_PIECES = 8
-"""Of each line, so that there are places enough to fit by."""
+"""Of each line with more than one, so that there are places enough to fit by."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,9 +77,11 @@ def sampled_lines(lines: Skeleton | LedOn, tolerance: float) -> LineSamples:
     joints = np.setdiff1d(np.arange(len(path)), first, assume_unique=True)
     off[start[joints] - 1] = off[start[joints]]
     points, start = chained(points, start, first)
-    made = _led_on(lines, points, off[kept], start) if isinstance(lines, LedOn) else (points, off[kept], start)
+    off = off[kept]
+    if isinstance(lines, LedOn):
+        points, off, start = _led_on(lines, points, off, start)
     ends = path.arcs[first, 0], path.arcs[np.append(first[1:], len(path))[: len(first)] - 1, 1]
-    return _parted(*made, (ends[0] == ends[1]) & (path.degree[ends[0]] == 2))
+    return _parted(points, off, start, (ends[0] == ends[1]) & (path.degree[ends[0]] == 2))
 
 
 def _led_on(lines: LedOn, points: Floats, off: Floats, start: Numbers) -> tuple[Floats, Floats, Numbers]:
@@ -103,7 +105,7 @@ def _parted(points: Floats, off: Floats, start: Numbers, is_closed: NDArray[np.b
     size = np.sqrt((way * way).sum(axis=1))
     size[start[1:] - 1] = 0.0
     whole = np.add.reduceat(size, start[:-1]) if len(is_closed) else size
-    most = np.repeat(whole, np.diff(start)) / LEAST_PIECES
+    most = np.repeat(np.where(np.diff(start) > 2, whole / LEAST_PIECES, whole), np.diff(start))
     pieces = np.maximum(np.ceil(np.divide(size, most, out=np.ones_like(size), where=most > 0) - 2.0**-20), 1)
     pieces = pieces.astype(np.int64)
     share = (within(pieces) / np.repeat(pieces, pieces))[:, None]

@@ -68,7 +68,6 @@ def smooth(lines: Skeleton | LedOn, tolerance: float, *, progress: Progress = No
     """
     check_value(lines, "lines", Skeleton, Centerlines, ExtendedSkeleton)
     tolerance = checked_tolerance(tolerance)
-    path = lines if isinstance(lines, Skeleton) else lines.path
     samples = sampled_lines(lines, tolerance)
     size = float(np.ptp(samples.xy, axis=1).max(initial=0.0)) if samples.xy.size else 0.0
     if tolerance < FINEST * size:
@@ -78,15 +77,7 @@ def smooth(lines: Skeleton | LedOn, tolerance: float, *, progress: Progress = No
     first, control, error = _fitted_lines(samples, tolerance, progress)
     line = np.searchsorted(samples.start, first, side="right") - 1
     start = np.searchsorted(line, np.arange(len(samples.start)))
-    arcs = np.flatnonzero(np.diff(path.branch, prepend=-1))
-    return SmoothLines(
-        control,
-        start,
-        np.maximum.reduceat(error, start[:-1]) if len(arcs) else np.zeros(0),
-        path.polygon[arcs],
-        path.branch[arcs],
-        path.polygons,
-    )
+    return SmoothLines(lines, control, start, np.maximum.reduceat(error, start[:-1]) if len(error) else error)
 
 
 def _fitted_lines(samples: LineSamples, tolerance: float, progress: Progress) -> tuple[Numbers, Floats, Floats]:

@@ -7,6 +7,7 @@ import shapely
 from numpy.typing import NDArray
 
 from vorotool.errors import VerificationError
+from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.curves.cubics import places_at
 from vorotool.geometry.curves.flatten import chained
 from vorotool.geometry.ragged import owners
@@ -30,7 +31,7 @@ BEND = 2.0**-20
 """Sine of the angle between tangents that may be rounding."""
 
 
-def verify_smooth(smoothed: SmoothLines, lines: Skeleton | LedOn) -> None:
+def verify_smooth(smoothed: SmoothLines) -> None:
     """Check smooth lines against what they are near to.
 
     Lines begin and end where branches do, and their curves follow each other with one tangent; places along both are
@@ -40,8 +41,6 @@ def verify_smooth(smoothed: SmoothLines, lines: Skeleton | LedOn) -> None:
     ----------
     smoothed : SmoothLines
         As `vorotool.smooth` made it.
-    lines : Skeleton, Centerlines or ExtendedSkeleton
-        From which.
 
     Raises
     ------
@@ -51,16 +50,16 @@ def verify_smooth(smoothed: SmoothLines, lines: Skeleton | LedOn) -> None:
     Examples
     --------
     >>> from vorotool import skeleton_exact, smooth
-    >>> skeleton = skeleton_exact([[0, 0], [6, 0], [6, 2], [0, 2]])
-    >>> verify_smooth(smooth(skeleton, 0.1), skeleton)
+    >>> verify_smooth(smooth(skeleton_exact([[0, 0], [6, 0], [6, 2], [0, 2]]), 0.1))
     """
-    path = lines if isinstance(lines, Skeleton) else lines.path
+    check_value(smoothed, "smoothed", SmoothLines)
+    lines, path = smoothed.lines, smoothed.path
     first = np.flatnonzero(np.diff(path.branch, prepend=-1))
     if len(first) != len(smoothed):
         raise VerificationError(f"there are {len(smoothed)} smooth lines, but {len(first)} branches")
     if not len(first):
         return
-    size = float(np.ptp(smoothed.polygons.xy, axis=0).max(initial=0.0)) or 1.0
+    size = float(np.ptp(path.polygons.xy, axis=0).max(initial=0.0)) or 1.0
     _check_ends(smoothed, lines, path, first)
     _check_tangents(smoothed, size)
     error = smoothed.error + ROUNDING * size

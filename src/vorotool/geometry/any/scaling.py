@@ -19,9 +19,11 @@ from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation
 from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.skeleton.centerline import Centerlines
+from vorotool.geometry.skeleton.extended import ExtendedSkeleton
 from vorotool.geometry.skeleton.offsets import Offsets
 from vorotool.geometry.skeleton.points_along import SkeletonPoints
 from vorotool.geometry.skeleton.skeleton import SiteTable, Skeleton
+from vorotool.geometry.skeleton.smooth_lines import SmoothLines
 from vorotool.geometry.table import Table
 from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 
@@ -48,6 +50,8 @@ _LENGTHS_OF = {
     SiteTable: "ends",
     Skeleton: "polygons site_table frame vertices radius control length error_bound gap",
     Centerlines: "path ends",
+    ExtendedSkeleton: "path ends",
+    SmoothLines: "lines control error",
     SkeletonPoints: "skeleton along xy radius feet",
     Offsets: "polygons site_table start end centre distance",
     VoronoiMap: "polygons clip enclosures vertices radius control center frame max_distance",
@@ -57,7 +61,7 @@ _LENGTHS_OF = {
 _DISTANCES = frozenset(
     {
         *("r", "r_min", "r_mid", "r_max", "spectrum", "radius", "length"),
-        *("error_bound", "gap", "along", "distance", "max_distance"),
+        *("error_bound", "error", "gap", "along", "distance", "max_distance"),
     }
 )
 """What of these is a length, and no place."""
@@ -73,7 +77,7 @@ def scaled(
     Parameters
     ----------
     value : PolygonSet, Triangulation, DigitalTriangulation, CellSet, AlphaComplex, AlphaShape, AlphaHull, Skeleton,
-        SkeletonPoints, Offsets, Centerlines or VoronoiMap
+        SkeletonPoints, Offsets, Centerlines, ExtendedSkeleton, SmoothLines or VoronoiMap
         What to scale; for a table see `scaled_table`.
     factor : Fraction
         More than 0.

@@ -40,7 +40,7 @@ class ExtendedSkeleton(LedOn):
         return placed(text, polygons.crs, polygons.unit)
 
 
-def extended_table(extended: ExtendedSkeleton) -> Table:
+def extended_table(extended: LedOn) -> Table:
     """Give one row an arc, branch by branch, with the straight lines that lead on.
 
     Parameters

@@ -13,8 +13,9 @@ from vorotool.geometry.checks import set_array
 from vorotool.geometry.curves.cubics import cubic_polylines
 from vorotool.geometry.curves.flatten import chained
 from vorotool.geometry.numbers import checked_tolerance
-from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.ragged import divides, owners
+from vorotool.geometry.skeleton.led_on import LedOn
+from vorotool.geometry.skeleton.skeleton import Skeleton
 from vorotool.geometry.skeleton.tables import ids_of
 from vorotool.geometry.table import Table
 from vorotool.geometry.values import Curved, Pictured, Tabular, Value, counted, placed
@@ -31,18 +32,14 @@ class SmoothLines(Value, Tabular, Curved, Pictured):
 
     Parameters
     ----------
+    lines : Skeleton, Centerlines or ExtendedSkeleton
+        What the curves are near to: a line for each of its branches.
     control : (k, 4, 2) float64 array
         Control points of the curves, line by line.
     start : (n + 1,) int64 array
         The first curve of each line, and ``k``.
     error : (n,) float64 array
         A bound on the distance between each line and its branch: no place of either is farther from the other.
-    polygon : (n,) int32 array
-        The polygon of each line; -1 outside.
-    branch : (n,) int32 array
-        Its branch.
-    polygons : PolygonSet
-        Of the skeleton.
 
     Raises
     ------
@@ -57,23 +54,16 @@ class SmoothLines(Value, Tabular, Curved, Pictured):
     [[[0.0, 1.0], [2.0, 1.0], [4.0, 1.0], [6.0, 1.0]]]
     """
 
+    lines: Skeleton | LedOn
     control: Floats
     start: NDArray[np.int64]
     error: Floats
-    polygon: NDArray[np.int32]
-    branch: NDArray[np.int32]
-    polygons: PolygonSet
 
     def __post_init__(self) -> None:
         count = len(self.error)
         set_array(self, "control", np.float64, (len(self.control), 4, 2))
-        for name, dtype, size in (
-            ("start", np.int64, count + 1),
-            ("error", np.float64, count),
-            ("polygon", np.int32, count),
-            ("branch", np.int32, count),
-        ):
-            set_array(self, name, dtype, (size,))
+        set_array(self, "start", np.int64, (count + 1,))
+        set_array(self, "error", np.float64, (count,))
         if not divides(self.start, len(self.control), least=1):
             raise InputError(f"start must go from 0 to {len(self.control)}, with a curve or more a line")
 
@@ -82,9 +72,14 @@ class SmoothLines(Value, Tabular, Curved, Pictured):
         return len(self.error)
 
     @property
-    def y_up(self) -> bool:
-        """Whether pictures are drawn y upwards."""
-        return self.polygons.y_up
+    def path(self) -> Skeleton:
+        """The arcs that the curves are near to, without what leads on."""
+        return self.lines if isinstance(self.lines, Skeleton) else self.lines.path
+
+    @cached_property
+    def polygon(self) -> NDArray[np.int32]:
+        """(n,) the polygon of each line; -1 outside."""
+        return self.path.polygon[np.flatnonzero(np.diff(self.path.branch, prepend=-1))]
 
     @cached_property
     def line(self) -> NDArray[np.int64]:
@@ -127,8 +122,8 @@ class SmoothLines(Value, Tabular, Curved, Pictured):
         return Table(
             {
                 "polygon": np.ma.array(polygon, mask=polygon < 0),
-                "id": ids_of(self.polygons, polygon),
-                "branch": self.branch[line],
+                "id": ids_of(self.path.polygons, polygon),
+                "branch": line,
                 "curve": np.arange(len(control)) - self.start[line],
                 **{f"{axis}{k}": control[:, k, n].copy() for k in range(4) for n, axis in enumerate("xy")},
                 "error": self.error[line],
@@ -137,4 +132,4 @@ class SmoothLines(Value, Tabular, Curved, Pictured):
 
     def _summary(self) -> str:
         text = f"{counted(len(self.control), 'curve')} in {counted(len(self), 'line')}"
-        return placed(text, self.polygons.crs, self.polygons.unit)
+        return placed(text, self.path.polygons.crs, self.path.polygons.unit)
