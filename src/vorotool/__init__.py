@@ -75,6 +75,7 @@ _HOME = {
     "centerline": "vorotool.engines.centerlines.centerline",
     "ExtendedSkeleton": "vorotool.geometry.skeleton.extended",
     "extend_ends": "vorotool.engines.centerlines.extended_ends",
+    "verify_extended": "vorotool.engines.centerlines.verify_extended",
     "SmoothLines": "vorotool.geometry.skeleton.smooth_lines",
     "smooth": "vorotool.engines.smoothing.smooth",
     "verify_smooth": "vorotool.engines.smoothing.verify_smooth",

@@ -53,7 +53,6 @@ def line_layers(
     name = "centerline" if isinstance(near_to, Centerlines) else "skeleton"
     made = skeleton_layers(lines.path, page, layers, name=name, points=points, exact=exact)
 
-
     def shown(layer: Layer) -> Layer:
         if not isinstance(layer, Curves) or layer.name != name:
             return layer
