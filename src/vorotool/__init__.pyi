@@ -29,6 +29,12 @@ from vorotool.engines.arrangement.planar_graph import (
 from vorotool.engines.centerlines.centerline import (
     centerline as centerline,
 )
+from vorotool.engines.centerlines.extended_ends import (
+    extend_ends as extend_ends,
+)
+from vorotool.engines.centerlines.verify_extended import (
+    verify_extended as verify_extended,
+)
 from vorotool.engines.delaunay.cells import (
     cell_colours as cell_colours,
 )
@@ -124,6 +130,12 @@ from vorotool.engines.skeleton_api import (
 )
 from vorotool.engines.skeleton_api import (
     skeleton_exact as skeleton_exact,
+)
+from vorotool.engines.smoothing.smooth import (
+    smooth as smooth,
+)
+from vorotool.engines.smoothing.verify_smooth import (
+    verify_smooth as verify_smooth,
 )
 from vorotool.engines.tessellation.seeding import (
     seeds_from_points as seeds_from_points,
@@ -245,6 +257,9 @@ from vorotool.geometry.skeleton.centerline import (
 from vorotool.geometry.skeleton.critical_values import (
     CriticalValues as CriticalValues,
 )
+from vorotool.geometry.skeleton.extended import (
+    ExtendedSkeleton as ExtendedSkeleton,
+)
 from vorotool.geometry.skeleton.offsets import (
     Offsets as Offsets,
 )
@@ -253,6 +268,9 @@ from vorotool.geometry.skeleton.points_along import (
 )
 from vorotool.geometry.skeleton.skeleton import (
     Skeleton as Skeleton,
+)
+from vorotool.geometry.skeleton.smooth_lines import (
+    SmoothLines as SmoothLines,
 )
 from vorotool.geometry.skeleton.tables import (
     arc_table as arc_table,

@@ -66,8 +66,8 @@ formats -> formats/drawing, formats/features, formats/images, formats/io, format
     geometry/volumes, geometry/voronoi, products
 batch -> engines/tessellation, formats, formats/io, formats/text, formats/zarr
 engines -> engines/sampled_skeleton, engines/skeleton, geometry, geometry/arguments, geometry/skeleton, typing
-engines/centerlines -> engines/from_skeleton, engines/pruning, engines/skeleton, geometry, geometry/arguments,
-    geometry/polygons, geometry/skeleton, typing
+engines/centerlines -> engines/common, engines/from_skeleton, engines/pruning, engines/skeleton, geometry,
+    geometry/arguments, geometry/polygons, geometry/skeleton, typing
 engines/voronoi -> engines/arrangement, engines/common, engines/segment_voronoi, engines/skeleton, geometry,
     geometry/arguments, geometry/curves, geometry/polygons, geometry/skeleton, geometry/voronoi, typing
 geometry/any -> geometry, geometry/alpha, geometry/curves, geometry/mesh, geometry/points, geometry/polygons,
@@ -91,9 +91,11 @@ cli/options -> engines/offsets, engines/pruning, geometry, jobs, products
 cli/batch -> batch, cli/options, formats/io, geometry, jobs, products
 jobs/volumes -> engines/label_images, engines/tessellation, engines/volumes, formats/io, formats/volumes, formats/zarr,
     geometry, geometry/points, geometry/volumes, jobs, products, render/canvas, render/pages
+engines/smoothing -> geometry, geometry/arguments, geometry/curves, geometry/skeleton
 jobs/skeletons -> engines, engines/arrangement, engines/centerlines, engines/features, engines/from_skeleton,
-    engines/offsets, engines/pruning, engines/sampled_skeleton, engines/segment_voronoi, engines/skeleton, formats/io,
-    geometry, geometry/polygons, geometry/skeleton, jobs, products, render/canvas, render/layers, render/pages
+    engines/offsets, engines/pruning, engines/sampled_skeleton, engines/segment_voronoi, engines/skeleton,
+    engines/smoothing, formats/io, geometry, geometry/polygons, geometry/skeleton, jobs, products, render/canvas,
+    render/layers, render/pages
 cli/commands -> cli/batch, cli/options, jobs, jobs/skeletons, jobs/volumes, products
 cli -> cli/commands, jobs
 """

@@ -82,7 +82,7 @@ def test_units_and_counts(run, ell, tmp_path):
         (["--smooth", "1", "-f", "graphml"], "--smooth is for lines, and graphml shows arcs: use -f svg"),
         (["--ends", "middle", "-f", "html", "-o", "-"], "--ends is for lines, and html shows arcs"),
         (["--ends", "middle", "--side", "both"], "use --side interior, or leave out --ends middle"),
-        (["--smooth", "0"], "invalid --smooth '0'"),
+        (["--smooth", "0"], "'0': expected more than 0"),
     ],
 )
 def test_what_does_not_go_together(run, ell, options, message):

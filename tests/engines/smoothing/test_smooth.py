@@ -1,4 +1,4 @@
-"""Smooth lines: within their tolerance both ways, through junctions, with one tangent; closed forms, and made shapes."""
+"""Smooth lines: within their tolerance both ways, with one tangent; closed forms, and made shapes."""
 
 from dataclasses import replace
 
@@ -171,7 +171,7 @@ def test_no_tolerance(tolerance):
 def test_a_tolerance_that_is_too_small():
     with pytest.raises(vorotool.InputError, match="fitted curves need at least 5"):
         vorotool.smooth(vorotool.skeleton_exact(ELL), 1e-9)
-    with pytest.raises(vorotool.InputError, match="invalid lines: expected a Skeleton of vorotool.skeleton_exact or a"):
+    with pytest.raises(vorotool.InputError, match="invalid lines: expected a Skeleton of "):
         vorotool.smooth(ELL, 1)
 
 
