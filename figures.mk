@@ -8,7 +8,8 @@ FIGURE_9_STEPS := 20 15 10 5
 GALLERY_PICTURES := letters-all.svg letters.svg letters-angle.svg vessels.png vessels.csv river.svg widths.svg \
                     silhouettes.svg silhouettes-chord.svg silhouettes.csv slider.html lakes.svg offsets.svg \
                     cells.svg outside.svg alpha.svg houses.svg territories.svg nuclei.svg thickness.png \
-                    thickness-dark.png discs.svg sociology.svg sociology.csv colonies.svg persistence.svg
+                    thickness-dark.png discs.svg sociology.svg sociology.csv colonies.svg persistence.svg \
+                    strokes.svg strokes-dark.svg
 
 NAMES := figure-01 figure-02 figure-03a figure-03b figure-03c figure-03d figure-04a figure-04b figure-04c \
          figure-05 figure-06 figure-07 figure-08 figure-09 figure-10 figure-11 figure-lakes table-1 error-vs-h gallery
@@ -192,6 +193,14 @@ $(FIGURES)/gallery-river.svg: $(GALLERY)/river.png $(BUILD)/.installed | $(FIGUR
 # Purpose: its width, across from foot to foot, at equal steps along the branches.
 $(FIGURES)/gallery-widths.svg: $(GALLERY)/river.png $(BUILD)/.installed | $(FIGURES)
 	$(VOROTOOL) skeleton-exact $< --what transects --every 24 --prune ratio=2 -o $@
+
+# Purpose: strokes of a drawing to their ends, as smooth curves,
+$(FIGURES)/gallery-strokes.svg: $(GALLERY)/strokes.png $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) skeleton-exact $< --ends middle --smooth 1 -o $@
+
+# Purpose: and on dark ground.
+$(FIGURES)/gallery-strokes-dark.svg: $(GALLERY)/strokes.png $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) skeleton-exact $< --ends middle --smooth 1 --background '#1c1c1c' --color polygons=#5a5a5a --color skeleton=#ffb000 -o $@
 
 # Purpose: a label image: one object a label.
 $(FIGURES)/gallery-silhouettes.svg: $(GALLERY)/silhouettes.png $(BUILD)/.installed | $(FIGURES)

@@ -146,6 +146,12 @@ from vorotool.engines.skeleton_api import (
 from vorotool.engines.skeleton_api import (
     skeleton_exact as skeleton_exact,
 )
+from vorotool.engines.smoothing.smooth import (
+    smooth as smooth,
+)
+from vorotool.engines.smoothing.verify_smooth import (
+    verify_smooth as verify_smooth,
+)
 from vorotool.engines.tessellation.seeding import (
     seeds_from_points as seeds_from_points,
 )
@@ -286,6 +292,9 @@ from vorotool.geometry.skeleton.points_along import (
 )
 from vorotool.geometry.skeleton.skeleton import (
     Skeleton as Skeleton,
+)
+from vorotool.geometry.skeleton.smooth_lines import (
+    SmoothLines as SmoothLines,
 )
 from vorotool.geometry.skeleton.tables import (
     arc_table as arc_table,

@@ -378,6 +378,7 @@ class SkeletonOptions(ShapeOptions):
     every: float | None
     count: int | None
     local: bool
+    smooth: float | None
     animate: bool
     frames: int | None
     fps: float | None

@@ -46,6 +46,7 @@ def check_options(o: SkeletonOptions, targets: list[Target]) -> None:
     _check_centerline(o)
     _check_joining(o, formats)
     _check_border(o)
+    _check_lines(o, targets)
     pictures = sorted({picture_format(fmt) for fmt in formats} & set(PICTURES))
     check_animation(o, targets)
     if o.layers is not None and not pictures:
@@ -99,9 +100,9 @@ def check_layers(o: JobOptions, products: Mapping[str, Product], targets: list[T
 def _check_centerline(o: SkeletonOptions) -> None:
     if "centerline" in o.what and o.side == "exterior":
         raise UsageError("centerlines are inside polygons: use --side interior or both")
-    if o.ends is not None and not {"centerline", "table"} & set(o.what):
+    if o.ends is not None and not {"skeleton", "centerline", "table"} & set(o.what):
         raise UsageError(
-            "--ends is for centerlines, skeletons lead into corners: use --what centerline or table, or leave it out"
+            "--ends is for skeletons and centerlines: use --what skeleton, centerline or table, or leave it out"
         )
     if (o.start is not None or o.end is not None) and "centerline" not in o.what:
         raise UsageError("--from and --to are ends of centerlines: use --what centerline, or leave them out")
@@ -137,6 +138,20 @@ def _check_border(o: SkeletonOptions) -> None:
         raise UsageError(
             f"--what {what} is of closed outlines: leave --border open out, or use {', '.join(OF_OPEN_BORDERS)}"
         )
+
+
+def _check_lines(o: SkeletonOptions, targets: list[Target]) -> None:
+    """Skeletons are led on inside polygons, and what is no graph of arcs is smooth or led on."""
+    if o.ends == "middle" and "skeleton" in o.what and o.side != "interior":
+        raise UsageError(
+            "skeletons are led on to ends inside polygons: use --side interior, or leave out --ends middle"
+        )
+    if o.smooth is not None and not {"skeleton", "centerline"} & set(o.what):
+        raise UsageError("--smooth is for lines: use --what skeleton or centerline, or leave it out")
+    changed = [name for name, given in (("--smooth", o.smooth is not None), ("--ends", o.ends == "middle")) if given]
+    graphs = [target.fmt for target in targets if target.what == "skeleton" and target.fmt in ("graphml", "html")]
+    if changed and graphs:
+        raise UsageError(f"{changed[0]} is for lines, and {graphs[0]} shows arcs: use -f svg, or leave it out")
 
 
 def _check_measures(o: SkeletonOptions) -> None:

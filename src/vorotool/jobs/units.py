@@ -68,7 +68,7 @@ AUTO_SPACING = AUTO._replace(is_spacing=True)
 """What the file says of both sides."""
 
 _IN_STEPS = (
-    *("frame", "flatten", "simplify", "max_distance", "distance", "every", "gap", "step", "tolerance"),
+    *("frame", "flatten", "simplify", "max_distance", "distance", "every", "smooth", "gap", "step", "tolerance"),
     *("start", "end"),
 )
 """Options of shapes and meshes that are lengths or places, and no fractions of others."""

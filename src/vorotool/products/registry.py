@@ -180,7 +180,13 @@ _SKELETONS = (
     _product("diagram", "", _CURVES, _SKELETON, _ARCS, "polygons elements points skeleton", is_curved=True),
     _product("elements", "Skeleton", _TABLES, _SKELETON, _ARCS, "polygons elements points"),
     _product(
-        "centerline", "Centerlines", f"geojson {_TABLES} wkt", _CENTERLINES, _ARCS, "polygons skeleton", is_curved=True
+        "centerline",
+        "Centerlines ExtendedSkeleton SmoothLines",
+        f"geojson {_TABLES} wkt",
+        _CENTERLINES,
+        _ARCS,
+        "polygons skeleton",
+        is_curved=True,
     ),
     _product(
         "offset",

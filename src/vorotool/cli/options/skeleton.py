@@ -55,7 +55,14 @@ _BEFORE: tuple[Decorator, ...] = (
         "--ends",
         type=click.Choice(ENDS, case_sensitive=False),
         help="Where centerlines end: in the middle of the edge that the skeleton forks to (default), in a corner, or "
-        "where it forks.",
+        "where it forks. With middle, skeletons are led on to the ends of strokes, too; else they are as pruning "
+        "leaves them.",
+    ),
+    click.option(
+        "--smooth",
+        type=Length(zero=False),
+        metavar="TOLERANCE",
+        help="Fit cubic Bézier curves to skeletons and centerlines that are nowhere farther from them than this.",
     ),
     click.option(
         "--features",

@@ -30,10 +30,13 @@ from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.skeleton.centerline import Centerlines
 from vorotool.geometry.skeleton.discs import Discs
+from vorotool.geometry.skeleton.extended import ExtendedSkeleton
 from vorotool.geometry.skeleton.graph import skeleton_graph
+from vorotool.geometry.skeleton.led_on import LedOn
 from vorotool.geometry.skeleton.offsets import Offsets
 from vorotool.geometry.skeleton.points_along import SkeletonPoints
 from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.geometry.skeleton.smooth_lines import SmoothLines
 from vorotool.geometry.skeleton.tables import ids_of
 from vorotool.geometry.spacing import SQUARE, PixelSides
 from vorotool.geometry.table import Table
@@ -279,13 +282,32 @@ def _of_skeleton(skeleton: Skeleton, by: str = "arc", flatten: float | None = No
     return Features(lines(graph.points, graph.start), columns, polygons, item)
 
 
-def _of_centerlines(paths: Centerlines, flatten: float | None = None) -> Features:
+def _of_centerlines(paths: LedOn, flatten: float | None = None) -> Features:
     polygons = paths.path.polygons
     least, most = paths.width_range
     own = {"length": paths.length, "width_mean": paths.width_mean, "width_min": least, "width_max": most}
     columns = {"polygon": paths.polygon, "id": ids_of(polygons, paths.polygon), **own}
     geometry = lines(*paths.flattened(checked_flatten(flatten, polygons)))
     return Features(geometry, _with_polygons(columns, polygons, paths.polygon), polygons, paths.polygon)
+
+
+def _of_extended(extended: ExtendedSkeleton, flatten: float | None = None) -> Features:
+    made = _of_centerlines(extended, flatten)
+    columns = Table({"branch": np.arange(len(extended)), **made.columns.stored()})
+    return Features(made.geometry, columns, made.source, made.item)
+
+
+def _of_smooth(smoothed: SmoothLines, flatten: float | None = None) -> Features:
+    polygons, polygon, start = smoothed.path.polygons, smoothed.polygon, smoothed.start
+    columns = {
+        "branch": np.arange(len(smoothed)),
+        "polygon": np.ma.array(polygon, mask=polygon < 0),
+        "id": ids_of(polygons, polygon),
+        "curves": np.diff(start),
+        "error": smoothed.error,
+    }
+    geometry = lines(*smoothed.flattened(checked_flatten(flatten, polygons)))
+    return Features(geometry, _with_polygons(columns, polygons, polygon), polygons, polygon)
 
 
 def _of_points_along(points: SkeletonPoints, what: str | None = None) -> Features:
@@ -426,6 +448,8 @@ _MAKERS: dict[type, Callable[..., Features]] = {
     PlanarGraph: _of_graph,
     Skeleton: _of_skeleton,
     Centerlines: _of_centerlines,
+    ExtendedSkeleton: _of_extended,
+    SmoothLines: _of_smooth,
     SkeletonPoints: _of_points_along,
     Offsets: _of_offsets,
     Discs: _of_discs,

@@ -21,9 +21,11 @@ from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.skeleton.centerline import Centerlines
 from vorotool.geometry.skeleton.discs import Discs
+from vorotool.geometry.skeleton.extended import ExtendedSkeleton
 from vorotool.geometry.skeleton.offsets import Offsets
 from vorotool.geometry.skeleton.points_along import SkeletonPoints
 from vorotool.geometry.skeleton.skeleton import SiteTable, Skeleton
+from vorotool.geometry.skeleton.smooth_lines import SmoothLines
 from vorotool.geometry.skeleton.thickness import ThicknessImage
 from vorotool.geometry.table import Table
 from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
@@ -53,6 +55,8 @@ _LENGTHS_OF = {
     SiteTable: "ends",
     Skeleton: "polygons site_table frame vertices radius control length error_bound gap",
     Centerlines: "path ends",
+    ExtendedSkeleton: "path ends",
+    SmoothLines: "lines control error",
     SkeletonPoints: "skeleton along xy radius feet",
     Discs: "polygons site_table xy radius feet within",
     Offsets: "polygons site_table start end centre distance",
@@ -64,7 +68,7 @@ _LENGTHS_OF = {
 _DISTANCES = frozenset(
     {
         *("r", "r_min", "r_mid", "r_max", "spectrum", "radius", "length"),
-        *("error_bound", "gap", "along", "distance", "max_distance", "values"),
+        *("error_bound", "error", "gap", "along", "distance", "max_distance", "values"),
     }
 )
 """What of these is a length, and no place."""
@@ -80,7 +84,7 @@ def scaled(
     Parameters
     ----------
     value : PolygonSet, Triangulation, DigitalTriangulation, ProximityGraph, CellSet, AlphaComplex, AlphaShape,
-        AlphaHull, Skeleton, SkeletonPoints, Offsets, Centerlines, Discs or VoronoiMap
+        AlphaHull, Skeleton, SkeletonPoints, Offsets, Centerlines, ExtendedSkeleton, SmoothLines, Discs or VoronoiMap
         What to scale; for a table see `scaled_table`.
     factor : Fraction
         More than 0.

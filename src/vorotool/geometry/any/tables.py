@@ -30,9 +30,11 @@ from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.skeleton.centerline import Centerlines, centerline_table
 from vorotool.geometry.skeleton.critical_values import CriticalValues
 from vorotool.geometry.skeleton.discs import Discs
+from vorotool.geometry.skeleton.extended import ExtendedSkeleton, extended_table
 from vorotool.geometry.skeleton.offsets import Offsets
 from vorotool.geometry.skeleton.points_along import SkeletonPoints
 from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.geometry.skeleton.smooth_lines import SmoothLines
 from vorotool.geometry.skeleton.tables import arc_table
 from vorotool.geometry.table import Table
 from vorotool.geometry.volumes.label_volume import LabelVolume
@@ -131,6 +133,15 @@ def _of_centerlines(lines: Centerlines) -> IndexedTable:
     return IndexedTable(own, lines.path.polygons, own["polygon"])
 
 
+def _of_extended(extended: ExtendedSkeleton) -> IndexedTable:
+    own = extended_table(extended)
+    return IndexedTable(own, extended.path.polygons, own["polygon"])
+
+
+def _of_smooth(smoothed: SmoothLines) -> IndexedTable:
+    return IndexedTable(smoothed.table(), smoothed.path.polygons, smoothed.polygon[smoothed.line])
+
+
 def _of_points_along(points: SkeletonPoints) -> IndexedTable:
     return IndexedTable(points.table(), points.skeleton.polygons, points.polygon)
 
@@ -180,6 +191,8 @@ _MAKERS: dict[type, Callable[[Any], IndexedTable]] = {
     PlanarGraph: _of_features,
     Skeleton: _of_skeleton,
     Centerlines: _of_centerlines,
+    ExtendedSkeleton: _of_extended,
+    SmoothLines: _of_smooth,
     SkeletonPoints: _of_points_along,
     Offsets: _of_offsets,
     Discs: _of_discs,

@@ -17,6 +17,9 @@ _MAKERS = {
     "AlphaShape": "alpha_shape",
     "PlanarGraph": "planar_graph",
     "Skeleton": "skeleton_exact",
+    "Centerlines": "centerline",
+    "ExtendedSkeleton": "extend_ends",
+    "SmoothLines": "smooth",
     "Offsets": "offset",
     "VoronoiMap": "voronoi",
 }

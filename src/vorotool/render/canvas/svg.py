@@ -15,6 +15,7 @@ from vorotool.geometry.curves.circular_arcs import middles_of
 from vorotool.geometry.curves.inverse_functions import hypotenuse
 from vorotool.geometry.xml_text import xml_characters
 from vorotool.render.canvas.circles import Circles
+from vorotool.render.canvas.cubic_curves import CubicCurves
 from vorotool.render.canvas.layers import (
     Arcs,
     Backdrop,
@@ -141,7 +142,7 @@ def _lines(layer: Lines, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iter
 
 
 def _curves(layer: Curves, x: NDArray[Any], y: NDArray[Any], page: Page, threads: int) -> Iterator[bytes]:
-    """One row a place: M before the begin of a path, Q before a control point, then L, A or nothing before an end."""
+    """One row a place: M before the begin of a path, Q or C before a control point, then L, A or nothing."""
     commands = _Commands(layer, page)
     across, down = _core.text.NumberTexts(x, 0, threads), _core.text.NumberTexts(y, 0, threads)
     dashes = f' stroke-dasharray="{DASH:g}"' if layer.is_broken else ""
@@ -151,12 +152,15 @@ def _curves(layer: Curves, x: NDArray[Any], y: NDArray[Any], page: Page, threads
         control = layer.control[rows]
         begins = np.append(True, source[1:] != target[:-1])
         bends = control >= 0
-        last = np.cumsum(1 + begins + bends) - 1  # the row of each target
+        more = int(isinstance(layer, CubicCurves))
+        last = np.cumsum(1 + begins + bends + more) - 1  # the row of each target
         place = np.empty(last[-1] + 1, dtype=np.int32)
         token = np.empty(last[-1] + 1, dtype=np.int32)
         place[last], token[last] = target, commands.before_ends[0, rows]
-        place[last[bends] - 1], token[last[bends] - 1] = control[bends], 2
-        first = (last - bends - 1)[begins]
+        place[last[bends] - 1 - more], token[last[bends] - 1 - more] = control[bends], 2
+        if isinstance(layer, CubicCurves):
+            place[last - 1], token[last - 1] = layer.second[rows], 3
+        first = (last - bends - more - 1)[begins]
         place[first], token[first] = source[begins], 0
         yield f"<path {_UNSCALED} d=".encode() + b'"'
         yield from _rows([(commands.texts, token), (across, place), (down, place)], ("", "", " ", ""), threads)
@@ -168,7 +172,7 @@ class _Commands:
     """What stands before the places of curves: `texts`, and which of them before the end of each, forth and back."""
 
     def __init__(self, curves: Curves, page: Page) -> None:
-        self.texts = ["M", "L", "Q", " "]
+        self.texts = ["M", "L", "C" if isinstance(curves, CubicCurves) else "Q", " "]
         forth = np.where(curves.control >= 0, 3, 1)
         self.before_ends = np.stack([forth, forth])
         if curves.centre is None or curves.is_left is None:
