@@ -11,5 +11,7 @@ DERIVED = {
     "shape": "jobs.skeletons.rebuilt_shape:RebuiltShape",
     "points": "jobs.skeletons.steps:Steps",
     "transects": "jobs.skeletons.steps:Steps",
+    "necks": "jobs.skeletons.neck_cuts:NeckCuts",
+    "parts": "jobs.skeletons.neck_cuts:CutParts",
 }
 """Results of the skeleton commands that follow from a skeleton or its diagram, and what makes each."""

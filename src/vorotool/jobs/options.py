@@ -388,6 +388,7 @@ class ExactSkeletonOptions(SkeletonOptions):
     """Of ``skeleton-exact``."""
 
     gap: float
+    neck: float | None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False, eq=False)

@@ -129,7 +129,9 @@ def _input_of(value: Any) -> AnyTriangulation | CellSet | PolygonSet:
     from vorotool.geometry.alpha.hull import AlphaHull
     from vorotool.geometry.alpha.shape import AlphaShape
     from vorotool.geometry.skeleton.centerline import Centerlines
+    from vorotool.geometry.skeleton.necks import Necks
     from vorotool.geometry.skeleton.offsets import Offsets
+    from vorotool.geometry.skeleton.parts import Parts
     from vorotool.geometry.skeleton.points_along import SkeletonPoints
     from vorotool.geometry.skeleton.skeleton import Skeleton
 
@@ -137,8 +139,8 @@ def _input_of(value: Any) -> AnyTriangulation | CellSet | PolygonSet:
         (AlphaHull, lambda hull: hull.shape.family.mesh),
         (AlphaShape, lambda shape: shape.family.mesh),
         (Centerlines, lambda lines: lines.path.polygons),
-        (SkeletonPoints, lambda points: points.skeleton.polygons),
-        ((Skeleton, Offsets), lambda of: of.polygons),
+        ((SkeletonPoints, Necks), lambda points: points.skeleton.polygons),
+        ((Skeleton, Offsets, Parts), lambda of: of.polygons),
     ]
     found: AnyTriangulation | CellSet | PolygonSet = next(
         (get(value) for kind, get in inside if isinstance(value, kind)), value

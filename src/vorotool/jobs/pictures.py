@@ -94,8 +94,8 @@ def drawing_of(
     Parameters
     ----------
     value : value of the library
-        A triangulation, cells, an alpha shape or hull, polygons, a skeleton, points along one, offset curves, or a
-        Voronoi map.
+        A triangulation, cells, an alpha shape or hull, polygons, a skeleton, points along one, necks, parts, offset
+        curves, or a Voronoi map.
     what : str, optional
         Which part, by its name in the registry of products; by default the first that is drawn.
     layers : sequence of str, optional
@@ -148,13 +148,16 @@ def _drawings() -> list[tuple[Any, Callable[..., Page], Callable[..., list[Layer
     from vorotool.geometry.mesh.triangulation import Triangulation
     from vorotool.geometry.polygons.polygon_set import PolygonSet
     from vorotool.geometry.skeleton.centerline import Centerlines
+    from vorotool.geometry.skeleton.necks import Necks
     from vorotool.geometry.skeleton.offsets import Offsets
+    from vorotool.geometry.skeleton.parts import Parts
     from vorotool.geometry.skeleton.points_along import SkeletonPoints
     from vorotool.geometry.skeleton.skeleton import Skeleton
     from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
     from vorotool.render.layers.alpha import alpha_layers
     from vorotool.render.layers.cells import cells_page
     from vorotool.render.layers.mesh import mesh_layers, mesh_page
+    from vorotool.render.layers.necks import neck_layers, neck_page, part_layers, part_page
     from vorotool.render.layers.offsets import offset_layers, offset_page
     from vorotool.render.layers.points_along import point_page, skeleton_point_layers
     from vorotool.render.layers.polygons import polygon_page, shape_layers
@@ -178,6 +181,8 @@ def _drawings() -> list[tuple[Any, Callable[..., Page], Callable[..., list[Layer
             centerline_layers,
         ),
         (SkeletonPoints, point_page, skeleton_point_layers),
+        (Necks, neck_page, neck_layers),
+        (Parts, part_page, part_layers),
         (Offsets, offset_page, offset_layers),
         (VoronoiMap, voronoi_page, voronoi_layers),
     ]

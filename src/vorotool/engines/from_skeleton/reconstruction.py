@@ -18,7 +18,7 @@ from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.curves.circular_arcs import chords_of, middles_of
 from vorotool.geometry.curves.flatten import checked_flatten
 from vorotool.geometry.polygons.polygon_set import HOLE, SHELL, PolygonSet
-from vorotool.geometry.ragged import following, owners, starts_of
+from vorotool.geometry.ragged import owners, starts_of
 from vorotool.geometry.row_index import index_of_rows
 from vorotool.geometry.skeleton.skeleton import EDGE, INTERIOR, Skeleton
 

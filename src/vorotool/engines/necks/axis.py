@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.skeleton.clearance import clearance_course, is_maximum, plateaus
+from vorotool.engines.skeleton.clearance import clearance_course, plateaus
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.clearance import ClearanceCourse
 from vorotool.geometry.skeleton.skeleton import Skeleton
@@ -42,7 +42,7 @@ class Ways:
     @property
     def is_inside(self) -> NDArray[np.bool_]:
         """(n,) whether each neck is inside an arc, not at a node."""
-        return self.arc[:, 0] == self.arc[:, 1]
+        return np.equal(self.arc[:, 0], self.arc[:, 1])
 
     def taken(self, chosen: NDArray[np.bool_] | Indices) -> Ways:
         """Those of some necks."""

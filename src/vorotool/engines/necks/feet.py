@@ -50,9 +50,9 @@ class Feet:
 
 
 def feet_of(skeleton: Skeleton, ways: Ways) -> Feet:
-    """Find both feet: of two elements that share a place, the vertex; on an edge the place nearest to the other foot."""
+    """Find both feet: a vertex, where one is touched; on an edge, the place nearest to the other foot."""
     site = _sites(skeleton, ways)
-    ends, is_edge = skeleton.site_ends[site], skeleton.site_table.kind[site] == EDGE
+    ends, is_edge = skeleton.site_ends[site], _is_edge(skeleton)[site]
     xy = ends[:, :, 0].copy()
     both = is_edge.all(axis=1)
     tolerance = _SNAP * float(np.spacing(np.abs(skeleton.polygons.xy).max(initial=1.0)))
@@ -64,9 +64,14 @@ def feet_of(skeleton: Skeleton, ways: Ways) -> Feet:
     return Feet(site, xy, width, square)
 
 
+def _is_edge(skeleton: Skeleton) -> NDArray[np.bool_]:
+    found: NDArray[np.bool_] = skeleton.site_table.kind == EDGE
+    return found
+
+
 def _sites(skeleton: Skeleton, ways: Ways) -> Indices:
     """(n, 2) the sites left and right of each neck; where they change there, the vertex."""
-    is_edge = skeleton.site_table.kind == EDGE
+    is_edge = _is_edge(skeleton)
     sites = skeleton.sites[ways.arc].astype(np.int64)  # (n, way, hand)
     # from the first way to the second: the first is walked towards its end at the neck, the second from there
     turned = ways.end == (0, 1)

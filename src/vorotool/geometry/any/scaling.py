@@ -19,7 +19,9 @@ from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation
 from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.skeleton.centerline import Centerlines
+from vorotool.geometry.skeleton.necks import Necks
 from vorotool.geometry.skeleton.offsets import Offsets
+from vorotool.geometry.skeleton.parts import Parts
 from vorotool.geometry.skeleton.points_along import SkeletonPoints
 from vorotool.geometry.skeleton.skeleton import SiteTable, Skeleton
 from vorotool.geometry.table import Table
@@ -49,6 +51,8 @@ _LENGTHS_OF = {
     Skeleton: "polygons site_table frame vertices radius control length error_bound gap",
     Centerlines: "path ends",
     SkeletonPoints: "skeleton along xy radius feet",
+    Necks: "skeleton xy width feet beside",
+    Parts: "polygons radius centre necks",
     Offsets: "polygons site_table start end centre distance",
     VoronoiMap: "polygons clip enclosures vertices radius control center frame max_distance",
 }
@@ -58,6 +62,7 @@ _DISTANCES = frozenset(
     {
         *("r", "r_min", "r_mid", "r_max", "spectrum", "radius", "length"),
         *("error_bound", "gap", "along", "distance", "max_distance"),
+        *("width", "beside"),
     }
 )
 """What of these is a length, and no place."""
@@ -73,7 +78,7 @@ def scaled(
     Parameters
     ----------
     value : PolygonSet, Triangulation, DigitalTriangulation, CellSet, AlphaComplex, AlphaShape, AlphaHull, Skeleton,
-        SkeletonPoints, Offsets, Centerlines or VoronoiMap
+        SkeletonPoints, Necks, Parts, Offsets, Centerlines or VoronoiMap
         What to scale; for a table see `scaled_table`.
     factor : Fraction
         More than 0.

@@ -26,7 +26,9 @@ from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.skeleton.centerline import Centerlines, centerline_table
 from vorotool.geometry.skeleton.critical_values import CriticalValues
+from vorotool.geometry.skeleton.necks import Necks
 from vorotool.geometry.skeleton.offsets import Offsets
+from vorotool.geometry.skeleton.parts import Parts
 from vorotool.geometry.skeleton.points_along import SkeletonPoints
 from vorotool.geometry.skeleton.skeleton import Skeleton
 from vorotool.geometry.skeleton.tables import arc_table
@@ -131,6 +133,14 @@ def _of_points_along(points: SkeletonPoints) -> IndexedTable:
     return IndexedTable(points.table(), points.skeleton.polygons, points.polygon)
 
 
+def _of_necks(necks: Necks) -> IndexedTable:
+    return IndexedTable(necks.table(), necks.skeleton.polygons, necks.polygon)
+
+
+def _of_parts(parts: Parts) -> IndexedTable:
+    return IndexedTable(parts.table(), parts.necks.skeleton.polygons, parts.source)
+
+
 def _of_offsets(offsets: Offsets) -> IndexedTable:
     return IndexedTable(
         offsets.table(), offsets.polygons, offsets.polygon[offsets.shape_of_ring[offsets.ring_of_piece]]
@@ -170,6 +180,8 @@ _MAKERS: dict[type, Callable[[Any], IndexedTable]] = {
     Skeleton: _of_skeleton,
     Centerlines: _of_centerlines,
     SkeletonPoints: _of_points_along,
+    Necks: _of_necks,
+    Parts: _of_parts,
     Offsets: _of_offsets,
     VoronoiMap: _of_voronoi,
     CriticalValues: _of_values,

@@ -49,7 +49,8 @@ class Necks(Value, Tabular, Geometric, Pictured):
     Examples
     --------
     >>> from vorotool import necks
-    >>> rooms = [[0, 0], [4, 0], [4, 1.5], [6, 1.5], [6, 0], [12, 0], [12, 6], [6, 6], [6, 2.5], [4, 2.5], [4, 4], [0, 4]]
+    >>> rooms = [[0, 0], [4, 0], [4, 1.5], [6, 1.5], [6, 0], [12, 0], [12, 6], [6, 6], [6, 2.5], [4, 2.5]]
+    >>> rooms += [[4, 4], [0, 4]]
     >>> found = necks(rooms)
     >>> found.feet.tolist(), found.beside.tolist(), found.ratio.tolist()
     ([[[5.0, 1.5], [5.0, 2.5]]], [[2.0, 3.0]], [0.25])

@@ -46,7 +46,8 @@ class Parts(Value, Tabular, Geometric, Pictured):
     Examples
     --------
     >>> from vorotool import parts
-    >>> rooms = [[0, 0], [4, 0], [4, 1.5], [6, 1.5], [6, 0], [12, 0], [12, 6], [6, 6], [6, 2.5], [4, 2.5], [4, 4], [0, 4]]
+    >>> rooms = [[0, 0], [4, 0], [4, 1.5], [6, 1.5], [6, 0], [12, 0], [12, 6], [6, 6], [6, 2.5], [4, 2.5]]
+    >>> rooms += [[4, 4], [0, 4]]
     >>> pieces = parts(rooms)
     >>> pieces.area.tolist(), pieces.radius.tolist(), pieces.between.tolist()
     ([17.0, 37.0], [2.0, 3.0], [[0, 1]])
