@@ -30,9 +30,9 @@ _AREA_ERROR = 1e-9
 
 
 def verify_necks(necks: Necks, *, threads: int = 0, progress: Progress = None) -> None:
-    """Check necks: both feet are on their sites, as far apart as the width tells, around the middle.
+    """Check necks: both feet are on their sites, as far apart as the width tells, and the middle is right.
 
-    Nothing of the boundary is nearer to the middle, so that the cut is inside; and on both sides there are larger discs.
+    Nothing of the boundary is nearer to the middle, so that the cut is inside; on both sides there are larger discs.
 
     Parameters
     ----------
@@ -74,7 +74,8 @@ def verify_necks(necks: Necks, *, threads: int = 0, progress: Progress = None) -
     at = first_wrong(~(_norm((a + b) / 2 - necks.xy) <= places.tolerance))
     if at is not None:
         fail(f"neck {at} at {necks.xy[at].tolist()} is not in the middle of its cut")
-    at = first_wrong(~(necks.width / 2 <= necks.beside[:, 0]) | ~(necks.beside[:, 0] <= necks.beside[:, 1]))
+    least, most = necks.beside.T
+    at = first_wrong(~(necks.width / 2 <= least + places.tolerance) | ~(least <= most))
     if at is not None:
         fail(f"neck {at}: beside its width of {necks.width[at]} there are clearances of {necks.beside[at].tolist()}")
     _check_clearances(necks.skeleton, necks.polygon, necks.xy, necks.width / 2, "neck", threads, progress)

@@ -87,7 +87,7 @@ class Necks(Value, Tabular, Geometric, Pictured):
     @cached_property
     def ratio(self) -> NDArray[np.float64]:
         """(n,) half of the width over the smaller clearance beside: near 0 at a narrow door between large rooms."""
-        return np.divide(self.width / 2, self.beside[:, 0])
+        return np.minimum(self.width / 2 / self.beside[:, 0], 1.0)
 
     def taken(self, chosen: NDArray[np.bool_] | NDArray[np.integer]) -> Necks:
         """Give some of them."""
