@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from itertools import combinations, product
+from itertools import combinations, pairwise, product
 
 import numpy as np
 
+LINE = 2
 ONE_HALF = Fraction(1, 2)
 
 
@@ -35,7 +36,11 @@ class Shape:
     def __init__(self, rings):
         self.rings = rings
         self.edges, self.vertices = [], set()
-        for _, _, ring in rings:
+        for _, kind, ring in rings:
+            if kind == LINE:
+                self.vertices.update(ring)
+                self.edges += [(a, b) for a, b in pairwise(ring) if a != b]
+                continue
             kept = without_straight(ring)
             self.vertices.update(kept)
             pairs = zip(kept, [*kept[1:], kept[0]], strict=True)
@@ -240,11 +245,8 @@ def besides(necks, squares):
         around.setdefault(b, []).append((arc, a))
     for k, arc in enumerate(necks.arc.tolist()):
         node = next((n for n, other in at_node.items() if other == k), None)
-        starts = skeleton.arcs[arc].tolist() if node is None else None
-        if starts is None:
-            starts = [(other, way_out) for way_out, other in around[node]]
-        else:
-            starts = [(n, arc) for n in starts]
+        inside = [(n, arc) for n in skeleton.arcs[arc].tolist()]
+        starts = inside if node is None else [(other, way_out) for way_out, other in around[node]]
         found = sorted(walk(skeleton, around, at_node, in_arc, rank, k, n, way_out) for n, way_out in starts)
         if not np.allclose(found, necks.beside[k], rtol=1e-12, atol=0):
             return f"neck {k} has {necks.beside[k].tolist()} beside, not {found}"
@@ -261,7 +263,10 @@ def is_at(skeleton, node, necks, neck):
 def walk(skeleton, around, at_node, in_arc, rank, neck, first, came_by):
     """The largest clearance that is reached by way of a node before a narrower neck."""
     seen, todo, largest = set(), [(first, came_by)], 0.0
-    blocked = (lambda other: other is not None and rank[other] <= rank[neck])
+
+    def blocked(other):
+        return other is not None and rank[other] <= rank[neck]
+
     while todo:
         node, arc = todo.pop()
         if node in seen or skeleton.radius[node] == 0:

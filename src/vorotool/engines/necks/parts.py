@@ -142,7 +142,7 @@ def _rings(outlines: Outlines) -> _Rings:
 def _parts_of(axis: CutAxis, outlines: Outlines, necks: Necks) -> Parts:
     rings = _rings(outlines)
     skeleton = axis.skeleton
-    radius, centre = _largest_discs(skeleton, axis.part)
+    radius, centre = _largest_discs(axis)
     # the shell is the one ring of a part that goes counter-clockwise, so that of the largest area
     areas, corner = twice_areas(rings.xy, rings.start), rings.xy[rings.start[:-1]]
     by_area = np.lexsort((-areas, rings.part))
@@ -161,10 +161,14 @@ def _parts_of(axis: CutAxis, outlines: Outlines, necks: Necks) -> Parts:
     return Parts(polygons, source.astype(np.int32), radius[part], centre[part], necks, between)
 
 
-def _largest_discs(skeleton: Skeleton, part: Indices) -> tuple[Floats, Floats]:
-    """Radius and centre of the largest disc of each part, by the node that the part is named after."""
+def _largest_discs(axis: CutAxis) -> tuple[Floats, Floats]:
+    """Radius and centre of the largest disc of each part, by the node that the part is named after.
+
+    It is at a node of the whole skeleton: between necks there is a maximum, however near by.
+    """
+    skeleton, part = axis.skeleton, axis.part
     radius, centre = np.zeros(len(part)), np.full((len(part), 2), np.nan)
-    inner = np.flatnonzero(skeleton.radius > 0)
+    inner = np.flatnonzero(skeleton.radius[: len(part) - axis.node.size] > 0)
     x, y = skeleton.vertices[inner].T
     order = inner[np.lexsort((y, x, -skeleton.radius[inner], part[inner]))]
     first = order[np.flatnonzero(np.diff(part[order], prepend=-1))]

@@ -195,9 +195,21 @@ def _check_discs(parts: Parts, threads: int, progress: Progress) -> None:
     px, py = parts.centre[corner].T
     crosses = (y > py) != (v > py)
     right = crosses & (((x - px) * (v - y) - (y - py) * (u - x) > 0) == (v > y))
-    at = first_wrong(np.bincount(corner, right, minlength=len(parts)) % 2 == 0)
+    # a maximum may be as near to a neck as rounding
+    off = np.full(len(parts), np.inf)
+    np.minimum.at(off, corner, _off_edges(parts.centre[corner], polygons.xy, polygons.xy[after]))
+    is_out = np.bincount(corner, right, minlength=len(parts)) % 2 == 0
+    at = first_wrong(is_out & (off > SitePlaces(skeleton).tolerance))
     if at is not None:
         fail(f"piece {at}: the centre of its largest disc, {parts.centre[at].tolist()}, is not in it")
+
+
+def _off_edges(places: Floats, a: Floats, b: Floats) -> Floats:
+    """How far each place is from an edge."""
+    way = b - a
+    square = np.square(way).sum(axis=1)
+    t = np.divide(((places - a) * way).sum(axis=1), square, out=np.zeros(len(a)), where=square > 0)
+    return _norm(places - a - np.clip(t, 0, 1)[:, None] * way)
 
 
 def _directed(parts: Parts) -> tuple[Floats, NDArray[np.int64]]:
