@@ -91,9 +91,12 @@ cli/options -> engines/offsets, engines/pruning, geometry, jobs, products
 cli/batch -> batch, cli/options, formats/io, geometry, jobs, products
 jobs/volumes -> engines/label_images, engines/tessellation, engines/volumes, formats/io, formats/volumes, formats/zarr,
     geometry, geometry/points, geometry/volumes, jobs, products, render/canvas, render/pages
+engines/necks -> engines, engines/arrangement, engines/common, engines/features, engines/from_skeleton,
+    engines/skeleton, geometry, geometry/arguments, geometry/polygons, geometry/skeleton, typing
 jobs/skeletons -> engines, engines/arrangement, engines/centerlines, engines/features, engines/from_skeleton,
-    engines/offsets, engines/pruning, engines/sampled_skeleton, engines/segment_voronoi, engines/skeleton, formats/io,
-    geometry, geometry/polygons, geometry/skeleton, jobs, products, render/canvas, render/layers, render/pages
+    engines/necks, engines/offsets, engines/pruning, engines/sampled_skeleton, engines/segment_voronoi,
+    engines/skeleton, formats/io, geometry, geometry/polygons, geometry/skeleton, jobs, products, render/canvas,
+    render/layers, render/pages
 cli/commands -> cli/batch, cli/options, jobs, jobs/skeletons, jobs/volumes, products
 cli -> cli/commands, jobs
 """

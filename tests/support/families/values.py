@@ -92,6 +92,8 @@ def example_values():
         "CriticalValues": vorotool.critical_values(skeleton, "angle"),
         "Centerlines": vorotool.centerline(vorotool.prune(skeleton, angle=60)),
         "SkeletonPoints": vorotool.points_along(skeleton, every=3),
+        "Necks": vorotool.necks(skeleton),
+        "Parts": vorotool.parts(skeleton, neck=1),
         "Offsets": vorotool.offset(polygons, [-1, 2]),
         "VoronoiMap": vorotool.voronoi(polygons),
     }

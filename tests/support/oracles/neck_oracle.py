@@ -45,7 +45,7 @@ class Shape:
             self.vertices.update(kept)
             pairs = zip(kept, [*kept[1:], kept[0]], strict=True)
             self.edges += [(a, b) for a, b in pairs if a != b] if len(kept) > 2 else [tuple(kept)] * (len(kept) == 2)
-        self.edges = sorted({tuple(sorted(edge)) for edge in self.edges})
+        self.edges = joined_lines({tuple(sorted(edge)) for edge in self.edges})
         self.vertices = sorted(self.vertices)
         self.elements = [*self.edges, *((v, v) for v in self.vertices)]
         self.ends = np.array(self.elements, dtype=float).reshape(-1, 2, 2)
@@ -110,7 +110,7 @@ class Shape:
             return None
         feet = [[along(a, b, t), foot_on_line(along(a, b, t), c, d)] for t in (low, high)]
         line = [middle(*pair) for pair in feet]
-        square, allowed = norm(way(*feet[0])) / 4, {*feet[0], *feet[1]}
+        square = norm(way(*feet[0])) / 4
         for g in self.elements:
             if g in (e, f):
                 continue
@@ -118,7 +118,7 @@ class Shape:
             distance = min(norm(way(*pair)) for pair in touched)
             if distance < square or meet(line, g):
                 return None
-            if any(norm(way(*pair)) == square and pair[0] not in allowed for pair in touched):
+            if any(norm(way(*pair)) == square and not (is_on(pair[0], e) or is_on(pair[0], f)) for pair in touched):
                 return None
         centre = middle(*line)
         return (centre, 4 * square) if self._is_inside(centre) else None
@@ -194,6 +194,28 @@ def without_straight(ring):
         else:
             k += 1
     return kept
+
+
+def joined_lines(edges):
+    """Edges that go on straight from a common end as one, whatever else ends there."""
+    edges = set(edges)
+    while True:
+        pairs = (pair for pair in combinations(sorted(edges), 2) if set(pair[0]) & set(pair[1]))
+        pair = next((pair for pair in pairs if is_straight(*pair)), None)
+        if pair is None:
+            return sorted(edges)
+        edges -= set(pair)
+        edges.add(tuple(sorted(set(pair[0]) ^ set(pair[1]))))
+
+
+def is_straight(e, f):
+    (shared,) = set(e) & set(f)
+    a, b = set(e) ^ set(f)
+    return cross(way(a, shared), way(shared, b)) == 0 and dot(way(a, shared), way(shared, b)) > 0
+
+
+def is_on(place, edge):
+    return nearest(place, *edge) == place
 
 
 def is_around(ring, place):

@@ -93,6 +93,8 @@ class Outlines:
         Their places.
     point : (n,) int64 array
         Equal places of vertices of the polygons have the same number; feet on edges have -1.
+    edge : (n,) int64 array
+        The edge along which the contour goes on from each; -1 along a cut.
     start : (k + 1,) int64 array
         Where each contour begins.
     part : (k,) int64 array
@@ -103,6 +105,7 @@ class Outlines:
 
     xy: Floats
     point: Indices
+    edge: Indices
     start: Indices
     part: Indices
     polygon: Indices
@@ -129,21 +132,22 @@ def outlines_of(axis: CutAxis, feet: Feet) -> Outlines:
     which = (points[walk.site[corner], 0] != walk.shared_point[corner]).astype(np.intp)
     vertex, across = np.flatnonzero(~is_edge), np.flatnonzero(passed >= 0)
     neck, way = np.divmod(passed[across], 2)
+    onward = np.where(is_edge[walk.after], walk.site[walk.after], -1)
     pieces = [
-        (vertex, 0, ends[walk.site[vertex], 0], walk.point[vertex]),
-        (corner, 1, ends[walk.site[corner], which], walk.shared_point[corner]),
+        (vertex, 0, ends[walk.site[vertex], 0], walk.point[vertex], onward[vertex]),
+        (corner, 1, ends[walk.site[corner], which], walk.shared_point[corner], onward[corner]),
     ]
     number = _numbers(feet, ends, points)
     # the first way comes to the foot on its right, which is the right one of the cut; the second to the left one
-    for rank, hand in ((1, 1 - way), (2, way)):
-        pieces.append((across, rank, feet.xy[neck, hand], number[neck, hand]))
-    run, xy, point = (np.concatenate([piece[k] for piece in pieces]) for k in (0, 2, 3))
+    for rank, hand, edge in ((1, 1 - way, np.full(len(across), -1)), (2, way, onward[across])):
+        pieces.append((across, rank, feet.xy[neck, hand], number[neck, hand], edge))
+    run, xy, point, edge = (np.concatenate([piece[k] for piece in pieces]) for k in (0, 2, 3, 4))
     rank_of = np.repeat([piece[1] for piece in pieces], [len(piece[0]) for piece in pieces])
     order = np.lexsort((rank_of, run))
     contour = owners(np.diff(walk.start))[run[order]]
     kept = order[_is_last(xy[order], contour)]
     start = np.searchsorted(owners(np.diff(walk.start))[run[kept]], np.arange(len(walk.polygon) + 1))
-    return Outlines(xy[kept], point[kept], start, walk.part, walk.polygon)
+    return Outlines(xy[kept], point[kept], edge[kept], start, walk.part, walk.polygon)
 
 
 def _numbers(feet: Feet, ends: Floats, points: Indices) -> Indices:

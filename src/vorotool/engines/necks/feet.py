@@ -95,8 +95,8 @@ def _projected(edge: Floats, place: Floats) -> Floats:
 def _at_ends(foot: Floats, edge: Floats, tolerance: float) -> Floats:
     """Feet, but the end of the edge where this is where rounding may have kept them from."""
     for end in (0, 1):
-        is_there = (np.abs(foot - edge[:, end]) <= tolerance).all(axis=1)
-        foot = np.where(is_there[:, None], edge[:, end], foot)
+        is_off = np.abs(foot - edge[:, end]).max(axis=1, keepdims=True) > tolerance
+        foot = np.where(is_off, foot, edge[:, end])
     return foot
 
 
@@ -110,7 +110,7 @@ def _widths(skeleton: Skeleton, ends: Floats, is_edge: NDArray[np.bool_]) -> tup
     way, to_point = edge[:, 1] - edge[:, 0], point - edge[:, 0]
     cross = np.abs(way[:, 0] * to_point[:, 1] - way[:, 1] * to_point[:, 0])
     between, along = np.square(to_point).sum(axis=1), np.square(way).sum(axis=1)
-    has_edge = is_edge.any(axis=1)
+    has_edge = is_edge[:, 0] | is_edge[:, 1]
     square = np.where(has_edge[:, None], np.stack([cross, along], axis=1), np.stack([between, 0 * between], axis=1))
     length = np.sqrt(np.maximum(along, 1).astype(np.float64))
     width = np.where(has_edge, cross / length, np.sqrt(between.astype(np.float64)))

@@ -129,7 +129,9 @@ def _rings(outlines: Outlines) -> _Rings:
         if is_twice[contour]:
             pieces = [part for part in cut_at_repetitions(outlines.point[first:last].tolist()) if len(part) > 2]
         for piece in pieces:
-            ring = first + np.array(piece)
+            ring = _without_spikes(first + np.array(piece), outlines.edge)
+            if is_twice[contour] and len(ring) < 3:
+                continue
             least = int(np.lexsort(outlines.xy[ring].T[::-1])[0])
             rings.append(np.roll(ring, -least))
             owner.append(contour)
@@ -137,6 +139,13 @@ def _rings(outlines: Outlines) -> _Rings:
     start = np.concatenate([[0], np.cumsum([len(ring) for ring in rings], dtype=np.int64)])
     order = np.concatenate([np.empty(0, dtype=np.int64), *rings])
     return _Rings(outlines.xy[order], start, outlines.part[contour_of], outlines.polygon[contour_of])
+
+
+def _without_spikes(ring: Indices, edge: Indices) -> Indices:
+    """Leave out where a ring goes along an edge and back, around the end of a line inside the polygon."""
+    onward = edge[ring]
+    is_tip = (onward == np.roll(onward, 1)) & (onward >= 0)
+    return ring[~is_tip] if is_tip.any() else ring
 
 
 def _parts_of(axis: CutAxis, outlines: Outlines, necks: Necks) -> Parts:
