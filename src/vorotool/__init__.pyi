@@ -107,6 +107,18 @@ from vorotool.engines.label_images.regions import (
 from vorotool.engines.label_images.regions import (
     voronoi_diagram as voronoi_diagram,
 )
+from vorotool.engines.necks.necks import (
+    necks as necks,
+)
+from vorotool.engines.necks.parts import (
+    parts as parts,
+)
+from vorotool.engines.necks.verify_necks import (
+    verify_necks as verify_necks,
+)
+from vorotool.engines.necks.verify_necks import (
+    verify_parts as verify_parts,
+)
 from vorotool.engines.offsets.offsets import (
     offset as offset,
 )
@@ -286,6 +298,9 @@ from vorotool.geometry.skeleton.discs import (
 )
 from vorotool.geometry.skeleton.offsets import (
     Offsets as Offsets,
+)
+from vorotool.geometry.skeleton.parts import (
+    Parts as Parts,
 )
 from vorotool.geometry.skeleton.points_along import (
     SkeletonPoints as SkeletonPoints,

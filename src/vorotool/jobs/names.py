@@ -17,5 +17,7 @@ DERIVED = {
     "points": "jobs.skeletons.steps:Steps",
     "transects": "jobs.skeletons.steps:Steps",
     "thickness": "jobs.skeletons.thickness:Thickness",
+    "necks": "jobs.skeletons.neck_cuts:NeckCuts",
+    "parts": "jobs.skeletons.neck_cuts:CutParts",
 }
 """Results of the skeleton commands that follow from a skeleton or its diagram, and what makes each."""

@@ -394,6 +394,7 @@ class ExactSkeletonOptions(SkeletonOptions):
     """Of ``skeleton-exact``."""
 
     gap: float
+    neck: float | None
     border: Literal["closed", "open"] | None
 
     @property

@@ -130,7 +130,9 @@ def _input_of(value: Any) -> AnyTriangulation | CellSet | PolygonSet:
     from vorotool.geometry.alpha.shape import AlphaShape
     from vorotool.geometry.skeleton.discs import Discs
     from vorotool.geometry.skeleton.led_on import LedOn
+    from vorotool.geometry.skeleton.necks import Necks
     from vorotool.geometry.skeleton.offsets import Offsets
+    from vorotool.geometry.skeleton.parts import Parts
     from vorotool.geometry.skeleton.points_along import SkeletonPoints
     from vorotool.geometry.skeleton.skeleton import Skeleton
     from vorotool.geometry.skeleton.smooth_lines import SmoothLines
@@ -139,8 +141,8 @@ def _input_of(value: Any) -> AnyTriangulation | CellSet | PolygonSet:
         (AlphaHull, lambda hull: hull.shape.family.mesh),
         (AlphaShape, lambda shape: shape.family.mesh),
         ((LedOn, SmoothLines), lambda lines: lines.path.polygons),
-        (SkeletonPoints, lambda points: points.skeleton.polygons),
-        ((Skeleton, Offsets, Discs), lambda of: of.polygons),
+        ((SkeletonPoints, Necks), lambda points: points.skeleton.polygons),
+        ((Skeleton, Offsets, Parts, Discs), lambda of: of.polygons),
     ]
     found: AnyTriangulation | CellSet | PolygonSet = next(
         (get(value) for kind, get in inside if isinstance(value, kind)), value

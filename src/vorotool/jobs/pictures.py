@@ -94,8 +94,8 @@ def drawing_of(
     Parameters
     ----------
     value : value of the library
-        A triangulation, cells, an alpha shape or hull, polygons, a skeleton, points along one, discs, offset curves, or
-        a Voronoi map.
+        A triangulation, cells, an alpha shape or hull, polygons, a skeleton, points along one, discs, necks, parts,
+        offset curves, or a Voronoi map.
     what : str, optional
         Which part, by its name in the registry of products; by default the first that is drawn.
     layers : sequence of str, optional
@@ -150,7 +150,9 @@ def _drawings() -> list[tuple[Any, Callable[..., Page], Callable[..., list[Layer
     from vorotool.geometry.polygons.polygon_set import PolygonSet
     from vorotool.geometry.skeleton.discs import Discs
     from vorotool.geometry.skeleton.led_on import LedOn
+    from vorotool.geometry.skeleton.necks import Necks
     from vorotool.geometry.skeleton.offsets import Offsets
+    from vorotool.geometry.skeleton.parts import Parts
     from vorotool.geometry.skeleton.points_along import SkeletonPoints
     from vorotool.geometry.skeleton.skeleton import Skeleton
     from vorotool.geometry.skeleton.smooth_lines import SmoothLines
@@ -160,6 +162,7 @@ def _drawings() -> list[tuple[Any, Callable[..., Page], Callable[..., list[Layer
     from vorotool.render.layers.discs import disc_layers, disc_page
     from vorotool.render.layers.lines_along import line_layers
     from vorotool.render.layers.mesh import mesh_layers, mesh_page
+    from vorotool.render.layers.necks import neck_layers, neck_page, part_layers, part_page
     from vorotool.render.layers.offsets import offset_layers, offset_page
     from vorotool.render.layers.points_along import point_page, skeleton_point_layers
     from vorotool.render.layers.polygons import polygon_page, shape_layers
@@ -179,6 +182,8 @@ def _drawings() -> list[tuple[Any, Callable[..., Page], Callable[..., list[Layer
         (Skeleton, skeleton_page, skeleton_layers),
         ((LedOn, SmoothLines), lambda value, **options: skeleton_page(value.path, **options), line_layers),
         (SkeletonPoints, point_page, skeleton_point_layers),
+        (Necks, neck_page, neck_layers),
+        (Parts, part_page, part_layers),
         (Offsets, offset_page, offset_layers),
         (Discs, disc_page, disc_layers),
         (VoronoiMap, voronoi_page, voronoi_layers),

@@ -39,6 +39,7 @@ def check_options(o: SkeletonOptions, targets: list[Target]) -> None:
     _check_shapes(o)
     _check_discs(o)
     _check_thickness(o, targets)
+    _check_necks(o)
     if o.frame is not None and o.side == "interior" and "diagram" not in o.what:
         raise UsageError("--frame cuts what is outside: use --side exterior or both, or leave it out")
     if o.frame is not None:
@@ -176,6 +177,21 @@ def _check_discs(o: SkeletonOptions) -> None:
     for name, is_given in (("--prune", o.prune is not None), ("--gap", has_gap)):
         if is_given and set(o.what) == {"discs"}:
             raise UsageError(f"{name} is for skeletons, but discs are of the shapes: leave it out")
+
+
+def _check_necks(o: SkeletonOptions) -> None:
+    """Necks are of the whole skeleton inside polygons."""
+    if not isinstance(o, ExactSkeletonOptions):
+        return
+    wanted = [what for what in ("necks", "parts") if what in o.what]
+    if o.neck is not None and "parts" not in wanted:
+        raise UsageError("--neck is for other results: use --what parts, or leave it out")
+    if wanted and o.side != "interior":
+        raise UsageError("necks are inside polygons: use --side interior")
+    if wanted and o.gap:
+        raise UsageError(f"a skeleton with a gap leaves the corners out: use --what {wanted[0]} without --gap")
+    if o.prune is not None and len(wanted) == len(o.what):
+        raise UsageError("--prune is for skeletons, but necks are of the shapes: leave it out")
 
 
 def _check_shapes(o: SkeletonOptions) -> None:

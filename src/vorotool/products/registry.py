@@ -172,6 +172,8 @@ _DISC_PRODUCT = _product(
 )
 _THICKNESS = Writer("formats.results.thickness:write_thickness", ("fmt", "threads"))
 _POINTS = Writer("formats.results.points_along:write_skeleton_points")
+_NECKS = Writer("formats.results.necks:write_necks", ("fmt", "precision", "threads"))
+_PARTS = Writer("formats.results.necks:write_parts", ("fmt", "precision", "threads"))
 _CURVES = "json csv tsv geojson npz wkt"
 _ARCS = _pictures("polygons elements points skeleton nodes labels")
 _ALONG = _pictures("polygons skeleton transects points labels")
@@ -206,6 +208,20 @@ _SKELETONS = (
     _product("branches", "Skeleton", _TABLES, _SKELETON),
     _product("table", "Skeleton", _TABLES, _SKELETON),
 )
+_OF_WHOLE_AXIS = (
+    _product(
+        "necks",
+        "Necks",
+        f"{_TABLES} geojson wkt",
+        _NECKS,
+        _pictures("polygons skeleton necks labels"),
+        "polygons necks",
+    ),
+    _product(
+        "parts", "Parts", "geojson csv tsv npz json wkt poly", _PARTS, _pictures("parts skeleton cuts labels"), "parts"
+    ),
+)
+"""Of exact skeletons only."""
 
 
 # ---- voronoi -------------------------------------------------------------------------------------
@@ -253,7 +269,7 @@ _BY_COMMAND: dict[str, Sequence[Product]] = {
     "delaunay": _DELAUNAY,
     "alphashape": _ALPHASHAPE,
     "voronoi": _VORONOI,
-    "skeleton-exact": _SKELETONS,
+    "skeleton-exact": (*_SKELETONS, *_OF_WHOLE_AXIS),
     "skeleton-approx": tuple(map(_beside_exact, _SKELETONS)),
     "draw": (_drawn(),),
 }

@@ -25,9 +25,6 @@ ENDS = ("middle", "corner", "none")
 
 
 _BEFORE: tuple[Decorator, ...] = (
-    inputs_argument(NAMES_WITH["polygons"]),
-    output_options(formats_of("skeleton-exact")),
-    what_option(tuple(formats_of("skeleton-exact"))),
     click.option(
         "--side",
         type=click.Choice(["interior", "exterior", "both"], case_sensitive=False),
@@ -98,7 +95,11 @@ _READING: tuple[Decorator, ...] = (
 """Options before a command's own, and after them."""
 
 
-def skeleton_options(*own: Decorator, layers: tuple[str, ...] = all_layers("skeleton-exact")) -> Decorator:
+def skeleton_options(*own: Decorator, command: str = "skeleton-exact") -> Decorator:
     """Add the options that skeletons have in common, and a command's own among them."""
+    formats = formats_of(command)
+    written = inputs_argument(NAMES_WITH["polygons"]), output_options(formats), what_option(tuple(formats))
     animation = animation_options("offset curves whose distances grow to those of -d")
-    return together(*_BEFORE, *own, *_READING, spacing_option(), result_options(layers), animation)
+    return together(
+        *written, *_BEFORE, *own, *_READING, spacing_option(), result_options(all_layers(command)), animation
+    )

@@ -33,7 +33,9 @@ from vorotool.geometry.skeleton.discs import Discs
 from vorotool.geometry.skeleton.extended import ExtendedSkeleton
 from vorotool.geometry.skeleton.graph import skeleton_graph
 from vorotool.geometry.skeleton.led_on import LedOn
+from vorotool.geometry.skeleton.necks import Necks
 from vorotool.geometry.skeleton.offsets import Offsets
+from vorotool.geometry.skeleton.parts import Parts
 from vorotool.geometry.skeleton.points_along import SkeletonPoints
 from vorotool.geometry.skeleton.skeleton import Skeleton
 from vorotool.geometry.skeleton.smooth_lines import SmoothLines
@@ -331,6 +333,19 @@ def _along(points: SkeletonPoints, geometry: NDArray[Any], left_out: set[str]) -
     return Features(geometry, _with_polygons(columns, polygons, points.polygon), polygons, points.polygon)
 
 
+def _of_necks(necks: Necks) -> Features:
+    polygons, feet = necks.skeleton.polygons, necks.feet.reshape(-1, 2)
+    columns = without_places(necks.table()).stored()
+    geometry = lines(feet, np.arange(0, len(feet) + 1, 2))
+    return Features(geometry, _with_polygons(columns, polygons, necks.polygon), polygons, necks.polygon)
+
+
+def _of_parts(parts: Parts) -> Features:
+    polygons = parts.necks.skeleton.polygons
+    columns = without_places(parts.table()).stored()
+    return Features(to_shapely(parts.polygons), _with_polygons(columns, polygons, parts.source), polygons, parts.source)
+
+
 def _of_offsets(offsets: Offsets, flatten: float | None = None) -> Features:
     polygons, of = offsets.polygons, offsets.polygon
     shapes = offsets.flattened(checked_flatten(flatten, polygons))
@@ -451,6 +466,8 @@ _MAKERS: dict[type, Callable[..., Features]] = {
     ExtendedSkeleton: _of_extended,
     SmoothLines: _of_smooth,
     SkeletonPoints: _of_points_along,
+    Necks: _of_necks,
+    Parts: _of_parts,
     Offsets: _of_offsets,
     Discs: _of_discs,
     VoronoiMap: _of_voronoi,

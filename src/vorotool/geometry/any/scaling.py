@@ -22,7 +22,9 @@ from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.skeleton.centerline import Centerlines
 from vorotool.geometry.skeleton.discs import Discs
 from vorotool.geometry.skeleton.extended import ExtendedSkeleton
+from vorotool.geometry.skeleton.necks import Necks
 from vorotool.geometry.skeleton.offsets import Offsets
+from vorotool.geometry.skeleton.parts import Parts
 from vorotool.geometry.skeleton.points_along import SkeletonPoints
 from vorotool.geometry.skeleton.skeleton import SiteTable, Skeleton
 from vorotool.geometry.skeleton.smooth_lines import SmoothLines
@@ -59,6 +61,8 @@ _LENGTHS_OF = {
     SmoothLines: "lines control error",
     SkeletonPoints: "skeleton along xy radius feet",
     Discs: "polygons site_table xy radius feet within",
+    Necks: "skeleton xy width feet beside",
+    Parts: "polygons radius centre necks",
     Offsets: "polygons site_table start end centre distance",
     ThicknessImage: "values",
     VoronoiMap: "polygons clip enclosures vertices radius control center frame max_distance",
@@ -68,7 +72,7 @@ _LENGTHS_OF = {
 _DISTANCES = frozenset(
     {
         *("r", "r_min", "r_mid", "r_max", "spectrum", "radius", "length"),
-        *("error_bound", "error", "gap", "along", "distance", "max_distance", "values"),
+        *("error_bound", "error", "gap", "along", "distance", "max_distance", "values", "width", "beside"),
     }
 )
 """What of these is a length, and no place."""
@@ -84,7 +88,8 @@ def scaled(
     Parameters
     ----------
     value : PolygonSet, Triangulation, DigitalTriangulation, ProximityGraph, CellSet, AlphaComplex, AlphaShape,
-        AlphaHull, Skeleton, SkeletonPoints, Offsets, Centerlines, ExtendedSkeleton, SmoothLines, Discs or VoronoiMap
+        AlphaHull, Skeleton, SkeletonPoints, Necks, Parts, Offsets, Centerlines, ExtendedSkeleton, SmoothLines, Discs or
+        VoronoiMap
         What to scale; for a table see `scaled_table`.
     factor : Fraction
         More than 0.

@@ -31,7 +31,9 @@ from vorotool.geometry.skeleton.centerline import Centerlines, centerline_table
 from vorotool.geometry.skeleton.critical_values import CriticalValues
 from vorotool.geometry.skeleton.discs import Discs
 from vorotool.geometry.skeleton.extended import ExtendedSkeleton, extended_table
+from vorotool.geometry.skeleton.necks import Necks
 from vorotool.geometry.skeleton.offsets import Offsets
+from vorotool.geometry.skeleton.parts import Parts
 from vorotool.geometry.skeleton.points_along import SkeletonPoints
 from vorotool.geometry.skeleton.skeleton import Skeleton
 from vorotool.geometry.skeleton.smooth_lines import SmoothLines
@@ -146,6 +148,14 @@ def _of_points_along(points: SkeletonPoints) -> IndexedTable:
     return IndexedTable(points.table(), points.skeleton.polygons, points.polygon)
 
 
+def _of_necks(necks: Necks) -> IndexedTable:
+    return IndexedTable(necks.table(), necks.skeleton.polygons, necks.polygon)
+
+
+def _of_parts(parts: Parts) -> IndexedTable:
+    return IndexedTable(parts.table(), parts.necks.skeleton.polygons, parts.source)
+
+
 def _of_offsets(offsets: Offsets) -> IndexedTable:
     return IndexedTable(
         offsets.table(), offsets.polygons, offsets.polygon[offsets.shape_of_ring[offsets.ring_of_piece]]
@@ -194,6 +204,8 @@ _MAKERS: dict[type, Callable[[Any], IndexedTable]] = {
     ExtendedSkeleton: _of_extended,
     SmoothLines: _of_smooth,
     SkeletonPoints: _of_points_along,
+    Necks: _of_necks,
+    Parts: _of_parts,
     Offsets: _of_offsets,
     Discs: _of_discs,
     VoronoiMap: _of_voronoi,
