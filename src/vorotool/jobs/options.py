@@ -264,6 +264,7 @@ class TriangulationOptions(SiteOptions):
     aspect: float | None
     extent: Literal["image", "data"] | None
     method: Method
+    graph: Literal["delaunay", "gabriel", "relative", "mst"]
     frame: Rectangle | None
     clip: str | None
 
@@ -353,6 +354,7 @@ class VoronoiOptions(ShapeOptions):
     clip: str | None
     max_distance: float | None
     enclosures: str | None
+    count: int | None
 
     def files_of_inputs(self) -> dict[str, str]:
         """Give the files that are read beside each input, by the names of the options."""
@@ -374,6 +376,9 @@ class SkeletonOptions(ShapeOptions):
     ends: Ends | None
     distance: tuple[float, ...] | None
     every: float | None
+    count: int | None
+    local: bool
+    smooth: float | None
     animate: bool
     frames: int | None
     fps: float | None
@@ -389,6 +394,7 @@ class ExactSkeletonOptions(SkeletonOptions):
     """Of ``skeleton-exact``."""
 
     gap: float
+    neck: float | None
     border: Literal["closed", "open"] | None
 
     @property

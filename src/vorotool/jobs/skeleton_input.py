@@ -14,6 +14,7 @@ from vorotool.jobs.units import lengths_in_steps, sides_of
 
 if TYPE_CHECKING:
     from vorotool.geometry.pixel_frame import Frame
+    from vorotool.geometry.pixel_grid import PixelGrid
     from vorotool.geometry.points.raster import Raster
     from vorotool.geometry.polygons.polygon_set import PolygonSet
 
@@ -33,12 +34,15 @@ class ReadPolygons(NamedTuple, Generic[Options]):
         With the size of pixels, and places, as the image has them.
     frame : Frame, optional
         Of the image, in the coordinates of the outlines.
+    grid : PixelGrid, optional
+        What the image says of its pixels.
     """
 
     polygons: PolygonSet
     is_mask: bool
     options: Options
     frame: Frame | None = None
+    grid: PixelGrid | None = None
 
 
 def read_polygons(run: Run, o: Options, given: JobInput) -> ReadPolygons[Options]:
@@ -74,7 +78,7 @@ def outlined(run: Run, o: Options, given: JobInput, image: Raster) -> ReadPolygo
 
         whole = placed_polygons(o.pixel_size, _outlines(run, replace(o, simplify=None), image))
         polygons = simplified_polygons(whole, o.simplify)
-    return ReadPolygons(polygons, is_mask=True, options=o, frame=frame)
+    return ReadPolygons(polygons, is_mask=True, options=o, frame=frame, grid=image.grid)
 
 
 def _outlines(run: Run, o: ShapeOptions, image: Raster) -> PolygonSet:

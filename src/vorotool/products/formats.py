@@ -88,7 +88,7 @@ _GRAPHML = Writer("formats.results.graphml:write_graphml", ("flatten", "precisio
 _DXF = Writer("formats.drawing.dxf_writer:write_dxf", ("what",))
 _DRAWN = (
     *("skeleton", "diagram", "centerline", "offset", "shape", "points", "transects", "edges", "triangles", "cells"),
-    *("polygons", "complex", "general", "hull"),
+    *("polygons", "complex", "general", "hull", "necks", "parts"),
 )
 _ALL = (
     Format("png", "PNG", is_text=False, is_image=True),

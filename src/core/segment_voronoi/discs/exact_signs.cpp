@@ -163,6 +163,10 @@ int clearance_sign(const ExactDisc& disc, const LatticeSite& query) {
   return (square(centre.along(left_of(u))) - disc.z * big(norm2(u))).sign();
 }
 
+int side_of_centre(const ExactDisc& disc, const LatticePoint& point, const LatticeVector& direction) {
+  return CentreSeen(disc, point).along(direction).sign();
+}
+
 int compare_along(const ExactDisc& first, const ExactDisc& second, const LatticeVector& direction) {
   numbers::SqrtTower tower;
   const std::vector<RootNumber> lifted_first = tower.adjoin_all(*first.tower),

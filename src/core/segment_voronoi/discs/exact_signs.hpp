@@ -21,6 +21,9 @@ struct NoDisc : std::invalid_argument {
 
 // See exact_clearance_sign.
 int clearance_sign(const ExactDisc& disc, const kernel::LatticeSite& query);
+// The sign of (centre - point) * direction.
+int side_of_centre(const ExactDisc& disc, const kernel::LatticePoint& point,
+                   const kernel::LatticeVector& direction);
 // The sign of (centre of first - centre of second) * direction.
 int compare_along(const ExactDisc& first, const ExactDisc& second, const kernel::LatticeVector& direction);
 

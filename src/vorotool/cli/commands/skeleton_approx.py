@@ -17,7 +17,7 @@ from vorotool.jobs.job import Recipe
 from vorotool.jobs.options import ApproximateSkeletonOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.skeleton_checks import check_options
-from vorotool.products.registry import all_layers, formats_of
+from vorotool.products.registry import formats_of
 
 if TYPE_CHECKING:
     from vorotool.jobs.skeletons.approximate import ApproximateProducts
@@ -43,7 +43,7 @@ if TYPE_CHECKING:
         help="Join corners by lines along their bisectors; by default with --tolerance.",
     ),
     click.option("--compare", is_flag=True, help="Say how far the exact skeleton is, both ways; in --stats, too."),
-    layers=all_layers("skeleton-approx"),
+    command="skeleton-approx",
 )
 def command(**options: Any) -> None:
     """Approximate the skeleton of polygons by samples of their edges, with a certified error of each arc.

@@ -43,6 +43,13 @@ if TYPE_CHECKING:
         default=None,
         help="With a gap, add the straight portions that lead to the corners (default) or leave them out.",
     ),
+    click.option(
+        "--neck",
+        type=click.FloatRange(0, 1),
+        metavar="RATIO",
+        help="Of --what parts: cut where half the width is at most RATIO times the largest clearance on either side "
+        "(default 0.5).",
+    ),
 )
 def command(**options: Any) -> None:
     """Compute the exact skeleton (medial axis) of polygons: straight lines and parabolas, each with its radius.

@@ -25,9 +25,6 @@ ENDS = ("middle", "corner", "none")
 
 
 _BEFORE: tuple[Decorator, ...] = (
-    inputs_argument(NAMES_WITH["polygons"]),
-    output_options(formats_of("skeleton-exact")),
-    what_option(tuple(formats_of("skeleton-exact"))),
     click.option(
         "--side",
         type=click.Choice(["interior", "exterior", "both"], case_sensitive=False),
@@ -55,7 +52,14 @@ _BEFORE: tuple[Decorator, ...] = (
         "--ends",
         type=click.Choice(ENDS, case_sensitive=False),
         help="Where centerlines end: in the middle of the edge that the skeleton forks to (default), in a corner, or "
-        "where it forks.",
+        "where it forks. With middle, skeletons are led on to the ends of strokes, too; else they are as pruning "
+        "leaves them.",
+    ),
+    click.option(
+        "--smooth",
+        type=Length(zero=False),
+        metavar="TOLERANCE",
+        help="Fit cubic Bézier curves to skeletons and centerlines that are nowhere farther from them than this.",
     ),
     click.option(
         "--features",
@@ -78,12 +82,24 @@ _READING: tuple[Decorator, ...] = (
         metavar="D",
         help="Step along branches, of --what points and transects.",
     ),
+    click.option(
+        "--count",
+        type=click.IntRange(min=1),
+        metavar="N",
+        help="How many --what discs of each feature: the largest, then the largest that is disjoint from those before "
+        "(default 1); with --local the largest so many.",
+    ),
+    click.option("--local", is_flag=True, help="Of --what discs all that are larger than those around them."),
     shape_options(flattened=" or --what shape"),
 )
 """Options before a command's own, and after them."""
 
 
-def skeleton_options(*own: Decorator, layers: tuple[str, ...] = all_layers("skeleton-exact")) -> Decorator:
+def skeleton_options(*own: Decorator, command: str = "skeleton-exact") -> Decorator:
     """Add the options that skeletons have in common, and a command's own among them."""
+    formats = formats_of(command)
+    written = inputs_argument(NAMES_WITH["polygons"]), output_options(formats), what_option(tuple(formats))
     animation = animation_options("offset curves whose distances grow to those of -d")
-    return together(*_BEFORE, *own, *_READING, spacing_option(), result_options(layers), animation)
+    return together(
+        *written, *_BEFORE, *own, *_READING, spacing_option(), result_options(all_layers(command)), animation
+    )

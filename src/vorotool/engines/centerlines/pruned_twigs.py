@@ -22,6 +22,7 @@ from vorotool.engines.centerlines.convex_trees import Chains, convex_trees
 from vorotool.engines.skeleton.parts import with_straight_arcs
 from vorotool.geometry.ragged import owners, starts_of, within
 from vorotool.geometry.skeleton.skeleton import EDGE, INTERIOR, Skeleton
+from vorotool.geometry.sorted_sets import is_among
 
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.intp]
@@ -135,7 +136,7 @@ def _sides(skeleton: Skeleton) -> tuple[_Sides, _Sides]:
     made = []
     for site, own, others in ((left, *keys), (right, *keys[::-1])):
         maybe = np.flatnonzero(is_pruned & (table.kind[site] == EDGE))
-        chosen = maybe[~np.isin(own[maybe], others)]
+        chosen = maybe[~is_among(own[maybe], others)]
         ring = polygons.polygon_start[table.polygon[site[chosen]]] + table.ring[site[chosen]]
         vertex = polygons.ring_start[ring] + table.index[site[chosen]]
         made.append(_Sides(node[chosen], arc[chosen], site[chosen], vertex.astype(np.intp)))

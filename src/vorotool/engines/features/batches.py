@@ -33,6 +33,7 @@ from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.polygons.ring_arrays import RingArrays
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.ragged import owners, starts_of
+from vorotool.geometry.sorted_sets import distinct
 
 Indices = NDArray[np.int64]
 Result = TypeVar("Result")
@@ -316,7 +317,7 @@ def _as_a_whole(
         {name: count for name, (count, _, _) in found.items()},
         sum(len(shapes.graph.points) for shapes in parts),
         sum(len(shapes.graph) for shapes in parts),
-        sum(len(np.unique(shapes.graph.face_polygon)) for shapes in parts),
+        sum(len(distinct(shapes.graph.face_polygon)) for shapes in parts),
     )
 
 

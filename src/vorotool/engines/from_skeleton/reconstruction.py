@@ -12,12 +12,13 @@ from numpy.typing import NDArray
 from vorotool.engines.arrangement.flat_rings import flat_holes
 from vorotool.engines.from_skeleton.contour_walk import Contours, contours_of
 from vorotool.engines.from_skeleton.disc_union import Ring, covered_rings
+from vorotool.engines.from_skeleton.simple_rings import cut_at_repetitions, repeats, twice_areas
 from vorotool.errors import UsageError
 from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.curves.circular_arcs import chords_of, middles_of
 from vorotool.geometry.curves.flatten import checked_flatten
 from vorotool.geometry.polygons.polygon_set import HOLE, SHELL, PolygonSet
-from vorotool.geometry.ragged import following, owners, starts_of
+from vorotool.geometry.ragged import owners, starts_of
 from vorotool.geometry.row_index import index_of_rows
 from vorotool.geometry.skeleton.skeleton import EDGE, INTERIOR, Skeleton
 
@@ -248,12 +249,12 @@ def _is_disc(skeleton: Skeleton) -> NDArray[np.bool_]:
 
 def _simple_rings(contours: Contours, xy: Floats, point: Indices, start: Indices) -> list[Ring]:
     """Rings of contours: one that visits a point twice is cut in two there."""
-    repeats = _repeats(point, start)
+    is_twice = repeats(point, start)
     rings = []
     for contour, (first, last) in enumerate(pairwise(start.tolist())):
         parts: list[Any] = [slice(first, last)]
-        if repeats[contour]:
-            parts = [np.array(part) + first for part in _cut_at_repetitions(point[first:last].tolist())]
+        if is_twice[contour]:
+            parts = [np.array(part) + first for part in cut_at_repetitions(point[first:last].tolist())]
         polygon, component = int(contours.polygon[contour]), int(contours.part[contour])
         rings += [Ring(xy[part], polygon, component) for part in parts]
     return [ring for ring in rings if len(ring.xy) > 2]
@@ -276,47 +277,10 @@ def _flat_holes(skeleton: Skeleton, contours: Contours) -> list[Ring]:
     ]
 
 
-def _repeats(point: Indices, start: Indices) -> NDArray[np.bool_]:
-    """(c,) whether each contour visits a point twice."""
-    contour = owners(np.diff(start))
-    known = np.flatnonzero(point >= 0)
-    known = known[np.lexsort((point[known], contour[known]))]
-    twice = (np.diff(point[known]) == 0) & (np.diff(contour[known]) == 0)
-    found = np.zeros(len(start) - 1, dtype=bool)
-    found[contour[known[1:][twice]]] = True
-    return found
-
-
-def _cut_at_repetitions(names: list[int]) -> list[list[int]]:
-    """Indices of each part of a closed walk between two visits of one name; -1 is no name."""
-    parts: list[list[int]] = []
-    path: list[int] = []
-    at: dict[int, int] = {}
-    for index, name in enumerate(names):
-        if name in at:
-            cut = at[name]
-            parts.append(path[cut:])
-            for passed in path[cut:]:
-                at.pop(names[passed], None)
-            del path[cut:]
-        if name >= 0:
-            at[name] = len(path)
-        path.append(index)
-    return [*parts, path]
-
-
-def _twice_areas(xy: Floats, start: Indices) -> Floats:
-    """(r,) of rings, positive counter-clockwise."""
-    first = np.repeat(xy[start[:-1]], np.diff(start), axis=0)
-    (x, y), (u, v) = (xy - first).T, (xy[following(start)] - first).T
-    areas: Floats = np.add.reduceat(x * v - y * u, start[:-1]) if len(xy) else np.zeros(0)
-    return areas
-
-
 def _assembled(skeleton: Skeleton, rings: list[Ring]) -> PolygonSet:
     """Polygons of rings: in each connected part of the skeleton one goes counter-clockwise, around the others."""
     start = starts_of([len(ring.xy) for ring in rings])
-    is_hole = _twice_areas(np.concatenate([np.empty((0, 2)), *(ring.xy for ring in rings)]), start) < 0
+    is_hole = twice_areas(np.concatenate([np.empty((0, 2)), *(ring.xy for ring in rings)]), start) < 0
     is_hole |= np.diff(start) < 3
     part, polygon = (np.array([getattr(ring, name) for ring in rings], dtype=np.int64) for name in ("part", "polygon"))
     order = np.lexsort((is_hole, part, polygon))

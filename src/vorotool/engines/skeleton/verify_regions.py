@@ -11,6 +11,7 @@ from vorotool.engines.skeleton.site_distances import Floats, SitePlaces
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.skeleton.skeleton import EXTERIOR, INTERIOR, Skeleton
 from vorotool.geometry.skeleton.tables import connected_roots
+from vorotool.geometry.sorted_sets import distinct
 
 Indices = NDArray[np.int64]
 
@@ -28,7 +29,7 @@ class SkeletonRegions:
         self.sectors = corner_sectors(graph)
         self.root = connected_roots(skeleton.arcs, len(skeleton.vertices))
         self.face = self._faces()
-        framed = np.unique(self.root[skeleton.touches_frame])
+        framed = distinct(self.root[skeleton.touches_frame])
         framed = framed[self.face[framed] <= 0]
         if len(framed):  # all that leads to infinity is connected there
             self.root[np.isin(self.root, framed)] = framed[0]
@@ -48,8 +49,8 @@ class SkeletonRegions:
             at = first_wrong(self.sites.is_edge & (number < count))
         if at is not None:
             fail(f"site {at} is no vertex or edge of the polygons")
-        if len(np.unique(number)) != len(number) or len(number) != count + len(graph):
-            fail(f"there are {count + len(graph)} vertices and edges, but {len(np.unique(number))} different sites")
+        if len(distinct(number)) != len(number) or len(number) != count + len(graph):
+            fail(f"there are {count + len(graph)} vertices and edges, but {len(distinct(number))} different sites")
         deleted = self.sites.is_edge[skeleton.sites]
         mixed = np.flatnonzero(deleted[:, 0] != deleted[:, 1])
         edge = np.where(deleted[mixed, 0], skeleton.sites[mixed, 0], skeleton.sites[mixed, 1])

@@ -23,6 +23,7 @@ from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.skeleton import INTERIOR, Skeleton
 from vorotool.geometry.skeleton.tables import connected_roots
+from vorotool.geometry.sorted_sets import distinct
 
 
 def verify_skeleton(skeleton: Skeleton, *, threads: int = 0, progress: Progress = None) -> None:
@@ -173,12 +174,12 @@ def verify_exterior(shapes: ShapeDiagram, *, threads: int = 0) -> None:
     ends[ends < 0] = infinity
     corner = (ends < infinity) & (np.append(diagram.radius, 1.0)[ends] == 0)
     ends[corner] = infinity + 1 + np.arange(np.count_nonzero(corner))  # each arc has its own
-    nodes = np.unique(ends)
+    nodes = distinct(ends)
     roots = connected_roots(ends, int(ends.max()) + 1)[nodes]
-    if len(np.unique(roots)) > 1:
-        fail(f"the skeleton outside has {len(np.unique(roots))} connected parts, even with a node at infinity")
+    if len(distinct(roots)) > 1:
+        fail(f"the skeleton outside has {len(distinct(roots))} connected parts, even with a node at infinity")
     lone = np.bincount(graph.segments.reshape(-1), minlength=len(graph.points)) == 0
-    sites = np.unique(diagram.edge_sites[edges])
+    sites = distinct(diagram.edge_sites[edges])
     points = np.count_nonzero(lone[sites[sites < len(graph.points)]])
     expected = border_components(graph)[0] + points - 1
     cycles = len(edges) - len(nodes) + 1

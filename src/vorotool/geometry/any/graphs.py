@@ -11,6 +11,7 @@ from vorotool.errors import UsageError
 from vorotool.geometry.any.features import lines
 from vorotool.geometry.extras import needed
 from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation, DigitalTriangulation
+from vorotool.geometry.mesh.proximity import ProximityGraph
 from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
@@ -25,7 +26,16 @@ from vorotool.products.formats import resolved
 if TYPE_CHECKING:
     import networkx
 
-GraphLike = Skeleton | Triangulation | DigitalTriangulation | LabelImage | LabelVolume | PlanarGraph | VoronoiMap
+GraphLike = (
+    Skeleton
+    | Triangulation
+    | DigitalTriangulation
+    | ProximityGraph
+    | LabelImage
+    | LabelVolume
+    | PlanarGraph
+    | VoronoiMap
+)
 """What there are graphs of."""
 
 
@@ -38,7 +48,8 @@ def to_networkx(
 
     Parameters
     ----------
-    value : Skeleton, Triangulation, DigitalTriangulation, LabelImage, LabelVolume, PlanarGraph or VoronoiMap
+    value : Skeleton, Triangulation, DigitalTriangulation, ProximityGraph, LabelImage, LabelVolume, PlanarGraph or
+        VoronoiMap
         Of a skeleton nodes are numbers of vertices, with ``x``, ``y``, the radius ``r`` and the ``degree``; edges have
         the number of their branch or arc for a key, and ``branch`` (also ``arc``), ``polygon``, ``id``, ``side``,
         ``kind``, ``length``, ``r_min``, ``r_max``, ``r_mean``, of branches ``type`` and ``tortuosity`` as
@@ -77,7 +88,7 @@ def to_networkx(
     if isinstance(value, Skeleton):
         return _of_skeleton(_library(), value, by or "branch", flatten)
     makers: list[tuple[Any, Callable[[Any, Any], Any]]] = [
-        (Triangulation | DigitalTriangulation, _of_mesh),
+        (Triangulation | DigitalTriangulation | ProximityGraph, _of_mesh),
         (LabelImage | LabelVolume, _of_labels),
         (PlanarGraph, _of_planar_graph),
         (VoronoiMap, _of_voronoi),
@@ -92,7 +103,7 @@ def to_networkx(
         return made
     raise UsageError(
         f"there is no graph of a {type(value).__name__}: give a Skeleton, Triangulation, DigitalTriangulation, "
-        "LabelImage, LabelVolume, PlanarGraph or VoronoiMap"
+        "ProximityGraph, LabelImage, LabelVolume, PlanarGraph or VoronoiMap"
     )
 
 
@@ -132,7 +143,7 @@ def _of_skeleton(library: Any, skeleton: Skeleton, by: str, flatten: float | Non
     return graph
 
 
-def _of_mesh(library: Any, mesh: AnyTriangulation) -> Any:
+def _of_mesh(library: Any, mesh: AnyTriangulation | ProximityGraph) -> Any:
     x, y = mesh.points.T
     nodes = _rows(Table({"label": mesh.label_array, "x": x, "y": y}).with_properties(mesh.properties))
     graph = library.Graph(**_named(mesh.crs))

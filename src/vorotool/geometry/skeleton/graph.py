@@ -11,6 +11,7 @@ from vorotool.errors import UsageError
 from vorotool.geometry.curves.flatten import chained, checked_flatten
 from vorotool.geometry.skeleton.skeleton import KINDS, SIDES, Skeleton
 from vorotool.geometry.skeleton.tables import branch_table, ids_of
+from vorotool.geometry.sorted_sets import distinct
 from vorotool.geometry.table import Lookup, Table
 
 BY = ("branch", "arc")
@@ -80,7 +81,7 @@ def skeleton_graph(skeleton: Skeleton, *, by: str = "branch", flatten: float | N
     source, target = skeleton.arcs[first, 0].astype(np.int64), skeleton.arcs[last, 1].astype(np.int64)
     return SkeletonGraph(
         skeleton,
-        np.unique(np.concatenate([source, target])),
+        distinct(np.concatenate([source, target])),
         source,
         target,
         _branches(skeleton, first) if by == "branch" else _arcs(skeleton),

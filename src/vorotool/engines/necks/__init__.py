@@ -1,0 +1,1 @@
+"""Necks of polygons, and the parts that these are cut into there."""

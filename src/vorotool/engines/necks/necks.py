@@ -1,0 +1,188 @@
+"""Necks of polygons: where the clearance is least along the skeleton, and the largest clearances beside."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.engines.necks.axis import Ways, clearance_flow, ways_from_necks
+from vorotool.engines.necks.feet import Feet, by_width, feet_of
+from vorotool.engines.skeleton_api import skeleton_exact
+from vorotool.errors import UsageError
+from vorotool.geometry.progress import Progress
+from vorotool.geometry.skeleton.necks import Necks
+from vorotool.geometry.skeleton.skeleton import INTERIOR, Skeleton
+
+if TYPE_CHECKING:
+    from vorotool.typing import FeaturesChoice, PolygonsLike
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+
+def necks(
+    polygons: PolygonsLike | Skeleton,
+    *,
+    features: FeaturesChoice = "separate",
+    strict: bool = False,
+    threads: int = 0,
+    progress: Progress = None,
+) -> Necks:
+    """Find the necks of polygons: the places of the skeleton where the clearance is least in both directions.
+
+    Inside an arc of the skeleton, or at a node of two arcs, the clearance grows both ways; the disc there touches the
+    boundary at two opposite places, and the cut from one to the other is the shortest anywhere near. Between parallel
+    edges the clearance stays the same on a whole line: then the cut is at the middle of this. All that decides where
+    there are necks, and which is narrower, is exact.
+
+    On either side of a neck the largest clearance is looked for, as far as no narrower neck has to be passed, or one
+    that is as narrow and comes before it: small bumps in a corridor do not hide the rooms beyond. Around a hole both
+    ways may lead to the same place.
+
+    Parameters
+    ----------
+    polygons : PolygonSet, shapely geometry, GeoSeries, GeoJSON, (n, 2) array, …, a list of these, or Skeleton
+        As of :func:`vorotool.skeleton_exact`, or what that has made of the inside, not pruned and without a gap.
+    features : {"separate", "together"}
+        Take each feature by itself, or all of them as one drawing.
+    strict, threads, progress
+        As of :func:`vorotool.skeleton_exact`.
+
+    Returns
+    -------
+    Necks
+        Polygon by polygon, by x and then by y.
+
+    Raises
+    ------
+    InputError
+        As of :func:`vorotool.skeleton_exact`.
+    UsageError
+        If the skeleton is approximate, pruned, or has a gap.
+
+    Examples
+    --------
+    >>> dumbbell = [[0, 0], [4, 0], [4, 1], [6, 1], [6, 0], [10, 0], [10, 4], [6, 4], [6, 3], [4, 3], [4, 4], [0, 4]]
+    >>> found = necks(dumbbell)
+    >>> found.xy.tolist(), found.width.tolist(), found.ratio.tolist()
+    ([[5.0, 2.0]], [2.0], [0.5])
+    """
+    skeleton = whole_skeleton(polygons, features=features, strict=strict, threads=threads, progress=progress)
+    return found_necks(skeleton, threads=threads, progress=progress).necks
+
+
+def whole_skeleton(
+    polygons: PolygonsLike | Skeleton,
+    *,
+    features: FeaturesChoice,
+    strict: bool,
+    threads: int,
+    progress: Progress,
+) -> Skeleton:
+    """Give the skeleton inside polygons, which may be given themselves.
+
+    Raises
+    ------
+    UsageError
+        If what is given is approximate, pruned, or has a gap.
+    """
+    if not isinstance(polygons, Skeleton):
+        return skeleton_exact(polygons, features=features, strict=strict, threads=threads, progress=progress)
+    is_inside = polygons.side == INTERIOR
+    ends = polygons.arcs[is_inside]
+    is_cut = (polygons.radius[ends] > 0) & (polygons.degree[ends] == 1)
+    if polygons.gap or polygons.error_bound.any() or is_cut.any() or not is_inside.all():
+        raise UsageError(
+            "necks are of the whole skeleton inside polygons: give one of skeleton_exact that is not pruned, has no "
+            "gap and no arcs outside, or give the polygons"
+        )
+    return polygons
+
+
+@dataclass(frozen=True, eq=False)
+class FoundNecks:
+    """Necks, and where the skeleton is to be cut for each.
+
+    Parameters
+    ----------
+    necks : Necks
+        In their order.
+    ways : Ways
+        From each.
+    feet : Feet
+        Of each, left and right of its ways.
+    """
+
+    necks: Necks
+    ways: Ways
+    feet: Feet
+
+
+def found_necks(skeleton: Skeleton, *, threads: int = 0, progress: Progress = None) -> FoundNecks:
+    """Find the necks on a whole skeleton inside polygons."""
+    flow = clearance_flow(skeleton, threads=threads, progress=progress)
+    ways = ways_from_necks(skeleton, flow)
+    feet = feet_of(skeleton, ways)
+    x, y = feet.xy.mean(axis=1).T
+    order = np.lexsort((ways.arc[:, 0], y, x, skeleton.polygon[ways.arc[:, 0]]))
+    ways, feet = ways.taken(order), feet.taken(order)
+    clearance = np.zeros(len(flow.top))
+    np.maximum.at(clearance, flow.plateau, skeleton.radius)
+    beside = largest_beside(ways.top, feet.square, clearance)
+    # the foot with less x first
+    (a, b), rows = feet.xy.swapaxes(0, 1), np.arange(len(ways))
+    first = ((b[:, 0] < a[:, 0]) | ((b[:, 0] == a[:, 0]) & (b[:, 1] < a[:, 1]))).astype(np.int64)
+    both = np.stack([first, 1 - first], axis=1)
+    made = Necks(
+        skeleton,
+        ways.arc[:, 0].astype(np.int32),
+        feet.xy.mean(axis=1),
+        feet.width,
+        feet.xy[rows[:, None], both],
+        feet.site[rows[:, None], both].astype(np.int32),
+        beside,
+    )
+    return FoundNecks(made, ways, feet)
+
+
+def largest_beside(top: Indices, square: Indices, clearance: Floats) -> Floats:
+    """(n, 2) the largest clearance on both sides of necks as far as no narrower one has to be passed, smaller first.
+
+    Necks are opened from the widest to the narrowest, and maxima that they join are one from then on: what is beside a
+    neck is what is joined before it is opened.
+
+    Parameters
+    ----------
+    top : (n, 2) int64 array
+        The maxima next to each neck.
+    square : (n, 2) int64 array
+        As of `Feet`: by which they are compared.
+    clearance : (p,) float64 array
+        Of the maxima.
+
+    Examples
+    --------
+    >>> chain, squares = np.array([[0, 1], [1, 2]]), np.array([[4, 0], [9, 0]])
+    >>> largest_beside(chain, squares, np.array([5.0, 4.0, 6.0])).tolist()
+    [[5.0, 6.0], [4.0, 6.0]]
+    """
+    root, largest = list(range(len(clearance))), clearance.tolist()
+    beside = np.empty((len(top), 2))
+    pairs = top.tolist()
+    for neck in by_width(square).tolist():
+        a, b = (_found(root, place) for place in pairs[neck])
+        beside[neck] = sorted((largest[a], largest[b]))
+        root[b] = a
+        largest[a] = max(largest[a], largest[b])
+    return beside
+
+
+def _found(root: list[int], place: int) -> int:
+    """What a place is joined to; the way there gets shorter."""
+    while root[place] != place:
+        root[place] = root[root[place]]
+        place = root[place]
+    return place

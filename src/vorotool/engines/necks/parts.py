@@ -1,0 +1,201 @@
+"""Polygons cut into pieces at their necks: the decomposition of shapes of the paper."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.engines.from_skeleton.simple_rings import cut_at_repetitions, repeats, twice_areas
+from vorotool.engines.necks.cut_axis import CutAxis, Outlines, cut_axis, outlines_of
+from vorotool.engines.necks.necks import FoundNecks, found_necks, whole_skeleton
+from vorotool.errors import UsageError, option
+from vorotool.geometry.numbers import finite_double, shown_number
+from vorotool.geometry.polygons.polygon_set import HOLE, SHELL, PolygonSet
+from vorotool.geometry.polygons.ring_arrays import RingArrays
+from vorotool.geometry.progress import Progress
+from vorotool.geometry.ragged import ranges
+from vorotool.geometry.skeleton.necks import Necks
+from vorotool.geometry.skeleton.parts import Parts
+from vorotool.geometry.skeleton.skeleton import Skeleton
+
+if TYPE_CHECKING:
+    from vorotool.typing import FeaturesChoice, PolygonsLike
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+NARROWEST = 0.5
+"""The ratio of `parts` by default."""
+
+
+def parts(
+    polygons: PolygonsLike | Skeleton,
+    *,
+    neck: float = NARROWEST,
+    features: FeaturesChoice = "separate",
+    strict: bool = False,
+    threads: int = 0,
+    progress: Progress = None,
+) -> Parts:
+    """Cut polygons into pieces at their necks.
+
+    All necks whose half width is at most `neck` times the smaller of the largest clearances beside, as `necks` finds
+    them, are cut from foot to foot. A cut that has the same piece on both sides, as that of a single narrow place of a
+    ring, parts nothing and is left out. Where the boundary touches itself pieces are apart without any cut.
+
+    Parameters
+    ----------
+    polygons : PolygonSet, shapely geometry, GeoSeries, GeoJSON, (n, 2) array, …, a list of these, or Skeleton
+        As of :func:`necks`.
+    neck : float
+        The largest ratio of necks that are cut, from 0 to 1: 1 cuts all.
+    features : {"separate", "together"}
+        Take each feature by itself, or all of them as one drawing.
+    strict, threads, progress
+        As of :func:`vorotool.skeleton_exact`.
+
+    Returns
+    -------
+    Parts
+        Polygon by polygon; the areas of the pieces of one sum to its own, but for rounding. There is none of an open
+        line, nor of a polygon without an inside.
+
+    Raises
+    ------
+    InputError
+        As of :func:`vorotool.skeleton_exact`.
+    UsageError
+        If the ratio is none, or the skeleton is approximate, pruned, or has a gap.
+
+    References
+    ----------
+    Melkemi and Vandorpe, "Voronoi Diagrams and Applications", section 3.
+
+    Examples
+    --------
+    >>> dumbbell = [[0, 0], [4, 0], [4, 1], [6, 1], [6, 0], [10, 0], [10, 4], [6, 4], [6, 3], [4, 3], [4, 4], [0, 4]]
+    >>> parts(dumbbell).area.tolist(), len(parts(dumbbell, neck=0.4))
+    ([18.0, 18.0], 1)
+    """
+    check_neck(neck)
+    skeleton = whole_skeleton(polygons, features=features, strict=strict, threads=threads, progress=progress)
+    return cut_parts(found_necks(skeleton, threads=threads, progress=progress), neck)
+
+
+def check_neck(neck: float) -> None:
+    """Raise UsageError for what is no ratio."""
+    ratio = finite_double(neck, "the ratio of necks")
+    if not 0 <= ratio <= 1:
+        raise UsageError(f"invalid {option('--neck', 'neck=')} {shown_number(neck)}: expected a ratio from 0 to 1")
+
+
+def cut_parts(found: FoundNecks, neck: float) -> Parts:
+    """Cut at those necks whose ratio is at most `neck`, but for cuts that part nothing."""
+    chosen = np.flatnonzero(found.necks.ratio <= neck)
+    sides = _cut(found, chosen)
+    a, b = sides.part[sides.node].T
+    chosen = chosen[a != b]
+    axis = _cut(found, chosen)
+    return _parts_of(axis, outlines_of(axis, found.feet.taken(chosen)), found.necks.taken(chosen))
+
+
+def _cut(found: FoundNecks, chosen: Indices) -> CutAxis:
+    necks = found.necks
+    return cut_axis(necks.skeleton, found.ways.taken(chosen), necks.xy[chosen], necks.width[chosen])
+
+
+# ---- pieces --------------------------------------------------------------------------------------
+@dataclass(frozen=True, eq=False)
+class _Rings:
+    """Rings, the part that each is around, and its polygon."""
+
+    xy: Floats
+    start: Indices
+    part: Indices
+    polygon: Indices
+
+
+def _rings(outlines: Outlines) -> _Rings:
+    """Simple rings, each from its vertex with the least x: a contour that visits a vertex twice is cut in two there."""
+    is_twice = repeats(outlines.point, outlines.start)
+    rings: list[Indices] = []
+    owner: list[int] = []
+    for contour, (first, last) in enumerate(pairwise(outlines.start.tolist())):
+        pieces = [list(range(last - first))]
+        if is_twice[contour]:
+            pieces = [part for part in cut_at_repetitions(outlines.point[first:last].tolist()) if len(part) > 2]
+        for piece in pieces:
+            ring = _without_spikes(first + np.array(piece), outlines.edge)
+            if is_twice[contour] and len(ring) < 3:
+                continue
+            least = int(np.lexsort(outlines.xy[ring].T[::-1])[0])
+            rings.append(np.roll(ring, -least))
+            owner.append(contour)
+    contour_of = np.array(owner, dtype=np.int64)
+    start = np.concatenate([[0], np.cumsum([len(ring) for ring in rings], dtype=np.int64)])
+    order = np.concatenate([np.empty(0, dtype=np.int64), *rings])
+    return _Rings(outlines.xy[order], start, outlines.part[contour_of], outlines.polygon[contour_of])
+
+
+def _without_spikes(ring: Indices, edge: Indices) -> Indices:
+    """Leave out where a ring goes along an edge and back, around the end of a line inside the polygon."""
+    onward = edge[ring]
+    is_tip = (onward == np.roll(onward, 1)) & (onward >= 0)
+    return ring[~is_tip] if is_tip.any() else ring
+
+
+def _parts_of(axis: CutAxis, outlines: Outlines, necks: Necks) -> Parts:
+    rings = _rings(outlines)
+    skeleton = axis.skeleton
+    radius, centre = _largest_discs(axis)
+    # the shell is the one ring of a part that goes counter-clockwise, so that of the largest area
+    areas, corner = twice_areas(rings.xy, rings.start), rings.xy[rings.start[:-1]]
+    by_area = np.lexsort((-areas, rings.part))
+    shells = by_area[np.flatnonzero(np.diff(rings.part[by_area], prepend=-1))]
+    part, low = rings.part[shells], corner[shells]
+    columns = (centre[part, 1], centre[part, 0], low[:, 1], low[:, 0], rings.polygon[shells])
+    order = np.lexsort(columns)
+    part, source = part[order], rings.polygon[shells][order]
+    piece = np.full(len(skeleton.vertices), -1)
+    piece[part] = np.arange(len(part))
+    is_hole = np.ones(len(areas), dtype=bool)
+    is_hole[shells] = False
+    ring_order = np.lexsort((corner[:, 1], corner[:, 0], is_hole, piece[rings.part]))
+    polygons = _polygons(skeleton.polygons, rings, ring_order, is_hole, source, piece[rings.part])
+    between = np.sort(piece[axis.part[axis.node]], axis=1).astype(np.int32)
+    return Parts(polygons, source.astype(np.int32), radius[part], centre[part], necks, between)
+
+
+def _largest_discs(axis: CutAxis) -> tuple[Floats, Floats]:
+    """Radius and centre of the largest disc of each part, by the node that the part is named after.
+
+    It is at a node of the whole skeleton: between necks there is a maximum, however near by.
+    """
+    skeleton, part = axis.skeleton, axis.part
+    radius, centre = np.zeros(len(part)), np.full((len(part), 2), np.nan)
+    inner = np.flatnonzero(skeleton.radius[: len(part) - axis.node.size] > 0)
+    x, y = skeleton.vertices[inner].T
+    order = inner[np.lexsort((y, x, -skeleton.radius[inner], part[inner]))]
+    first = order[np.flatnonzero(np.diff(part[order], prepend=-1))]
+    radius[part[first]], centre[part[first]] = skeleton.radius[first], skeleton.vertices[first]
+    return radius, centre
+
+
+def _polygons(
+    given: PolygonSet,
+    rings: _Rings,
+    order: Indices,
+    is_hole: NDArray[np.bool_],
+    source: Indices,
+    piece: Indices,
+) -> PolygonSet:
+    """The pieces, each a feature, with what is said of their polygons."""
+    sizes = np.diff(rings.start)
+    corners = ranges(rings.start[order], sizes[order])
+    kind = np.where(is_hole, HOLE, SHELL).astype(np.int8)
+    made = RingArrays(rings.xy[corners], sizes[order], kind[order], np.bincount(piece, minlength=len(source)))
+    return replace(made.polygons(given, source), feature=np.arange(len(source), dtype=np.int32), connectivity=None)

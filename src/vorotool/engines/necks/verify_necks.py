@@ -1,0 +1,277 @@
+"""Checks of necks and of the parts between them, from the polygons and their own arrays alone."""
+
+from __future__ import annotations
+
+import warnings
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool import _core
+from vorotool.engines.arrangement.planar_graph import planar_graph
+from vorotool.engines.common.faults import fail, first_wrong
+from vorotool.engines.features.batches import BatchShapes, in_batches
+from vorotool.engines.skeleton.site_distances import SitePlaces
+from vorotool.errors import VorotoolWarning
+from vorotool.geometry.arguments.values import check_value
+from vorotool.geometry.checks import checked_threads
+from vorotool.geometry.polygons.planar_graph import PlanarGraph
+from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.progress import Progress
+from vorotool.geometry.ragged import owners
+from vorotool.geometry.skeleton.necks import Necks
+from vorotool.geometry.skeleton.parts import Parts
+from vorotool.geometry.skeleton.skeleton import Skeleton
+
+Floats = NDArray[np.float64]
+
+_AREA_ERROR = 1e-9
+"""Of areas, beside what a foot that is off its edge by some ulp takes from one piece and gives to another."""
+
+
+def verify_necks(necks: Necks, *, threads: int = 0, progress: Progress = None) -> None:
+    """Check necks: both feet are on their sites, as far apart as the width tells, and the middle is right.
+
+    Nothing of the boundary is nearer to the middle, so that the cut is inside; on both sides there are larger discs.
+
+    Parameters
+    ----------
+    necks : Necks
+        However they were found.
+    threads : int
+        0 uses all.
+    progress : callable, optional
+        Called with the fraction done.
+
+    Raises
+    ------
+    VerificationError
+        Naming the first fault.
+
+    Examples
+    --------
+    >>> from dataclasses import replace
+    >>> from vorotool import necks
+    >>> found = necks([[0, 0], [10, 0], [10, 4], [6, 2], [0, 4]])
+    >>> verify_necks(found)
+    >>> verify_necks(replace(found, width=found.width + 1))
+    Traceback (most recent call last):
+        ...
+    vorotool.errors.VerificationError: neck 0: its feet are 2.0 from each other, but its width is 3.0
+    """
+    check_value(necks, "necks", Necks)
+    places = SitePlaces(necks.skeleton)
+    for foot in (0, 1):
+        off = places.distances(necks.sites[:, foot], necks.feet[:, foot])
+        at = first_wrong(~(off <= places.tolerance))
+        if at is not None:
+            fail(f"neck {at}: its foot {necks.feet[at, foot].tolist()} is {off[at]} from site {necks.sites[at, foot]}")
+    a, b = necks.feet.swapaxes(0, 1)
+    apart = _norm(b - a)
+    at = first_wrong(~(np.abs(apart - necks.width) <= places.tolerance))
+    if at is not None:
+        fail(f"neck {at}: its feet are {apart[at]} from each other, but its width is {necks.width[at]}")
+    at = first_wrong(~(_norm((a + b) / 2 - necks.xy) <= places.tolerance))
+    if at is not None:
+        fail(f"neck {at} at {necks.xy[at].tolist()} is not in the middle of its cut")
+    least, most = necks.beside.T
+    at = first_wrong(~(necks.width / 2 <= least + places.tolerance) | ~(least <= most))
+    if at is not None:
+        fail(f"neck {at}: beside its width of {necks.width[at]} there are clearances of {necks.beside[at].tolist()}")
+    _check_clearances(necks.skeleton, necks.polygon, necks.xy, necks.width / 2, "neck", threads, progress)
+
+
+def verify_parts(parts: Parts, *, threads: int = 0, progress: Progress = None) -> None:
+    """Check parts: their areas sum to those of the polygons, and they border each other along the cuts alone.
+
+    Each cut goes once along each of the two pieces that it is said to be between, in opposite directions, and all other
+    edges are on the boundary of the polygons; the largest disc of each piece touches this, and has its centre inside.
+    The cuts are checked as `verify_necks` does.
+
+    Parameters
+    ----------
+    parts : Parts
+        However they were made.
+    threads, progress
+        As of `verify_necks`.
+
+    Raises
+    ------
+    VerificationError
+        Naming the first fault.
+
+    Examples
+    --------
+    >>> from dataclasses import replace
+    >>> from vorotool import parts
+    >>> pieces = parts([[0, 0], [10, 0], [10, 4], [6, 2], [0, 4]], neck=1)
+    >>> verify_parts(pieces)
+    >>> verify_parts(replace(pieces, radius=pieces.radius / 2))
+    Traceback (most recent call last):
+        ...
+    vorotool.errors.VerificationError: piece 0: nothing touches its largest disc, of radius 0.8377223398316207
+    """
+    check_value(parts, "parts", Parts)
+    verify_necks(parts.necks, threads=threads, progress=progress)
+    at = first_wrong(~(parts.area > 0))
+    if at is not None:
+        fail(f"piece {at} has an area of {parts.area[at]}")
+    _check_discs(parts, threads, progress)
+    _check_cuts(parts)
+    _check_borders(parts, threads, progress)
+    with warnings.catch_warnings(action="ignore", category=VorotoolWarning):
+        _check_areas(parts, threads, progress)
+
+
+# ---- distances -----------------------------------------------------------------------------------
+def _norm(way: Floats) -> Floats:
+    length: Floats = np.sqrt((way * way).sum(axis=-1))
+    return length
+
+
+def _clearances(skeleton: Skeleton, polygon: NDArray[np.int32], places: Floats, reach: Floats, threads: int) -> Floats:
+    """Of places, from the boundary of the feature that each is in; infinite beyond reach."""
+    polygons = skeleton.polygons
+    feature = np.zeros(len(polygons), dtype=np.int64)
+    if skeleton.features == "separate":
+        assert polygons.feature is not None
+        feature = polygons.feature.astype(np.int64)
+    own = feature[polygon]
+    found, step = np.empty(len(places)), skeleton.scale or 1.0
+    for each in np.unique(own).tolist():
+        points, segments = _elements(polygons, np.flatnonzero(feature == each), skeleton)
+        chosen = np.flatnonzero(own == each)
+        lattice = np.ascontiguousarray((places[chosen] - skeleton.origin) / step)
+        far = np.ascontiguousarray(reach[chosen] / step)
+        found[chosen] = step * _core.spatial.clearances(points, segments, lattice, far, checked_threads(threads), None)
+    return found
+
+
+def _elements(
+    polygons: PolygonSet, chosen: NDArray[np.int64], skeleton: Skeleton
+) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """Vertices and edges of some polygons, as the lattice has them."""
+    rings = np.concatenate([np.arange(*polygons.polygon_start[[k, k + 1]]) for k in chosen.tolist()])
+    vertices = np.concatenate([np.arange(*polygons.ring_start[[k, k + 1]]) for k in rings.tolist()])
+    number = np.full(len(polygons.xy), -1)
+    number[vertices] = np.arange(len(vertices))
+    points = np.rint((polygons.xy[vertices] - skeleton.origin) / (skeleton.scale or 1.0)).astype(np.int32)
+    is_last = np.zeros(len(polygons.xy), dtype=bool)
+    is_last[polygons.ring_start[1:] - 1] = polygons.is_line[polygons.ring_polygon]
+    segments = np.stack([number[vertices], number[polygons.following[vertices]]], axis=1).astype(np.int32)
+    has_length = (points[segments[:, 0]] != points[segments[:, 1]]).any(axis=1)
+    return points, np.ascontiguousarray(segments[has_length & ~is_last[vertices]])
+
+
+def _check_clearances(
+    skeleton: Skeleton,
+    polygon: NDArray[np.int32],
+    places: Floats,
+    radius: Floats,
+    what: str,
+    threads: int,
+    progress: Progress,
+) -> None:
+    """Raise if the boundary is nearer to a place than it is said."""
+    tolerance = SitePlaces(skeleton).tolerance
+    nearest = _clearances(skeleton, polygon, places, radius + 2 * tolerance, threads)
+    at = first_wrong(nearest < radius - tolerance)
+    if at is not None:
+        fail(f"{what} {at}: the boundary is {nearest[at]} from {places[at].tolist()}, nearer than {radius[at]}")
+    at = first_wrong(~(nearest <= radius + tolerance))
+    if at is not None:
+        fail(f"{what} {at}: nothing touches its largest disc, of radius {radius[at]}")
+    if progress is not None:
+        progress(1.0)
+
+
+# ---- pieces --------------------------------------------------------------------------------------
+def _check_discs(parts: Parts, threads: int, progress: Progress) -> None:
+    skeleton = parts.necks.skeleton
+    _check_clearances(skeleton, parts.source, parts.centre, parts.radius, "piece", threads, progress)
+    polygons, after = parts.polygons, parts.polygons.following
+    corner = owners(np.diff(polygons.ring_start[polygons.polygon_start]))
+    (x, y), (u, v) = polygons.xy.T, polygons.xy[after].T
+    px, py = parts.centre[corner].T
+    crosses = (y > py) != (v > py)
+    right = crosses & (((x - px) * (v - y) - (y - py) * (u - x) > 0) == (v > y))
+    # a maximum may be as near to a neck as rounding
+    off = np.full(len(parts), np.inf)
+    np.minimum.at(off, corner, _off_edges(parts.centre[corner], polygons.xy, polygons.xy[after]))
+    is_out = np.bincount(corner, right, minlength=len(parts)) % 2 == 0
+    at = first_wrong(is_out & (off > SitePlaces(skeleton).tolerance))
+    if at is not None:
+        fail(f"piece {at}: the centre of its largest disc, {parts.centre[at].tolist()}, is not in it")
+
+
+def _off_edges(places: Floats, a: Floats, b: Floats) -> Floats:
+    """How far each place is from an edge."""
+    way = b - a
+    square = np.square(way).sum(axis=1)
+    t = np.divide(((places - a) * way).sum(axis=1), square, out=np.zeros(len(a)), where=square > 0)
+    return _norm(places - a - np.clip(t, 0, 1)[:, None] * way)
+
+
+def _directed(parts: Parts) -> tuple[Floats, NDArray[np.int64]]:
+    """(n, 4) both ends of each edge of the pieces, and the piece."""
+    polygons = parts.polygons
+    edges = np.concatenate([polygons.xy, polygons.xy[polygons.following]], axis=1)
+    return edges, owners(np.diff(polygons.ring_start[polygons.polygon_start]))
+
+
+def _check_cuts(parts: Parts) -> None:
+    edges, piece = _directed(parts)
+    found: dict[tuple[float, ...], list[int]] = {}
+    for ends, owner in zip(map(tuple, edges.tolist()), piece.tolist(), strict=True):
+        found.setdefault(ends, []).append(owner)
+    cuts = parts.necks.feet.reshape(-1, 4).tolist()
+    for neck, (cut, between) in enumerate(zip(cuts, parts.between.tolist(), strict=True)):
+        sides = [found.get(tuple(cut), []), found.get((*cut[2:], *cut[:2]), [])]
+        if sorted(map(len, sides)) != [1, 1] or sorted(side[0] for side in sides) != between or sides[0] == sides[1]:
+            fail(f"cut {neck} is said to be between the pieces {between}, but is an edge of {sides[0]} and {sides[1]}")
+
+
+def _check_borders(parts: Parts, threads: int, progress: Progress) -> None:
+    """Raise unless edges that are no cuts lie on the boundary."""
+    edges, piece = _directed(parts)
+    cuts = {tuple(cut) for cut in parts.necks.feet.reshape(-1, 4).tolist()}
+    is_cut = [tuple(ends) in cuts or (*ends[2:], *ends[:2]) in cuts for ends in edges.tolist()]
+    rest = np.flatnonzero(~np.array(is_cut, dtype=bool))
+    skeleton, source = parts.necks.skeleton, parts.source[piece[rest]]
+    tolerance = SitePlaces(skeleton).tolerance
+    a, b = edges[rest, :2], edges[rest, 2:]
+    for place in (a, (a + b) / 2):
+        off = _clearances(skeleton, source, place, np.full(len(rest), 2 * tolerance), threads)
+        at = first_wrong(~(off <= tolerance))
+        if at is not None:
+            fail(f"piece {piece[rest[at]]}: {place[at].tolist()} is on its border, but on no cut and no boundary")
+    if progress is not None:
+        progress(1.0)
+
+
+def _check_areas(parts: Parts, threads: int, progress: Progress) -> None:
+    skeleton = parts.necks.skeleton
+    if skeleton.features == "together" or not len(skeleton.polygons):
+        graph = planar_graph(skeleton.polygons, threads=threads, progress=progress)
+        _check_area(parts, np.arange(len(skeleton.polygons)), graph)
+        return
+
+    def check(shapes: BatchShapes, _threads: int, _poll: Progress) -> None:
+        _check_area(parts, np.asarray(shapes.batch.polygons), shapes.graph)
+
+    in_batches(skeleton.polygons, check, drops=False, threads=threads, progress=progress)
+
+
+def _check_area(parts: Parts, polygons: NDArray[np.integer], graph: PlanarGraph) -> None:
+    """Raise unless the pieces of some polygons sum to the area of the faces that these cover."""
+    inside = graph.is_inside.astype(np.int64)
+    left, right = inside[graph.segment_faces].T
+    (x, y), (u, v) = (graph.points[graph.segments[:, end]].astype(np.float64).T for end in (0, 1))
+    area = float(((x * v - u * y) * (left - right)).sum()) / 2 * graph.scale**2
+    summed = float(parts.area[np.isin(parts.source, polygons)].sum())
+    extent = float(np.ptp(graph.points, axis=0).max()) * graph.scale if len(graph.points) else 0.0
+    around = _norm((graph.points[graph.segments[:, 0]] - graph.points[graph.segments[:, 1]]).astype(float)).sum()
+    allowed = _AREA_ERROR * area + 8 * np.spacing(max(extent, np.abs(graph.origin).max())) * around * graph.scale
+    if not abs(area - summed) <= allowed:
+        first, last = polygons.min(initial=0), polygons.max(initial=0)
+        fail(f"the pieces of polygons {first} to {last} sum to {summed}, but their area is {area}")

@@ -1,0 +1,133 @@
+"""Necks: where polygons are narrowest between wider places, and the cuts there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.geometry.checks import set_array
+from vorotool.geometry.skeleton.skeleton import EDGE, Skeleton
+from vorotool.geometry.skeleton.tables import ids_of
+from vorotool.geometry.table import Lookup, Table
+from vorotool.geometry.values import Geometric, Pictured, Tabular, Value, counted, placed
+
+SITE_KINDS = ("vertex", "edge")
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Necks(Value, Tabular, Geometric, Pictured):
+    """Places of a skeleton where the clearance is least in both directions, polygon by polygon, by x and then by y.
+
+    The boundary is touched at two opposite places there, the feet: the cut goes straight from one to the other.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+        What they are on.
+    arc : (n,) int32 array
+        Its arc that each is on, or one of the two where they meet.
+    xy : (n, 2) float64 array
+        Places: the middle of each cut.
+    width : (n,) float64 array
+        Lengths of the cuts: twice the clearance.
+    feet : (n, 2, 2) float64 array
+        Both ends of each cut, the one with less x first, or with less y.
+    sites : (n, 2) int32 array
+        The vertices or edges that these are on: rows of ``skeleton.site_table``.
+    beside : (n, 2) float64 array
+        The largest clearance that is reached from the neck on either side without passing a narrower one, the smaller
+        first. Of necks that are equally narrow the one that comes first counts as narrower.
+
+    Raises
+    ------
+    InputError
+        If an array has another shape.
+
+    Examples
+    --------
+    >>> from vorotool import necks
+    >>> rooms = [[0, 0], [4, 0], [4, 1.5], [6, 1.5], [6, 0], [12, 0], [12, 6], [6, 6], [6, 2.5], [4, 2.5]]
+    >>> rooms += [[4, 4], [0, 4]]
+    >>> found = necks(rooms)
+    >>> found.feet.tolist(), found.beside.tolist(), found.ratio.tolist()
+    ([[[5.0, 1.5], [5.0, 2.5]]], [[2.0, 3.0]], [0.25])
+    """
+
+    skeleton: Skeleton
+    arc: NDArray[np.int32]
+    xy: NDArray[np.float64]
+    width: NDArray[np.float64]
+    feet: NDArray[np.float64]
+    sites: NDArray[np.int32]
+    beside: NDArray[np.float64]
+
+    def __post_init__(self) -> None:
+        count = len(self.width)
+        for name, shape in (("width", (count,)), ("xy", (count, 2)), ("feet", (count, 2, 2)), ("beside", (count, 2))):
+            set_array(self, name, np.float64, shape)
+        for name, shape in (("arc", (count,)), ("sites", (count, 2))):
+            set_array(self, name, np.int32, shape)
+
+    def __len__(self) -> int:
+        return len(self.width)
+
+    @property
+    def y_up(self) -> bool:
+        """Whether pictures are drawn y upwards."""
+        return self.skeleton.y_up
+
+    @cached_property
+    def polygon(self) -> NDArray[np.int32]:
+        """(n,) the polygon that each is in."""
+        return self.skeleton.polygon[self.arc]
+
+    @cached_property
+    def ratio(self) -> NDArray[np.float64]:
+        """(n,) half of the width over the smaller clearance beside: near 0 at a narrow door between large rooms."""
+        return np.minimum(self.width / 2 / self.beside[:, 0], 1.0)
+
+    def taken(self, chosen: NDArray[np.bool_] | NDArray[np.integer]) -> Necks:
+        """Give some of them."""
+        return Necks(
+            self.skeleton,
+            *(getattr(self, name)[chosen] for name in ("arc", "xy", "width", "feet", "sites", "beside")),
+        )
+
+    def table(self) -> Table:
+        """Give one row a neck.
+
+        Returns
+        -------
+        Table
+            ``polygon, id, x, y, width, ratio, r_smaller, r_larger``, and of both feet ``x_a, y_a, kind_a, ring_a,
+            index_a`` and the same with b: the site that the foot is on, a vertex or the edge that begins there.
+        """
+        table, polygon = self.skeleton.site_table, self.polygon
+        columns = {
+            "polygon": polygon,
+            "id": ids_of(self.skeleton.polygons, polygon),
+            "x": self.xy[:, 0].copy(),
+            "y": self.xy[:, 1].copy(),
+            "width": self.width,
+            "ratio": self.ratio,
+            "r_smaller": self.beside[:, 0].copy(),
+            "r_larger": self.beside[:, 1].copy(),
+        }
+        for foot, name in enumerate("ab"):
+            site = self.sites[:, foot]
+            columns |= {
+                f"x_{name}": self.feet[:, foot, 0].copy(),
+                f"y_{name}": self.feet[:, foot, 1].copy(),
+                f"kind_{name}": Lookup(list(SITE_KINDS), (table.kind[site] == EDGE).astype(np.int32)),
+                f"ring_{name}": table.ring[site],
+                f"index_{name}": table.index[site],
+            }
+        return Table(columns)
+
+    def _summary(self) -> str:
+        polygons = self.skeleton.polygons
+        text = f"{counted(len(self), 'neck')} of {counted(len(polygons), 'polygon')}"
+        return placed(text, polygons.crs, polygons.unit)

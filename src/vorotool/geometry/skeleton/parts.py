@@ -1,0 +1,152 @@
+"""Parts of polygons: pieces that they are cut into at their necks."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.geometry.checks import set_array
+from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.ragged import following
+from vorotool.geometry.skeleton.necks import Necks
+from vorotool.geometry.skeleton.tables import ids_of
+from vorotool.geometry.table import Table
+from vorotool.geometry.values import Geometric, Pictured, Tabular, Value, counted, placed
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Parts(Value, Tabular, Geometric, Pictured):
+    """Pieces of polygons, polygon by polygon, by the least x of each and then by y.
+
+    Parameters
+    ----------
+    polygons : PolygonSet
+        The pieces, each a feature, with the id and the properties of its polygon. Shells go counter-clockwise (y
+        upwards), holes clockwise, both from their vertex with the least x, or of these with the least y.
+    source : (p,) int32 array
+        The polygon that each is a piece of: one of ``necks.skeleton.polygons``.
+    radius : (p,) float64 array
+        Of the largest disc in that polygon whose centre is in the piece.
+    centre : (p, 2) float64 array
+        Of this disc, of several the one with the least x, or y.
+    necks : Necks
+        Where the polygons are cut.
+    between : (c, 2) int32 array
+        The two pieces that each cut parts, ascending.
+
+    Raises
+    ------
+    InputError
+        If an array has another shape.
+
+    Examples
+    --------
+    >>> from vorotool import parts
+    >>> rooms = [[0, 0], [4, 0], [4, 1.5], [6, 1.5], [6, 0], [12, 0], [12, 6], [6, 6], [6, 2.5], [4, 2.5]]
+    >>> rooms += [[4, 4], [0, 4]]
+    >>> pieces = parts(rooms)
+    >>> pieces.area.tolist(), pieces.radius.tolist(), pieces.between.tolist()
+    ([17.0, 37.0], [2.0, 3.0], [[0, 1]])
+    """
+
+    polygons: PolygonSet
+    source: NDArray[np.int32]
+    radius: NDArray[np.float64]
+    centre: NDArray[np.float64]
+    necks: Necks
+    between: NDArray[np.int32]
+
+    def __post_init__(self) -> None:
+        count = len(self.polygons)
+        set_array(self, "source", np.int32, (count,))
+        set_array(self, "radius", np.float64, (count,))
+        set_array(self, "centre", np.float64, (count, 2))
+        set_array(self, "between", np.int32, (len(self.necks), 2))
+
+    def __len__(self) -> int:
+        return len(self.polygons)
+
+    @property
+    def y_up(self) -> bool:
+        """Whether pictures are drawn y upwards."""
+        return self.polygons.y_up
+
+    @cached_property
+    def width(self) -> NDArray[np.float64]:
+        """(p,) diameters of the largest discs."""
+        return 2 * self.radius
+
+    @cached_property
+    def area(self) -> NDArray[np.float64]:
+        """(p,) areas; those of the pieces of a polygon sum to its own, but for rounding."""
+        polygons = self.polygons
+        start = polygons.ring_start
+        first = np.repeat(polygons.xy[start[:-1]], np.diff(start), axis=0)
+        (x, y), (u, v) = (polygons.xy - first).T, (polygons.xy[following(start)] - first).T
+        twice = np.add.reduceat(x * v - y * u, start[:-1]) if len(x) else np.zeros(0)
+        return np.bincount(polygons.ring_polygon, twice, minlength=len(polygons)) / 2
+
+    @cached_property
+    def cuts(self) -> NDArray[np.int64]:
+        """(p,) number of cuts around each."""
+        return np.bincount(self.between.reshape(-1), minlength=len(self))
+
+    def neighbours(self) -> list[list[int]]:
+        """Give the pieces beyond the cuts of each piece, ascending."""
+        found: list[set[int]] = [set() for _ in range(len(self))]
+        for a, b in self.between.tolist():
+            found[a].add(b)
+            found[b].add(a)
+        return [sorted(each) for each in found]
+
+    def table(self) -> Table:
+        """Give one row a piece.
+
+        Returns
+        -------
+        Table
+            ``piece, polygon, id, area, width, x, y, cuts``: the width is the diameter of the largest disc of the
+            polygon with its centre in the piece, x and y this centre.
+        """
+        return Table(
+            {
+                "piece": np.arange(len(self)),
+                "polygon": self.source,
+                "id": ids_of(self.necks.skeleton.polygons, self.source),
+                "area": self.area,
+                "width": self.width,
+                "x": self.centre[:, 0].copy(),
+                "y": self.centre[:, 1].copy(),
+                "cuts": self.cuts,
+            }
+        )
+
+    def described(self) -> PolygonSet:
+        """Give the pieces with what is told of them as properties; a name that the input has takes the prefix voro_.
+
+        Examples
+        --------
+        >>> from vorotool import parts
+        >>> parts([[0, 0], [4, 0], [4, 2], [0, 2]]).described().properties["width"]
+        [2.0]
+        """
+        own: dict[str, Any] = {
+            "piece": list(range(len(self))),
+            "polygon": self.source.tolist(),
+            "area": self.area.tolist(),
+            "width": self.width.tolist(),
+            "cuts": self.cuts.tolist(),
+            "neighbours": self.neighbours(),
+        }
+        given = self.polygons.properties
+        named = {f"voro_{name}" if name in given else name: values for name, values in own.items()}
+        return replace(self.polygons, properties={**given, **named})
+
+    def _summary(self) -> str:
+        whole = self.necks.skeleton.polygons
+        text = f"{counted(len(self), 'piece')} of {counted(len(whole), 'polygon')}"
+        return placed(text, whole.crs, whole.unit)

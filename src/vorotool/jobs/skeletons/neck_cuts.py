@@ -1,0 +1,60 @@
+"""Necks of polygons, and the parts between them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from vorotool.engines.necks.necks import necks
+from vorotool.engines.necks.parts import NARROWEST, parts
+from vorotool.geometry.progress import Progress
+from vorotool.geometry.skeleton.necks import Necks
+from vorotool.geometry.skeleton.parts import Parts
+from vorotool.jobs.options import ExactSkeletonOptions
+from vorotool.jobs.skeletons.result import Result
+
+
+class NeckCuts(Result):
+    """All necks."""
+
+    value: Necks
+
+    def _make(self) -> Necks:
+        skeleton = self.origin.whole()
+        with self.run.phase("necks") as progress:
+            return necks(skeleton, threads=self.options.threads, progress=progress)
+
+    def verify(self, progress: Progress) -> None:
+        """Check them."""
+        from vorotool.engines.necks.verify_necks import verify_necks
+
+        verify_necks(self.value, threads=self.options.threads, progress=progress)
+
+    def stats(self) -> dict[str, Any]:
+        """Count them."""
+        return {"necks": len(self.value)}
+
+
+class CutParts(Result):
+    """Pieces between narrow necks."""
+
+    value: Parts
+
+    @property
+    def _neck(self) -> float:
+        o = self.options
+        return NARROWEST if not isinstance(o, ExactSkeletonOptions) or o.neck is None else o.neck
+
+    def _make(self) -> Parts:
+        skeleton = self.origin.whole()
+        with self.run.phase("parts") as progress:
+            return parts(skeleton, neck=self._neck, threads=self.options.threads, progress=progress)
+
+    def verify(self, progress: Progress) -> None:
+        """Check them."""
+        from vorotool.engines.necks.verify_necks import verify_parts
+
+        verify_parts(self.value, threads=self.options.threads, progress=progress)
+
+    def stats(self) -> dict[str, Any]:
+        """Count pieces and cuts."""
+        return {"neck": self._neck, "pieces": len(self.value), "cuts": len(self.value.necks)}

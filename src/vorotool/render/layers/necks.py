@@ -1,0 +1,116 @@
+"""The layers of pictures of necks, and of the parts between them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+import numpy as np
+
+from vorotool import _core
+from vorotool.geometry.skeleton.necks import Necks
+from vorotool.geometry.skeleton.parts import Parts
+from vorotool.render.canvas.layers import Layer, Lines, Page, Polygons
+from vorotool.render.canvas.palettes import EDGE, FAINT, INK, RESULT, cell_colour
+from vorotool.render.label_images.png import checked_layers
+from vorotool.render.layers.polygons import names_of_features, polygon_layers, polygon_page
+from vorotool.render.layers.skeleton import skeleton_layers, skeleton_page
+
+LAYERS = ("polygons", "skeleton", "necks", "labels")
+"""Of necks, from below."""
+
+PART_LAYERS = ("parts", "skeleton", "cuts", "labels")
+"""Of parts."""
+
+_WIDEST = 2.0
+"""Cuts, in px."""
+
+
+def neck_layers(necks: Necks, page: Page, layers: Iterable[str]) -> list[Layer]:
+    """Make layers of necks: lines from foot to foot, which get finer where there are many.
+
+    Parameters
+    ----------
+    necks : Necks
+        What to draw.
+    page : Page
+        Where it will be drawn.
+    layers : iterable of str
+        Which of "polygons", "skeleton", "necks", "labels" (of the polygons).
+
+    Raises
+    ------
+    UsageError
+        If a layer is unknown.
+
+    Examples
+    --------
+    >>> from vorotool import necks
+    >>> found = necks([[0, 0], [10, 0], [10, 4], [6, 2], [0, 4]])
+    >>> [layer.name for layer in neck_layers(found, neck_page(found), ["necks", "polygons"])]
+    ['polygons', 'necks']
+    """
+    wanted = checked_layers(layers, LAYERS)
+    made = skeleton_layers(necks.skeleton, page, [n for n in ("polygons", "skeleton") if n in wanted], colour=FAINT)
+    if "necks" in wanted:
+        made.append(_cuts(necks, page, "necks", RESULT))
+    return [*made, *skeleton_layers(necks.skeleton, page, ["labels"])] if "labels" in wanted else made
+
+
+def part_layers(parts: Parts, page: Page, layers: Iterable[str]) -> list[Layer]:
+    """Make layers of parts, in colours that differ on both sides of a cut.
+
+    Parameters
+    ----------
+    parts : Parts
+        What to draw.
+    page : Page
+        Where it will be drawn.
+    layers : iterable of str
+        Which of "parts", "skeleton", "cuts", "labels" (ids of the polygons, else numbers of the pieces).
+
+    Raises
+    ------
+    UsageError
+        If a layer is unknown.
+
+    Examples
+    --------
+    >>> from vorotool import parts
+    >>> pieces = parts([[0, 0], [10, 0], [10, 4], [6, 2], [0, 4]], neck=1)
+    >>> part_layers(pieces, part_page(pieces), ["parts"])[0].colour_of.tolist()
+    [2, 1]
+    """
+    wanted = checked_layers(layers, PART_LAYERS)
+    made: list[Layer] = []
+    if "parts" in wanted:
+        a, b = np.ascontiguousarray(parts.between.T).astype(np.uint32)
+        colours = _core.graphs.colour_graph(len(parts), a, b, None).astype(np.int64)
+        palette = [cell_colour(c) for c in range(int(colours.max(initial=0)) + 1)]
+        width = min(max(page.spacing(max(len(parts.polygons.xy), 1)) / 16, 0.2), 1.0)
+        made += [
+            replace(layer, colours=palette, colour_of=colours)
+            for layer in polygon_layers(parts.polygons, width, name="parts", edge=EDGE)
+            if isinstance(layer, Polygons)
+        ]
+    if "skeleton" in wanted:
+        made += skeleton_layers(parts.necks.skeleton, page, ["skeleton"], colour=FAINT)
+    if "cuts" in wanted:
+        made.append(_cuts(parts.necks, page, "cuts", INK))
+    return [*made, names_of_features(parts.polygons, page)] if "labels" in wanted else made
+
+
+def _cuts(necks: Necks, page: Page, name: str, colour: str) -> Lines:
+    pairs = np.arange(2 * len(necks), dtype=np.int32).reshape(-1, 2)
+    width = min(max(page.spacing(max(len(necks), 1)) / 16, 0.3), _WIDEST)
+    return Lines(name, necks.feet.reshape(-1, 2), pairs, colour, width)
+
+
+def neck_page(necks: Necks, *, width: int = 1000, y_up: bool | None = None) -> Page:
+    """The page of a picture: that of the skeleton."""
+    return skeleton_page(necks.skeleton, width=width, y_up=y_up)
+
+
+def part_page(parts: Parts, *, width: int = 1000, y_up: bool | None = None) -> Page:
+    """The page of a picture: that of the pieces."""
+    return polygon_page(parts.polygons, width=width, y_up=y_up)

@@ -1,0 +1,212 @@
+"""Necks: closed forms, brute force in fractions, and what must not change them."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import vorotool
+from support.families.skeleton_shapes import crossing, holed, star, tiles, valid
+from support.oracles.neck_oracle import disagreement
+from vorotool import UsageError, VerificationError, necks, skeleton_exact, verify_necks
+
+DUMBBELL = [[0, 0], [4, 0], [4, 1.5], [7, 1.5], [7, 0], [12, 0], [12, 6], [7, 6], [7, 2.5], [4, 2.5], [4, 4], [0, 4]]
+
+
+def corridor(*bumps, length=100, side=4):
+    """A corridor from y = 0 to 4, over which stand boxes with their left side, width and height."""
+    top = [[length, side]]
+    for x, width, height in sorted(bumps, reverse=True):
+        top += [[x + width, side], [x + width, side + height], [x, side + height], [x, side]]
+    return [[0, 0], [length, 0], *top, [0, side]]
+
+
+def rooms(*parts):
+    """Rectangles in a row, each of a length and a height, around y = 0."""
+    x, upper = 0.0, []
+    for length, height in parts:
+        upper += [[x, height / 2], [x + length, height / 2]]
+        x += length
+    return [*upper, *([x, -y] for x, y in reversed(upper))]
+
+
+def disc(count, radius, centre):
+    turn = (np.arange(count) + 0.5) * 2 * np.pi / count
+    return np.stack([np.cos(turn), np.sin(turn)], axis=1) * radius + centre
+
+
+def test_dumbbell_of_rectangles():
+    found = necks(DUMBBELL)
+    assert found.feet.tolist() == [[[5.5, 1.5], [5.5, 2.5]]]
+    assert (found.xy.tolist(), found.width.tolist()) == ([[5.5, 2.0]], [1.0])
+    assert (found.beside.tolist(), found.ratio.tolist()) == ([[2.0, 2.5]], [0.25])
+    table = found.table()
+    assert [table[name][0] for name in ("kind_a", "ring_a", "index_a", "kind_b", "index_b")] == [
+        "edge",
+        0,
+        2,
+        "edge",
+        8,
+    ]
+
+
+@pytest.mark.parametrize("width", [1, 2, 3.5])
+def test_dumbbell_of_discs_of_many_sides(width):
+    import shapely
+
+    count, radius = 240, 5.0
+    shape = shapely.union_all(
+        [*(shapely.Polygon(disc(count, radius, (x, 0))) for x in (0, 20)), shapely.box(0, -width / 2, 20, width / 2)]
+    )
+    found = necks(shape)
+    inscribed = radius * np.cos(np.pi / count)
+    narrow = found.taken(found.ratio < 0.9)
+    assert len(narrow) == 1
+    assert narrow.xy[0] == pytest.approx([10, 0], abs=1e-7)
+    assert narrow.width[0] == pytest.approx(width, rel=1e-7)
+    assert narrow.beside[0] == pytest.approx([inscribed, inscribed], rel=1e-6)
+
+
+def test_chain_of_rooms_has_the_largest_that_are_reached_by_wider_necks():
+    found = necks(rooms((10, 10), (3, 4), (6, 6), (3, 2), (8, 8), (3, 5), (12, 12)))
+    assert found.width.tolist() == [4, 2, 5]
+    assert found.beside.tolist() == [[3, 5], [5, 6], [4, 6]]
+
+
+def test_small_bumps_in_a_corridor_do_not_hide_the_rooms_beyond():
+    found = necks(rooms((10, 10), (5, 2), (1, 2.4), (5, 1.8), (1, 2.4), (5, 2), (12, 12)))
+    lowest = found.width.argmin()
+    assert found.beside[lowest].tolist() == [5, 6]
+    assert sorted(found.beside[:, 0].tolist())[:2] == pytest.approx([1.11, 1.11], abs=0.1)
+
+
+def test_of_equally_narrow_necks_the_first_counts_as_narrower():
+    found = necks(rooms((10, 10), (5, 2), (6, 6), (5, 2), (12, 12)))
+    assert found.width.tolist() == [2, 2]
+    assert found.beside.tolist() == [[5, 6], [3, 6]]
+
+
+def test_comb_has_necks_between_its_teeth_but_not_in_them():
+    found = necks(corridor((10, 2, 9), (30, 2, 9), (50, 2, 9)))
+    assert found.xy.tolist() == [[21, 2], [41, 2]]
+    assert found.width.tolist() == [4, 4]
+    assert found.beside.tolist() == [[2.125, 2.125]] * 2
+
+
+def test_ring_with_one_narrow_place_has_the_same_maximum_on_both_sides():
+    ring = {"shell": [[0, 0], [20, 0], [20, 20], [0, 20]], "holes": [[[4, 8], [6, 8], [6, 19], [4, 19]]]}
+    found = necks(ring)
+    narrow = found.taken(found.width == found.width.min())
+    assert narrow.feet.tolist() == [[[5, 19], [5, 20]]]
+    assert narrow.beside[0, 0] == narrow.beside[0, 1] == pytest.approx(skeleton_exact(ring).radius.max())
+
+
+def test_neck_between_two_vertices_and_between_vertex_and_edge():
+    notch = [[0, 0], [4, 0], [5, 2], [6, 0], [10, 0], [10, 8], [6, 8], [5, 5], [4, 8], [0, 8]]
+    found = necks(notch)
+    assert found.feet.tolist() == [[[5, 2], [5, 5]]]
+    assert found.skeleton.site_table.kind[found.sites].tolist() == [[0, 0]]
+    found = necks([[0, 0], [10, 0], [10, 4], [6, 2], [0, 4]])
+    assert found.skeleton.site_table.kind[found.sites].tolist() == [[1, 0]]
+
+
+@pytest.mark.parametrize("family", [star, crossing, holed, tiles, valid])
+@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.filterwarnings("ignore")
+def test_random_shapes_are_as_brute_force_has_them(family, seed):
+    random = np.random.default_rng([seed, 22])
+    skeleton = skeleton_exact(family(random), features=("separate", "together")[seed % 2])
+    found = necks(skeleton)
+    verify_necks(found)
+    if len(skeleton.polygons.xy) <= 40:
+        assert disagreement(found) is None
+
+
+def blob(seed, count=25):
+    random = np.random.default_rng(seed)
+    angle = np.sort(random.random(count)) * 2 * np.pi
+    radius = random.uniform(20, 100, count)
+    return np.round(np.stack([radius * np.cos(angle), radius * np.sin(angle)], axis=1))
+
+
+def essence(found, matrix=((1, 0), (0, 1))):
+    """All that is told of necks, after a map of the plane."""
+    feet = found.feet @ np.array(matrix, dtype=float) + 0.0
+    rows = np.concatenate([np.sort(feet.view(complex)[..., 0], axis=1).view(float), found.beside], axis=1)
+    return rows[np.lexsort(rows.T[::-1])]
+
+
+@pytest.mark.parametrize("seed", [0, 1, 3, 4, 5, 6])
+def test_order_and_direction_of_vertices_make_no_difference(seed):
+    ring = blob(seed)
+    expected = necks(ring)
+    for changed in (np.roll(ring, 7, axis=0), ring[::-1]):
+        found = necks(changed)
+        for name in ("feet", "xy", "width", "beside"):
+            assert getattr(found, name) == pytest.approx(getattr(expected, name), rel=1e-12, abs=1e-11)
+
+
+@pytest.mark.parametrize("seed", [0, 1, 3, 4, 5, 6])
+def test_mirrors_turns_and_scales(seed):
+    ring = blob(seed)
+    expected = necks(ring)
+    assert len(expected)
+    for matrix in ([[-1, 0], [0, 1]], [[0, 1], [-1, 0]], [[2, 0], [0, 2]]):
+        found = necks(ring @ np.array(matrix, dtype=float))
+        size = abs(matrix[0][0] + matrix[0][1])
+        rows = essence(expected, matrix)
+        rows[:, 4:] *= size
+        assert essence(found) == pytest.approx(rows[np.lexsort(rows.T[::-1])], rel=1e-12, abs=1e-11)
+
+
+def test_a_skeleton_gives_the_same_and_others_are_refused():
+    skeleton = skeleton_exact(DUMBBELL)
+    assert necks(skeleton) == necks(DUMBBELL)
+    for wrong in (
+        vorotool.prune(skeleton, angle=100),
+        skeleton_exact(DUMBBELL, side="both"),
+        skeleton_exact(DUMBBELL, gap=0.1),
+        vorotool.skeleton_approx(DUMBBELL, step=0.5),
+    ):
+        with pytest.raises(UsageError, match="whole skeleton inside polygons"):
+            necks(wrong)
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_nothing_inside_has_no_necks():
+    found = necks([{"line": [[0, 0], [4, 4]]}])
+    assert (len(found), repr(found)) == (0, "Necks: 0 necks of 1 polygon")
+    verify_necks(found)
+
+
+def test_where_pixels_hang_together_at_a_corner_there_is_no_neck():
+    image = np.zeros((6, 6), dtype=np.uint8)
+    image[:3, :3] = image[3:, 3:] = 1
+    assert len(necks(vorotool.outlines(image, connectivity=8))) == 0
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "message"),
+    [
+        ("feet", np.full((1, 2, 2), 1.0), "its foot"),
+        ("width", np.array([3.0]), "its feet are"),
+        ("xy", np.array([[5.0, 2.0]]), "not in the middle"),
+        ("beside", np.array([[3.0, 2.0]]), "there are clearances of"),
+    ],
+)
+def test_faults_are_found(name, value, message):
+    found = necks(DUMBBELL)
+    with pytest.raises(VerificationError, match=message):
+        verify_necks(replace(found, **{name: value}))
+
+
+def test_a_cut_across_what_is_nearer_is_found():
+    found = necks(DUMBBELL)
+    table = found.skeleton.site_table
+    sites = [np.flatnonzero((table.kind == 1) & (table.index == index))[0] for index in (0, 10)]
+    feet = np.array([[[2.0, 0.0], [2.0, 4.0]]])
+    moved = replace(found, feet=feet, sites=np.array([sites]), xy=feet.mean(axis=1), width=np.array([4.0]))
+    verify_necks(moved)  # as wide as the room
+    feet = np.array([[[1.0, 0.0], [1.0, 4.0]]])
+    with pytest.raises(VerificationError, match="the boundary is 1"):
+        verify_necks(replace(moved, feet=feet, xy=feet.mean(axis=1)))

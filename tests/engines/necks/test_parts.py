@@ -1,0 +1,180 @@
+"""Polygons cut at their necks: areas, borders, and which pieces there are."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import shapely
+
+import vorotool
+from engines.necks.test_necks import DUMBBELL, blob, rooms
+from support.families.skeleton_shapes import crossing, holed, several, star, tiles, valid
+from vorotool import UsageError, VerificationError, necks, parts, verify_parts
+
+RING = {"shell": [[0, 0], [20, 0], [20, 20], [0, 20]], "holes": [[[10, 2], [12, 10], [10, 19], [8, 10]]]}
+
+
+def test_dumbbell_is_cut_in_two():
+    pieces = parts(DUMBBELL)
+    assert pieces.area.tolist() == [17.5, 31.5]
+    assert pieces.width.tolist() == [4.0, 5.0]
+    assert pieces.between.tolist() == [[0, 1]]
+    assert pieces.polygons.ring(0).tolist() == [
+        *([0, 0], [4, 0], [4, 1.5], [5.5, 1.5], [5.5, 2.5], [4, 2.5], [4, 4], [0, 4]),
+    ]
+    assert (pieces.cuts.tolist(), pieces.neighbours()) == ([1, 1], [[1], [0]])
+    verify_parts(pieces)
+
+
+@pytest.mark.parametrize(("ratio", "count"), [(0.24, 1), (0.25, 2), (1, 2), (0, 1)])
+def test_the_ratio_decides(ratio, count):
+    assert len(parts(DUMBBELL, neck=ratio)) == count
+
+
+def test_a_chain_falls_into_its_rooms():
+    shape = rooms((10, 10), (3, 4), (6, 6), (3, 2), (8, 8), (3, 5), (12, 12))
+    assert len(parts(shape)) == 2
+    pieces = parts(shape, neck=1)
+    assert pieces.area.tolist() == [106, 36 + 6 + 3, 64 + 3 + 7.5, 144 + 7.5]
+    assert pieces.between.tolist() == [[0, 1], [1, 2], [2, 3]]
+    verify_parts(pieces)
+
+
+def test_a_cut_that_parts_nothing_is_left_out():
+    ring = {"shell": RING["shell"], "holes": [[[8, 8], [12, 8], [12, 19], [8, 12]]]}
+    assert (necks(ring).ratio < 0.2).sum() == 1
+    pieces = parts(ring, neck=0.2)
+    assert (len(pieces), len(pieces.necks)) == (1, 0)
+    assert pieces.polygons.ring_kind.tolist() == [0, 1]
+    verify_parts(pieces)
+
+
+def test_two_cuts_part_a_ring():
+    pieces = parts(RING, neck=0.6)
+    assert len(pieces) == 2
+    assert pieces.between.tolist() == [[0, 1], [0, 1]]
+    assert pieces.area.tolist() == [183, 183]
+    assert (shapely.is_valid(pieces.to_shapely())).all()
+    verify_parts(pieces)
+
+
+def test_feet_may_be_shared():
+    """Three wedges with one tip: the cuts to it from both sides begin at one vertex."""
+    shape = [[0, 0], [10, 9], [20, 0], [20, 20], [15, 20], [11, 11], [10.5, 20], [9.5, 20], [9, 11], [5, 20], [0, 20]]
+    pieces = parts(shape, neck=1)
+    verify_parts(pieces)
+    tips = (pieces.necks.feet == [10, 9]).all(axis=2).sum()
+    assert tips == 2
+    assert len(pieces) == 3
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_holes_of_one_place_are_feet_too():
+    for hole in ([[3, 3]], [[3, 3], [6, 6]]):
+        pieces = parts({"shell": [[0, 0], [10, 0], [10, 10], [0, 10]], "holes": [hole]}, neck=1)
+        assert len(pieces) > 1
+        assert pieces.area.sum() == pytest.approx(100)
+        verify_parts(pieces)
+    whole = parts({"shell": [[0, 0], [10, 0], [10, 10], [0, 10]], "holes": [[[3, 3]]]}, neck=0)
+    assert whole.polygons.ring(1).tolist() == [[3, 3]]
+
+
+def test_a_piece_whose_ring_would_touch_itself_has_a_hole():
+    """Both cuts from a hole go to one vertex of the shell: what is left around the hole touches itself there."""
+    shape = {"shell": [[0, 0], [10, 9], [20, 0], [20, 30], [0, 30]], "holes": [[[6, 15], [8, 12], [12, 12], [14, 15]]]}
+    pieces = parts(shape, neck=1)
+    verify_parts(pieces)
+    assert shapely.is_valid(pieces.to_shapely()).all()
+
+
+@pytest.mark.parametrize("family", [star, crossing, holed, several, tiles, valid])
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.filterwarnings("ignore")
+def test_random_shapes(family, seed):
+    random = np.random.default_rng([seed, 23])
+    shape, features = family(random), ("separate", "together")[seed % 2]
+    for ratio in (0.5, 1.0):
+        pieces = parts(shape, neck=ratio, features=features)
+        verify_parts(pieces)
+        shapes = pieces.to_shapely()
+        full = (np.diff(pieces.polygons.ring_start) > 2).all()
+        assert not full or shapely.is_valid(shapes).all()
+        assert shapely.area(shapes) == pytest.approx(pieces.area, rel=1e-9)
+
+
+@pytest.mark.parametrize("seed", [0, 1, 3, 4])
+def test_order_of_vertices_makes_no_difference(seed):
+    ring = blob(seed)
+    expected = parts(ring, neck=0.9)
+    for changed in (np.roll(ring, 5, axis=0), ring[::-1]):
+        found = parts(changed, neck=0.9)
+        assert found.polygons.ring_start.tolist() == expected.polygons.ring_start.tolist()
+        assert found.polygons.xy == pytest.approx(expected.polygons.xy, abs=1e-10)
+        assert found.between.tolist() == expected.between.tolist()
+
+
+@pytest.mark.parametrize("connectivity", [4, 8])
+def test_masks(connectivity):
+    image = (np.random.default_rng(3).random((24, 30)) < 0.6).astype(np.uint8)
+    pieces = parts(vorotool.outlines(image, connectivity=connectivity))
+    verify_parts(pieces)
+    assert pieces.area.sum() == image.sum()
+    shapes = pieces.to_shapely()
+    assert shapely.is_valid(shapes).all()
+    assert shapely.area(shapely.union_all(shapes)) == pytest.approx(image.sum())
+
+
+def test_pieces_say_what_their_polygon_says():
+    given = vorotool.PolygonSet(
+        [*DUMBBELL, [20, 0], [24, 0], [22, 4]], [0, 12, 15], [0, 0], [0, 1], ids=["a", "b"], properties={"area": [5, 6]}
+    )
+    pieces = parts(given)
+    assert (pieces.polygons.ids, pieces.source.tolist()) == (["a", "a", "b"], [0, 0, 1])
+    assert pieces.described().properties["area"] == [5, 5, 6]
+    assert pieces.described().properties["voro_area"] == [17.5, 31.5, 8.0]
+    assert pieces.table()["id"].tolist() == ["a", "a", "b"]
+    assert vorotool.skeleton_exact(pieces.polygons).polygons.ids == ["a", "a", "b"]
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_nothing_inside_has_no_parts():
+    assert repr(parts([{"line": [[0, 0], [4, 4]]}])) == "Parts: 0 pieces of 1 polygon"
+
+
+@pytest.mark.parametrize("ratio", [-0.1, 1.5, float("inf")])
+def test_what_is_no_ratio_is_refused(ratio):
+    with pytest.raises(UsageError, match="neck"):
+        parts(DUMBBELL, neck=ratio)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (lambda made: {"radius": made.radius * 2}, "nearer than"),
+        (lambda made: {"centre": made.centre[::-1]}, "the boundary is|nothing touches|is not in it"),
+        (lambda made: {"between": np.array([[0, 0]])}, "said to be between"),
+        (lambda made: {"polygons": replace(made.polygons, xy=made.polygons.xy[::-1])}, "has an area of"),
+        (lambda made: {"polygons": replace(made.polygons, xy=moved(made.polygons.xy))}, "on no cut and no boundary"),
+    ],
+)
+def test_faults_are_found(change, message):
+    made = parts(DUMBBELL)
+    with pytest.raises(VerificationError, match=message):
+        verify_parts(replace(made, **change(made)))
+
+
+def moved(xy):
+    """The first corner pulled inwards."""
+    xy = xy.copy()
+    xy[0] += 0.25
+    return xy
+
+
+def test_a_piece_that_is_missing_is_found():
+    made = parts([DUMBBELL, [[20, 0], [24, 0], [22, 4]]])
+    kept = made.polygons
+    fewer = vorotool.PolygonSet(kept.xy[:16], kept.ring_start[:3], kept.ring_kind[:2], kept.ring_polygon[:2])
+    with pytest.raises(VerificationError, match="sum to"):
+        verify_parts(
+            replace(made, polygons=fewer, source=made.source[:2], radius=made.radius[:2], centre=made.centre[:2])
+        )
