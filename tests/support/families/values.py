@@ -94,6 +94,7 @@ def example_values():
         "SkeletonPoints": vorotool.points_along(skeleton, every=3),
         "Offsets": vorotool.offset(polygons, [-1, 2]),
         "VoronoiMap": vorotool.voronoi(polygons),
+        "Discs": vorotool.largest_discs(polygons, count=2),
     }
 
 

@@ -192,7 +192,7 @@ def _is_held(discs: Discs, disc: int, tolerance: float) -> bool:
     ways = (discs.feet_of(disc) - discs.xy[disc]) / discs.radius[disc]
     slack = 8 * tolerance / float(discs.radius[disc]) + 1e-12
     turn = ways[:, None, 0] * ways[:, 1] - ways[:, None, 1] * ways[:, 0]
-    is_next = (turn > slack) | ((np.abs(turn) <= slack) & (ways @ ways.T < 0))
+    is_next = (turn > slack) | ((np.abs(turn) <= slack) & ((ways[:, None] * ways).sum(axis=2) < 0))
     return bool(is_next.any(axis=1).all())  # each has one within half a turn to the left
 
 
