@@ -23,7 +23,7 @@ Floats = NDArray[np.float64]
 LARGER = 2.0**-8
 """Of the radius: no disc that is larger by more is anywhere, not only near the centre that was found."""
 
-_MOST_CELLS = 1 << 20
+_MOST_CELLS = 1 << 17
 """Of a search; a bound of what is left then is given up."""
 
 
