@@ -33,6 +33,7 @@ def values():
         vorotool.rebuild(skeleton),
         vorotool.points_along(skeleton, every=1),
         vorotool.voronoi(SQUARE),
+        vorotool.largest_discs(SQUARE, count=2),
     ]
     return {type(value).__name__: value for value in found}
 

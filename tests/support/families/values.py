@@ -98,6 +98,7 @@ def example_values():
         "Parts": vorotool.parts(skeleton, neck=1),
         "Offsets": vorotool.offset(polygons, [-1, 2]),
         "VoronoiMap": vorotool.voronoi(polygons),
+        "Discs": vorotool.largest_discs(polygons, count=2),
     }
 
 

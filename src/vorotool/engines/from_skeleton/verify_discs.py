@@ -23,7 +23,7 @@ Floats = NDArray[np.float64]
 LARGER = 2.0**-8
 """Of the radius: no disc that is larger by more is anywhere, not only near the centre that was found."""
 
-_MOST_CELLS = 1 << 20
+_MOST_CELLS = 1 << 17
 """Of a search; a bound of what is left then is given up."""
 
 
@@ -189,10 +189,11 @@ def _check_empty(discs: Discs, within: PolygonSet, tolerance: float) -> None:
 
 
 def _is_held(discs: Discs, disc: int, tolerance: float) -> bool:
-    ways = discs.feet_of(disc) - discs.xy[disc]
-    angles = np.sort(np.arctan2(ways[:, 1], ways[:, 0]))
-    gaps = np.diff(angles, append=angles[0] + 2 * np.pi)
-    return bool(gaps.max() <= np.pi + 8 * tolerance / discs.radius[disc] + 1e-12)
+    ways = (discs.feet_of(disc) - discs.xy[disc]) / discs.radius[disc]
+    slack = 8 * tolerance / float(discs.radius[disc]) + 1e-12
+    turn = ways[:, None, 0] * ways[:, 1] - ways[:, None, 1] * ways[:, 0]
+    is_next = (turn > slack) | ((np.abs(turn) <= slack) & ((ways[:, None] * ways).sum(axis=2) < 0))
+    return bool(is_next.any(axis=1).all())  # each has one within half a turn to the left
 
 
 def _check_none_larger(discs: Discs, disc: int, tree: STRtree, inside: Any, tolerance: float) -> None:

@@ -219,7 +219,7 @@ def _holding(feet: NDArray[np.float64], centre: NDArray[np.float64]) -> list[int
     ways = feet - centre
     ways /= np.sqrt((ways * ways).sum(axis=1, keepdims=True))
     turn = ways[0, 0] * ways[:, 1] - ways[0, 1] * ways[:, 0]
-    forward = ways @ ways[0]
+    forward = (ways * ways[0]).sum(axis=1)
     left, right = (np.flatnonzero(side) for side in (turn >= 0, turn < 0))
     chosen = [0, *(int(side[np.argmin(forward[side])]) for side in (left, right) if len(side))]
     return list(dict.fromkeys(chosen))
