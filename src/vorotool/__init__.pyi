@@ -71,6 +71,9 @@ from vorotool.engines.from_skeleton.points_along import (
 from vorotool.engines.from_skeleton.reconstruction import (
     rebuild as rebuild,
 )
+from vorotool.engines.from_skeleton.verify_thickness import (
+    verify_thickness as verify_thickness,
+)
 from vorotool.engines.label_images.outlines import (
     outlines as outlines,
 )
@@ -97,6 +100,9 @@ from vorotool.engines.peers.distance_transform import (
 )
 from vorotool.engines.peers.expand_labels import (
     expand_labels as expand_labels,
+)
+from vorotool.engines.peers.local_thickness import (
+    local_thickness as local_thickness,
 )
 from vorotool.engines.peers.medial_axis import (
     medial_axis as medial_axis,

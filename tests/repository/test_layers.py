@@ -52,10 +52,11 @@ render/pages -> geometry, geometry/alpha, geometry/curves, geometry/mesh, geomet
     render/canvas, render/label_images
 engines/skeleton -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi, geometry,
     geometry/arguments, geometry/curves, geometry/polygons, geometry/skeleton
-formats/results -> formats/io, formats/parsing, formats/polygons, formats/text, geometry, geometry/alpha,
-    geometry/arguments, geometry/curves, geometry/mesh, geometry/polygons, geometry/skeleton, geometry/voronoi, products
-engines/from_skeleton -> engines/arrangement, engines/skeleton, geometry, geometry/arguments, geometry/curves,
-    geometry/polygons, geometry/skeleton
+formats/results -> formats/images, formats/io, formats/parsing, formats/polygons, formats/text, geometry,
+    geometry/alpha, geometry/arguments, geometry/curves, geometry/mesh, geometry/polygons, geometry/skeleton,
+    geometry/voronoi, products
+engines/from_skeleton -> engines/arrangement, engines/common, engines/skeleton, geometry, geometry/arguments,
+    geometry/curves, geometry/polygons, geometry/skeleton
 engines/offsets -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi, engines/skeleton,
     geometry, geometry/arguments, geometry/curves, geometry/polygons, geometry/skeleton, typing
 engines/pruning -> engines/common, engines/skeleton, geometry, geometry/arguments, geometry/curves, geometry/skeleton,
@@ -79,7 +80,8 @@ engines/digital -> engines/common, engines/delaunay, engines/label_images, engin
     geometry/arguments, geometry/curves, geometry/mesh, geometry/points, typing
 engines/volumes -> engines/common, engines/tessellation, geometry, geometry/arguments, geometry/volumes, typing
 engines/peers -> engines, engines/delaunay, engines/from_skeleton, engines/label_images, engines/pruning,
-    engines/tessellation, engines/volumes, geometry, geometry/arguments, geometry/mesh, geometry/volumes, typing
+    engines/tessellation, engines/volumes, geometry, geometry/arguments, geometry/mesh, geometry/points,
+    geometry/volumes, typing
 formats/volumes -> formats, formats/images, formats/io, formats/parsing, formats/points, formats/zarr, geometry,
     geometry/volumes, products
 jobs -> batch, engines/alpha, engines/arrangement, engines/centerlines, engines/delaunay, engines/digital,
@@ -93,8 +95,9 @@ cli/batch -> batch, cli/options, formats/io, geometry, jobs, products
 jobs/volumes -> engines/label_images, engines/tessellation, engines/volumes, formats/io, formats/volumes, formats/zarr,
     geometry, geometry/points, geometry/volumes, jobs, products, render/canvas, render/pages
 jobs/skeletons -> engines, engines/arrangement, engines/centerlines, engines/features, engines/from_skeleton,
-    engines/offsets, engines/pruning, engines/sampled_skeleton, engines/segment_voronoi, engines/skeleton, formats/io,
-    geometry, geometry/polygons, geometry/skeleton, jobs, products, render/canvas, render/layers, render/pages
+    engines/offsets, engines/pruning, engines/sampled_skeleton, engines/segment_voronoi, engines/skeleton,
+    formats/images, formats/io, geometry, geometry/polygons, geometry/skeleton, jobs, products, render/canvas,
+    render/label_images, render/layers, render/pages
 cli/commands -> cli/batch, cli/options, jobs, jobs/skeletons, jobs/volumes, products
 cli -> cli/commands, jobs
 """
