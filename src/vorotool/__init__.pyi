@@ -131,6 +131,9 @@ from vorotool.engines.peers.distance_transform import (
 from vorotool.engines.peers.expand_labels import (
     expand_labels as expand_labels,
 )
+from vorotool.engines.peers.local_thickness import (
+    local_thickness as local_thickness,
+)
 from vorotool.engines.peers.medial_axis import (
     medial_axis as medial_axis,
 )

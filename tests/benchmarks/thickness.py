@@ -2,8 +2,8 @@
 
 ``thickness.py [SIDE]``. The peer is what `porespy.filters.local_thickness` does by default, with SciPy's transform: for
 25 radii at even steps of their logarithm, from the largest distance to the background down to 1, all pixels nearer than
-the radius to a pixel that is so far from the background. Its values are these radii, and distances end in the centres of
-pixels; how far they are from ours is printed, twice the radius and less a pixel.
+the radius to a pixel that is so far from the background. Its values are these radii, and distances end in centres of
+pixels; how far they are from ours is printed, twice the radius less a pixel.
 """
 
 import sys
@@ -36,9 +36,7 @@ def by_transforms(mask):
 
 def main():
     side = int(sys.argv[1]) if len(sys.argv) > 1 else 4096
-    print(
-        f"local thickness of masks of {side} x {side} pixels, seconds: outlines / skeleton / thickness / all; transforms"
-    )
+    print(f"local thickness of masks of {side}², seconds: outlines / skeleton / thickness / all; transforms")
     for name, mask in masks(side):
         outlined, polygons = timed(partial(vorotool.outlines, mask), runs=RUNS)
         made, skeleton = timed(partial(vorotool.skeleton_exact, polygons), runs=RUNS)

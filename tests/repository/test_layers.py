@@ -79,7 +79,8 @@ engines/digital -> engines/common, engines/delaunay, engines/label_images, engin
     geometry/arguments, geometry/curves, geometry/mesh, geometry/points, typing
 engines/volumes -> engines/common, engines/tessellation, geometry, geometry/arguments, geometry/volumes, typing
 engines/peers -> engines, engines/delaunay, engines/from_skeleton, engines/label_images, engines/pruning,
-    engines/tessellation, engines/volumes, geometry, geometry/arguments, geometry/mesh, geometry/volumes, typing
+    engines/tessellation, engines/volumes, geometry, geometry/arguments, geometry/mesh, geometry/points,
+    geometry/volumes, typing
 formats/volumes -> formats, formats/images, formats/io, formats/parsing, formats/points, formats/zarr, geometry,
     geometry/volumes, products
 jobs -> batch, engines/alpha, engines/arrangement, engines/centerlines, engines/delaunay, engines/digital,
