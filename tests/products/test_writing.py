@@ -30,6 +30,8 @@ def values():
         vorotool.offset(SQUARE, -1),
         vorotool.rebuild(skeleton),
         vorotool.points_along(skeleton, every=1),
+        vorotool.necks(skeleton),
+        vorotool.parts(skeleton),
         vorotool.voronoi(SQUARE),
     ]
     return {type(value).__name__: value for value in found}
