@@ -92,7 +92,9 @@ bench: build $(BUILD)/.tests ## measure beside the peers, in one run
 	$(RUN) tests/benchmarks/mesh_files.py
 	$(RUN) tests/benchmarks/skeleton_exact.py
 	$(RUN) tests/benchmarks/skeleton_approx.py
+	$(RUN) tests/benchmarks/discs.py
 	$(RUN) tests/benchmarks/masks.py
+	$(RUN) tests/benchmarks/thickness.py
 	$(RUN) tests/benchmarks/segment_voronoi.py
 	$(RUN) tests/benchmarks/voronoi.py
 	$(RUN) tests/benchmarks/batch.py
@@ -104,6 +106,7 @@ ifdef MINUTES
 	$(RUN) tests/fuzz/together.py --minutes $(MINUTES) --seed $(or $(SEED),1)
 else
 	$(RUN) tests/fuzz/tessellate.py --pixels $(or $(PIXELS),100000000) --seed $(or $(SEED),1)
+	$(RUN) tests/fuzz/spacing.py --pixels $(or $(PIXELS),100000000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/volumes.py --voxels $(or $(VOXELS),100000000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/predicates.py --calls $(or $(CALLS),1000000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/delaunay.py --cases $(or $(CASES),100000) --seed $(or $(SEED),1)
@@ -118,8 +121,10 @@ else
 	$(RUN) tests/fuzz/skeleton_bounds.py
 	$(RUN) tests/fuzz/pruning.py --cases $(or $(CASES),1000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/offsets.py --cases $(or $(CASES),1000) --seed $(or $(SEED),1)
+	$(RUN) tests/fuzz/discs.py --cases $(or $(CASES),1000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/rotation.py --cases $(or $(CASES),1000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/outlines.py --cases $(or $(CASES),20000) --seed $(or $(SEED),1)
+	$(RUN) tests/fuzz/thickness.py --cases $(or $(CASES),2000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/segment_voronoi.py --cases $(or $(CASES),800000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/segment_voronoi.py --cases 10000 --seed $(or $(SEED),1) --family clusters --largest 100 --symmetries 1
 	$(RUN) tests/fuzz/voronoi.py --cases $(or $(CASES),100000) --seed $(or $(SEED),1)

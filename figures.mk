@@ -7,7 +7,9 @@ TABLE_1_SIZES := 64 128 256 512
 FIGURE_9_STEPS := 20 15 10 5
 GALLERY_PICTURES := letters-all.svg letters.svg letters-angle.svg vessels.png vessels.csv river.svg widths.svg \
                     silhouettes.svg silhouettes-chord.svg silhouettes.csv slider.html lakes.svg offsets.svg \
-                    cells.svg outside.svg alpha.svg houses.svg territories.svg nuclei.svg
+                    cells.svg outside.svg alpha.svg houses.svg territories.svg nuclei.svg thickness.png \
+                    thickness-dark.png discs.svg sociology.svg sociology.csv colonies.svg persistence.svg \
+                    strokes.svg strokes-dark.svg
 
 NAMES := figure-01 figure-02 figure-03a figure-03b figure-03c figure-03d figure-04a figure-04b figure-04c \
          figure-05 figure-06 figure-07 figure-08 figure-09 figure-10 figure-11 figure-lakes table-1 error-vs-h gallery
@@ -172,6 +174,14 @@ $(FIGURES)/gallery-letters-angle.svg: $(GALLERY)/letters.png $(BUILD)/.installed
 $(FIGURES)/gallery-vessels.png: $(GALLERY)/vessels.png $(BUILD)/.installed | $(FIGURES)
 	$(VOROTOOL) skeleton-exact $< --overlay $< -o $@
 
+# Purpose: how thick it is, in colours: at each pixel the largest disc over it,
+$(FIGURES)/gallery-thickness.png: $(GALLERY)/vessels.png $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) skeleton-exact $< --what thickness --legend -o $@
+
+# Purpose: and on dark ground.
+$(FIGURES)/gallery-thickness-dark.png: $(GALLERY)/vessels.png $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) skeleton-exact $< --what thickness --legend --background "#1c1c1c" -o $@
+
 # Purpose: and the length and the radii of its branches.
 $(FIGURES)/gallery-vessels.csv: $(GALLERY)/vessels.png $(BUILD)/.installed | $(FIGURES)
 	$(VOROTOOL) skeleton-exact $< --what branches -o $@
@@ -183,6 +193,14 @@ $(FIGURES)/gallery-river.svg: $(GALLERY)/river.png $(BUILD)/.installed | $(FIGUR
 # Purpose: its width, across from foot to foot, at equal steps along the branches.
 $(FIGURES)/gallery-widths.svg: $(GALLERY)/river.png $(BUILD)/.installed | $(FIGURES)
 	$(VOROTOOL) skeleton-exact $< --what transects --every 24 --prune ratio=2 -o $@
+
+# Purpose: strokes of a drawing to their ends, as smooth curves,
+$(FIGURES)/gallery-strokes.svg: $(GALLERY)/strokes.png $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) skeleton-exact $< --ends middle --smooth 1 -o $@
+
+# Purpose: and on dark ground.
+$(FIGURES)/gallery-strokes-dark.svg: $(GALLERY)/strokes.png $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) skeleton-exact $< --ends middle --smooth 1 --background '#1c1c1c' --color polygons=#5a5a5a --color skeleton=#ffb000 -o $@
 
 # Purpose: a label image: one object a label.
 $(FIGURES)/gallery-silhouettes.svg: $(GALLERY)/silhouettes.png $(BUILD)/.installed | $(FIGURES)
@@ -208,6 +226,10 @@ $(FIGURES)/gallery-lakes.svg: data/great-lakes.geojson $(BUILD)/.installed | $(F
 $(FIGURES)/gallery-offsets.svg: data/great-lakes.geojson $(BUILD)/.installed | $(FIGURES)
 	$(VOROTOOL) skeleton-exact $< --what offset -d -0.1,-0.2,-0.3,-0.4 -q -o $@
 
+# Purpose: the same lakes, and the largest discs in them.
+$(FIGURES)/gallery-discs.svg: data/great-lakes.geojson $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) skeleton-exact $< --what discs --count 40 -q -o $@
+
 # Purpose: labels that touch: each is an object of its own. The elements are the outlines.
 $(FIGURES)/gallery-cells.svg: data/cells.png $(BUILD)/.installed | $(FIGURES)
 	$(VOROTOOL) skeleton-exact $< --prune chord=9 --layers polygons,elements,skeleton -o $@
@@ -231,6 +253,22 @@ $(FIGURES)/gallery-territories.svg: data/nuclei.ome.tif $(BUILD)/.installed | $(
 # Purpose: territories of nuclei in three dimensions: slices across z, x and y.
 $(FIGURES)/gallery-nuclei.svg: data/nuclei.tif $(BUILD)/.installed | $(FIGURES)
 	$(VOROTOOL) tessellate $< --volume --spacing auto --max-distance 5um --what colour --width 918 -o $@
+
+# Purpose: cell sociology: the Voronoi cells of objects, relative neighbours,
+$(FIGURES)/gallery-sociology.svg: data/blobs.png $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) delaunay $< --what cells --layers cells,edges,points --graph relative -o $@
+
+# Purpose: and what their cells are like on the whole.
+$(FIGURES)/gallery-sociology.csv: data/blobs.png $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) delaunay $< --what statistics -o $@
+
+# Purpose: clusters of a dot pattern: the regions of one alpha shape,
+$(FIGURES)/gallery-colonies.svg: $(GALLERY)/colonies.png $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) alphashape $< -r 30 --what polygons --layers polygons,points -o $@
+
+# Purpose: and how long the regions of all shapes last.
+$(FIGURES)/gallery-persistence.svg: $(GALLERY)/colonies.png $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) alphashape $< --what persistence -q -o $@
 
 # Purpose: the errors of section 3.1 against the step, measured and certified, beside the paper's estimates.
 $(FIGURES)/error-vs-h.md: data/shape.json data/two-shapes.json data/two-segments.wkt docs/scripts/error_vs_h.py $(BUILD)/.installed | $(FIGURES)

@@ -1,6 +1,6 @@
 """Draw the masks of the gallery: `docs/scripts/gallery_inputs.py NAME`, one PNG on standard output.
 
-letters, vessels and river are masks; silhouettes are labels 1 to 3.
+letters, vessels, river, colonies and strokes are masks; silhouettes are labels 1 to 3.
 """
 
 import sys
@@ -159,11 +159,55 @@ def silhouettes() -> NDArray[np.uint8]:
     return labels
 
 
+def colonies() -> NDArray[np.uint8]:
+    """Dots in three colonies, one of which lies around another."""
+    random = np.random.default_rng(7)
+    canvas = Canvas(1000, 420)
+    places: list[tuple[float, float]] = []
+    while len(places) < 330:
+        x, y = float(random.uniform(0, 1000)), float(random.uniform(0, 420))
+        from_middle = np.hypot(x - 300, y - 210)
+        is_in = from_middle < 55 or 125 < from_middle < 185 or ((x - 760) / 190) ** 2 + ((y - 210) / 120) ** 2 < 1
+        if is_in and all((x - u) ** 2 + (y - v) ** 2 > 11**2 for u, v in places):
+            places.append((x, y))
+            canvas.disc(x, y, 3)
+    return canvas.mask().astype(np.uint8) * 255
+
+
+def strokes() -> NDArray[np.uint8]:
+    """Draw a boat on the waves under the sun: a drawing of strokes, as a scanner sees one."""
+    canvas = Canvas(1000, 420)
+    drawn = (
+        ([[250, 270], [300, 330], [420, 345], [560, 340], [650, 318], [700, 262]], 7.0),
+        ([[268, 292], [400, 300], [560, 297], [680, 286]], 6.0),
+        ([[470, 300], [474, 160], [470, 22]], 6.0),
+        ([[486, 40], [560, 110], [610, 190], [632, 262]], 5.0),
+        ([[486, 262], [530, 248], [580, 250], [632, 262]], 5.0),
+        ([[452, 60], [400, 130], [350, 200], [310, 250]], 5.0),
+        ([[310, 250], [360, 236], [410, 240], [456, 252]], 5.0),
+        ([[60, 380], [130, 352], [190, 384], [250, 376], [310, 366], [360, 390]], 6.0),
+        ([[420, 392], [500, 366], [560, 396], [640, 384], [700, 372], [770, 396]], 6.0),
+        ([[760, 350], [820, 328], [870, 356], [930, 340]], 6.0),
+    )
+    for corners, radius in drawn:
+        line = smooth(np.array(corners, dtype=float))
+        canvas.stroke(line, np.full(len(line), radius))
+    angle = np.linspace(0, 2 * np.pi, 90)
+    canvas.stroke(np.stack([840 + 46 * np.cos(angle), 110 + 46 * np.sin(angle)], axis=1), np.full(90, 6.0))
+    for turn in np.arange(8) * np.pi / 4 + 0.2:
+        way, across = np.array([np.cos(turn), np.sin(turn)]), np.array([-np.sin(turn), np.cos(turn)])
+        first, last = np.array([840, 110]) + 66 * way, np.array([840, 110]) + 94 * way
+        canvas.fill(np.array([first + 5 * across, last + 5 * across, last - 5 * across, first - 5 * across]))
+    return canvas.mask().astype(np.uint8) * 255
+
+
 PICTURES: dict[str, Callable[[], NDArray[np.uint8]]] = {
     "letters": letters,
     "vessels": vessels,
     "river": river,
     "silhouettes": silhouettes,
+    "colonies": colonies,
+    "strokes": strokes,
 }
 
 if __name__ == "__main__":

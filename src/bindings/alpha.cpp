@@ -10,6 +10,7 @@
 #include "core/alpha/alpha_complex.hpp"
 #include "core/alpha/alpha_curves.hpp"
 #include "core/alpha/alpha_shape.hpp"
+#include "core/alpha/region_persistence.hpp"
 #include "core/base/indices.hpp"
 
 namespace vorotool::bindings {
@@ -118,6 +119,35 @@ Columns alpha_curves(std::size_t spectrum, const Indices& triangle_rank, const I
   return out;
 }
 
+Columns region_persistence(std::size_t spectrum, std::size_t points, const IndexRows& triangles,
+                           const Indices& triangle_rank, const Indices& rank_max, const IndexRows& sides,
+                           const Values& area, const Progress& progress) {
+  const core::alpha::RegionInput input{
+      spectrum,          points,    rows_of(triangles, 3), view(triangle_rank), view(rank_max),
+      rows_of(sides, 2), view(area)};
+  if (triangles.shape(0) != triangle_rank.size() || area.size() != triangle_rank.size() ||
+      sides.shape(0) != rank_max.size())
+    throw std::invalid_argument("columns differ in length");
+  check_indices(input.triangles, 0, points);
+  for (const auto ranks : {input.triangle_rank, input.rank_max}) check_indices(ranks, 0, spectrum + 1);
+  check_indices(input.sides, -1, triangle_rank.size());
+  for (std::size_t e = 0; e < rank_max.size(); ++e) {
+    if (view(rank_max)[e] < static_cast<std::int32_t>(spectrum) &&
+        (input.sides[2 * e] < 0 || input.sides[2 * e + 1] < 0))
+      throw std::invalid_argument("an edge between two triangles has one");
+  }
+  core::alpha::Regions found = run_interruptible(progress, core::alpha::region_persistence, input);
+  Columns out;
+  out["birth"] = to_numpy(std::move(found.birth));
+  out["death"] = to_numpy(std::move(found.death));
+  out["into"] = to_numpy(std::move(found.into));
+  out["triangle"] = to_numpy(std::move(found.triangle));
+  out["vertices"] = to_numpy(std::move(found.vertices));
+  out["triangles"] = to_numpy(std::move(found.triangles));
+  out["area"] = to_numpy(std::move(found.area));
+  return out;
+}
+
 }  // namespace
 
 void bind_alpha(nb::module_& room) {
@@ -135,6 +165,9 @@ void bind_alpha(nb::module_& room) {
            "Vertices of all rings, where each begins, its region, and whether it is a hole.");
   room.def("alpha_curves", &alpha_curves, "spectrum"_a, "triangle_rank"_a, "rank_min"_a, "rank_mid"_a,
            "rank_max"_a, "sides"_a, "area"_a, "length"_a, "progress"_a.none());
+  room.def("region_persistence", &region_persistence, "spectrum"_a, "points"_a, "triangles"_a,
+           "triangle_rank"_a, "rank_max"_a, "sides"_a, "area"_a, "progress"_a.none(),
+           "Ranks of birth and death of regions, what each becomes part of, and its sizes before that.");
 }
 
 }  // namespace vorotool::bindings

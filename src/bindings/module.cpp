@@ -25,6 +25,8 @@ constexpr Room rooms[] = {
     {"label_images", bind_label_images,
      "Measures, diagrams, outlines and connected components of label images and masks."},
     {"offsets", bind_offsets, "Offset curves, from segment Voronoi diagrams."},
+    {"proximity", bind_proximity,
+     "Gabriel graphs, relative neighbourhood graphs and minimum spanning trees."},
     {"pruning", bind_pruning, "Critical values of skeletons, and what is left for a threshold."},
     {"sampled_skeleton", bind_sampled_skeleton,
      "Approximate skeletons, from the Voronoi diagram of seeds on the edges of a planar graph."},
@@ -34,6 +36,7 @@ constexpr Room rooms[] = {
     {"tessellation", bind_tessellation, "The tessellation of frames, and its check."},
     {"text", bind_text,
      "Numbers, fields and polygons as text, read and written: a delimiter is one of , ; tab and blank."},
+    {"thickness", bind_thickness, "The largest disc inside an outline that covers each pixel."},
     {"voronoi", bind_voronoi, "Borders between sites, which are points, lines and polygons."},
     {"volumes", bind_volumes, "The tessellation of volumes."},
 };

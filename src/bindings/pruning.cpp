@@ -1,7 +1,5 @@
 // Critical values of skeletons, and what is left for a threshold.
 #include <array>
-#include <memory>
-#include <optional>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -10,6 +8,7 @@
 #include "bindings/rooms.hpp"
 #include "bindings/support/arrays.hpp"
 #include "bindings/support/monitor.hpp"
+#include "bindings/support/skeleton_input.hpp"
 #include "core/base/indices.hpp"
 #include "core/pruning/arc_profile.hpp"
 #include "core/pruning/critical_values.hpp"
@@ -23,51 +22,6 @@ using core::base::Monitor;
 using core::kernel::Point;
 using core::pruning::Criterion;
 using core::skeleton::SkeletonView;
-
-// A skeleton that comes from Python: its arrays are kept, and its indices in range.
-class Skeleton {
- public:
-  // Ends of sites, four numbers each.
-  Skeleton(const Places& vertices, const Vector<const double>& radius, const IndexRows& arcs,
-           const Places& control, const IndexRows& sites, const Vector<const double>& length,
-           const std::optional<Places>& site_ends, const Vector<const std::uint8_t>& is_anchored,
-           bool has_gap, double reach)
-      : kept_(keep(vertices, radius, arcs, control, sites, length, site_ends, is_anchored)),
-        has_sites_(site_ends),
-        view_{rows<Point>(vertices),
-              bindings::view(radius),
-              rows<IndexPair>(arcs),
-              rows<Point>(control),
-              rows<IndexPair>(sites),
-              bindings::view(length),
-              {},
-              bindings::view(is_anchored),
-              has_gap,
-              reach} {
-    const std::size_t nodes = view_.vertices.size(), count = view_.arcs.size();
-    if (view_.radius.size() != nodes || view_.is_anchored.size() != nodes || view_.control.size() != count ||
-        view_.sites.size() != count || view_.length.size() != count) {
-      throw std::invalid_argument("the arrays of a skeleton have lengths that do not go together");
-    }
-    core::base::check_range(view_.arcs, 0, nodes, outside);
-    if (!site_ends) return;
-    view_.site_ends = rows<std::array<Point, 2>>(*site_ends);
-    core::base::check_range(view_.sites, 0, view_.site_ends.size(), outside);
-  }
-
-  const SkeletonView& view(Criterion criterion = Criterion::angle) const {
-    if (!has_sites_ && criterion != Criterion::scale)
-      throw std::invalid_argument("the ends of sites are needed");
-    return view_;
-  }
-
-  static constexpr const char* outside = "an index of the skeleton is out of range";
-
- private:
-  std::shared_ptr<const void> kept_;
-  bool has_sites_;
-  SkeletonView view_;
-};
 
 // Some that follow each other.
 struct Range {
@@ -90,7 +44,7 @@ std::vector<IndexPair> renumbered(std::span<const IndexPair> arcs, const Range& 
   for (IndexPair& pair : ends) {
     for (std::int32_t& node : pair) node -= static_cast<std::int32_t>(nodes.first);
   }
-  core::base::check_range(ends, 0, nodes.count, Skeleton::outside);
+  core::base::check_range(ends, 0, nodes.count, SkeletonInput::outside);
   return ends;
 }
 
@@ -108,8 +62,8 @@ SkeletonView part_of(const SkeletonView& whole, const Range& arcs, const Range& 
           whole.reach};
 }
 
-auto critical_values(const Skeleton& input, Criterion criterion, const Progress& progress) {
-  const SkeletonView& skeleton = input.view(criterion);
+auto critical_values(const SkeletonInput& input, Criterion criterion, const Progress& progress) {
+  const SkeletonView& skeleton = input.view(criterion != Criterion::scale);
   core::pruning::CriticalValues values =
       run_interruptible(progress, core::pruning::critical_values, skeleton, criterion);
   return std::make_tuple(two_columns(std::move(values.ends)), to_numpy(std::move(values.most)),
@@ -118,10 +72,10 @@ auto critical_values(const Skeleton& input, Criterion criterion, const Progress&
 }
 
 // What is left of some arcs, whose nodes have nothing in common with others.
-Columns prune_skeleton(const Skeleton& input, const nb::slice& arcs, const nb::slice& nodes,
+Columns prune_skeleton(const SkeletonInput& input, const nb::slice& arcs, const nb::slice& nodes,
                        Criterion criterion, double threshold, const Indices& group,
                        const Progress& progress) {
-  const SkeletonView& whole = input.view(criterion);
+  const SkeletonView& whole = input.view(criterion != Criterion::scale);
   if (group.size() != whole.arcs.size()) throw std::invalid_argument("each arc must have a group");
   const Range own_arcs(arcs, whole.arcs.size()), own_nodes(nodes, whole.vertices.size());
   const std::vector<IndexPair> ends = renumbered(own_arcs.of(whole.arcs), own_nodes);
@@ -143,7 +97,7 @@ Columns prune_skeleton(const Skeleton& input, const nb::slice& arcs, const nb::s
   return result;
 }
 
-auto arc_profiles(const Skeleton& input) {
+auto arc_profiles(const SkeletonInput& input) {
   const SkeletonView& skeleton = input.view();
   const std::size_t count = skeleton.arcs.size();
   std::vector<std::int8_t> kind(count);
@@ -158,7 +112,7 @@ auto arc_profiles(const Skeleton& input) {
   return std::make_tuple(to_numpy(std::move(kind)), two_columns(std::move(ends)), to_numpy(std::move(size)));
 }
 
-Columns part_geometry(const Skeleton& input, const Indices& arc, const Vector<const double>& first,
+Columns part_geometry(const SkeletonInput& input, const Indices& arc, const Vector<const double>& first,
                       const Vector<const double>& last) {
   const SkeletonView& skeleton = input.view();
   if (first.size() != arc.size() || last.size() != arc.size())
@@ -195,12 +149,6 @@ void bind_pruning(nb::module_& room) {
       .value("scale", Criterion::scale)
       .value("length", Criterion::length)
       .value("ratio", Criterion::ratio);
-  nb::class_<Skeleton>(room, "Skeleton", "Of sites only the scale needs no ends.")
-      .def(nb::init<const Places&, const Vector<const double>&, const IndexRows&, const Places&,
-                    const IndexRows&, const Vector<const double>&, const std::optional<Places>&,
-                    const Vector<const std::uint8_t>&, bool, double>(),
-           "vertices"_a, "radius"_a, "arcs"_a, "control"_a, "sites"_a, "length"_a, "site_ends"_a.none(),
-           "is_anchored"_a, "has_gap"_a, "reach"_a);
   room.def(
       "critical_values", &critical_values, "skeleton"_a, "criterion"_a, "progress"_a.none(),
       "Values at the ends of arcs and the largest of each; arcs on which a place is kept, and where. Of the "

@@ -15,6 +15,7 @@ void bind_graphs(nanobind::module_& room);
 void bind_kernel(nanobind::module_& room);
 void bind_label_images(nanobind::module_& room);
 void bind_offsets(nanobind::module_& room);
+void bind_proximity(nanobind::module_& room);
 void bind_pruning(nanobind::module_& room);
 void bind_sampled_skeleton(nanobind::module_& room);
 void bind_segment_voronoi(nanobind::module_& room);
@@ -22,6 +23,7 @@ void bind_skeleton(nanobind::module_& room);
 void bind_spatial(nanobind::module_& room);
 void bind_tessellation(nanobind::module_& room);
 void bind_text(nanobind::module_& room);
+void bind_thickness(nanobind::module_& room);
 void bind_voronoi(nanobind::module_& room);
 void bind_volumes(nanobind::module_& room);
 

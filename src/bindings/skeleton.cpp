@@ -9,11 +9,13 @@
 #include "bindings/support/monitor.hpp"
 #include "bindings/support/segment_diagram.hpp"
 #include "bindings/support/skeleton_arrays.hpp"
+#include "bindings/support/skeleton_input.hpp"
 #include "core/base/indices.hpp"
 #include "core/base/parallel.hpp"
 #include "core/skeleton/clearance_course.hpp"
 #include "core/skeleton/edges.hpp"
 #include "core/skeleton/extraction.hpp"
+#include "core/skeleton/steps.hpp"
 
 namespace vorotool::bindings {
 namespace {
@@ -51,6 +53,32 @@ Columns extract_skeleton(const SegmentDiagram& input, const Indices& kept, const
   }));
 }
 
+Columns steps_along(const SkeletonInput& input, const Vector<const std::int64_t>& first,
+                    const Vector<const std::int64_t>& counts, double every, unsigned threads,
+                    const Progress& progress) {
+  const core::skeleton::SkeletonView& skeleton = input.view();
+  const std::size_t branches = first.size();
+  if (counts.size() != branches) throw std::invalid_argument("each branch must have a count");
+  for (std::size_t k = 0; k < branches; ++k) {
+    const std::int64_t arc = view(first)[k];
+    const bool is_next = k == 0 ? arc == 0 : arc > view(first)[k - 1];
+    if (!is_next || static_cast<std::size_t>(arc) >= skeleton.arcs.size() || view(counts)[k] < 0) {
+      throw std::invalid_argument("a branch is out of range");
+    }
+  }
+  core::skeleton::Steps made = run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::skeleton::steps_along(skeleton, view(first), view(counts), every,
+                                       core::base::resolve_threads(threads), monitor);
+  });
+  Columns result;
+  result["arc"] = to_numpy(std::move(made.arc));
+  result["along"] = to_numpy(std::move(made.along));
+  result["xy"] = two_columns(std::move(made.place));
+  result["radius"] = to_numpy(std::move(made.radius));
+  result["feet"] = pairs_of_places(std::move(made.feet));
+  return result;
+}
+
 auto clearance_course(const Places& vertices, const Vector<const double>& radius, const IndexRows& arcs,
                       const IndexRows& sites, const IndexRows& site_places, double error,
                       bool sites_are_exact, unsigned threads, const Progress& progress) {
@@ -75,12 +103,20 @@ auto clearance_course(const Places& vertices, const Vector<const double>& radius
 }  // namespace
 
 void bind_skeleton(nb::module_& room) {
+  nb::class_<SkeletonInput>(room, "Skeleton", "Of sites only the scale needs no ends.")
+      .def(nb::init<const Places&, const Vector<const double>&, const IndexRows&, const Places&,
+                    const IndexRows&, const Vector<const double>&, const std::optional<Places>&,
+                    const Vector<const std::uint8_t>&, bool, double>(),
+           "vertices"_a, "radius"_a, "arcs"_a, "control"_a, "sites"_a, "length"_a, "site_ends"_a.none(),
+           "is_anchored"_a, "has_gap"_a, "reach"_a);
   room.def("skeleton_edges", &skeleton_edges, "diagram"_a, "threads"_a, "progress"_a.none(),
            "Edges that are not deleted, and the face that each lies in.");
   room.def("extract_skeleton", &extract_skeleton, "diagram"_a, "kept"_a, "groups"_a, "clipped"_a.none(),
            "joined"_a, "origin_x"_a, "origin_y"_a, "scale"_a, "threads"_a, "progress"_a.none(),
-           "Frames are least x, most x, least y, most y on the lattice; joined are groups from one to before "
+           "Frames are least x, most x, least y, most y on the lattice, of group -1 for all; joined are groups from one to before "
            "another.");
+  room.def("steps_along", &steps_along, "skeleton"_a, "first"_a, "counts"_a, "every"_a, "threads"_a,
+           "progress"_a.none(), "Places at equal steps along branches, whose first arcs are given.");
   room.def("clearance_course", &clearance_course, "vertices"_a, "radius"_a, "arcs"_a, "sites"_a,
            "site_places"_a, "error"_a, "sites_are_exact"_a, "threads"_a, "progress"_a.none(),
            "How the clearance begins to change at the source and target of each arc, and where it is least; "

@@ -227,14 +227,15 @@ void bind_volumes(nb::module_& room) {
           "__init__",
           [](VolumeTessellation* self, const Integers& x, const Integers& y, const Integers& z,
              const Labels& labels, const Origin& origin, const Size& size, std::int32_t scale,
-             const Size& unit, std::string_view simd, std::string_view way) {
+             const Size& unit, std::string_view simd, std::string_view way, unsigned threads) {
             const VolumeFrame frame = make_frame(origin, size, scale, unit);
             const auto level = simd_level(simd);
             const nb::gil_scoped_release no_gil;
-            new (self) VolumeTessellation(view(x), view(y), view(z), view(labels), frame, level, way_of(way));
+            new (self) VolumeTessellation(view(x), view(y), view(z), view(labels), frame, level, way_of(way),
+                                          threads);
           },
           "x"_a, "y"_a, "z"_a, "labels"_a, "origin"_a, "size"_a, "scale"_a, "unit"_a, "simd"_a,
-          "way"_a = "quicker")
+          "way"_a = "quicker", "threads"_a = 1)
       .def_prop_ro("duplicates", &VolumeTessellation::duplicates)
       .def_prop_ro("is_wide", &VolumeTessellation::is_wide)
       .def_prop_ro("products_exact", &VolumeTessellation::products_exact)

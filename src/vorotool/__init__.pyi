@@ -17,6 +17,9 @@ from vorotool.engines.alpha.alpha_shape import (
 from vorotool.engines.alpha.alpha_shape import (
     alpha_shape as alpha_shape,
 )
+from vorotool.engines.alpha.persistence import (
+    persistence as persistence,
+)
 from vorotool.engines.alpha.verify_alpha import (
     verify_alpha_shape as verify_alpha_shape,
 )
@@ -28,6 +31,9 @@ from vorotool.engines.arrangement.planar_graph import (
 )
 from vorotool.engines.centerlines.centerline import (
     centerline as centerline,
+)
+from vorotool.engines.delaunay.cell_statistics import (
+    cell_statistics as cell_statistics,
 )
 from vorotool.engines.delaunay.cells import (
     cell_colours as cell_colours,
@@ -47,8 +53,14 @@ from vorotool.engines.delaunay.delaunay import (
 from vorotool.engines.delaunay.insertion import (
     insert_points as insert_points,
 )
+from vorotool.engines.delaunay.proximity import (
+    proximity_graph as proximity_graph,
+)
 from vorotool.engines.delaunay.site_table import (
     site_table as site_table,
+)
+from vorotool.engines.delaunay.verify_proximity import (
+    verify_proximity_graph as verify_proximity_graph,
 )
 from vorotool.engines.digital.comparison import (
     compare_digital as compare_digital,
@@ -65,11 +77,20 @@ from vorotool.engines.digital.triangulation import (
 from vorotool.engines.digital.verify_digital import (
     verify_digital_triangulation as verify_digital_triangulation,
 )
+from vorotool.engines.from_skeleton.empty_discs import (
+    largest_empty_discs as largest_empty_discs,
+)
+from vorotool.engines.from_skeleton.largest_discs import (
+    largest_discs as largest_discs,
+)
 from vorotool.engines.from_skeleton.points_along import (
     points_along as points_along,
 )
 from vorotool.engines.from_skeleton.reconstruction import (
     rebuild as rebuild,
+)
+from vorotool.engines.from_skeleton.verify_discs import (
+    verify_discs as verify_discs,
 )
 from vorotool.engines.label_images.outlines import (
     outlines as outlines,
@@ -137,6 +158,12 @@ from vorotool.engines.skeleton_api import (
 from vorotool.engines.skeleton_api import (
     skeleton_exact as skeleton_exact,
 )
+from vorotool.engines.smoothing.smooth import (
+    smooth as smooth,
+)
+from vorotool.engines.smoothing.verify_smooth import (
+    verify_smooth as verify_smooth,
+)
 from vorotool.engines.tessellation.seeding import (
     seeds_from_points as seeds_from_points,
 )
@@ -194,6 +221,9 @@ from vorotool.geometry.alpha.complex import (
 from vorotool.geometry.alpha.hull import (
     AlphaHull as AlphaHull,
 )
+from vorotool.geometry.alpha.persistence import (
+    RegionPersistence as RegionPersistence,
+)
 from vorotool.geometry.alpha.shape import (
     AlphaShape as AlphaShape,
 )
@@ -214,6 +244,12 @@ from vorotool.geometry.mesh.digital_comparison import (
 )
 from vorotool.geometry.mesh.digital_triangulation import (
     DigitalTriangulation as DigitalTriangulation,
+)
+from vorotool.geometry.mesh.proximity import (
+    ProximityGraph as ProximityGraph,
+)
+from vorotool.geometry.mesh.statistics import (
+    CellStatistics as CellStatistics,
 )
 from vorotool.geometry.mesh.tables import (
     edge_table as edge_table,
@@ -257,8 +293,8 @@ from vorotool.geometry.skeleton.centerline import (
 from vorotool.geometry.skeleton.critical_values import (
     CriticalValues as CriticalValues,
 )
-from vorotool.geometry.skeleton.necks import (
-    Necks as Necks,
+from vorotool.geometry.skeleton.discs import (
+    Discs as Discs,
 )
 from vorotool.geometry.skeleton.offsets import (
     Offsets as Offsets,
@@ -271,6 +307,9 @@ from vorotool.geometry.skeleton.points_along import (
 )
 from vorotool.geometry.skeleton.skeleton import (
     Skeleton as Skeleton,
+)
+from vorotool.geometry.skeleton.smooth_lines import (
+    SmoothLines as SmoothLines,
 )
 from vorotool.geometry.skeleton.tables import (
     arc_table as arc_table,

@@ -106,6 +106,9 @@ OutlineKind: TypeAlias = Literal["crack", "contour"]
 AlphaRule: TypeAlias = Literal["corrected", "printed"]
 """Which edges an alpha complex has."""
 
+ProximityKind: TypeAlias = Literal["gabriel", "relative", "mst"]
+"""Rules by which points are joined."""
+
 Sampling: TypeAlias = Literal["paper", "symmetric"]
 """How edges are sampled for the approximate skeleton."""
 

@@ -41,9 +41,10 @@ def test_the_pictures_are_drawn(figures):
     assert set(made) == {Path(command.split()[-1]).name for command in COMMANDS}
     for name, path in made.items():
         if name.endswith(".svg"):
-            assert re.search(r'<g id="(skeleton|centerline|transects|offset|cells)"[^>]*>\s*<path', path.read_text()), (
-                name
-            )
+            assert re.search(
+                r'<g id="(skeleton|centerline|transects|offset|cells|polygons|regions)"[^>]*>\s*<(path|text)',
+                path.read_text(),
+            ), name
     with Image.open(made["gallery-vessels.png"]) as image:
         assert image.size == (1000, 640)
     assert made["gallery-silhouettes.csv"].read_text().count("\n") == 4

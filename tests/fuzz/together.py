@@ -36,6 +36,7 @@ class Share:
 
 ENGINES = (
     Share("tessellate.py", ("--pixels", MORE)),
+    Share("spacing.py", ("--pixels", MORE)),
     Share("volumes.py", ("--voxels", MORE)),
     Share("predicates.py", ("--calls", MORE)),
     Share("delaunay.py"),

@@ -1,9 +1,9 @@
 """Compare volumes with all distances for a number of voxels: `make fuzz VOXELS=100000000 SEED=1`.
 
 Every configuration is checked both ways, on each instruction set of this machine, with 1 to 5 threads, whole and from
-some slice on, with a largest distance and as squared distances; a voxel counts once a configuration. The comparison
-takes the least of a distance and a label axis by axis, or seed by seed where seeds are not on voxels, in 64-bit
-integers and in NumPy alone.
+some slice on, with a largest distance, as squared distances and as distances; a voxel counts once a configuration. The
+comparison takes the least of a distance and a label axis by axis, or seed by seed where seeds are not on voxels, in
+64-bit integers and in NumPy alone.
 """
 
 from __future__ import annotations
@@ -24,6 +24,7 @@ from vorotool.engines.tessellation.frames import SIMD_LEVELS
 
 LABEL_BITS = 20
 FAR = np.int64(2**62)
+SQUARE_OF_STEP = 0.1
 WAYS = ("rows", "bricks", "quicker")
 FAMILIES = ("uniform", "dense", "clustered", "lattice", "sphere", "plane", "line", "far", "between", "crowded")
 
@@ -112,11 +113,11 @@ def all_keys(case: Case) -> NDArray[np.int64]:
     return keys
 
 
-def engine(case: Case, level: str, way: str) -> Any:
+def engine(case: Case, level: str, way: str, threads: int) -> Any:
     """Prepare the engine for a configuration."""
     z, y, x = (np.ascontiguousarray(axis) for axis in case.places.T)
     return _core.volumes.VolumeTessellation(
-        x, y, z, case.labels, (0, 0, 0), case.shape[::-1], case.scale, case.units[::-1], level, way
+        x, y, z, case.labels, (0, 0, 0), case.shape[::-1], case.scale, case.units[::-1], level, way, threads
     )
 
 
@@ -132,7 +133,8 @@ def check(random: np.random.Generator, side: int) -> tuple[str, int, int]:
     wrong = np.zeros(case.shape, dtype=bool)
     for level in SIMD_LEVELS[: SIMD_LEVELS.index(_core.tessellation.widest_simd()) + 1]:
         for way in WAYS:
-            made, threads = engine(case, level, way), int(random.integers(1, 6))
+            threads = int(random.integers(1, 6))
+            made = engine(case, level, way, threads)
             out, some_out, distances = (np.empty(right.shape, right.dtype) for right in (labels, labels[some], squares))
             made.labels(out, 0, None, threads, None)
             wrong |= out != labels
@@ -142,6 +144,9 @@ def check(random: np.random.Generator, side: int) -> tuple[str, int, int]:
             wrong[some] |= some_out != labels[some]
             made.squared_distances(distances, 0, threads, None)
             wrong |= distances != squares
+            roots = np.empty(case.shape, np.float32)
+            made.distances(roots, 0, SQUARE_OF_STEP, threads, None)
+            wrong |= roots != np.sqrt(squares * SQUARE_OF_STEP).astype(np.float32)
     return case.family, wrong.size, int(wrong.sum())
 
 

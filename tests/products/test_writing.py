@@ -27,6 +27,8 @@ def values():
         vorotool.alpha_hull(shape),
         skeleton,
         vorotool.centerline(skeleton),
+        vorotool.extend_ends(skeleton),
+        vorotool.smooth(skeleton, 0.1),
         vorotool.offset(SQUARE, -1),
         vorotool.rebuild(skeleton),
         vorotool.points_along(skeleton, every=1),

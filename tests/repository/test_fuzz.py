@@ -17,7 +17,7 @@ def test_cases_that_were_not_run_have_not_passed(capsys):
     assert capsys.readouterr().out.startswith("cases 0 to -1: 0 cases, 0 failures")
 
 
-@pytest.mark.parametrize("script", ["predicates.py", "tessellate.py", "volumes.py"])
+@pytest.mark.parametrize("script", ["predicates.py", "tessellate.py", "spacing.py", "volumes.py"])
 def test_a_script_that_compares_nothing_fails(script):
     done = ended_python(FUZZ / script, "--seconds", "0")
     assert (done.returncode, done.stderr) == (1, "")
@@ -28,6 +28,7 @@ def test_a_script_that_compares_nothing_fails(script):
     ("script", "arguments", "said"),
     [
         ("tessellate.py", "--pixels 400000 --seed 7", ", 0 wrong, "),
+        ("spacing.py", "--pixels 100000 --first 1 --seed 7", ", 0 wrong, "),
         ("volumes.py", "--voxels 200000 --first 1 --seed 7", ", 0 wrong, "),
         ("digital.py", "--sets 12 --seed 3", "0 failures"),
         ("voronoi.py", "--cases 72 --seed 2", "0 failures"),

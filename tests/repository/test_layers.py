@@ -15,7 +15,6 @@ geometry -> products
 formats/io -> geometry
 geometry/points -> geometry
 geometry/polygons -> geometry
-engines/common -> geometry
 formats/parsing -> formats/io, geometry, geometry/points, geometry/polygons
 geometry/curves -> geometry, geometry/polygons
 formats/points -> formats/io, formats/parsing, geometry, geometry/points
@@ -30,10 +29,8 @@ formats/images -> formats/compression, formats/io, formats/parsing, formats/zarr
 geometry/mesh -> geometry, geometry/arguments, geometry/curves
 geometry/skeleton -> geometry, geometry/arguments, geometry/curves, geometry/polygons
 typing -> geometry, geometry/mesh, geometry/points, geometry/polygons, geometry/skeleton, geometry/volumes
-engines/tessellation -> engines/common, geometry, geometry/arguments, geometry/curves, geometry/points,
-    geometry/polygons, geometry/volumes, products, typing
 engines/arrangement -> geometry, geometry/arguments, geometry/curves, geometry/polygons, geometry/skeleton, typing
-engines/delaunay -> geometry, geometry/arguments, geometry/curves, geometry/mesh, geometry/points, typing
+engines/delaunay -> geometry, geometry/arguments, geometry/curves, geometry/mesh, geometry/points, products, typing
 engines/segment_voronoi -> geometry, geometry/polygons, geometry/skeleton
 formats/text -> geometry, geometry/skeleton
 formats/features -> formats/io, formats/parsing, formats/points, formats/text, geometry, geometry/arguments,
@@ -50,30 +47,34 @@ render/layers -> geometry, geometry/alpha, geometry/mesh, geometry/polygons, geo
     render/canvas, render/label_images
 render/pages -> geometry, geometry/alpha, geometry/curves, geometry/mesh, geometry/skeleton, geometry/voronoi, products,
     render/canvas, render/label_images
-engines/skeleton -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi, geometry,
-    geometry/arguments, geometry/curves, geometry/polygons, geometry/skeleton
 formats/results -> formats/io, formats/parsing, formats/polygons, formats/text, geometry, geometry/alpha,
     geometry/arguments, geometry/curves, geometry/mesh, geometry/polygons, geometry/skeleton, geometry/voronoi, products
+formats -> formats/drawing, formats/features, formats/images, formats/io, formats/parsing, formats/points,
+    formats/polygons, geometry, geometry/arguments, geometry/points, geometry/polygons, geometry/skeleton,
+    geometry/volumes, geometry/voronoi, products
+geometry/any -> geometry, geometry/alpha, geometry/curves, geometry/mesh, geometry/points, geometry/polygons,
+    geometry/skeleton, geometry/volumes, geometry/voronoi, products
+engines/common -> geometry, geometry/any
+engines/tessellation -> engines/common, geometry, geometry/arguments, geometry/curves, geometry/points,
+    geometry/polygons, geometry/volumes, products, typing
+engines/skeleton -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi, geometry,
+    geometry/arguments, geometry/curves, geometry/polygons, geometry/skeleton
 engines/from_skeleton -> engines/arrangement, engines/skeleton, geometry, geometry/arguments, geometry/curves,
     geometry/polygons, geometry/skeleton
 engines/offsets -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi, engines/skeleton,
     geometry, geometry/arguments, geometry/curves, geometry/polygons, geometry/skeleton, typing
-engines/pruning -> engines/common, geometry, geometry/arguments, geometry/curves, geometry/skeleton, typing
+engines/pruning -> engines/common, engines/skeleton, geometry, geometry/arguments, geometry/curves, geometry/skeleton,
+    typing
 engines/sampled_skeleton -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi,
     engines/skeleton, geometry, geometry/curves, geometry/polygons, geometry/skeleton
-formats -> formats/drawing, formats/features, formats/images, formats/io, formats/parsing, formats/points,
-    formats/polygons, geometry, geometry/arguments, geometry/points, geometry/polygons, geometry/skeleton,
-    geometry/volumes, geometry/voronoi, products
 batch -> engines/tessellation, formats, formats/io, formats/text, formats/zarr
 engines -> engines/sampled_skeleton, engines/skeleton, geometry, geometry/arguments, geometry/skeleton, typing
-engines/centerlines -> engines/from_skeleton, engines/pruning, engines/skeleton, geometry, geometry/arguments,
-    geometry/polygons, geometry/skeleton, typing
+engines/centerlines -> engines/from_skeleton, engines/skeleton, geometry, geometry/arguments, geometry/polygons,
+    geometry/skeleton, typing
 engines/voronoi -> engines/arrangement, engines/common, engines/segment_voronoi, engines/skeleton, geometry,
     geometry/arguments, geometry/curves, geometry/polygons, geometry/skeleton, geometry/voronoi, typing
-geometry/any -> geometry, geometry/alpha, geometry/curves, geometry/mesh, geometry/points, geometry/polygons,
-    geometry/skeleton, geometry/volumes, geometry/voronoi, products
-engines/label_images -> engines/common, engines/tessellation, geometry, geometry/any, geometry/arguments,
-    geometry/points, geometry/polygons, products, typing
+engines/label_images -> engines/common, engines/tessellation, geometry, geometry/arguments, geometry/points,
+    geometry/polygons, products, typing
 engines/digital -> engines/common, engines/delaunay, engines/label_images, engines/tessellation, geometry, geometry/any,
     geometry/arguments, geometry/curves, geometry/mesh, geometry/points, typing
 engines/volumes -> engines/common, engines/tessellation, geometry, geometry/arguments, geometry/volumes, typing
@@ -82,19 +83,18 @@ engines/peers -> engines, engines/delaunay, engines/from_skeleton, engines/label
 formats/volumes -> formats, formats/images, formats/io, formats/parsing, formats/points, formats/zarr, geometry,
     geometry/volumes, products
 jobs -> batch, engines/alpha, engines/arrangement, engines/centerlines, engines/delaunay, engines/digital,
-    engines/label_images, engines/pruning, engines/tessellation, engines/voronoi, formats, formats/images, formats/io,
-    formats/parsing, formats/points, formats/text, formats/volumes, formats/zarr, geometry, geometry/alpha,
-    geometry/any, geometry/arguments, geometry/curves, geometry/mesh, geometry/points, geometry/polygons,
-    geometry/skeleton, geometry/volumes, geometry/voronoi, products, render/canvas, render/label_images, render/layers,
-    render/pages, typing
+    engines/from_skeleton, engines/label_images, engines/pruning, engines/tessellation, engines/voronoi, formats,
+    formats/images, formats/io, formats/parsing, formats/points, formats/text, formats/volumes, formats/zarr, geometry,
+    geometry/alpha, geometry/any, geometry/arguments, geometry/curves, geometry/mesh, geometry/points,
+    geometry/polygons, geometry/skeleton, geometry/volumes, geometry/voronoi, products, render/canvas,
+    render/label_images, render/layers, render/pages, typing
 cli/options -> engines/offsets, engines/pruning, geometry, jobs, products
 cli/batch -> batch, cli/options, formats/io, geometry, jobs, products
 jobs/volumes -> engines/label_images, engines/tessellation, engines/volumes, formats/io, formats/volumes, formats/zarr,
     geometry, geometry/points, geometry/volumes, jobs, products, render/canvas, render/pages
-engines/necks -> engines, engines/arrangement, engines/common, engines/features, engines/from_skeleton,
-    engines/skeleton, geometry, geometry/arguments, geometry/polygons, geometry/skeleton, typing
+engines/junctions -> engines/common, engines/pruning, geometry, geometry/arguments, geometry/skeleton
 jobs/skeletons -> engines, engines/arrangement, engines/centerlines, engines/features, engines/from_skeleton,
-    engines/necks, engines/offsets, engines/pruning, engines/sampled_skeleton, engines/segment_voronoi,
+    engines/junctions, engines/offsets, engines/pruning, engines/sampled_skeleton, engines/segment_voronoi,
     engines/skeleton, formats/io, geometry, geometry/polygons, geometry/skeleton, jobs, products, render/canvas,
     render/layers, render/pages
 cli/commands -> cli/batch, cli/options, jobs, jobs/skeletons, jobs/volumes, products

@@ -123,6 +123,14 @@ inline Array<double> two_columns(std::vector<core::kernel::Point>&& values) {
   return two_columns<double, core::kernel::Point>(std::move(values));
 }
 
+// An (n, 2, 2) array that takes over the values.
+inline Array<double> pairs_of_places(std::vector<std::array<core::kernel::Point, 2>>&& values) {
+  auto kept = std::make_unique<std::vector<std::array<core::kernel::Point, 2>>>(std::move(values));
+  double* data = reinterpret_cast<double*>(kept->data());
+  const std::size_t size = kept->size();
+  return owned(std::move(kept), data, {size, 2, 2});
+}
+
 // A NumPy array of the given shape that takes over the values.
 template <class T>
 Array<T> to_numpy(core::base::LargeArray<T>&& values, std::initializer_list<std::size_t> shape) {

@@ -1,35 +1,19 @@
 #include "core/alpha/alpha_curves.hpp"
 
-#include <cmath>
 #include <vector>
 
 #include "core/base/disjoint_sets.hpp"
 #include "core/base/groups.hpp"
-#include "core/numbers/expansion.hpp"
+#include "core/numbers/long_sum.hpp"
 
 namespace vorotool::core::alpha {
 
 using base::DisjointSets;
 using base::LargeArray;
 using base::Monitor;
-using numbers::TwoTerms;
+using numbers::LongSum;
 
 namespace {
-
-// A sum of many terms, in two doubles; one once it is beyond their range.
-struct LongSum {
-  TwoTerms value{0, 0};
-
-  void add(double term) {
-    const TwoTerms sum = numbers::two_sum(value.head, term);
-    value =
-        std::isfinite(sum.head) ? numbers::two_sum(sum.head, sum.tail + value.tail) : TwoTerms{sum.head, 0};
-  }
-  void add(const LongSum& other) {
-    add(other.value.head);
-    add(other.value.tail);
-  }
-};
 
 // Edges by their ranks, of which the last is that of those that never come.
 base::Groups<std::uint32_t> by_rank(std::span<const std::int32_t> rank, std::size_t ranks) {

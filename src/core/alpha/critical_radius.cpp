@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/alpha/exact_radius.hpp"
-#include "core/kernel/predicates.hpp"
+#include "core/kernel/circumcentre.hpp"
 #include "core/numbers/double_double.hpp"
 #include "core/numbers/expansion.hpp"
 #include "core/numbers/int128.hpp"
@@ -227,14 +227,6 @@ bool are_alike(const Support& p, const Support& q) {
   return a.is_known && b.is_known && a.side == b.side;
 }
 
-// Whether a b is a double, found where the last bits of the product are within range.
-bool is_exact_product(double a, double b) {
-  if (a == 0 || b == 0) return true;
-  const double size = std::abs(a * b);
-  return size > 0x1p-900 && size < 0x1p900 && std::abs(a) < longest && std::abs(b) < longest &&
-         numbers::two_product(a, b, numbers::split(b)).tail == 0;
-}
-
 // Errors of the heads of the squares are at most (1 + 20 u) u of them; those of the two sums make it less
 // than 4 u of all three.
 int obtuse_corner(const Triangle& t, const std::array<const Point*, 3>& corner) {
@@ -303,19 +295,8 @@ TriangleMeasure measure_triangle(const Point& a, const Point& b, const Point& c)
   return {radius_beyond_estimate({a, b, c, true}), obtuse};
 }
 
-// The filter is that of orient2d: a sum of two products of two differences each, with the same rounding
-// errors.
 bool is_inside_diametral_disc(const Point& a, const Point& b, const Point& p) {
-  const Vector pa = from_to(p, a), pb = from_to(p, b);
-  const double left = pa.x.head * pb.x.head, right = pa.y.head * pb.y.head;
-  const double bound = kernel::orient2d_bound * (std::abs(left) + std::abs(right) + kernel::underflow_scale);
-  if (std::abs(left + right) > bound) return left + right < 0;
-  // Lattice points: where differences and products are exact, the sign of a sum of two doubles is right.
-  if (pa.is_short() && pb.is_short() && is_exact_product(pa.x.head, pb.x.head) &&
-      is_exact_product(pa.y.head, pb.y.head)) {
-    return left + right < 0;
-  }
-  return is_obtuse_exactly(a, b, p);
+  return kernel::angle_sign(p, a, b) < 0;
 }
 
 }  // namespace vorotool::core::alpha

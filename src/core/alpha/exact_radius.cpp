@@ -93,12 +93,4 @@ double round_exactly(const Support& s) {
   return std::ldexp(static_cast<double>(mantissa), exponent);
 }
 
-bool is_obtuse_exactly(const Point& a, const Point& b, const Point& p) {
-  const std::array<double, 6> values{a.x, a.y, b.x, b.y, p.x, p.y};
-  const int exponent = numbers::DyadicGrid(values).exponent;
-  std::array<BigInteger, 6> at;
-  for (std::size_t i = 0; i < 6; ++i) at[i] = integer_of(values[i], exponent);
-  return ((at[0] - at[4]) * (at[2] - at[4]) + (at[1] - at[5]) * (at[3] - at[5])).sign() < 0;
-}
-
 }  // namespace vorotool::core::alpha

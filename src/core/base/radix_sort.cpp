@@ -5,6 +5,8 @@
 #include <memory>
 #include <utility>
 
+#include "core/base/parallel.hpp"
+
 namespace vorotool::core::base {
 
 namespace {
@@ -13,32 +15,51 @@ namespace {
 constexpr int digit_bits = 11;
 constexpr std::size_t digits = std::size_t{1} << digit_bits;
 
+// Fewer items are not worth a thread.
+constexpr std::size_t items_a_thread = std::size_t{1} << 16;
+
+// Each thread has a part of the items, and for each digit its own place to put them: behind those of the parts before.
 template <class Item, class KeyOf>
-void sort_by(std::vector<Item>& items, int low, int high, KeyOf key_of) {
+void sort_by(std::vector<Item>& items, int low, int high, unsigned threads, KeyOf key_of) {
   const std::size_t count = items.size();
+  const std::size_t enough = std::min<std::size_t>(resolve_threads(threads), count / items_a_thread);
+  const std::size_t part = count / std::max<std::size_t>(enough, 1) + 1;
+  std::vector<std::array<std::size_t, digits>> starts(piece_count(count, part));
+  const auto in_parts = [&](const auto& body) { for_pieces(count, part, threads, {}, body); };
   const auto other = std::make_unique_for_overwrite<Item[]>(count);
   Item* from = items.data();
   Item* to = other.get();
   for (int shift = low; shift < high; shift += digit_bits) {
     const std::uint64_t mask = (std::uint64_t{1} << std::min(digit_bits, high - shift)) - 1;
-    std::array<std::size_t, digits> start{};
-    for (std::size_t i = 0; i < count; ++i) ++start[key_of(from[i]) >> shift & mask];
+    in_parts([&](std::size_t piece, std::size_t begin, std::size_t end) {
+      auto& start = starts[piece];
+      start.fill(0);
+      for (std::size_t i = begin; i < end; ++i) ++start[key_of(from[i]) >> shift & mask];
+    });
     std::size_t sum = 0;
-    for (std::size_t& place : start) sum += std::exchange(place, sum);
-    for (std::size_t i = 0; i < count; ++i) to[start[key_of(from[i]) >> shift & mask]++] = from[i];
+    for (std::size_t digit = 0; digit < digits; ++digit) {
+      for (auto& start : starts) sum += std::exchange(start[digit], sum);
+    }
+    in_parts([&](std::size_t piece, std::size_t begin, std::size_t end) {
+      auto& start = starts[piece];
+      for (std::size_t i = begin; i < end; ++i) to[start[key_of(from[i]) >> shift & mask]++] = from[i];
+    });
     std::swap(from, to);
   }
-  if (from != items.data()) std::copy(from, from + count, items.data());
+  if (from == items.data()) return;
+  in_parts([&](std::size_t, std::size_t begin, std::size_t end) {
+    std::copy(from + begin, from + end, items.data() + begin);
+  });
 }
 
 }  // namespace
 
-void radix_sort(std::vector<Keyed>& items, int bits) {
-  sort_by(items, 0, bits, [](const Keyed& item) { return item.key; });
+void radix_sort(std::vector<Keyed>& items, int bits, unsigned threads) {
+  sort_by(items, 0, bits, threads, [](const Keyed& item) { return item.key; });
 }
 
-void radix_sort(std::vector<std::uint64_t>& words, int low, int high) {
-  sort_by(words, low, high, [](std::uint64_t word) { return word; });
+void radix_sort(std::vector<std::uint64_t>& words, int low, int high, unsigned threads) {
+  sort_by(words, low, high, threads, [](std::uint64_t word) { return word; });
 }
 
 }  // namespace vorotool::core::base

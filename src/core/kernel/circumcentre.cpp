@@ -9,6 +9,7 @@
 #include "core/kernel/predicates.hpp"
 #include "core/numbers/double_double.hpp"
 #include "core/numbers/dyadic_grid.hpp"
+#include "core/numbers/expansion.hpp"
 #include "core/numbers/fixed_integer.hpp"
 
 namespace vorotool::core::kernel {
@@ -170,6 +171,36 @@ int order_by_filter(const Point& q, const Point& a, const Point& b) {
                                                                       : undecided;
 }
 
+template <std::size_t limbs>
+int angle_in_limbs(const DyadicGrid& lattice, const Point& p, const Point& a, const Point& b) {
+  const auto of = [&](double value) { return lattice.fixed_integer<limbs>(value); };
+  const auto x = of(p.x), y = of(p.y);
+  return ((of(a.x) - x) * (of(b.x) - x) + (of(a.y) - y) * (of(b.y) - y)).sign();
+}
+
+// Whether a b is a double, found where the last bits of the product are within range.
+bool is_exact_product(double a, double b) {
+  if (a == 0 || b == 0) return true;
+  const double size = std::abs(a * b);
+  return size > 0x1p-900 && size < 0x1p900 && std::abs(a) < 0x1p900 && std::abs(b) < 0x1p900 &&
+         numbers::two_product(a, b, numbers::split(b)).tail == 0;
+}
+
+// The filter is that of orient2d: a sum of two products of two differences each, with the same rounding
+// errors. Lattice points: where differences and products are exact, the sign of a sum of two doubles is
+// right.
+int angle_by_filter(const Point& p, const Point& a, const Point& b) {
+  const numbers::TwoTerms ax = two_difference(a.x, p.x), ay = two_difference(a.y, p.y);
+  const numbers::TwoTerms bx = two_difference(b.x, p.x), by = two_difference(b.y, p.y);
+  const double left = ax.head * bx.head, right = ay.head * by.head;
+  const double bound = orient2d_bound * (std::abs(left) + std::abs(right) + underflow_scale);
+  if (std::abs(left + right) > bound) return numbers::sign_of(left + right);
+  const bool is_short = ax.tail == 0 && ay.tail == 0 && bx.tail == 0 && by.tail == 0;
+  return is_short && is_exact_product(ax.head, bx.head) && is_exact_product(ay.head, by.head)
+             ? numbers::sign_of(left + right)
+             : undecided;
+}
+
 }  // namespace
 
 RoundedPoint circumcentre_exactly(const Point& a, const Point& b, const Point& c) {
@@ -193,6 +224,13 @@ int compare_distances(const Point& q, const Point& a, const Point& b) {
   if (sign != undecided) return sign;
   const DyadicGrid lattice(std::array{q.x, q.y, a.x, a.y, b.x, b.y});
   return with_limbs(lattice.bits, [&](auto limbs) { return order_in_limbs<limbs>(lattice, q, a, b); });
+}
+
+int angle_sign(const Point& p, const Point& a, const Point& b) {
+  const int sign = angle_by_filter(p, a, b);
+  if (sign != undecided) return sign;
+  const DyadicGrid lattice(std::array{p.x, p.y, a.x, a.y, b.x, b.y});
+  return with_limbs(lattice.bits, [&](auto limbs) { return angle_in_limbs<limbs>(lattice, p, a, b); });
 }
 
 }  // namespace vorotool::core::kernel

@@ -13,24 +13,28 @@ namespace {
 // Of the power series: where z is at most 1/4 the terms from the next one on are below 2^-62 z.
 constexpr std::size_t terms = 15;
 
+template <int sign>
 constexpr std::array<double, terms> series = [] {
   std::array<double, terms> coefficients{};
   double product = 1;
   for (std::size_t k = 0; k < terms; ++k) {
     const double odd = 2.0 * static_cast<double>(k) + 1;
     coefficients[k] = product / odd;
-    product *= odd / (odd + 1);
+    product *= -sign * odd / (odd + 1);
   }
   return coefficients;
 }();
 
-// asin(z) = 2 asin(z / sqrt(2 (1 + sqrt(1 - z^2)))) brings z, from 0 to 1, below 1/4, where the series is
-// summed.
-double inverse_sine(double z) {
+// f(z) = 2 f(z / sqrt(2 (1 + sqrt(1 + sign z^2)))), of the inverse sine (sign -1) or hyperbolic sine, brings z,
+// which is not negative, below 1/4, where the series is summed.
+template <int sign>
+double by_halves(double z) {
   double factor = 1;
-  for (; z > 0.25; factor *= 2) z /= std::sqrt(2 * (1 + std::sqrt((1 - z) * (1 + z))));
+  for (; z > 0.25; factor *= 2) {
+    z /= std::sqrt(2 * (1 + std::sqrt(sign > 0 ? 1 + z * z : (1 - z) * (1 + z))));
+  }
   double total = 0;
-  for (std::size_t k = terms; k-- > 0;) total = total * (z * z) + series[k];
+  for (std::size_t k = terms; k-- > 0;) total = total * (z * z) + series<sign>[k];
   return factor * z * total;
 }
 
@@ -59,9 +63,11 @@ double hypotenuse(double x, double y) {
 double angle_of(double x, double y) {
   const double length = hypotenuse(x, y);
   if (!(length > 0)) return 0;
-  double angle = inverse_sine(std::min(std::abs(x), y) / length);
+  double angle = by_halves<-1>(std::min(std::abs(x), y) / length);
   if (y > std::abs(x)) angle = std::numbers::pi / 2 - angle;
   return x < 0 ? std::numbers::pi - angle : angle;
 }
+
+double inverse_sinh(double z) { return by_halves<1>(z); }
 
 }  // namespace vorotool::core::numbers

@@ -18,4 +18,7 @@ double hypotenuse(double x, double y);
 // roundings.
 double angle_of(double x, double y);
 
+// The inverse of the hyperbolic sine, of what is finite and not negative.
+double inverse_sinh(double z);
+
 }  // namespace vorotool::core::numbers

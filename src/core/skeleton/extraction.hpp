@@ -25,7 +25,7 @@ struct LatticeToInput {
 };
 
 struct ClippedGroup {
-  std::int32_t group;
+  std::int32_t group;  // `every_group`: all arcs are clipped
   Frame frame;  // on the lattice
 };
 

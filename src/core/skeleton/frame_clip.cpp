@@ -139,7 +139,7 @@ void clip_to_frame(SkeletonGraph& graph, std::int32_t group, const Frame& frame,
   Clipper clipper(graph, frame, kept);
   for (std::size_t k = 0; k < graph.arcs.size(); ++k) {
     if (k % often == 0) base::report(monitor, 0);
-    if (graph.arcs[k].group == group) {
+    if (group == every_group || graph.arcs[k].group == group) {
       clipper.clip(graph.arcs[k]);
     } else {
       kept.push_back(graph.arcs[k]);

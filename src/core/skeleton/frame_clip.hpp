@@ -54,7 +54,9 @@ inline std::optional<std::pair<Cut, Cut>> cut_line(const Line& line, const Frame
   return std::pair{first, last};
 }
 
-// Of the arcs of one group, keeps what lies in the frame: an arc may be cut into several, or end on the frame
+inline constexpr std::int32_t every_group = -1;
+
+// Of the arcs of one group, or of `every_group`, keeps what lies in the frame: an arc may be cut into several, or end on the frame
 // instead of at infinity.
 void clip_to_frame(SkeletonGraph& graph, std::int32_t group, const Frame& frame,
                    const base::Monitor& monitor);

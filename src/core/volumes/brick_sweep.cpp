@@ -189,18 +189,18 @@ template <class Voxel, Product product>
 BrickSweep<Voxel, product>::BrickSweep(const SeedGrid& grid, const VolumeFrame& frame,
                                        const BrickKernels& kernels,
                                        void (*stream)(void*, const void*, std::size_t),
-                                       std::optional<std::int64_t> most_squared, std::int32_t first,
-                                       Voxel* out)
+                                       const BrickMeasure& measure, std::int32_t first, Out* out)
     : seeds_(grid, frame, kernels),
       frame_(frame),
       kernels_(kernels),
       stream_(stream),
-      most_squared_(most_squared),
+      measure_(measure),
       label_bits_(grid.label_bits()),
       first_(first),
       out_(out),
       row_((frame.plane.width + brick_side - 1) / brick_side * brick_side),
-      bar_(static_cast<std::size_t>(row_) * brick_side * brick_side) {}
+      bar_(static_cast<std::size_t>(row_) * brick_side * brick_side),
+      roots_(product == Product::distances ? static_cast<std::size_t>(row_) : 0) {}
 
 template <class Voxel, Product product>
 void BrickSweep<Voxel, product>::write(const Rows& rows) {
@@ -217,10 +217,24 @@ void BrickSweep<Voxel, product>::write(const Rows& rows) {
         const std::int32_t of_slice = k / count, of_row = k % count;
         const auto at = static_cast<std::size_t>(slice - first_ + of_slice) * height +
                         static_cast<std::size_t>(row + of_row);
-        stream_(out_ + at * width, bar_.data() + (of_slice * brick_side + of_row) * row_,
-                width * sizeof(Voxel));
+        write_row(bar_.data() + (of_slice * brick_side + of_row) * row_, out_ + at * width);
       }
     }
+  }
+}
+
+template <class Voxel, Product product>
+void BrickSweep<Voxel, product>::write_row(const Voxel* row, Out* to) {
+  const auto width = static_cast<std::size_t>(frame_.plane.width);
+  if constexpr (product == Product::distances) {
+    for (std::size_t x = 0; x < width; ++x) {
+      // as signed, which is quicker: squares are less than 2^63
+      const auto square = static_cast<double>(static_cast<std::int64_t>(row[x]));
+      roots_[x] = distance_of(square, measure_.square_of_step);
+    }
+    stream_(to, roots_.data(), width * sizeof(Out));
+  } else {
+    stream_(to, row, width * sizeof(Out));
   }
 }
 
@@ -228,7 +242,7 @@ void BrickSweep<Voxel, product>::write(const Rows& rows) {
 template <class Voxel, Product product>
 void BrickSweep<Voxel, product>::fill_bar(std::int32_t y, std::int32_t z) {
   const auto bricks = static_cast<std::int32_t>(row_ / brick_side);
-  const bool with_labels = product == Product::labels && !most_squared_;
+  const bool with_labels = product == Product::labels && !measure_.most_squared;
   std::int32_t first = 0;  // of those with one seed that are to be filled
   std::uint32_t label = 0;
   const auto fill_until = [&](std::int32_t end) {
@@ -283,9 +297,10 @@ void BrickSweep<Voxel, product>::fill_with(const BrickSeeds::Brick& brick, const
                      brick_side * row_};
   kernel.find_terms(brick.seeds, brick.count, voxels, label_bits_, terms.data());
   constexpr Key all = static_cast<Key>(-1);
-  const bool limited = most_squared_ && *most_squared_ < static_cast<std::int64_t>(all >> label_bits_);
+  const bool limited =
+      measure_.most_squared && *measure_.most_squared < static_cast<std::int64_t>(all >> label_bits_);
   const BrickProduct<Key> wanted{label_bits_,
-                                 limited ? static_cast<Key>(*most_squared_ + 1) << label_bits_ : all};
+                                 limited ? static_cast<Key>(*measure_.most_squared + 1) << label_bits_ : all};
   const auto write = [&](const BrickTerms<Key>& seeds, Voxel* out) {
     if constexpr (product == Product::labels) {
       if constexpr (sizeof(Voxel) == 1) kernel.labels8(seeds, voxels, wanted, out);
@@ -316,5 +331,7 @@ template class BrickSweep<std::uint16_t, Product::labels>;
 template class BrickSweep<std::uint32_t, Product::labels>;
 template class BrickSweep<std::uint32_t, Product::squares>;
 template class BrickSweep<std::uint64_t, Product::squares>;
+template class BrickSweep<std::uint32_t, Product::distances>;
+template class BrickSweep<std::uint64_t, Product::distances>;
 
 }  // namespace vorotool::core::volumes

@@ -7,9 +7,11 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <type_traits>
 #include <vector>
 
 #include "core/volumes/brick_kernel.hpp"
@@ -17,8 +19,22 @@
 
 namespace vorotool::core::volumes {
 
-// What is written of each voxel. Labels: uint8, uint16 or uint32; squares: uint32 or uint64.
-enum class Product { labels, squares };
+// What is written of each voxel. Labels: uint8, uint16 or uint32; squares: uint32 or uint64; distances are the roots of
+// such squares, as floats.
+enum class Product { labels, squares, distances };
+
+template <class Voxel, Product product>
+using Written = std::conditional_t<product == Product::distances, float, Voxel>;
+
+// Labels of voxels farther than the root of `most_squared` are 0. Distances are roots of squares times `square_of_step`.
+struct BrickMeasure {
+  std::optional<std::int64_t> most_squared = {};
+  double square_of_step = 1;
+};
+
+inline float distance_of(double square, double square_of_step) {
+  return static_cast<float>(std::sqrt(square * square_of_step));
+}
 
 // Voxels along the sides of the boxes that bricks are found in.
 inline constexpr std::int32_t block_side = 32;
@@ -83,16 +99,18 @@ class BrickSeeds {
 template <class Voxel, Product product>
 class BrickSweep {
  public:
-  // Labels of voxels farther than the root of `most_squared` are 0. `out` begins with slice `first`. `stream` copies
-  // past the caches.
+  using Out = Written<Voxel, product>;
+
+  // `out` begins with slice `first`. `stream` copies past the caches.
   BrickSweep(const SeedGrid& grid, const VolumeFrame& frame, const BrickKernels& kernels,
-             void (*stream)(void*, const void*, std::size_t), std::optional<std::int64_t> most_squared,
-             std::int32_t first, Voxel* out);
+             void (*stream)(void*, const void*, std::size_t), const BrickMeasure& measure, std::int32_t first,
+             Out* out);
 
   // Writes a block of rows: `block_side` of them and as many slices at most.
   void write(const Rows& rows);
 
  private:
+  void write_row(const Voxel* row, Out* to);
   void fill_bar(std::int32_t y, std::int32_t z);
   void fill_brick(const BrickSeeds::Brick& brick, Voxel* to);
   template <class Key>
@@ -103,12 +121,13 @@ class BrickSweep {
   const VolumeFrame frame_;
   const BrickKernels kernels_;
   void (*const stream_)(void*, const void*, std::size_t);
-  const std::optional<std::int64_t> most_squared_;
+  const BrickMeasure measure_;
   const int label_bits_;
   const std::int32_t first_;
-  Voxel* const out_;
+  Out* const out_;
   const std::ptrdiff_t row_;  // elements of a row of `bar_`
   std::vector<Voxel> bar_;    // a brick's rows and slices
+  std::vector<Out> roots_;    // of a row
   std::vector<std::uint32_t> numbers_, part_;
   std::vector<std::uint32_t> narrow_;
   std::vector<std::uint64_t> wide_;

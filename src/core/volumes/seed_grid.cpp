@@ -4,6 +4,9 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "core/base/parallel.hpp"
 
 namespace vorotool::core::volumes {
 
@@ -31,20 +34,40 @@ void SeedList::make_room(std::int64_t more) {
 
 bool SeedGrid::suits(const VolumeSites& sites) {
   if (sites.largest_coordinate > largest_difference / 2) return false;
-  std::uint32_t labels = 0;
-  for (const Site& site : sites.sites) labels |= site.label;
   // squared distances are at most 12 N^2
   const int square_bits = 2 * std::bit_width(static_cast<std::uint64_t>(sites.largest_coordinate)) + 4;
-  return square_bits + std::bit_width(labels) < 64;
+  return square_bits + std::bit_width(sites.all_labels) < 64;
 }
 
-SeedGrid::SeedGrid(std::span<const Site> sites, const VolumeFrame& frame)
-    : x_(sites.size()), y_(sites.size()), z_(sites.size()), label_(sites.size()) {
+SeedGrid::SeedGrid(const VolumeSites& volume, const VolumeFrame& frame, unsigned threads)
+    : x_(volume.sites.size()),
+      y_(volume.sites.size()),
+      z_(volume.sites.size()),
+      label_(volume.sites.size()),
+      label_bits_(std::bit_width(volume.all_labels)) {
+  const std::span<const Site> sites = volume.sites;
+  choose_cells(sites.size(), frame);
+  first_.resize(static_cast<std::size_t>(count_[0] * count_[1] * count_[2]) + 1);
+  first_.back() = static_cast<std::uint32_t>(sites.size());
+  // sites are sorted by z, so those of a layer of cells follow each other
+  const auto first_of = [&](std::int64_t layer) {
+    const auto found = std::partition_point(sites.begin(), sites.end(),
+                                            [&](const Site& site) { return cell_along(2, site.z) < layer; });
+    return static_cast<std::size_t>(found - sites.begin());
+  };
+  base::parallel_for(static_cast<std::size_t>(count_[2]), threads, [&](std::size_t number) {
+    const auto layer = static_cast<std::int64_t>(number);
+    const std::size_t first = first_of(layer);
+    fill_layer(layer, sites.subspan(first, first_of(layer + 1) - first), first);
+  });
+}
+
+void SeedGrid::choose_cells(std::size_t seeds, const VolumeFrame& frame) {
   const auto& plane = frame.plane;
   const Cell voxels{plane.width, plane.height, frame.depth};
   const Cell step{plane.pixel().x, plane.pixel().y, frame.step_z()};
   low_ = {-step[0] * plane.middle_column(), -step[1] * plane.middle_row(), -step[2] * frame.middle_slice()};
-  double volume = seeds_a_cell / static_cast<double>(sites.size());
+  double volume = seeds_a_cell / static_cast<double>(seeds);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     volume *= static_cast<double>(voxels[axis]) * static_cast<double>(step[axis]);
   }
@@ -56,31 +79,30 @@ SeedGrid::SeedGrid(std::span<const Site> sites, const VolumeFrame& frame)
     side_[axis] = of_cell * step[axis];
     count_[axis] = (voxels[axis] + of_cell - 1) / of_cell;
   }
-  first_.assign(static_cast<std::size_t>(count_[0] * count_[1] * count_[2]) + 1, 0);
-  const auto cell_of = [&](const Site& site) {
-    return static_cast<std::uint32_t>(
-        (cell_along(2, site.z) * count_[1] + cell_along(1, site.y)) * count_[0] + cell_along(0, site.x));
-  };
+}
+
+// The sites of a layer, of which the first has a number, by cell and in their order.
+void SeedGrid::fill_layer(std::int64_t layer, std::span<const Site> sites, std::size_t number) {
+  const auto cells = static_cast<std::size_t>(count_[0] * count_[1]);
+  const auto first = std::span(first_).subspan(static_cast<std::size_t>(layer) * cells, cells);
   std::vector<std::uint32_t> cell(sites.size());
-  std::uint32_t labels = 0;
   for (std::size_t s = 0; s < sites.size(); ++s) {
-    cell[s] = cell_of(sites[s]);
-    ++first_[cell[s] + 1];
-    labels |= sites[s].label;
+    cell[s] = static_cast<std::uint32_t>(cell_along(1, sites[s].y) * count_[0] + cell_along(0, sites[s].x));
+    ++first[cell[s]];
   }
-  label_bits_ = std::bit_width(labels);
-  for (std::size_t c = 1; c < first_.size(); ++c) first_[c] += first_[c - 1];
+  auto sum = static_cast<std::uint32_t>(number);
+  for (std::uint32_t& begin : first) sum += std::exchange(begin, sum);
   // each cell's first seed moves to the next one's, and then back
   for (std::size_t s = 0; s < sites.size(); ++s) {
     const Site& site = sites[s];
-    const std::size_t at = first_[cell[s]]++;
+    const std::size_t at = first[cell[s]]++;
     x_[at] = static_cast<std::int32_t>(site.x);
     y_[at] = static_cast<std::int32_t>(site.y);
     z_[at] = static_cast<std::int32_t>(site.z);
     label_[at] = site.label;
   }
-  std::copy_backward(first_.begin(), first_.end() - 1, first_.end());
-  first_.front() = 0;
+  std::copy_backward(first.begin(), first.end() - 1, first.end());
+  first.front() = static_cast<std::uint32_t>(number);
 }
 
 // The cell of a place, or the nearest one to it.

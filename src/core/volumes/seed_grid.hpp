@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/large_array.hpp"
 #include "core/volumes/brick_kernel.hpp"
 #include "core/volumes/volume_sites.hpp"
 
@@ -41,7 +42,8 @@ class SeedGrid {
   // Whether keys of 64 bits, and floats, hold what these sites need.
   static bool suits(const VolumeSites& sites);
 
-  SeedGrid(std::span<const Site> sites, const VolumeFrame& frame);
+  // The same for any number of threads.
+  SeedGrid(const VolumeSites& volume, const VolumeFrame& frame, unsigned threads);
 
   // Replaces `list` by the seeds that may be nearest in a box, relative to its middle, and some others; gives how many
   // were looked at.
@@ -55,16 +57,18 @@ class SeedGrid {
  private:
   using Cell = std::array<std::int64_t, 3>;
 
+  void choose_cells(std::size_t seeds, const VolumeFrame& frame);
+  void fill_layer(std::int64_t layer, std::span<const Site> sites, std::size_t number);
   std::int64_t cell_along(std::size_t axis, std::int64_t place) const;
   template <class Body>
   void for_each_run(const Cell& from, const Cell& to, Body body) const;
   std::array<std::int64_t, 3> place_near(const std::array<std::int64_t, 3>& place) const;
 
   Cell low_{}, side_{}, count_{};
-  std::vector<std::uint32_t> first_;     // [cells + 1]
-  std::vector<std::int32_t> x_, y_, z_;  // by cell
-  std::vector<std::uint32_t> label_;
-  int label_bits_ = 0;
+  std::vector<std::uint32_t> first_;          // [cells + 1]
+  base::LargeArray<std::int32_t> x_, y_, z_;  // by cell
+  base::LargeArray<std::uint32_t> label_;
+  int label_bits_;
 };
 
 // The allowance for roundings of kernels where no coordinate is larger.

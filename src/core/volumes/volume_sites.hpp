@@ -8,8 +8,8 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
+#include "core/base/large_array.hpp"
 #include "core/volumes/volume_frame.hpp"
 
 namespace vorotool::core::volumes {
@@ -26,15 +26,18 @@ struct Site {
 
 // Distinct seeds sorted by (z, y, x); of seeds at one place the smallest label stays.
 struct VolumeSites {
-  std::vector<Site> sites;
-  std::int32_t columns;             // distinct x
-  std::int64_t largest_coordinate;  // N
-  std::size_t duplicates;           // seeds that were left out
+  base::LargeArray<Site> room;
+  std::span<const Site> sites;
+  std::int32_t columns = 0;             // distinct x
+  std::int64_t largest_coordinate = 0;  // N
+  std::size_t duplicates = 0;           // seeds that were left out
+  std::uint32_t all_labels = 0;         // with the bits of all of them
 };
 
-// Throws tessellation::SeedTooFar beyond wide_bound, std::length_error for more than 2^31 - 1 seeds.
+// Throws tessellation::SeedTooFar beyond wide_bound, std::length_error for more than 2^31 - 1 seeds. The result does not
+// depend on the number of threads.
 VolumeSites prepare_sites(std::span<const std::int64_t> x, std::span<const std::int64_t> y,
                           std::span<const std::int64_t> z, std::span<const std::uint32_t> label,
-                          const VolumeFrame& frame);
+                          const VolumeFrame& frame, unsigned threads);
 
 }  // namespace vorotool::core::volumes

@@ -75,18 +75,16 @@ void write_slices(const VolumeSites& sites, const Coverage& coverage, const Volu
 
 template <Product product, class Voxel>
 void write_bricks(const SeedGrid& grid, const VolumeFrame& frame, tessellation::Simd level,
-                  std::optional<uint128> most_squared, std::int32_t first, std::int32_t slices, Voxel* out,
-                  unsigned threads, const Monitor& monitor) {
+                  const BrickMeasure& measure, std::int32_t first, std::int32_t slices,
+                  Written<Voxel, product>* out, unsigned threads, const Monitor& monitor) {
   const BrickKernels kernels = brick_kernels(level);
   const auto copies = tessellation::narrow_kernel(level);
-  std::optional<std::int64_t> limit;
-  if (most_squared) limit = tessellation::clamped<std::int64_t>(*most_squared);
   const auto parts = [](std::int32_t count) { return (count - 1) / block_side + 1; };
   const std::int32_t height = frame.plane.height, bands = parts(height);
   const auto write_block = [&](std::size_t number) {
     const auto row = static_cast<std::int32_t>(number % static_cast<std::size_t>(bands)) * block_side;
     const auto slice = static_cast<std::int32_t>(number / static_cast<std::size_t>(bands)) * block_side;
-    BrickSweep<Voxel, product> sweep(grid, frame, kernels, copies.stream, limit, first, out);
+    BrickSweep<Voxel, product> sweep(grid, frame, kernels, copies.stream, measure, first, out);
     sweep.write({row, std::min(height, row + block_side) - 1, first + slice,
                  first + std::min(slices, slice + block_side) - 1});
     copies.fence();
@@ -99,8 +97,9 @@ void write_bricks(const SeedGrid& grid, const VolumeFrame& frame, tessellation::
 
 VolumeTessellation::VolumeTessellation(std::span<const std::int64_t> x, std::span<const std::int64_t> y,
                                        std::span<const std::int64_t> z, std::span<const std::uint32_t> label,
-                                       const VolumeFrame& frame, tessellation::Simd level, Way way)
-    : frame_(frame), level_(level), way_(way), sites_(prepare_sites(x, y, z, label, frame)) {}
+                                       const VolumeFrame& frame, tessellation::Simd level, Way way,
+                                       unsigned threads)
+    : frame_(frame), level_(level), way_(way), sites_(prepare_sites(x, y, z, label, frame, threads)) {}
 
 const Coverage& VolumeTessellation::coverage() const {
   std::call_once(covered_, [&] { coverage_ = std::make_unique<const Coverage>(sites_.sites, frame_); });
@@ -108,10 +107,10 @@ const Coverage& VolumeTessellation::coverage() const {
 }
 
 // The seeds by cells where bricks are quicker.
-const SeedGrid* VolumeTessellation::grid(std::int32_t first, std::int32_t slices) const {
+const SeedGrid* VolumeTessellation::grid(std::int32_t first, std::int32_t slices, unsigned threads) const {
   if (way_ == Way::rows) return nullptr;
   std::call_once(gridded_, [&] {
-    if (SeedGrid::suits(sites_)) grid_ = std::make_unique<const SeedGrid>(sites_.sites, frame_);
+    if (SeedGrid::suits(sites_)) grid_ = std::make_unique<const SeedGrid>(sites_, frame_, threads);
   });
   if (!grid_ || way_ == Way::bricks) return grid_.get();
   // of a sweep by rows, fitted to uniform seeds on one thread
@@ -125,8 +124,11 @@ template <class Label>
 void VolumeTessellation::labels(std::int32_t first, std::int32_t slices, Label* out,
                                 std::optional<uint128> most_squared, unsigned threads,
                                 const Monitor& monitor) const {
-  if (const SeedGrid* const seeds = grid(first, slices)) {
-    write_bricks<Product::labels>(*seeds, frame_, level_, most_squared, first, slices, out, threads, monitor);
+  if (const SeedGrid* const seeds = grid(first, slices, threads)) {
+    BrickMeasure measure;
+    if (most_squared) measure.most_squared = tessellation::clamped<std::int64_t>(*most_squared);
+    write_bricks<Product::labels, Label>(*seeds, frame_, level_, measure, first, slices, out, threads,
+                                         monitor);
     return;
   }
   tessellation::with_kernel(is_wide(), level_, [&]<class Arithmetic>(const RowKernel<Arithmetic>& kernel) {
@@ -144,8 +146,8 @@ void VolumeTessellation::labels(std::int32_t first, std::int32_t slices, Label* 
 template <class Square>
 void VolumeTessellation::squared_distances(std::int32_t first, std::int32_t slices, Square* out,
                                            unsigned threads, const Monitor& monitor) const {
-  if (const SeedGrid* const seeds = grid(first, slices)) {
-    write_bricks<Product::squares>(*seeds, frame_, level_, {}, first, slices, out, threads, monitor);
+  if (const SeedGrid* const seeds = grid(first, slices, threads)) {
+    write_bricks<Product::squares, Square>(*seeds, frame_, level_, {}, first, slices, out, threads, monitor);
     return;
   }
   tessellation::with_kernel(is_wide(), level_, [&]<class Arithmetic>(const RowKernel<Arithmetic>& kernel) {
@@ -160,11 +162,20 @@ void VolumeTessellation::squared_distances(std::int32_t first, std::int32_t slic
 
 void VolumeTessellation::distances(std::int32_t first, std::int32_t slices, float* out, double square_of_step,
                                    unsigned threads, const Monitor& monitor) const {
+  if (const SeedGrid* const seeds = grid(first, slices, threads)) {
+    const BrickMeasure measure{{}, square_of_step};
+    // squares are at most 12 N^2
+    const bool is_short = sites_.largest_coordinate < std::int64_t{1} << 14;
+    const auto write = is_short ? write_bricks<Product::distances, std::uint32_t>
+                                : write_bricks<Product::distances, std::uint64_t>;
+    write(*seeds, frame_, level_, measure, first, slices, out, threads, monitor);
+    return;
+  }
   tessellation::with_kernel(is_wide(), level_, [&]<class Arithmetic>(const RowKernel<Arithmetic>& kernel) {
     write_slices(sites_, coverage(), frame_, kernel, first, slices, out, threads, monitor,
                  [&](const auto& envelope, const PixelRow& pixels, float* row) {
                    for_each_square(envelope, pixels, [&](std::int32_t p, auto square) {
-                     row[p] = static_cast<float>(std::sqrt(static_cast<double>(square) * square_of_step));
+                     row[p] = distance_of(static_cast<double>(square), square_of_step);
                    });
                  });
   });

@@ -22,10 +22,12 @@ enum class Way { quicker, rows, bricks };
 
 class VolumeTessellation {
  public:
-  // At least one seed; throws what prepare_sites throws. `level` must be supported by this machine.
+  // At least one seed; throws what prepare_sites throws. `level` must be supported by this machine. The seeds are sorted
+  // by so many threads.
   VolumeTessellation(std::span<const std::int64_t> x, std::span<const std::int64_t> y,
                      std::span<const std::int64_t> z, std::span<const std::uint32_t> label,
-                     const VolumeFrame& frame, tessellation::Simd level, Way way = Way::quicker);
+                     const VolumeFrame& frame, tessellation::Simd level, Way way = Way::quicker,
+                     unsigned threads = 1);
 
   const VolumeFrame& frame() const { return frame_; }
   std::size_t duplicates() const { return sites_.duplicates; }
@@ -50,7 +52,7 @@ class VolumeTessellation {
 
  private:
   const Coverage& coverage() const;
-  const SeedGrid* grid(std::int32_t first, std::int32_t slices) const;
+  const SeedGrid* grid(std::int32_t first, std::int32_t slices, unsigned threads) const;
 
   VolumeFrame frame_;
   tessellation::Simd level_;

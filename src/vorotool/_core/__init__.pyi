@@ -11,6 +11,7 @@ from vorotool._core import (
     kernel as kernel,
     label_images as label_images,
     offsets as offsets,
+    proximity as proximity,
     pruning as pruning,
     sampled_skeleton as sampled_skeleton,
     segment_voronoi as segment_voronoi,
@@ -18,6 +19,7 @@ from vorotool._core import (
     spatial as spatial,
     tessellation as tessellation,
     text as text,
+    thickness as thickness,
     volumes as volumes,
     voronoi as voronoi
 )

@@ -31,3 +31,8 @@ def trace_rings(points: numpy.typing.NDArray[numpy.float64], a: numpy.typing.NDA
     """
 
 def alpha_curves(spectrum: int, triangle_rank: numpy.typing.NDArray[numpy.int32], rank_min: numpy.typing.NDArray[numpy.int32], rank_mid: numpy.typing.NDArray[numpy.int32], rank_max: numpy.typing.NDArray[numpy.int32], sides: numpy.typing.NDArray[numpy.int32], area: numpy.typing.NDArray[numpy.float64], length: numpy.typing.NDArray[numpy.float64], progress: Callable[[float], object] | None) -> dict[str, Any]: ...
+
+def region_persistence(spectrum: int, points: int, triangles: numpy.typing.NDArray[numpy.int32], triangle_rank: numpy.typing.NDArray[numpy.int32], rank_max: numpy.typing.NDArray[numpy.int32], sides: numpy.typing.NDArray[numpy.int32], area: numpy.typing.NDArray[numpy.float64], progress: Callable[[float], object] | None) -> dict[str, Any]:
+    """
+    Ranks of birth and death of regions, what each becomes part of, and its sizes before that.
+    """

@@ -13,6 +13,7 @@ from vorotool.engines.skeleton.diagrams import (
     skeleton_inside,
 )
 from vorotool.engines.skeleton.exact import Frame, check_features, check_skeleton_options
+from vorotool.engines.skeleton.open_border import check_border
 from vorotool.geometry.arguments.boxes import as_extent
 from vorotool.geometry.arguments.polygons import as_polygons
 from vorotool.geometry.box import Box
@@ -33,6 +34,7 @@ def skeleton_exact(
     gap: float = 0.0,
     complete: bool = True,
     frame: Box | Frame | None = None,
+    border: Box | Frame | None = None,
     strict: bool = False,
     threads: int = 0,
     progress: Progress = None,
@@ -61,6 +63,11 @@ def skeleton_exact(
         With a gap, add the straight lines that lead from the skeleton to the corners.
     frame : Box or (x, y, w, h), optional
         Rectangle that arcs outside are cut by; by default the bounds and a tenth of their larger side around them.
+    border : Box or (x, y, w, h), optional
+        Rectangle that cuts the polygons, such as that of an image: where their edges are on its border they go on
+        beyond it. These edges are no sites, so that the skeleton is that of the rest of the outline, cut by the
+        rectangle: it runs to the border, and does not fork into the corners there. For what is inside features, each
+        by itself, without a gap.
     strict : bool
         Refuse polygons that would be repaired.
     threads : int
@@ -76,10 +83,11 @@ def skeleton_exact(
     Raises
     ------
     InputError
-        If a coordinate is not finite, an edge is not longer than twice the gap, or `strict` and something would be
-        repaired.
+        If a coordinate is not finite or beyond the border, an edge is not longer than twice the gap, or `strict` and
+        something would be repaired.
     UsageError
-        If the side, the gap or the frame is none.
+        If the side, the gap, the frame or the border is none, or there is a border with another side, with features
+        together or with a gap.
     LimitError
         If there are too many vertices.
 
@@ -97,15 +105,19 @@ def skeleton_exact(
     >>> skeleton = skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]])
     >>> float(skeleton.radius.max()), round(float(skeleton.length.sum()), 9)
     (1.0, 7.656854249)
+    >>> skeleton_exact([[0, 1], [4, 1], [4, 3], [0, 3]], border=(0, 0, 4, 4)).vertices.tolist()
+    [[0.0, 2.0], [4.0, 2.0]]
     """
     frame = None if frame is None else as_extent(frame, "frame")
+    border = None if border is None else as_extent(border, "border")
     check_skeleton_options(side, gap, frame)
     check_features(features)
     check_lengths(frame or (), "frame's coordinate")
     given = as_polygons(polygons)
+    check_border(given, border, side=side, features=features, gap=gap)
     common: dict[str, Any] = {"threads": checked_threads(threads), "progress": progress}
     if is_of_single_features(side, features):
-        return skeleton_inside(given, gap, complete=complete, strict=strict, **common).skeleton
+        return skeleton_inside(given, gap, complete=complete, border=border, strict=strict, **common).skeleton
     diagram = diagram_of_all(given, gap, features=features, interior_only=side == "interior", strict=strict, **common)
     return skeleton_in(diagram, side=side, features=features, complete=complete, frame=frame, **common)
 

@@ -18,8 +18,10 @@ from vorotool.engines.alpha.alpha_shape import (
     chosen_radius,
 )
 from vorotool.engines.alpha.few_points import unjoined
+from vorotool.engines.alpha.persistence import persistence
 from vorotool.errors import warn
 from vorotool.geometry.alpha.complex import AlphaComplex, Radius
+from vorotool.geometry.alpha.persistence import RegionPersistence
 from vorotool.geometry.alpha.shape import AlphaShape
 from vorotool.geometry.numbers import nearest_double
 from vorotool.geometry.points.point_set import PointSet
@@ -29,7 +31,7 @@ from vorotool.geometry.progress import Progress
 from vorotool.geometry.table import Table
 from vorotool.jobs.animations import check_size, layer_pixels, parts_of_whole, write_frames
 from vorotool.jobs.inputs import JobInput, read_sites, window_of
-from vorotool.jobs.names import OF_ONE_SHAPE
+from vorotool.jobs.names import OF_ONE_SHAPE, PLOTS
 from vorotool.jobs.options import AlphaShapeOptions
 from vorotool.jobs.picture_style import styled_page
 from vorotool.jobs.picture_world import check_column, world_of_sites
@@ -88,6 +90,7 @@ class ShapeProducts:
         radius: Radius | None,
     ) -> None:
         self.run, self.options, self.radius = run, options, radius
+        self._has_told_regions = False
         self.backdrop = placed_backdrop(options.pixel_size, given.backdrop)
         self._empty: dict[str, Any] = {"strict": options.strict, "allow_empty": isinstance(points, SeedSet)}
         with run.phase("triangulate") as progress:
@@ -172,6 +175,11 @@ class ShapeProducts:
 
         return alpha_hull(self.shape)
 
+    @cached_property
+    def persistence(self) -> RegionPersistence:
+        """When regions come and go as the radius grows."""
+        return persistence(self.family, progress=self.run.progress("persistence"))
+
     @property
     def written(self) -> AlphaShape:
         """The shape in the units of files."""
@@ -187,8 +195,16 @@ class ShapeProducts:
         """The curves in the units of files."""
         return table_in_units(self.options.pixel_size, self.curves)
 
+    @property
+    def written_persistence(self) -> Table:
+        """Births and deaths of regions in the units of files."""
+        return table_in_units(self.options.pixel_size, self.persistence.table())
+
     def check(self, target: Target) -> None:
         """Refuse what cannot be written, and say what will be empty, before anything is written."""
+        if target.what == "persistence" and not self._has_told_regions:
+            self._has_told_regions = True
+            self.run.note(self._standing_regions())
         if picture_format(target.fmt) == "png":
             from vorotool.render.canvas.png import check_picture_size
 
@@ -210,6 +226,13 @@ class ShapeProducts:
             smallest = radius_text(float(self.family.spectrum[0]))
             warn(f"there are no {words} at r = {radius_text(self.shape.r)}: shapes begin at r = {smallest}")
 
+    def _standing_regions(self) -> str:
+        found = self.persistence
+        if found.suggested < 2:
+            return "1 region stands out" if found.suggested else "there are no regions"
+        until = radius_text(length_in_units(self.options.pixel_size, found.apart_until))
+        return f"{found.suggested} regions stand out, apart below r = {until}"
+
     def write(self, target: Target, *, inputs: Sequence[str]) -> None:
         """Write one result."""
         from vorotool.formats.io.atomic_output import open_output
@@ -218,8 +241,8 @@ class ShapeProducts:
         with open_output(target.path, binary=target.is_binary, no_clobber=o.no_clobber, inputs=inputs) as out:
             if target.fmt == "html":
                 self._write_html(out)
-            elif target.fmt in PICTURES and target.what == "curves":
-                self._write_plot(out)
+            elif target.fmt in PICTURES and target.what in PLOTS:
+                self._write_plot(out, target.what)
             elif target.fmt in PICTURES:
                 write_layers(out, self._layers(target, self.shape), self.page, fmt=target.fmt, threads=o.threads)
             elif target.fmt in ANIMATIONS:
@@ -235,14 +258,22 @@ class ShapeProducts:
         """What a result is written from, in the units of files."""
         if what == "curves":
             return self.written_curves
+        if what == "persistence":
+            return self.written_persistence
         if what == "hull":
             return in_units(self.options.pixel_size, self.hull)
         return self.written if what in OF_ONE_SHAPE else self.written_family
 
-    def _write_plot(self, out: BinaryIO) -> None:
+    def _write_plot(self, out: BinaryIO, what: str) -> None:
+        width = self.options.width or 1000
+        if what == "persistence":
+            from vorotool.render.pages.persistence_plot import write_persistence_svg
+
+            write_persistence_svg(out, self.written_persistence, self.persistence.suggested, width=width)
+            return
         from vorotool.render.pages.alpha_plot import write_curves_svg
 
-        write_curves_svg(out, self.written_curves, width=self.options.width or 1000)
+        write_curves_svg(out, self.written_curves, width=width)
 
     def _write_html(self, out: BinaryIO) -> None:
         from vorotool.render.pages.alpha_html import write_alpha_html

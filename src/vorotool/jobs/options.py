@@ -264,6 +264,7 @@ class TriangulationOptions(SiteOptions):
     aspect: float | None
     extent: Literal["image", "data"] | None
     method: Method
+    graph: Literal["delaunay", "gabriel", "relative", "mst"]
     frame: Rectangle | None
     clip: str | None
 
@@ -353,6 +354,7 @@ class VoronoiOptions(ShapeOptions):
     clip: str | None
     max_distance: float | None
     enclosures: str | None
+    count: int | None
 
     def files_of_inputs(self) -> dict[str, str]:
         """Give the files that are read beside each input, by the names of the options."""
@@ -368,11 +370,15 @@ class SkeletonOptions(ShapeOptions):
     features: Literal["separate", "together"]
     complete: bool | None
     prune: Pruning | None
+    join_junctions: bool
     start: Place | None
     end: Place | None
     ends: Ends | None
     distance: tuple[float, ...] | None
     every: float | None
+    count: int | None
+    local: bool
+    smooth: float | None
     animate: bool
     frames: int | None
     fps: float | None
@@ -389,6 +395,16 @@ class ExactSkeletonOptions(SkeletonOptions):
 
     gap: float
     neck: float | None
+    border: Literal["closed", "open"] | None
+
+    @property
+    def has_open_border(self) -> bool:
+        """Whether objects go on beyond the image that cuts them."""
+        return self.border == "open"
+
+    def for_images(self) -> dict[str, Any]:
+        """Give the options that mean nothing for polygons and lines, by their names."""
+        return ShapeOptions.for_images(self) | {"border": self.border}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False, eq=False)

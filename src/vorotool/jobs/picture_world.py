@@ -128,19 +128,21 @@ def _input_of(value: Any) -> AnyTriangulation | CellSet | PolygonSet:
     """What of a value has the coordinate reference system and the columns of its input."""
     from vorotool.geometry.alpha.hull import AlphaHull
     from vorotool.geometry.alpha.shape import AlphaShape
-    from vorotool.geometry.skeleton.centerline import Centerlines
+    from vorotool.geometry.skeleton.discs import Discs
+    from vorotool.geometry.skeleton.led_on import LedOn
     from vorotool.geometry.skeleton.necks import Necks
     from vorotool.geometry.skeleton.offsets import Offsets
     from vorotool.geometry.skeleton.parts import Parts
     from vorotool.geometry.skeleton.points_along import SkeletonPoints
     from vorotool.geometry.skeleton.skeleton import Skeleton
+    from vorotool.geometry.skeleton.smooth_lines import SmoothLines
 
     inside: list[tuple[Any, Callable[[Any], Any]]] = [
         (AlphaHull, lambda hull: hull.shape.family.mesh),
         (AlphaShape, lambda shape: shape.family.mesh),
-        (Centerlines, lambda lines: lines.path.polygons),
+        ((LedOn, SmoothLines), lambda lines: lines.path.polygons),
         ((SkeletonPoints, Necks), lambda points: points.skeleton.polygons),
-        ((Skeleton, Offsets, Parts), lambda of: of.polygons),
+        ((Skeleton, Offsets, Parts, Discs), lambda of: of.polygons),
     ]
     found: AnyTriangulation | CellSet | PolygonSet = next(
         (get(value) for kind, get in inside if isinstance(value, kind)), value

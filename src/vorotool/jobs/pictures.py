@@ -94,8 +94,8 @@ def drawing_of(
     Parameters
     ----------
     value : value of the library
-        A triangulation, cells, an alpha shape or hull, polygons, a skeleton, points along one, necks, parts, offset
-        curves, or a Voronoi map.
+        A triangulation, cells, an alpha shape or hull, polygons, a skeleton, points along one, discs, necks, parts,
+        offset curves, or a Voronoi map.
     what : str, optional
         Which part, by its name in the registry of products; by default the first that is drawn.
     layers : sequence of str, optional
@@ -145,27 +145,32 @@ def _drawings() -> list[tuple[Any, Callable[..., Page], Callable[..., list[Layer
     from vorotool.geometry.alpha.shape import AlphaShape
     from vorotool.geometry.mesh.cells import CellSet
     from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation
+    from vorotool.geometry.mesh.proximity import ProximityGraph
     from vorotool.geometry.mesh.triangulation import Triangulation
     from vorotool.geometry.polygons.polygon_set import PolygonSet
-    from vorotool.geometry.skeleton.centerline import Centerlines
+    from vorotool.geometry.skeleton.discs import Discs
+    from vorotool.geometry.skeleton.led_on import LedOn
     from vorotool.geometry.skeleton.necks import Necks
     from vorotool.geometry.skeleton.offsets import Offsets
     from vorotool.geometry.skeleton.parts import Parts
     from vorotool.geometry.skeleton.points_along import SkeletonPoints
     from vorotool.geometry.skeleton.skeleton import Skeleton
+    from vorotool.geometry.skeleton.smooth_lines import SmoothLines
     from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
     from vorotool.render.layers.alpha import alpha_layers
     from vorotool.render.layers.cells import cells_page
+    from vorotool.render.layers.discs import disc_layers, disc_page
+    from vorotool.render.layers.lines_along import line_layers
     from vorotool.render.layers.mesh import mesh_layers, mesh_page
     from vorotool.render.layers.necks import neck_layers, neck_page, part_layers, part_page
     from vorotool.render.layers.offsets import offset_layers, offset_page
     from vorotool.render.layers.points_along import point_page, skeleton_point_layers
     from vorotool.render.layers.polygons import polygon_page, shape_layers
-    from vorotool.render.layers.skeleton import centerline_layers, skeleton_layers, skeleton_page
+    from vorotool.render.layers.skeleton import skeleton_layers, skeleton_page
     from vorotool.render.layers.voronoi import voronoi_layers, voronoi_page
 
     return [
-        ((Triangulation, DigitalTriangulation), mesh_page, mesh_layers),
+        ((Triangulation, DigitalTriangulation, ProximityGraph), mesh_page, mesh_layers),
         (CellSet, cells_page, _cell_layers),
         (AlphaShape, lambda value, **options: mesh_page(value.family.mesh, **options), alpha_layers),
         (
@@ -175,15 +180,12 @@ def _drawings() -> list[tuple[Any, Callable[..., Page], Callable[..., list[Layer
         ),
         (PolygonSet, polygon_page, shape_layers),
         (Skeleton, skeleton_page, skeleton_layers),
-        (
-            Centerlines,
-            lambda value, **options: skeleton_page(value.path, **options),
-            centerline_layers,
-        ),
+        ((LedOn, SmoothLines), lambda value, **options: skeleton_page(value.path, **options), line_layers),
         (SkeletonPoints, point_page, skeleton_point_layers),
         (Necks, neck_page, neck_layers),
         (Parts, part_page, part_layers),
         (Offsets, offset_page, offset_layers),
+        (Discs, disc_page, disc_layers),
         (VoronoiMap, voronoi_page, voronoi_layers),
     ]
 

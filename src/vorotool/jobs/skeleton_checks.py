@@ -19,6 +19,9 @@ from vorotool.products.formats import FORMATS, PICTURES, picture_format
 from vorotool.products.inputs import DRAWINGS
 from vorotool.products.registry import PRODUCTS, Product, formats_of, layers_of
 
+OF_OPEN_BORDERS = ("skeleton", "branches", "table", "centerline", "points", "transects")
+"""Results that need no closed outlines."""
+
 
 def check_options(o: SkeletonOptions, targets: list[Target]) -> None:
     """Refuse what does not go together, or what no output would show."""
@@ -34,12 +37,17 @@ def check_options(o: SkeletonOptions, targets: list[Target]) -> None:
     check_join_tolerance(o)
     _check_measures(o)
     _check_shapes(o)
+    _check_discs(o)
+    _check_thickness(o, targets)
     _check_necks(o)
     if o.frame is not None and o.side == "interior" and "diagram" not in o.what:
         raise UsageError("--frame cuts what is outside: use --side exterior or both, or leave it out")
     if o.frame is not None:
         check_frame(o.frame)
     _check_centerline(o)
+    _check_joining(o, formats)
+    _check_border(o)
+    _check_lines(o, targets)
     pictures = sorted({picture_format(fmt) for fmt in formats} & set(PICTURES))
     check_animation(o, targets)
     if o.layers is not None and not pictures:
@@ -93,12 +101,58 @@ def check_layers(o: JobOptions, products: Mapping[str, Product], targets: list[T
 def _check_centerline(o: SkeletonOptions) -> None:
     if "centerline" in o.what and o.side == "exterior":
         raise UsageError("centerlines are inside polygons: use --side interior or both")
-    if o.ends is not None and not {"centerline", "table"} & set(o.what):
+    if o.ends is not None and not {"skeleton", "centerline", "table"} & set(o.what):
         raise UsageError(
-            "--ends is for centerlines, skeletons lead into corners: use --what centerline or table, or leave it out"
+            "--ends is for skeletons and centerlines: use --what skeleton, centerline or table, or leave it out"
         )
     if (o.start is not None or o.end is not None) and "centerline" not in o.what:
         raise UsageError("--from and --to are ends of centerlines: use --what centerline, or leave them out")
+
+
+def _check_joining(o: SkeletonOptions, formats: set[str]) -> None:
+    """Junctions are those of skeletons, branches and tables; what is measured along an axis stays on it."""
+    if not o.join_junctions:
+        return
+    if not {"skeleton", "branches", "table"} & set(o.what):
+        raise UsageError(
+            "--join-junctions is for skeletons, branches and tables: use --what skeleton, branches or table, or leave "
+            "it out"
+        )
+    if "html" in formats:
+        raise UsageError("--join-junctions does not show in a page of all prunings: use -f svg, or leave it out")
+
+
+def _check_border(o: SkeletonOptions) -> None:
+    """With an open border there is what follows from the axis inside each object, and no closed outline."""
+    if not (isinstance(o, ExactSkeletonOptions) and o.has_open_border):
+        return
+    given = {
+        "--side": o.side != "interior",
+        "--features": o.features != "separate",
+        "--gap": o.gap > 0,
+        "--simplify": o.simplify is not None,
+        "--frame": o.frame is not None,
+    }
+    for name in (name for name, is_given in given.items() if is_given):
+        raise UsageError(f"--border open is for what is inside each object as it is: leave {name} out")
+    for what in (what for what in o.what if what not in OF_OPEN_BORDERS):
+        raise UsageError(
+            f"--what {what} is of closed outlines: leave --border open out, or use {', '.join(OF_OPEN_BORDERS)}"
+        )
+
+
+def _check_lines(o: SkeletonOptions, targets: list[Target]) -> None:
+    """Skeletons are led on inside polygons, and what is no graph of arcs is smooth or led on."""
+    if o.ends == "middle" and "skeleton" in o.what and o.side != "interior":
+        raise UsageError(
+            "skeletons are led on to ends inside polygons: use --side interior, or leave out --ends middle"
+        )
+    if o.smooth is not None and not {"skeleton", "centerline"} & set(o.what):
+        raise UsageError("--smooth is for lines: use --what skeleton or centerline, or leave it out")
+    changed = [name for name, given in (("--smooth", o.smooth is not None), ("--ends", o.ends == "middle")) if given]
+    graphs = [target.fmt for target in targets if target.what == "skeleton" and target.fmt in ("graphml", "html")]
+    if changed and graphs:
+        raise UsageError(f"{changed[0]} is for lines, and {graphs[0]} shows arcs: use -f svg, or leave it out")
 
 
 def _check_measures(o: SkeletonOptions) -> None:
@@ -110,6 +164,19 @@ def _check_measures(o: SkeletonOptions) -> None:
         if not wanted and value is not None:
             what = " or ".join(f"--what {user}" for user in sorted(users))
             raise UsageError(f"{name} is for other results: use {what}, or leave it out")
+
+
+def _check_discs(o: SkeletonOptions) -> None:
+    """How many discs are wanted matters to these alone; they are inside."""
+    for name, is_given in (("--count", o.count is not None), ("--local", o.local)):
+        if is_given and "discs" not in o.what:
+            raise UsageError(f"{name} is for discs: use --what discs, or leave it out")
+    if "discs" in o.what and o.side == "exterior":
+        raise UsageError("discs are inside polygons: use --side interior or both")
+    has_gap = isinstance(o, ExactSkeletonOptions) and o.gap > 0
+    for name, is_given in (("--prune", o.prune is not None), ("--gap", has_gap)):
+        if is_given and set(o.what) == {"discs"}:
+            raise UsageError(f"{name} is for skeletons, but discs are of the shapes: leave it out")
 
 
 def _check_necks(o: SkeletonOptions) -> None:
@@ -137,3 +204,29 @@ def _check_shapes(o: SkeletonOptions) -> None:
     given = {"--side": o.side != "interior", "--prune": o.prune is not None, "--gap": has_gap}
     for name in (name for name, is_given in given.items() if is_given and set(o.what) == {"offset"}):
         raise UsageError(f"{name} is for skeletons, but offset curves are of the shapes: leave it out")
+
+
+def _check_thickness(o: SkeletonOptions, targets: list[Target]) -> None:
+    """Thickness is of what is inside, of the whole exact skeleton, and its picture has the pixels of the image."""
+    if "thickness" not in o.what:
+        return
+    if isinstance(o, ApproximateSkeletonOptions):
+        raise UsageError("thickness is measured by the exact skeleton: use skeleton-exact --what thickness")
+    if o.side == "exterior":
+        raise UsageError("thickness is measured inside objects: use --side interior or both")
+    if isinstance(o, ExactSkeletonOptions) and o.gap:
+        raise UsageError(
+            "a skeleton with a gap has no discs that touch the outline: use --what thickness without --gap"
+        )
+    if o.prune is not None and set(o.what) == {"thickness"}:
+        raise UsageError("--prune is for skeletons, but thickness is of all discs: leave it out")
+    if not any((target.what, target.fmt) == ("thickness", "png") for target in targets):
+        return
+    given = {
+        "--width": o.width is not None,
+        "--overlay": o.overlay is not None,
+        "--y-up or --y-down": o.y_up is not None,
+        **{f"--{name}": name in o.looks.given() for name in ("color", "line-width", "label-by", "aspect", "extent")},
+    }
+    for name in (name for name, is_given in given.items() if is_given):
+        raise UsageError(f"a picture of thickness has the pixels of the image and colours of its own: leave out {name}")

@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
 
 from vorotool.jobs.inputs import JobInput, opened_input, read_opened, refuse
 from vorotool.jobs.masks import settled_foreground
-from vorotool.jobs.options import ShapeOptions
+from vorotool.jobs.options import ExactSkeletonOptions, ShapeOptions
 from vorotool.jobs.pixel_sizes import placed_polygons, with_pixel_size
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.units import lengths_in_steps, sides_of
 
 if TYPE_CHECKING:
     from vorotool.geometry.pixel_frame import Frame
+    from vorotool.geometry.pixel_grid import PixelGrid
     from vorotool.geometry.points.raster import Raster
     from vorotool.geometry.polygons.polygon_set import PolygonSet
 
@@ -33,12 +34,15 @@ class ReadPolygons(NamedTuple, Generic[Options]):
         With the size of pixels, and places, as the image has them.
     frame : Frame, optional
         Of the image, in the coordinates of the outlines.
+    grid : PixelGrid, optional
+        What the image says of its pixels.
     """
 
     polygons: PolygonSet
     is_mask: bool
     options: Options
     frame: Frame | None = None
+    grid: PixelGrid | None = None
 
 
 def read_polygons(run: Run, o: Options, given: JobInput) -> ReadPolygons[Options]:
@@ -74,7 +78,7 @@ def outlined(run: Run, o: Options, given: JobInput, image: Raster) -> ReadPolygo
 
         whole = placed_polygons(o.pixel_size, _outlines(run, replace(o, simplify=None), image))
         polygons = simplified_polygons(whole, o.simplify)
-    return ReadPolygons(polygons, is_mask=True, options=o, frame=frame)
+    return ReadPolygons(polygons, is_mask=True, options=o, frame=frame, grid=image.grid)
 
 
 def _outlines(run: Run, o: ShapeOptions, image: Raster) -> PolygonSet:
@@ -85,6 +89,7 @@ def _outlines(run: Run, o: ShapeOptions, image: Raster) -> PolygonSet:
         return outlines(
             image,
             outline=o.outline or "crack",
+            border="open" if isinstance(o, ExactSkeletonOptions) and o.has_open_border else "closed",
             mode=o.seeds,
             connectivity=int(o.connectivity or 8),
             threshold=threshold,
@@ -96,6 +101,18 @@ def _outlines(run: Run, o: ShapeOptions, image: Raster) -> PolygonSet:
             progress=progress,
             note=run.note,
         )
+
+
+def border_of(o: ShapeOptions, frame: Frame) -> tuple[float, float, float, float]:
+    """Give the rectangle that the pixels of an image cover, in the coordinates of their outlines."""
+    sides = None if o.pixel_size is None else o.pixel_size.sides
+    across, down = (1, 1) if sides is None else (sides.x, sides.y)
+    return (
+        (frame.x - 0.5) * across,
+        (frame.y - 0.5) * down,
+        float(frame.width * across),
+        float(frame.height * down),
+    )
 
 
 def _simplified(run: Run, o: ShapeOptions, polygons: PolygonSet, tolerance: float) -> PolygonSet:

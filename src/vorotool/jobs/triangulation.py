@@ -6,12 +6,16 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple, cast
 
+from vorotool.engines.delaunay.cell_statistics import statistics_of
 from vorotool.engines.delaunay.cells import cell_colours, verify_cells, voronoi_cells
 from vorotool.engines.delaunay.delaunay import delaunay, verify_triangulation
+from vorotool.engines.delaunay.proximity import proximity_graph
 from vorotool.engines.delaunay.site_table import site_table
+from vorotool.engines.delaunay.verify_proximity import verify_proximity_graph
 from vorotool.errors import Kind, Message
 from vorotool.formats.io.sources import reading
 from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation
+from vorotool.geometry.mesh.proximity import ProximityGraph
 from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.geometry.progress import Progress
@@ -32,6 +36,7 @@ from vorotool.products.writing import write_product
 if TYPE_CHECKING:
     from vorotool.geometry.box import Box
     from vorotool.geometry.mesh.cells import CellSet
+    from vorotool.geometry.mesh.statistics import CellStatistics
     from vorotool.render.canvas.layers import Layer, Page, Polygons
 
 
@@ -93,6 +98,15 @@ class MeshProducts:
                 self.mesh: Any = placed_mesh(options.pixel_size, self._triangulate(points, progress))
             check_column(options.label_by, self.mesh.properties)
             self._world = world_of_sites(run, options, self.mesh, points)
+        self.edged: Any = self._with_graph() if self.wants_mesh else None
+
+    def _with_graph(self) -> Any:
+        """What has the edges that are written and drawn: the triangulation, or a graph that is a part of it."""
+        o = self.options
+        if o.graph == "delaunay":
+            return self.mesh
+        with self.run.phase("graph") as progress:
+            return proximity_graph(self.mesh, o.graph, threads=o.threads, progress=progress)
 
     @property
     def wants_mesh(self) -> bool:
@@ -113,7 +127,7 @@ class MeshProducts:
             from vorotool.render.pages.cells_html import check_html_size
 
             check_html_size(len(self.mesh.points))
-        if target.what in ("edges", "triangles") and not len(getattr(self.mesh, target.what)):
+        if target.what in ("edges", "triangles") and not len(getattr(self.edged, target.what)):
             self.run.warn(Message(f"there are no {target.what}: {self._shape()}", Kind.EMPTY_RESULT))
 
     def _shape(self) -> str:
@@ -144,7 +158,23 @@ class MeshProducts:
         if what == "table" and fmt != "node":
             table = site_table(self.mesh, self.cells, threads=self.options.threads)
             return table_in_units(self.options.pixel_size, table, properties=self.mesh.properties)
-        return in_units(self.options.pixel_size, self.cells if what == "cells" else self.mesh)
+        if what in ("statistics", "measures"):
+            found = self._statistics_in_units()
+            table = found.cells if what == "measures" else found.summary
+            return table
+        value = self.cells if what == "cells" else self.edged if what == "edges" else self.mesh
+        return in_units(self.options.pixel_size, value)
+
+    def _statistics_in_units(self) -> CellStatistics:
+        """Measures of cells, decided in the units of the input, in those of files."""
+        o, has_region = self.options, self.options.frame is not None or self.options.clip is not None
+        with self.run.phase("statistics") as progress:
+            found = statistics_of(self.mesh, self.cells, has_region=has_region, threads=o.threads, progress=progress)
+        if o.pixel_size is None:
+            return found
+        side = float(o.pixel_size.factor)
+        cells = table_in_units(o.pixel_size, found.cells)
+        return replace(found, cells=cells, tree_lengths=found.tree_lengths * side, area=found.area * side * side)
 
     @property
     def cells(self) -> CellSet:
@@ -188,7 +218,7 @@ class MeshProducts:
 
         wanted, page = self._layers(what), self._page(what)
         of_mesh = [name for name in wanted if name in mesh_layers.LAYERS]
-        made: dict[str, Layer] = {layer.name: layer for layer in mesh_layers.mesh_layers(self.mesh, page, of_mesh)}
+        made: dict[str, Layer] = {layer.name: layer for layer in mesh_layers.mesh_layers(self.edged, page, of_mesh)}
         if "cells" in wanted:
             made["cells"] = cell_polygons(self.cells, cell_colours(self.mesh), page)
             if "triangles" in made:  # which would hide the cells
@@ -212,7 +242,9 @@ class MeshProducts:
     def verify(self, progress: Progress) -> None:
         """Check the triangulation exactly, from its arrays alone; and cells before they are clipped to polygons."""
         verify_triangulation(self.mesh, threads=self.options.threads, progress=progress)
-        if {"cells", "table"} & set(self.options.what):
+        if isinstance(self.edged, ProximityGraph):
+            verify_proximity_graph(self.edged)
+        if {"cells", "table", "statistics", "measures"} & set(self.options.what):
             cells = self.cells if self.clip is None else self._cells_in(self.cells.frame, progress)
             verify_cells(cells, threads=self.options.threads, progress=progress)
 
@@ -230,6 +262,11 @@ class MeshProducts:
             "triangles": len(mesh.triangles),
             "hull": len(mesh.hull),
             "collinear": len(mesh.triangles) == 0,
+            **(
+                {}
+                if self.options.graph == "delaunay"
+                else {"graph": self.options.graph, "graph_edges": len(self.edged)}
+            ),
             "method": self.options.method,
             "threads": self.options.threads,
         }

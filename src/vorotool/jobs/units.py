@@ -9,6 +9,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from vorotool.errors import UsageError
+from vorotool.jobs.names import PLOTS
 from vorotool.jobs.pruning_choice import LENGTHS as PRUNED_LENGTHS
 from vorotool.jobs.pruning_choice import Pruning
 from vorotool.products.formats import FORMATS
@@ -67,7 +68,7 @@ AUTO_SPACING = AUTO._replace(is_spacing=True)
 """What the file says of both sides."""
 
 _IN_STEPS = (
-    *("frame", "flatten", "simplify", "max_distance", "distance", "every", "gap", "step", "tolerance"),
+    *("frame", "flatten", "simplify", "max_distance", "distance", "every", "smooth", "gap", "step", "tolerance"),
     *("start", "end"),
 )
 """Options of shapes and meshes that are lengths or places, and no fractions of others."""
@@ -270,9 +271,9 @@ def check_units(o: JobOptions, targets: Sequence[Target]) -> None:
 
 
 def _has_units(target: Target) -> bool:
-    """Whether there are lengths in an output: of images in the plot of curves, and in arrays of places and radii."""
+    """Whether there are lengths in an output: of images in thickness and plots, and in arrays of places and radii."""
     is_array = target.fmt == "npy" and target.what in ("points", "spectrum")
-    return is_array or target.what == "curves" or not FORMATS[target.fmt].is_image
+    return is_array or target.what == "thickness" or target.what in PLOTS or not FORMATS[target.fmt].is_image
 
 
 def in_units(size: PixelSize | None, value: Value) -> Value:

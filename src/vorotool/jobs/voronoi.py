@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Sequence
-from functools import partial
+from functools import cached_property, partial
 from typing import Any, BinaryIO
 
 import numpy as np
@@ -16,6 +16,7 @@ from vorotool.errors import STRICT, InputError, Kind, Message, RepairWarning
 from vorotool.formats.io.atomic_output import open_output
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.progress import Progress
+from vorotool.geometry.skeleton.discs import Discs
 from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.options import VoronoiOptions
@@ -56,6 +57,7 @@ class VoronoiProducts:
         self.options, self.is_image = read.options, read.is_image
         self.backdrop = placed_backdrop(self.options.pixel_size, given.backdrop)
         self.features = read.sites.count
+        self._sites, self._clip = read.sites, cuts.get("clip")
         self.cells = self._made(read.sites, cuts)
         check_column(self.options.label_by, self.cells.properties)
         o = self.options
@@ -80,6 +82,21 @@ class VoronoiProducts:
             except RepairWarning as warning:
                 raise InputError(f"{warning}: repair them, or leave out {STRICT}") from None
 
+    @cached_property
+    def discs(self) -> Discs:
+        """The largest discs between all sites, with centres in what is shared out."""
+        from vorotool.engines.from_skeleton.empty_discs import largest_empty_discs, shared_region
+
+        o = self.options
+        given = self._sites.polygons
+        region = shared_region(given, self._clip, o.frame)
+        with self.run.phase("discs") as progress, warnings.catch_warnings():
+            warnings.simplefilter("ignore", RepairWarning)  # told of the map
+            return largest_empty_discs(given, within=region, count=o.count or 1, threads=o.threads, progress=progress)
+
+    def _value(self, what: str) -> VoronoiMap | Discs:
+        return self.discs if what == "discs" else self.cells
+
     def check(self, target: Target) -> None:
         """Refuse what cannot be written, and say what will be empty, before anything is written."""
         if target.fmt == "png":
@@ -90,6 +107,8 @@ class VoronoiProducts:
             from vorotool.render.pages.cells_html import check_html_size
 
             check_html_size(len(self.cells), len(self.cells.ring_arcs))
+        if target.what == "discs" and not len(self.discs):
+            self.run.warn(Message("there are no discs: no place is outside of all sites", Kind.EMPTY_RESULT))
         if target.what in ("edges", "neighbours") and not self.cells.is_border.any():
             count = len(self.cells)
             self.run.warn(Message(f"there are no {target.what} of {count} site{'s' * (count != 1)}", Kind.EMPTY_RESULT))
@@ -97,6 +116,10 @@ class VoronoiProducts:
     def verify(self, progress: Progress) -> None:
         """Check the map, with nothing that it was made by."""
         verify_voronoi(self.cells)
+        if "discs" in self.options.what:
+            from vorotool.engines.from_skeleton.verify_discs import verify_discs
+
+            verify_discs(self.discs, progress=progress)
 
     def write(self, target: Target, *, inputs: Sequence[str]) -> None:
         """Write one result."""
@@ -114,7 +137,7 @@ class VoronoiProducts:
         o = self.options
         write_product(
             out,
-            in_units(o.pixel_size, self.cells),
+            in_units(o.pixel_size, self._value(target.what)),
             PRODUCTS["voronoi"][target.what],
             target.fmt,
             flatten=length_in_units(o.pixel_size, o.flatten),
@@ -135,7 +158,7 @@ class VoronoiProducts:
     def _drawing(self, what: str) -> Drawing:
         o = self.options
         return drawing_of(
-            self.cells,
+            self._value(what),
             what=what,
             layers=o.layers,
             width=o.width or 1000,
@@ -164,6 +187,9 @@ class VoronoiProducts:
             "frame": list(cells.frame),
             "threads": o.threads,
         }
+        if "discs" in o.what:
+            radius = self.discs.radius
+            found |= {"discs": len(radius), "largest_radius": float(radius.max()) if len(radius) else None}
         if self.is_image:
             found |= {"outline": o.outline or "crack", "connectivity": int(o.connectivity or 8)}
         return found

@@ -22,6 +22,11 @@ def check_options(o: VoronoiOptions, targets: list[Target]) -> None:
     check_join_tolerance(o)
     if o.by is not None and o.no_properties:
         raise UsageError("--by joins features by a column: leave out --no-properties")
+    if o.count is not None and "discs" not in o.what:
+        raise UsageError("--count is for discs: use --what discs, or leave it out")
+    for name, value in (("--max-distance", o.max_distance), ("--enclosures", o.enclosures), ("--by", o.by)):
+        if value is not None and set(o.what) == {"discs"}:
+            raise UsageError(f"{name} is for cells, but discs are between all that there is: leave it out")
     if o.frame is not None:
         check_frame(o.frame)
     pictures = sorted(formats & set(PICTURES))

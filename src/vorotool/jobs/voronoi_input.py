@@ -56,7 +56,7 @@ def read_sites(run: Run, o: VoronoiOptions, given: JobInput) -> ReadSites:
         )
         return ReadSites(as_sites(value), is_image=False, options=o)
     refuse({"columns": o.columns}, "is for lists of points, but the input is an image")
-    polygons, _, o, frame = outlined(run, o, given, value)
+    polygons, _, o, frame, _ = outlined(run, o, given, value)
     return ReadSites(as_sites(polygons), is_image=True, options=o, frame=frame)
 
 

@@ -128,6 +128,7 @@ SPACE_READERS = {
     "geojson": "formats.points.json:geojson_rows",
     "wkt": "formats.points.wkt:wkt_rows",
     "npz": "formats.points.tables:npz_rows",
+    "node": "formats.points.node:node_rows",
     **{each.name: "formats.features.reading:point_rows" for each in _ALL if each.features and each.name != "csv"},
 }
 """Formats whose points may have a z, and ``module:function`` of ``function(source, options)`` that reads it."""

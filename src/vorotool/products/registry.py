@@ -124,14 +124,18 @@ _VOLUMES = (
 _MESH = Writer("formats.results.meshes:write_mesh")
 _CELLS = Writer("formats.results.cells:write_cells", ("fmt", "precision", "threads"))
 _MESHES = "Triangulation DigitalTriangulation"
+_EDGED = f"{_MESHES} ProximityGraph"
+_STATISTICS = Writer("formats.results.statistics:write_statistics")
 _MESH_LAYERS = _pictures("cells triangles diagram edges points labels")
 _DELAUNAY = (
-    _product("edges", _MESHES, "csv tsv json geojson npz npy edge obj", _MESH, _MESH_LAYERS, "edges points"),
+    _product("edges", _EDGED, "csv tsv json geojson npz npy edge obj", _MESH, _MESH_LAYERS, "edges points"),
     _product(
         "triangles", _MESHES, "csv tsv json geojson npz npy ele obj", _MESH, _MESH_LAYERS, "triangles edges points"
     ),
     _product("cells", "CellSet", "geojson csv tsv json npz wkt", _CELLS, _MESH_LAYERS, "cells points", has_page=True),
     _product("table", _MESHES, f"{_TABLES} node", _MESH),
+    _product("statistics", "CellStatistics", _TABLES, _STATISTICS),
+    _product("measures", "CellStatistics", _TABLES, _STATISTICS),
     _product("compare", "", _TABLES, TABLE_WRITER),
 )
 
@@ -149,6 +153,7 @@ _ALPHASHAPE = (
     _product("family", "AlphaComplex", _TABLES, _SHAPE, has_page=True),
     _product("spectrum", "AlphaComplex", f"{_TABLES} npy", _SHAPE),
     _product("curves", "", _TABLES, TABLE_WRITER, {"svg": ()}, has_page=True),
+    _product("persistence", "RegionPersistence", _TABLES, _SHAPE, {"svg": ()}),
     _product("hull", "AlphaHull", f"geojson {_TABLES}", _SHAPE, _SHAPE_LAYERS, "hull points"),
     _product("points", "AlphaShape", _TABLES, _SHAPE),
     _product("table", "AlphaShape", _TABLES, _SHAPE),
@@ -159,7 +164,13 @@ _LINES = ("fmt", "flatten", "precision", "threads")
 _SKELETON = Writer("formats.results.skeletons:write_skeleton", ("what", *_LINES))
 _CENTERLINES = Writer("formats.results.centerlines:write_centerlines", _LINES)
 _OFFSETS = Writer("formats.results.offsets:write_offsets", _LINES)
+_DISCS = Writer("formats.results.discs:write_discs", _LINES)
 _RINGS = Writer("formats.polygons.writer:write_polygons", ("fmt", "precision"))
+_DISC_LAYERS = _pictures("polygons discs feet labels")
+_DISC_PRODUCT = _product(
+    "discs", "Discs", f"{_TABLES} geojson wkt", _DISCS, _DISC_LAYERS, "polygons discs", is_curved=True
+)
+_THICKNESS = Writer("formats.results.thickness:write_thickness", ("fmt", "threads"))
 _POINTS = Writer("formats.results.points_along:write_skeleton_points")
 _NECKS = Writer("formats.results.necks:write_necks", ("fmt", "precision", "threads"))
 _PARTS = Writer("formats.results.necks:write_parts", ("fmt", "precision", "threads"))
@@ -171,7 +182,13 @@ _SKELETONS = (
     _product("diagram", "", _CURVES, _SKELETON, _ARCS, "polygons elements points skeleton", is_curved=True),
     _product("elements", "Skeleton", _TABLES, _SKELETON, _ARCS, "polygons elements points"),
     _product(
-        "centerline", "Centerlines", f"geojson {_TABLES} wkt", _CENTERLINES, _ARCS, "polygons skeleton", is_curved=True
+        "centerline",
+        "Centerlines ExtendedSkeleton SmoothLines",
+        f"geojson {_TABLES} wkt",
+        _CENTERLINES,
+        _ARCS,
+        "polygons skeleton",
+        is_curved=True,
     ),
     _product(
         "offset",
@@ -184,8 +201,10 @@ _SKELETONS = (
         moves=True,
     ),
     _product("shape", "PolygonSet", "json geojson wkt poly", _RINGS, _pictures("shape labels"), "shape"),
+    _DISC_PRODUCT,
     _product("points", "SkeletonPoints", f"{_TABLES} npy geojson wkt", _POINTS, _ALONG, "polygons skeleton points"),
     _product("transects", "SkeletonPoints", f"geojson wkt {_TABLES}", _POINTS, _ALONG, "polygons skeleton transects"),
+    _product("thickness", "", "tiff npy", _THICKNESS, {"png": ("thickness",)}, "thickness"),
     _product("branches", "Skeleton", _TABLES, _SKELETON),
     _product("table", "Skeleton", _TABLES, _SKELETON),
 )
@@ -222,6 +241,7 @@ _VORONOI = (
     _product("edges", "VoronoiMap", f"{_TABLES} geojson wkt", _MAP, _MAP_LAYERS, "edges objects", is_curved=True),
     _product("neighbours", "VoronoiMap", _TABLES, _MAP),
     _product("table", "VoronoiMap", _TABLES, _MAP),
+    _DISC_PRODUCT,
 )
 
 

@@ -281,3 +281,17 @@ def test_holes_mean_one_thing_and_cavities_another(run, folder):
         assert stats["holes"] == sum(len(polygon["holes"]) for polygon in polygons)
         assert stats["cavities"] == int(reached["cavities"])
         assert counts in (None, (stats["holes"], stats["cavities"]))
+
+
+def test_rectangular_pixels_are_measured_before(run, folder):
+    mask = np.zeros((40, 60), np.uint8)
+    mask[5:10, 5:12] = mask[25:33, 30:50] = mask[8:14, 40:45] = 255
+    Image.fromarray(mask).save(folder / "mask.png")
+    refused = run("alphashape", "mask.png", "--spacing", "1,2")
+    assert refused.code == 2
+    assert "alphashape has no --spacing: give it what vorotool tessellate --spacing SX,SY --what table" in refused.err
+    assert "No such option '--spacin'" in run("alphashape", "mask.png", "--spacin", "1,2").err
+    run("tessellate", "mask.png", "--spacing", "1,2", "--what", "table", "-o", "t.csv", "-q")
+    rows = run("alphashape", "t.csv", "-r", "50", "--what", "edges", "-q").rows
+    places = {(float(row[f"x_{end}"]), float(row[f"y_{end}"])) for row in rows for end in "ab"}
+    assert places == {(8, 14), (42, 21), (39.5, 57)}

@@ -51,8 +51,8 @@ def test_rows_tell_what_leads_on(run, rectangle):
     ]
 
 
-def test_ends_are_of_centerlines(run, rectangle):
-    done = run("skeleton-exact", rectangle, "--ends", "middle")
+def test_ends_are_of_lines(run, rectangle):
+    done = run("skeleton-exact", rectangle, "--what", "branches", "--ends", "middle")
     assert done.code == 2
-    assert "use --what centerline or table" in done.err
+    assert "use --what skeleton, centerline or table" in done.err
     assert run("skeleton-exact", rectangle, "--what", "centerline", "--ends", "round").code == 2

@@ -11,6 +11,7 @@ import vorotool
 from support.processes.leftovers import contents, wait_until
 from support.processes.peak_memory import peak_memory
 from support.readers.written import rows_of
+from vorotool.engines.volumes import volume_frames
 from vorotool.engines.volumes.volume_tessellator import VolumeSweep
 from vorotool.formats.samples import sample
 
@@ -162,6 +163,29 @@ def test_volumes_add_up(run, stack):
     plain = run("tessellate", "--volume", "stack.npy", "--what", "table", "-q").rows
     assert sum(int(row["volume"]) for row in plain) == MASK.size
     assert "unit" not in plain[0]
+
+
+@pytest.mark.parametrize("what", ["table", "neighbours"])
+def test_tables_are_streamed(run, points, monkeypatch, what):
+    options = ["points.csv", "--size", "40x30x50", "--spacing", "1,1,2.5", "--what", what, "-q"]
+    expected = run("tessellate", *options).out
+    seen = []
+
+    def counted(method):
+        def give(sweep, first=0, slices=None, **rest):
+            seen.append(slices)
+            return method(sweep, first, slices, **rest)
+
+        return give
+
+    monkeypatch.setattr(VolumeSweep, "labels", counted(VolumeSweep.labels))
+    monkeypatch.setattr(VolumeSweep, "squared_distances", counted(VolumeSweep.squared_distances))
+    monkeypatch.setattr(volume_frames, "BAND_PIXELS", 40 * 30 * 3)
+    assert run("tessellate", *options, "--max-pixels", "1200").out == expected
+    passes = 2 if what == "table" else 1
+    assert sorted(seen) == [2] * passes + [3] * 16 * passes
+    run("tessellate", *options[:-3], "--what", f"{what},colour", "-o", "both", "-q")  # a picture holds the volume
+    assert (points / f"both.{what}.csv").read_text(encoding="utf-8") == expected
 
 
 def test_every_format_of_tables(run, stack):
@@ -416,7 +440,12 @@ REFUSED = [
     ("stack.tif --volume --layers cells -o a.tif", 2, "--layers is for pictures: use --what colour"),
     ("stack.tif --volume --layers objects --what colour -o a.png", 2, "--layers objects: a picture in PNG has cells, "),
     ("stack.tif --volume --max-pixels 98 -o a.tif", 5, "a slice has 11 x 9 voxels, more than --max-pixels 98"),
-    ("stack.tif --volume --max-pixels 692 --what table", 5, "the volume has 11 x 9 x 7 = 693 voxels, more than"),
+    ("stack.tif --volume --max-pixels 98 --what table", 5, "a slice has 11 x 9 voxels, more than --max-pixels 98"),
+    (
+        "stack.tif --volume --max-pixels 692 --what colour -o a.png",
+        5,
+        "the volume has 11 x 9 x 7 = 693 voxels, more than",
+    ),
     ("stack.tif --volume --max-pixels 500 --chunk 9x9x6 -o a.zarr", 5, "a layer of chunks has 11 x 9 x 6 voxels"),
     ("stack.tif --volume --max-sites 9 -o a.tif", 5, "more than --max-sites 9"),
     ("stack.npy --volume --spacing auto -o a.tif", 3, "the volume carries no size of its voxels: give numbers"),

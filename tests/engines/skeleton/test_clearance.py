@@ -31,7 +31,7 @@ def node_disc(skeleton, sites, node, arcs):
 
 
 def apex(a, b):
-    """Half-way between two sites of which one is a point; None between lines, or where a point is on the other's line."""
+    """Half-way between two sites of which one is a point; None between lines, or a line and a point on it."""
     if not a.is_point:
         a, b = b, a
     if not a.is_point or (not b.is_point and b.height(a.a) == 0):

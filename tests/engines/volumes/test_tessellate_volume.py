@@ -193,8 +193,11 @@ def test_what_is_no_seed_of_a_volume_is_refused(seeds, match):
 
 @pytest.mark.parametrize("points", [[[1, 2]], np.zeros((4, 2)), np.zeros((4, 2), int)])
 def test_points_of_the_plane_have_a_shape_of_two_numbers(points):
-    with pytest.raises(UsageError, match=r"shape must be two integers \(H, W\), but is \(4, 5, 6\)"):
+    said = r"shape must be two integers \(H, W\), but is \(4, 5, 6\): points of space have three columns, x, y and z"
+    with pytest.raises(UsageError, match=said):
         vorotool.tessellate(points, shape=(4, 5, 6))
+    with pytest.raises(UsageError, match=r"window must be four integers .* but is .*: points of space have three"):
+        vorotool.tessellate(points, window=(0, 0, 0, 6, 5, 4))
 
 
 def test_integer_triples_are_points_or_say_that_they_are_an_image():

@@ -77,6 +77,7 @@ def test_every_voxel_has_the_smallest_label_of_its_nearest_seeds(kind, level, se
     for sweep, way in zip(sweeps, WAYS, strict=True):
         assert np.array_equal(sweep.labels(), nearest)
         assert np.array_equal(sweep.squared_distances(), least)
+        assert np.array_equal(sweep.distances(), np.sqrt(least.astype(float)).astype(np.float32))
         slices = [sweep.labels(k, 1) for k in range(shape[0])]
         assert np.array_equal(np.concatenate(slices), nearest)
         limited = swept(places, labels, shape, sides=sides, max_distance=limit, way=way)
@@ -96,6 +97,38 @@ def test_every_arithmetic_is_exact(units, arithmetic, kind):
     nearest, least = brute(places, labels, (17, 21, 25), units)
     assert np.array_equal(sweep.labels(), nearest)
     assert np.array_equal(sweep.squared_distances(), least)
+    assert np.array_equal(sweep.distances(), np.sqrt(least.astype(float)).astype(np.float32))
+
+
+@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize("spread", ["many at one place", "far apart", "farther than a word holds"])
+def test_seeds_are_sorted_alike_by_any_number_of_threads(way, spread):
+    random = np.random.default_rng(12)
+    shape = (24, 20, 28)
+    places = random.integers(0, shape, (150_000, 3))
+    if spread != "many at one place":
+        far = 2**14 if spread == "far apart" else 2**33
+        places[::2] += random.integers(1, far, (75_000, 3)) * np.array([2, -1, 1]) * 32
+    labels = random.integers(1, 2**32, len(places), dtype=np.uint32)
+    sweeps = [swept(places, labels, shape, threads=threads, way=way) for threads in (1, 2, 5)]
+    inside = np.flatnonzero(np.all((places >= 0) & (places < shape), axis=1))
+    own = np.full(shape, 2**32)
+    np.minimum.at(own, tuple(places[inside].T), labels[inside].astype(np.int64))
+    made = sweeps[0].labels()
+    assert np.array_equal(made[own < 2**32], own[own < 2**32])
+    assert sweeps[0].duplicates == len(places) - len(np.unique(places, axis=0))
+    for sweep in sweeps[1:]:
+        assert sweep.duplicates == sweeps[0].duplicates
+        assert np.array_equal(sweep.labels(), made)
+        assert np.array_equal(sweep.distances(), sweeps[0].distances())
+
+
+def test_the_first_seed_that_is_too_far_is_named_by_any_number_of_threads():
+    places = np.zeros((200_000, 3), np.int64)
+    places[[130_000, 199_999], 1] = 2**41
+    for threads in (1, 3):
+        with pytest.raises(InputError, match="seed 130001 at"):
+            swept(places, np.ones(200_000, np.uint32), (2, 2, 2), threads=threads)
 
 
 @pytest.mark.parametrize("axes", [(0, 1, 2), (1, 0, 2), (2, 1, 0), (1, 2, 0)])

@@ -32,7 +32,10 @@ def test_node_with_a_short_header():
             "1.5 2\n",
             ", line 1: '1.5 2' is no header of a .node file; write <vertices> 2 <attributes> <0 or 1 boundary markers>",
         ),
-        ("#\n1 3 0 0\n1 0 0 0\n", ", line 2: the vertices have 3 dimensions; only 2 are read"),
+        (
+            "#\n1 3 0 0\n1 0 0 0\n",
+            ', line 2: the vertices have 3 dimensions; only 2 are read, 3 by geometry="space"',
+        ),
         (
             "2 2 0 0\n1 0 0\n",
             ", line 1: 2 vertices are announced, but 1 follow; correct the header, or complete the file",

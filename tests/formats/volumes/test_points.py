@@ -65,6 +65,26 @@ def test_formats(tmp_path, name, data, columns, has_labels):
         read_xyz(path, columns=columns, max_sites=2)
 
 
+@pytest.mark.parametrize("base", [0, 1])
+def test_nodes_of_tetgen(tmp_path, base):
+    lines = [f"{base + k} {x} {y} {z} {k / 2} {k}" for k, (x, y, z) in enumerate(XYZ)]
+    path = tmp_path / "a.node"
+    path.write_text("\n".join(["# of TetGen", "3 3 1 1", *lines, "# end"]))
+    points = read_xyz(path)
+    assert (points.xyz.tolist(), points.label_array.tolist()) == (XYZ, [1, 2, 3])
+    assert points.properties == {"attribute_1": ["0.0", "0.5", "1.0"], "boundary_marker": ["0", "1", "2"]}
+    path.write_text("1\n1 2 3 4\n")
+    assert vorotool.read(path, geometry="space").xyz.tolist() == [[2, 3, 4]]
+    with pytest.raises(LimitError, match="1 points"):
+        read_xyz(path, max_sites=0)
+    path.write_text("1 2 0 0\n1 2 3\n")
+    with pytest.raises(InputError, match="line 1: the vertices have 2 dimensions; points of space have 3"):
+        read_xyz(path)
+    path.write_text("1 3 0 2\n1 2 3 4 5 6\n")
+    with pytest.raises(InputError, match="write <vertices> 3 <attributes>"):
+        read_xyz(path)
+
+
 def test_npz_and_npy(tmp_path):
     table = np.array(XYZ)
     np.savez(tmp_path / "a.npz", x=table[:, 0], y=table[:, 1], z=table[:, 2], n=np.arange(3))
@@ -111,7 +131,7 @@ def test_npz_and_npy(tmp_path):
         ("a.geojson", collection([[1, 2]]), None, "is not three finite numbers"),
         ("a.wkt", "POINT Z (1 2 3)\nPOINT (4 5)", None, r"a.wkt, line 2: 'POINT \(4 5\)' has no z"),
         ("a.wkb", shapely.to_wkb(shapely.Point(1, 2)), None, "feature 1: the point has no finite z"),
-        ("a.node", "1 2 0 0\n1 5 6\n", None, "in the format node, from which no points with a z are read"),
+        ("a.node", "1 2 0 0\n1 5 6\n", None, "a.node, line 1: the vertices have 2 dimensions; points of space have 3"),
     ],
 )
 def test_what_has_no_z(tmp_path, name, data, columns, words):

@@ -91,6 +91,8 @@ def example_values():
         "Skeleton": skeleton,
         "CriticalValues": vorotool.critical_values(skeleton, "angle"),
         "Centerlines": vorotool.centerline(vorotool.prune(skeleton, angle=60)),
+        "ExtendedSkeleton": vorotool.extend_ends(skeleton),
+        "SmoothLines": vorotool.smooth(skeleton, 0.5),
         "SkeletonPoints": vorotool.points_along(skeleton, every=3),
         "Necks": vorotool.necks(skeleton),
         "Parts": vorotool.parts(skeleton, neck=1),

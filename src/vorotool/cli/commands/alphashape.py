@@ -22,7 +22,7 @@ from vorotool.errors import UsageError
 from vorotool.jobs.animations import animated, check_animation
 from vorotool.jobs.inputs import JobInput, check_components, check_frame_options
 from vorotool.jobs.job import Recipe
-from vorotool.jobs.names import METHODS, OF_ONE_SHAPE
+from vorotool.jobs.names import METHODS, OF_ONE_SHAPE, PLOTS
 from vorotool.jobs.options import AlphaShapeOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target, check_picture_options, check_precision
@@ -35,11 +35,12 @@ if TYPE_CHECKING:
 
 FORMATS = formats_of("alphashape")
 _OF_POLYGONS = ", ".join(PRODUCTS["alphashape"]["polygons"].usual_for)
+_OF_SPACING = "give it what vorotool tessellate --spacing SX,SY --what table writes, whose x and y are in that unit"
 OF_DIGITAL_RULE = frozenset({"edges", "complex", "family", "spectrum"})
 """Results that need no more than edges and the triangles beside them."""
 
 
-@click.command("alphashape", cls=GroupedCommand)
+@click.command("alphashape", cls=GroupedCommand, instead={"--spacing": _OF_SPACING})
 @inputs_argument(NAMES_WITH["points"])
 @click.option("-r", "r", type=Radius(), help="Radius, in units of the input; inf gives the convex hull.")
 @click.option("--alpha", type=Decimal(), metavar="A", help="The paper's α = −1/r, negative.")
@@ -78,7 +79,8 @@ def command(**options: Any) -> None:
     NPY), whose components or labels count as points at their centroids; - is standard input. Label i is the i-th
     point; labels of the input are kept.
 
-    --what family, spectrum and curves are about the shapes of all radii. -f html makes a page with a slider over r.
+    --what family, spectrum, curves and persistence are about the shapes of all radii. -f html makes a page with a
+    slider over r.
     """
     if options["what"] is None:
         options["what"] = (_default_what(options["format"], options["output"]),)
@@ -116,7 +118,7 @@ def _check_options(o: AlphaShapeOptions, targets: list[Target]) -> None:
         raise UsageError("--layers is for pictures of a shape: use -f svg or -f png, or leave it out")
     if o.overlay is not None and not pictures:
         raise UsageError("--overlay is for pictures of a shape: use -f svg or -f png, or leave it out")
-    plots = ["svg"] if ("curves", "svg") in {(target.what, target.fmt) for target in targets} else []
+    plots = ["svg"] if any(target.what in PLOTS and target.fmt == "svg" for target in targets) else []
     if o.y_up is not None and plots and not pictures and "html" not in formats:
         raise UsageError("--y-up and --y-down are for pictures of a shape, but curves are a plot: leave them out")
     check_picture_options(o, pictures or plots, layers_of("alphashape"), png_has_width=True, has_page="html" in formats)
@@ -126,9 +128,11 @@ def _check_method(o: AlphaShapeOptions, formats: set[str]) -> None:
     """Refuse what the way of triangulating or the rule cannot give, or would not look at."""
     check_frame_options(o, is_digital=o.method != "exact")
     is_automatic = o.r is None and o.alpha is None
-    needs_corrected = (is_automatic and set(o.what) & OF_ONE_SHAPE) or "curves" in o.what or "html" in formats
+    needs_corrected = (is_automatic and set(o.what) & OF_ONE_SHAPE) or set(PLOTS) & set(o.what) or "html" in formats
     if o.rule == "printed" and needs_corrected:
-        raise UsageError("curves, pages and the automatic r need --rule corrected: give -r, or leave out --rule")
+        raise UsageError(
+            "persistence, curves, pages and the automatic r need --rule corrected: give -r, or leave out --rule"
+        )
     if o.rule == "printed" and o.verify:
         raise UsageError("the printed rule fails the check, as it should: leave out --verify or --rule")
     if o.method == "digital":

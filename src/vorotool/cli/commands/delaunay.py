@@ -20,7 +20,7 @@ from vorotool.cli.options.suggestions import files
 from vorotool.errors import UsageError
 from vorotool.jobs.inputs import JobInput, check_components, check_frame_options
 from vorotool.jobs.job import Recipe
-from vorotool.jobs.names import METHODS
+from vorotool.jobs.names import GRAPHS, METHODS
 from vorotool.jobs.options import TriangulationOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target, check_picture_options, check_precision
@@ -32,8 +32,9 @@ if TYPE_CHECKING:
     from vorotool.jobs.triangulation import MeshProducts
 
 FORMATS = formats_of("delaunay")
+OF_CELLS = ("cells", "table", "statistics", "measures")
 OF_TRIANGULATIONS = frozenset(
-    {("edges", "edge"), ("triangles", "ele")} | {(what, fmt) for what in ("cells", "table") for fmt in FORMATS[what]}
+    {("edges", "edge"), ("triangles", "ele")} | {(what, fmt) for what in OF_CELLS for fmt in FORMATS[what]}
 )
 """Results and formats that what the digital rule finds has no place in."""
 
@@ -49,6 +50,13 @@ OF_TRIANGULATIONS = frozenset(
     show_default=True,
     help="digital: the paper's rule, to the letter, on the digital tessellation of a frame; digital-valid: its "
     "certified repair, which gives the exact triangulation.",
+)
+@click.option(
+    "--graph",
+    type=click.Choice(GRAPHS, case_sensitive=False),
+    default="delaunay",
+    show_default=True,
+    help="Which edges: all; those of the Gabriel graph, of relative neighbours, or of the minimum spanning tree.",
 )
 @click.option(
     "--frame",
@@ -75,6 +83,8 @@ def command(**options: Any) -> None:
     NPY), whose components or labels count as points at their centroids; - is standard input. Label i is the i-th
     point; labels of the input are kept. OBJ and files for Triangle (.edge, .ele, .node) number the points instead.
 
+    --what statistics summarises area, perimeter, roundness, neighbours and distances of whole cells.
+
     --what compare lists where the digital rule differs from the exact triangulation, each with its cause.
     """
     run_command(RECIPE, TriangulationOptions(**options))
@@ -88,9 +98,10 @@ def _products(run: Run, o: TriangulationOptions, given: JobInput) -> MeshProduct
 
 def _check_options(o: TriangulationOptions, targets: list[Target]) -> None:
     _check_method(o, targets)
+    _check_graph(o)
     check_components(o)
     formats = {target.fmt for target in targets}
-    with_cells = {"cells", "diagram"} & set(o.layers or ()) or {"cells", "table"} & set(o.what)
+    with_cells = {"cells", "diagram"} & set(o.layers or ()) or set(OF_CELLS) & set(o.what)
     for name, given in (("frame", o.frame), ("clip", o.clip)):
         if given is not None and not with_cells:
             raise UsageError(f"--{name} is for cells: use --what cells or table, or leave it out")
@@ -116,6 +127,16 @@ def _check_method(o: TriangulationOptions, targets: list[Target]) -> None:
                 f"--method digital finds edges and triangles that need be no triangulation: {target.what} as "
                 f"{target.fmt} needs --method exact or digital-valid"
             )
+
+
+def _check_graph(o: TriangulationOptions) -> None:
+    """Refuse a graph that no result shows, or that the way of triangulating does not hold."""
+    if o.graph == "delaunay":
+        return
+    if "edges" not in {*o.what, *(o.layers or ())}:
+        raise UsageError(f"--graph {o.graph} is for edges: use --what edges or --layers edges, or leave it out")
+    if o.triangulated_by == "digital":
+        raise UsageError(f"--graph {o.graph} is a part of the exact triangulation: use --method exact or digital-valid")
 
 
 RECIPE = Recipe("delaunay", FORMATS, _check_options, _products, "points")

@@ -33,6 +33,12 @@ if TYPE_CHECKING:
         help="Shorten each edge by STEP at both ends, as the paper does; by default 0, which is exact.",
     ),
     click.option(
+        "--border",
+        type=click.Choice(["closed", "open"], case_sensitive=False),
+        help="What objects do at the border of an image: they end there (closed, default), or go on, so that the "
+        "skeleton runs to the border and does not fork.",
+    ),
+    click.option(
         "--complete/--no-complete",
         default=None,
         help="With a gap, add the straight portions that lead to the corners (default) or leave them out.",

@@ -52,6 +52,12 @@ FORMATS = formats_of("voronoi")
     help="File of lines or polygons that cut the plane: each face is shared out among the sites that meet it.",
     shell_complete=files(names_of("polygons")),
 )
+@click.option(
+    "--count",
+    type=click.IntRange(min=1),
+    metavar="N",
+    help="How many --what discs: the largest, then the largest that is disjoint from those before (default 1).",
+)
 @shape_options("columns")
 @spacing_option()
 @result_options(all_layers("voronoi"))
@@ -69,7 +75,8 @@ def command(**options: Any) -> None:
     are equally near to a whole region, the first has it. Borders are straight lines and parabolas; as GeoJSON, WKT and
     in files of maps they are lines, the same in both cells.
 
-    --what edges lists the borders, neighbours the pairs of cells that share one, table a row for each cell.
+    --what edges lists the borders, neighbours the pairs of cells that share one, table a row for each cell, discs the
+    largest empty disc between the sites, with its centre in the frame or the clip.
     """
     run_command(RECIPE, VoronoiOptions(**options))
 

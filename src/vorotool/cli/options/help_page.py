@@ -11,10 +11,11 @@ from vorotool.cli.options.shared import Names
 
 _GROUPS = {
     "Output": "output format what dtype chunk levels tiled flatten precision no_properties safe_csv no_clobber",
-    "Method": "method passes by max_distance r alpha auto regions rule hole_threshold region_threshold step tolerance "
-    "sampling compare side gap complete features prune start end ends distance every neck",
+    "Method": "method graph passes by max_distance r alpha auto regions rule hole_threshold region_threshold step "
+    "tolerance sampling compare side gap complete features prune join_junctions start end ends smooth distance every "
+    "count local neck",
     "Input": "columns input_format input_layer input_crs crs page volume pixel_size spacing seeds connectivity "
-    "threshold invert min_area fill_holes outline simplify join_tolerance",
+    "threshold invert min_area fill_holes outline border simplify join_tolerance",
     "Frame": "size window cell_size frame clip enclosures",
     "Pictures": "layers slice overlay width y_up scale drawing_unit aspect extent background colours "
     "line_widths label_by legend scale_bar animate frames fps",
@@ -34,10 +35,17 @@ MOST, MOST_NAMES = 10, 5
 
 
 class GroupedCommand(click.Command):
-    """A command whose ``--help`` has groups, and whose ``-h`` is a short page."""
+    """A command whose ``--help`` has groups, and whose ``-h`` is a short page.
 
-    def __init__(self, *arguments: Any, **options: Any) -> None:
+    Parameters
+    ----------
+    instead : dict of str to str, optional
+        Options of other commands that are looked for here, and what does the same.
+    """
+
+    def __init__(self, *arguments: Any, instead: dict[str, str] | None = None, **options: Any) -> None:
         super().__init__(*arguments, **options)
+        self._instead = instead or {}
         self.context_settings = {"help_option_names": ["--help"]}
         short = click.Option(
             ["-h", "short_help_page"],
@@ -48,6 +56,16 @@ class GroupedCommand(click.Command):
             callback=self._show_short,
         )
         self.params.append(short)
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Say what to do instead where an option is one of other commands."""
+        try:
+            return super().parse_args(ctx, args)
+        except click.NoSuchOption as error:
+            if error.option_name not in self._instead:
+                raise
+            said = f"{self.name} has no {error.option_name}: {self._instead[error.option_name]}"
+            raise click.UsageError(said, ctx) from None
 
     def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the options under the titles of their groups."""

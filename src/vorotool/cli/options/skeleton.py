@@ -40,6 +40,11 @@ _BEFORE: tuple[Decorator, ...] = (
         "By default mask for images, none for polygons.",
     ),
     click.option(
+        "--join-junctions",
+        is_flag=True,
+        help="Make junctions one that are joined by branches shorter than the radius at the largest: >-< becomes ><.",
+    ),
+    click.option(
         "--from", "start", type=Place(), help="Begin the centerline at the place on the skeleton nearest to this."
     ),
     click.option("--to", "end", type=Place(), help="End it at the nearest place."),
@@ -47,7 +52,14 @@ _BEFORE: tuple[Decorator, ...] = (
         "--ends",
         type=click.Choice(ENDS, case_sensitive=False),
         help="Where centerlines end: in the middle of the edge that the skeleton forks to (default), in a corner, or "
-        "where it forks.",
+        "where it forks. With middle, skeletons are led on to the ends of strokes, too; else they are as pruning "
+        "leaves them.",
+    ),
+    click.option(
+        "--smooth",
+        type=Length(zero=False),
+        metavar="TOLERANCE",
+        help="Fit cubic Bézier curves to skeletons and centerlines that are nowhere farther from them than this.",
     ),
     click.option(
         "--features",
@@ -70,6 +82,14 @@ _READING: tuple[Decorator, ...] = (
         metavar="D",
         help="Step along branches, of --what points and transects.",
     ),
+    click.option(
+        "--count",
+        type=click.IntRange(min=1),
+        metavar="N",
+        help="How many --what discs of each feature: the largest, then the largest that is disjoint from those before "
+        "(default 1); with --local the largest so many.",
+    ),
+    click.option("--local", is_flag=True, help="Of --what discs all that are larger than those around them."),
     shape_options(flattened=" or --what shape"),
 )
 """Options before a command's own, and after them."""

@@ -16,6 +16,7 @@ from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.ragged import owners
+from vorotool.geometry.sorted_sets import distinct
 
 # Relative error of a squared radius in floating point: a few roundings, and those of the cross product many times as
 # much where it cancels. What is closer to r than this is decided in rational numbers.
@@ -207,8 +208,8 @@ def _check_regions(shape: AlphaShape) -> None:
         leader = leader[leader]
         if np.array_equal(leader, before):
             break
-    connected = len(np.unique(leader[inside]))
-    if connected != shape.region_count or len(np.unique(region[inside])) != connected:
+    connected = len(distinct(leader[inside]))
+    if connected != shape.region_count or len(distinct(region[inside])) != connected:
         raise VerificationError(f"the shape has {connected} regions, but {shape.region_count} polygons")
 
 

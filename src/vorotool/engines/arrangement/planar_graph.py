@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -135,9 +135,19 @@ class Placement:
     largest_move: float
 
 
-def placed_vertices(polygons: PolygonSet, *, threads: int = 0, progress: Progress = None) -> Placement:
-    """Place the vertices of polygons on the lattice; arguments as of `planar_graph`."""
-    return Placement(*_core.arrangement.place_on_lattice(polygons.xy, checked_threads(threads), progress))
+def placed_vertices(
+    polygons: PolygonSet,
+    *,
+    around: NDArray[np.float64] | None = None,
+    threads: int = 0,
+    progress: Progress = None,
+) -> Placement:
+    """Place the vertices of polygons on the lattice, which has room for further places; see `planar_graph`."""
+    if around is None:
+        return Placement(*_core.arrangement.place_on_lattice(polygons.xy, checked_threads(threads), progress))
+    xy = np.concatenate([polygons.xy, around])
+    made = Placement(*_core.arrangement.place_on_lattice(xy, checked_threads(threads), progress))
+    return replace(made, vertices=made.vertices[: len(polygons.xy)])
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.centerlines.boundary_rays import first_hits
-from vorotool.engines.centerlines.ends import Unforked, forked, middles_ahead, unforked
+from vorotool.engines.centerlines.ends import Unforked, forked, unforked
+from vorotool.engines.centerlines.leading_on import led_on, rounded
 from vorotool.engines.centerlines.oblique_ends import led_to_oblique_ends
 from vorotool.engines.centerlines.path_network import Network, Paths, geometry_of
 from vorotool.errors import InputError, UsageError, warn
@@ -175,10 +175,24 @@ def _made(network: Network, paths: Paths, ends: Ends, *, wanted: tuple[bool, boo
         path = _joined(network.skeleton, _with_length(left))
         return _rounded(Centerlines(path, np.full((int(path.branch.max(initial=-1)) + 1, 2, 2), np.nan)))
     lines = Centerlines(_joined(network.skeleton, left), middles)
-    is_open = ((paths.end_nodes < network.leaves) | rounds) & ~leads & np.array(wanted)
+    asked = np.array(wanted) & ~_at_open_border(network.skeleton, lines)
+    is_open = ((paths.end_nodes < network.leaves) | rounds) & ~leads & asked
     if ends == "middle":
-        lines = led_to_oblique_ends(lines, (is_open | leads) & ~rounds & np.array(wanted))
-    return _rounded(_led_on(lines, is_open & np.isnan(lines.ends[:, :, 0]), to_middles=ends == "middle"))
+        lines = led_to_oblique_ends(lines, (is_open | leads) & ~rounds & asked)
+    is_open &= np.isnan(lines.ends[:, :, 0])
+    return _rounded(replace(lines, ends=led_on(lines, is_open, to_middles=ends == "middle")))
+
+
+def _rounded(lines: Centerlines) -> Centerlines:
+    vertices, ends = rounded(lines)
+    return Centerlines(replace(lines.path, vertices=vertices), ends)
+
+
+def _at_open_border(skeleton: Skeleton, lines: Centerlines) -> Booleans:
+    """(k, 2) which ends are where the polygon goes on beyond the frame: there is nothing to lead them on to."""
+    if skeleton.border != "open":
+        return np.zeros((len(lines), 2), dtype=bool)
+    return replace(lines.path, frame=skeleton.frame).touches_frame[lines.end_nodes]
 
 
 def _marked(axis: Unforked, pieces: _Pieces, start: NDArray[np.int64]) -> tuple[Booleans, Booleans]:
@@ -253,56 +267,6 @@ def _joined(skeleton: Skeleton, pieces: _Pieces) -> Skeleton:
         error_bound=skeleton.error_bound[arc],
         frame=None,
     )
-
-
-def _rounded(lines: Centerlines) -> Centerlines:
-    """Places to as many binary places as doubles have at the largest coordinate of their polygon.
-
-    A place is a difference of such numbers: what it has beyond is rounding, such as 1e-32 for what is 0.
-    """
-    polygons, path = lines.path.polygons, lines.path
-    if not len(lines):
-        return lines
-    largest = np.maximum.reduceat(np.abs(polygons.xy), polygons.ring_start[polygons.polygon_start[:-1]], axis=0)
-    shift = 53 - np.frexp(largest.max(axis=1))[1]  # 53 binary places: the largest coordinates are what they were
-    of_nodes = np.zeros(len(path.vertices), dtype=np.int64)
-    of_nodes[path.arcs] = shift[path.polygon][:, None]
-
-    def rounded(places: Floats, by: NDArray[np.integer]) -> Floats:
-        return np.asarray(np.ldexp(np.rint(np.ldexp(places, by)), -by) + 0.0)
-
-    ends = rounded(lines.ends, shift[lines.polygon][:, None, None])
-    return Centerlines(replace(path, vertices=rounded(path.vertices, of_nodes[:, None])), ends)
-
-
-# ---- to the boundary ------------------------------------------------------------------------------
-def _led_on(lines: Centerlines, wanted: Booleans, *, to_middles: bool) -> Centerlines:
-    """Lead ends of paths that are inside to the middle of the edge ahead, or straight on."""
-    origin = lines.path.vertices[lines.end_nodes]
-    wanted = wanted & (lines.path.radius[lines.end_nodes] > 0)
-    if not wanted.any():
-        return lines
-    way, origin = (origin - _places_before(lines))[wanted], origin[wanted]
-    arcs = np.stack([lines.arc_start[:-1], lines.arc_start[1:] - 1], axis=1)[wanted]
-    places = np.full_like(origin, np.nan) if not to_middles else middles_ahead(lines.path, arcs, origin, way)
-    rest = np.isnan(places[:, 0])
-    places[rest], _ = first_hits(lines.path.polygons, lines.path.polygon[arcs][rest], origin[rest], way[rest])
-    ends = lines.ends.copy()
-    ends[wanted] = places
-    return replace(lines, ends=ends)
-
-
-def _places_before(lines: Centerlines) -> Floats:
-    """(k, 2, 2) places on each path, one radius after its start and before its end, or its other end."""
-    path, start = lines.path, lines.arc_start
-    along = np.concatenate([[0], np.cumsum(path.length)])
-    first, last = along[start[:-1]], along[start[1:]]
-    radius = path.radius[lines.end_nodes]
-    position = np.stack([np.minimum(first + radius[:, 0], last), np.maximum(last - radius[:, 1], first)], axis=1)
-    arc = np.clip(np.searchsorted(along, position, side="right") - 1, start[:-1, None], start[1:, None] - 1).reshape(-1)
-    measures = path.measures(arc)
-    places: Floats = measures.place(measures.parameter(position.reshape(-1) - along[arc]))
-    return places.reshape(-1, 2, 2)
 
 
 # ---- what is said ---------------------------------------------------------------------------------

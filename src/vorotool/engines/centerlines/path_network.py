@@ -11,7 +11,7 @@ from vorotool import _core
 from vorotool.engines.centerlines.edge_comparisons import TIE
 from vorotool.engines.centerlines.ends import Unforked
 from vorotool.engines.from_skeleton.nearest_point import nearest_place
-from vorotool.engines.pruning.pruning import core_skeleton
+from vorotool.engines.skeleton.core_skeleton import core_skeleton
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.ragged import owners, starts_of
 from vorotool.geometry.skeleton.skeleton import Skeleton

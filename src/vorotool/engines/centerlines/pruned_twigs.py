@@ -22,6 +22,7 @@ from vorotool.engines.centerlines.convex_trees import Chains, convex_trees
 from vorotool.engines.skeleton.parts import with_straight_arcs
 from vorotool.geometry.ragged import owners, starts_of, within
 from vorotool.geometry.skeleton.skeleton import EDGE, INTERIOR, Skeleton
+from vorotool.geometry.sorted_sets import is_among
 
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.intp]
@@ -129,10 +130,13 @@ def _sides(skeleton: Skeleton) -> tuple[_Sides, _Sides]:
     arc = np.concatenate([inside, inside])
     left, right = (skeleton.sites[inside][:, order].T.reshape(-1).astype(np.intp) for order in ([0, 1], [1, 0]))
     keys = [node * len(table) + site for site in (left, right)]
+    is_pruned = skeleton.radius[node] > 0
+    if skeleton.border == "open":  # what is missing there was cut off
+        is_pruned &= ~skeleton.touches_frame[node]
     made = []
     for site, own, others in ((left, *keys), (right, *keys[::-1])):
-        maybe = np.flatnonzero((skeleton.radius[node] > 0) & (table.kind[site] == EDGE))
-        chosen = maybe[~np.isin(own[maybe], others)]
+        maybe = np.flatnonzero(is_pruned & (table.kind[site] == EDGE))
+        chosen = maybe[~is_among(own[maybe], others)]
         ring = polygons.polygon_start[table.polygon[site[chosen]]] + table.ring[site[chosen]]
         vertex = polygons.ring_start[ring] + table.index[site[chosen]]
         made.append(_Sides(node[chosen], arc[chosen], site[chosen], vertex.astype(np.intp)))

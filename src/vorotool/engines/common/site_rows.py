@@ -9,6 +9,8 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.geometry.progress import Progress
+from vorotool.geometry.spacing import SQUARE, PixelSides
+from vorotool.geometry.table import Table
 
 
 def rows_of(found: NDArray[np.uint32], labels: NDArray[np.uint32]) -> tuple[NDArray[np.intp], int | None]:
@@ -93,3 +95,19 @@ def largest_by_label(
     by_label: Any = _core.label_images.max_by_label  # of several types
     found: NDArray[np.uint64] = by_label(labels.reshape(rows.shape), rows, wanted, threads, progress)
     return found
+
+
+def in_unit(table: Table, sides: PixelSides) -> Table:
+    """Give a table whose lengths are steps of the sides of pixels in the unit of these.
+
+    Examples
+    --------
+    >>> from fractions import Fraction
+    >>> in_unit(Table({"length": np.array([2.0])}), PixelSides(step=Fraction(3, 2)))["length"].tolist()
+    [3.0]
+    """
+    if sides == SQUARE:
+        return table
+    from vorotool.geometry.any.scaling import scaled_table  # imports all that can be scaled
+
+    return scaled_table(table, sides.step, of_steps=True)

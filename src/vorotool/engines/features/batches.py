@@ -33,6 +33,7 @@ from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.polygons.ring_arrays import RingArrays
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.ragged import owners, starts_of
+from vorotool.geometry.sorted_sets import distinct
 
 Indices = NDArray[np.int64]
 Result = TypeVar("Result")
@@ -162,6 +163,7 @@ def in_batches(
     *,
     reach: Callable[[PolygonSet, float], NDArray[np.int64]] | None = None,
     alone: bool = False,
+    around: NDArray[np.float64] | None = None,
     drops: bool = True,
     strict: bool = False,
     threads: int = 0,
@@ -179,6 +181,8 @@ def in_batches(
         Gives for polygons and the step of their lattice by how many steps features of a batch must be farther apart.
     alone : bool
         One feature a batch: what is done depends on others however far they are.
+    around : (k, 2) array, optional
+        Further places that the lattice has room for.
     drops : bool
         Leave out vertices in which outlines of pixels go straight on. A checker takes them as it finds them.
     strict : bool
@@ -216,7 +220,7 @@ def in_batches(
     is_cracks = polygons.connectivity is not None and reach is None and not polygons.is_line.any()
     corners = own_corners(polygons) if is_cracks and drops else None
     used = polygons if corners is None else corners.polygons
-    placement = placed_vertices(used, threads=threads, progress=progress)
+    placement = placed_vertices(used, around=around, threads=threads, progress=progress)
     features = Features.of(used)
     made: list[tuple[BatchShapes, Result]] | None = None
     if alone:
@@ -313,7 +317,7 @@ def _as_a_whole(
         {name: count for name, (count, _, _) in found.items()},
         sum(len(shapes.graph.points) for shapes in parts),
         sum(len(shapes.graph) for shapes in parts),
-        sum(len(np.unique(shapes.graph.face_polygon)) for shapes in parts),
+        sum(len(distinct(shapes.graph.face_polygon)) for shapes in parts),
     )
 
 

@@ -11,6 +11,7 @@ from vorotool import _core
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.ragged import owners, ranges, starts_of
+from vorotool.geometry.sorted_sets import distinct
 
 Indices = NDArray[np.int64]
 
@@ -134,7 +135,7 @@ def touching_features(features: Features, vertices: NDArray[np.int32], *, progre
         return np.empty((0, 2), dtype=np.int64)
     owner = features.of_vertex
     count = len(features)
-    at = np.unique(np.concatenate([first[again] * count + owner[again], first[again] * count + owner[first[again]]]))
+    at = distinct(np.concatenate([first[again] * count + owner[again], first[again] * count + owner[first[again]]]))
     place, own = at // count, at % count
     pairs = []
     for step in range(1, int(np.bincount(np.unique(place, return_inverse=True)[1]).max())):
@@ -142,7 +143,7 @@ def touching_features(features: Features, vertices: NDArray[np.int32], *, progre
         pairs.append(own[:-step][same] * count + own[step:][same])
     if not pairs:
         return np.empty((0, 2), dtype=np.int64)
-    keys = np.unique(np.concatenate(pairs))
+    keys = distinct(np.concatenate(pairs))
     return np.stack([keys // count, keys % count], axis=1)
 
 

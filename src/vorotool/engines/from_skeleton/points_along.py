@@ -5,11 +5,13 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.skeleton.site_distances import SitePlaces
+from vorotool import _core
+from vorotool.engines.skeleton.core_skeleton import core_skeleton
 from vorotool.errors import LimitError, UsageError
 from vorotool.geometry.arguments.values import check_value
+from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.numbers import finite_double
-from vorotool.geometry.ragged import owners, within
+from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.points_along import SkeletonPoints
 from vorotool.geometry.skeleton.skeleton import Skeleton
 
@@ -17,7 +19,7 @@ MOST_POINTS = 1 << 27
 """Some 10 GB of arrays."""
 
 
-def points_along(skeleton: Skeleton, *, every: float) -> SkeletonPoints:
+def points_along(skeleton: Skeleton, *, every: float, threads: int = 0, progress: Progress = None) -> SkeletonPoints:
     """Give places along each branch: at its beginning, and on at equal steps of true arc length.
 
     Parameters
@@ -26,6 +28,10 @@ def points_along(skeleton: Skeleton, *, every: float) -> SkeletonPoints:
         Pruned or not.
     every : float
         The step, in input units.
+    threads : int
+        Threads; 0 uses all. Results do not depend on it.
+    progress : callable, optional
+        Called with the fraction that is done; returning False stops with KeyboardInterrupt.
 
     Returns
     -------
@@ -49,14 +55,12 @@ def points_along(skeleton: Skeleton, *, every: float) -> SkeletonPoints:
     check_value(skeleton, "skeleton", Skeleton)
     every = finite_double(every, "the step")
     check_step(every)
+    threads = checked_threads(threads)
     start = np.flatnonzero(np.diff(skeleton.branch, prepend=-1))
-    arc, along, within = _steps(skeleton, start, _counts(skeleton, start, every), every)
-    measures = skeleton.measures(arc)
-    u = measures.parameter(within)
-    xy = measures.place(u)
-    sites = SitePlaces(skeleton)
-    feet = [sites.feet(skeleton.sites[arc, hand], xy) for hand in (0, 1)]
-    return SkeletonPoints(skeleton, arc, along, xy, measures.radius(u), np.stack(feet, axis=1))
+    counts = _counts(skeleton, start, every)
+    core = core_skeleton(skeleton, threads=threads)
+    made = _core.skeleton.steps_along(core, start, counts, every, threads, progress)
+    return SkeletonPoints(skeleton, **made)
 
 
 def check_step(every: float) -> None:
@@ -76,16 +80,3 @@ def _counts(skeleton: Skeleton, start: NDArray[np.int64], every: float) -> NDArr
             f"steps of {every:g} along {skeleton.length.sum():.6g} are more than {MOST_POINTS} points: use longer ones"
         )
     return counts.astype(np.int64)
-
-
-def _steps(
-    skeleton: Skeleton, start: NDArray[np.int64], counts: NDArray[np.int64], every: float
-) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]]:
-    """The arc of each point, its way from the beginning of the branch, and that from the beginning of the arc."""
-    whole = np.concatenate([[0.0], np.cumsum(skeleton.length)])
-    branch = owners(counts)
-    along = np.multiply(every, within(counts), dtype=np.float64)
-    first, last = start[branch], np.append(start[1:], len(skeleton))[branch] - 1
-    reached = whole[first] + along
-    arc = np.clip(np.searchsorted(whole, reached, side="right") - 1, first, last)
-    return arc, along, np.clip(along - (whole[arc] - whole[first]), 0, skeleton.length[arc])

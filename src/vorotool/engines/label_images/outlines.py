@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, get_args
+from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,11 +28,15 @@ from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.raster import Raster
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.progress import Progress
+from vorotool.geometry.ragged import following, owners, starts_of
 
 if TYPE_CHECKING:
     from vorotool.typing import ImageLike, OutlineKind
 
+Border = Literal["closed", "open"]
+
 KINDS = ("crack", "contour")
+BORDERS = ("closed", "open")
 MOST_VERTICES = 2**28
 """As many as a planar graph may have."""
 
@@ -52,6 +56,7 @@ def outlines(
     image: ImageLike,
     *,
     outline: OutlineKind = "crack",
+    border: Border = "closed",
     mode: Objects | None = None,
     connectivity: int = 8,
     threshold: Threshold = None,
@@ -84,6 +89,9 @@ def outlines(
         Nonzero pixels are foreground. Pixel (x, y) is in column x and row y, and covers half a unit on each side.
     outline : {"crack", "contour"}
         Which line.
+    border : {"closed", "open"}
+        What contours do at the border of the image: they go around its corners and those of objects there, or meet it
+        at a right angle, as if the outermost pixels went on beyond it. See ``border`` of `skeleton_exact`.
     mode : {"components", "labels"}, optional
         What an object is; by default a component of a mask, whose only value besides 0 is 1, 255, the largest of its
         type, or True; else a label.
@@ -141,6 +149,8 @@ def outlines(
     """
     if outline not in KINDS:
         raise UsageError(f"the outline is {outline!r}: it must be one of {', '.join(KINDS)}")
+    if border not in BORDERS:
+        raise UsageError(f"the border is {border!r}: it must be one of {', '.join(BORDERS)}")
     if mode not in (None, *get_args(Objects)):
         raise UsageError(f"mode is {mode!r}: it must be one of {', '.join(get_args(Objects))}")
     if connectivity not in (4, 8):
@@ -156,7 +166,9 @@ def outlines(
     values = foreground_values(raster, threshold, invert=invert)
     by_label = (mode or default_objects(values, note=note)) == "labels"
     labels = label_values(values) if by_label or values.dtype == bool else values != 0
-    made = _traced(labels, _CORNER_RULES[outline, connectivity], max_sites, threads, progress)
+    is_open = outline == "contour" and border == "open"
+    rule = _CORNER_RULES[outline, connectivity]
+    made = _traced(np.pad(labels, 1, mode="edge") if is_open else labels, rule, max_sites, threads, progress)
     if not len(made["labels"]):
         report_no_foreground(strict=strict)
     if outline == "crack":
@@ -164,7 +176,10 @@ def outlines(
     elif threshold is None:
         xy, start = half_way_contours(made["corners"], made["start"])
     else:
-        xy, start = grey_contours(made["corners"], made["start"], grey_level(raster.values, threshold))
+        grey = np.pad(raster.values, 1, mode="edge") if is_open else raster.values
+        xy, start = grey_contours(made["corners"], made["start"], grey_level(grey, threshold))
+    if is_open:
+        xy, start = _cut_at_border(xy - 1, start, labels.shape)
     ids = made["labels"] if by_label else np.arange(1, len(made["labels"]) + 1)
     polygons = PolygonSet(
         xy if origin == (0, 0) else xy + origin,
@@ -176,6 +191,18 @@ def outlines(
         connectivity=connectivity if outline == "crack" else None,
     )
     return polygons if simplify is None else simplified_polygons(polygons, simplify)
+
+
+def _cut_at_border(
+    xy: NDArray[np.float64], start: NDArray[np.int64], shape: tuple[int, ...]
+) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Cut contours of an image whose outermost pixels are there twice: beyond its border they are at right angles."""
+    height, width = shape
+    cut = np.clip(xy, -0.5, [width - 0.5, height - 0.5])
+    ring = owners(np.diff(start))
+    following_place = cut[following(start)]
+    kept = (cut != following_place).any(axis=1)
+    return cut[kept], starts_of(np.bincount(ring[kept], minlength=len(start) - 1))
 
 
 def _traced(

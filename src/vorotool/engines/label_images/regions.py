@@ -10,17 +10,15 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.common.label_arrays import described, label_array, next_row, refuse_negative
-from vorotool.engines.common.site_rows import largest_by_label, nearest_sites, rows_of, spread
+from vorotool.engines.common.site_rows import in_unit, largest_by_label, nearest_sites, rows_of, spread
 from vorotool.engines.tessellation.raster_objects import numbered_components
 from vorotool.errors import InputError, LimitError
-from vorotool.geometry.any.scaling import scaled_table
 from vorotool.geometry.arguments.images import as_label_image
 from vorotool.geometry.arguments.volumes import is_of_space
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.numbers import finite_double
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.progress import Progress
-from vorotool.geometry.spacing import SQUARE
 from vorotool.geometry.table import Table
 from vorotool.products.formats import resolved
 
@@ -260,7 +258,7 @@ def neighbour_table(
             "centroid_distance": np.sqrt(step[:, 0] * step[:, 0] + step[:, 1] * step[:, 1]),
         }
     )
-    return table if image.sides == SQUARE else scaled_table(table, image.sides.step, of_steps=True)
+    return in_unit(table, image.sides)
 
 
 def voronoi_diagram(
@@ -494,7 +492,7 @@ def _with_input_columns(columns: dict[str, Any], image: LabelImage, properties: 
     seeds = image.seeds
     if seeds is not None and seeds.object_area is not None:
         columns["object_area"] = _areas(image, np.asarray(seeds.object_area, dtype=np.int64))
-    table = Table(columns) if image.sides == SQUARE else scaled_table(Table(columns), image.sides.step, of_steps=True)
+    table = in_unit(Table(columns), image.sides)
     if seeds is None or not properties or not seeds.properties:
         return table
     return table.with_properties(seeds.properties)

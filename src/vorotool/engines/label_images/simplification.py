@@ -15,6 +15,7 @@ from vorotool.errors import UsageError
 from vorotool.geometry.numbers import finite_double, shown_number
 from vorotool.geometry.polygons.polygon_set import LINE, PolygonSet
 from vorotool.geometry.ragged import owners, ranges, starts_of, within
+from vorotool.geometry.sorted_sets import distinct
 
 Indices = NDArray[np.int64]
 
@@ -125,7 +126,7 @@ def _nodes(polygons: PolygonSet, point: Indices, count: int) -> NDArray[np.bool_
     last = (start[1:] - 1)[is_line]
     after = polygons.following.copy()
     after[last] = last
-    edges = np.unique(_edge_keys(point, point[after], count))
+    edges = distinct(_edge_keys(point, point[after], count))
     a, b = edges // count, edges % count
     a, b = a[a != b], b[a != b]
     degree = np.bincount(a, minlength=count) + np.bincount(b, minlength=count)

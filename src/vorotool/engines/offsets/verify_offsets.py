@@ -28,6 +28,7 @@ from vorotool.geometry.progress import Progress
 from vorotool.geometry.ragged import following, ranges, starts_of
 from vorotool.geometry.skeleton.offsets import Offsets
 from vorotool.geometry.skeleton.skeleton import EDGE, ends_of_sites
+from vorotool.geometry.sorted_sets import distinct
 
 Floats = NDArray[np.float64]
 
@@ -94,7 +95,7 @@ def _check_features(offsets: Offsets, wanted: set[float], tolerance: float, thre
         number[shapes.batch.polygons] = np.arange(len(shapes.batch.polygons))
         is_own = (offsets.distance < 0) & (offsets.polygon >= 0) & (number[offsets.polygon] >= 0)
         own = with_shapes(offsets, np.flatnonzero(is_own))
-        sites = np.unique(own.site).astype(np.intp)
+        sites = distinct(own.site).astype(np.intp)
         table = offsets.site_table.taken(sites)
         own = replace(
             own,

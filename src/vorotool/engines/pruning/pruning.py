@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
+from vorotool.engines.skeleton.core_skeleton import core_skeleton
 from vorotool.errors import UsageError
 from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.checks import available_threads, checked_threads
@@ -22,6 +23,7 @@ from vorotool.geometry.progress import Progress
 from vorotool.geometry.ragged import owners, starts_of
 from vorotool.geometry.skeleton.critical_values import CRITERIA, ArcProfiles, CriticalValues
 from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.geometry.sorted_sets import distinct
 
 if TYPE_CHECKING:
     from vorotool.typing import Criterion
@@ -153,7 +155,7 @@ def independent_parts(skeleton: Skeleton, group: NDArray[np.int32]) -> list[tupl
     step = np.diff(group)
     starts = np.flatnonzero(step != 0) + 1
     wanted = np.searchsorted(starts, np.arange(PART, len(group), PART))
-    inner = np.unique(starts[wanted[wanted < len(starts)]])
+    inner = distinct(starts[wanted[wanted < len(starts)]])
     ends = skeleton.arcs.reshape(-1)
     cuts = np.concatenate([[0], inner])
     arcs = [*cuts.tolist(), len(group)]
@@ -169,7 +171,7 @@ def independent_parts(skeleton: Skeleton, group: NDArray[np.int32]) -> list[tupl
 
 def _pruned_part(
     skeleton: Skeleton,
-    core: _core.pruning.Skeleton,
+    core: _core.skeleton.Skeleton,
     group: NDArray[np.int32],
     part: tuple[slice, slice],
     criterion: _core.pruning.Criterion,
@@ -277,22 +279,6 @@ def check_threshold(criterion: str, threshold: float) -> None:
     if not (least <= threshold <= most and np.isfinite(threshold)):
         limits = f"from {least:g} to {most:g}" if np.isfinite(most) else f"from {least:g}"
         raise UsageError(f"{criterion} is {shown_number(threshold)}: use a number {limits}")
-
-
-def core_skeleton(skeleton: Skeleton, *, threads: int = 1, has_sites: bool = True) -> _core.pruning.Skeleton:
-    """The arrays of a skeleton, for the core; `scale` looks at no site."""
-    return _core.pruning.Skeleton(
-        skeleton.vertices,
-        skeleton.radius,
-        skeleton.arcs,
-        skeleton.control,
-        skeleton.sites,
-        skeleton.length,
-        np.ascontiguousarray(skeleton.site_ends_on(threads).reshape(-1, 4)) if has_sites else None,
-        skeleton.on_frame.view(np.uint8),
-        skeleton.gap > 0,
-        float(max(skeleton.vertices.max(initial=0), -skeleton.vertices.min(initial=0))),
-    )
 
 
 _PI = Decimal("3.14159265358979323846264338327950288419716939937510582097494")

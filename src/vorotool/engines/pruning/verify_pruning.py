@@ -55,14 +55,19 @@ def verify_pruning(pruned: Skeleton, skeleton: Skeleton) -> None:
     """
     check_value(pruned, "pruned", Skeleton)
     check_value(skeleton, "skeleton", Skeleton)
-    _check_counts(pruned, skeleton)
-    own, other = _candidates(pruned, skeleton)
-    is_part = np.zeros(len(pruned), dtype=bool)
-    is_part[own[_is_part(pruned, own, skeleton, other)]] = True
-    at = first_wrong(~is_part)
+    check_counts(pruned, skeleton, "pruned")
+    at = first_wrong(~are_parts(pruned, skeleton))
     if at is not None:
         left, right = sorted(pruned.sites[at].tolist())
         fail(f"arc {at} of the pruned skeleton is no part of an arc between sites {left} and {right}")
+
+
+def are_parts(made: Skeleton, skeleton: Skeleton) -> NDArray[np.bool_]:
+    """(a,) whether each arc of a skeleton is a part of an arc of another one, between the same sites."""
+    own, other = _candidates(made, skeleton)
+    is_part = np.zeros(len(made), dtype=bool)
+    is_part[own[_is_part(made, own, skeleton, other)]] = True
+    return is_part
 
 
 def _candidates(pruned: Skeleton, skeleton: Skeleton) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
@@ -118,13 +123,14 @@ def _ratio(a: Floats, b: Floats) -> Floats:
     return np.divide(a, b, out=np.zeros_like(a), where=b != 0)
 
 
-def _check_counts(pruned: Skeleton, skeleton: Skeleton) -> None:
-    counts = [_counts(value) for value in (skeleton, pruned)]
-    for name, before, after in zip(("connected parts", "cycles"), *counts, strict=True):
+def check_counts(made: Skeleton, skeleton: Skeleton, name: str) -> None:
+    """Raise unless a skeleton that was made of another one has as many connected parts and cycles as that."""
+    counts = [_counts(value) for value in (skeleton, made)]
+    for what, before, after in zip(("connected parts", "cycles"), *counts, strict=True):
         at = first_wrong(before != after)
         if at is not None:
             where = f"in polygon {at}" if at < len(skeleton.polygons) else "outside"
-            fail(f"the pruned skeleton has {after[at]} {name} {where}, not {before[at]}")
+            fail(f"the {name} skeleton has {after[at]} {what} {where}, not {before[at]}")
 
 
 def _counts(skeleton: Skeleton) -> tuple[NDArray[np.int64], NDArray[np.int64]]:

@@ -34,6 +34,7 @@ def skeleton_inside(
     *,
     complete: bool = True,
     look: Callable[[AnyDiagram, Skeleton], Seen] | None = None,
+    border: Frame | None = None,
     strict: bool = False,
     threads: int = 0,
     progress: Progress = None,
@@ -42,7 +43,7 @@ def skeleton_inside(
 
     Parameters
     ----------
-    polygons, gap, complete, strict, threads, progress
+    polygons, gap, complete, border, strict, threads, progress
         As of `vorotool.skeleton_exact`, as are errors and warnings.
     look : callable, optional
         Called with the whole diagram of each batch of features, which otherwise has no vertices outside, and with the
@@ -56,7 +57,7 @@ def skeleton_inside(
     (4, 12)
     """
     if not gap:
-        return feature_skeleton(polygons, look=look, strict=strict, threads=threads, progress=progress)
+        return feature_skeleton(polygons, look=look, border=border, strict=strict, threads=threads, progress=progress)
     return feature_elements(
         polygons, gap, complete=complete, look=look, strict=strict, threads=threads, progress=progress
     )

@@ -12,6 +12,7 @@ from vorotool import _core
 from vorotool.engines.arrangement.lattice_rings import PlacedShapes, placed_shapes
 from vorotool.engines.arrangement.planar_graph import graph_for_skeletons
 from vorotool.engines.segment_voronoi.segment_voronoi import core_diagram, segment_voronoi, unwanted_sides
+from vorotool.engines.skeleton.open_border import Opening
 from vorotool.errors import Kind, Message, UsageError, VorotoolWarning, option, warn
 from vorotool.geometry.box import bounds
 from vorotool.geometry.checks import checked_threads
@@ -24,6 +25,8 @@ from vorotool.geometry.skeleton.skeleton import EXTERIOR, INTERIOR, Skeleton
 
 SIDE_NAMES = ("interior", "exterior", "both")
 FEATURES = ("separate", "together")
+EVERY_GROUP = -1
+"""Of arcs that a frame clips, as the core has it."""
 FRAME_MARGIN = 0.1
 """Of the larger side of the bounds, on each side of the default frame."""
 
@@ -58,11 +61,14 @@ class ShapeDiagram:
         Of the graph.
     placed : PlacedShapes
         The rings as the graph has them, and what the sites of the diagram are there.
+    opening : Opening, optional
+        With an open border: the graph is this one's, and what its sites are there.
     """
 
     graph: PlanarGraph
     diagram: SegmentVoronoiDiagram
     placed: PlacedShapes
+    opening: Opening | None = None
 
 
 def shape_diagram(polygons: Any, *, strict: bool = False, threads: int = 0, progress: Progress = None) -> ShapeDiagram:
@@ -136,6 +142,8 @@ def _on_side(shapes: ShapeDiagram, side: str, frame: Frame | None, threads: int,
     edges, faces = kept_edges(shapes, threads=threads, progress=progress)
     group = face_groups(shapes.placed, side)[faces]
     kept, clips = group >= 0, side != "interior"
+    if shapes.opening is not None:
+        kept &= (shapes.opening.site[shapes.diagram.edge_sites[edges]] >= 0).all(axis=1)
     return assembled(shapes, edges[kept], group[kept], frame=frame, clips=clips, threads=threads, progress=progress)
 
 
@@ -217,9 +225,11 @@ def assembled(
     Where pixels are connected at corners only, so are the arcs that end there, if `joins`.
     """
     graph, placed = shapes.graph, shapes.placed
-    outside = len(placed.polygons)
+    outside, opening = len(placed.polygons), shapes.opening
     frame = (frame or default_frame(placed.polygons)) if clips else None
     clipped = None if frame is None else (outside, on_lattice(frame, graph))
+    if opening is not None:
+        frame, clipped = opening.frame, (EVERY_GROUP, opening.box)
     made: dict[str, Any] = _core.skeleton.extract_skeleton(
         core_diagram(shapes.diagram),
         edges,
@@ -231,7 +241,10 @@ def assembled(
         threads,
         progress,
     )
-    return skeleton_of_arrays({**made, "error_bound": np.zeros(len(made["arcs"]))}, graph, placed, frame)
+    if opening is not None:
+        made["sites"] = opening.site[made["sites"]]
+    skeleton = skeleton_of_arrays({**made, "error_bound": np.zeros(len(made["arcs"]))}, graph, placed, frame)
+    return skeleton if opening is None else replace(skeleton, border="open")
 
 
 def skeleton_of_arrays(made: dict[str, Any], graph: PlanarGraph, placed: PlacedShapes, frame: Frame | None) -> Skeleton:
@@ -284,3 +297,9 @@ def warn_empty(polygons: PolygonSet, side: str) -> None:
         reason = "no polygon has an inside"
     message = Message(f"the interior skeleton is empty: {reason}", Kind.EMPTY_RESULT)
     warn(VorotoolWarning(message))
+
+
+def warn_all_cut() -> None:
+    """Say that there is no axis in the rectangle whose border is open."""
+    reason = "with an open border nothing is between two parts of the outlines"
+    warn(VorotoolWarning(Message(f"the interior skeleton is empty: {reason}", Kind.EMPTY_RESULT)))

@@ -27,6 +27,7 @@ from vorotool.geometry.box import bounds
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.geometry.sorted_sets import distinct
 
 
 def feature_elements(
@@ -112,7 +113,7 @@ def sides_of_elements(
     polygons = elements.shapes.polygons
     assert polygons is not None
     assert polygons.feature is not None
-    if side == "exterior" or len(np.unique(polygons.feature)) < 2:
+    if side == "exterior" or len(distinct(polygons.feature)) < 2:
         made = skeleton_of_elements(elements, side=side, complete=complete, frame=frame, **common)
         return replace(made, features="separate")
     with warnings.catch_warnings(

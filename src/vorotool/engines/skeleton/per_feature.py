@@ -12,7 +12,15 @@ from numpy.typing import NDArray
 from vorotool.engines.features.batches import BatchShapes, FeatureShapes, in_batches
 from vorotool.engines.features.order import InputOrder, Places, stacked
 from vorotool.engines.segment_voronoi.segment_voronoi import NEITHER, segment_voronoi
-from vorotool.engines.skeleton.exact import ShapeDiagram, interior_skeleton, sides_not_interior, warn_empty
+from vorotool.engines.skeleton.exact import (
+    Frame,
+    ShapeDiagram,
+    interior_skeleton,
+    sides_not_interior,
+    warn_all_cut,
+    warn_empty,
+)
+from vorotool.engines.skeleton.open_border import around, opened
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.ragged import starts_of
@@ -44,6 +52,7 @@ def feature_skeleton(
     polygons: PolygonSet,
     *,
     look: Callable[[ShapeDiagram, Skeleton], Seen] | None = None,
+    border: Frame | None = None,
     strict: bool = False,
     threads: int = 0,
     progress: Progress = None,
@@ -56,7 +65,7 @@ def feature_skeleton(
         What `PolygonSet.feature` is the same of is one feature, and has one skeleton.
     look : callable, optional
         Called with the whole diagram of each batch, which otherwise has no vertices outside, and its skeleton.
-    strict, threads, progress
+    border, strict, threads, progress
         As of `vorotool.skeleton_exact`, as are errors and warnings.
 
     Examples
@@ -69,21 +78,37 @@ def feature_skeleton(
     """
 
     def work(shapes: BatchShapes, threads: int, poll: Progress) -> tuple[Skeleton, list[Seen]]:
-        diagram = batch_diagram(shapes, is_whole=look is not None, threads=threads, progress=poll)
+        diagram = batch_diagram(shapes, border=border, is_whole=look is not None, threads=threads, progress=poll)
         made = interior_skeleton(diagram, threads=threads, progress=poll)
-        return _without_beyond(made, shapes), [] if look is None else [look(diagram, made)]
+        own = made if border is not None else _without_beyond(made, shapes)
+        return own, [] if look is None else [look(diagram, made)]
 
-    whole, made = in_batches(polygons, work, strict=strict, threads=threads, progress=progress)
+    room = None if border is None else around(border)
+    whole, made = in_batches(polygons, work, around=room, strict=strict, threads=threads, progress=progress)
     if not whole.polygon_count:
         warn_empty(polygons, "interior")
     skeleton = joined_skeletons(whole, [(shapes, skeleton) for shapes, (skeleton, _) in made])
+    if border is not None:
+        skeleton = replace(skeleton, frame=border, border="open")
+        if whole.polygon_count and not len(skeleton):
+            warn_all_cut()
     return FeatureSkeleton(skeleton, whole, [one for _, (_, seen) in made for one in seen])
 
 
 def batch_diagram(
-    shapes: BatchShapes, *, is_whole: bool = False, threads: int = 0, progress: Progress = None
+    shapes: BatchShapes,
+    *,
+    border: Frame | None = None,
+    is_whole: bool = False,
+    threads: int = 0,
+    progress: Progress = None,
 ) -> ShapeDiagram:
-    """Compute the diagram of a batch; the corners of the bounds of all are sites of it, after its other points."""
+    """Compute the diagram of a batch; the corners of the bounds of all are sites of it, after its other points.
+
+    With an open border it is that of the opened graph, and bounds of all tell the order of its sites.
+    """
+    if border is not None:
+        return _opened_diagram(shapes, border, is_whole, threads, progress)
     graph, beyond = shapes.graph, shapes.batch.beyond
     count = len(graph.points)
     points = np.concatenate([graph.points, beyond])
@@ -92,6 +117,22 @@ def batch_diagram(
         unwanted = np.insert(unwanted, count, np.full(len(beyond), NEITHER, dtype=np.uint8))
     diagram = segment_voronoi(points, graph.segments, unwanted=unwanted, threads=threads, progress=progress)
     return ShapeDiagram(graph, diagram, shapes.placed)
+
+
+def _opened_diagram(
+    shapes: BatchShapes, border: Frame, is_whole: bool, threads: int, progress: Progress
+) -> ShapeDiagram:
+    opening = opened(shapes.graph, border)
+    graph = opening.graph
+    diagram = segment_voronoi(
+        graph.points,
+        graph.segments,
+        unwanted=None if is_whole else sides_not_interior(graph),
+        within=opening.within,
+        threads=threads,
+        progress=progress,
+    )
+    return ShapeDiagram(graph, opening.snapped(diagram), shapes.placed, opening)
 
 
 def _without_beyond(made: Skeleton, shapes: BatchShapes) -> Skeleton:

@@ -33,6 +33,7 @@ from vorotool.geometry.progress import Progress
 from vorotool.geometry.ragged import owners
 from vorotool.geometry.skeleton.segment_voronoi import SegmentVoronoiDiagram
 from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.geometry.sorted_sets import is_among
 
 DEVIATION_STEPS = 2.0**-14
 """Of the extent: how finely arcs are flattened to measure how far two skeletons are apart."""
@@ -218,7 +219,7 @@ def _share_label(elements: ElementDiagram) -> NDArray[np.bool_]:
     share[mixed] = (ends == left[mixed, None]).any(axis=1)
     both = np.flatnonzero((right < vertices) & ~share)  # neighbouring vertices have the label of the edge between them
     low, high = np.sort(elements.shapes.segments.astype(np.int64), axis=1).T
-    share[both] = np.isin(left[both] * vertices + right[both], low * vertices + high)
+    share[both] = is_among(left[both] * vertices + right[both], low * vertices + high)
     return share
 
 

@@ -10,6 +10,7 @@ from vorotool.engines.skeleton.site_distances import Floats, SitePlaces
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.geometry.sorted_sets import distinct
 
 _INSIDE = (0.25, 0.5, 0.75)
 """Where arcs are looked at between their ends, in the parameter of the Bezier curve."""
@@ -60,7 +61,7 @@ def check_nothing_nearer(
 ) -> None:
     """Nodes and places inside arcs: no site within their distance from their own."""
     inner = [_inner_places(skeleton, t) for t in _INSIDE]
-    nodes = np.unique(skeleton.arcs)
+    nodes = distinct(skeleton.arcs)
     places = np.concatenate([skeleton.vertices[nodes], *inner])
     distance = np.concatenate(
         [skeleton.radius[nodes], *(sites.distances(skeleton.sites[:, 0], place) for place in inner)]

@@ -11,6 +11,7 @@ from vorotool.engines.skeleton.site_distances import Floats, SitePlaces
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.skeleton.skeleton import EXTERIOR, INTERIOR, Skeleton
 from vorotool.geometry.skeleton.tables import connected_roots
+from vorotool.geometry.sorted_sets import distinct
 
 Indices = NDArray[np.int64]
 
@@ -28,7 +29,7 @@ class SkeletonRegions:
         self.sectors = corner_sectors(graph)
         self.root = connected_roots(skeleton.arcs, len(skeleton.vertices))
         self.face = self._faces()
-        framed = np.unique(self.root[skeleton.touches_frame])
+        framed = distinct(self.root[skeleton.touches_frame])
         framed = framed[self.face[framed] <= 0]
         if len(framed):  # all that leads to infinity is connected there
             self.root[np.isin(self.root, framed)] = framed[0]
@@ -48,8 +49,8 @@ class SkeletonRegions:
             at = first_wrong(self.sites.is_edge & (number < count))
         if at is not None:
             fail(f"site {at} is no vertex or edge of the polygons")
-        if len(np.unique(number)) != len(number) or len(number) != count + len(graph):
-            fail(f"there are {count + len(graph)} vertices and edges, but {len(np.unique(number))} different sites")
+        if len(distinct(number)) != len(number) or len(number) != count + len(graph):
+            fail(f"there are {count + len(graph)} vertices and edges, but {len(distinct(number))} different sites")
         deleted = self.sites.is_edge[skeleton.sites]
         mixed = np.flatnonzero(deleted[:, 0] != deleted[:, 1])
         edge = np.where(deleted[mixed, 0], skeleton.sites[mixed, 0], skeleton.sites[mixed, 1])
@@ -210,16 +211,10 @@ def border_components(graph: PlanarGraph) -> Indices:
 def _check_areas(regions: SkeletonRegions, wanted: NDArray[np.bool_]) -> None:
     """Regions between arcs and their feet on both sides sum to the area of each bounded face."""
     skeleton, graph, sites = regions.skeleton, regions.graph, regions.sites
-    source, target = skeleton.vertices[skeleton.arcs].swapaxes(0, 1)
-    total = np.zeros(len(skeleton))
-    for hand, sign in ((0, 0.5), (1, -0.5)):
-        site = skeleton.sites[:, hand]
-        from_source, from_target = sites.feet(site, source), sites.feet(site, target)
-        a, b = from_target - source, from_source - target  # diagonals
-        total += sign * (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
+    total = areas_beside(skeleton, sites)
     face = np.maximum(regions.face[regions.root[skeleton.arcs[:, 0]]], 0)
     summed = np.bincount(face, total, graph.faces)
-    area, perimeter = _face_measures(graph)
+    area, perimeter = face_measures(graph)
     allowed = AREA * np.abs(area) + AREA_ULPS * np.spacing(sites.largest) * perimeter
     wrong = wanted & ~(np.abs(summed - area) <= allowed)
     wrong[0] = False
@@ -228,7 +223,19 @@ def _check_areas(regions: SkeletonRegions, wanted: NDArray[np.bool_]) -> None:
         fail(f"the regions around the arcs in region {at} sum to {summed[at]}, but its area is {area[at]}")
 
 
-def _face_measures(graph: PlanarGraph) -> tuple[Floats, Floats]:
+def areas_beside(skeleton: Skeleton, sites: SitePlaces) -> Floats:
+    """(a,) areas between arcs and their feet, on both sides."""
+    source, target = skeleton.vertices[skeleton.arcs].swapaxes(0, 1)
+    total = np.zeros(len(skeleton))
+    for hand, sign in ((0, 0.5), (1, -0.5)):
+        site = skeleton.sites[:, hand]
+        from_source, from_target = sites.feet(site, source), sites.feet(site, target)
+        a, b = from_target - source, from_source - target  # diagonals
+        total += sign * (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
+    return total
+
+
+def face_measures(graph: PlanarGraph) -> tuple[Floats, Floats]:
     """Areas and perimeters of faces; the unbounded one's means nothing."""
     way = graph.coordinates()[graph.segments]
     length = np.sqrt(np.square(way[:, 1] - way[:, 0]).sum(axis=1))

@@ -13,6 +13,7 @@ from vorotool.engines.features.batches import BatchShapes, in_batches
 from vorotool.engines.skeleton.exact import ShapeDiagram, kept_edges
 from vorotool.engines.skeleton.parts import PER_ARC, outside_of, with_arcs, with_polygons
 from vorotool.engines.skeleton.site_distances import SitePlaces
+from vorotool.engines.skeleton.verify_border import check_cut_regions, without_border
 from vorotool.engines.skeleton.verify_distances import check_equal_distances, check_nothing_nearer
 from vorotool.engines.skeleton.verify_regions import SkeletonRegions, border_components, check_regions
 from vorotool.errors import VorotoolWarning
@@ -22,6 +23,7 @@ from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.skeleton import INTERIOR, Skeleton
 from vorotool.geometry.skeleton.tables import connected_roots
+from vorotool.geometry.sorted_sets import distinct
 
 
 def verify_skeleton(skeleton: Skeleton, *, threads: int = 0, progress: Progress = None) -> None:
@@ -32,8 +34,10 @@ def verify_skeleton(skeleton: Skeleton, *, threads: int = 0, progress: Progress 
     hole if the exterior is there: its skeleton is connected, has as many independent cycles as the complement has
     components less one, and one end in each corner under 180 degrees, which nothing else shares; the regions between
     the arcs and their feet sum to its area within 1e-9 of it and 8 ulp of the extent times its perimeter. Outside, all
-    is connected with the frame. Branches are chains that end where they should. Where pixels hang together at corners
-    (`PolygonSet.connectivity`), arcs of one polygon, or outside, share a node there; all else is as if they did not.
+    is connected with the frame. With an open border, what is left of the outlines is looked at: ends are in corners or
+    on the border, and the regions sum to the areas with those between the border and its nearest places.
+    Branches are chains that end where they should. Where pixels hang together at corners (`PolygonSet.connectivity`),
+    arcs of one polygon, or outside, share a node there; all else is as if they did not.
     Unless features are together (`Skeleton.features`), each is looked at as if there were no others.
 
     Parameters
@@ -127,6 +131,11 @@ def _check_in_graph(
     skeleton: Skeleton, graph: PlanarGraph, threads: int, progress: Progress, *, whole: SitePlaces | None = None
 ) -> None:
     sites = SitePlaces(skeleton, whole)
+    if skeleton.border == "open":
+        graph_left = without_border(skeleton, graph)
+        check_nothing_nearer(skeleton, sites, graph_left, threads, progress)
+        check_cut_regions(skeleton, graph, graph_left, sites)
+        return
     check_nothing_nearer(skeleton, sites, _elements(skeleton, graph, threads), threads, progress)
     if not skeleton.gap:
         check_regions(SkeletonRegions(_with_corners_apart(skeleton), graph, sites))
@@ -165,12 +174,12 @@ def verify_exterior(shapes: ShapeDiagram, *, threads: int = 0) -> None:
     ends[ends < 0] = infinity
     corner = (ends < infinity) & (np.append(diagram.radius, 1.0)[ends] == 0)
     ends[corner] = infinity + 1 + np.arange(np.count_nonzero(corner))  # each arc has its own
-    nodes = np.unique(ends)
+    nodes = distinct(ends)
     roots = connected_roots(ends, int(ends.max()) + 1)[nodes]
-    if len(np.unique(roots)) > 1:
-        fail(f"the skeleton outside has {len(np.unique(roots))} connected parts, even with a node at infinity")
+    if len(distinct(roots)) > 1:
+        fail(f"the skeleton outside has {len(distinct(roots))} connected parts, even with a node at infinity")
     lone = np.bincount(graph.segments.reshape(-1), minlength=len(graph.points)) == 0
-    sites = np.unique(diagram.edge_sites[edges])
+    sites = distinct(diagram.edge_sites[edges])
     points = np.count_nonzero(lone[sites[sites < len(graph.points)]])
     expected = border_components(graph)[0] + points - 1
     cycles = len(edges) - len(nodes) + 1

@@ -228,7 +228,8 @@ def asked_numbers(shape: Any, window: Any, forms: tuple[tuple[int, str], tuple[i
     except TypeError:
         numbers = []
     if len(numbers) != size:
-        raise UsageError(f"{form}, but is {shown_number(given)}")
+        points = ": points of space have three columns, x, y and z" * ((size, len(numbers)) in ((2, 3), (4, 6)))
+        raise UsageError(f"{form}, but is {shown_number(given)}{points}")
     return numbers
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
@@ -9,8 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.common.label_arrays import label_array
-from vorotool.engines.common.site_rows import largest_by_label, nearest_sites, rows_of, spread
+from vorotool.engines.common.site_rows import largest_by_label, nearest_sites, spread
 from vorotool.engines.volumes.volume_measures import VolumeMeasures, labelled, measure_volume
+from vorotool.engines.volumes.volume_regions import VolumeRegions
 from vorotool.errors import InputError
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.numbers import finite_double
@@ -81,34 +83,66 @@ def volume_table(
     """
     volume = labelled(volume)
     threads = checked_threads(threads)
-    measures = measures or measure_volume(volume, threads=threads, progress=progress)
     if distance_scale is not None:
         finite_double(distance_scale, "distance_scale")
-    labels, sites = _sites(volume, measures)
-    rows = _rows_of(measures.labels, labels, volume)
-    step, count = volume.sides.step, len(labels)
+    regions = _regions_of(volume, measures, threads, progress)
+    if distance2 is not None:
+        squares = _largest_squares(volume, distance2, regions.labels, threads, progress)
+        regions = replace(regions, largest_squares=squares)
+    return table_of_regions(
+        regions, distance_scale=distance_scale, properties=properties, threads=threads, progress=progress
+    )
+
+
+def table_of_regions(
+    regions: VolumeRegions,
+    *,
+    distance_scale: int | None = None,
+    properties: bool = True,
+    threads: int = 0,
+    progress: Progress = None,
+) -> Table:
+    """Give the table of `volume_table` of what was measured.
+
+    Parameters
+    ----------
+    regions : VolumeRegions
+        Without ``largest_squares``, ``max_distance`` does not exist.
+    distance_scale, properties, threads, progress
+        As of `volume_table`.
+
+    Examples
+    --------
+    >>> volume = labelled(np.array([[[1, 1, 2]], [[1, 2, 2]]], dtype=np.uint16))
+    >>> regions = VolumeRegions(measure_volume(volume), volume.frame, volume.sides)
+    >>> table_of_regions(regions) == volume_table(volume)
+    True
+    """
+    measures, sides = regions.measures, regions.sides
+    labels, sites, rows = regions.labels, regions.sites, regions.rows
+    step, count = sides.step, len(labels)
     nearest_label, nearest_distance = nearest_sites(labels, sites, threads, progress)
     degree = np.bincount(measures.borders.ravel(), minlength=len(measures.labels)).astype(np.int64)
     voxels = spread(measures.voxels, rows, count)
     absent = voxels == 0
-    largest = _largest_distance(volume, distance2, distance_scale, labels, threads, progress)
+    largest = _largest_distance(regions, distance_scale)
     columns: dict[str, Any] = {
         "label": labels.astype(np.int64),
         **{name: _times(sites[:, axis].copy(), step) for axis, name in enumerate(_AXES)},
-        "volume": _volumes(voxels, volume.sides),
-        "surface": _areas(spread(measures.faces, rows, count), volume.sides),
+        "volume": _volumes(voxels, sides),
+        "surface": _areas(spread(measures.faces, rows, count), sides),
         "neighbours": spread(degree, rows, count),
         "nearest_label": nearest_label,
         "nearest_distance": _times(nearest_distance, step),
         "touches_frame": np.ma.array(
-            spread(measures.touches_frame(volume.shape).astype(np.int64), rows, count), mask=absent
+            spread(measures.touches_frame(regions.frame.shape).astype(np.int64), rows, count), mask=absent
         ),
-        "max_distance": np.ma.array(_times(largest, step), mask=absent | (distance2 is None)),
+        "max_distance": np.ma.array(_times(largest, step), mask=absent | (regions.largest_squares is None)),
         "components": spread(measures.components, rows, count),
     }
-    for name, values in _boxes(volume, measures).items():
+    for name, values in _boxes(regions).items():
         columns[name] = np.ma.array(_times(spread(values, rows, count), step), mask=absent)
-    return _with_input_columns(columns, volume, properties)
+    return _with_input_columns(columns, regions, properties)
 
 
 def volume_neighbours(
@@ -149,28 +183,33 @@ def volume_neighbours(
     >>> list(zip(*(table[name].tolist() for name in ("label_a", "label_b", "border_area"))))
     [(1, 2, 1), (1, 3, 2), (2, 3, 1)]
     """
-    volume = labelled(volume)
-    measures = measures or measure_volume(volume, threads=threads, progress=progress)
-    labels, sites = _sites(volume, measures)
-    position = sites[_rows_of(measures.labels, labels, volume)]
+    return neighbours_of_regions(_regions_of(labelled(volume), measures, threads, progress))
+
+
+def neighbours_of_regions(regions: VolumeRegions) -> Table:
+    """Give the table of `volume_neighbours` of what was measured.
+
+    Examples
+    --------
+    >>> volume = labelled(np.array([[[1, 1, 2]], [[1, 2, 2]]], dtype=np.uint16))
+    >>> neighbours_of_regions(VolumeRegions(measure_volume(volume), volume.frame, volume.sides))["border_area"].tolist()
+    [3]
+    """
+    measures, sides = regions.measures, regions.sides
+    position = regions.sites[regions.rows]
     a, b = measures.borders.T
     way = position[a] - position[b]
     return Table(
         {
             "label_a": measures.labels[a].astype(np.int64),
             "label_b": measures.labels[b].astype(np.int64),
-            "border_area": _areas(measures.border_faces, volume.sides),
-            "centroid_distance": _times(np.sqrt((way * way).sum(axis=1)), volume.sides.step),
+            "border_area": _areas(measures.border_faces, sides),
+            "centroid_distance": _times(np.sqrt((way * way).sum(axis=1)), sides.step),
         }
     )
 
 
 # ---- columns --------------------------------------------------------------------------------------------
-
-
-def _steps(sides: PixelSides) -> NDArray[np.int64]:
-    """Width, height and depth of a voxel, in steps."""
-    return np.array(sides.units[::-1], dtype=np.int64)
 
 
 def _times(values: Any, factor: Fraction) -> Any:
@@ -196,40 +235,30 @@ def _areas(faces: NDArray[np.int64], sides: PixelSides) -> NDArray[Any]:
     return made
 
 
-def _sites(volume: LabelVolume, measures: VolumeMeasures) -> tuple[NDArray[np.uint32], NDArray[np.float64]]:
-    """Labels and positions of the sites, in steps of the sides: those of the seeds, else the regions' centroids."""
-    steps = _steps(volume.sides)
-    if volume.seeds is not None:
-        assert volume.seeds.site_labels is not None
-        assert volume.seeds.sites is not None
-        return volume.seeds.site_labels, volume.seeds.sites * steps
-    centroids = measures.sums / measures.voxels[:, None] + _corner(volume)
-    return measures.labels, centroids * steps
-
-
-def _corner(volume: LabelVolume) -> NDArray[np.int64]:
-    frame = volume.frame
-    assert frame is not None
-    return np.array([frame.x, frame.y, frame.z], dtype=np.int64)
-
-
-def _rows_of(found: NDArray[np.uint32], labels: NDArray[np.uint32], volume: LabelVolume) -> NDArray[np.intp]:
-    """Row of the table for each label that occurs in the volume."""
-    rows, label = rows_of(found, labels)
+def _regions_of(
+    volume: LabelVolume, measures: VolumeMeasures | None, threads: int, progress: Progress
+) -> VolumeRegions:
+    """Measure a volume, of whose labels each is that of a site."""
+    frame, seeds = volume.frame, volume.seeds
+    assert frame is not None  # LabelVolume has filled it in
+    regions = VolumeRegions(
+        measures or measure_volume(volume, threads=threads, progress=progress), frame, volume.sides, seeds
+    )
+    label = regions.stranger
     if label is not None:
         place = np.unravel_index(int(np.argmax(volume.labels == label)), volume.shape)
         slice_, row, column = map(int, place)
         raise InputError(
-            f"voxel (slice {slice_}, row {row}, column {column}) has label {label}, none of the {len(labels)} sites: "
-            "pass the seeds that the volume was made from"
+            f"voxel (slice {slice_}, row {row}, column {column}) has label {label}, none of the "
+            f"{len(regions.labels)} sites: pass the seeds that the volume was made from"
         )
-    return rows
+    return regions
 
 
-def _boxes(volume: LabelVolume, measures: VolumeMeasures) -> dict[str, NDArray[np.int64]]:
+def _boxes(regions: VolumeRegions) -> dict[str, NDArray[np.int64]]:
     """Bounding boxes, in steps."""
-    steps = _steps(volume.sides)
-    low = (measures.low + _corner(volume)) * steps
+    measures, steps = regions.measures, regions.steps
+    low = (measures.low + regions.corner) * steps
     size = (measures.high - measures.low + 1) * steps
     return {
         **{f"bbox_{name}": low[:, axis] for axis, name in enumerate(_AXES)},
@@ -237,31 +266,32 @@ def _boxes(volume: LabelVolume, measures: VolumeMeasures) -> dict[str, NDArray[n
     }
 
 
-def _largest_distance(
-    volume: LabelVolume,
-    distance2: NDArray[Any] | None,
-    scale: int | None,
-    labels: NDArray[np.uint32],
-    threads: int,
-    progress: Progress,
-) -> NDArray[np.float64]:
-    """The largest distance in each region, in steps."""
-    if distance2 is None:
-        return np.zeros(len(labels))
+def _largest_squares(
+    volume: LabelVolume, distance2: NDArray[Any], labels: NDArray[np.uint32], threads: int, progress: Progress
+) -> NDArray[np.uint64]:
+    """The largest squared distance in each region."""
     values = np.asarray(distance2)
     if values.shape != volume.shape or values.dtype.kind not in "ui":
         raise InputError(
             f"distance2 must be an integer array of shape {volume.shape}, but is {values.dtype} of shape {values.shape}"
         )
+    return largest_by_label(label_array(volume.labels, "voxel"), values, labels, threads, progress)
+
+
+def _largest_distance(regions: VolumeRegions, scale: int | None) -> NDArray[np.float64]:
+    """The largest distance in each region, in steps."""
+    squares, seeds = regions.largest_squares, regions.seeds
+    if squares is None:
+        return np.zeros(len(regions.labels))
     if scale is None:
-        scale = volume.seeds.scale if volume.seeds is not None else 1
-    largest = largest_by_label(label_array(volume.labels, "voxel"), values, labels, threads, progress)
-    return np.sqrt(largest.astype(np.float64)) / scale
+        scale = 1 if seeds is None else seeds.scale
+    distances: NDArray[np.float64] = np.sqrt(squares.astype(np.float64)) / scale
+    return distances
 
 
-def _with_input_columns(columns: dict[str, Any], volume: LabelVolume, properties: bool) -> Table:
-    seeds = volume.seeds
+def _with_input_columns(columns: dict[str, Any], regions: VolumeRegions, properties: bool) -> Table:
+    seeds = regions.seeds
     if seeds is not None and seeds.object_volume is not None:
-        columns["object_volume"] = _volumes(np.asarray(seeds.object_volume, dtype=np.int64), volume.sides)
+        columns["object_volume"] = _volumes(np.asarray(seeds.object_volume, dtype=np.int64), regions.sides)
     table = Table(columns)
     return table.with_properties(seeds.properties) if seeds is not None and properties and seeds.properties else table

@@ -119,6 +119,7 @@ class VolumeSweep:
                 (unit_x, unit_y, unit_z),
                 self.simd,
                 way,
+                self._threads,
             )
         except _core.tessellation.SeedTooFarError as error:
             raise self._too_far(*error.args) from None

@@ -12,6 +12,7 @@ from vorotool import _core
 from vorotool.engines.segment_voronoi.segment_voronoi import core_diagram
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.skeleton.segment_voronoi import SegmentVoronoiDiagram
+from vorotool.geometry.sorted_sets import distinct
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -131,7 +132,7 @@ class Limit:
         is_seen = ~(self.is_lost | (self.arc == _ALIGNED)) | (self.ending != _INSIDE)
         is_hole = np.bincount(self.cycle, is_seen, minlength=len(self.across)) == 0
         around = np.zeros(len(self.across), dtype=np.int64)
-        for first in np.unique(self.cycle[is_hole[self.cycle]]).tolist():
+        for first in distinct(self.cycle[is_hole[self.cycle]]).tolist():
             at, number = first, 1
             while not around[at]:
                 around[at] = number
@@ -168,7 +169,7 @@ class Limit:
         """Vertices of the diagram that crossings are at."""
         edge, hand = self.half_edge >> 1, self.half_edge & 1
         at = self.ending == _AT_VERTEX
-        return np.unique(self.diagram.edges[edge[at], 1 - hand[at]]).astype(np.int64)
+        return distinct(self.diagram.edges[edge[at], 1 - hand[at]]).astype(np.int64)
 
     def cut(
         self, ends: Indices, order: Indices, edge: Indices, has_end: NDArray[np.bool_], first: int

@@ -11,6 +11,7 @@ from vorotool.engines.voronoi.elements import OwnedGraph, owned_graph, shared_el
 from vorotool.errors import RepairWarning
 from vorotool.geometry.curves.flatten import checked_flatten
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
+from vorotool.geometry.sorted_sets import distinct
 from vorotool.geometry.voronoi.shapes import cell_polygons
 from vorotool.geometry.voronoi.site_shapes import site_shapes
 from vorotool.geometry.voronoi.voronoi_map import OUTSIDE, VoronoiMap
@@ -108,7 +109,7 @@ def _cut_to_cells(areas: Floats, cells: VoronoiMap) -> None:
     """Measure anew what of sites is in cells that have a cut: polylines instead of curves cross no site."""
     import shapely
 
-    at = np.unique(cells.sites[cells.is_cut])
+    at = distinct(cells.sites[cells.is_cut])
     at = at[at != OUTSIDE]
     shapes = cell_polygons(cells, checked_flatten(None, cells.polygons))[at]
     of_sites = shapely.union_all(site_shapes(cells)[at][:, None], axis=1)

@@ -12,6 +12,7 @@ from vorotool import _core
 from vorotool.engines.voronoi.joint_graph import JointGraph, packed
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.ragged import owners, starts_of
+from vorotool.geometry.sorted_sets import distinct, is_among
 
 Indices = NDArray[np.int64]
 Floats = NDArray[np.float64]
@@ -196,8 +197,8 @@ def _meetings_of_points(
     lone = np.flatnonzero(is_one)
     if not lone.size:
         return np.empty((0, 2), dtype=np.int64)
-    on_line = np.unique(packed(graph.points[graph.segments[is_line].ravel()]))
-    lone = lone[~np.isin(keys[starts[lone]], on_line)]
+    on_line = distinct(packed(graph.points[graph.segments[is_line].ravel()]))
+    lone = lone[~is_among(keys[starts[lone]], on_line)]
     places = graph.vertices[starts[lone]].astype(np.float64)
     sides = face[graph.segment_faces].reshape(-1, 2)
     boundary = np.flatnonzero(sides[:, 0] != sides[:, 1])

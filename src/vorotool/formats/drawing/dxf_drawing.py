@@ -84,10 +84,17 @@ class DxfDrawing:
 
     def parabolas(self, layer: str, points: Floats) -> None:
         """Add parabolas that follow each other, as one spline of degree 2: end, control point, end, and so on."""
-        spline = self._space.add_spline(degree=2, dxfattribs=self._on(layer))
-        count = len(points) // 2
+        self._spline(layer, points, 2)
+
+    def cubics(self, layer: str, points: Floats) -> None:
+        """Add cubic curves that follow each other, as one spline of degree 3: end, two control points, end."""
+        self._spline(layer, points, 3)
+
+    def _spline(self, layer: str, points: Floats, degree: int) -> None:
+        spline = self._space.add_spline(degree=degree, dxfattribs=self._on(layer))
+        count = len(points) // degree
         spline.control_points = [(x, y, 0.0) for x, y in self._placed(points)]
-        spline.knots = [0.0, *(float(k) for k in range(count + 1) for _ in range(2)), float(count)]
+        spline.knots = [0.0, *(float(k) for k in range(count + 1) for _ in range(degree)), float(count)]
         spline.dxf.flags = _PLANAR
 
     def line_in_space(self, layer: str, points: Floats) -> None:

@@ -1,4 +1,4 @@
-"""Writing results as DXF: straight lines, true circular arcs, and parabolas as splines of degree 2, which they are."""
+"""Writing results as DXF: straight lines, true circular arcs, parabolas and cubic curves as splines."""
 
 from __future__ import annotations
 
@@ -14,9 +14,12 @@ from vorotool.formats.drawing.dxf_drawing import DxfDrawing
 from vorotool.geometry.alpha.hull import AlphaHull
 from vorotool.geometry.curves.inverse_functions import hypotenuse
 from vorotool.geometry.skeleton.centerline import Centerlines
+from vorotool.geometry.skeleton.extended import ExtendedSkeleton
+from vorotool.geometry.skeleton.led_on import LedOn
 from vorotool.geometry.skeleton.offsets import Offsets
 from vorotool.geometry.skeleton.points_along import SkeletonPoints
 from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.geometry.skeleton.smooth_lines import SmoothLines
 
 Floats = NDArray[np.float64]
 
@@ -57,7 +60,9 @@ def write_dxf(out: BinaryIO, value: Any, *, what: str) -> None:
     drawing = DxfDrawing(unit=unit, y_up=y_up)
     own: dict[type, Callable[[DxfDrawing, Any, str], None]] = {
         Skeleton: _add_skeleton,
-        Centerlines: _add_centerlines,
+        Centerlines: _add_led_on,
+        ExtendedSkeleton: _add_led_on,
+        SmoothLines: _add_smooth,
         Offsets: _add_offsets,
         AlphaHull: _add_hull,
     }
@@ -106,7 +111,15 @@ def _add_arcs(drawing: DxfDrawing, layer: str, skeleton: Skeleton, arcs: NDArray
             drawing.polyline(layer, np.concatenate([source[begin : begin + 1], target[begin:end]]))
 
 
-def _add_centerlines(drawing: DxfDrawing, lines: Centerlines, what: str) -> None:
+def _add_smooth(drawing: DxfDrawing, smoothed: SmoothLines, what: str) -> None:
+    """One spline a line."""
+    for begin, end in itertools.pairwise(smoothed.start.tolist()):
+        control = smoothed.control[begin:end]
+        if (control != control[0, 0]).any():
+            drawing.cubics(what, np.concatenate([control[:1, 0], control[:, 1:].reshape(-1, 2)]))
+
+
+def _add_led_on(drawing: DxfDrawing, lines: LedOn, what: str) -> None:
     """Arcs of each path, and the straight lines that lead on."""
     for line, (begin, end) in enumerate(itertools.pairwise(lines.arc_start.tolist())):
         for side, node in enumerate(lines.end_nodes[line].tolist()):

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from fractions import Fraction
 from typing import Any
-from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
@@ -143,6 +142,8 @@ def ome_document(
     >>> b'SizeZ="7"' in ome_document((7, 2, 3), np.dtype(np.uint16), {}, "")
     True
     """
+    from xml.sax.saxutils import quoteattr  # imports urllib and http, which take a tenth of a short run
+
     kind = ome_type(dtype)
     if kind is None:
         return None

@@ -1,67 +1,91 @@
-"""Points from the ``.node`` files of Triangle."""
+"""Points from the ``.node`` files of Triangle, and from those of TetGen, which have a z."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.errors import InputError
+from vorotool.errors import InputError, option
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.formats.points.delimited import explain
+from vorotool.formats.points.rows import PointRows
 from vorotool.geometry.points.point_set import PointSet
 
-_FORM = "<vertices> 2 <attributes> <0 or 1 boundary markers>"
+_FORM = "<vertices> {} <attributes> <0 or 1 boundary markers>"
+_SPACE = option("tessellate --size WxHxD", 'geometry="space"')
 
 
 @dataclass(frozen=True)
 class _Header:
     line: int
     vertices: int
+    dimension: int
     attributes: int
     markers: int
 
     @property
     def fields(self) -> int:
-        return 3 + self.attributes + self.markers
+        return 1 + self.dimension + self.attributes + self.markers
+
+
+class _Vertices(NamedTuple):
+    places: NDArray[np.float64]
+    properties: dict[str, list[str]]
+    first_number: int
 
 
 def read_node(source: Source, options: ReadOptions) -> PointSet:
     """Read vertices; attributes and boundary markers become properties, numbering may begin at 0 or 1."""
+    read = _vertices(source, options, 2)
+    return PointSet(read.places, None, read.properties, first_number=read.first_number)
+
+
+def node_rows(source: Source, options: ReadOptions) -> PointRows:
+    """Read vertices with a z; numbering may begin at 0 or 1, and labels are from 1."""
+    read = _vertices(source, options, 3)
+    return PointRows(read.places, None, read.properties, {})
+
+
+def _vertices(source: Source, options: ReadOptions, dimension: int) -> _Vertices:
     first = _core.text.first_record(source.data, " ")
     if first is None:
-        raise InputError(f"{source.name}: the file is empty; a .node file begins with {_FORM}")
-    header = _read_header(source.name, first)
+        raise InputError(f"{source.name}: the file is empty; a .node file begins with {_FORM.format(dimension)}")
+    header = _read_header(source.name, first, dimension)
     options.check_sites(source.name, header.vertices)
+    columns = list(range(1 + dimension))
     try:
-        values = _core.text.parse_numbers(source.data, " ", [0, 1, 2], 1, header.fields, options.threads)
+        values = _core.text.parse_numbers(source.data, " ", columns, 1, header.fields, options.threads)
     except _core.text.TextError as error:
         counted_by = f"each vertex after the header (line {header.line})"
         raise explain(source.name, error, _described, counted_by) from None
     _check_count(source.name, header, len(values))
     base = _checked_numbering(source, values[:, 0])
-    return PointSet(values[:, 1:3], None, _properties(source, header, options), first_number=base)
+    return _Vertices(values[:, 1:], _properties(source, header, options), base)
 
 
 def _described(column: int) -> str:
     return f"column {column + 1}"
 
 
-def _read_header(name: str, first: tuple[int, str, list[str]]) -> _Header:
+def _read_header(name: str, first: tuple[int, str, list[str]], wanted: int) -> _Header:
     line, text, fields = first
+    form = _FORM.format(wanted)
     if not 1 <= len(fields) <= 4 or not all(field.isdecimal() and len(field) < 16 for field in fields):
-        raise InputError(f"{name}, line {line}: {text[:40]!r} is no header of a .node file; write {_FORM}")
-    vertices, dimension, attributes, markers = (int(v) for v in fields + ["0", "2", "0", "0"][len(fields) :])
-    if dimension != 2:
-        raise InputError(f"{name}, line {line}: the vertices have {dimension} dimensions; only 2 are read")
+        raise InputError(f"{name}, line {line}: {text[:40]!r} is no header of a .node file; write {form}")
+    vertices, dimension, attributes, markers = (int(v) for v in fields + ["0", str(wanted), "0", "0"][len(fields) :])
+    if dimension != wanted:
+        what = "points of space have 3" if wanted == 3 else f"only 2 are read{f', 3 by {_SPACE}' * (dimension == 3)}"
+        raise InputError(f"{name}, line {line}: the vertices have {dimension} dimensions; {what}")
     if markers > 1 or attributes > 1000:
         raise InputError(
-            f"{name}, line {line}: {attributes} attributes and {markers} boundary markers a vertex; write {_FORM}"
+            f"{name}, line {line}: {attributes} attributes and {markers} boundary markers a vertex; write {form}"
         )
-    return _Header(line, vertices, attributes, markers)
+    return _Header(line, vertices, dimension, attributes, markers)
 
 
 def _check_count(name: str, header: _Header, rows: int) -> None:
@@ -90,6 +114,6 @@ def _properties(source: Source, header: _Header, options: ReadOptions) -> dict[s
     names = [f"attribute_{i + 1}" for i in range(header.attributes)] + ["boundary_marker"] * header.markers
     if not names or not options.properties:
         return {}
-    columns = list(range(3, header.fields))
+    columns = list(range(1 + header.dimension, header.fields))
     texts = _core.text.parse_fields(source.data, " ", columns, 1, header.fields, options.threads)
     return dict(zip(names, texts, strict=True))

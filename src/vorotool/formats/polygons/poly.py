@@ -15,6 +15,7 @@ from vorotool.formats.text.coordinate_text import Digits
 from vorotool.geometry.box import bounds
 from vorotool.geometry.polygons.conversion import to_shapely
 from vorotool.geometry.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet, set_of_rings
+from vorotool.geometry.sorted_sets import distinct
 
 _VERTICES = "<vertices> 2 <attributes> <0 or 1 boundary markers>"
 _SEGMENTS = "<segments> <0 or 1 boundary markers>"
@@ -32,7 +33,7 @@ def read_poly(source: Source, options: ReadOptions) -> PolygonSet:
     segments = _read_segments(lines, len(xy), base)
     holes = _read_holes(lines)
     chains = _chains(segments, len(xy))
-    unused = len(xy) - len(np.unique(segments))
+    unused = len(xy) - len(distinct(segments))
     if unused:
         options.note(f"{source.name}: {unused} vertices of no segment are left out")
     loops = {i: xy[chain[:-1]] for i, chain in enumerate(chains) if len(chain) > 3 and chain[0] == chain[-1]}

@@ -17,6 +17,7 @@ from vorotool.formats.text.feature_collection import collection_opening
 from vorotool.formats.text.tables import json_text, write_table
 from vorotool.geometry.alpha.complex import CLASSES, AlphaComplex
 from vorotool.geometry.alpha.hull import AlphaHull
+from vorotool.geometry.alpha.persistence import RegionPersistence
 from vorotool.geometry.alpha.shape import AlphaShape
 from vorotool.geometry.alpha.tables import (
     described_polygons,
@@ -36,29 +37,30 @@ _TABLES: dict[str, Callable[[Any], Table]] = {
     "family": family_table,
     "spectrum": lambda family: Table({"r": family.spectrum}),
     "hull": AlphaHull.table,
+    "persistence": RegionPersistence.table,
 }
 
 
 def write_shape(
     out: BinaryIO,
-    value: AlphaShape | AlphaComplex | AlphaHull,
+    value: AlphaShape | AlphaComplex | AlphaHull | RegionPersistence,
     fmt: str,
     *,
     what: str,
     precision: int | None = None,
     threads: int = 0,
 ) -> None:
-    r"""Write a part of a shape, the radii of a family, or a hull.
+    r"""Write a part of a shape, the radii of a family, a hull, or the persistence of regions.
 
     Parameters
     ----------
     out, precision, threads
         As of `vorotool.formats.text.tables.write_table`.
-    value : AlphaShape, AlphaComplex or AlphaHull
+    value : AlphaShape, AlphaComplex, AlphaHull or RegionPersistence
         What to write.
     fmt : {"csv", "tsv", "json", "npz", "npy", "geojson", "wkt", "poly"}
         The format. NPY has the points of edges, from 0 in the order of the input, or the radii of the spectrum.
-    what : {"edges", "complex", "polygons", "general", "points", "table", "family", "spectrum", "hull"}
+    what : {"edges", "complex", "polygons", "general", "points", "table", "family", "spectrum", "hull", "persistence"}
         The part; a family has the table of its radii and those of them at which the shape changes.
 
     Examples

@@ -2,35 +2,42 @@
 
 from __future__ import annotations
 
-from typing import BinaryIO
+from typing import Any, BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
 
 from vorotool.formats.polygons.polylines import geojson_wording, wkt_wording, write_polylines
 from vorotool.formats.text.tables import write_table
 from vorotool.geometry.curves.flatten import checked_flatten
 from vorotool.geometry.skeleton.centerline import Centerlines, centerline_table
+from vorotool.geometry.skeleton.extended import extended_table
+from vorotool.geometry.skeleton.led_on import LedOn
+from vorotool.geometry.skeleton.smooth_lines import SmoothLines
+from vorotool.geometry.table import Table
 from vorotool.products.formats import TABLES
 
 
 def write_centerlines(
     out: BinaryIO,
-    lines: Centerlines,
+    lines: LedOn | SmoothLines,
     fmt: str,
     *,
     flatten: float | None = None,
     precision: int | None = None,
     threads: int = 0,
 ) -> None:
-    r"""Write centerlines; the bytes depend on nothing but the lines and the options.
+    r"""Write centerlines, skeletons with their ends, or smooth lines; the bytes depend on these and the options alone.
 
-    GeoJSON and WKT have one LineString a polygon, in GeoJSON with its id and properties, ``length``, ``width_mean``,
-    ``width_min`` and ``width_max``; CSV, JSON and NPZ one row an arc (see
-    :func:`vorotool.geometry.skeleton.centerline.centerline_table`).
+    GeoJSON and WKT have one LineString a polygon, or a branch, in GeoJSON with its id and properties, ``length``,
+    ``width_mean``, ``width_min`` and ``width_max``, or of smooth lines ``curves``, their number, and ``error``; CSV,
+    JSON and NPZ one row an arc (see :func:`vorotool.geometry.skeleton.centerline.centerline_table`) or a curve.
 
     Parameters
     ----------
     out, precision, threads
         As of `vorotool.formats.text.tables.write_table`.
-    lines : Centerlines
+    lines : Centerlines, ExtendedSkeleton or SmoothLines
         What to write.
     fmt : {"geojson", "csv", "tsv", "json", "npz", "wkt"}
         The format.
@@ -48,16 +55,33 @@ def write_centerlines(
     b'LINESTRING (0 1, 4 1)\n'
     """
     if fmt in TABLES:
-        write_table(out, centerline_table(lines), fmt, precision=precision, threads=threads)
+        write_table(out, _table(lines), fmt, precision=precision, threads=threads)
         return
     points, start = lines.flattened(checked_flatten(flatten, lines.path.polygons))
-    least, most = lines.width_range
-    own = {"length": lines.length, "width_mean": lines.width_mean, "width_min": least, "width_max": most}
+    own = {name: column.tolist() for name, column in _columns(lines).items()}
     wording = (
-        wkt_wording(len(lines))
-        if fmt == "wkt"
-        else geojson_wording(
-            lines.path.polygons, lines.polygon.tolist(), {name: column.tolist() for name, column in own.items()}
-        )
+        wkt_wording(len(lines)) if fmt == "wkt" else geojson_wording(lines.path.polygons, lines.polygon.tolist(), own)
     )
     write_polylines(out, points, start[:-1], wording, precision=precision, threads=threads)
+
+
+def _table(lines: LedOn | SmoothLines) -> Table:
+    if isinstance(lines, SmoothLines):
+        return lines.table()
+    return centerline_table(lines) if isinstance(lines, Centerlines) else extended_table(lines)
+
+
+def _columns(lines: LedOn | SmoothLines) -> dict[str, NDArray[Any]]:
+    """Properties of each line."""
+    if isinstance(lines, SmoothLines):
+        branch = {} if isinstance(lines.lines, Centerlines) else {"branch": np.arange(len(lines))}
+        return {**branch, "curves": np.diff(lines.start), "error": lines.error}
+    branch = {} if isinstance(lines, Centerlines) else {"branch": np.arange(len(lines))}
+    least, most = lines.width_range
+    return {
+        **branch,
+        "length": lines.length,
+        "width_mean": lines.width_mean,
+        "width_min": least,
+        "width_max": most,
+    }

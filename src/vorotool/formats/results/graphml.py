@@ -17,7 +17,7 @@ from vorotool.geometry.skeleton.graph import SkeletonGraph, skeleton_graph
 from vorotool.geometry.skeleton.skeleton import Skeleton
 from vorotool.geometry.xml_text import xml_characters
 
-_NODE_KEYS = ("x", "y", "r")
+_NODE_KEYS = {"x": "double", "y": "double", "r": "double", "degree": "long"}
 _HEAD = (
     '<?xml version="1.0" encoding="UTF-8"?>\n'
     '<graphml xmlns="http://graphml.graphdrawing.org/xmlns" xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance"\n'
@@ -70,17 +70,18 @@ def write_graphml(
     graph = skeleton_graph(skeleton, by=by, flatten=flatten)
     edges = _EdgeTexts(graph, precision)
     out.write(_HEAD.encode())
-    for name in _NODE_KEYS:
-        out.write(f'<key id="n_{name}" for="node" attr.name="{name}" attr.type="double"/>\n'.encode())
+    for name, kind in _NODE_KEYS.items():
+        out.write(f'<key id="n_{name}" for="node" attr.name="{name}" attr.type="{kind}"/>\n'.encode())
     for number, (name, kind) in enumerate(edges.kinds.items()):
         named = quoteattr(xml_characters(name))
         out.write(f'<key id="e{number}" for="edge" attr.name={named} attr.type="{kind}"/>\n'.encode())
     out.write(b'<graph edgedefault="undirected">\n')
     if len(graph.nodes):
         x, y = skeleton.vertices[graph.nodes].T.copy()
-        columns = [Column("", graph.nodes), *(Column("", values) for values in (x, y, skeleton.radius[graph.nodes]))]
-        names = [f'<data key="n_{name}">' for name in _NODE_KEYS]
-        between = (f'">{names[0]}', f"</data>{names[1]}", f"</data>{names[2]}")
+        own = (x, y, skeleton.radius[graph.nodes], skeleton.degree[graph.nodes])
+        columns = [Column("", graph.nodes), *(Column("", values) for values in own)]
+        first, *others = (f'<data key="n_{name}">' for name in _NODE_KEYS)
+        between = (f'">{first}', *(f"</data>{name}" for name in others))
         shape = RowShape(('<node id="', *between, "</data></node>\n"))
         write_rows(out, columns, shape, precision=precision, threads=threads)
     wording = Wording(b"", edges.openings(by), ", ", " ", ")</data></edge>\n", b"</graph>\n</graphml>\n")

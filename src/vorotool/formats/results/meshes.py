@@ -14,6 +14,7 @@ from vorotool.formats.text.feature_collection import write_collection
 from vorotool.formats.text.row_writer import Column, RowShape, write_rows
 from vorotool.formats.text.tables import json_column, object_shape, write_table
 from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation, DigitalTriangulation
+from vorotool.geometry.mesh.proximity import ProximityGraph
 from vorotool.geometry.mesh.tables import edge_table, point_table, triangle_table
 from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.table import Lookup, Table
@@ -28,7 +29,7 @@ _TABLES: dict[str, Callable[[Any], Table]] = {
 
 def write_mesh(
     out: BinaryIO,
-    mesh: AnyTriangulation,
+    mesh: AnyTriangulation | ProximityGraph,
     fmt: str,
     *,
     what: str = "edges",
@@ -46,7 +47,7 @@ def write_mesh(
     ----------
     out, precision, threads
         As of `vorotool.formats.text.tables.write_table`.
-    mesh : Triangulation or DigitalTriangulation
+    mesh : Triangulation, DigitalTriangulation or ProximityGraph
         Rows are in the order of its arrays.
     fmt : {"csv", "tsv", "json", "geojson", "npz", "npy", "edge", "ele", "node", "obj"}
         Edges are LineStrings in GeoJSON and lines in OBJ, triangles are Polygons and faces.
@@ -75,7 +76,9 @@ def write_mesh(
 
 
 # ---- GeoJSON -------------------------------------------------------------------------------------
-def _write_geojson(out: BinaryIO, mesh: AnyTriangulation, what: str, precision: int | None, threads: int) -> None:
+def _write_geojson(
+    out: BinaryIO, mesh: AnyTriangulation | ProximityGraph, what: str, precision: int | None, threads: int
+) -> None:
     """One feature an edge or triangle; its id is its number from 1, its labels and length are properties."""
     rows = mesh.edges if what == "edges" else mesh.triangles
     stored = _TABLES[what](mesh).stored()
@@ -126,7 +129,9 @@ def _feature_shape(names: list[str], vertices: int) -> RowShape:
 
 
 # ---- OBJ -----------------------------------------------------------------------------------------
-def _write_obj(out: BinaryIO, mesh: AnyTriangulation, what: str, precision: int | None, threads: int) -> None:
+def _write_obj(
+    out: BinaryIO, mesh: AnyTriangulation | ProximityGraph, what: str, precision: int | None, threads: int
+) -> None:
     x, y = (Column("", values) for values in np.ascontiguousarray(mesh.points.T))
     write_rows(out, [x, y], RowShape(("v ", " ", " 0\n")), precision=precision, threads=threads)
     if what == "edges":
@@ -136,7 +141,9 @@ def _write_obj(out: BinaryIO, mesh: AnyTriangulation, what: str, precision: int 
 
 
 # ---- Triangle ------------------------------------------------------------------------------------
-def _write_edge(out: BinaryIO, mesh: Triangulation, _what: str, _precision: int | None, threads: int) -> None:
+def _write_edge(
+    out: BinaryIO, mesh: Triangulation | ProximityGraph, _what: str, _precision: int | None, threads: int
+) -> None:
     """``<edges> <markers>``, then ``<number> <end> <end> <marker>``."""
     out.write(f"{len(mesh.edges)} 1\n".encode())
     ends = _numbers(mesh, mesh.edges, mesh.first_number)
@@ -161,11 +168,11 @@ def _write_node(out: BinaryIO, mesh: Triangulation, _what: str, precision: int |
     write_rows(out, columns, RowShape(("", " ", " ", " ", "\n")), precision=precision, threads=threads)
 
 
-def _counted(mesh: Triangulation, rows: int) -> Column:
+def _counted(mesh: Triangulation | ProximityGraph, rows: int) -> Column:
     return Column("", np.arange(rows, dtype=np.int64) + mesh.first_number)
 
 
-def _numbers(mesh: AnyTriangulation, rows: NDArray[np.int32], first: int = 1) -> list[Column]:
+def _numbers(mesh: AnyTriangulation | ProximityGraph, rows: NDArray[np.int32], first: int = 1) -> list[Column]:
     """Columns of vertices by their numbers, the first of which is given."""
     numbers = np.arange(len(mesh.points), dtype=np.int64) + first
     return [Column("", Lookup(numbers, index)) for index in rows.T]

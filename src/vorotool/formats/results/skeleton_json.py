@@ -41,12 +41,14 @@ def write_json(out: BinaryIO, skeleton: Skeleton, *, precision: int | None = Non
 
     Beside what the format must have, arcs tell ``polygon`` (null outside), ``branch`` and ``length``, and the object
     ``frame``, ``gap``, ``y_up``, ``crs`` and ``connectivity`` where there are such, and ``features`` where they are
-    together.
+    together, and ``border`` where it is open.
     """
     polygons = skeleton.polygons
     head: dict[str, Any] = {"type": TYPE, "version": VERSION}
     if skeleton.frame is not None:
         head["frame"] = list(skeleton.frame)
+    if skeleton.border != "closed":
+        head["border"] = skeleton.border
     if skeleton.gap:
         head["gap"] = skeleton.gap
     if skeleton.features != "separate":
@@ -165,6 +167,7 @@ def _read_arcs(
         _frame(rows),
         _gap(rows),
         read_features(rows),
+        border=_border(rows),
     )
 
 
@@ -176,6 +179,13 @@ def _frame(rows: JsonRows) -> tuple[float, float, float, float] | None:
         raise InputError(f"{rows.name}: the frame is {shortened(value)}; write [x, y, w, h]")
     x, y, w, h = map(float, value)
     return (x, y, w, h)
+
+
+def _border(rows: JsonRows) -> str:
+    value = rows.document.get("border", "closed")
+    if value not in ("closed", "open"):
+        raise InputError(f"{rows.name}: the border is {shortened(value)}; write closed or open")
+    return str(value)
 
 
 def _gap(rows: JsonRows) -> float:

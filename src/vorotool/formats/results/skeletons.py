@@ -8,10 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.formats.polygons.polylines import Wording, geojson_wording, wkt_wording, write_polylines
+from vorotool.formats.results.centerlines import write_centerlines
 from vorotool.formats.results.skeleton_json import write_json
 from vorotool.formats.text.tables import write_arrays, write_table
 from vorotool.geometry.curves.flatten import chained, checked_flatten
+from vorotool.geometry.skeleton.led_on import LedOn
 from vorotool.geometry.skeleton.skeleton import SIDES, Skeleton
+from vorotool.geometry.skeleton.smooth_lines import SmoothLines
 from vorotool.geometry.skeleton.tables import arc_table, branch_table, element_table, polygon_table
 from vorotool.geometry.table import Table
 from vorotool.products.formats import TABLES
@@ -19,7 +22,7 @@ from vorotool.products.formats import TABLES
 
 def write_skeleton(
     out: BinaryIO,
-    skeleton: Skeleton,
+    skeleton: Skeleton | LedOn | SmoothLines,
     fmt: str,
     *,
     what: str = "skeleton",
@@ -37,7 +40,8 @@ def write_skeleton(
     out, precision, threads
         As of `vorotool.formats.text.tables.write_table`.
     skeleton : Skeleton
-        What to write, in its order.
+        What to write, in its order; one with its ends, or smooth lines, as of
+        `vorotool.formats.results.centerlines.write_centerlines`.
     fmt : {"json", "csv", "tsv", "geojson", "npz", "wkt"}
         The format; parts are written as CSV, JSON or NPZ.
     what : {"skeleton", "diagram", "elements", "branches", "table"}
@@ -53,7 +57,9 @@ def write_skeleton(
     >>> out.getvalue().splitlines()[0]
     b'LINESTRING (0 0, 2 2)'
     """
-    if fmt in TABLES and what not in ("skeleton", "diagram"):
+    if not isinstance(skeleton, Skeleton):
+        write_centerlines(out, skeleton, fmt, flatten=flatten, precision=precision, threads=threads)
+    elif fmt in TABLES and what not in ("skeleton", "diagram"):
         write_table(out, _table(skeleton, what, threads), fmt, precision=precision, threads=threads)
     elif fmt in ("csv", "tsv"):
         write_table(out, arc_table(skeleton), fmt, precision=precision, threads=threads)

@@ -11,6 +11,7 @@ from vorotool.geometry.alpha.complex import CLASSES, AlphaComplex
 from vorotool.geometry.alpha.shape import POINT_CLASSES, AlphaShape
 from vorotool.geometry.mesh.tables import end_columns
 from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.sorted_sets import distinct
 from vorotool.geometry.table import Lookup, Table
 
 
@@ -127,7 +128,7 @@ def region_table(shape: AlphaShape) -> Table:
     inside, count = shape.inside, shape.region_count
     of = shape.region[inside]
     corners = shape.family.mesh.triangles[inside]
-    pairs = np.unique(of.astype(np.int64).repeat(3) << 32 | corners.reshape(-1))
+    pairs = distinct(of.astype(np.int64).repeat(3) << 32 | corners.reshape(-1))
     places = shape.points[corners]
     low, high = np.full((count, 2), np.inf), np.full((count, 2), -np.inf)
     np.minimum.at(low, of, places.min(axis=1))

@@ -19,6 +19,7 @@ from vorotool.geometry.any.scaling import AREAS, LENGTHS, scaled_table
 from vorotool.geometry.curves.flatten import checked_flatten
 from vorotool.geometry.mesh.cells import CellSet
 from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation, DigitalTriangulation
+from vorotool.geometry.mesh.proximity import ProximityGraph
 from vorotool.geometry.mesh.tables import edge_table, point_table, triangle_table
 from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.points.label_image import LabelImage
@@ -28,12 +29,16 @@ from vorotool.geometry.polygons.conversion import to_shapely
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.skeleton.centerline import Centerlines
+from vorotool.geometry.skeleton.discs import Discs
+from vorotool.geometry.skeleton.extended import ExtendedSkeleton
 from vorotool.geometry.skeleton.graph import skeleton_graph
+from vorotool.geometry.skeleton.led_on import LedOn
 from vorotool.geometry.skeleton.necks import Necks
 from vorotool.geometry.skeleton.offsets import Offsets
 from vorotool.geometry.skeleton.parts import Parts
 from vorotool.geometry.skeleton.points_along import SkeletonPoints
 from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.geometry.skeleton.smooth_lines import SmoothLines
 from vorotool.geometry.skeleton.tables import ids_of
 from vorotool.geometry.spacing import SQUARE, PixelSides
 from vorotool.geometry.table import Table
@@ -166,11 +171,15 @@ def _of_mesh(mesh: AnyTriangulation, what: str | None = None) -> Features:
     return _chosen(mesh, what, {"triangles": _mesh_triangles, "edges": _mesh_edges, "points": _mesh_points})
 
 
+def _of_proximity(graph: ProximityGraph) -> Features:
+    return _mesh_edges(graph)
+
+
 def _mesh_triangles(mesh: AnyTriangulation) -> Features:
     return Features(_triangles(mesh.points, mesh.triangles), triangle_table(mesh), mesh)
 
 
-def _mesh_edges(mesh: AnyTriangulation) -> Features:
+def _mesh_edges(mesh: AnyTriangulation | ProximityGraph) -> Features:
     return Features(_pairs(mesh.points, mesh.edges), without_places(edge_table(mesh)), mesh)
 
 
@@ -275,13 +284,32 @@ def _of_skeleton(skeleton: Skeleton, by: str = "arc", flatten: float | None = No
     return Features(lines(graph.points, graph.start), columns, polygons, item)
 
 
-def _of_centerlines(paths: Centerlines, flatten: float | None = None) -> Features:
+def _of_centerlines(paths: LedOn, flatten: float | None = None) -> Features:
     polygons = paths.path.polygons
     least, most = paths.width_range
     own = {"length": paths.length, "width_mean": paths.width_mean, "width_min": least, "width_max": most}
     columns = {"polygon": paths.polygon, "id": ids_of(polygons, paths.polygon), **own}
     geometry = lines(*paths.flattened(checked_flatten(flatten, polygons)))
     return Features(geometry, _with_polygons(columns, polygons, paths.polygon), polygons, paths.polygon)
+
+
+def _of_extended(extended: ExtendedSkeleton, flatten: float | None = None) -> Features:
+    made = _of_centerlines(extended, flatten)
+    columns = Table({"branch": np.arange(len(extended)), **made.columns.stored()})
+    return Features(made.geometry, columns, made.source, made.item)
+
+
+def _of_smooth(smoothed: SmoothLines, flatten: float | None = None) -> Features:
+    polygons, polygon, start = smoothed.path.polygons, smoothed.polygon, smoothed.start
+    columns = {
+        "branch": np.arange(len(smoothed)),
+        "polygon": np.ma.array(polygon, mask=polygon < 0),
+        "id": ids_of(polygons, polygon),
+        "curves": np.diff(start),
+        "error": smoothed.error,
+    }
+    geometry = lines(*smoothed.flattened(checked_flatten(flatten, polygons)))
+    return Features(geometry, _with_polygons(columns, polygons, polygon), polygons, polygon)
 
 
 def _of_points_along(points: SkeletonPoints, what: str | None = None) -> Features:
@@ -328,6 +356,13 @@ def _of_offsets(offsets: Offsets, flatten: float | None = None) -> Features:
         "area": offsets.area,
     }
     return Features(to_shapely(shapes), _with_polygons(columns, polygons, of), polygons, of)
+
+
+def _of_discs(discs: Discs, flatten: float | None = None) -> Features:
+    polygons = discs.polygons
+    shapes = discs.flattened(checked_flatten(flatten, polygons))
+    columns = _with_polygons(discs.table().stored(), polygons, discs.polygon)
+    return Features(to_shapely(shapes), columns, polygons, discs.polygon)
 
 
 def _of_voronoi(cells: VoronoiMap, flatten: float | None = None) -> Features:
@@ -419,6 +454,7 @@ _MAKERS: dict[type, Callable[..., Features]] = {
     LabelImage: _of_labels,
     Triangulation: _of_mesh,
     DigitalTriangulation: _of_mesh,
+    ProximityGraph: _of_proximity,
     CellSet: _of_cells,
     AlphaComplex: _of_complex,
     AlphaShape: _of_shape,
@@ -427,9 +463,12 @@ _MAKERS: dict[type, Callable[..., Features]] = {
     PlanarGraph: _of_graph,
     Skeleton: _of_skeleton,
     Centerlines: _of_centerlines,
+    ExtendedSkeleton: _of_extended,
+    SmoothLines: _of_smooth,
     SkeletonPoints: _of_points_along,
     Necks: _of_necks,
     Parts: _of_parts,
     Offsets: _of_offsets,
+    Discs: _of_discs,
     VoronoiMap: _of_voronoi,
 }

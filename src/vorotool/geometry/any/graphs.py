@@ -11,6 +11,7 @@ from vorotool.errors import UsageError
 from vorotool.geometry.any.features import lines
 from vorotool.geometry.extras import needed
 from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation, DigitalTriangulation
+from vorotool.geometry.mesh.proximity import ProximityGraph
 from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
@@ -25,7 +26,16 @@ from vorotool.products.formats import resolved
 if TYPE_CHECKING:
     import networkx
 
-GraphLike = Skeleton | Triangulation | DigitalTriangulation | LabelImage | LabelVolume | PlanarGraph | VoronoiMap
+GraphLike = (
+    Skeleton
+    | Triangulation
+    | DigitalTriangulation
+    | ProximityGraph
+    | LabelImage
+    | LabelVolume
+    | PlanarGraph
+    | VoronoiMap
+)
 """What there are graphs of."""
 
 
@@ -38,12 +48,14 @@ def to_networkx(
 
     Parameters
     ----------
-    value : Skeleton, Triangulation, DigitalTriangulation, LabelImage, LabelVolume, PlanarGraph or VoronoiMap
-        Of a skeleton nodes are numbers of vertices, with ``x``, ``y`` and ``r``; edges have the number of their branch
-        or arc for a key, and ``branch`` (also ``arc``), ``polygon``, ``id``, ``side``, ``kind``, ``length``, ``r_min``,
-        ``r_max``, ``r_mean`` as `branch_table` has them, and ``geometry``, a shapely LineString; the properties of the
-        polygon, too. Of a triangulation nodes are numbers of points, from 0, with ``x``, ``y``, ``label`` and the
-        properties, edges have ``length``. Of a label image or volume nodes are labels, with the columns of
+    value : Skeleton, Triangulation, DigitalTriangulation, ProximityGraph, LabelImage, LabelVolume, PlanarGraph or
+        VoronoiMap
+        Of a skeleton nodes are numbers of vertices, with ``x``, ``y``, the radius ``r`` and the ``degree``; edges have
+        the number of their branch or arc for a key, and ``branch`` (also ``arc``), ``polygon``, ``id``, ``side``,
+        ``kind``, ``length``, ``r_min``, ``r_max``, ``r_mean``, of branches ``type`` and ``tortuosity`` as
+        `branch_table` has them, and ``geometry``, a shapely LineString; the properties of the polygon, too. Of a
+        triangulation nodes are numbers of points, from 0, with ``x``, ``y``, ``label`` and the properties, edges have
+        ``length``. Of a label image or volume nodes are labels, with the columns of
         `region_table`, edges join neighbours, with those of `neighbour_table`. Of a planar graph nodes are numbers of
         its points, with ``x`` and ``y``, edges have ``segment``, ``length``, ``face_left`` and ``face_right``. Of a
         Voronoi map nodes are numbers of its cells, from 0, with the columns of its table, edges join neighbours, with
@@ -76,7 +88,7 @@ def to_networkx(
     if isinstance(value, Skeleton):
         return _of_skeleton(_library(), value, by or "branch", flatten)
     makers: list[tuple[Any, Callable[[Any, Any], Any]]] = [
-        (Triangulation | DigitalTriangulation, _of_mesh),
+        (Triangulation | DigitalTriangulation | ProximityGraph, _of_mesh),
         (LabelImage | LabelVolume, _of_labels),
         (PlanarGraph, _of_planar_graph),
         (VoronoiMap, _of_voronoi),
@@ -91,7 +103,7 @@ def to_networkx(
         return made
     raise UsageError(
         f"there is no graph of a {type(value).__name__}: give a Skeleton, Triangulation, DigitalTriangulation, "
-        "LabelImage, LabelVolume, PlanarGraph or VoronoiMap"
+        "ProximityGraph, LabelImage, LabelVolume, PlanarGraph or VoronoiMap"
     )
 
 
@@ -117,7 +129,7 @@ def _of_skeleton(library: Any, skeleton: Skeleton, by: str, flatten: float | Non
     polygons = skeleton.polygons
     graph = library.MultiGraph(**_named(polygons.crs))
     x, y = skeleton.vertices[parts.nodes].T
-    nodes = _rows({"x": x, "y": y, "r": skeleton.radius[parts.nodes]})
+    nodes = _rows({"x": x, "y": y, "r": skeleton.radius[parts.nodes], "degree": skeleton.degree[parts.nodes]})
     graph.add_nodes_from(zip(parts.nodes.tolist(), nodes, strict=True))
     geometry = lines(parts.points, parts.start)
     ends = zip(parts.source.tolist(), parts.target.tolist(), strict=True)
@@ -131,7 +143,7 @@ def _of_skeleton(library: Any, skeleton: Skeleton, by: str, flatten: float | Non
     return graph
 
 
-def _of_mesh(library: Any, mesh: AnyTriangulation) -> Any:
+def _of_mesh(library: Any, mesh: AnyTriangulation | ProximityGraph) -> Any:
     x, y = mesh.points.T
     nodes = _rows(Table({"label": mesh.label_array, "x": x, "y": y}).with_properties(mesh.properties))
     graph = library.Graph(**_named(mesh.crs))

@@ -16,14 +16,19 @@ from vorotool.geometry.alpha.shape import AlphaShape
 from vorotool.geometry.box import Box
 from vorotool.geometry.mesh.cells import CellSet
 from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation
+from vorotool.geometry.mesh.proximity import ProximityGraph
 from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.skeleton.centerline import Centerlines
+from vorotool.geometry.skeleton.discs import Discs
+from vorotool.geometry.skeleton.extended import ExtendedSkeleton
 from vorotool.geometry.skeleton.necks import Necks
 from vorotool.geometry.skeleton.offsets import Offsets
 from vorotool.geometry.skeleton.parts import Parts
 from vorotool.geometry.skeleton.points_along import SkeletonPoints
 from vorotool.geometry.skeleton.skeleton import SiteTable, Skeleton
+from vorotool.geometry.skeleton.smooth_lines import SmoothLines
+from vorotool.geometry.skeleton.thickness import ThicknessImage
 from vorotool.geometry.table import Table
 from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 
@@ -33,6 +38,7 @@ LENGTHS = frozenset(
     {
         *("x", "y", "perimeter", "nearest_distance", "max_distance", "bbox_x", "bbox_y", "bbox_w", "bbox_h"),
         *("border_length", "centroid_distance", "voronoi_length", "r", "length"),
+        *("birth", "death", "persistence"),
     }
 )
 AREAS = frozenset({"area", "object_area"})
@@ -43,6 +49,7 @@ _LENGTHS_OF = {
     PolygonSet: "xy",
     Triangulation: "points",
     DigitalTriangulation: "points",
+    ProximityGraph: "mesh",
     CellSet: "sites coordinates frame",
     AlphaComplex: "mesh r_min r_mid r_max spectrum",
     AlphaShape: "family r polygons",
@@ -50,10 +57,14 @@ _LENGTHS_OF = {
     SiteTable: "ends",
     Skeleton: "polygons site_table frame vertices radius control length error_bound gap",
     Centerlines: "path ends",
+    ExtendedSkeleton: "path ends",
+    SmoothLines: "lines control error",
     SkeletonPoints: "skeleton along xy radius feet",
+    Discs: "polygons site_table xy radius feet within",
     Necks: "skeleton xy width feet beside",
     Parts: "polygons radius centre necks",
     Offsets: "polygons site_table start end centre distance",
+    ThicknessImage: "values",
     VoronoiMap: "polygons clip enclosures vertices radius control center frame max_distance",
 }
 """What of each type is a length, or has lengths; all else stays."""
@@ -61,8 +72,7 @@ _LENGTHS_OF = {
 _DISTANCES = frozenset(
     {
         *("r", "r_min", "r_mid", "r_max", "spectrum", "radius", "length"),
-        *("error_bound", "gap", "along", "distance", "max_distance"),
-        *("width", "beside"),
+        *("error_bound", "error", "gap", "along", "distance", "max_distance", "values", "width", "beside"),
     }
 )
 """What of these is a length, and no place."""
@@ -77,8 +87,9 @@ def scaled(
 
     Parameters
     ----------
-    value : PolygonSet, Triangulation, DigitalTriangulation, CellSet, AlphaComplex, AlphaShape, AlphaHull, Skeleton,
-        SkeletonPoints, Necks, Parts, Offsets, Centerlines or VoronoiMap
+    value : PolygonSet, Triangulation, DigitalTriangulation, ProximityGraph, CellSet, AlphaComplex, AlphaShape,
+        AlphaHull, Skeleton, SkeletonPoints, Necks, Parts, Offsets, Centerlines, ExtendedSkeleton, SmoothLines, Discs or
+        VoronoiMap
         What to scale; for a table see `scaled_table`.
     factor : Fraction
         More than 0.

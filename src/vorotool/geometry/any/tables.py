@@ -11,12 +11,15 @@ from numpy.typing import NDArray
 from vorotool.errors import UsageError
 from vorotool.geometry.alpha.complex import AlphaComplex
 from vorotool.geometry.alpha.hull import AlphaHull
+from vorotool.geometry.alpha.persistence import RegionPersistence
 from vorotool.geometry.alpha.shape import AlphaShape
 from vorotool.geometry.alpha.tables import family_table, region_table
 from vorotool.geometry.any.features import features_of
 from vorotool.geometry.mesh.cells import CellSet
 from vorotool.geometry.mesh.digital_comparison import DigitalComparison
 from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation
+from vorotool.geometry.mesh.proximity import ProximityGraph
+from vorotool.geometry.mesh.statistics import CellStatistics
 from vorotool.geometry.mesh.tables import edge_table
 from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.points.label_image import LabelImage
@@ -26,11 +29,14 @@ from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.skeleton.centerline import Centerlines, centerline_table
 from vorotool.geometry.skeleton.critical_values import CriticalValues
+from vorotool.geometry.skeleton.discs import Discs
+from vorotool.geometry.skeleton.extended import ExtendedSkeleton, extended_table
 from vorotool.geometry.skeleton.necks import Necks
 from vorotool.geometry.skeleton.offsets import Offsets
 from vorotool.geometry.skeleton.parts import Parts
 from vorotool.geometry.skeleton.points_along import SkeletonPoints
 from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.geometry.skeleton.smooth_lines import SmoothLines
 from vorotool.geometry.skeleton.tables import arc_table
 from vorotool.geometry.table import Table
 from vorotool.geometry.volumes.label_volume import LabelVolume
@@ -129,6 +135,15 @@ def _of_centerlines(lines: Centerlines) -> IndexedTable:
     return IndexedTable(own, lines.path.polygons, own["polygon"])
 
 
+def _of_extended(extended: ExtendedSkeleton) -> IndexedTable:
+    own = extended_table(extended)
+    return IndexedTable(own, extended.path.polygons, own["polygon"])
+
+
+def _of_smooth(smoothed: SmoothLines) -> IndexedTable:
+    return IndexedTable(smoothed.table(), smoothed.path.polygons, smoothed.polygon[smoothed.line])
+
+
 def _of_points_along(points: SkeletonPoints) -> IndexedTable:
     return IndexedTable(points.table(), points.skeleton.polygons, points.polygon)
 
@@ -145,6 +160,10 @@ def _of_offsets(offsets: Offsets) -> IndexedTable:
     return IndexedTable(
         offsets.table(), offsets.polygons, offsets.polygon[offsets.shape_of_ring[offsets.ring_of_piece]]
     )
+
+
+def _of_discs(discs: Discs) -> IndexedTable:
+    return IndexedTable(discs.table(), discs.polygons, discs.polygon)
 
 
 def _of_voronoi(cells: VoronoiMap) -> IndexedTable:
@@ -170,6 +189,9 @@ _MAKERS: dict[type, Callable[[Any], IndexedTable]] = {
     LabelVolume: _of_labels,
     Triangulation: lambda mesh: IndexedTable(edge_table(mesh)),
     DigitalTriangulation: lambda mesh: IndexedTable(edge_table(mesh)),
+    ProximityGraph: lambda graph: IndexedTable(edge_table(graph)),
+    CellStatistics: lambda found: IndexedTable(found.summary),
+    RegionPersistence: lambda found: IndexedTable(found.table()),
     DigitalComparison: lambda found: IndexedTable(found.table),
     CellSet: _of_features,
     AlphaComplex: lambda family: IndexedTable(family_table(family)),
@@ -179,10 +201,13 @@ _MAKERS: dict[type, Callable[[Any], IndexedTable]] = {
     PlanarGraph: _of_features,
     Skeleton: _of_skeleton,
     Centerlines: _of_centerlines,
+    ExtendedSkeleton: _of_extended,
+    SmoothLines: _of_smooth,
     SkeletonPoints: _of_points_along,
     Necks: _of_necks,
     Parts: _of_parts,
     Offsets: _of_offsets,
+    Discs: _of_discs,
     VoronoiMap: _of_voronoi,
     CriticalValues: _of_values,
 }

@@ -7,16 +7,17 @@ from numpy.typing import NDArray
 
 from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation, DigitalTriangulation
+from vorotool.geometry.mesh.proximity import ProximityGraph
 from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.table import Computed, Lookup, Table
 
 
-def edge_table(mesh: AnyTriangulation) -> Table:
+def edge_table(mesh: AnyTriangulation | ProximityGraph) -> Table:
     """Give one row an edge: its labels, its ends and its length.
 
     Parameters
     ----------
-    mesh : Triangulation or DigitalTriangulation
+    mesh : Triangulation, DigitalTriangulation or ProximityGraph
         Rows are in the order of its edges, ends as there.
 
     Returns
@@ -31,11 +32,11 @@ def edge_table(mesh: AnyTriangulation) -> Table:
     >>> table["label_a"].tolist(), table["label_b"].tolist(), table["length"].tolist()
     ([1, 1, 2], [3, 2, 3], [3.0, 4.0, 5.0])
     """
-    check_value(mesh, "mesh", Triangulation, DigitalTriangulation)
+    check_value(mesh, "mesh", Triangulation, DigitalTriangulation, ProximityGraph)
     return Table({**end_columns(mesh, mesh.edges), "length": Computed(mesh.edge_lengths, len(mesh.edges))})
 
 
-def end_columns(mesh: AnyTriangulation, edges: NDArray[np.int32]) -> dict[str, Lookup]:
+def end_columns(mesh: AnyTriangulation | ProximityGraph, edges: NDArray[np.int32]) -> dict[str, Lookup]:
     """Give the labels and the places of the ends of edges."""
     labels, (x, y), (a, b) = mesh.label_array, np.ascontiguousarray(mesh.points.T), edges.T
     ends = {"label_a": (labels, a), "label_b": (labels, b), "x_a": (x, a), "y_a": (y, a), "x_b": (x, b), "y_b": (y, b)}

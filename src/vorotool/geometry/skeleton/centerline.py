@@ -3,29 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError
-from vorotool.geometry.collinearity import is_straight
-from vorotool.geometry.curves.flatten import chained
-from vorotool.geometry.ragged import owners
-from vorotool.geometry.skeleton.skeleton import KINDS, Skeleton
-from vorotool.geometry.skeleton.tables import ids_of
-from vorotool.geometry.table import Lookup, Table
-from vorotool.geometry.values import Curved, Pictured, Tabular, Value, counted, placed
-
-Floats = NDArray[np.float64]
-
-EXTENSION = "extension"
-"""Kind of the straight lines that lead on to the ends."""
+from vorotool.geometry.skeleton.led_on import LedOn, led_on_table
+from vorotool.geometry.table import Table
+from vorotool.geometry.values import counted, placed
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Centerlines(Value, Tabular, Curved, Pictured):
+class Centerlines(LedOn):
     """Paths along a skeleton, at most one a polygon, and straight lines that lead on from these.
 
     Parameters
@@ -48,88 +37,6 @@ class Centerlines(Value, Tabular, Curved, Pictured):
     >>> lines.ends.tolist(), lines.length.tolist(), lines.width_mean.tolist()
     ([[[0.0, 1.0], [4.0, 1.0]]], [4.0], [2.0])
     """
-
-    path: Skeleton
-    ends: Floats
-
-    def __post_init__(self) -> None:
-        ends = np.ascontiguousarray(self.ends, dtype=np.float64)
-        if ends.shape != (len(self.arc_start) - 1, 2, 2):
-            raise InputError(f"ends must have shape ({len(self.arc_start) - 1}, 2, 2), but have {ends.shape}")
-        object.__setattr__(self, "ends", ends)
-
-    def __len__(self) -> int:
-        """Give the number of paths."""
-        return len(self.arc_start) - 1
-
-    @cached_property
-    def arc_start(self) -> NDArray[np.int64]:
-        """(k + 1,) the first arc of each path, and the number of arcs."""
-        return np.append(np.flatnonzero(np.diff(self.path.branch, prepend=-1)), len(self.path))
-
-    @cached_property
-    def polygon(self) -> NDArray[np.int32]:
-        """(k,) the polygon of each path."""
-        return self.path.polygon[self.arc_start[:-1]]
-
-    @cached_property
-    def end_nodes(self) -> NDArray[np.int32]:
-        """(k, 2) the first and the last node of each path."""
-        start = self.arc_start
-        nodes: NDArray[np.int32] = np.stack([self.path.arcs[start[:-1], 0], self.path.arcs[start[1:] - 1, 1]], axis=1)
-        return nodes
-
-    @cached_property
-    def extended(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """The paths whose start is extended, and those whose end is."""
-        has_start, has_end = ~np.isnan(self.ends[:, :, 0]).T
-        return np.flatnonzero(has_start), np.flatnonzero(has_end)
-
-    @cached_property
-    def extension_length(self) -> Floats:
-        """(k, 2) how far the start and the end are extended; 0 where they are not."""
-        way = self.ends - self.path.vertices[self.end_nodes]
-        lengths: Floats = np.nan_to_num(np.sqrt((way * way).sum(axis=2)), nan=0.0)
-        return lengths
-
-    @cached_property
-    def length(self) -> Floats:
-        """(k,) lengths, with what leads on."""
-        lengths: Floats = self._summed(self.path.length) + self.extension_length.sum(axis=1)
-        return lengths
-
-    @cached_property
-    def width_mean(self) -> Floats:
-        """(k,) twice the mean of the radius along each path, or at a single place, without what leads on."""
-        length, radius = self._summed(self.path.length), self.path.radius[self.end_nodes[:, 0]]
-        mean = np.divide(self._summed(self.path.arc_radii[2]), length, out=radius, where=length > 0)
-        return np.asarray(2 * mean)
-
-    @cached_property
-    def width_range(self) -> tuple[Floats, Floats]:
-        """(k,) twice the smallest and twice the largest radius on each path."""
-        if not len(self):
-            return np.zeros(0), np.zeros(0)
-        least, most, _ = self.path.arc_radii
-        start = self.arc_start[:-1]
-        return 2 * np.minimum.reduceat(least, start), 2 * np.maximum.reduceat(most, start)
-
-    def _summed(self, values: Floats) -> Floats:
-        return np.add.reduceat(values, self.arc_start[:-1]) if len(self) else np.zeros(0)
-
-    def flattened(self, tolerance: float) -> tuple[Floats, NDArray[np.int64]]:
-        """Whole lines as polylines, as of `Skeleton.flattened`; no vertex is where one is led on exactly straight."""
-        points, start = chained(*self.path.flattened(tolerance), self.arc_start[:-1])
-        first, last = self.extended
-        whole = np.concatenate([self.ends[first, 0], points, self.ends[last, 1]])
-        line = np.concatenate([first, owners(np.diff(start)), last])
-        whole, line = whole[np.argsort(line, kind="stable")], np.sort(line)
-        for extended, place in ((first, 1), (last, -2)):
-            start = np.searchsorted(line, np.arange(len(self) + 1))
-            joint = (start[:-1] if place > 0 else start[1:])[extended] + place
-            straight = joint[is_straight(whole[joint - 1], whole[joint], whole[joint + 1])]
-            whole, line = np.delete(whole, straight, axis=0), np.delete(line, straight)
-        return whole, np.searchsorted(line, np.arange(len(self) + 1))
 
     def _summary(self) -> str:
         polygons = self.path.polygons
@@ -159,41 +66,7 @@ def centerline_table(lines: Centerlines) -> Table:
     >>> table["x0"].tolist(), table["length"].tolist()
     ([0.0, 1.0, 3.0], [1.0, 2.0, 1.0])
     """
-    path, nodes = lines.path, lines.end_nodes
-    first, last = lines.extended
-    line = owners(np.diff(lines.arc_start))
-    line = np.concatenate([first, line, last])
-    # starts before the arcs of their line, ends behind them: the order is stable
-    order = np.argsort(line, kind="stable")
-    nothing = np.zeros(len(first)), np.zeros(len(last))
-    source, target = path.vertices[path.arcs].swapaxes(0, 1)
-    r0, r1 = path.radius[path.arcs].T
-    start_node, end_node = nodes[first, 0], nodes[last, 1]
-    begin = np.concatenate([lines.ends[first, 0], source, path.vertices[end_node]])[order]
-    end = np.concatenate([path.vertices[start_node], target, lines.ends[last, 1]])[order]
-    blank = [np.full((len(some), 2), np.nan) for some in nothing]
-    control = np.concatenate([blank[0], path.control, blank[1]])[order]
-    kind = np.concatenate([np.full(len(first), 2), path.is_parabola, np.full(len(last), 2)])[order]
-    polygon = lines.polygon[line[order]]
-    start = np.searchsorted(line[order], np.arange(len(lines)))
-    length = np.concatenate([lines.extension_length[first, 0], path.length, lines.extension_length[last, 1]])
-    return Table(
-        {
-            "polygon": polygon,
-            "id": ids_of(path.polygons, polygon),
-            "arc": np.arange(len(line)) - start[line[order]],
-            "x0": begin[:, 0].copy(),
-            "y0": begin[:, 1].copy(),
-            "r0": np.concatenate([nothing[0], r0, path.radius[end_node]])[order],
-            "x1": end[:, 0].copy(),
-            "y1": end[:, 1].copy(),
-            "r1": np.concatenate([path.radius[start_node], r1, nothing[1]])[order],
-            "kind": Lookup([*KINDS, EXTENSION], kind.astype(np.int32)),
-            "cx": control[:, 0].copy(),
-            "cy": control[:, 1].copy(),
-            "length": length[order],
-        }
-    )
+    return led_on_table(lines, has_branches=False)
 
 
 def without_centerline(lines: Centerlines) -> NDArray[np.int64]:

@@ -11,6 +11,7 @@ from vorotool.errors import UsageError
 from vorotool.geometry.curves.flatten import chained, checked_flatten
 from vorotool.geometry.skeleton.skeleton import KINDS, SIDES, Skeleton
 from vorotool.geometry.skeleton.tables import branch_table, ids_of
+from vorotool.geometry.sorted_sets import distinct
 from vorotool.geometry.table import Lookup, Table
 
 BY = ("branch", "arc")
@@ -29,7 +30,8 @@ class SkeletonGraph:
     source, target : (e,) int64 array
         The vertices at the ends of each edge.
     edges : Table
-        ``branch`` or ``arc``, ``polygon``, ``id``, ``side``, ``kind``, ``length``, ``r_min``, ``r_max``, ``r_mean``.
+        ``branch`` or ``arc``, ``polygon``, ``id``, ``side``, ``kind``, ``length``, ``r_min``, ``r_max``, ``r_mean``; of
+        branches ``type`` and ``tortuosity``, too.
     points : (k, 2) float64 array
         Places along the edges, from source to target, the ends included.
     start : (e + 1,) int64 array
@@ -79,7 +81,7 @@ def skeleton_graph(skeleton: Skeleton, *, by: str = "branch", flatten: float | N
     source, target = skeleton.arcs[first, 0].astype(np.int64), skeleton.arcs[last, 1].astype(np.int64)
     return SkeletonGraph(
         skeleton,
-        np.unique(np.concatenate([source, target])),
+        distinct(np.concatenate([source, target])),
         source,
         target,
         _branches(skeleton, first) if by == "branch" else _arcs(skeleton),
@@ -89,7 +91,7 @@ def skeleton_graph(skeleton: Skeleton, *, by: str = "branch", flatten: float | N
 
 def _branches(skeleton: Skeleton, first: NDArray[np.int64]) -> Table:
     table = branch_table(skeleton, threads=1)
-    names = ("branch", "polygon", "id", "kind", "length", "r_min", "r_max", "r_mean")
+    names = ("branch", "polygon", "id", "kind", "length", "r_min", "r_max", "r_mean", "type", "tortuosity")
     columns = {name: table.stored()[name] for name in names}
     return Table({"branch": columns.pop("branch"), "side": _sides(skeleton, first), **columns})
 

@@ -108,7 +108,7 @@ class Skeleton(Value, Tabular, Branched, Pictured):
     polygons : PolygonSet
         As they were used: placed, and cut where they meet, each feature by itself or all together.
     frame : (x, y, w, h), optional
-        The rectangle that arcs outside are cut by.
+        The rectangle that arcs outside are cut by; with an open border all.
     gap : float
         By how much edges were shortened at both ends; see `vorotool.skeleton_exact`.
     features : {"separate", "together"}
@@ -118,6 +118,8 @@ class Skeleton(Value, Tabular, Branched, Pictured):
         Of the lattice that it was computed on: nodes are rounded as doubles that far from it are.
     scale : float
         The step of that lattice; 0 if nothing was placed.
+    border : {"closed", "open"}
+        Whether polygons go on beyond the frame where they touch its border: their edges there are no sites.
 
     Raises
     ------
@@ -153,6 +155,7 @@ class Skeleton(Value, Tabular, Branched, Pictured):
     features: str = "separate"
     origin: tuple[float, float] = (0.0, 0.0)
     scale: float = 0.0
+    border: str = "closed"
 
     def __post_init__(self) -> None:
         nodes, arcs = len(self.radius), len(self.arcs)

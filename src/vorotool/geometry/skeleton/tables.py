@@ -16,6 +16,14 @@ from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.skeleton.skeleton import EDGE, INTERIOR, KINDS, SIDES, Skeleton
 from vorotool.geometry.table import Lookup, Table
 
+BRANCH_TYPES = ("end-end", "junction-end", "junction-junction", "cycle")
+"""As skan has them, by their numbers there."""
+
+BRANCH_COLUMNS = (
+    *("polygon", "id", "branch", "kind", "length", "chord", "r_min", "r_max", "r_mean"),
+    *("type", "tortuosity"),
+)
+
 
 def arc_table(skeleton: Skeleton) -> Table:
     """Give one row an arc: polygon, ends with radii, control point of a parabola, sites, length.
@@ -154,22 +162,25 @@ def branch_table(skeleton: Skeleton, *, threads: int = 0) -> Table:
     Returns
     -------
     Table
-        ``polygon, id, branch, kind, length, chord, r_min, r_max, r_mean``. The kind is ``end`` (it has an end of its
-        own), ``inner`` (it joins junctions), ``closed`` or ``frame`` (it leads from a junction, or the frame, to the
-        frame). The chord is the distance between the ends of the branch. The mean of the radius is over the length.
+        ``polygon, id, branch, kind, length, chord, r_min, r_max, r_mean, type, tortuosity``. The kind is ``end`` (it
+        has an end of its own), ``inner`` (it joins junctions), ``closed`` or ``frame`` (it leads from a junction, or
+        the frame, to the frame). The chord is the distance between the ends of the branch. The mean of the radius is
+        over the length. The type is that of skan: ``end-end``, ``junction-end``, ``junction-junction`` (also of a loop
+        at a junction) or ``cycle`` (a closed branch without junctions). The tortuosity is the length over the chord;
+        there is none where the branch ends where it begins.
 
     Examples
     --------
     >>> from vorotool import skeleton_exact
-    >>> branch_table(skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]]))["kind"].tolist().count("inner")
-    1
+    >>> table = branch_table(skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]]))
+    >>> table["kind"].tolist().count("inner"), table["type"].tolist().count("junction-end")
+    (1, 4)
     """
     check_value(skeleton, "skeleton", Skeleton)
     start = _branch_starts(skeleton)
     if not len(start):
         empty: NDArray[Any] = np.empty(0)
-        names = ("polygon", "id", "branch", "kind", "length", "chord", "r_min", "r_max", "r_mean")
-        return Table(dict.fromkeys(names, empty))
+        return Table(dict.fromkeys(BRANCH_COLUMNS, empty))
     a, b = both = _branch_ends(skeleton, start)
     least, most, integral = skeleton.arc_radii_on(threads)
     length = np.add.reduceat(skeleton.length, start)
@@ -179,6 +190,8 @@ def branch_table(skeleton: Skeleton, *, threads: int = 0) -> Table:
     framed = skeleton.on_frame[both]
     has_end = ((skeleton.degree[both] == 1) & ~framed).any(axis=0)
     kind = np.select([a == b, has_end, framed.any(axis=0)], [2, 0, 3], 1).astype(np.int32)
+    chord = _distance(skeleton.vertices[a], skeleton.vertices[b])
+    tortuosity = np.maximum(np.divide(length, chord, out=np.ones(len(chord)), where=chord > 0), 1.0)
     return Table(
         {
             "polygon": np.ma.array(polygon, mask=polygon < 0),
@@ -186,12 +199,21 @@ def branch_table(skeleton: Skeleton, *, threads: int = 0) -> Table:
             "branch": skeleton.branch[start],
             "kind": Lookup(["end", "inner", "closed", "frame"], kind),
             "length": length,
-            "chord": _distance(skeleton.vertices[a], skeleton.vertices[b]),
+            "chord": chord,
             "r_min": np.minimum.reduceat(least, start),
             "r_max": np.maximum.reduceat(most, start),
             "r_mean": mean,
+            "type": Lookup(list(BRANCH_TYPES), _branch_types(skeleton, both)),
+            "tortuosity": np.ma.array(tortuosity, mask=chord == 0),
         }
     )
+
+
+def _branch_types(skeleton: Skeleton, ends: NDArray[np.int32]) -> NDArray[np.int32]:
+    """(b,) how many ends of each branch are junctions, or the number of ``cycle``."""
+    is_junction = skeleton.degree[ends] > 2
+    is_cycle = (ends[0] == ends[1]) & ~is_junction[0]
+    return np.where(is_cycle, 3, is_junction.sum(axis=0)).astype(np.int32)
 
 
 def _branch_starts(skeleton: Skeleton) -> NDArray[np.int64]:

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from vorotool.geometry.curves.mixed_arcs import MixedArcs
 from vorotool.geometry.ragged import owners, starts_of
+from vorotool.geometry.sorted_sets import distinct
 from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 
 Floats = NDArray[np.float64]
@@ -44,7 +45,7 @@ def with_feet_of_corners(
         return points, start
     import shapely
 
-    arcs, corner = cells.mixed_arcs, np.unique(cells.arcs[cells.is_cut])
+    arcs, corner = cells.mixed_arcs, distinct(cells.arcs[cells.is_cut])
     hulls = shapely.polygons(_hulls(arcs[curved]))
     row, at = shapely.STRtree(shapely.points(cells.vertices[corner])).query(hulls, predicate="intersects")
     arc, vertex = curved[row], corner[at]

@@ -55,6 +55,8 @@ class Derived:
         from vorotool.render.canvas.png import check_picture_size
 
         self.value(target.what)
+        if self.result(target.what).draws_itself:
+            return
         if picture_format(target.fmt) == "png":
             page = self._drawing(target.what).page
             check_picture_size(page, self.options.max_pixels)
@@ -77,6 +79,9 @@ class Derived:
         """Draw one result."""
         if target.fmt in ANIMATIONS:
             self._write_animation(out, target.fmt)
+            return
+        if self.result(target.what).draws_itself:
+            self.result(target.what).draw(out, target, self._styled)
             return
         drawing = self._drawing(target.what)
         write_layers(out, drawing.layers, drawing.page, fmt=target.fmt, threads=self.options.threads)

@@ -24,6 +24,7 @@ from vorotool.geometry.skeleton.skeleton import Skeleton
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.options import ExactSkeletonOptions
 from vorotool.jobs.run_log import Run
+from vorotool.jobs.skeleton_input import border_of
 from vorotool.jobs.skeletons.products import SkeletonProducts
 
 
@@ -87,12 +88,14 @@ class ExactProducts(SkeletonProducts[ExactSkeletonOptions]):
     def inside(self) -> FeatureSkeleton[Seen]:
         """What is inside each feature by itself, and what was seen of each diagram that is looked at."""
         o, look = self.options, self._look if self._is_looked_at else None
+        border = border_of(o, self._frame) if o.has_open_border and self._frame is not None else None
         with self.run.phase("skeleton") as progress, self.telling_once():
             return skeleton_inside(
                 self._polygons,
                 o.gap,
                 complete=o.complete is not False,
                 look=look,
+                border=border,
                 strict=o.strict,
                 threads=o.threads,
                 progress=progress,
@@ -158,6 +161,8 @@ class ExactProducts(SkeletonProducts[ExactSkeletonOptions]):
 
     def _more_stats(self) -> dict[str, Any]:
         """How far a skeleton with a gap is from the exact one: a second diagram, so only for whom it is written."""
+        if self.options.has_open_border:
+            return {"border": "open"}
         if not self.options.gap:
             return {}
         o = self.options

@@ -16,7 +16,7 @@ from vorotool.errors import InputError, Kind, Message, RepairWarning, VorotoolWa
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.skeleton import EXTERIOR, Skeleton
-from vorotool.jobs.inputs import JobInput
+from vorotool.jobs.inputs import JobInput, refuse
 from vorotool.jobs.names import DERIVED
 from vorotool.jobs.options import Place, SkeletonOptions
 from vorotool.jobs.picture_style import styled_page
@@ -25,9 +25,10 @@ from vorotool.jobs.pictures import write_layers
 from vorotool.jobs.pixel_sizes import placed_backdrop
 from vorotool.jobs.pruning_choice import CRITERIA, LENGTHS, Pruning, chosen_pruning
 from vorotool.jobs.run_log import Run
-from vorotool.jobs.skeletons.derived import Derived
-from vorotool.jobs.skeletons.result import Origin
 from vorotool.jobs.skeleton_input import read_polygons
+from vorotool.jobs.skeletons.derived import Derived
+from vorotool.jobs.skeletons.lines import LINES, WrittenLines
+from vorotool.jobs.skeletons.result import Origin
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import in_units, length_in_units, unit_text
 from vorotool.products.formats import PICTURES, picture_format
@@ -59,13 +60,17 @@ class SkeletonProducts(ABC, Generic[Options]):
     def __init__(self, run: Run, options: Options, given: JobInput) -> None:
         self.run = run
         with run.phase("read"):
-            self._polygons, self.is_mask, options, frame = read_polygons(run, options, given)
+            self._polygons, self.is_mask, options, frame, grid = read_polygons(run, options, given)
+        if frame is None:
+            refuse({"what thickness": "thickness" in options.what}, "is for images, but the input is polygons or lines")
+        self._frame = frame
         self.options, self.backdrop = options, placed_backdrop(options.pixel_size, given.backdrop)
         self._is_told = False  # what was repaired, once
         check_column(options.label_by, self._polygons.properties)
         world = world_of_polygons(run, options, self._polygons, frame=frame, size=options.pixel_size)
         self._styled = partial(styled_page, looks=options.looks, world=world)
-        origin = Origin(run, options, lambda: self.skeleton, lambda: self.whole, self._shapes)
+        origin = Origin(run, options, lambda: self.skeleton, lambda: self.whole, self._shapes, frame, grid)
+        self.lines = WrittenLines(run, options, lambda: self.joined, lambda: self.centerlines)
         self.derived = Derived(origin, self.backdrop, self._styled)
 
     @contextmanager
@@ -99,6 +104,17 @@ class SkeletonProducts(ABC, Generic[Options]):
         threshold: dict[str, Any] = {self.pruning.criterion: self.pruning.threshold}
         with self.run.phase("prune") as progress:
             return prune(whole, **threshold, threads=self.options.threads, progress=progress)
+
+    @cached_property
+    def joined(self) -> Skeleton:
+        """What is left, with near junctions made one: of what is drawn and counted, but not of what is measured."""
+        if not self.options.join_junctions:
+            return self.skeleton
+        from vorotool.engines.junctions.joining import join_junctions
+
+        skeleton = self.skeleton
+        with self.run.phase("join"):
+            return join_junctions(skeleton)
 
     @cached_property
     def centerlines(self) -> Centerlines:
@@ -170,10 +186,15 @@ class SkeletonProducts(ABC, Generic[Options]):
         if not self.options.wants_skeleton:
             return
         self._verify_whole(progress)
+        self.lines.verify(progress)
         if self.pruning.criterion is not None:
             from vorotool.engines.pruning.verify_pruning import verify_pruning
 
             verify_pruning(self.skeleton, self.whole)
+        if self.options.join_junctions:
+            from vorotool.engines.junctions.verify_joining import verify_joining
+
+            verify_joining(self.joined, self.skeleton)
 
     @abstractmethod
     def _verify_whole(self, progress: Progress) -> None: ...
@@ -181,7 +202,7 @@ class SkeletonProducts(ABC, Generic[Options]):
     def _value(self, what: str) -> Skeleton:
         if what == "centerline":
             return self.centerlines.path
-        return self.diagram if what == "diagram" else self.skeleton
+        return self.diagram if what == "diagram" else self.joined
 
     def check(self, target: Target) -> None:
         """Compute a result, and refuse what cannot be written, before anything is written."""
@@ -234,8 +255,8 @@ class SkeletonProducts(ABC, Generic[Options]):
         o = self.options
         if what in DERIVED:
             return in_units(o.pixel_size, self.derived.value(what))
-        if what == "centerline":
-            return in_units(o.pixel_size, self.centerlines)
+        if what in LINES:
+            return in_units(o.pixel_size, self.lines.value(what))
         value = in_units(o.pixel_size, self._value(what))
         if what != "table":
             return value
@@ -269,16 +290,19 @@ class SkeletonProducts(ABC, Generic[Options]):
         return self._styled(page)
 
     def _write_picture(self, out: BinaryIO, target: Target) -> None:
-        from vorotool.render.layers.skeleton import centerline_layers, picture_layers
+        from vorotool.render.layers.lines_along import line_layers
+        from vorotool.render.layers.skeleton import picture_layers
 
         value = self._value(target.what)
         page, wanted = self._page(value), self._layers(target.what)
-        if target.what == "centerline":
-            layers = centerline_layers(self.centerlines, page, wanted)
+        lines = self.lines.value(target.what) if target.what in LINES else value
+        is_path = target.what == "centerline"
+        exact = self.exact if "exact" in wanted and not is_path else None
+        points = self._points(target.what) if "points" in wanted and not is_path else None
+        if isinstance(lines, Skeleton):
+            layers = picture_layers(lines, page, wanted, what=target.what, points=points, exact=exact)
         else:
-            exact = self.exact if "exact" in wanted else None
-            points = self._points(target.what) if "points" in wanted else None
-            layers = picture_layers(value, page, wanted, what=target.what, points=points, exact=exact)
+            layers = line_layers(lines, page, wanted, points=points, exact=exact)
         write_layers(out, layers, page, fmt=target.fmt, threads=self.options.threads)
 
     def _layers(self, what: str) -> Sequence[str]:
@@ -299,8 +323,8 @@ class SkeletonProducts(ABC, Generic[Options]):
         if self.is_mask:
             found |= {"outline": self.options.outline or "crack", "connectivity": int(self.options.connectivity or 8)}
         if self.options.wants_skeleton:
-            found |= self._skeleton_stats(self.skeleton)
-        return found | self.derived.stats()
+            found |= self._skeleton_stats(self.joined)
+        return found | self.lines.stats() | self.derived.stats()
 
     def _shape_stats(self) -> dict[str, Any]:
         graph = self.graph
@@ -324,6 +348,9 @@ class SkeletonProducts(ABC, Generic[Options]):
             "nodes": len(skeleton.vertices),
             "prune": self.pruning.stats(),
         }
+        if self.options.join_junctions:
+            junctions = [int(np.count_nonzero(value.degree > 2)) for value in (self.skeleton, skeleton)]
+            found["junctions_joined"] = junctions[0] - junctions[1]
         if skeleton.frame is not None:
             found["frame"] = list(skeleton.frame)
         return found | self._more_stats()

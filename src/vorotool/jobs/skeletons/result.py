@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 from vorotool.geometry.progress import Progress
 from vorotool.jobs.options import SkeletonOptions
@@ -14,8 +14,12 @@ from vorotool.jobs.run_log import Run
 
 if TYPE_CHECKING:
     from vorotool.engines.skeleton.exact import ShapeDiagram
+    from vorotool.geometry.pixel_frame import Frame
+    from vorotool.geometry.pixel_grid import PixelGrid
     from vorotool.geometry.polygons.polygon_set import PolygonSet
     from vorotool.geometry.skeleton.skeleton import Skeleton
+    from vorotool.jobs.targets import Target
+    from vorotool.render.canvas.layers import Page
 
 
 @dataclass(frozen=True)
@@ -34,6 +38,10 @@ class Origin:
         Gives it before it is pruned.
     shapes : callable
         Gives the shapes, or their exact diagram.
+    frame : Frame, optional
+        Pixels of the image that the shapes are outlines of.
+    grid : PixelGrid, optional
+        What that image says of them.
     """
 
     run: Run
@@ -41,6 +49,8 @@ class Origin:
     skeleton: Callable[[], Skeleton]
     whole: Callable[[], Skeleton]
     shapes: Callable[[], ShapeDiagram | PolygonSet]
+    frame: Frame | None = None
+    grid: PixelGrid | None = None
 
 
 class Result(ABC):
@@ -51,6 +61,9 @@ class Result(ABC):
     origin : Origin
         What it follows from.
     """
+
+    draws_itself = False
+    """Its picture is an image of its own, and no layers."""
 
     def __init__(self, origin: Origin) -> None:
         self.origin, self.run, self.options = origin, origin.run, origin.options
@@ -63,9 +76,13 @@ class Result(ABC):
     @abstractmethod
     def _make(self) -> Any: ...
 
-    def verify(self, progress: Progress) -> None:
+    def verify(self, progress: Progress) -> None:  # noqa: B027 - some are not checked
         """Check the value by another way than it was made."""
 
     def stats(self) -> dict[str, Any]:
         """Counts of it."""
         return {}
+
+    def draw(self, out: BinaryIO, target: Target, styled: Callable[[Page], Page]) -> None:
+        """Draw what draws itself, on a page that is styled as the options say."""
+        raise NotImplementedError

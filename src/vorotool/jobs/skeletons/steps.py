@@ -17,8 +17,8 @@ class Steps(Result):
     def _make(self) -> SkeletonPoints:
         skeleton, every = self.origin.skeleton(), self.options.every
         assert every is not None  # the command refuses points without it
-        with self.run.phase("points"):
-            return points_along(skeleton, every=every)
+        with self.run.phase("points") as progress:
+            return points_along(skeleton, every=every, threads=self.options.threads, progress=progress)
 
     def stats(self) -> dict[str, Any]:
         """Count points."""

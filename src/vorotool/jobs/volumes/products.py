@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, BinaryIO
@@ -15,8 +15,9 @@ from vorotool.engines.tessellation.frames import label_dtype
 from vorotool.engines.volumes.slabs import Quantity, SeedSlab, SeedSlabs, with_neighbours
 from vorotool.engines.volumes.verify_volume import verify_label_volume
 from vorotool.engines.volumes.volume_frames import slab_limits
-from vorotool.engines.volumes.volume_measures import VolumeMeasures, measure_volume, volume_diagram
-from vorotool.engines.volumes.volume_tables import volume_neighbours, volume_table
+from vorotool.engines.volumes.volume_measures import volume_diagram
+from vorotool.engines.volumes.volume_regions import VolumeRegions, regions_of_sweep
+from vorotool.engines.volumes.volume_tables import neighbours_of_regions, table_of_regions
 from vorotool.engines.volumes.volume_tessellator import VolumeSweep
 from vorotool.errors import LimitError
 from vorotool.geometry.length_units import unit_name
@@ -38,8 +39,7 @@ from vorotool.products.writing import write_product
 if TYPE_CHECKING:
     from vorotool.render.canvas.styles import PictureStyle
 
-_HELD = frozenset({"table", "neighbours", "colour"})
-"""Results that need the whole volume in memory."""
+_TABLES = ("table", "neighbours")
 
 
 def products(run: Run, o: TessellationOptions, given: JobInput) -> VolumeProducts:
@@ -60,7 +60,7 @@ def products(run: Run, o: TessellationOptions, given: JobInput) -> VolumeProduct
         )
         if {"distance", "distance2"} & set(o.what):
             sweep.check_distances()
-    return VolumeProducts(run, o, read, sweep)
+    return VolumeProducts(run, o, read, sweep, has_page=given.has_page)
 
 
 class VolumeProducts:
@@ -76,10 +76,16 @@ class VolumeProducts:
         What was read of the input.
     sweep : VolumeSweep
         Gives any slices of labels.
+    has_page : bool
+        Whether a page is among the results.
     """
 
-    def __init__(self, run: Run, options: TessellationOptions, read: ReadVolume, sweep: VolumeSweep) -> None:
+    def __init__(
+        self, run: Run, options: TessellationOptions, read: ReadVolume, sweep: VolumeSweep, *, has_page: bool = False
+    ) -> None:
         self.run, self.options, self.read, self.sweep = run, options, read, sweep
+        self._is_held = has_page or "colour" in options.what
+        self._with_distances = (has_page or "table" in options.what) and len(read.seeds) > 0
         check_column(options.label_by, read.seeds.properties)
         self.dtype = label_dtype(read.seeds.largest_label, options.dtype)
 
@@ -100,15 +106,23 @@ class VolumeProducts:
         with self.run.phase("tessellate"):
             return self.sweep.labels(first, slices, dtype=self.dtype)
 
+    def _slabs(self) -> Iterator[tuple[int, NDArray[Any]]]:
+        """The first slice of each slab, and its labels: of the volume where it is held."""
+        for first, slices in slab_limits(self.sweep.frame, len(self.sweep.seeds)):
+            if self._is_held:
+                yield first, self.volume.labels[first : first + slices]
+            else:
+                yield first, self._labels(first, slices)
+
     @cached_property
-    def measures(self) -> VolumeMeasures:
+    def regions(self) -> VolumeRegions:
         """Volumes, faces and boxes of the regions: one pass that tables and colours share."""
-        return measure_volume(self.volume, threads=self.options.threads)
+        return regions_of_sweep(self.sweep, self._slabs(), distances=self._with_distances, threads=self.options.threads)
 
     @cached_property
     def colours(self) -> tuple[NDArray[np.uint32], NDArray[np.uint32]]:
         """Labels, and the colour class of each."""
-        return region_colours(self.volume, measures=self.measures)
+        return region_colours(self.volume, measures=self.regions.measures)
 
     @cached_property
     def _views(self) -> SlicePicture:
@@ -123,13 +137,12 @@ class VolumeProducts:
             check_volume_page(self.sweep.frame.shape)
         elif what == "colour":
             self._views.check(self.options.max_pixels)
-        elif what == "distance2":
+        if what == "distance2" or self._with_distances:
             _ = self.sweep.square_dtype
-        if what in _HELD or fmt == "html":
+        if what == "colour" or fmt == "html":
             self._require_memory()
-            return
-        stream = self._stream(what)
-        if fmt == "zarr":
+        elif fmt == "zarr":
+            stream = self._stream(what)
             check_volume_chunks(self.options, stream.frame, stream.dtype)
         elif self.sweep.frame.width * self.sweep.frame.height > self.options.max_pixels:
             size = f"{self.sweep.frame.width} x {self.sweep.frame.height}"
@@ -150,8 +163,8 @@ class VolumeProducts:
                 self._write_page(out)
             elif what == "colour":
                 self._write_picture(out, target.fmt)
-            elif what in ("table", "neighbours"):
-                table = self._table if what == "table" else self._neighbours()
+            elif what in _TABLES:
+                table = self._table if what == "table" else neighbours_of_regions(self.regions)
                 write_product(
                     out,
                     table,
@@ -212,12 +225,7 @@ class VolumeProducts:
     # ---- what is made of the whole
     @cached_property
     def _table(self) -> Table:
-        volume, measures = self.volume, self.measures
-        squares = self.sweep.squared_distances() if len(self.read.seeds) else None
-        return volume_table(volume, distance2=squares, measures=measures, threads=self.options.threads)
-
-    def _neighbours(self) -> Table:
-        return volume_neighbours(self.volume, measures=self.measures, threads=self.options.threads)
+        return table_of_regions(self.regions, threads=self.options.threads)
 
     def _write_page(self, out: BinaryIO) -> None:
         from vorotool.render.pages.volume_html import write_volume_html

@@ -79,11 +79,19 @@ def _lengths(power: int) -> Iterable[float]:
     return (float(f"{number}e{power}") for number in (1, 2, 5))
 
 
-def _size(page: Page) -> float:
+def letter_size(page: Page) -> float:
+    """Give the size of letters on a page, in px.
+
+    Examples
+    --------
+    >>> letter_size(Page((0, 0, 100, 50), width=600, y_up=True))
+    10.0
+    """
     return min(max(page.width * LETTERS, LEAST), LARGEST)
 
 
-def _box(name: str, low: tuple[float, float], high: tuple[float, float], fill: str, edge: str | None) -> Polygons:
+def box(name: str, low: tuple[float, float], high: tuple[float, float], fill: str, edge: str | None) -> Polygons:
+    """Give a rectangle between two of its corners, as a layer of a name."""
     corners = np.array([[low[0], low[1]], [high[0], low[1]], [high[0], high[1]], [low[0], high[1]]])
     return Polygons(name, corners, np.arange(4, dtype=np.int32), np.array([0, 4]), colours=[fill], edge=edge, width=1.0)
 
@@ -98,12 +106,12 @@ def _legend(layers: Sequence[Layer], page: Page) -> list[Layer]:
     shown = [layer for layer in reversed(layers) if not isinstance(layer, Texts)]
     if not shown:
         return []
-    size = _size(page)
+    size = letter_size(page)
     row, gap = 1.6 * size, 0.6 * size
     longest = max(len(layer.name) for layer in shown)
     across, down = 2 * gap + 2.4 * size + ADVANCE * size * longest, 2 * gap + row * len(shown)
     left, top = page.width - across - gap, gap
-    made: list[Layer] = [_box("legend", (left, top), (left + across, top + down), WHITE, FAINT)]
+    made: list[Layer] = [box("legend", (left, top), (left + across, top + down), WHITE, FAINT)]
     for number, layer in enumerate(shown):
         middle = top + gap + row * (number + 0.5)
         made += _sample(layer, left + gap, middle, size)
@@ -121,7 +129,7 @@ def _sample(layer: Layer, left: float, middle: float, size: float) -> list[Layer
     if isinstance(layer, Polygons) or (isinstance(layer, Arcs) and layer.fill is not None):
         fill = layer.fill if isinstance(layer, Arcs) else _fill(layer)
         low, high = (left, middle - 0.5 * size), (right, middle + 0.5 * size)
-        return [_box(name, low, high, fill or WHITE, FAINT if layer.edge in (None, WHITE) else layer.edge)]
+        return [box(name, low, high, fill or WHITE, FAINT if layer.edge in (None, WHITE) else layer.edge)]
     if isinstance(layer, Curves):
         control = np.array([-1], dtype=np.int32)
         pairs = np.array([[0, 1]], dtype=np.int32)
@@ -139,7 +147,7 @@ def _fill(layer: Polygons) -> str:
 
 def _scale_bar(bar: ScaleBar, page: Page) -> list[Layer]:
     """A line with serifs in the lower left corner, and its length over it, both with a white edge."""
-    size = _size(page)
+    size = letter_size(page)
     unit = page.length(1.0) / bar.factor  # px of a unit of the bar
     longest = LONGEST * page.width / unit if unit > 0 else 0.0
     if not 0 < longest < float("inf"):

@@ -14,6 +14,8 @@ from vorotool import _core
 from vorotool.geometry.curves.circular_arcs import middles_of
 from vorotool.geometry.curves.inverse_functions import hypotenuse
 from vorotool.geometry.xml_text import xml_characters
+from vorotool.render.canvas.circles import Circles
+from vorotool.render.canvas.cubic_curves import CubicCurves
 from vorotool.render.canvas.layers import (
     Arcs,
     Backdrop,
@@ -106,7 +108,7 @@ def fill_style(backdrop: Backdrop | None, *, is_sheer: bool = False) -> str:
 def layer_parts(layer: Layer, page: Page, threads: int) -> Iterator[bytes]:
     """Give the group of a layer, piece by piece."""
     if isinstance(layer, Arcs):
-        return _arcs(layer, page)
+        return _circles(layer, page, threads) if isinstance(layer, Circles) else _arcs(layer, page)
     x, y = np.ascontiguousarray(np.round(page.place(layer.points), page.decimals).T + 0.0)  # no -0
     if isinstance(layer, Lines):
         return _lines(layer, x, y, threads)
@@ -140,7 +142,7 @@ def _lines(layer: Lines, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iter
 
 
 def _curves(layer: Curves, x: NDArray[Any], y: NDArray[Any], page: Page, threads: int) -> Iterator[bytes]:
-    """One row a place: M before the begin of a path, Q before a control point, then L, A or nothing before an end."""
+    """One row a place: M before the begin of a path, Q or C before a control point, then L, A or nothing."""
     commands = _Commands(layer, page)
     across, down = _core.text.NumberTexts(x, 0, threads), _core.text.NumberTexts(y, 0, threads)
     dashes = f' stroke-dasharray="{DASH:g}"' if layer.is_broken else ""
@@ -150,12 +152,15 @@ def _curves(layer: Curves, x: NDArray[Any], y: NDArray[Any], page: Page, threads
         control = layer.control[rows]
         begins = np.append(True, source[1:] != target[:-1])
         bends = control >= 0
-        last = np.cumsum(1 + begins + bends) - 1  # the row of each target
+        more = int(isinstance(layer, CubicCurves))
+        last = np.cumsum(1 + begins + bends + more) - 1  # the row of each target
         place = np.empty(last[-1] + 1, dtype=np.int32)
         token = np.empty(last[-1] + 1, dtype=np.int32)
         place[last], token[last] = target, commands.before_ends[0, rows]
-        place[last[bends] - 1], token[last[bends] - 1] = control[bends], 2
-        first = (last - bends - 1)[begins]
+        place[last[bends] - 1 - more], token[last[bends] - 1 - more] = control[bends], 2
+        if isinstance(layer, CubicCurves):
+            place[last - 1], token[last - 1] = layer.second[rows], 3
+        first = (last - bends - more - 1)[begins]
         place[first], token[first] = source[begins], 0
         yield f"<path {_UNSCALED} d=".encode() + b'"'
         yield from _rows([(commands.texts, token), (across, place), (down, place)], ("", "", " ", ""), threads)
@@ -167,7 +172,7 @@ class _Commands:
     """What stands before the places of curves: `texts`, and which of them before the end of each, forth and back."""
 
     def __init__(self, curves: Curves, page: Page) -> None:
-        self.texts = ["M", "L", "Q", " "]
+        self.texts = ["M", "L", "C" if isinstance(curves, CubicCurves) else "Q", " "]
         forth = np.where(curves.control >= 0, 3, 1)
         self.before_ends = np.stack([forth, forth])
         if curves.centre is None or curves.is_left is None:
@@ -335,6 +340,19 @@ def _arcs(layer: Arcs, page: Page) -> Iterator[bytes]:
     yield b"</g>\n"
 
 
+def _circles(layer: Circles, page: Page, threads: int) -> Iterator[bytes]:
+    """An element of each, in which a page with different scales along x and y has ellipses."""
+    x, y = np.ascontiguousarray(np.round(page.place(layer.centre[::2]), page.decimals).T + 0.0)
+    across = np.round(np.array([page.length(each) for each in layer.radius.tolist()]), page.decimals + 1)
+    columns, around = [x, y, across], _CIRCLE
+    if page.aspect != 1:
+        columns, around = [*columns, np.round(across * page.aspect, page.decimals + 1)], _ELLIPSE
+    yield f'<g id="{_escaped(layer.name)}" fill="none" {_stroke(layer.edge, layer.width)}>\n'.encode()
+    for rows in _chunks(len(x), SLICE_ROWS):
+        yield from _rows([column[rows] for column in columns], around, threads)
+    yield b"</g>\n"
+
+
 def _escaped(text: str) -> str:
     return escape(xml_characters(text))
 
@@ -344,6 +362,10 @@ def _short(number: float, decimals: int) -> str:
 
 
 _UNSCALED = 'vector-effect="non-scaling-stroke"'
+
+
+_CIRCLE: tuple[str, ...] = ('<circle cx="', '" cy="', '" r="', f'" {_UNSCALED}/>\n')
+_ELLIPSE: tuple[str, ...] = ('<ellipse cx="', '" cy="', '" rx="', '" ry="', f'" {_UNSCALED}/>\n')
 
 
 def _stroke(colour: str, width: float) -> str:

@@ -8,6 +8,7 @@ import numpy as np
 
 from vorotool.geometry.mesh.cells import CellSet
 from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation
+from vorotool.geometry.mesh.proximity import ProximityGraph
 from vorotool.render.canvas.layers import Layer, Lines, Page, Points, Polygons, Texts, bounds_of
 from vorotool.render.canvas.names import column_texts, without_empty
 from vorotool.render.canvas.palettes import CELLS, INK, WHITE
@@ -17,12 +18,12 @@ LAYERS = ("triangles", "edges", "points", "labels")
 """From below."""
 
 
-def mesh_layers(mesh: AnyTriangulation, page: Page, layers: Iterable[str]) -> list[Layer]:
+def mesh_layers(mesh: AnyTriangulation | ProximityGraph, page: Page, layers: Iterable[str]) -> list[Layer]:
     """Make layers of a triangulation; lines and discs get finer where points are crowded.
 
     Parameters
     ----------
-    mesh : Triangulation or DigitalTriangulation
+    mesh : Triangulation, DigitalTriangulation or ProximityGraph
         What to draw.
     page : Page
         Where it will be drawn.
@@ -55,7 +56,7 @@ def mesh_layers(mesh: AnyTriangulation, page: Page, layers: Iterable[str]) -> li
     return [made[name] for name in LAYERS if name in wanted]
 
 
-def site_names(sites: AnyTriangulation | CellSet, page: Page) -> Texts:
+def site_names(sites: AnyTriangulation | ProximityGraph | CellSet, page: Page) -> Texts:
     """Ids of the sites beside these, or what the column says that the page is to have.
 
     Examples
@@ -72,7 +73,7 @@ def site_names(sites: AnyTriangulation | CellSet, page: Page) -> Texts:
 
 
 def mesh_page(
-    mesh: AnyTriangulation,
+    mesh: AnyTriangulation | ProximityGraph,
     *,
     width: int = 1000,
     y_up: bool | None = None,
@@ -82,7 +83,7 @@ def mesh_page(
 
     Parameters
     ----------
-    mesh : Triangulation or DigitalTriangulation
+    mesh : Triangulation, DigitalTriangulation or ProximityGraph
         What to draw; where ``y_up`` is not given, its own decides.
     width : int
         In px.

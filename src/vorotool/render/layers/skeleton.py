@@ -8,7 +8,6 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.skeleton.centerline import Centerlines
 from vorotool.geometry.skeleton.skeleton import EDGE, INTERIOR, Skeleton
 from vorotool.geometry.skeleton.tables import site_labels
 from vorotool.render.canvas.layers import Curves, Layer, Lines, Page, Points, Texts, bounds_of, name_size
@@ -96,48 +95,6 @@ def picture_layers(
     if what == "diagram":
         return skeleton_layers(skeleton, page, layers, name="diagram", colour=SEED, points=points, exact=exact)
     return skeleton_layers(skeleton, page, layers, points=points, exact=exact)
-
-
-def centerline_layers(lines: Centerlines, page: Page, layers: Iterable[str]) -> list[Layer]:
-    """Make layers of centerlines: those of a skeleton, but the arcs are those of the lines, with their extensions.
-
-    Parameters
-    ----------
-    lines : Centerlines
-        What to draw.
-    page : Page
-        Where it will be drawn.
-    layers : iterable of str
-        As of `skeleton_layers`; "skeleton" are the lines.
-
-    Raises
-    ------
-    UsageError
-        If a layer is unknown.
-
-    Examples
-    --------
-    >>> from vorotool import centerline, skeleton_exact
-    >>> lines = centerline(skeleton_exact([[0, 0], [4, 0], [0, 3]]))
-    >>> [layer.name for layer in centerline_layers(lines, skeleton_page(lines.path), ["skeleton", "polygons"])]
-    ['polygons', 'centerline']
-    """
-    made = skeleton_layers(lines.path, page, layers, name="centerline")
-    return [_extended(layer, lines) if isinstance(layer, Curves) else layer for layer in made]
-
-
-def _extended(curves: Curves, lines: Centerlines) -> Curves:
-    """With the straight lines that lead to the boundary."""
-    first, last = lines.extended
-    nodes = np.concatenate([lines.end_nodes[first, 0], lines.end_nodes[last, 1]])
-    ends = np.concatenate([lines.ends[first, 0], lines.ends[last, 1]])
-    pairs = np.stack([nodes, len(curves.points) + np.arange(len(ends))], axis=1)
-    return replace(
-        curves,
-        points=np.concatenate([curves.points, ends]),
-        pairs=np.concatenate([curves.pairs, pairs]).astype(np.int32),
-        control=np.concatenate([curves.control, np.full(len(ends), -1, dtype=np.int32)]),
-    )
 
 
 def skeleton_page(

@@ -1,0 +1,89 @@
+"""Persistence of the regions of alpha shapes: how many clusters a dot pattern has (paper, section 2.3)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from vorotool import _core
+from vorotool.engines.alpha.alpha_shape import alpha_complex, automatic_rank
+from vorotool.engines.alpha.few_points import unjoined
+from vorotool.errors import UsageError
+from vorotool.geometry.alpha.complex import AlphaComplex
+from vorotool.geometry.alpha.persistence import RegionPersistence
+from vorotool.geometry.progress import Progress
+
+if TYPE_CHECKING:
+    from vorotool.typing import MeshLike
+
+
+def persistence(
+    points: AlphaComplex | MeshLike,
+    *,
+    strict: bool = False,
+    allow_empty: bool | None = None,
+    threads: int = 0,
+    progress: Progress = None,
+) -> RegionPersistence:
+    """Find the radii at which each region of the alpha shapes is born, and at which it merges with an older one.
+
+    Which radii are equal is decided exactly, and it does not matter which diagonals the triangulation has in cocircular
+    polygons, but for the count of triangles.
+
+    Parameters
+    ----------
+    points : AlphaComplex, PointSet, SeedSet, Triangulation, (n, 2) array, data frame, GeoSeries, …
+        A complex is used as it is.
+    strict, allow_empty, threads, progress : optional
+        As for `alpha_complex`.
+
+    Returns
+    -------
+    RegionPersistence
+        One row a region; collinear points have none.
+
+    Raises
+    ------
+    InputError
+        As `alpha_complex`.
+    UsageError
+        If the rule of the complex is the printed one, whose edges do not go with its triangles.
+
+    References
+    ----------
+    Melkemi and Vandorpe, "Voronoi Diagrams and Applications", section 2.3; Edelsbrunner, Letscher and Zomorodian 2002.
+
+    Examples
+    --------
+    >>> found = persistence([[0, 0], [2, 0], [0, 2], [9, 0], [12, 0], [9, 3]])
+    >>> found.table()["into"].tolist(), found.suggested, round(found.apart_until, 3)
+    ([None, 1], 2, 4.876)
+    """
+    if isinstance(points, AlphaComplex):
+        family = points
+    else:
+        family = alpha_complex(points, strict=strict, allow_empty=allow_empty, threads=threads, progress=progress)
+    if family.rule != "corrected":
+        raise UsageError("persistence is that of the corrected rule: leave out rule=printed")
+    mesh = family.mesh
+    ranks = family.triangle_rank, family.rank_max
+    found = _core.alpha.region_persistence(
+        len(family.spectrum), len(mesh.points), mesh.triangles, *ranks, family.sides, mesh.areas(), progress
+    )
+    radius = np.append(family.spectrum, np.inf)
+    return RegionPersistence(
+        radius[found["birth"]],
+        radius[found["death"]],
+        found["into"],
+        found["vertices"],
+        found["triangles"],
+        found["area"],
+        _joined(family, progress),
+    )
+
+
+def _joined(family: AlphaComplex, progress: Progress) -> float:
+    if unjoined(family) is None:
+        return float(family.spectrum[automatic_rank(family, progress=progress)])
+    return float(family.spectrum.max(initial=0.0))

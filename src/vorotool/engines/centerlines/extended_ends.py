@@ -1,0 +1,65 @@
+"""Skeletons to the ends of strokes: what forks there is left out, and its stem is led on straight to the boundary.
+
+The skeleton of a stroke ends where the disc touches its end, a radius before it, and forks to both corners from there.
+In outlines of pixels one of both may be left when small side branches are pruned: a *hook*, which leads up to a radius
+beside the axis. A hook leads into a corner, the angle of which hardly ever is less than 45 degrees: so all pieces go
+that do, as the paths of centerlines do not lead into these (`vorotool.engines.centerlines.edge_comparisons`).
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+
+import numpy as np
+
+from vorotool.engines.centerlines.leading_on import led_on, rounded
+from vorotool.engines.pruning.pruning import prune
+from vorotool.engines.skeleton.parts import with_arcs
+from vorotool.geometry.arguments.values import check_value
+from vorotool.geometry.progress import Progress
+from vorotool.geometry.skeleton.extended import ExtendedSkeleton
+from vorotool.geometry.skeleton.skeleton import INTERIOR, Skeleton
+
+TIP = sqrt(4 + 2 * sqrt(2))
+"""1 over the sine of half of 45 degrees: the scale at which what leads into wider corners is pruned."""
+
+
+def extend_ends(skeleton: Skeleton, *, threads: int = 0, progress: Progress = None) -> ExtendedSkeleton:
+    """Lead the ends of a skeleton on to the boundary, so that it reaches the ends of strokes.
+
+    First, what leads into corners of 45 degrees or more is left out, as ``prune(skeleton, scale=2.613)`` does it: forks
+    at the ends of strokes, and hooks that outlines of pixels make there. Then each leaf that is inside is led on along
+    a straight line: to the middle of the edge that its skeleton forked to, or straight on to the boundary from the
+    place of the branch one radius before. Leaves at corners, of less than 45 degrees, stay; and so do single places
+    that are left of round shapes.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+        Pruned or not. Its arcs inside polygons are used.
+    threads : int
+        0 uses all.
+    progress : callable, optional
+        Called with the fraction done of the pruning.
+
+    Returns
+    -------
+    ExtendedSkeleton
+        Branches with the places that they are led on to.
+
+    Examples
+    --------
+    >>> from vorotool import skeleton_exact
+    >>> skeleton = skeleton_exact([[0, 0], [6, 0], [6, 2], [0, 2]])
+    >>> extend_ends(skeleton).flattened(0.1)[0].tolist()
+    [[0.0, 1.0], [6.0, 1.0]]
+    """
+    check_value(skeleton, "skeleton", Skeleton)
+    inside = with_arcs(skeleton, skeleton.side == INTERIOR)
+    stems = prune(inside, scale=TIP, threads=threads, progress=progress)
+    count = int(stems.branch[-1]) + 1 if len(stems) else 0
+    lines = ExtendedSkeleton(stems, np.full((count, 2, 2), np.nan))
+    has_length = np.bincount(stems.branch, stems.length, count) > 0
+    wanted = (stems.degree[lines.end_nodes] == 1) & has_length[:, None]
+    lines = ExtendedSkeleton(stems, led_on(lines, wanted, to_middles=True))
+    return ExtendedSkeleton(stems, rounded(lines)[1])

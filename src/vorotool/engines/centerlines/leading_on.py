@@ -1,0 +1,82 @@
+"""Straight on from ends that are inside to the boundary: to the middle of the edge ahead, or wherever it is met."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.engines.centerlines.boundary_rays import first_hits
+from vorotool.engines.centerlines.ends import middles_ahead
+from vorotool.geometry.skeleton.led_on import LedOn
+
+Floats = NDArray[np.float64]
+
+
+def led_on(lines: LedOn, wanted: NDArray[np.bool_], *, to_middles: bool) -> Floats:
+    """Lead ends of lines that are inside to the middle of the edge ahead, or straight on.
+
+    Parameters
+    ----------
+    lines : Centerlines or ExtendedSkeleton
+        Of which ends are led on.
+    wanted : (k, 2) bool array
+        Starts and ends that are.
+    to_middles : bool
+        Whether they are led to middles of edges, where there are such; see `middles_ahead`.
+
+    Returns
+    -------
+    (k, 2, 2) float64 array
+        The `ends` of the lines with these.
+
+    Examples
+    --------
+    >>> from vorotool import centerline, skeleton_exact
+    >>> lines = centerline(skeleton_exact([[0, 0], [10, 0], [10, 4], [0, 4]]), ends="none")
+    >>> led_on(lines, np.array([[True, False]]), to_middles=True).tolist()
+    [[[0.0, 2.0], [nan, nan]]]
+    """
+    path, ends = lines.path, lines.ends.copy()
+    origin = path.vertices[lines.end_nodes]
+    wanted = wanted & (path.radius[lines.end_nodes] > 0)
+    if not wanted.any():
+        return ends
+    way, origin = (origin - _places_before(lines))[wanted], origin[wanted]
+    arcs = np.stack([lines.arc_start[:-1], lines.arc_start[1:] - 1], axis=1)[wanted]
+    places = np.full_like(origin, np.nan) if not to_middles else middles_ahead(path, arcs, origin, way)
+    rest = np.isnan(places[:, 0])
+    places[rest], _ = first_hits(path.polygons, path.polygon[arcs][rest], origin[rest], way[rest])
+    ends[wanted] = places
+    return ends
+
+
+def _places_before(lines: LedOn) -> Floats:
+    """(k, 2, 2) places on each path, one radius after its start and before its end, or its other end."""
+    path, start = lines.path, lines.arc_start
+    along = np.concatenate([[0], np.cumsum(path.length)])
+    first, last = along[start[:-1]], along[start[1:]]
+    radius = path.radius[lines.end_nodes]
+    position = np.stack([np.minimum(first + radius[:, 0], last), np.maximum(last - radius[:, 1], first)], axis=1)
+    arc = np.clip(np.searchsorted(along, position, side="right") - 1, start[:-1, None], start[1:, None] - 1).reshape(-1)
+    measures = path.measures(arc)
+    places: Floats = measures.place(measures.parameter(position.reshape(-1) - along[arc]))
+    return places.reshape(-1, 2, 2)
+
+
+def rounded(lines: LedOn) -> tuple[Floats, Floats]:
+    """Give nodes and ends to as many binary places as doubles have at the largest coordinate of their polygon.
+
+    A place is a difference of such numbers: what it has beyond is rounding, such as 1e-32 for what is 0.
+    """
+    polygons, path = lines.path.polygons, lines.path
+    if not len(lines):
+        return path.vertices, lines.ends
+    largest = np.maximum.reduceat(np.abs(polygons.xy), polygons.ring_start[polygons.polygon_start[:-1]], axis=0)
+    shift = 53 - np.frexp(largest.max(axis=1))[1]  # 53 binary places: the largest coordinates are what they were
+    of_nodes = np.zeros(len(path.vertices), dtype=np.int64)
+    of_nodes[path.arcs] = shift[path.polygon][:, None]
+
+    def to_places(values: Floats, by: NDArray[np.integer]) -> Floats:
+        return np.asarray(np.ldexp(np.rint(np.ldexp(values, by)), -by) + 0.0)
+
+    return to_places(path.vertices, of_nodes[:, None]), to_places(lines.ends, shift[lines.polygon][:, None, None])

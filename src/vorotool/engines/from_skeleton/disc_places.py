@@ -1,0 +1,140 @@
+"""Places along arcs where a disc begins to touch another one: its centre is as far away as both radii together."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.geometry.skeleton.arc_measures import ArcMeasures
+from vorotool.geometry.skeleton.skeleton import EDGE, Skeleton
+
+Floats = NDArray[np.float64]
+
+_ENDS = ((0, 0), (0, 2), (2, 2))
+"""Of a linear function, whose square has the products of its values there as Bernstein coefficients."""
+
+_STEPS = 3
+"""Of Newton's method, which starts at the rounded root of a quadratic polynomial."""
+
+
+class DiscPlaces:
+    """Where discs on some arcs of a skeleton touch others.
+
+    With the radius r at c, and a disc of radius s around d, that is where |c - d| = r + s. By the parameter u of an
+    arc, between two lines both sides squared are quadratic in u. Seen from a vertex p among its sites r is |c - p|, and
+    s r + (c - p) (d - p) = (|d - p|^2 - s^2) / 2: quadratic on a parabola, where r is; between two vertices r^2 is,
+    and the rest is linear. So there are two places at most, between which discs overlap.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+        Of what.
+    arcs : (k,) int array
+        Which.
+    """
+
+    def __init__(self, skeleton: Skeleton, arcs: NDArray[np.intp]) -> None:
+        self.arcs, self.measures = arcs, skeleton.measures(arcs)
+        sites = skeleton.sites[arcs]
+        is_edge = skeleton.site_table.kind[sites] == EDGE
+        self.is_line = is_edge.all(axis=1)
+        self.is_parting = ~is_edge.any(axis=1)
+        vertex = np.where(is_edge[:, 0], sites[:, 1], sites[:, 0])
+        self.vertex = skeleton.site_ends[vertex, 0]
+        m = self.measures
+        self._radii = np.stack([m.r0, np.where(m.is_parabola, m.r0 + m.along * m.slope0 / 2, (m.r0 + m.r1) / 2), m.r1])
+
+    def touching(
+        self, rows: NDArray[np.intp], centre: Floats, radius: Floats
+    ) -> tuple[NDArray[np.intp], NDArray[np.intp], Floats]:
+        """Tell where discs on arcs touch given ones.
+
+        Parameters
+        ----------
+        rows : (j,) int array
+            Of `arcs`.
+        centre, radius : (j, 2) and (j,) float64 array
+            The disc that is given for each row.
+
+        Returns
+        -------
+        covered : (l,) int array
+            Places of those rows on which every disc overlaps the given one, but on arcs between vertices.
+        at : (i,) int array
+            Places of those on which some begin to.
+        u : (i,) float64 array
+            Parameters where they do, between 0 and 1.
+        """
+        coefficients, rest = self._polynomial(rows, centre, radius)
+        least, most = coefficients.min(axis=0), coefficients.max(axis=0)
+        covered = np.flatnonzero((least > 0) & ~self.is_parting[rows])
+        crossed = np.flatnonzero((most > 0) & (least <= 0))
+        roots = bernstein_roots(*coefficients[:, crossed])
+        hand, place = np.nonzero((roots > 0) & (roots < 1))
+        at, u = crossed[place], roots[hand, place]
+        kept = rest[0, at] * (1 - u) + rest[1, at] * u >= 0
+        at, u = at[kept], u[kept]
+        return covered, at, self._refined(rows[at], u, centre[at], radius[at])
+
+    def _polynomial(self, rows: NDArray[np.intp], centre: Floats, radius: Floats) -> tuple[Floats, Floats]:
+        """Bernstein coefficients of what is positive where discs overlap; at both ends what must not be negative."""
+        m, r = self.measures[rows], self._radii[:, rows]
+        places = np.stack([m.source, m.control, m.target])
+        away, both = places - centre, r + radius
+        on_lines = np.stack([both[i] * both[j] - (away[i] * away[j]).sum(axis=1) for i, j in _ENDS])
+        vertex = self.vertex[rows]
+        way = centre - vertex
+        known = ((way * way).sum(axis=1) - radius * radius) / 2
+        left = known - ((places - vertex) * way).sum(axis=2)
+        on_parabolas = radius * r - left
+        x = np.stack([m.slope0, m.slope0, m.slope1])
+        squares = radius * radius * m.half * m.half
+        apart = np.stack([squares * (1 + x[i] * x[j]) - left[i] * left[j] for i, j in _ENDS])
+        is_line, is_parting = self.is_line[rows], self.is_parting[rows]
+        found = np.where(is_line, on_lines, np.where(is_parting, apart, on_parabolas))
+        return found, np.where(is_parting, left[[0, 2]], 1.0)
+
+    def _refined(self, rows: NDArray[np.intp], u: Floats, centre: Floats, radius: Floats) -> Floats:
+        """Newton's method on the distance itself, where it brings discs nearer to touching."""
+        m = self.measures[rows]
+        excess, slope = _excess(m, u, centre, radius)
+        for _ in range(_STEPS):
+            step = np.divide(excess, slope, out=np.zeros_like(u), where=slope != 0)
+            moved = np.clip(u - step, 0, 1)
+            new, new_slope = _excess(m, moved, centre, radius)
+            better = np.abs(new) < np.abs(excess)
+            if not better.any():
+                break
+            u, excess = np.where(better, moved, u), np.where(better, new, excess)
+            slope = np.where(better, new_slope, slope)
+        return u
+
+
+def _excess(m: ArcMeasures, u: Floats, centre: Floats, radius: Floats) -> tuple[Floats, Floats]:
+    """By how much a disc at u is farther from the given one than touching, and its derivative."""
+    away = m.place(u) - centre
+    distance = np.sqrt((away * away).sum(axis=1))
+    control = m.control
+    v = u[:, None]
+    moving = 2 * ((1 - v) * (control - m.source) + v * (m.target - control))
+    ratio = np.divide((away * moving).sum(axis=1), distance, out=np.zeros_like(distance), where=distance > 0)
+    return distance - (m.radius(u) + radius), ratio - _growth(m, u)
+
+
+def _growth(m: ArcMeasures, u: Floats) -> Floats:
+    """How fast the radius grows with u."""
+    bend = m.slope1 - m.slope0
+    slope = m.slope0 + u * bend
+    parting = m.half * slope * bend / np.sqrt(1 + slope * slope)
+    return np.where(m.is_parabola, m.along * slope, np.where(m.is_parting, parting, m.r1 - m.r0))
+
+
+def bernstein_roots(first: Floats, middle: Floats, last: Floats) -> Floats:
+    """(2, n) real roots of first (1 - u)^2 + 2 middle u (1 - u) + last u^2, without cancellation; NaN where none is."""
+    b = middle - first
+    a = first - 2 * middle + last
+    square = middle * middle - first * last
+    with np.errstate(invalid="ignore", divide="ignore"):
+        root = np.sqrt(np.where(square >= 0, square, np.nan))
+        q = -(b + np.where(b >= 0, root, -root))
+        return np.stack([q / a, first / q])

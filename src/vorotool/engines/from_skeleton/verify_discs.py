@@ -1,0 +1,218 @@
+"""Checks the largest discs from the polygons alone: no edge enters one, and there is no place for a larger one."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.engines.common.faults import fail, first_wrong
+from vorotool.engines.skeleton.site_distances import ULPS, largest_coordinate
+from vorotool.geometry.arguments.values import check_value
+from vorotool.geometry.polygons.conversion import to_shapely
+from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.progress import Progress
+from vorotool.geometry.skeleton.discs import Discs
+
+if TYPE_CHECKING:
+    from shapely import STRtree
+
+Floats = NDArray[np.float64]
+
+LARGER = 2.0**-8
+"""Of the radius: no disc that is larger by more is anywhere, not only near the centre that was found."""
+
+_MOST_CELLS = 1 << 20
+"""Of a search; a bound of what is left then is given up."""
+
+
+def verify_discs(discs: Discs, *, progress: Progress = None) -> None:
+    """Check discs from their arrays and the polygons alone.
+
+    The nearest edge of the feature is as far from each centre as the radius, and so are its feet, which are on their
+    sites; the centre is inside. Of each feature the discs come from the largest, and are disjoint if they have to be.
+    Feet hold those that are the largest, or larger than those around them: they do not leave half of the circle free,
+    so that no disc near by is larger. That none elsewhere is larger than the first by a part in 256 is shown by squares
+    that cover the feature, each divided until the distances from its centre tell.
+
+    Parameters
+    ----------
+    discs : Discs
+        As `vorotool.largest_discs` gives them.
+    progress : callable, optional
+        Called with the fraction done.
+
+    Raises
+    ------
+    VerificationError
+        If something is wrong; the message says what and where.
+
+    Examples
+    --------
+    >>> from vorotool import largest_discs
+    >>> verify_discs(largest_discs([[0, 0], [4, 0], [0, 3]]))
+    """
+    check_value(discs, "discs", Discs)
+    tolerance = _tolerance(discs)
+    _check_feet(discs, tolerance)
+    if discs.within is not None:
+        _check_empty(discs, discs.within, tolerance)
+        return
+    feature = discs.polygons.feature
+    assert feature is not None
+    at = first_wrong(discs.polygon < 0)
+    if at is not None:
+        fail(f"disc {at} is in no polygon")
+    of_disc = feature[discs.polygon]
+    owners = np.unique(of_disc)
+    for number, own in enumerate(owners):
+        chosen = np.flatnonzero(of_disc == own)
+        _check_order(discs, chosen, tolerance)
+        if discs.features == "separate":
+            _check_feature(discs, chosen, np.flatnonzero(feature == own), tolerance)
+        if progress is not None:
+            progress((number + 1) / len(owners))
+    if discs.features == "together" and len(discs):
+        _check_clear(discs, np.arange(len(discs)), _edges(discs, np.arange(len(feature))), tolerance)
+
+
+def _tolerance(discs: Discs) -> float:
+    return 2 * ULPS * float(np.spacing(largest_coordinate((0.0, 0.0), discs.polygons.xy, discs.xy) or 1.0))
+
+
+def _check_feet(discs: Discs, tolerance: float) -> None:
+    counts = np.diff(discs.foot_start)
+    disc = np.repeat(np.arange(len(discs)), counts)
+    at = first_wrong(counts < (2 if discs.within is None else 1))
+    if at is not None:
+        fail(f"disc {at} has {counts[at]} feet")
+    way = discs.feet - discs.xy[disc]
+    away = np.abs(np.sqrt((way * way).sum(axis=1)) - discs.radius[disc])
+    at = first_wrong(~(away <= tolerance))
+    if at is not None:
+        fail(f"a foot of disc {disc[at]} is {away[at]} off its circle")
+    from vorotool.geometry.skeleton.skeleton import ends_of_sites
+
+    ends = ends_of_sites(discs.polygons, discs.site_table, discs.foot_site)
+    way, from_end = ends[:, 1] - ends[:, 0], discs.feet - ends[:, 0]
+    square = (way * way).sum(axis=1)
+    share = np.divide((from_end * way).sum(axis=1), square, out=np.zeros(len(way)), where=square > 0)
+    rest = from_end - np.clip(share, 0, 1)[:, None] * way
+    at = first_wrong(~(np.sqrt((rest * rest).sum(axis=1)) <= tolerance))
+    if at is not None:
+        fail(f"a foot of disc {disc[at]} is not on its site {discs.foot_site[at]}")
+
+
+def _check_order(discs: Discs, chosen: NDArray[np.intp], tolerance: float) -> None:
+    if (discs.rank[chosen] != np.arange(len(chosen)) + 1).any():
+        fail(f"ranks {discs.rank[chosen].tolist()} do not follow each other")
+    radius = discs.radius[chosen]
+    at = first_wrong(np.diff(radius) > tolerance)
+    if at is not None:
+        fail(f"disc {chosen[at + 1]} is larger than the one before it")
+    if discs.local:
+        return
+    for k in range(1, len(chosen)):
+        way = discs.xy[chosen[:k]] - discs.xy[chosen[k]]
+        at = first_wrong(np.sqrt((way * way).sum(axis=1)) < radius[:k] + radius[k] - tolerance)
+        if at is not None:
+            fail(f"discs {chosen[at]} and {chosen[k]} overlap")
+
+
+def _edges(discs: Discs, polygons: NDArray[np.intp]) -> Any:
+    """Edges of some polygons."""
+    import shapely
+
+    shapes = discs.polygons
+    starts = shapes.ring_start[shapes.polygon_start]
+    own = np.concatenate([np.arange(starts[k], starts[k + 1]) for k in polygons.tolist()])
+    ring_polygon = shapes.ring_polygon
+    open_end = np.zeros(len(shapes.xy), dtype=bool)
+    open_end[shapes.ring_start[1:][shapes.is_line[ring_polygon]] - 1] = True
+    following = np.where(open_end, np.arange(len(shapes.xy)), shapes.following)
+    return shapely.linestrings(np.stack([shapes.xy[own], shapes.xy[following[own]]], axis=1))
+
+
+def _distances(tree: STRtree, places: Floats) -> Floats:
+    import shapely
+
+    (_, _), found = tree.query_nearest(shapely.points(places), return_distance=True, all_matches=False)
+    return np.asarray(found)
+
+
+def _check_clear(discs: Discs, chosen: NDArray[np.intp], edges: Any, tolerance: float) -> STRtree:
+    import shapely
+
+    tree = shapely.STRtree(edges)
+    found = _distances(tree, discs.xy[chosen])
+    at = first_wrong(~(np.abs(found - discs.radius[chosen]) <= tolerance))
+    if at is not None:
+        k = chosen[at]
+        fail(f"disc {k}: an edge is {found[at]} from its centre, but its radius is {discs.radius[k]}")
+    return tree
+
+
+def _check_feature(discs: Discs, chosen: NDArray[np.intp], polygons: NDArray[np.intp], tolerance: float) -> None:
+    import shapely
+
+    tree = _check_clear(discs, chosen, _edges(discs, polygons), tolerance)
+    shapes = [shape for shape in to_shapely(discs.polygons)[polygons] if shape.geom_type.endswith("Polygon")]
+    inside = shapely.union_all(shapely.make_valid(shapes))
+    shapely.prepare(inside)
+    at = first_wrong(~shapely.contains_xy(inside, *discs.xy[chosen].T))
+    if at is not None:
+        fail(f"the centre of disc {chosen[at]} is not inside")
+    for k in (chosen if discs.local else chosen[:1]).tolist():
+        if not _is_held(discs, k, tolerance):
+            fail(f"the feet of disc {k} leave half of its circle free: it could grow")
+    _check_none_larger(discs, int(chosen[0]), tree, inside, tolerance)
+
+
+def _check_empty(discs: Discs, within: PolygonSet, tolerance: float) -> None:
+    """Discs between shapes, whose centres are in a region."""
+    import shapely
+
+    everything = np.arange(len(discs))
+    if not len(discs):
+        return
+    _check_order(discs, everything, tolerance)
+    tree = _check_clear(discs, everything, _edges(discs, np.arange(len(discs.polygons))), tolerance)
+    filled = [shape for shape in to_shapely(discs.polygons) if shape.geom_type.endswith("Polygon")]
+    region = shapely.union_all(shapely.make_valid(to_shapely(within)))
+    space = shapely.difference(region, shapely.union_all(shapely.make_valid(filled)))
+    shapely.prepare(space)
+    at = first_wrong(~(shapely.distance(space, shapely.points(discs.xy)) <= tolerance))
+    if at is not None:
+        fail(f"the centre of disc {at} is not in the region, or in a shape")
+    _check_none_larger(discs, 0, tree, space, tolerance)
+
+
+def _is_held(discs: Discs, disc: int, tolerance: float) -> bool:
+    ways = discs.feet_of(disc) - discs.xy[disc]
+    angles = np.sort(np.arctan2(ways[:, 1], ways[:, 0]))
+    gaps = np.diff(angles, append=angles[0] + 2 * np.pi)
+    return bool(gaps.max() <= np.pi + 8 * tolerance / discs.radius[disc] + 1e-12)
+
+
+def _check_none_larger(discs: Discs, disc: int, tree: STRtree, inside: Any, tolerance: float) -> None:
+    """Squares by their centres: one may hold a larger disc's if the edges are farther than its corners reach."""
+    import shapely
+
+    enough = float(discs.radius[disc]) * (1 + LARGER) + tolerance
+    x0, y0, x1, y1 = inside.bounds
+    side = min(x1 - x0, y1 - y0) or max(x1 - x0, y1 - y0)
+    x, y = (np.arange(low + side / 2, max(high, low + side) + side / 2, side) for low, high in ((x0, x1), (y0, y1)))
+    places = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
+    while len(places) and len(places) <= _MOST_CELLS:
+        away = _distances(tree, places)
+        larger = first_wrong((away > enough) & shapely.contains_xy(inside, *places.T))
+        if larger is not None:
+            place = tuple(places[larger].tolist())
+            fail(f"at {place} there is a disc of radius {away[larger]}, larger than disc {disc}")
+        reach = side * np.sqrt(0.5)
+        places = places[away + reach > enough]
+        places = places[shapely.distance(inside, shapely.points(places)) <= reach]
+        side /= 2
+        quarter = np.array([[-1, -1], [-1, 1], [1, -1], [1, 1]]) * side / 2
+        places = (places[:, None] + quarter).reshape(-1, 2)

@@ -1,0 +1,1 @@
+"""Cubic Bézier curves for lines along skeletons, within a tolerance."""

@@ -1,0 +1,126 @@
+"""Smooth curves along skeletons and centerlines, within a tolerance that is checked."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.engines.smoothing.cubic_fits import Stretches, fitted
+from vorotool.engines.smoothing.line_samples import LineSamples, sampled_lines
+from vorotool.engines.smoothing.tangents import closing_tangents, inner_tangents, outer_tangents
+from vorotool.errors import InputError
+from vorotool.geometry.arguments.values import check_value
+from vorotool.geometry.numbers import checked_tolerance
+from vorotool.geometry.progress import Progress
+from vorotool.geometry.skeleton.centerline import Centerlines
+from vorotool.geometry.skeleton.extended import ExtendedSkeleton
+from vorotool.geometry.skeleton.led_on import LedOn
+from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.geometry.skeleton.smooth_lines import SmoothLines
+
+Floats = NDArray[np.float64]
+Numbers = NDArray[np.int64]
+
+FINEST = 2.0**-20
+"""Of the larger side of the bounds: the least tolerance."""
+
+
+def smooth(lines: Skeleton | LedOn, tolerance: float, *, progress: Progress = None) -> SmoothLines:
+    """Fit cubic Bézier curves to the branches of a skeleton, or to centerlines.
+
+    Each branch is a chain of curves with one tangent where they meet. Junctions and ends stay where they are. Curves
+    are fitted by least squares; one that is not near enough is parted where it is farthest from the branch, until no
+    place of the curves is farther from the branch than the tolerance, and no place of the branch farther from them. The
+    bound on these distances that was found is a part of the result.
+
+    Parameters
+    ----------
+    lines : Skeleton, Centerlines or ExtendedSkeleton
+        Which; with what leads on to ends.
+    tolerance : float
+        In input units. At least 2^-20 of the larger side of the bounds.
+    progress : callable, optional
+        Called with the fraction done.
+
+    Returns
+    -------
+    SmoothLines
+        A line for each branch, in their order.
+
+    Raises
+    ------
+    InputError
+        If the tolerance is too small.
+    UsageError
+        If it is no positive number.
+
+    References
+    ----------
+    P. J. Schneider, "An Algorithm for Automatically Fitting Digitized Curves", Graphics Gems, 1990.
+
+    Examples
+    --------
+    >>> import vorotool
+    >>> skeleton = vorotool.skeleton_exact([[0, 0], [40, 0], [40, 30], [30, 30], [30, 10], [0, 10]])
+    >>> line = vorotool.smooth(vorotool.centerline(skeleton), 0.5)
+    >>> len(line.control), bool(line.error[0] <= 0.5)
+    (2, True)
+    """
+    check_value(lines, "lines", Skeleton, Centerlines, ExtendedSkeleton)
+    tolerance = checked_tolerance(tolerance)
+    samples = sampled_lines(lines, tolerance)
+    size = float(np.ptp(samples.xy, axis=1).max(initial=0.0)) if samples.xy.size else 0.0
+    if tolerance < FINEST * size:
+        raise InputError(
+            f"the tolerance is {tolerance:g}: fitted curves need at least {FINEST * size:.2g} for lines of this extent"
+        )
+    first, control, error = _fitted_lines(samples, tolerance, progress)
+    line = np.searchsorted(samples.start, first, side="right") - 1
+    start = np.searchsorted(line, np.arange(len(samples.start)))
+    return SmoothLines(lines, control, start, np.maximum.reduceat(error, start[:-1]) if len(error) else error)
+
+
+def _fitted_lines(samples: LineSamples, tolerance: float, progress: Progress) -> tuple[Numbers, Floats, Floats]:
+    """Where curves begin, their control points, and bounds on their distances, in the order of lines."""
+    found = [_single_places(samples)]
+    stretches = _whole_lines(samples, tolerance)
+    done, total = 0, max(int((stretches.last - stretches.first).sum()), 1)
+    while len(stretches.first):
+        fits = fitted(samples, stretches, tolerance)
+        is_near = fits.error <= tolerance
+        found.append((stretches.first[is_near], fits.control[:, :, is_near].transpose(2, 0, 1), fits.error[is_near]))
+        done += int((stretches.last - stretches.first)[is_near].sum())
+        if progress is not None:
+            progress(done / total)
+        stretches = _parted(samples, stretches[~is_near], fits.farthest[~is_near], tolerance)
+    first, control, error = (np.concatenate(parts) for parts in zip(*found, strict=True))
+    order = np.argsort(first, kind="stable")
+    return first[order], control[order], error[order]
+
+
+def _single_places(samples: LineSamples) -> tuple[Numbers, Floats, Floats]:
+    """Curves without a length, of lines without one."""
+    start = samples.start
+    first = start[:-1][np.diff(start) == 1]
+    return first, np.repeat(samples.xy[:, first].T[:, None], 4, axis=1), np.zeros(len(first))
+
+
+def _whole_lines(samples: LineSamples, tolerance: float) -> Stretches:
+    lines = np.flatnonzero(np.diff(samples.start) > 1)
+    first, last = samples.start[lines], samples.start[lines + 1] - 1
+    leaving, entering = outer_tangents(samples, first, last, tolerance)
+    closed = samples.is_closed[lines]
+    leaving[:, closed] = closing_tangents(leaving[:, closed], entering[:, closed])
+    entering[:, closed] = -leaving[:, closed]
+    return Stretches(first, last, leaving, entering)
+
+
+def _parted(samples: LineSamples, stretches: Stretches, at: Numbers, tolerance: float) -> Stretches:
+    """Both parts of each stretch, with one tangent at the place between."""
+    way = inner_tangents(samples, stretches.first, at, stretches.last, tolerance)
+    return Stretches(
+        np.concatenate([stretches.first, at]),
+        np.concatenate([at, stretches.last]),
+        np.concatenate([stretches.leaving, way], axis=1),
+        np.concatenate([-way, stretches.entering], axis=1),
+    )

@@ -1,0 +1,134 @@
+"""A checker of smooth lines: places along both sides are looked for in a tree of the other's pieces."""
+
+from __future__ import annotations
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from vorotool.errors import VerificationError
+from vorotool.geometry.arguments.values import check_value
+from vorotool.geometry.curves.cubics import places_at
+from vorotool.geometry.curves.flatten import chained
+from vorotool.geometry.ragged import owners
+from vorotool.geometry.skeleton.led_on import LedOn
+from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.geometry.skeleton.smooth_lines import SmoothLines
+
+Floats = NDArray[np.float64]
+Numbers = NDArray[np.integer]
+
+FINENESS = 64
+"""How many times finer than the largest error both are flattened: errors are checked to that."""
+
+ROUNDING = 2.0**-44
+"""Of the extent: what rounding may add."""
+
+ON_PIECES, ON_CURVES = 4, 32
+"""Places that are looked at on each straight piece of a flattened branch, and on each curve."""
+
+BEND = 2.0**-20
+"""Sine of the angle between tangents that may be rounding."""
+
+
+def verify_smooth(smoothed: SmoothLines) -> None:
+    """Check smooth lines against what they are near to.
+
+    Lines begin and end where branches do, and their curves follow each other with one tangent; places along both are
+    no farther from the other than the error says.
+
+    Parameters
+    ----------
+    smoothed : SmoothLines
+        As `vorotool.smooth` made it.
+
+    Raises
+    ------
+    VerificationError
+        If something is wrong, with the number of the line.
+
+    Examples
+    --------
+    >>> from vorotool import skeleton_exact, smooth
+    >>> verify_smooth(smooth(skeleton_exact([[0, 0], [6, 0], [6, 2], [0, 2]]), 0.1))
+    """
+    check_value(smoothed, "smoothed", SmoothLines)
+    lines, path = smoothed.lines, smoothed.path
+    first = np.flatnonzero(np.diff(path.branch, prepend=-1))
+    if len(first) != len(smoothed):
+        raise VerificationError(f"there are {len(smoothed)} smooth lines, but {len(first)} branches")
+    if not len(first):
+        return
+    size = float(np.ptp(path.polygons.xy, axis=0).max(initial=0.0)) or 1.0
+    _check_ends(smoothed, lines, path, first)
+    _check_tangents(smoothed, size)
+    error = smoothed.error + ROUNDING * size
+    fineness = float(error.max()) / FINENESS
+    points, start = _flattened(path, lines, fineness)
+    curves, curve_start = smoothed.flattened(fineness)
+    _check_near(points, start, curves, curve_start, error + fineness, "its curves")
+    t = np.tile(np.arange(ON_CURVES + 1) / ON_CURVES, len(smoothed.control))
+    on_curves = places_at(np.repeat(smoothed.control, ON_CURVES + 1, axis=0), t)
+    _check_places(on_curves, np.repeat(smoothed.line, ON_CURVES + 1), points, start, error + fineness, "its branch")
+
+
+def _flattened(path: Skeleton, lines: Skeleton | LedOn, fineness: float) -> tuple[Floats, NDArray[np.int64]]:
+    if isinstance(lines, LedOn):
+        return lines.flattened(fineness)
+    first = np.flatnonzero(np.diff(path.branch, prepend=-1))
+    return chained(*path.flattened(fineness), first)
+
+
+def _check_ends(smoothed: SmoothLines, lines: Skeleton | LedOn, path: Skeleton, first: Numbers) -> None:
+    last = np.append(first[1:], len(path)) - 1
+    nodes = np.stack([path.arcs[first, 0], path.arcs[last, 1]], axis=1)
+    wanted = path.vertices[nodes]
+    if isinstance(lines, LedOn):
+        wanted = np.where(np.isnan(lines.ends), wanted, lines.ends)
+    found = np.stack([smoothed.control[smoothed.start[:-1], 0], smoothed.control[smoothed.start[1:] - 1, 3]], axis=1)
+    wrong = np.flatnonzero((wanted != found).any(axis=(1, 2)))
+    if len(wrong):
+        raise VerificationError(f"smooth line {wrong[0]} does not begin and end where its branch does")
+
+
+def _check_tangents(smoothed: SmoothLines, size: float) -> None:
+    control = smoothed.control
+    joint = np.delete(np.arange(len(control)), smoothed.start[:-1])
+    before, behind = control[joint - 1], control[joint]
+    if (before[:, 3] != behind[:, 0]).any():
+        raise VerificationError("curves of a smooth line do not follow each other")
+    u, v = before[:, 3] - before[:, 2], behind[:, 1] - behind[:, 0]
+    lengths = np.sqrt((u * u).sum(axis=1) * (v * v).sum(axis=1))
+    shortest = np.sqrt(np.minimum((u * u).sum(axis=1), (v * v).sum(axis=1)))
+    bend = np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0])
+    allowed = lengths * (BEND + np.divide(ROUNDING * size, shortest, out=np.ones(len(u)), where=shortest > 0))
+    wrong = np.flatnonzero((bend > allowed) | ((u * v).sum(axis=1) <= 0))
+    if len(wrong):
+        raise VerificationError(f"smooth line {smoothed.line[joint[wrong[0]]]} has a corner inside")
+
+
+def _check_near(
+    points: Floats, start: Numbers, others: Floats, other_start: Numbers, distance: Floats, what: str
+) -> None:
+    """Places along polylines are near to other polylines, line by line."""
+    begin = np.delete(np.arange(len(points)), start[1:] - 1)
+    share = (np.arange(ON_PIECES) / ON_PIECES)[:, None, None]
+    places = points[begin] + share * (points[begin + 1] - points[begin])
+    line = np.tile(owners(np.diff(start))[begin], ON_PIECES)
+    _check_places(places.reshape(-1, 2), line, others, other_start, distance, what)
+
+
+def _check_places(
+    places: Floats, line: Numbers, others: Floats, other_start: Numbers, distance: Floats, what: str
+) -> None:
+    """Places are near to the polylines of their lines."""
+    begin = np.delete(np.arange(len(others)), other_start[1:] - 1)
+    tree = shapely.STRtree(shapely.linestrings(np.stack([others[begin], others[begin + 1]], axis=1)))
+    place, piece = tree.query(shapely.points(places), predicate="dwithin", distance=distance[line])
+    own = owners(np.diff(other_start))[begin]
+    is_near = np.zeros(len(places), dtype=bool)
+    is_near[place[own[piece] == line[place]]] = True
+    wrong = np.flatnonzero(~is_near)
+    if len(wrong):
+        x, y = places[wrong[0]].tolist()
+        raise VerificationError(f"({x:g}, {y:g}) of line {line[wrong[0]]} is farther from {what} than its error says")

@@ -1,0 +1,121 @@
+"""Regions of a tessellation of a volume with their sites: what tables are made of, of voxels that pass by in slabs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.engines.common.label_arrays import label_array
+from vorotool.engines.common.site_rows import largest_by_label, rows_of
+from vorotool.engines.volumes.volume_measures import VolumeMeasures, measure_slabs
+from vorotool.engines.volumes.volume_tessellator import VolumeSweep
+from vorotool.geometry.spacing import PixelSides
+from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
+from vorotool.geometry.volumes.voxel_frame import VoxelFrame
+
+
+@dataclass(frozen=True, eq=False)
+class VolumeRegions:
+    """Measures of regions, and their sites.
+
+    Parameters
+    ----------
+    measures : VolumeMeasures
+        Of the regions.
+    frame : VoxelFrame
+        Where they lie.
+    sides : PixelSides
+        Of a voxel.
+    seeds : VolumeSeeds, optional
+        Whose sites are those of the regions; without them the centroids of the regions are.
+    largest_squares : (n,) uint64 array, optional
+        The largest squared distance in the region of each site.
+    """
+
+    measures: VolumeMeasures
+    frame: VoxelFrame
+    sides: PixelSides
+    seeds: VolumeSeeds | None = None
+    largest_squares: NDArray[np.uint64] | None = None
+
+    @property
+    def labels(self) -> NDArray[np.uint32]:
+        """Of the sites, increasing."""
+        if self.seeds is None:
+            return self.measures.labels
+        assert self.seeds.site_labels is not None  # VolumeSeeds has filled them in
+        return self.seeds.site_labels
+
+    @cached_property
+    def sites(self) -> NDArray[np.float64]:
+        """(n, 3) positions x, y and z, in steps of the sides."""
+        if self.seeds is not None:
+            assert self.seeds.sites is not None
+            return self.seeds.sites * self.steps
+        centroids = self.measures.sums / self.measures.voxels[:, None] + self.corner
+        placed: NDArray[np.float64] = centroids * self.steps
+        return placed
+
+    @property
+    def steps(self) -> NDArray[np.int64]:
+        """Width, height and depth of a voxel, in steps."""
+        return np.array(self.sides.units[::-1], dtype=np.int64)
+
+    @property
+    def corner(self) -> NDArray[np.int64]:
+        """The first voxel: x, y and z."""
+        return np.array([self.frame.x, self.frame.y, self.frame.z], dtype=np.int64)
+
+    @cached_property
+    def rows(self) -> NDArray[np.intp]:
+        """The site of each label that occurs."""
+        return rows_of(self.measures.labels, self.labels)[0]
+
+    @property
+    def stranger(self) -> int | None:
+        """The first label that occurs and is of no site."""
+        return rows_of(self.measures.labels, self.labels)[1]
+
+
+def regions_of_sweep(
+    sweep: VolumeSweep, slabs: Iterable[tuple[int, NDArray[Any]]], *, distances: bool = False, threads: int = 0
+) -> VolumeRegions:
+    """Measure the regions of a tessellation from its labels, which come slab by slab and need not be in memory.
+
+    Parameters
+    ----------
+    sweep : VolumeSweep
+        The tessellation.
+    slabs : iterable of (int, (d, H, W) array)
+        The first slice of each slab, and its labels: from the first slice of the frame to the last.
+    distances : bool
+        Whether to find the largest distance in each region, for which squared distances are computed slab by slab.
+    threads : int
+        0 for all; the result is the same for any number, and for any slabs.
+
+    Examples
+    --------
+    >>> sweep = VolumeSweep(VolumeSeeds([[0, 0, 0], [3, 0, 1]], [1, 2]), VoxelFrame(0, 0, 0, 4, 1, 2))
+    >>> slabs = ((z, sweep.labels(z, 1)) for z in range(2))
+    >>> regions_of_sweep(sweep, slabs, distances=True).largest_squares.tolist()
+    [2, 2]
+    """
+    wanted = sweep.seeds.site_labels
+    assert wanted is not None  # VolumeSeeds has filled them in
+    largest = np.zeros(len(wanted), np.uint64)
+
+    def passing() -> Iterator[NDArray[Any]]:
+        for first, labels in slabs:
+            if distances:
+                squares = sweep.squared_distances(first, len(labels))
+                found = largest_by_label(label_array(labels, "voxel"), squares, wanted, threads, None)
+                np.maximum(largest, found, out=largest)
+            yield labels
+
+    measures = measure_slabs(passing(), threads=threads)
+    return VolumeRegions(measures, sweep.frame, sweep.sides, sweep.seeds, largest if distances else None)

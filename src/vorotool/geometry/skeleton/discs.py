@@ -1,0 +1,225 @@
+"""Discs that fit into shapes, or between them, with the places where they touch."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import InputError
+from vorotool.geometry.checks import set_array
+from vorotool.geometry.curves.circular_arcs import chords_of
+from vorotool.geometry.numbers import nearest_double, real_number, shown_number
+from vorotool.geometry.polygons.polygon_set import SHELL, PolygonSet
+from vorotool.geometry.ragged import within
+from vorotool.geometry.row_index import index_of_rows
+from vorotool.geometry.skeleton.skeleton import SiteTable
+from vorotool.geometry.skeleton.tables import ids_of
+from vorotool.geometry.table import Table
+from vorotool.geometry.values import Curved, Pictured, Tabular, Value, counted, placed
+
+SHOWN_FEET = 3
+"""Feet that a row of the table has: as many as it takes to hold a disc."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Discs(Value, Tabular, Curved, Pictured):
+    """Discs that no shape enters, from the largest to the smallest of each feature.
+
+    Parameters
+    ----------
+    xy : (n, 2) float64 array
+        Centres.
+    radius : (n,) float64 array
+        Radii: the distance from the nearest place on the boundary.
+    polygon : (n,) int32 array
+        The polygon that each is in, the first of several; -1 outside.
+    rank : (n,) int32 array
+        From 1 for the first of a feature.
+    foot_start : (n + 1,) int64 array
+        The feet of disc i are ``feet[foot_start[i]:foot_start[i + 1]]``.
+    feet : (k, 2) float64 array
+        Where discs touch the boundary.
+    foot_site : (k,) int32 array
+        What each foot is on: a row of `site_table`; -1 on the border of a region.
+    site_table : SiteTable
+        Vertices and edges of `polygons`.
+    polygons : PolygonSet
+        The shapes as they were used.
+    local : bool
+        They are all that are larger than those around them, and may overlap; else those of a feature are disjoint.
+    features : {"separate", "together"}
+        Whether each feature was taken by itself.
+    within : PolygonSet, optional
+        Of empty discs: where their centres are.
+
+    Raises
+    ------
+    InputError
+        If an array has another shape.
+
+    Examples
+    --------
+    >>> from vorotool import largest_discs
+    >>> discs = largest_discs([[0, 0], [8, 0], [8, 2], [0, 2]], count=2)
+    >>> discs.xy.tolist(), discs.radius.tolist()
+    ([[4.0, 1.0], [1.0, 1.0]], [1.0, 1.0])
+    >>> discs.feet_of(0).tolist()
+    [[4.0, 0.0], [4.0, 2.0]]
+    """
+
+    xy: NDArray[np.float64]
+    radius: NDArray[np.float64]
+    polygon: NDArray[np.int32]
+    rank: NDArray[np.int32]
+    foot_start: NDArray[np.int64]
+    feet: NDArray[np.float64]
+    foot_site: NDArray[np.int32]
+    site_table: SiteTable
+    polygons: PolygonSet
+    local: bool = False
+    features: str = "separate"
+    within: PolygonSet | None = None
+
+    def __post_init__(self) -> None:
+        count, feet = len(self.radius), len(self.foot_site)
+        for name, dtype, shape in (
+            ("xy", np.float64, (count, 2)),
+            ("radius", np.float64, (count,)),
+            ("polygon", np.int32, (count,)),
+            ("rank", np.int32, (count,)),
+            ("foot_start", np.int64, (count + 1,)),
+            ("feet", np.float64, (feet, 2)),
+            ("foot_site", np.int32, (feet,)),
+        ):
+            set_array(self, name, dtype, shape)
+
+    def __len__(self) -> int:
+        return len(self.radius)
+
+    @property
+    def y_up(self) -> bool:
+        """Whether pictures are drawn y upwards."""
+        return self.polygons.y_up
+
+    def feet_of(self, disc: int) -> NDArray[np.float64]:
+        """Places where a disc touches the boundary, by the numbers of their sites."""
+        return self.feet[self.foot_start[disc] : self.foot_start[disc + 1]]
+
+    def held_by(self) -> NDArray[np.int64]:
+        """(n, 3) feet that hold each disc, as rows of `feet`; -1 for those that there are not.
+
+        The first foot, and of the others the nearest on each side of what is opposite: these hold a disc that cannot
+        grow, and one of them does if it is opposite.
+        """
+        made = np.full((len(self), SHOWN_FEET), -1, dtype=np.int64)
+        counts = np.diff(self.foot_start)
+        few = counts <= SHOWN_FEET
+        disc = np.repeat(np.arange(len(self)), counts)
+        place = within(counts)
+        own = few[disc]
+        made[disc[own], place[own]] = np.flatnonzero(own)
+        for i in np.flatnonzero(~few).tolist():
+            chosen = np.array(_holding(self.feet_of(i), self.xy[i]))
+            made[i, : len(chosen)] = self.foot_start[i] + chosen
+        return made
+
+    def table(self) -> Table:
+        """Give one row a disc.
+
+        Returns
+        -------
+        Table
+            ``polygon, id, rank, x, y, r, feet, x_1, y_1, x_2, y_2, x_3, y_3``. ``feet`` is how many places the disc
+            touches, of which two or three are given: those that hold it, where they are more. Of empty discs instead of
+            ``polygon, id`` there are ``shape_1, shape_2, shape_3``: what the feet are on.
+        """
+        held = self.held_by()
+        is_missing = held < 0
+        columns = {
+            "polygon": np.ma.array(self.polygon, mask=self.polygon < 0),
+            "id": ids_of(self.polygons, self.polygon),
+            "rank": self.rank,
+            "x": self.xy[:, 0].copy(),
+            "y": self.xy[:, 1].copy(),
+            "r": self.radius,
+            "feet": np.diff(self.foot_start),
+        }
+        for k in range(SHOWN_FEET):
+            for axis, name in enumerate("xy"):
+                values = np.append(self.feet[:, axis], np.nan)[held[:, k]]
+                columns[f"{name}_{k + 1}"] = np.ma.array(values, mask=is_missing[:, k])
+        if self.within is not None:
+            del columns["polygon"], columns["id"]
+            shape = np.append(self.site_table.polygon[self.foot_site], -1)[held]
+            columns |= {f"shape_{k + 1}": np.ma.array(shape[:, k], mask=is_missing[:, k]) for k in range(SHOWN_FEET)}
+        return Table(columns)
+
+    def flattened(self, tolerance: float) -> PolygonSet:
+        """Circles as polygons, arcs as chords between places on them.
+
+        Parameters
+        ----------
+        tolerance : float
+            How far a chord may be from its circle.
+
+        Returns
+        -------
+        PolygonSet
+            One polygon a disc, with the id and the properties of its polygon, and ``rank``, ``x``, ``y``, ``r`` and
+            ``feet``.
+
+        Raises
+        ------
+        InputError
+            If the tolerance is not positive.
+        UsageError
+            If it is no number.
+        """
+        tolerance = nearest_double(real_number(tolerance, "the tolerance"))
+        if not tolerance > 0:
+            raise InputError(f"the tolerance is {shown_number(tolerance)}: it must be positive")
+        count = len(self)
+        across = self.radius[:, None] * (1, 0)
+        start = np.stack([self.xy + across, self.xy - across], axis=1)
+        ends = start[:, ::-1].reshape(-1, 2)
+        is_left = np.ones(2 * count, dtype=bool)
+        xy, first = chords_of(start.reshape(-1, 2), ends, np.repeat(self.xy, 2, axis=0), is_left, tolerance)
+        polygons = self.polygons
+        return PolygonSet(
+            xy,
+            first[::2],
+            np.full(count, SHELL),
+            np.arange(count, dtype=np.int32),
+            **self._described(),
+            y_up=polygons.y_up,
+            unit=polygons.unit,
+            crs=polygons.crs,
+            index=index_of_rows(polygons.index, self.polygon),
+        )
+
+    def _described(self) -> dict[str, Any]:
+        """Ids and properties of the discs."""
+        polygons, of = self.polygons, self.polygon.tolist()
+        own: dict[str, NDArray[Any]] = {"rank": self.rank, "x": self.xy[:, 0], "y": self.xy[:, 1], "r": self.radius}
+        own["feet"] = np.diff(self.foot_start)
+        properties = {key: [values[p] if p >= 0 else None for p in of] for key, values in polygons.properties.items()}
+        named = {f"voro_{key}" if key in properties else key: values.tolist() for key, values in own.items()}
+        ids = None if polygons.ids is None else [polygons.ids[p] if p >= 0 else None for p in of]
+        return {"ids": ids, "properties": {**properties, **named}}
+
+    def _summary(self) -> str:
+        return placed(counted(len(self), "disc"), self.polygons.crs, self.polygons.unit)
+
+
+def _holding(feet: NDArray[np.float64], centre: NDArray[np.float64]) -> list[int]:
+    """The first foot, and on each side the nearest to what is opposite."""
+    ways = feet - centre
+    ways /= np.sqrt((ways * ways).sum(axis=1, keepdims=True))
+    turn = ways[0, 0] * ways[:, 1] - ways[0, 1] * ways[:, 0]
+    forward = ways @ ways[0]
+    left, right = (np.flatnonzero(side) for side in (turn >= 0, turn < 0))
+    chosen = [0, *(int(side[np.argmin(forward[side])]) for side in (left, right) if len(side))]
+    return list(dict.fromkeys(chosen))

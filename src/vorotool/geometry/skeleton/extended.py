@@ -1,0 +1,65 @@
+"""Skeletons whose ends are led on straight to the boundary."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from vorotool.geometry.skeleton.led_on import LedOn, led_on_table
+from vorotool.geometry.table import Table
+from vorotool.geometry.values import counted, placed
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class ExtendedSkeleton(LedOn):
+    """A skeleton, and straight lines that lead on from its ends to the boundary, as `vorotool.extend_ends` makes it.
+
+    Parameters
+    ----------
+    path : Skeleton
+        The skeleton, with arcs inside polygons alone. All that is told of widths is of these.
+    ends : (b, 2, 2) float64 array
+        The place on the boundary that the start and the end of each branch are led on to; NaN where they are not: at
+        junctions, and at corners.
+
+    Raises
+    ------
+    InputError
+        If `ends` has another shape.
+
+    Examples
+    --------
+    >>> from vorotool import extend_ends, prune, skeleton_exact
+    >>> extended = extend_ends(prune(skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]]), scale=1.5))
+    >>> extended.ends.tolist(), extended.length.tolist()
+    ([[[0.0, 1.0], [4.0, 1.0]]], [4.0])
+    """
+
+    def _summary(self) -> str:
+        polygons = self.path.polygons
+        text = f"{counted(len(self), 'branch', 'branches')} of {counted(len(polygons), 'polygon')}"
+        return placed(text, polygons.crs, polygons.unit)
+
+
+def extended_table(extended: LedOn) -> Table:
+    """Give one row an arc, branch by branch, with the straight lines that lead on.
+
+    Parameters
+    ----------
+    extended : ExtendedSkeleton
+        Polygons, branches and arcs are counted from 0, the arcs of each branch by themselves.
+
+    Returns
+    -------
+    Table
+        ``polygon, id, branch, arc, x0, y0, r0, x1, y1, r1, kind, cx, cy, length``. The kind is ``line``, ``parabola``
+        or ``extension``, at whose end on the boundary the radius is 0.
+
+    Examples
+    --------
+    >>> from vorotool import extend_ends, prune, skeleton_exact
+    >>> extended = extend_ends(prune(skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]]), scale=1.5))
+    >>> table = extended_table(extended)
+    >>> table["x0"].tolist(), table["r1"].tolist()
+    ([0.0, 1.0, 3.0], [1.0, 1.0, 0.0])
+    """
+    return led_on_table(extended, has_branches=True)

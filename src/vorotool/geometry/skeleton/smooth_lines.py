@@ -1,0 +1,135 @@
+"""Lines along skeletons as cubic Bézier curves that are near them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import InputError
+from vorotool.geometry.checks import set_array
+from vorotool.geometry.curves.cubics import cubic_polylines
+from vorotool.geometry.curves.flatten import chained
+from vorotool.geometry.numbers import checked_tolerance
+from vorotool.geometry.ragged import divides, owners
+from vorotool.geometry.skeleton.led_on import LedOn
+from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.geometry.skeleton.tables import ids_of
+from vorotool.geometry.table import Table
+from vorotool.geometry.values import Curved, Pictured, Tabular, Value, counted, placed
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class SmoothLines(Value, Tabular, Curved, Pictured):
+    """Cubic Bézier curves along the branches of a skeleton or along centerlines, as `vorotool.smooth` fits them.
+
+    Curves of one line follow each other with one tangent. Lines begin and end where the branches do: at junctions, and
+    at ends with what leads on from there.
+
+    Parameters
+    ----------
+    lines : Skeleton, Centerlines or ExtendedSkeleton
+        What the curves are near to: a line for each of its branches.
+    control : (k, 4, 2) float64 array
+        Control points of the curves, line by line.
+    start : (n + 1,) int64 array
+        The first curve of each line, and ``k``.
+    error : (n,) float64 array
+        A bound on the distance between each line and its branch: no place of either is farther from the other.
+
+    Raises
+    ------
+    InputError
+        If an array has another shape.
+
+    Examples
+    --------
+    >>> from vorotool import centerline, skeleton_exact, smooth
+    >>> lines = smooth(centerline(skeleton_exact([[0, 0], [6, 0], [6, 2], [0, 2]])), 0.1)
+    >>> lines.control.round(9).tolist()
+    [[[0.0, 1.0], [2.0, 1.0], [4.0, 1.0], [6.0, 1.0]]]
+    """
+
+    lines: Skeleton | LedOn
+    control: Floats
+    start: NDArray[np.int64]
+    error: Floats
+
+    def __post_init__(self) -> None:
+        count = len(self.error)
+        set_array(self, "control", np.float64, (len(self.control), 4, 2))
+        set_array(self, "start", np.int64, (count + 1,))
+        set_array(self, "error", np.float64, (count,))
+        if not divides(self.start, len(self.control), least=1):
+            raise InputError(f"start must go from 0 to {len(self.control)}, with a curve or more a line")
+
+    def __len__(self) -> int:
+        """Give the number of lines."""
+        return len(self.error)
+
+    @property
+    def path(self) -> Skeleton:
+        """The arcs that the curves are near to, without what leads on."""
+        return self.lines if isinstance(self.lines, Skeleton) else self.lines.path
+
+    @cached_property
+    def polygon(self) -> NDArray[np.int32]:
+        """(n,) the polygon of each line; -1 outside."""
+        return self.path.polygon[np.flatnonzero(np.diff(self.path.branch, prepend=-1))]
+
+    @cached_property
+    def line(self) -> NDArray[np.int64]:
+        """(k,) the line of each curve."""
+        return owners(np.diff(self.start))
+
+    def flattened(self, tolerance: float) -> tuple[Floats, NDArray[np.int64]]:
+        """Lines as polylines.
+
+        Parameters
+        ----------
+        tolerance : float
+            How far a polyline may be from its curves.
+
+        Returns
+        -------
+        points : (m, 2) float64 array
+            Places along each line, its ends included.
+        start : (n + 1,) int64 array
+            Where the points of each line begin.
+
+        Raises
+        ------
+        UsageError
+            If the tolerance is not positive.
+        """
+        return chained(*cubic_polylines(self.control, checked_tolerance(tolerance)), self.start[:-1])
+
+    def table(self) -> Table:
+        """Give one row a curve, line by line.
+
+        Returns
+        -------
+        Table
+            ``polygon, id, branch, curve, x0, y0, x1, y1, x2, y2, x3, y3, error``: the curves of each line are counted
+            from 0, and have its error. Outside there is no polygon.
+        """
+        line, control = self.line, self.control
+        polygon = self.polygon[line]
+        return Table(
+            {
+                "polygon": np.ma.array(polygon, mask=polygon < 0),
+                "id": ids_of(self.path.polygons, polygon),
+                "branch": line,
+                "curve": np.arange(len(control)) - self.start[line],
+                **{f"{axis}{k}": control[:, k, n].copy() for k in range(4) for n, axis in enumerate("xy")},
+                "error": self.error[line],
+            }
+        )
+
+    def _summary(self) -> str:
+        text = f"{counted(len(self.control), 'curve')} in {counted(len(self), 'line')}"
+        return placed(text, self.path.polygons.crs, self.path.polygons.unit)

@@ -1,0 +1,31 @@
+"""The local thickness of an image, with what its file says of its pixels."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.geometry.pixel_grid import PixelGrid
+
+
+@dataclass(frozen=True, eq=False)
+class ThicknessImage:
+    """The diameter of the largest inscribed disc over each pixel.
+
+    Parameters
+    ----------
+    values : (H, W) float64 array
+        0 where there is no object.
+    grid : PixelGrid, optional
+        Sides and places of the pixels, where the file says them.
+    """
+
+    values: NDArray[np.float64]
+    grid: PixelGrid | None = None
+
+    @property
+    def largest(self) -> float:
+        """The largest thickness; 0 without objects."""
+        return float(self.values.max(initial=0.0))

@@ -1,0 +1,52 @@
+"""Columns of numbers in a few: how many, their mean, how much they differ, and quantiles."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.geometry.table import Table
+
+_QUANTILES = {"min": 0.0, "lower_quartile": 0.25, "median": 0.5, "upper_quartile": 0.75, "max": 1.0}
+
+
+def summary_table(measures: Mapping[str, NDArray[np.float64]]) -> Table:
+    """Give one row a measure.
+
+    Parameters
+    ----------
+    measures : mapping of str to float64 array
+        Values of each; they may differ in length.
+
+    Returns
+    -------
+    Table
+        ``measure, count, mean, sd, cv, min, lower_quartile, median, upper_quartile, max, homogeneity, disorder``. The
+        standard deviation ``sd`` is that of all values, not of a sample of them; ``cv`` is that over the mean,
+        ``homogeneity`` 1 / (1 + cv), and ``disorder`` 1 - homogeneity. Quantiles are interpolated. What does not exist
+        is missing: all of no values, and what divides by a mean of 0.
+
+    Examples
+    --------
+    >>> table = summary_table({"area": np.array([1.0, 3.0])})
+    >>> table["mean"].tolist(), table["sd"].tolist(), table["homogeneity"].round(3).tolist()
+    ([2.0], [1.0], [0.667])
+    """
+    rows = [_row(np.asarray(values, dtype=np.float64)) for values in measures.values()]
+    names = ("mean", "sd", "cv", *_QUANTILES, "homogeneity", "disorder")
+    columns = np.array(rows).reshape(len(rows), len(names)).T
+    numbers = {name: np.ma.masked_invalid(column) for name, column in zip(names, columns, strict=True)}
+    counts = np.array([len(values) for values in measures.values()], dtype=np.int64)
+    return Table({"measure": list(measures), "count": counts, **numbers})
+
+
+def _row(values: NDArray[np.float64]) -> list[float]:
+    if not len(values):
+        return [np.nan] * (5 + len(_QUANTILES))
+    mean, sd = float(values.mean()), float(values.std())
+    cv = sd / mean if mean > 0 else np.nan
+    homogeneity = 1 / (1 + cv)
+    quantiles = np.quantile(values, list(_QUANTILES.values())).tolist()
+    return [mean, sd, cv, *quantiles, homogeneity, 1 - homogeneity]

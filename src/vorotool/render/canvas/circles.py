@@ -1,0 +1,41 @@
+"""Layers of whole circles."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.render.canvas.layers import Arcs
+
+
+@dataclass(frozen=True, eq=False)
+class Circles(Arcs):
+    """Circles, each of two arcs of half of it; see `circles`."""
+
+    @property
+    def radius(self) -> NDArray[np.float64]:
+        """(n,) of the circles."""
+        return np.asarray((self.start[::2, 0] - self.end[::2, 0]) / 2)
+
+
+def circles(name: str, xy: NDArray[np.float64], radius: NDArray[np.float64], edge: str, width: float) -> Circles:
+    """Give a layer of circles that are not filled.
+
+    Parameters
+    ----------
+    name, edge, width
+        As of `Arcs`.
+    xy, radius : (n, 2) and (n,) float64 array
+        Centres and radii.
+
+    Examples
+    --------
+    >>> circles("discs", np.array([[1.0, 2.0]]), np.array([0.5]), "#000000", 1.0).radius.tolist()
+    [0.5]
+    """
+    right, left = (xy + way * radius[:, None] * (1, 0) for way in (1, -1))
+    start, end = (np.stack(ends, axis=1).reshape(-1, 2) for ends in ((right, left), (left, right)))
+    rings = np.arange(0, 2 * len(xy) + 1, 2)
+    return Circles(name, start, end, np.repeat(xy, 2, axis=0), rings, None, edge, width, np.ones(2 * len(xy), bool))

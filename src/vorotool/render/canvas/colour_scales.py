@@ -1,0 +1,82 @@
+"""Colours of amounts: a scale from dark to light that is even to the eye, and the bar that explains it."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.render.canvas.insets import ADVANCE, box, letter_size, rounded_length
+from vorotool.render.canvas.layers import Layer, Page, Polygons, Texts
+from vorotool.render.canvas.palettes import FAINT, WHITE
+
+_STOPS = ("440154", "472d7b", "3b528b", "2c728e", "21918c", "28ae80", "5ec962", "addc30", "fde725")
+"""Viridis, of Smith and van der Walt, at even steps: its lightness grows evenly, for any colour vision."""
+
+STRIPS = 64
+"""Of a bar."""
+
+TICKS = 4
+"""Numbers beside a bar at most, besides 0."""
+
+
+def scale_colours(count: int) -> NDArray[np.uint8]:
+    """Give (count, 3) colours from dark to light: red, green and blue.
+
+    Examples
+    --------
+    >>> scale_colours(3).tolist()
+    [[68, 1, 84], [33, 145, 140], [253, 231, 37]]
+    """
+    stops = np.array([list(bytes.fromhex(stop)) for stop in _STOPS], dtype=np.float64)
+    place = np.linspace(0, len(stops) - 1, count)
+    channels = [np.interp(place, np.arange(len(stops)), stops[:, k]) for k in range(3)]
+    return np.rint(np.stack(channels, axis=1)).astype(np.uint8)
+
+
+def colour_bar(largest: float, unit: str | None, page: Page) -> list[Layer]:
+    """Make a bar of the colours from 0 to the largest amount, in the upper right corner of a page.
+
+    Parameters
+    ----------
+    largest : float
+        More than 0.
+    unit : str, optional
+        Of the numbers beside it.
+    page : Page
+        In whose px the layers are.
+
+    Examples
+    --------
+    >>> page = Page((0, 0, 100, 50), width=600, y_up=True)
+    >>> [layer.texts for layer in colour_bar(70.0, "um", page) if isinstance(layer, Texts)]
+    [['0', '20', '40', '60 um']]
+    """
+    size = letter_size(page)
+    step = rounded_length(largest / 2)
+    step = step if largest / step < TICKS else 2 * step
+    ticks = [k * step for k in range(int(largest / step) + 1)]
+    names = [f"{tick:.10g}" for tick in ticks]
+    names[-1] += f" {unit}" if unit else ""
+    gap, wide = 0.6 * size, 1.2 * size
+    high = min(12 * size, max(page.height - 4 * gap, size))
+    across = 3 * gap + wide + ADVANCE * size * max(map(len, names))
+    left, top = page.width - across - gap, 2 * gap
+    made: list[Layer] = [
+        box("legend", (left, top - gap), (left + across, top + high + gap), WHITE, FAINT),
+        _strips((left + gap, top), (wide, high)),
+    ]
+    places = np.array([[left + 2 * gap + wide, top + high * (1 - tick / largest)] for tick in ticks])
+    return [*made, Texts("legend-names", places, names, size=size, is_centred=True, is_led=True)]
+
+
+def _strips(corner: tuple[float, float], size: tuple[float, float]) -> Polygons:
+    """The bar, light above, in strips of one colour each."""
+    edges = np.linspace(corner[1] + size[1], corner[1], STRIPS + 1)
+    low, high = edges[:-1], edges[1:]
+    left, right = np.full(STRIPS, corner[0]), np.full(STRIPS, corner[0] + size[0])
+    points = np.stack([left, low, right, low, right, high, left, high], axis=1).reshape(-1, 2)
+    names = ["#" + bytes(colour).hex() for colour in scale_colours(STRIPS)]
+    corners = np.arange(4 * STRIPS, dtype=np.int32)
+    return Polygons(
+        "legend-scale", points, corners, np.arange(0, 4 * STRIPS + 1, 4), colours=names, colour_of=np.arange(STRIPS)
+    )

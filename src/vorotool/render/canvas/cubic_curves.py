@@ -1,0 +1,42 @@
+"""Layers of cubic Bézier curves."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.geometry.curves.cubics import cubic_polylines
+from vorotool.render.canvas.layers import Curves
+
+
+@dataclass(frozen=True, eq=False)
+class CubicCurves(Curves):
+    """Cubic Bézier curves.
+
+    Parameters
+    ----------
+    name, points, pairs, colour, width, is_broken
+        As of `Curves`.
+    control : (m,) int32 array
+        The first control point of each.
+    second : (m,) int32 array
+        Its second one.
+    """
+
+    second: NDArray[np.int32] = field(kw_only=True)
+
+    def polylines(self, tolerance: float) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+        """As of `Curves`."""
+        return cubic_polylines(self._curves(self.points), tolerance)
+
+    def flattened(self, places: NDArray[np.float64], tolerance: float) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+        """As of `Curves`."""
+        points, start = cubic_polylines(self._curves(places), tolerance)
+        first = np.delete(np.arange(len(points)), start[1:] - 1)
+        return points, np.stack([first, first + 1], axis=1).astype(np.int32)
+
+    def _curves(self, places: NDArray[np.float64]) -> NDArray[np.float64]:
+        """(m, 4, 2) control points."""
+        return places[np.stack([self.pairs[:, 0], self.control, self.second, self.pairs[:, 1]], axis=1)]

@@ -1,0 +1,129 @@
+"""`skeleton-exact --what thickness`: its files, its picture, its units, and what is refused."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+import tifffile
+from PIL import Image
+
+import vorotool
+
+DATA = Path(__file__).parents[3] / "data"
+BLOBS, CELLS, SHAPES = DATA / "blobs.png", DATA / "cells.png", DATA / "two-shapes.json"
+
+
+@pytest.fixture(scope="module")
+def expected():
+    return vorotool.local_thickness(np.asarray(Image.open(BLOBS)))
+
+
+def thickness(run, *arguments):
+    done = run("skeleton-exact", BLOBS, "--what", "thickness", *arguments)
+    assert (done.code, done.err) == (0, "")
+
+
+@pytest.mark.parametrize("name", ["a.tif", "a.npy"])
+def test_files_hold_floats(run, folder, expected, name):
+    thickness(run, "-o", name, "--verify")
+    made = np.load(folder / name) if name.endswith("npy") else tifffile.imread(folder / name)
+    assert np.array_equal(made, expected.astype(np.float32))
+
+
+def test_labels_are_taken_one_by_one(run, folder):
+    assert run("skeleton-exact", CELLS, "--what", "thickness", "-o", "a.npy", "--verify").code == 0
+    made = np.load(folder / "a.npy")
+    assert np.array_equal(made, vorotool.local_thickness(np.asarray(Image.open(CELLS))).astype(np.float32))
+
+
+def test_values_are_in_the_unit_and_summarized(run, folder, expected):
+    thickness(run, "-o", "a.npy", "--pixel-size", "0.5um", "--stats", "s.json")
+    np.testing.assert_allclose(np.load(folder / "a.npy"), expected / 2, rtol=1e-7)
+    found, inner = json.loads((folder / "s.json").read_text()), expected[expected > 0] / 2
+    summary = [found[f"thickness_{name}"] for name in ("mean", "sd", "largest")]
+    np.testing.assert_allclose(summary, [inner.mean(), inner.std(), inner.max()], rtol=1e-12)
+    assert (found["pixels"], found["unit"]) == (len(inner), "um")
+
+
+def test_rectangular_pixels(run, folder):
+    thickness(run, "-o", "a.npy", "--spacing", "0.2,0.5", "--verify")
+    wide = vorotool.local_thickness(np.asarray(Image.open(BLOBS)), spacing=(0.5, 0.2))
+    assert np.array_equal(np.load(folder / "a.npy"), wide.astype(np.float32))
+
+
+@pytest.mark.parametrize("more", [["--outline", "contour"], ["--connectivity", "4"], ["--simplify", "0.75"]])
+def test_other_outlines_are_verified(run, more):
+    thickness(run, "-o", "a.tif", "--verify", *more)
+
+
+def test_maps_keep_their_place(run, folder, expected):
+    scale, tie = (33550, "d", 3, (2.0, 2.0, 0.0)), (33922, "d", 6, (0.0, 0.0, 0.0, 500.0, 900.0, 0.0))
+    tifffile.imwrite(folder / "map.tif", np.asarray(Image.open(BLOBS)), extratags=[scale, tie], metadata=None)
+    done = run("skeleton-exact", "map.tif", "--what", "thickness", "-o", "a.tif", "--verify")
+    assert done.code == 0
+    with tifffile.TiffFile(folder / "a.tif") as made:
+        assert made.pages[0].tags[33550].value[:2] == (2.0, 2.0)
+        np.testing.assert_allclose(made.asarray(), 2 * expected, rtol=1e-6)
+
+
+def test_a_picture_has_a_colour_for_each_thickness(run, folder, expected):
+    thickness(run, "-o", "a.png")
+    made = np.asarray(Image.open(folder / "a.png").convert("RGB")).astype(int)
+    assert made.shape[:2] == expected.shape
+    assert (made[expected == 0] == 255).all()
+    assert made[expected == expected.max()][0].tolist() == [253, 231, 37]
+    light = made[expected > 0].sum(axis=1)
+    assert (np.diff(light[np.argsort(expected[expected > 0], kind="stable")]) >= -12).all()
+
+
+def test_a_legend_is_a_bar_of_the_colours(run, folder):
+    thickness(run, "-o", "a.png", "--background", "none")
+    assert np.asarray(Image.open(folder / "a.png").convert("RGBA"))[0, 0, 3] == 0
+    thickness(run, "-o", "a.png", "--background", "black")
+    thickness(run, "-o", "b.png", "--background", "black", "--legend", "--scale-bar", "--pixel-size", "2um")
+    bare, made = (np.asarray(Image.open(folder / name).convert("RGB")).astype(int) for name in ("a.png", "b.png"))
+    assert bare[0, 0].tolist() == [0, 0, 0]
+    changed = (bare != made).any(axis=2)
+    assert changed[:80, 200:].any()  # the bar
+    assert changed[150:, :100].any()  # the scale
+    assert not changed[80:120, :200].any()
+
+
+def test_several_results_with_one_skeleton(run, folder):
+    done = run("skeleton-exact", BLOBS, "--what", "thickness,table", "-o", "all", "--prune", "angle=100")
+    assert done.code == 0
+    assert {path.name for path in folder.iterdir()} >= {"all.thickness.tif", "all.table.csv"}
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["skeleton-exact", SHAPES], "--what thickness is for images, but the input is polygons or lines"),
+        (["skeleton-approx", BLOBS, "--step", "1"], "use skeleton-exact --what thickness"),
+        (["skeleton-exact", BLOBS, "--gap", "0.1"], "use --what thickness without --gap"),
+        (["skeleton-exact", BLOBS, "--side", "exterior"], "use --side interior or both"),
+        (["skeleton-exact", BLOBS, "--prune", "angle=90"], "thickness is of all discs: leave it out"),
+    ],
+)
+def test_what_is_refused(run, arguments, said):
+    done = run(*arguments, "--what", "thickness", "-o", "a.tif")
+    assert done.code == 2
+    assert said in done.err
+
+
+@pytest.mark.parametrize(
+    "more", [["--width", "99"], ["--overlay", str(BLOBS)], ["--y-up"], ["--color", "thickness=red"]]
+)
+def test_a_picture_has_the_pixels_of_the_image(run, more):
+    done = run("skeleton-exact", BLOBS, "--what", "thickness", "-o", "a.png", *more)
+    assert done.code == 2
+    assert "a picture of thickness has the pixels of the image" in done.err
+
+
+def test_an_image_without_foreground(run, folder):
+    Image.fromarray(np.zeros((4, 5), np.uint8)).save(folder / "none.png")
+    for name in ("a.npy", "a.png"):
+        done = run("skeleton-exact", "none.png", "--what", "thickness", "-o", name, "--verify", "--stats", "s.json")
+        assert (done.code, "warning" in done.err) == (0, True)
+    assert not np.load(folder / "a.npy").any()

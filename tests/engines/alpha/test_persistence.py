@@ -1,0 +1,148 @@
+"""Persistence of regions beside the union of all triangles in the order of their radii, and beside the curves."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+import vorotool
+from support.families.alpha_cases import quietly
+from support.families.point_families import FAMILIES, draw
+from vorotool import UsageError, alpha_curves, alpha_shape, persistence
+
+
+def components(triangles):
+    """Sets of triangles, given by their corners, that are joined through edges: by growing each from one of them."""
+    left, found = set(triangles), []
+    while left:
+        part, edge = {left.pop()}, True
+        while edge:
+            edge = {t for t in left if any(len(t & other) == 2 for other in part)}
+            part |= edge
+            left -= edge
+        found.append(frozenset(part))
+    return found
+
+
+def by_definition(family):
+    """Births, deaths and sizes of regions: all shapes one after the other."""
+    corners = [frozenset(t) for t in family.mesh.triangles.tolist()]
+    alive, ended = {}, []  # a set of triangles -> [birth, first triangle]
+    for rank in range(len(family.spectrum)):
+        now = components([t for t, r in zip(corners, family.triangle_rank, strict=True) if r <= rank])
+        then = {}
+        for part in now:
+            older = [
+                (birth, -len(frozenset().union(*old)), first, old)
+                for old, (birth, first) in alive.items()
+                if old <= part
+            ]
+            if not older:
+                then[part] = (rank, min(corners.index(t) for t in part))
+                continue
+            older.sort(key=lambda each: each[:3])
+            then[part] = (older[0][0], older[0][2])
+            ended += [(birth, rank, -size, len(old)) for birth, size, _, old in older[1:]]
+        alive = then
+    never = len(family.spectrum)
+    last = [(birth, never, len(frozenset().union(*part)), len(part)) for part, (birth, _) in alive.items()]
+    return sorted(ended + last)
+
+
+def ours(family):
+    found, radius = persistence(family), np.append(family.spectrum, np.inf)
+    spectrum = radius.tolist()
+    rows = zip(found.birth.tolist(), found.death.tolist(), found.points.tolist(), found.triangles.tolist(), strict=True)
+    return sorted((spectrum.index(b), spectrum.index(d), points, triangles) for b, d, points, triangles in rows)
+
+
+@pytest.mark.parametrize("name", ["uniform", "clustered", "small_lattice", "grid", "collinear", "exact_circle"])
+def test_all_shapes_one_after_the_other(name):
+    for seed in range(4):
+        points = draw(name, 6 + 6 * seed, seed)
+        if len(np.unique(points, axis=0)) < 2:
+            continue
+        family = quietly(points)
+        if len(np.unique(family.spectrum)) == len(family.spectrum):  # else radii do not tell ranks
+            assert ours(family) == by_definition(family), (name, seed)
+
+
+@pytest.mark.parametrize("name", FAMILIES)
+def test_as_many_live_as_the_curves_count(name):
+    for seed in range(3):
+        points = draw(name, 40 + 30 * seed, seed)
+        if len(np.unique(points, axis=0)) < 2:
+            continue
+        family = quietly(points)
+        found, m = persistence(family), len(family.spectrum)
+        radius = np.append(family.spectrum, np.inf)
+        counts = alpha_curves(family)["regions"]
+        for k in range(m):
+            if radius[k + 1] == radius[k]:
+                continue  # the next has the same double
+            assert ((found.birth <= radius[k]) & ~(found.death <= radius[k])).sum() == counts[k]
+        assert (found.death > found.birth).all() or len(np.unique(radius)) <= m
+
+
+def test_sizes_are_those_of_the_shape_before_the_death():
+    family = vorotool.alpha_complex(draw("clustered", 200, 3))
+    found = persistence(family)
+    for region in np.flatnonzero(np.isfinite(found.death))[::9]:
+        rank = int(np.searchsorted(family.spectrum, found.death[region]))
+        table = vorotool.table(alpha_shape(family, r=family.radius_from(rank - 1)))
+        sizes = list(zip(table["points"].tolist(), table["triangles"].tolist(), strict=True))
+        alike = [each == (found.points[region], found.triangles[region]) for each in sizes]
+        assert np.isclose(table["area"][alike], found.area[region]).any()
+
+
+def two_clusters(seed):
+    rng = np.random.default_rng(seed)
+    return np.concatenate([rng.random((80, 2)), rng.random((60, 2)) + np.array([4, 1])])
+
+
+def test_what_stands_out():
+    for seed in range(5):
+        found = persistence(two_clusters(seed))
+        assert found.suggested == 2
+        assert np.sort(found.points[np.argsort(-found.persistence)[:2]])[0] in range(50, 84)
+        assert 1 < found.apart_until < 3
+        assert alpha_shape(two_clusters(seed), r=found.apart_until * 0.999).region_count == 2
+    one = persistence(np.random.default_rng(1).random((300, 2)))
+    assert one.suggested == 1
+    assert one.apart_until == np.inf
+
+
+def test_the_tree_of_merges():
+    found = persistence(draw("clustered", 300, 1))
+    dies = np.isfinite(found.death)
+    assert (found.into[dies] >= 0).all()
+    assert (found.into[~dies] == -1).all()
+    assert (found.birth[found.into[dies]] <= found.birth[dies]).all()
+    assert (found.death[found.into[dies]] > found.death[dies]).all()
+    assert (np.diff(found.birth) >= 0).all()
+
+
+def test_permutations_and_exact_scales_change_nothing():
+    points = draw("small_lattice", 60, 7)
+    one = persistence(quietly(points))
+    other = persistence(quietly(np.random.default_rng(1).permutation(points)))
+    twice = persistence(quietly(points * 2.0))
+    for name in ("birth", "death"):
+        assert getattr(other, name).tolist() == getattr(one, name).tolist()
+        assert getattr(twice, name).tolist() == (2 * getattr(one, name)).tolist()
+
+
+def test_without_triangles():
+    found = persistence([[0, 0], [1, 0], [5, 0]])
+    assert (len(found), found.suggested, found.apart_until) == (0, 0, np.inf)
+    with pytest.raises(UsageError, match="corrected rule"):
+        persistence(vorotool.alpha_complex(draw("uniform", 9, 1), rule="printed"))
+
+
+def test_a_square_is_one_region():
+    found = persistence([[0, 0], [2, 0], [2, 2], [0, 2]])
+    assert found.table()["points"].tolist() == [4]
+    assert Fraction(found.birth[0]) ** 2 <= Fraction(2) + Fraction(1, 10**15)
+    assert repr(found) == "RegionPersistence: 1 region, 1 of which stands out"

@@ -1,0 +1,215 @@
+"""The largest discs inside polygons and between shapes: closed forms, brute force, and faults that the checker sees."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import shapely
+
+import vorotool
+from fuzz.discs import SHAPES, check_greedy, failure
+from support.families.skeleton_shapes import regular
+from vorotool import InputError, UsageError, VerificationError, largest_discs, largest_empty_discs, verify_discs
+
+
+def rectangle(width, height, x=0.0, y=0.0):
+    return np.array([[x, y], [x + width, y], [x + width, y + height], [x, y + height]])
+
+
+def distances(xy, places):
+    """Of places from the edges of a ring, by brute force."""
+    a, way = xy, np.roll(xy, -1, axis=0) - xy
+    share = ((places[:, None] - a) * way).sum(-1) / (way * way).sum(-1)
+    rest = places[:, None] - a - np.clip(share, 0, 1)[..., None] * way
+    return np.sqrt((rest * rest).sum(-1)).min(axis=1)
+
+
+# ---- closed forms --------------------------------------------------------------------------------
+@pytest.mark.parametrize(("width", "height"), [(4, 4), (9, 2), (2, 9), (1e6, 3), (0.75, 0.125)])
+def test_of_a_rectangle_the_middle(width, height):
+    discs = largest_discs(rectangle(width, height, -1.5, 7.25))
+    np.testing.assert_allclose(discs.xy, [[-1.5 + width / 2, 7.25 + height / 2]], rtol=1e-15)
+    np.testing.assert_allclose(discs.radius, [min(width, height) / 2], rtol=1e-15)
+    assert np.diff(discs.foot_start).tolist() == [4 if width == height else 2]
+
+
+def test_of_triangles_the_incircle():
+    for seed in range(40):
+        corners = np.random.default_rng(seed).uniform(-100, 100, (3, 2))
+        sides = np.sqrt(np.square(np.roll(corners, -1, axis=0) - corners).sum(axis=1))
+        area = abs(np.linalg.det(np.column_stack([corners, np.ones(3)]))) / 2
+        centre = (np.roll(sides, -1)[:, None] * corners).sum(axis=0) / sides.sum()
+        discs = largest_discs(corners)
+        # corners are on a lattice of 31 bits
+        np.testing.assert_allclose(discs.radius, [2 * area / sides.sum()], rtol=1e-6)
+        np.testing.assert_allclose(discs.xy, [centre], atol=1e-5)
+        assert len(discs.feet) == 3
+
+
+@pytest.mark.parametrize("count", [3, 5, 8, 64, 360])
+def test_of_regular_polygons_the_apothem(count):
+    discs = largest_discs(regular(count))
+    np.testing.assert_allclose(discs.radius, [1000 * np.cos(np.pi / count)], rtol=1e-8)
+    np.testing.assert_allclose(discs.xy, [[0, 0]], atol=1e-3)
+
+
+@pytest.mark.parametrize("count", [4, 6, 12])
+def test_of_an_annulus_one_in_each_corner(count):
+    """At a corner of the inner polygon the disc touches two outer edges: r = c (R - s) / (1 + c), c = cos(pi / n)."""
+    ring = regular(count)
+    annulus = {"shell": ring, "holes": [ring[::-1] / 2]}
+    cosine = np.cos(np.pi / count)
+    local = largest_discs(annulus, local=True)
+    assert len(local) == count
+    np.testing.assert_allclose(local.radius, np.full(count, cosine * 500 / (1 + cosine)), rtol=1e-7)
+    first = largest_discs(annulus)
+    assert count > 4 or first.xy[0, 0] <= local.xy[:, 0].min() + 1e-6, "the smallest x of several"
+
+
+def test_between_two_circles_of_many_sides():
+    outer, inner = regular(720), regular(720)[::-1] / 4 + (300, 0)
+    discs = largest_discs({"shell": outer, "holes": [inner]})
+    expected = (1000 + 300 - 250) / 2
+    np.testing.assert_allclose(discs.radius, [expected], rtol=1e-4)
+    np.testing.assert_allclose(discs.xy, [[-1000 + expected, 0]], atol=5)
+
+
+# ---- several, ties -------------------------------------------------------------------------------
+def test_disjoint_discs_in_a_strip():
+    """The middle stands for all of the strip; what is left of it is filled from the smallest x."""
+    discs = largest_discs(rectangle(20, 2), count=9)
+    assert discs.xy[:, 0].tolist() == [10, 1, 3, 5, 7, 12, 14, 16, 18]
+    assert discs.radius.tolist() == [1.0] * 9
+    assert discs.rank.tolist() == list(range(1, 10))
+    verify_discs(discs)
+
+
+def test_the_next_disc_touches_the_first():
+    """In a corner of 90 degrees the next radius is (3 - 2 sqrt 2) times the one before."""
+    discs = largest_discs(rectangle(2, 2), count=9)
+    ratio = 3 - 2 * np.sqrt(2)
+    np.testing.assert_allclose(discs.radius, [1, *[ratio] * 4, *[ratio**2] * 4], rtol=1e-14)
+    assert (discs.xy[1] < 0.5).all(), "smallest x, then smallest y"
+
+
+def test_features_each_have_their_own():
+    parts = shapely.MultiPolygon([shapely.box(0, 0, 2, 2), shapely.box(5, 0, 9, 4)])
+    discs = largest_discs([parts, shapely.box(1, 1, 4, 4)], count=2)
+    assert discs.polygon.tolist() == [1, 0, 2, 2]
+    assert discs.radius[:3].tolist() == [2.0, 1.0, 1.5]
+    verify_discs(discs)
+
+
+@pytest.mark.filterwarnings("ignore::vorotool.VorotoolWarning")
+def test_features_together_bound_each_other():
+    together = largest_discs([shapely.box(0, 0, 4, 4), shapely.box(2, 0, 4, 4)], features="together")
+    assert together.features == "together"
+    verify_discs(together)
+
+
+def test_local_discs_are_those_that_cannot_grow():
+    """A dumb-bell has two, whatever joins them."""
+    shape = [[0, 0], [4, 0], [4, 1.5], [8, 1.5], [8, 0], [13, 0], [13, 5], [8, 5], [8, 2.5], [4, 2.5], [4, 4], [0, 4]]
+    local = largest_discs(shape, local=True)
+    np.testing.assert_allclose(local.radius, [2.5, 2.0])
+    assert len(largest_discs(shape, local=True, count=1)) == 1
+    verify_discs(local)
+
+
+@pytest.mark.parametrize("family", SHAPES, ids=lambda family: family.__name__)
+@pytest.mark.filterwarnings("ignore::vorotool.VorotoolWarning")
+def test_random_shapes(family):
+    for seed in range(2):
+        random = np.random.default_rng(seed)
+        assert failure(family(random), random) is None
+
+
+@pytest.mark.filterwarnings("ignore::vorotool.VorotoolWarning")
+def test_dense_packing_against_samples():
+    check_greedy(vorotool.skeleton_exact(regular(7)), count=25)
+
+
+# ---- empty discs ---------------------------------------------------------------------------------
+def test_empty_discs_between_points_by_brute_force():
+    places = np.stack(np.meshgrid(*[np.linspace(0, 40, 161)] * 2), axis=-1).reshape(-1, 2)
+    for seed in range(20):
+        points = np.random.default_rng(seed).integers(0, 40, (15, 2)).astype(float)
+        discs = largest_empty_discs(points, within=(0, 0, 40, 40), count=3)
+        most = np.sqrt(np.square(places[:, None] - points).sum(axis=-1)).min(axis=1).max()
+        assert most - 1e-9 <= discs.radius[0] <= most + 0.25
+        verify_discs(discs)
+
+
+def test_empty_discs_have_corners_and_crossings():
+    corner = largest_empty_discs([[0, 0]], within=(-1, -1, 3, 4))
+    assert corner.xy.tolist() == [[2.0, 3.0]]
+    assert corner.feet.tolist() == [[0.0, 0.0]]
+    crossing = largest_empty_discs([[0, 0], [4, 0]], within=[[1, 0], [3, 0], [2, 3]])
+    assert crossing.xy.tolist() == [[2.0, 3.0]]
+    side = largest_empty_discs([[0, 0], [4, 0]], within=[[1, -1], [3, -1], [3, 1], [1, 1]])
+    assert side.xy.tolist() == [[2.0, -1.0]]
+    strip = largest_empty_discs(["LINESTRING (0 0, 10 0)", "LINESTRING (0 2, 10 2)"], within=(2, 0.5, 6, 1))
+    assert strip.xy.tolist() == [[5.0, 1.0]]
+    assert strip.table()["shape_2"].tolist() == [1]
+
+
+def test_no_empty_disc_in_a_filled_shape():
+    discs = largest_empty_discs([shapely.box(0, 0, 4, 4)], within=(1, 1, 2, 2))
+    assert len(discs) == 0
+    verify_discs(discs)
+
+
+# ---- refusals, faults ----------------------------------------------------------------------------
+def test_what_is_no_count_or_region():
+    with pytest.raises(UsageError, match="the count is 0"):
+        largest_discs(rectangle(2, 1), count=0)
+    with pytest.raises(UsageError, match="count"):
+        largest_empty_discs([[0, 0]], count=1.5)
+    with pytest.raises(InputError, match="within"):
+        largest_empty_discs([[0, 0]], within=(0, 0, -1, 1))
+    with pytest.raises(InputError, match="no inside"):
+        largest_empty_discs([[0, 0]], within="LINESTRING (0 0, 1 0)")
+
+
+@pytest.mark.filterwarnings("ignore::vorotool.VorotoolWarning")
+def test_nothing_has_no_disc():
+    assert len(largest_discs(["LINESTRING (0 0, 1 0)"])) == 0
+    assert len(largest_discs(["LINESTRING (0 0, 1 0)"], local=True, count=3)) == 0
+
+
+def test_the_checker_sees_faults():
+    discs = largest_discs([rectangle(8, 4), rectangle(3, 3, 10, 10)], count=3)
+    verify_discs(discs)
+    shifted = discs.xy + np.array([0.01, 0])
+    faults = {
+        "off its circle": {"xy": shifted},
+        "rank": {"rank": discs.rank[::-1].copy()},
+        "foot": {"feet": discs.feet + 0.01},
+        "larger": {"radius": discs.radius[::-1].copy(), "feet": discs.feet},
+        "in no polygon": {"polygon": np.full(len(discs), -1)},
+    }
+    for said, changed in faults.items():
+        with pytest.raises(VerificationError, match="foot" if said == "larger" else said):
+            verify_discs(replace(discs, **changed))
+
+
+def test_the_checker_sees_that_a_larger_one_fits():
+    small = largest_discs(rectangle(9, 2))
+    shape = {"shell": [[0, 0], [9, 0], [9, 2], [20, 2], [20, 13], [9, 13], [9, 2.5], [0, 2.5]]}
+    whole = largest_discs(shape, local=True)
+    other = np.flatnonzero(whole.radius < whole.radius[0])[:1]
+    assert len(other) or len(small)
+    feet = np.concatenate([whole.feet_of(int(k)) for k in other])
+    sites = np.concatenate([whole.foot_site[slice(*whole.foot_start[[k, k + 1]])] for k in other])
+    alone = replace(
+        whole,
+        xy=whole.xy[other],
+        radius=whole.radius[other],
+        polygon=whole.polygon[other],
+        rank=np.array([1]),
+        foot_start=np.array([0, len(feet)]),
+        feet=feet,
+        foot_site=sites,
+    )
+    with pytest.raises(VerificationError, match="there is a disc of radius"):
+        verify_discs(alone)

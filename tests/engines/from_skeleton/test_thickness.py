@@ -1,0 +1,142 @@
+"""Local thickness beside closed forms, bounds that know no skeleton, and a search of all arcs."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy import ndimage
+
+import vorotool
+from fuzz import thickness as fuzz
+from support.oracles.thickness_oracle import check_thickness
+from vorotool.engines.from_skeleton.thickness import thickness_of_pixels
+
+RANDOM = np.random.default_rng(22)
+NEAR = {"rtol": 0, "atol": 1e-11}
+
+
+def blobs(side, sigma, seed=0):
+    return ndimage.gaussian_filter(np.random.default_rng(seed).random((side, side)), sigma) > 0.5
+
+
+def in_rectangle(height, width):
+    """Of a rectangle: the disc over a pixel near a corner touches both sides, and has it on its rim."""
+    y, x = np.indices((height, width)) + 0.5
+    x, y = np.minimum(x, width - x), np.minimum(y, height - y)
+    return np.minimum(min(height, width), 2 * (x + y + np.sqrt(2 * x * y)))
+
+
+@pytest.mark.parametrize("size", [(1, 1), (1, 7), (2, 2), (5, 9), (40, 21), (64, 64), (200, 31)])
+def test_a_rectangle_has_its_closed_form(size):
+    mask = np.pad(np.ones(size, dtype=bool), 2)
+    made = vorotool.local_thickness(mask)
+    np.testing.assert_allclose(made[2:-2, 2:-2], in_rectangle(*size), **NEAR)
+    assert np.array_equal(made > 0, mask)
+
+
+def test_thin_objects_are_as_thick_as_a_pixel():
+    assert np.array_equal(vorotool.local_thickness(np.eye(9)), np.eye(9))
+    assert np.array_equal(vorotool.local_thickness(np.eye(9)[::-1], connectivity=4), np.eye(9)[::-1])
+
+
+def test_an_image_without_foreground_has_none():
+    assert np.array_equal(vorotool.local_thickness(np.zeros((3, 4))), np.zeros((3, 4)))
+    assert vorotool.local_thickness(np.zeros((0, 4))).shape == (0, 4)
+
+
+def test_a_disc_covers_what_it_holds():
+    y, x = np.indices((101, 101)) - 50
+    ring = (np.hypot(x, y) < 45.3) & (np.hypot(x, y) > 20.2)
+    made = vorotool.local_thickness(ring)
+    np.testing.assert_allclose(np.median(made[ring]), 25, atol=1)
+    assert made.max() < 28
+    assert np.ptp(vorotool.local_thickness(np.hypot(x, y) < 40)[30:71, 30:71]) == 0
+
+
+@pytest.mark.parametrize("case", range(16))
+def test_thickness_is_between_bounds_and_as_all_arcs_have_it(case):
+    assert fuzz.failure(np.random.default_rng([7, case])) is None
+
+
+@pytest.mark.parametrize(("side", "sigma"), [(60, 1.0), (150, 3.0), (200, 8.0)])
+def test_larger_masks_are_as_all_arcs_have_them(side, sigma):
+    mask = blobs(side, sigma)
+    skeleton = vorotool.skeleton_exact(vorotool.outlines(mask))
+    made = thickness_of_pixels(skeleton, mask.shape)
+    assert np.array_equal(made > 0, mask)
+    vorotool.verify_thickness(made, skeleton, samples=400)
+
+
+def test_threads_change_nothing():
+    mask = blobs(400, 4.0)
+    first = vorotool.local_thickness(mask, threads=1)
+    assert all(np.array_equal(first, vorotool.local_thickness(mask, threads=threads)) for threads in (2, 3, 7))
+
+
+def test_turned_and_mirrored_masks_have_the_same_thickness():
+    mask = blobs(120, 3.0, seed=4)
+    made = vorotool.local_thickness(mask)
+    for turn in (np.flipud, np.fliplr, np.transpose, np.rot90):
+        np.testing.assert_allclose(vorotool.local_thickness(turn(mask)), turn(made), **NEAR)
+
+
+def test_what_grows_gets_no_thinner():
+    mask = blobs(120, 3.0, seed=5)
+    made = vorotool.local_thickness(mask)
+    more = vorotool.local_thickness(mask | (RANDOM.random(mask.shape) < 0.02))
+    assert (more >= made - 1e-11).all()
+
+
+def test_labels_that_touch_are_taken_one_by_one():
+    labels = ndimage.zoom(RANDOM.integers(0, 5, (9, 9)), 7, order=0)
+    made = vorotool.local_thickness(labels)
+    alone = sum(vorotool.local_thickness(labels == label) for label in range(1, 5))
+    np.testing.assert_allclose(made, alone, **NEAR)
+
+
+def test_a_spacing_is_the_unit():
+    mask = blobs(80, 2.0, seed=6)
+    made = vorotool.local_thickness(mask)
+    np.testing.assert_allclose(vorotool.local_thickness(mask, spacing=0.3), 0.3 * made, **NEAR)
+    wide = vorotool.local_thickness(mask[::5, ::5], spacing=(0.5, 0.2))
+    shapes = vorotool.outlines(mask[::5, ::5])
+    polygons = vorotool.PolygonSet(
+        shapes.xy * (0.2, 0.5), shapes.ring_start, shapes.ring_kind, shapes.ring_polygon, shapes.ids
+    )
+    check_thickness(wide, polygons, (0.5, 0.2), 0.02)
+
+
+def test_rows_go_up_where_the_polygons_are_drawn_so():
+    from dataclasses import replace
+
+    mask = blobs(50, 2.0, seed=7)
+    shapes = vorotool.outlines(mask)
+    xy = shapes.xy * (1, -1)
+    upwards = replace(shapes, xy=xy, y_up=True)
+    made = thickness_of_pixels(vorotool.skeleton_exact(upwards), mask.shape)
+    np.testing.assert_allclose(made, vorotool.local_thickness(mask), **NEAR)
+
+
+def test_what_is_outside_is_left_out():
+    mask = blobs(50, 2.0, seed=8)
+    skeleton = vorotool.skeleton_exact(vorotool.outlines(mask), side="both")
+    np.testing.assert_allclose(thickness_of_pixels(skeleton, mask.shape), vorotool.local_thickness(mask), **NEAR)
+
+
+def test_a_gap_is_refused():
+    skeleton = vorotool.skeleton_exact([[0, 0], [8, 0], [8, 8]], gap=0.5)
+    with pytest.raises(vorotool.InputError, match="has a gap"):
+        thickness_of_pixels(skeleton, (8, 8))
+
+
+@pytest.mark.parametrize("factor", [0.99, 1.01, 0.0])
+def test_the_check_finds_values_that_are_wrong(factor):
+    mask = blobs(60, 2.0)
+    skeleton = vorotool.skeleton_exact(vorotool.outlines(mask))
+    made = thickness_of_pixels(skeleton, mask.shape)
+    vorotool.verify_thickness(made, skeleton)
+    with pytest.raises(vorotool.VerificationError, match="the thickness in row"):
+        vorotool.verify_thickness(made * factor, skeleton, samples=40)
+    outside = np.where(mask, made, 1.0)
+    with pytest.raises(vorotool.VerificationError, match="the thickness in row"):
+        vorotool.verify_thickness(outside, skeleton, samples=4000)

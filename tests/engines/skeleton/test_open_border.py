@@ -1,0 +1,156 @@
+"""Skeletons of what an image cuts: against images that go on, and closed forms."""
+
+import warnings
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import shapely
+from scipy import ndimage
+
+from vorotool import outlines, prune, skeleton_exact, verify_skeleton
+from vorotool.errors import InputError, UsageError, VerificationError, VorotoolWarning
+
+
+def opened(mask, **options):
+    height, width = np.asarray(mask).shape
+    return skeleton_exact(outlines(np.asarray(mask), **options), border=(-0.5, -0.5, width, height))
+
+
+def going_on(mask, **options):
+    """The arcs in the image of the skeleton of an image whose outermost pixels go on far beyond it."""
+    height, width = mask.shape
+    far = 2 * (height + width)
+    made = skeleton_exact(outlines(np.pad(mask, far, mode="edge"), **options))
+    lines = shapely.transform(made.to_shapely(by="branch", flatten=1e-6), lambda xy: xy - far)
+    window = shapely.box(-0.5, -0.5, width - 0.5, height - 0.5)
+    parts = shapely.intersection(lines, window)
+    return shapely.union_all(parts[shapely.length(parts) > 1e-9])
+
+
+def blobs(seed, height=11, width=13, sigma=1.2):
+    noise = ndimage.gaussian_filter(np.random.default_rng(seed).random((height, width)), sigma)
+    return noise > np.median(noise)
+
+
+def quietly(make, *arguments, **options):
+    with warnings.catch_warnings(action="ignore", category=VorotoolWarning):
+        return make(*arguments, **options)
+
+
+def test_band_through_the_image():
+    band = np.zeros((9, 12), dtype=bool)
+    band[3:6] = True
+    made = opened(band)
+    assert made.vertices.tolist() == [[-0.5, 4], [11.5, 4]]
+    assert made.radius.tolist() == [1.5, 1.5]
+    assert made.on_frame.all()
+    assert (made.frame, made.border) == ((-0.5, -0.5, 12, 9), "open")
+
+
+def test_half_a_ring():
+    y, x = np.mgrid[:20, -20:21]
+    far = np.hypot(x, y)
+    ring = (far > 9) & (far < 15)
+    made = prune(opened(ring), scale=1.5)
+    assert len(np.unique(made.branch)) == 1
+    assert made.on_frame.sum() == 2
+    ends = made.vertices[made.on_frame]
+    assert ends[:, 1].tolist() == [-0.5, -0.5]
+    assert np.allclose(sorted(ends[:, 0]), [8, 32])
+
+
+@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("options", [{"connectivity": 4}, {"connectivity": 8}, {"outline": "contour"}])
+def test_as_if_the_image_went_on(seed, options):
+    mask = blobs(seed)
+    if options.get("outline"):
+        options = {**options, "border": "open"}
+    made = quietly(opened, mask, **options)
+    verify_skeleton(made)
+    expected = going_on(mask, **{key: value for key, value in options.items() if key != "border"})
+    if not len(made):
+        assert expected.length < 1e-6
+        return
+    lines = shapely.union_all(made.to_shapely(by="branch", flatten=1e-6))
+    assert shapely.hausdorff_distance(lines, expected) < 1e-4
+    assert lines.length == pytest.approx(expected.length, abs=1e-3)
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_labels_each_by_itself(seed):
+    labels = np.random.default_rng(seed).integers(0, 4, (4, 5)).repeat(4, axis=0).repeat(4, axis=1)
+    made = quietly(opened, labels, mode="labels")
+    verify_skeleton(made)
+    height, width = labels.shape
+    ids = np.array(made.polygons.ids)
+    for label in np.unique(labels[labels > 0]):
+        alone = quietly(
+            skeleton_exact, outlines(labels * (labels == label), mode="labels"), border=(-0.5, -0.5, width, height)
+        )
+        own = made.length[ids[made.polygon] == label]
+        assert sorted(own) == pytest.approx(sorted(alone.length), rel=1e-12)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_polygons_that_are_cut(seed):
+    rng = np.random.default_rng(seed)
+    angle = np.sort(rng.random(12)) * 2 * np.pi
+    star = shapely.make_valid(
+        shapely.Polygon(np.column_stack([np.cos(angle), np.sin(angle)]) * rng.uniform(4, 12, (12, 1)))
+    )
+    cut = shapely.set_precision(shapely.intersection(star, shapely.box(-5, -4, 5, 6)), 2.0**-12)
+    made = quietly(skeleton_exact, cut, border=(-5, -4, 10, 10))
+    verify_skeleton(made)
+    assert ((made.vertices >= [-5, -4]) & (made.vertices <= [5, 6])).all()
+
+
+def test_pruning_keeps_what_leads_to_the_border():
+    made = quietly(opened, blobs(3, 60, 80, 3.0))
+    pruned = prune(made, scale=1.5)
+    kept = {tuple(place) for place in pruned.vertices[pruned.on_frame].tolist()}
+    assert {tuple(place) for place in made.vertices[made.on_frame].tolist()} <= kept
+
+
+def test_nothing_is_left_of_the_outline():
+    with pytest.warns(VorotoolWarning, match="with an open border nothing is between"):
+        assert len(opened(np.ones((4, 5), dtype=bool))) == 0
+    hole = np.ones((9, 9), dtype=bool)
+    hole[4, 4] = False
+    verify_skeleton(quietly(opened, hole))
+
+
+def test_no_object_at_the_border_is_as_it_was():
+    mask = np.pad(blobs(5), 2)
+    made, closed = opened(mask), skeleton_exact(outlines(mask))
+    assert sorted(made.length) == pytest.approx(sorted(closed.length))
+    assert made.site_table == closed.site_table or len(made.site_table) == len(closed.site_table)
+
+
+def test_what_is_refused():
+    square = [[0, 0], [4, 0], [4, 4], [0, 4]]
+    with pytest.raises(InputError, match=r"\(4.0, 0.0\) is beyond the border"):
+        skeleton_exact(square, border=(0, 0, 3, 4))
+    for more in ({"side": "both"}, {"features": "together"}, {"gap": 0.1}):
+        with pytest.raises(UsageError, match="an open border is for what is inside features"):
+            skeleton_exact(square, border=(0, 0, 4, 4), **more)
+    with pytest.raises(UsageError, match="the border is"):
+        skeleton_exact(square, border=(0, 0, 0, 4))
+
+
+def test_faults_are_found():
+    mask = np.zeros((20, 24), dtype=bool)
+    mask[5:9] = mask[:, 10:14] = True
+    made = opened(mask)
+    verify_skeleton(made)
+    kept = made.branch != made.branch[np.flatnonzero(made.on_frame[made.arcs].any(axis=1))[0]]
+    less = replace(
+        made,
+        **{name: getattr(made, name)[kept] for name in ("arcs", "control", "sites", "polygon", "side", "length")},
+        branch=np.unique(made.branch[kept], return_inverse=True)[1],
+        error_bound=made.error_bound[kept],
+    )
+    used, arcs = np.unique(less.arcs, return_inverse=True)
+    less = replace(less, arcs=arcs.reshape(-1, 2), vertices=made.vertices[used], radius=made.radius[used])
+    with pytest.raises(VerificationError):
+        verify_skeleton(less)
