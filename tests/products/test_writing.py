@@ -32,6 +32,8 @@ def values():
         vorotool.offset(SQUARE, -1),
         vorotool.rebuild(skeleton),
         vorotool.points_along(skeleton, every=1),
+        vorotool.necks(skeleton),
+        vorotool.parts(skeleton),
         vorotool.voronoi(SQUARE),
         vorotool.largest_discs(SQUARE, count=2),
     ]
