@@ -20,6 +20,7 @@ from vorotool.products.registry import Product, is_of, parts_of
 from vorotool.products.writing import chosen_part, write_product
 
 if TYPE_CHECKING:
+    from vorotool.geometry.alpha.persistence import RegionPersistence
     from vorotool.geometry.points.label_image import LabelImage
 
 
@@ -215,6 +216,9 @@ def _draw(value: Any, wanted: _Picture) -> None:
     if is_of(value, "LabelImage"):
         _draw_labels(value, wanted)
         return
+    if is_of(value, "RegionPersistence"):
+        _draw_plot(value, wanted)
+        return
     drawing = drawing_of(
         value,
         what=wanted.what,
@@ -228,6 +232,18 @@ def _draw(value: Any, wanted: _Picture) -> None:
         check_picture_size(drawing.page, MAX_PIXELS)
     with open_output(wanted.path, binary=wanted.fmt == "png") as out:
         write_layers(out, drawing.layers, drawing.page, fmt=wanted.fmt, threads=wanted.threads)
+
+
+def _draw_plot(found: RegionPersistence, wanted: _Picture) -> None:
+    from vorotool.formats.io.atomic_output import open_output
+    from vorotool.render.pages.persistence_plot import write_persistence_svg
+
+    if wanted.fmt != "svg":
+        raise UsageError("the plot of a RegionPersistence is drawn as SVG: use fmt='svg'")
+    if wanted.layers is not None or wanted.y_up is not None:
+        raise UsageError("layers and y_up are for pictures of shapes, but this is a plot: leave them out")
+    with open_output(wanted.path, binary=False) as out:
+        write_persistence_svg(out, found.table(), found.suggested, width=wanted.width or 1000)
 
 
 def _draw_labels(image: LabelImage, wanted: _Picture) -> None:

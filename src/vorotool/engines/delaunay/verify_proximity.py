@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from fractions import Fraction
 from itertools import pairwise
+from math import sqrt
 from typing import Any
 
 import numpy as np
@@ -80,12 +81,12 @@ def _by_rule(graph: ProximityGraph) -> NDArray[np.bool_]:
     scaled = np.ldexp(mesh.points, -exponent)
     own = np.unique(mesh.edges)
     tree = shapely.STRtree(shapely.points(scaled[own]))
-    holds, reach = (_lune_holds, 0.75**0.5) if is_relative else (_disc_holds, 0.5)
+    holds, reach = (_lune_holds, sqrt(0.75)) if is_relative else (_disc_holds, 0.5)
     kept = np.ones(len(mesh.edges), dtype=bool)
     for start in range(0, len(kept), _CHUNK):
         rows = np.arange(start, min(start + _CHUNK, len(kept)))
         a, b = (scaled[mesh.edges[rows, side]] for side in (0, 1))
-        middle, length = a / 2 + b / 2, np.sqrt(((b - a) ** 2).sum(axis=1))
+        middle, length = a / 2 + b / 2, np.sqrt(((b - a) * (b - a)).sum(axis=1))
         nearest = own[tree.nearest(shapely.points(middle))]
         kept[rows[_held(mesh.points, mesh.edges[rows], nearest, holds)]] = False
         open_rows = kept[rows]  # nearly all of these have empty discs: few points are near
@@ -124,7 +125,7 @@ def _lune_holds(points: Places, edges: Ends, numbers: NDArray[np.intp]) -> NDArr
 
     a, b, p = points[edges[:, 0]], points[edges[:, 1]], points[numbers]
     with np.errstate(all="ignore"):
-        side, one, other = (((u - v) ** 2).sum(axis=1) for u, v in ((a, b), (a, p), (b, p)))
+        side, one, other = (((u - v) * (u - v)).sum(axis=1) for u, v in ((a, b), (a, p), (b, p)))
         most = np.maximum(one, other)
         return _decided(most - side, most + side, exactly, (a, b, p))
 
@@ -140,7 +141,8 @@ def _decided(
 
 
 def _square(a: list[Fraction], b: list[Fraction]) -> Fraction:
-    return (a[0] - b[0]) ** 2 + (a[1] - b[1]) ** 2
+    x, y = a[0] - b[0], a[1] - b[1]
+    return x * x + y * y
 
 
 # ---- the tree ----------------------------------------------------------------------------------------------
