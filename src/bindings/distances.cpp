@@ -11,6 +11,7 @@
 #include "core/base/parallel.hpp"
 #include "core/distances/closest.hpp"
 #include "core/distances/farthest.hpp"
+#include "core/distances/inside.hpp"
 #include "core/distances/shape.hpp"
 
 namespace vorotool::bindings {
@@ -55,6 +56,12 @@ Pair farthest_place(const KeptShape& from, const KeptShape& to, unsigned threads
   return pair_of(found.distance, found.from, found.on);
 }
 
+bool may_go_farther_inside(const KeptShape& of, const KeptShape& to, double least, const Progress& progress) {
+  constexpr std::size_t most = 1 << 14;  // squares: some tens of milliseconds
+  return run_interruptible(progress, core::distances::may_go_farther_inside, of.shape(), to.shape(), least,
+                           most);
+}
+
 Pair closest_places(const KeptShape& a, const KeptShape& b, unsigned threads, const Progress& progress) {
   const auto found = run_interruptible(progress, core::distances::closest_places, a.shape(), b.shape(),
                                        core::base::resolve_threads(threads));
@@ -88,8 +95,10 @@ void bind_distances(nb::module_& room) {
            "Of each place whether it is inside a polygon or on its outline.")
       .def("reached", &reached, "places"_a, "threads"_a, "progress"_a.none(),
            "Of each place the distance, and the nearest place of the shape.");
-  room.def("farthest_place", &farthest_place, "from_"_a, "to"_a, "threads"_a, "progress"_a.none(),
+  room.def("farthest_place", &farthest_place, "of"_a, "to"_a, "threads"_a, "progress"_a.none(),
            "The largest distance, -1 if there is none, the place, and the nearest one of the other shape.");
+  room.def("may_go_farther_inside", &may_go_farther_inside, "of"_a, "to"_a, "least"_a, "progress"_a.none(),
+           "False if no place inside the polygons of the first shape is farther from the second.");
   room.def("closest_places", &closest_places, "a"_a, "b"_a, "threads"_a, "progress"_a.none(),
            "The smallest distance, -1 if there is none, and a place of each.");
 }

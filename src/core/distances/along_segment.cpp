@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "core/kernel/predicates.hpp"
 
@@ -25,6 +26,26 @@ void add_meetings(const Element& segment, const Element& element, std::vector<do
   } else {
     shares.push_back(std::clamp(kernel::cross(element.a - segment.a, v) / slope, 0.0, 1.0));
   }
+}
+
+bool is_covered(const Element& segment, std::span<const Element> elements) {
+  const auto& [a, b] = segment;
+  const bool by_x = std::abs(b.x - a.x) >= std::abs(b.y - a.y);
+  const auto along = [by_x](const Element& e) {
+    return by_x ? std::minmax(e.a.x, e.b.x) : std::minmax(e.a.y, e.b.y);
+  };
+  std::vector<std::pair<double, double>> spans;
+  for (const Element& e : elements) {
+    if (kernel::orient2d(a, b, e.a) == 0 && kernel::orient2d(a, b, e.b) == 0) spans.push_back(along(e));
+  }
+  std::sort(spans.begin(), spans.end());
+  auto [reached, end] = std::pair<double, double>(along(segment));
+  for (const auto& [first, last] : spans) {
+    if (first > reached) return false;
+    reached = std::max(reached, last);
+    if (reached >= end) return true;
+  }
+  return false;
 }
 
 namespace {

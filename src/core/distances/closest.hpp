@@ -6,9 +6,9 @@
 namespace vorotool::core::distances {
 
 struct Closest {
-  double distance;       // -1 where there is nothing
-  kernel::Point on_a;    // a place of the first shape,
-  kernel::Point on_b;    // and the nearest one of the second
+  double distance;     // -1 where there is nothing
+  kernel::Point on_a;  // a place of the first shape,
+  kernel::Point on_b;  // and the nearest one of the second
 };
 
 // The smallest distance between places of two shapes: 0 where they meet, which is decided exactly, whether by

@@ -6,7 +6,8 @@ namespace vorotool::core::distances {
 
 ElementTree::ElementTree(std::span<const Element> elements, const base::Monitor& monitor) {
   items_.reserve(elements.size());
-  for (const Element& element : elements) items_.push_back({element, static_cast<std::uint32_t>(items_.size())});
+  for (const Element& element : elements)
+    items_.push_back({element, static_cast<std::uint32_t>(items_.size())});
   std::size_t leaves = 1;
   while (leaves * leaf_size < items_.size()) leaves *= 2;
   nodes_.resize(2 * leaves - 1);

@@ -72,7 +72,9 @@ class ElementTree {
   Run root() const { return {0, 0, items_.size()}; }
   bool is_leaf(const Run& run) const { return run.node >= first_leaf_; }
   const Node& node(const Run& run) const { return nodes_[run.node]; }
-  std::span<const Item> items(const Run& run) const { return std::span(items_).subspan(run.first, run.size()); }
+  std::span<const Item> items(const Run& run) const {
+    return std::span(items_).subspan(run.first, run.size());
+  }
 
   // The nearest of all elements and `best`, which is a good start where it is likely to be near.
   Nearest nearest(const kernel::Point& p, Nearest best = {}) const {

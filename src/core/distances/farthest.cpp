@@ -41,7 +41,8 @@ struct Ends {
 };
 
 // No place between p and q, with the nearest elements there, is farther from what is nearest to it: a square.
-double bound_between(const Shape& to, const Point& p, const Nearest& at_p, const Point& q, const Nearest& at_q) {
+double bound_between(const Shape& to, const Point& p, const Nearest& at_p, const Point& q,
+                     const Nearest& at_q) {
   if (at_p.element == at_q.element) return std::max(at_p.d2, at_q.d2);
   return std::min(std::max(at_p.d2, square_distance(to.elements()[at_p.element], q)),
                   std::max(at_q.d2, square_distance(to.elements()[at_q.element], p)));
@@ -89,6 +90,7 @@ class SegmentSearch {
       : to_(to), segment_(segment), ends_(ends), best_(best) {}
 
   Best run() {
+    if (is_part_of_it()) return best_;
     const std::vector<double> cuts = outline_cuts();
     if (cuts.empty()) {
       if (!ends_.a.is_inside) between({0, ends_.a.nearest}, {1, ends_.b.nearest});
@@ -110,6 +112,15 @@ class SegmentSearch {
     double share;
     Nearest nearest;
   };
+
+  // Whether all of the segment is on elements, as it is where both shapes are the same there.
+  bool is_part_of_it() const {
+    if (ends_.a.nearest.d2 != 0 || ends_.b.nearest.d2 != 0) return false;
+    std::vector<Element> near;
+    to_.tree().meeting(Box::of(segment_),
+                       [&](const ElementTree::Item& item) { near.push_back(item.element); });
+    return is_covered(segment_, near);
+  }
 
   // Where the segment meets outlines of polygons, and its second end; nothing if it does not meet them.
   std::vector<double> outline_cuts() const {

@@ -8,9 +8,9 @@
 namespace vorotool::core::distances {
 
 struct Farthest {
-  double distance;      // -1 where there is nothing
-  kernel::Point from;   // of the first shape, a place that far from the second one
-  kernel::Point on;     // of the second shape, the place nearest to it
+  double distance;     // -1 where there is nothing
+  kernel::Point from;  // of the first shape, a place that far from the second one
+  kernel::Point on;    // of the second shape, the place nearest to it
 };
 
 // The largest distance from a place on the points and segments of one shape to the nearest place of another,

@@ -25,8 +25,8 @@ class Shape {
   // Elements with a ring >= 0 bound what is inside the polygon of that ring: all places that are inside its
   // shell and in none of its holes, each ring by the even-odd rule. Rings of a polygon follow one another.
   // What is given must outlive the shape.
-  Shape(std::span<const Element> elements, std::span<const std::int32_t> ring_of,
-        std::span<const Ring> rings, const base::Monitor& monitor);
+  Shape(std::span<const Element> elements, std::span<const std::int32_t> ring_of, std::span<const Ring> rings,
+        const base::Monitor& monitor);
 
   std::span<const Element> elements() const { return elements_; }
   const ElementTree& tree() const { return tree_; }

@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool import _core
 from vorotool.engines.arrangement.planar_graph import graph_for_skeletons
 from vorotool.engines.distances.measured_shape import MeasuredShape
 from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, unwanted_sides
@@ -49,6 +50,8 @@ def farthest_inner_place(of: MeasuredShape, other: MeasuredShape, least: float, 
     PlacePair, optional
         The place, and the nearest one of the other shape; None where none is farther than `least`.
     """
+    if not _core.distances.may_go_farther_inside(of.core, other.core, least, None):
+        return None
     with warnings.catch_warnings(action="ignore", category=RepairWarning):
         graph = graph_for_skeletons(other.polygons, threads=threads)
     wanted = ~graph.is_inside if other.is_filled else np.ones(graph.faces, dtype=bool)
