@@ -32,19 +32,27 @@ inline double nearest_share(const Element& e, const kernel::Point& p) {
   return t < length2 ? t / length2 : 1;
 }
 
-// Wrong by some ulp of the distances of p from the ends: across a segment it is seen from the nearer one.
+// Wrong by some ulp of the distances of p from the ends: across a segment it is seen from the nearer one. From
+// segments along an axis it is as exact as from points.
 inline double square_distance(const Element& e, const kernel::Point& p) {
   const kernel::Point along = e.b - e.a, from_a = p - e.a;
   const double length2 = square(along), t = kernel::dot(from_a, along);
   if (!(t > 0)) return square(from_a);
   const kernel::Point from_b = p - e.b;
   if (t >= length2) return square(from_b);
+  if (along.x == 0) return from_a.x * from_a.x;
+  if (along.y == 0) return from_a.y * from_a.y;
   const double across = kernel::cross(2 * t > length2 ? from_b : from_a, along);
   return across / length2 * across;
 }
 
 inline kernel::Point nearest_place(const Element& e, const kernel::Point& p) {
-  return e.at(nearest_share(e, p));
+  const double share = nearest_share(e, p);
+  if (share > 0 && share < 1) {
+    if (e.a.x == e.b.x) return {e.a.x, p.y};
+    if (e.a.y == e.b.y) return {p.x, e.a.y};
+  }
+  return e.at(share);
 }
 
 }  // namespace vorotool::core::distances

@@ -36,7 +36,7 @@ def region_of(geometry):
     return shapely.union_all(shapely.make_valid(parts[shapely.get_type_id(parts) == 3]))
 
 
-def directed_bounds(a, b, *, boundary=False, tolerance=1e-9, inner=1 / 64):
+def directed_bounds(a, b, *, boundary=False, tolerance=1e-10, inner=1 / 64):
     """Bounds of the largest distance from a place of a to the nearest one of b.
 
     Parameters
@@ -114,6 +114,13 @@ def _inside(own, edges, region, low, step):
 def smallest(a, b, *, boundary=False):
     """The smallest distance."""
     if not boundary:
-        return float(shapely.distance(shapely.GeometryCollection(list(np.atleast_1d(a))),
-                                      shapely.GeometryCollection(list(np.atleast_1d(b)))))
-    return float(shapely.distance(*(shapely.multilinestrings(edges_of(each)) for each in (a, b))))
+        return float(
+            shapely.distance(
+                shapely.GeometryCollection(list(np.atleast_1d(a))), shapely.GeometryCollection(list(np.atleast_1d(b)))
+            )
+        )
+    outlines = (
+        shapely.GeometryCollection([shapely.boundary(g) if shapely.get_type_id(g) == 3 else g for g in each])
+        for each in (a, b)
+    )
+    return float(shapely.distance(*outlines))

@@ -137,7 +137,7 @@ def _equally_far(about: Floats, radius: Floats, at: Floats, normal: Floats, is_p
     for _ in range(NEWTON_STEPS):
         away = p[:, None] - at
         length = np.sqrt((away * away).sum(axis=2))
-        with np.errstate(divide="ignore", invalid="ignore"):
+        with np.errstate(all="ignore"):
             slope = np.where(is_point[..., None], away / length[..., None], normal * side[..., None])
             value = np.where(is_point, length, (away * slope).sum(axis=2)) - r[:, None]
             # the differences of the equations have no radius in them
@@ -145,6 +145,6 @@ def _equally_far(about: Floats, radius: Floats, at: Floats, normal: Floats, is_p
             f, g = value[:, 0] - value[:, 1], value[:, 0] - value[:, 2]
             whole = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
             step = np.stack([f * v[:, 1] - g * u[:, 1], u[:, 0] * g - v[:, 0] * f], axis=1) / whole[:, None]
-        r += value[:, 0] + (slope[:, 0] * step).sum(axis=1)
-        p += step
+            r += value[:, 0] + (slope[:, 0] * step).sum(axis=1)
+            p += step
     return p

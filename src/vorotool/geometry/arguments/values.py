@@ -18,6 +18,7 @@ _MAKERS = {
     "Skeleton": "skeleton_exact",
     "Offsets": "offset",
     "VoronoiMap": "voronoi",
+    "Distances": "hausdorff",
 }
 """The function that makes a value of each type."""
 

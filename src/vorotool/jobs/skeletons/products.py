@@ -25,9 +25,9 @@ from vorotool.jobs.pictures import write_layers
 from vorotool.jobs.pixel_sizes import placed_backdrop
 from vorotool.jobs.pruning_choice import CRITERIA, LENGTHS, Pruning, chosen_pruning
 from vorotool.jobs.run_log import Run
+from vorotool.jobs.skeleton_input import read_polygons
 from vorotool.jobs.skeletons.derived import Derived
 from vorotool.jobs.skeletons.result import Origin
-from vorotool.jobs.skeleton_input import read_polygons
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import in_units, length_in_units, unit_text
 from vorotool.products.formats import PICTURES, picture_format
