@@ -63,6 +63,12 @@ def test_a_point_at_the_middle_of_three(turn):
     assert there.on_a == pytest.approx((100.1, -3.7), rel=1e-14)
 
 
+def test_a_place_between_a_polygon_and_a_lone_point():
+    walls = [shapely.box(-2, -9, 0, 9), "POINT (6 4)", "POINT (6 -4)"]
+    there = hausdorff([shapely.box(0, -4, 6, 4)], [shapely.from_wkt(w) if isinstance(w, str) else w for w in walls]).from_a
+    assert there.distance == pytest.approx(13 / 3) and there.on_a == pytest.approx((13 / 3, 0))
+
+
 def test_parallel_edges():
     lines = hausdorff(["LINESTRING (0 0, 8 0)"], ["LINESTRING (0 0, 0 1, 8 1, 8 0)"])
     assert (lines.from_a.distance, lines.from_b.distance) == (1, 1)

@@ -54,8 +54,7 @@ def farthest_inner_place(of: MeasuredShape, other: MeasuredShape, least: float, 
         return None
     with warnings.catch_warnings(action="ignore", category=RepairWarning):
         graph = graph_for_skeletons(other.polygons, threads=threads)
-    wanted = ~graph.is_inside if other.is_filled else np.ones(graph.faces, dtype=bool)
-    sides = unwanted_sides(graph, wanted) if other.is_filled else None
+    sides = _sides_inside(graph) if other.is_filled else None
     diagram = segment_voronoi(graph.points, graph.segments, unwanted=sides, threads=threads)
     slack = SLACK * graph.largest_move + 2.0**-40 * graph.scale * float(np.abs(graph.points).max(initial=1))
     chosen = np.flatnonzero((diagram.radius > 0) & (diagram.radius * graph.scale + slack > least))
@@ -72,6 +71,15 @@ def farthest_inner_place(of: MeasuredShape, other: MeasuredShape, least: float, 
         return None
     (x, y), (to_x, to_y) = places[at].tolist(), on[at].tolist()
     return PlacePair(float(distance[at]), (x, y), (to_x, to_y))
+
+
+def _sides_inside(graph: PlanarGraph) -> NDArray[np.uint8]:
+    """Sides of points and segments on which the diagram is not asked for, since they are inside polygons."""
+    sides = unwanted_sides(graph, ~graph.is_inside)
+    is_lone = np.ones(len(graph.points), dtype=bool)
+    is_lone[graph.segments.ravel()] = False
+    sides[: len(graph.points)][is_lone] = 0  # of these the graph does not say where they are
+    return sides
 
 
 def _candidates(graph: PlanarGraph, diagram: SegmentVoronoiDiagram, chosen: Indices) -> Floats:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -105,24 +105,3 @@ def edges_of(polygons: PolygonSet) -> tuple[NDArray[np.int64], NDArray[np.int64]
     start = np.flatnonzero(~ends_line)
     return start, polygons.following[start]
 
-
-def as_outlines(polygons: PolygonSet) -> PolygonSet:
-    """The rings of polygons as lines, which bound nothing."""
-    closing = polygons.ring_kind != LINE
-    lengths = np.diff(polygons.ring_start)
-    order = np.concatenate(
-        [
-            np.append(np.arange(first, first + length), [first] if closed else []).astype(np.int64)
-            for first, length, closed in zip(polygons.ring_start[:-1], lengths, closing, strict=True)
-        ]
-    )
-    starts = np.concatenate([[0], np.cumsum(lengths + closing)])
-    count = len(lengths)
-    return PolygonSet(
-        polygons.xy[order], starts, np.full(count, LINE), np.arange(count), y_up=polygons.y_up, crs=polygons.crs
-    )
-
-
-def in_system(polygons: PolygonSet, crs: Any) -> PolygonSet:
-    """The same in a system, if they name none."""
-    return replace(polygons, crs=crs) if polygons.crs is None and crs is not None else polygons
