@@ -128,6 +128,7 @@ def _input_of(value: Any) -> AnyTriangulation | CellSet | PolygonSet:
     """What of a value has the coordinate reference system and the columns of its input."""
     from vorotool.geometry.alpha.hull import AlphaHull
     from vorotool.geometry.alpha.shape import AlphaShape
+    from vorotool.geometry.distances import Distances
     from vorotool.geometry.skeleton.centerline import Centerlines
     from vorotool.geometry.skeleton.offsets import Offsets
     from vorotool.geometry.skeleton.points_along import SkeletonPoints
@@ -139,6 +140,7 @@ def _input_of(value: Any) -> AnyTriangulation | CellSet | PolygonSet:
         (Centerlines, lambda lines: lines.path.polygons),
         (SkeletonPoints, lambda points: points.skeleton.polygons),
         ((Skeleton, Offsets), lambda of: of.polygons),
+        (Distances, lambda found: found.shapes[0]),
     ]
     found: AnyTriangulation | CellSet | PolygonSet = next(
         (get(value) for kind, get in inside if isinstance(value, kind)), value

@@ -143,6 +143,7 @@ def _drawings() -> list[tuple[Any, Callable[..., Page], Callable[..., list[Layer
     """The types that there are pictures of, and what makes their pages and layers."""
     from vorotool.geometry.alpha.hull import AlphaHull
     from vorotool.geometry.alpha.shape import AlphaShape
+    from vorotool.geometry.distances import Distances
     from vorotool.geometry.mesh.cells import CellSet
     from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation
     from vorotool.geometry.mesh.triangulation import Triangulation
@@ -154,6 +155,7 @@ def _drawings() -> list[tuple[Any, Callable[..., Page], Callable[..., list[Layer
     from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
     from vorotool.render.layers.alpha import alpha_layers
     from vorotool.render.layers.cells import cells_page
+    from vorotool.render.layers.distances import distance_layers, distance_page
     from vorotool.render.layers.mesh import mesh_layers, mesh_page
     from vorotool.render.layers.offsets import offset_layers, offset_page
     from vorotool.render.layers.points_along import point_page, skeleton_point_layers
@@ -180,6 +182,7 @@ def _drawings() -> list[tuple[Any, Callable[..., Page], Callable[..., list[Layer
         (SkeletonPoints, point_page, skeleton_point_layers),
         (Offsets, offset_page, offset_layers),
         (VoronoiMap, voronoi_page, voronoi_layers),
+        (Distances, distance_page, distance_layers),
     ]
 
 

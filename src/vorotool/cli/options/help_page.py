@@ -12,7 +12,7 @@ from vorotool.cli.options.shared import Names
 _GROUPS = {
     "Output": "output format what dtype chunk levels tiled flatten precision no_properties safe_csv no_clobber",
     "Method": "method passes by max_distance r alpha auto regions rule hole_threshold region_threshold step tolerance "
-    "sampling compare side gap complete features prune start end ends distance every",
+    "sampling compare boundary side gap complete features prune start end ends distance every",
     "Input": "columns input_format input_layer input_crs crs page volume pixel_size spacing seeds connectivity "
     "threshold invert min_area fill_holes outline simplify join_tolerance",
     "Frame": "size window cell_size frame clip enclosures",

@@ -104,4 +104,3 @@ def edges_of(polygons: PolygonSet) -> tuple[NDArray[np.int64], NDArray[np.int64]
     ends_line[polygons.ring_start[1:][is_open] - 1] = True
     start = np.flatnonzero(~ends_line)
     return start, polygons.following[start]
-

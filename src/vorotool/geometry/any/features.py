@@ -301,9 +301,7 @@ def _transects(points: SkeletonPoints) -> Features:
 def _of_distances(found: Distances) -> Features:
     places = found.places
     columns = {name: column for name, column in found.table().stored().items() if name in ("what", "distance")}
-    return Features(
-        lines(places.reshape(-1, 2), np.arange(0, 2 * len(places) + 1, 2)), Table(columns), found
-    )
+    return Features(lines(places.reshape(-1, 2), np.arange(0, 2 * len(places) + 1, 2)), Table(columns), found)
 
 
 def _along(points: SkeletonPoints, geometry: NDArray[Any], left_out: set[str]) -> Features:
