@@ -147,7 +147,7 @@ class DistanceProducts:
         a, b = self.found.shapes
         rows = self.found.rows
         return {
-            "features": [int(np.unique(shape.feature).size) for shape in (a, b)],
+            "features": [as_sites(shape).count for shape in (a, b)],
             "vertices": [len(shape.xy) for shape in (a, b)],
             "boundary": self.options.boundary,
             "hausdorff": rows["hausdorff"].distance if "hausdorff" in rows else None,

@@ -40,7 +40,7 @@ def distance_layers(found: Distances, page: Page, layers: Iterable[str]) -> list
     >>> from vorotool import hausdorff
     >>> found = hausdorff([[0, 0]], [[3, 4]])
     >>> [layer.name for layer in distance_layers(found, distance_page(found), ["distances", "first"])]
-    ['first', 'distances', 'distances']
+    ['first', 'distances', 'places']
     """
     wanted = checked_layers(layers, LAYERS)
     made: list[Layer] = []
@@ -50,18 +50,21 @@ def distance_layers(found: Distances, page: Page, layers: Iterable[str]) -> list
     if "distances" in wanted:
         places = found.places.reshape(-1, 2)
         pairs = np.arange(len(places), dtype=np.int32).reshape(-1, 2)
-        made += [Lines("distances", places, pairs, RESULT, 2.0), Points("distances", places, RESULT, 3.0)]
+        made += [Lines("distances", places, pairs, RESULT, 2.0), Points("places", places, RESULT, 3.0)]
     return made
 
 
 def _shape(name: str, polygons: PolygonSet, page: Page, colour: str) -> list[Layer]:
-    """A shape in layers of one name: polygons with their outlines, lines, and points as discs."""
+    """Polygons with their outlines, lines, and points as discs; of more than one kind, all but the first by theirs."""
     width = min(max(page.spacing(max(len(polygons.xy), 1)) / 16, 0.2), 1.5)
-    drawn = [layer for layer in polygon_layers(polygons, width, name=name, edge=colour) if len(layer.points)]
+    filled, *lines = polygon_layers(polygons, width, name=name, edge=colour)
+    drawn: list[tuple[str, Layer]] = [] if polygons.is_line.all() else [("polygons", filled)]
+    drawn += [("lines", layer) for layer in lines]
     is_lone = polygons.is_line[polygons.ring_polygon] & (np.diff(polygons.ring_start) == 1)
-    points = polygons.xy[polygons.ring_start[:-1][is_lone]]
-    made = [replace(layer, name=name) for layer in drawn]
-    return [*made, Points(name, points, colour, 2 * width + 0.5)] if len(points) else made
+    if is_lone.any():
+        places = polygons.xy[polygons.ring_start[:-1][is_lone]]
+        drawn.append(("points", Points(name, places, colour, 2 * width + 0.5)))
+    return [replace(layer, name=f"{name}-{kind}" if i else name) for i, (kind, layer) in enumerate(drawn)]
 
 
 def distance_page(found: Distances, *, width: int = 1000, y_up: bool | None = None) -> Page:
