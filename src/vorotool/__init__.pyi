@@ -65,6 +65,15 @@ from vorotool.engines.digital.triangulation import (
 from vorotool.engines.digital.verify_digital import (
     verify_digital_triangulation as verify_digital_triangulation,
 )
+from vorotool.engines.distances.hausdorff import (
+    hausdorff as hausdorff,
+)
+from vorotool.engines.distances.smallest import (
+    distance as distance,
+)
+from vorotool.engines.distances.verify_distances import (
+    verify_distances as verify_distances,
+)
 from vorotool.engines.from_skeleton.points_along import (
     points_along as points_along,
 )
@@ -193,6 +202,12 @@ from vorotool.geometry.any.tables import (
 )
 from vorotool.geometry.box import (
     Box as Box,
+)
+from vorotool.geometry.distances import (
+    Distances as Distances,
+)
+from vorotool.geometry.distances import (
+    PlacePair as PlacePair,
 )
 from vorotool.geometry.mesh.cells import (
     CellSet as CellSet,

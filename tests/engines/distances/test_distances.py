@@ -64,11 +64,10 @@ def test_a_point_at_the_middle_of_three(turn):
 
 
 def test_a_place_between_a_polygon_and_a_lone_point():
-    walls = [shapely.box(-2, -9, 0, 9), "POINT (6 4)", "POINT (6 -4)"]
-    there = hausdorff(
-        [shapely.box(0, -4, 6, 4)], [shapely.from_wkt(w) if isinstance(w, str) else w for w in walls]
-    ).from_a
-    assert there.distance == pytest.approx(13 / 3) and there.on_a == pytest.approx((13 / 3, 0))
+    around = [shapely.box(-2, -9, 0, 9), shapely.Point(6, 4), shapely.Point(6, -4)]
+    there = hausdorff([shapely.box(0, -4, 6, 4)], around).from_a
+    assert there.distance == pytest.approx(13 / 3)
+    assert there.on_a == pytest.approx((13 / 3, 0))
 
 
 def test_parallel_edges():
