@@ -1,6 +1,6 @@
 """Measure the Hausdorff distance beside shapely's, densified, in one run: `make bench`.
 
-Seconds of both for pairs of zigzag lines of so many edges, and by how much each is off: ours from bounds by bisection,
+Seconds of both for a zigzag line of so many edges and one around it, and by how much each is off: ours from bounds by bisection,
 where edges are few; shapely's from ours. It sees vertices only, unless edges are divided: into as many parts as are
 needed for 1e-3 of the distance. Our accuracy would need some 10^12 parts.
 """
@@ -23,10 +23,13 @@ MOST_CHECKED, MOST_OF_PEERS = 300, 3000
 """Edges."""
 
 
-def zigzag(count: int, seed: int) -> np.ndarray:
-    """An open line of so many edges, up and down."""
-    random = np.random.default_rng(seed)
-    return np.stack([np.arange(count + 1) + random.random(count + 1), 10 * random.random(count + 1)], axis=1)
+def zigzag_and_its_hull(count: int) -> tuple[np.ndarray, np.ndarray]:
+    """A line of so many edges up and down, and one along its lower and its upper ends: edges go through between."""
+    random = np.random.default_rng(1)
+    x, y = 10 * np.arange(count + 1.0), 50.0 * (np.arange(count + 1) % 2)
+    line = np.stack([x, y], axis=1) + random.random((count + 1, 2))
+    around = np.concatenate([line[::2], line[1::2][::-1]]) + random.random((count + 1, 2))
+    return line, around
 
 
 def line(xy: np.ndarray) -> PolygonSet:
@@ -45,7 +48,7 @@ def densified(a: shapely.LineString, b: shapely.LineString, right: float) -> tup
 
 def row(count: int, threads: int, runs: int, *, has_peers: bool) -> None:
     """Print the figures of one size."""
-    a, b = zigzag(count, 1), zigzag(count, 2)
+    a, b = zigzag_and_its_hull(count)
     seconds, ours = timed(lambda: vorotool.hausdorff(line(a), line(b), threads=threads), runs)
     closest, _ = timed(lambda: vorotool.distance(line(a), line(b), threads=threads), runs)
     shown = f"{count:9,} edges  hausdorff {seconds:9.4f} s  smallest {closest:9.4f} s"

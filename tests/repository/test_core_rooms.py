@@ -32,6 +32,7 @@ pruning -> base, graphs, kernel, numbers, skeleton
 sampled_skeleton -> base, delaunay, kernel, numbers, segment_voronoi/build, skeleton, spatial
 voronoi -> base, kernel, segment_voronoi/build, skeleton
 volumes -> base, label_images, numbers, spatial, tessellation
+distances -> base, kernel
 """)
 """What each room includes, after all that it may include."""
 

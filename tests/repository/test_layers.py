@@ -46,14 +46,10 @@ engines/alpha -> engines/delaunay, geometry, geometry/alpha, geometry/arguments,
 engines/features -> engines/arrangement, geometry, geometry/polygons, geometry/skeleton
 formats/polygons -> formats/io, formats/parsing, formats/points, formats/text, geometry, geometry/arguments,
     geometry/polygons, products
-render/layers -> geometry, geometry/alpha, geometry/mesh, geometry/polygons, geometry/skeleton, geometry/voronoi,
-    render/canvas, render/label_images
 render/pages -> geometry, geometry/alpha, geometry/curves, geometry/mesh, geometry/skeleton, geometry/voronoi, products,
     render/canvas, render/label_images
 engines/skeleton -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi, geometry,
     geometry/arguments, geometry/curves, geometry/polygons, geometry/skeleton
-formats/results -> formats/io, formats/parsing, formats/polygons, formats/text, geometry, geometry/alpha,
-    geometry/arguments, geometry/curves, geometry/mesh, geometry/polygons, geometry/skeleton, geometry/voronoi, products
 engines/from_skeleton -> engines/arrangement, engines/skeleton, geometry, geometry/arguments, geometry/curves,
     geometry/polygons, geometry/skeleton
 engines/offsets -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi, engines/skeleton,
@@ -70,23 +66,31 @@ engines/centerlines -> engines/from_skeleton, engines/pruning, engines/skeleton,
     geometry/polygons, geometry/skeleton, typing
 engines/voronoi -> engines/arrangement, engines/common, engines/segment_voronoi, engines/skeleton, geometry,
     geometry/arguments, geometry/curves, geometry/polygons, geometry/skeleton, geometry/voronoi, typing
-geometry/any -> geometry, geometry/alpha, geometry/curves, geometry/mesh, geometry/points, geometry/polygons,
-    geometry/skeleton, geometry/volumes, geometry/voronoi, products
+engines/volumes -> engines/common, engines/tessellation, geometry, geometry/arguments, geometry/volumes, typing
+formats/volumes -> formats, formats/images, formats/io, formats/parsing, formats/points, formats/zarr, geometry,
+    geometry/volumes, products
+geometry/distances -> geometry, geometry/polygons
+render/layers -> geometry, geometry/alpha, geometry/distances, geometry/mesh, geometry/polygons, geometry/skeleton,
+    geometry/voronoi, render/canvas, render/label_images
+formats/results -> formats/io, formats/parsing, formats/polygons, formats/text, geometry, geometry/alpha,
+    geometry/arguments, geometry/curves, geometry/distances, geometry/mesh, geometry/polygons, geometry/skeleton,
+    geometry/voronoi, products
+geometry/any -> geometry, geometry/alpha, geometry/curves, geometry/distances, geometry/mesh, geometry/points,
+    geometry/polygons, geometry/skeleton, geometry/volumes, geometry/voronoi, products
 engines/label_images -> engines/common, engines/tessellation, geometry, geometry/any, geometry/arguments,
     geometry/points, geometry/polygons, products, typing
 engines/digital -> engines/common, engines/delaunay, engines/label_images, engines/tessellation, geometry, geometry/any,
     geometry/arguments, geometry/curves, geometry/mesh, geometry/points, typing
-engines/volumes -> engines/common, engines/tessellation, geometry, geometry/arguments, geometry/volumes, typing
 engines/peers -> engines, engines/delaunay, engines/from_skeleton, engines/label_images, engines/pruning,
     engines/tessellation, engines/volumes, geometry, geometry/arguments, geometry/mesh, geometry/volumes, typing
-formats/volumes -> formats, formats/images, formats/io, formats/parsing, formats/points, formats/zarr, geometry,
-    geometry/volumes, products
+engines/distances -> engines/arrangement, engines/common, engines/segment_voronoi, geometry, geometry/arguments,
+    geometry/distances, geometry/polygons, geometry/skeleton
 jobs -> batch, engines/alpha, engines/arrangement, engines/centerlines, engines/delaunay, engines/digital,
-    engines/label_images, engines/pruning, engines/tessellation, engines/voronoi, formats, formats/images, formats/io,
-    formats/parsing, formats/points, formats/text, formats/volumes, formats/zarr, geometry, geometry/alpha,
-    geometry/any, geometry/arguments, geometry/curves, geometry/mesh, geometry/points, geometry/polygons,
-    geometry/skeleton, geometry/volumes, geometry/voronoi, products, render/canvas, render/label_images, render/layers,
-    render/pages, typing
+    engines/distances, engines/label_images, engines/pruning, engines/tessellation, engines/voronoi, formats,
+    formats/images, formats/io, formats/parsing, formats/points, formats/text, formats/volumes, formats/zarr, geometry,
+    geometry/alpha, geometry/any, geometry/arguments, geometry/curves, geometry/distances, geometry/mesh,
+    geometry/points, geometry/polygons, geometry/skeleton, geometry/volumes, geometry/voronoi, products, render/canvas,
+    render/label_images, render/layers, render/pages, typing
 cli/options -> engines/offsets, engines/pruning, geometry, jobs, products
 cli/batch -> batch, cli/options, formats/io, geometry, jobs, products
 jobs/volumes -> engines/label_images, engines/tessellation, engines/volumes, formats/io, formats/volumes, formats/zarr,
@@ -94,7 +98,7 @@ jobs/volumes -> engines/label_images, engines/tessellation, engines/volumes, for
 jobs/skeletons -> engines, engines/arrangement, engines/centerlines, engines/features, engines/from_skeleton,
     engines/offsets, engines/pruning, engines/sampled_skeleton, engines/segment_voronoi, engines/skeleton, formats/io,
     geometry, geometry/polygons, geometry/skeleton, jobs, products, render/canvas, render/layers, render/pages
-cli/commands -> cli/batch, cli/options, jobs, jobs/skeletons, jobs/volumes, products
+cli/commands -> batch, cli/batch, cli/options, jobs, jobs/skeletons, jobs/volumes, products
 cli -> cli/commands, jobs
 """
 """Rooms of the package from below, and what each may import; `errors` and `signals` are for all."""

@@ -16,7 +16,7 @@ from vorotool.errors import InputError, UsageError
 from vorotool.formats.io.atomic_output import open_output
 from vorotool.geometry.arguments.sites import as_sites
 from vorotool.geometry.crs import crs_name, same_crs
-from vorotool.geometry.distances import SMALLEST, Distances
+from vorotool.geometry.distances.distances import SMALLEST, Distances
 from vorotool.geometry.progress import Progress
 from vorotool.jobs.inputs import JobInput, naming, opened_input, read_opened
 from vorotool.jobs.options import DistanceOptions

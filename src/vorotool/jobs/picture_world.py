@@ -128,7 +128,7 @@ def _input_of(value: Any) -> AnyTriangulation | CellSet | PolygonSet:
     """What of a value has the coordinate reference system and the columns of its input."""
     from vorotool.geometry.alpha.hull import AlphaHull
     from vorotool.geometry.alpha.shape import AlphaShape
-    from vorotool.geometry.distances import Distances
+    from vorotool.geometry.distances.distances import Distances
     from vorotool.geometry.skeleton.centerline import Centerlines
     from vorotool.geometry.skeleton.offsets import Offsets
     from vorotool.geometry.skeleton.points_along import SkeletonPoints

@@ -143,7 +143,7 @@ def _drawings() -> list[tuple[Any, Callable[..., Page], Callable[..., list[Layer
     """The types that there are pictures of, and what makes their pages and layers."""
     from vorotool.geometry.alpha.hull import AlphaHull
     from vorotool.geometry.alpha.shape import AlphaShape
-    from vorotool.geometry.distances import Distances
+    from vorotool.geometry.distances.distances import Distances
     from vorotool.geometry.mesh.cells import CellSet
     from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation
     from vorotool.geometry.mesh.triangulation import Triangulation

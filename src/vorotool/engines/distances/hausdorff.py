@@ -8,7 +8,7 @@ from vorotool import _core
 from vorotool.engines.distances.inner_places import farthest_inner_place
 from vorotool.engines.distances.measured_shape import MeasuredShape, measured_shapes
 from vorotool.geometry.checks import checked_threads
-from vorotool.geometry.distances import Distances, PlacePair
+from vorotool.geometry.distances.distances import Distances, PlacePair
 from vorotool.geometry.progress import Progress
 
 

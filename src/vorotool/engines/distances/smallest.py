@@ -7,7 +7,7 @@ from typing import Any
 from vorotool import _core
 from vorotool.engines.distances.measured_shape import measured_shapes
 from vorotool.geometry.checks import checked_threads
-from vorotool.geometry.distances import Distances, PlacePair
+from vorotool.geometry.distances.distances import Distances, PlacePair
 from vorotool.geometry.progress import Progress
 
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from vorotool.engines.common.faults import fail
 from vorotool.geometry.arguments.values import check_value
-from vorotool.geometry.distances import FROM_A, FROM_B, SMALLEST, Distances, PlacePair
+from vorotool.geometry.distances.distances import FROM_A, FROM_B, SMALLEST, Distances, PlacePair
 from vorotool.geometry.polygons.conversion import to_shapely
 from vorotool.geometry.polygons.polygon_set import LINE, PolygonSet
 

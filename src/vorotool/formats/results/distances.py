@@ -8,7 +8,7 @@ from typing import Any, BinaryIO
 from vorotool.formats.text.feature_collection import write_collection
 from vorotool.formats.text.row_writer import Column, RowShape, write_rows
 from vorotool.formats.text.tables import json_text, write_table
-from vorotool.geometry.distances import Distances
+from vorotool.geometry.distances.distances import Distances
 from vorotool.products.formats import TABLES
 
 

@@ -17,7 +17,7 @@ from vorotool.geometry.alpha.shape import AlphaShape
 from vorotool.geometry.alpha.tables import described_polygons, family_table, shape_edge_table, shape_point_table
 from vorotool.geometry.any.scaling import AREAS, LENGTHS, scaled_table
 from vorotool.geometry.curves.flatten import checked_flatten
-from vorotool.geometry.distances import Distances
+from vorotool.geometry.distances.distances import Distances
 from vorotool.geometry.mesh.cells import CellSet
 from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation, DigitalTriangulation
 from vorotool.geometry.mesh.tables import edge_table, point_table, triangle_table

@@ -14,7 +14,7 @@ from vorotool.geometry.alpha.hull import AlphaHull
 from vorotool.geometry.alpha.shape import AlphaShape
 from vorotool.geometry.alpha.tables import family_table, region_table
 from vorotool.geometry.any.features import features_of
-from vorotool.geometry.distances import Distances
+from vorotool.geometry.distances.distances import Distances
 from vorotool.geometry.mesh.cells import CellSet
 from vorotool.geometry.mesh.digital_comparison import DigitalComparison
 from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from vorotool.geometry.distances import Distances
+from vorotool.geometry.distances.distances import Distances
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.render.canvas.layers import Layer, Lines, Page, Points, bounds_of
 from vorotool.render.canvas.palettes import FAINT, RESULT, SEED
