@@ -98,7 +98,7 @@ jobs/volumes -> engines/label_images, engines/tessellation, engines/volumes, for
 jobs/skeletons -> engines, engines/arrangement, engines/centerlines, engines/features, engines/from_skeleton,
     engines/offsets, engines/pruning, engines/sampled_skeleton, engines/segment_voronoi, engines/skeleton, formats/io,
     geometry, geometry/polygons, geometry/skeleton, jobs, products, render/canvas, render/layers, render/pages
-cli/commands -> batch, cli/batch, cli/options, jobs, jobs/skeletons, jobs/volumes, products
+cli/commands -> cli/batch, cli/options, jobs, jobs/skeletons, jobs/volumes, products
 cli -> cli/commands, jobs
 """
 """Rooms of the package from below, and what each may import; `errors` and `signals` are for all."""

@@ -6,13 +6,11 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vorotool.batch.inputs import is_several
-from vorotool.cli.batch.dispatch import run_command
+from vorotool.cli.batch.dispatch import refuse_several, run_command
 from vorotool.cli.options.help_page import GroupedCommand
 from vorotool.cli.options.picture_style import picture_style_options
 from vorotool.cli.options.shared import layers_option, output_options, shared, what_option
 from vorotool.cli.options.suggestions import files
-from vorotool.errors import UsageError
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.job import Recipe
 from vorotool.jobs.options import DistanceOptions
@@ -53,9 +51,7 @@ def command(a: str, b: str, **options: Any) -> None:
     from a place of one to the nearest place of the other; all places count, not vertices only. Each row has the places,
     which GeoJSON and WKT have lines between, and pictures show.
     """
-    for name, path in (("A", a), ("B", b)):
-        if is_several(path):
-            raise UsageError(f"{name} {path} stands for several files, but two are compared: name one file each")
+    refuse_several({"A": a, "B": b})
     run_command(RECIPE, DistanceOptions(inputs=(a,), other=b, **options))
 
 
