@@ -97,6 +97,7 @@ bench: build $(BUILD)/.tests ## measure beside the peers, in one run
 	$(RUN) tests/benchmarks/thickness.py
 	$(RUN) tests/benchmarks/segment_voronoi.py
 	$(RUN) tests/benchmarks/voronoi.py
+	$(RUN) tests/benchmarks/distances.py
 	$(RUN) tests/benchmarks/batch.py
 	$(RUN) tests/benchmarks/libraries.py
 
@@ -129,6 +130,7 @@ else
 	$(RUN) tests/fuzz/segment_voronoi.py --cases 10000 --seed $(or $(SEED),1) --family clusters --largest 100 --symmetries 1
 	$(RUN) tests/fuzz/voronoi.py --cases $(or $(CASES),100000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/voronoi_cuts.py --cases $(or $(CASES),100000) --seed $(or $(SEED),1)
+	$(RUN) tests/fuzz/distances.py --cases $(or $(CASES),10000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/bytes.py --minutes 5 --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/streams.py --runs $(or $(CASES),1000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/features.py --cases $(or $(CASES),2000) --seed $(or $(SEED),1)

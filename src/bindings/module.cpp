@@ -20,6 +20,8 @@ constexpr Room rooms[] = {
     {"compression", bind_compression, "Compressed bytes of TIFF files."},
     {"delaunay", bind_delaunay, "Delaunay triangulations, and their check: points are finite."},
     {"digital", bind_digital, "The digital triangulation, to the letter and repaired."},
+    {"distances", bind_distances,
+     "The largest and the smallest distances between points, segments and polygons."},
     {"graphs", bind_graphs, "Paths in graphs of arcs, which are pairs of nodes, and colours of graphs."},
     {"kernel", bind_kernel, "Planar graphs; the exact predicates, and each of their levels alone."},
     {"label_images", bind_label_images,

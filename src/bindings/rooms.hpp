@@ -11,6 +11,7 @@ void bind_cells(nanobind::module_& room);
 void bind_compression(nanobind::module_& room);
 void bind_delaunay(nanobind::module_& room);
 void bind_digital(nanobind::module_& room);
+void bind_distances(nanobind::module_& room);
 void bind_graphs(nanobind::module_& room);
 void bind_kernel(nanobind::module_& room);
 void bind_label_images(nanobind::module_& room);

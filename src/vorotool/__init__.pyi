@@ -239,6 +239,12 @@ from vorotool.geometry.any.tables import (
 from vorotool.geometry.box import (
     Box as Box,
 )
+from vorotool.geometry.distances.distances import (
+    Distances as Distances,
+)
+from vorotool.geometry.distances.distances import (
+    PlacePair as PlacePair,
+)
 from vorotool.geometry.mesh.cells import (
     CellSet as CellSet,
 )

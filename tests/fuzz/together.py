@@ -54,6 +54,7 @@ ENGINES = (
     Share("offsets.py"),
     Share("rotation.py"),
     Share("outlines.py"),
+    Share("distances.py"),
     Share("features.py", parts=2),
 )
 """Results compared with brute force, with other libraries, or with each other."""

@@ -43,8 +43,6 @@ engines/alpha -> engines/delaunay, geometry, geometry/alpha, geometry/arguments,
 engines/features -> engines/arrangement, geometry, geometry/polygons, geometry/skeleton
 formats/polygons -> formats/io, formats/parsing, formats/points, formats/text, geometry, geometry/arguments,
     geometry/polygons, products
-render/layers -> geometry, geometry/alpha, geometry/mesh, geometry/polygons, geometry/skeleton, geometry/voronoi,
-    render/canvas, render/label_images
 render/pages -> geometry, geometry/alpha, geometry/curves, geometry/mesh, geometry/skeleton, geometry/voronoi, products,
     render/canvas, render/label_images
 formats/results -> formats/io, formats/parsing, formats/polygons, formats/text, geometry, geometry/alpha,
@@ -77,7 +75,6 @@ engines/label_images -> engines/common, engines/tessellation, geometry, geometry
     geometry/polygons, products, typing
 engines/digital -> engines/common, engines/delaunay, engines/label_images, engines/tessellation, geometry, geometry/any,
     geometry/arguments, geometry/curves, geometry/mesh, geometry/points, typing
-engines/volumes -> engines/common, engines/tessellation, geometry, geometry/arguments, geometry/volumes, typing
 engines/peers -> engines, engines/delaunay, engines/from_skeleton, engines/label_images, engines/pruning,
     engines/tessellation, engines/volumes, geometry, geometry/arguments, geometry/mesh, geometry/points,
     geometry/volumes, typing

@@ -7,6 +7,7 @@ from vorotool._core import (
     compression as compression,
     delaunay as delaunay,
     digital as digital,
+    distances as distances,
     graphs as graphs,
     kernel as kernel,
     label_images as label_images,

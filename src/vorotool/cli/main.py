@@ -27,6 +27,7 @@ COMMANDS = {
     "voronoi": "Exact Voronoi diagram of points, lines and polygons.",
     "skeleton-approx": "Skeleton of polygons and lines from samples, with certified errors.",
     "skeleton-exact": "Exact skeleton (medial axis) of polygons and lines.",
+    "distance": "How far two shapes are apart: Hausdorff and smallest distance.",
     "draw": "Draw label images, skeletons, Voronoi maps and shapes again.",
     "info": "Tell how a file is read: its format, what it holds, and which commands take it.",
     "sample": "Write a small file to try commands on.",

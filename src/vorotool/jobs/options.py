@@ -362,6 +362,48 @@ class VoronoiOptions(ShapeOptions):
         return {name: path for name, path in given.items() if path} | JobOptions.files_of_inputs(self)
 
 
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False, eq=False)
+class DistanceOptions(ComputingOptions):
+    """Of ``distance``, which compares the input with one other, and makes no batches."""
+
+    other: str
+    boundary: bool
+    columns: str | None
+    out_dir: str | None = None
+    overlay: str | None = None
+    files_from: str | None = None
+    null: bool = False
+    jobs: int | None = None
+    keep_going: bool = False
+    dry_run: bool = False
+    resume: bool = False
+    shard: tuple[int, int] | None = None
+    cluster: str | None = None
+    connectivity: Literal["8", "4", "26", "6"] | None = None
+    threshold: float | Literal["otsu"] | None = None
+    invert: bool = False
+    min_area: int | None = None
+    fill_holes: bool = False
+    strict: bool = False
+    pixel_size: PixelSize | None = None
+    table: str | None = None
+    no_properties: bool = True
+    safe_csv: bool = False
+    scale: Scale | None
+    drawing_unit: str | None
+    aspect: float | None
+    extent: Literal["image", "data"] | None
+
+    @property
+    def paper(self) -> Paper:
+        """The page of pictures."""
+        return Paper(self.scale, self.drawing_unit, self.aspect, self.extent)
+
+    def files_read(self) -> dict[str, str]:
+        """Give the file that is read beside the first input."""
+        return {"B": self.other}
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, init=False, repr=False, eq=False)
 class SkeletonOptions(ShapeOptions):
     """What the commands have that make skeletons."""

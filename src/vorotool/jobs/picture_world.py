@@ -128,6 +128,7 @@ def _input_of(value: Any) -> AnyTriangulation | CellSet | PolygonSet:
     """What of a value has the coordinate reference system and the columns of its input."""
     from vorotool.geometry.alpha.hull import AlphaHull
     from vorotool.geometry.alpha.shape import AlphaShape
+    from vorotool.geometry.distances.distances import Distances
     from vorotool.geometry.skeleton.discs import Discs
     from vorotool.geometry.skeleton.led_on import LedOn
     from vorotool.geometry.skeleton.necks import Necks
@@ -143,6 +144,7 @@ def _input_of(value: Any) -> AnyTriangulation | CellSet | PolygonSet:
         ((LedOn, SmoothLines), lambda lines: lines.path.polygons),
         ((SkeletonPoints, Necks), lambda points: points.skeleton.polygons),
         ((Skeleton, Offsets, Parts, Discs), lambda of: of.polygons),
+        (Distances, lambda found: found.shapes[0]),
     ]
     found: AnyTriangulation | CellSet | PolygonSet = next(
         (get(value) for kind, get in inside if isinstance(value, kind)), value

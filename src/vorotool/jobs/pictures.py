@@ -143,6 +143,7 @@ def _drawings() -> list[tuple[Any, Callable[..., Page], Callable[..., list[Layer
     """The types that there are pictures of, and what makes their pages and layers."""
     from vorotool.geometry.alpha.hull import AlphaHull
     from vorotool.geometry.alpha.shape import AlphaShape
+    from vorotool.geometry.distances.distances import Distances
     from vorotool.geometry.mesh.cells import CellSet
     from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation
     from vorotool.geometry.mesh.proximity import ProximityGraph
@@ -160,6 +161,7 @@ def _drawings() -> list[tuple[Any, Callable[..., Page], Callable[..., list[Layer
     from vorotool.render.layers.alpha import alpha_layers
     from vorotool.render.layers.cells import cells_page
     from vorotool.render.layers.discs import disc_layers, disc_page
+    from vorotool.render.layers.distances import distance_layers, distance_page
     from vorotool.render.layers.lines_along import line_layers
     from vorotool.render.layers.mesh import mesh_layers, mesh_page
     from vorotool.render.layers.necks import neck_layers, neck_page, part_layers, part_page
@@ -187,6 +189,7 @@ def _drawings() -> list[tuple[Any, Callable[..., Page], Callable[..., list[Layer
         (Offsets, offset_page, offset_layers),
         (Discs, disc_page, disc_layers),
         (VoronoiMap, voronoi_page, voronoi_layers),
+        (Distances, distance_page, distance_layers),
     ]
 
 

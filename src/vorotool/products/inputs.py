@@ -165,13 +165,15 @@ DRAWN_NAMES = NAMES_WITH["polygons"]
 """Formats of what is drawn again: label images, skeletons, offset curves, polygons and lines."""
 
 TAKEN_BY: Mapping[Holds, tuple[str, ...]] = {
-    "points": ("tessellate", "delaunay", "alphashape", "voronoi"),
-    "polygons": ("voronoi", "skeleton-approx", "skeleton-exact", "draw"),
-    "sites": ("voronoi",),
-    "image": ("tessellate", "delaunay", "alphashape", "voronoi", "skeleton-approx", "skeleton-exact", "draw"),
-    "skeleton": ("voronoi", "skeleton-approx", "skeleton-exact", "draw"),
+    "points": ("tessellate", "delaunay", "alphashape", "voronoi", "distance"),
+    "polygons": ("voronoi", "skeleton-approx", "skeleton-exact", "distance", "draw"),
+    "sites": ("voronoi", "distance"),
+    "image": (
+        *("tessellate", "delaunay", "alphashape", "voronoi", "skeleton-approx", "skeleton-exact", "distance", "draw"),
+    ),
+    "skeleton": ("voronoi", "skeleton-approx", "skeleton-exact", "distance", "draw"),
     "offsets": ("draw",),
-    "voronoi": ("voronoi", "skeleton-approx", "skeleton-exact", "draw"),
+    "voronoi": ("voronoi", "skeleton-approx", "skeleton-exact", "distance", "draw"),
 }
 """Commands that take what an input may hold; of skeletons and Voronoi maps all but `draw` take the polygons."""
 

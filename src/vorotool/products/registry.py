@@ -245,6 +245,15 @@ _VORONOI = (
 )
 
 
+# ---- distance ------------------------------------------------------------------------------------
+_APART = Writer("formats.results.distances:write_distances", ("fmt", "what", "precision", "threads"))
+_APART_LAYERS = _pictures("first second distances")
+_DISTANCE = tuple(
+    _product(what, types, f"{_TABLES} geojson wkt", _APART, _APART_LAYERS, "first second distances")
+    for what, types in (("distances", "Distances"), ("hausdorff", ""), ("smallest", ""))
+)
+
+
 def _beside_exact(product: Product) -> Product:
     """Beside approximate skeletons pictures can show exact ones."""
     shown = {fmt: (*layers, "exact") for fmt, layers in _ARCS.items()}
@@ -271,6 +280,7 @@ _BY_COMMAND: dict[str, Sequence[Product]] = {
     "voronoi": _VORONOI,
     "skeleton-exact": (*_SKELETONS, *_OF_WHOLE_AXIS),
     "skeleton-approx": tuple(map(_beside_exact, _SKELETONS)),
+    "distance": _DISTANCE,
     "draw": (_drawn(),),
 }
 PRODUCTS = {command: {each.what: each for each in products} for command, products in _BY_COMMAND.items()}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable
+from collections.abc import Hashable, Mapping
 
 from vorotool.batch.inputs import is_several
 from vorotool.cli.batch.progress_bar import progress_bar
@@ -51,6 +51,24 @@ def run_command(recipe: Recipe[Options], o: Options) -> None:
         recipe.name, quiet=o.quiet, verbose=o.verbose, stats=o.stats, no_clobber=o.no_clobber, bar=progress_bar
     ) as run:
         process_input(recipe, run, o, source, targets)
+
+
+def refuse_several(named: Mapping[str, str]) -> None:
+    """Refuse folders and patterns where one file each is compared with another: that makes no batch.
+
+    Parameters
+    ----------
+    named : mapping of str to str
+        Inputs by their names in the usage.
+
+    Raises
+    ------
+    UsageError
+        Naming the first.
+    """
+    for name, path in named.items():
+        if is_several(path):
+            raise UsageError(f"{name} {path} stands for several files, but two are compared: name one file each")
 
 
 def _check_streams(o: JobOptions) -> None:

@@ -12,8 +12,8 @@ from vorotool.cli.options.shared import Names
 _GROUPS = {
     "Output": "output format what dtype chunk levels tiled flatten precision no_properties safe_csv no_clobber",
     "Method": "method graph passes by max_distance r alpha auto regions rule hole_threshold region_threshold step "
-    "tolerance sampling compare side gap complete features prune join_junctions start end ends smooth distance every "
-    "count local neck",
+    "tolerance sampling compare boundary side gap complete features prune join_junctions start end ends smooth "
+    "distance every count local neck",
     "Input": "columns input_format input_layer input_crs crs page volume pixel_size spacing seeds connectivity "
     "threshold invert min_area fill_holes outline border simplify join_tolerance",
     "Frame": "size window cell_size frame clip enclosures",

@@ -17,6 +17,7 @@ from vorotool.geometry.alpha.shape import AlphaShape
 from vorotool.geometry.alpha.tables import described_polygons, family_table, shape_edge_table, shape_point_table
 from vorotool.geometry.any.scaling import AREAS, LENGTHS, scaled_table
 from vorotool.geometry.curves.flatten import checked_flatten
+from vorotool.geometry.distances.distances import Distances
 from vorotool.geometry.mesh.cells import CellSet
 from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation, DigitalTriangulation
 from vorotool.geometry.mesh.proximity import ProximityGraph
@@ -327,6 +328,12 @@ def _transects(points: SkeletonPoints) -> Features:
     return _along(kept, feet, {"x_a", "y_a", "x_b", "y_b"})
 
 
+def _of_distances(found: Distances) -> Features:
+    places = found.places
+    columns = {name: column for name, column in found.table().stored().items() if name in ("what", "distance")}
+    return Features(lines(places.reshape(-1, 2), np.arange(0, 2 * len(places) + 1, 2)), Table(columns), found)
+
+
 def _along(points: SkeletonPoints, geometry: NDArray[Any], left_out: set[str]) -> Features:
     polygons = points.skeleton.polygons
     columns = {name: column for name, column in points.table().stored().items() if name not in left_out}
@@ -471,4 +478,5 @@ _MAKERS: dict[type, Callable[..., Features]] = {
     Offsets: _of_offsets,
     Discs: _of_discs,
     VoronoiMap: _of_voronoi,
+    Distances: _of_distances,
 }

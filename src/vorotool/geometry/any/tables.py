@@ -15,6 +15,7 @@ from vorotool.geometry.alpha.persistence import RegionPersistence
 from vorotool.geometry.alpha.shape import AlphaShape
 from vorotool.geometry.alpha.tables import family_table, region_table
 from vorotool.geometry.any.features import features_of
+from vorotool.geometry.distances.distances import Distances
 from vorotool.geometry.mesh.cells import CellSet
 from vorotool.geometry.mesh.digital_comparison import DigitalComparison
 from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation
@@ -210,4 +211,5 @@ _MAKERS: dict[type, Callable[[Any], IndexedTable]] = {
     Discs: _of_discs,
     VoronoiMap: _of_voronoi,
     CriticalValues: _of_values,
+    Distances: lambda found: IndexedTable(found.table()),
 }

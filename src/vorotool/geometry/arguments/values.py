@@ -22,6 +22,7 @@ _MAKERS = {
     "SmoothLines": "smooth",
     "Offsets": "offset",
     "VoronoiMap": "voronoi",
+    "Distances": "hausdorff",
 }
 """The function that makes a value of each type."""
 

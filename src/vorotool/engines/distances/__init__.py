@@ -1,0 +1,1 @@
+"""Distances between points, lines and polygons: the Hausdorff distance, and the smallest one."""

@@ -1,0 +1,46 @@
+"""The smallest distance between points, lines and polygons."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from vorotool import _core
+from vorotool.engines.distances.measured_shape import measured_shapes
+from vorotool.geometry.checks import checked_threads
+from vorotool.geometry.distances.distances import Distances, PlacePair
+from vorotool.geometry.progress import Progress
+
+
+def distance(a: Any, b: Any, *, boundary: bool = False, threads: int = 0, progress: Progress = None) -> Distances:
+    """Compute the smallest distance between two shapes, and a place of each where it is reached.
+
+    Parameters
+    ----------
+    a, b, boundary, threads, progress
+        As of `vorotool.hausdorff`.
+
+    Returns
+    -------
+    Distances
+        With `Distances.smallest`. Whether the shapes meet, so that the distance is 0, is decided exactly; else it is
+        right to a few ulp of the coordinates. Of several pairs of edges as close, the first ones are taken.
+
+    Raises
+    ------
+    InputError
+        As of `vorotool.hausdorff`.
+
+    See Also
+    --------
+    hausdorff : the largest distance from a place of one to the other.
+
+    Examples
+    --------
+    >>> import vorotool
+    >>> found = vorotool.distance(["LINESTRING (0 0, 8 0)"], ["LINESTRING (3 4, 6 2)", "POINT (1 5)"])
+    >>> found.smallest
+    PlacePair(distance=2.0, on_a=(6.0, 0.0), on_b=(6.0, 2.0))
+    """
+    first, second = measured_shapes(a, b, boundary=boundary, progress=progress)
+    found = _core.distances.closest_places(first.core, second.core, checked_threads(threads), progress)
+    return Distances(None, None, PlacePair(*found), (first.polygons, second.polygons), boundary)

@@ -1,0 +1,1 @@
+"""How far two shapes are apart: values."""

@@ -1,0 +1,164 @@
+"""How far two inputs are apart, and what that can be written as (``--what``)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from vorotool.engines.distances.hausdorff import hausdorff
+from vorotool.engines.distances.smallest import distance
+from vorotool.engines.distances.verify_distances import verify_distances
+from vorotool.errors import InputError, UsageError
+from vorotool.formats.io.atomic_output import open_output
+from vorotool.geometry.arguments.sites import as_sites
+from vorotool.geometry.crs import crs_name, same_crs
+from vorotool.geometry.distances.distances import SMALLEST, Distances
+from vorotool.geometry.progress import Progress
+from vorotool.jobs.inputs import JobInput, naming, opened_input, read_opened
+from vorotool.jobs.options import DistanceOptions
+from vorotool.jobs.picture_style import styled_page
+from vorotool.jobs.picture_world import world_of_polygons
+from vorotool.jobs.pictures import Drawing, drawing_of, write_layers
+from vorotool.jobs.run_log import Run
+from vorotool.jobs.skeleton_checks import check_layers
+from vorotool.jobs.targets import Target, check_picture_options, check_precision
+from vorotool.products.formats import PICTURES
+from vorotool.products.registry import PRODUCTS, formats_of, layers_of
+from vorotool.products.writing import write_product
+
+if TYPE_CHECKING:
+    from vorotool.geometry.polygons.polygon_set import PolygonSet
+
+
+def check_options(o: DistanceOptions, targets: list[Target]) -> None:
+    """Refuse what no output would show."""
+    check_precision(o, formats_of("distance"), targets)
+    pictures = sorted({target.fmt for target in targets} & set(PICTURES))
+    if o.layers is not None and not pictures:
+        raise UsageError("--layers is for pictures: use -f svg or -f png, or leave it out")
+    check_layers(o, PRODUCTS["distance"], targets)
+    check_picture_options(o, pictures, layers_of("distance"), png_has_width=True)
+
+
+class DistanceProducts:
+    """Results of one comparison.
+
+    Parameters
+    ----------
+    run : Run
+        Takes notes and seconds.
+    options : DistanceOptions
+        Of the command line.
+    given : JobInput
+        The first input.
+    """
+
+    def __init__(self, run: Run, options: DistanceOptions, given: JobInput) -> None:
+        self.run, self.options = run, options
+        other = JobInput(options.other)
+        with run.phase("read"):
+            a = self._read(given)
+            with naming(other):
+                b = self._read(other)
+            a, b = self._in_one_system((given, a), (other, b))
+        self.found = self._measured(a, b)
+        world = world_of_polygons(run, options, _both(a, b))
+        self._styled = partial(styled_page, looks=options.looks, world=world)
+
+    def _read(self, given: JobInput) -> PolygonSet:
+        with opened_input(self.options, given, "sites") as source:
+            value = read_opened(self.run, self.options, given, source, columns=self.options.columns, properties=False)
+        polygons = as_sites(value).polygons
+        if not len(polygons):
+            raise InputError("it has no places, and nothing is far from it: give a file with points, lines or polygons")
+        return polygons
+
+    def _in_one_system(
+        self, first: tuple[JobInput, PolygonSet], second: tuple[JobInput, PolygonSet]
+    ) -> tuple[PolygonSet, PolygonSet]:
+        """Both in one coordinate reference system: one that names none is taken to be in that of the other."""
+        (one, a), (other, b) = first, second
+        if a.crs is not None and b.crs is not None and not same_crs(a.crs, b.crs):
+            raise InputError(
+                f"{one.name} is in {crs_name(a.crs)}, but {other.name} in {crs_name(b.crs)}: bring them into one "
+                f"coordinate reference system: --crs {crs_name(a.crs)} does"
+            )
+        for which, mine, its in ((one, a, b), (other, b, a)):
+            if mine.crs is None and its.crs is not None:
+                self.run.note(
+                    f"{which.name} names no coordinate reference system: it is taken to be in {crs_name(its.crs)}"
+                )
+        crs = b.crs if a.crs is None else a.crs
+        return replace(a, crs=crs), replace(b, crs=crs)
+
+    def _measured(self, a: PolygonSet, b: PolygonSet) -> Distances:
+        o = self.options
+        far, near = {"distances", "hausdorff"} & set(o.what), {"distances", "smallest"} & set(o.what)
+        found = Distances(None, None, None, (a, b), o.boundary)
+        if far:
+            with self.run.phase("hausdorff") as progress:
+                found = hausdorff(a, b, boundary=o.boundary, threads=o.threads, progress=progress)
+        if near:
+            with self.run.phase("smallest") as progress:
+                closest = distance(a, b, boundary=o.boundary, threads=o.threads, progress=progress)
+            found = replace(found, smallest=closest.smallest)
+        return found
+
+    def check(self, target: Target) -> None:
+        """Refuse what cannot be written, before anything is written."""
+        if target.fmt == "png":
+            from vorotool.render.canvas.png import check_picture_size
+
+            check_picture_size(self._drawing().page, self.options.max_pixels)
+
+    def verify(self, progress: Progress) -> None:
+        """Check the distances, with nothing that they were computed by."""
+        verify_distances(self.found)
+
+    def write(self, target: Target, *, inputs: Sequence[str]) -> None:
+        """Write one result."""
+        o = self.options
+        own = (*inputs, o.other)
+        with open_output(target.path, binary=target.is_binary, no_clobber=o.no_clobber, inputs=own) as out:
+            if target.fmt in PICTURES:
+                drawing = self._drawing(target.what)
+                write_layers(out, drawing.layers, drawing.page, fmt=target.fmt, threads=o.threads)
+                return
+            product = PRODUCTS["distance"][target.what]
+            write_product(
+                out, self.found, product, target.fmt, precision=o.precision, threads=o.threads, path=target.path
+            )
+
+    def _drawing(self, what: str = "distances") -> Drawing:
+        o = self.options
+        shown = self.found
+        if what == "hausdorff":
+            shown = replace(shown, smallest=None)
+        elif what == "smallest":
+            shown = replace(shown, from_a=None, from_b=None)
+        return drawing_of(shown, layers=o.layers, width=o.width or 1000, y_up=o.y_up, styled=self._styled)
+
+    def stats(self) -> dict[str, Any]:
+        """Counts and sizes."""
+        a, b = self.found.shapes
+        rows = self.found.rows
+        return {
+            "features": [as_sites(shape).count for shape in (a, b)],
+            "vertices": [len(shape.xy) for shape in (a, b)],
+            "boundary": self.options.boundary,
+            "hausdorff": rows["hausdorff"].distance if "hausdorff" in rows else None,
+            "smallest": rows[SMALLEST].distance if SMALLEST in rows else None,
+            "threads": self.options.threads,
+        }
+
+
+def _both(a: PolygonSet, b: PolygonSet) -> PolygonSet:
+    """The vertices of both, for where they lie."""
+    from vorotool.geometry.polygons.polygon_set import LINE, PolygonSet
+
+    xy = np.concatenate([a.xy, b.xy])
+    return PolygonSet(xy, [0, len(xy)], [LINE], [0], y_up=a.y_up, crs=a.crs, unit=a.unit)  # type: ignore[arg-type]

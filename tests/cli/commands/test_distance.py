@@ -1,0 +1,129 @@
+"""``vorotool distance``: two inputs, every format, and what is said when it goes wrong."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+import shapely
+from PIL import Image
+
+import vorotool
+
+DATA = Path(__file__).parents[3] / "data"
+A = "LINESTRING (26 8, 13 -2, 13 19, 10 19, 10 23, 1 17)"
+B = "LINESTRING (15 1, 28 11, 13 26, 1 18)"
+HEADER = ["what", "distance", "x_a", "y_a", "x_b", "y_b"]
+
+
+@pytest.fixture
+def two(folder):
+    (folder / "a.wkt").write_text(A)
+    (folder / "b.wkt").write_text(B)
+    return "a.wkt", "b.wkt"
+
+
+def test_the_table_is_that_of_the_library(run, two):
+    done = run("distance", *two, "--verify")
+    assert (done.code, done.err) == (0, "")
+    far, near = vorotool.hausdorff([A], [B]), vorotool.distance([A], [B])
+    assert [float(row["distance"]) for row in done.rows] == [
+        *(each.distance for each in far.rows.values()),
+        near.distance,
+    ]
+    assert [row["what"] for row in done.rows] == ["hausdorff", "a to b", "b to a", "smallest"]
+    assert list(done.rows[0]) == HEADER
+    assert (float(done.rows[1]["x_a"]), float(done.rows[1]["y_b"])) == (far.from_a.on_a[0], far.from_a.on_b[1])
+
+
+def test_what_is_chosen(run, two):
+    assert [row["what"] for row in run("distance", *two, "--what", "smallest").rows] == ["smallest"]
+    assert len(run("distance", *two, "--what", "hausdorff").rows) == 3
+    assert run("distance", *two, "--what", "hausdorff,smallest", "-o", "both.csv").code == 0
+    assert len(Path("both.hausdorff.csv").read_text().splitlines()) == 4
+
+
+@pytest.mark.parametrize("fmt", ["csv", "tsv", "json", "npz", "geojson", "wkt", "svg", "png"])
+def test_every_format(run, two, folder, fmt):
+    done = run("distance", *two, "-o", f"out.{fmt}", "--stats", "s.json")
+    assert (done.code, done.err) == (0, "")
+    assert (folder / f"out.{fmt}").stat().st_size > 0
+    stats = json.loads((folder / "s.json").read_text())
+    assert (stats["vertices"], stats["hausdorff"]) == ([6, 4], vorotool.hausdorff([A], [B]).distance)
+
+
+def test_lines_between_the_places(run, two):
+    features = json.loads(run("distance", *two, "-f", "geojson").out)["features"]
+    for feature in features:
+        line = shapely.from_geojson(json.dumps(feature["geometry"]))
+        assert line.length == pytest.approx(feature["properties"]["distance"])
+
+
+def test_filled_and_outlines(run, folder):
+    (folder / "square.wkt").write_text("POLYGON ((0 0, 9 0, 9 9, 0 9, 0 0))")
+    (folder / "ring.wkt").write_text("POLYGON ((0 0, 9 0, 9 9, 0 9, 0 0), (1 1, 8 1, 8 8, 1 8, 1 1))")
+    filled = run("distance", "square.wkt", "ring.wkt", "--verify").rows
+    assert [float(row["distance"]) for row in filled] == [3.5, 3.5, 0, 0]
+    outlines = run("distance", "square.wkt", "ring.wkt", "--boundary", "--verify").rows
+    assert [float(row["distance"]) for row in outlines] == [1, 0, 1, 0]
+
+
+def test_standard_input_is_one_of_them(run, two):
+    command = [sys.executable, "-m", "vorotool", "distance"]
+    expected = run("distance", *two).out
+    for names, text in ((["-", "b.wkt"], A), (["a.wkt", "-"], B)):
+        done = subprocess.run([*command, *names], input=text, capture_output=True, text=True, check=True)
+        assert done.stdout == expected
+    done = run("distance", "-", "-")
+    assert done.code == 2
+    assert "one stream" in done.err
+
+
+def test_points_and_images(run, folder):
+    (folder / "p.csv").write_text("x,y\n0,0\n3,4\n")
+    mask = np.zeros((8, 8), np.uint8)
+    mask[2:4, 2:4] = 255
+    Image.fromarray(mask).save(folder / "m.png")
+    rows = run("distance", "p.csv", "m.png", "--verify").rows
+    assert float(rows[-1]["distance"]) == 0.5  # from (3, 4) to the outline at y = 3.5
+    assert run("distance", "p.csv", "p.csv").rows[0]["distance"] == "0"
+
+
+@pytest.mark.parametrize(
+    ("names", "code", "message"),
+    [
+        (["a.wkt"], 2, "Missing argument 'B'"),
+        (["a.wkt", "b.wkt", "a.wkt"], 2, "unexpected extra argument"),
+        (["a.wkt", "."], 2, "B . stands for several files, but two are compared"),
+        (["*.wkt", "b.wkt"], 2, "A *.wkt stands for several files"),
+        (["a.wkt", "none.wkt"], 3, "none.wkt"),
+        (["empty.wkt", "b.wkt"], 3, "empty.wkt"),
+        (["a.wkt", "empty.wkt"], 3, "empty.wkt"),
+        (["a.wkt", "b.wkt", "--layers", "first"], 2, "--layers is for pictures"),
+        (["a.wkt", "b.wkt", "-o", "b.wkt"], 2, "b.wkt"),
+    ],
+)
+def test_what_goes_wrong(run, two, folder, names, code, message):
+    (folder / "empty.wkt").write_text("POLYGON EMPTY\n")
+    done = run("distance", *names)
+    assert done.code == code, done.err
+    assert message in done.err
+
+
+def test_two_systems(run, folder):
+    for name, code in (("a", 2056), ("b", 3857)):
+        crs = {"type": "name", "properties": {"name": f"urn:ogc:def:crs:EPSG::{code}"}}
+        point = {"type": "Feature", "properties": {}, "geometry": {"type": "Point", "coordinates": [0, 0]}}
+        (folder / f"{name}.geojson").write_text(
+            json.dumps({"type": "FeatureCollection", "crs": crs, "features": [point]})
+        )
+    done = run("distance", "a.geojson", "b.geojson")
+    assert done.code == 3
+    assert "a.geojson is in EPSG:2056, but b.geojson in EPSG:3857" in done.err
+    assert "--crs EPSG:2056" in done.err
+    (folder / "c.csv").write_text("x,y\n3,4\n")
+    done = run("distance", "a.geojson", "c.csv")
+    assert done.code == 0
+    assert "c.csv names no coordinate reference system" in done.err

@@ -1,0 +1,192 @@
+"""Hausdorff and smallest distances: closed forms, brute force, ties, and what is refused."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import shapely
+
+import vorotool
+from fuzz.distances import failure
+from support.families.shape_pairs import FAMILIES
+from vorotool import InputError, VerificationError, distance, hausdorff, verify_distances
+
+A = [(26, 8), (13, -2), (13, 19), (10, 19), (10, 23), (1, 17)]
+B = [(15, 1), (28, 11), (13, 26), (1, 18)]
+"""The two lines of shapely's issue 2458."""
+
+SQUARE = shapely.box(0, 0, 9, 9)
+RING = shapely.box(0, 0, 9, 9) - shapely.box(1, 1, 8, 8)
+
+
+@pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.__name__)
+def test_distances_are_within_the_bounds_of_brute_force(family):
+    for seed in range(12):
+        assert failure(*family(np.random.default_rng(seed)), is_verified=True) is None
+
+
+def test_the_lines_of_which_shapely_sees_the_vertices_only():
+    a, b = shapely.LineString(A), shapely.LineString(B)
+    found = hausdorff([a], [b])
+    assert shapely.hausdorff_distance(a, b) == pytest.approx(4.949747468)
+    # on x = 13, as far from the edge x - 28 = 11 - y as from the vertex (15, 1) and its edge
+    assert found.from_a.on_a[0] == 13.0
+    assert shapely.hausdorff_distance(a, b, densify=0.0001) == pytest.approx(found.distance, abs=1e-3)
+    assert shapely.hausdorff_distance(a, b, densify=0.0001) <= found.distance
+
+
+def test_a_square_goes_farthest_into_a_ring_at_its_middle():
+    there = hausdorff([SQUARE], [RING]).from_a
+    assert (there.distance, there.on_a) == (3.5, (4.5, 4.5))
+    assert hausdorff([RING], [SQUARE]).distance == 3.5
+    outlines = hausdorff([SQUARE], [RING], boundary=True)
+    assert (outlines.from_a.distance, outlines.from_b.distance) == (0, 1)
+
+
+@pytest.mark.parametrize("corners", [3, 4, 5, 7, 12, 101])
+def test_the_middle_of_a_regular_hole_is_its_inradius_away(corners):
+    angle = 2 * np.pi * np.arange(corners) / corners + 0.1
+    hole = np.stack([np.cos(angle), np.sin(angle)], axis=1) * 0.7 + (0.3, 0.2)
+    ring = {"shell": [[-2, -2], [3, -2], [3, 3], [-2, 3]], "holes": [hole]}
+    found = hausdorff([shapely.box(-2, -2, 3, 3)], [ring])
+    assert found.distance == pytest.approx(0.7 * np.cos(np.pi / corners), rel=4e-16)
+    verify_distances(found)
+
+
+@pytest.mark.parametrize("turn", [0.0, 0.3, 1.0])
+def test_a_point_at_the_middle_of_three(turn):
+    angle = 2 * np.pi * np.arange(3) / 3 + turn
+    points = np.stack([np.cos(angle) + 100.1, np.sin(angle) - 3.7], axis=1)
+    triangle = points.mean(axis=0) + 0.5 * (points - points.mean(axis=0))
+    there = hausdorff([triangle], points).from_a
+    assert there.distance == pytest.approx(1, rel=1e-13)
+    assert there.on_a == pytest.approx((100.1, -3.7), rel=1e-14)
+
+
+def test_a_place_between_a_polygon_and_a_lone_point():
+    around = [shapely.box(-2, -9, 0, 9), shapely.Point(6, 4), shapely.Point(6, -4)]
+    there = hausdorff([shapely.box(0, -4, 6, 4)], around).from_a
+    assert there.distance == pytest.approx(13 / 3)
+    assert there.on_a == pytest.approx((13 / 3, 0))
+
+
+def test_parallel_edges():
+    lines = hausdorff(["LINESTRING (0 0, 8 0)"], ["LINESTRING (0 0, 0 1, 8 1, 8 0)"])
+    assert (lines.from_a.distance, lines.from_b.distance) == (1, 1)
+    assert hausdorff([shapely.box(0, 0, 4, 2)], [shapely.box(1, 0, 5, 2)]).distance == 1
+
+
+def test_points_are_as_scipy_has_them():
+    from scipy.spatial.distance import directed_hausdorff
+
+    random = np.random.default_rng(1)
+    a, b = random.random((200, 2)), random.random((100, 2))
+    found = hausdorff(a, b)
+    for way, (one, other) in ((found.from_a, (a, b)), (found.from_b, (b, a))):
+        assert way.distance == pytest.approx(directed_hausdorff(one, other)[0], rel=1e-15)
+    assert tuple(a[directed_hausdorff(a, b)[1]]) == found.from_a.on_a
+
+
+@pytest.mark.parametrize(
+    "shape",
+    [[[3, 4]], ["LINESTRING (0 0, 0.1 0.3, 5 0.7)"], [shapely.Polygon(np.random.default_rng(2).random((3, 2)))]],
+)
+def test_equal_shapes_are_at_distance_0(shape):
+    for boundary in (False, True):
+        assert hausdorff(shape, shape, boundary=boundary).distance == 0
+        assert distance(shape, shape, boundary=boundary).distance == 0
+
+
+def test_an_edge_that_is_covered_by_several():
+    whole, cut = ["LINESTRING (0 0, 0.9 0.3)"], ["LINESTRING (0 0, 0.3 0.1, 0.9 0.3)"]
+    exact = ["LINESTRING (0 0, 9 3)"], ["LINESTRING (0 0, 3 1, 9 3)"]
+    assert hausdorff(*exact).distance == 0
+    assert hausdorff(whole, cut).distance < 1e-16
+
+
+def test_one_inside_the_other():
+    inner = [shapely.box(2, 2, 3, 3)]
+    found = hausdorff(inner, [SQUARE])
+    assert (found.from_a.distance, found.from_b.distance) == (0, pytest.approx(np.hypot(6, 6)))
+    assert distance(inner, [SQUARE]).distance == 0
+    assert distance(inner, [SQUARE], boundary=True).distance == 2
+    assert distance(inner, [RING]).distance == 1
+
+
+def test_the_first_of_several_places():
+    found = hausdorff([[0, 1], [5, 1], [5, -1]], ["LINESTRING (-9 0, 9 0)"])
+    assert (found.from_a.on_a, found.from_a.on_b) == ((0, 1), (0, 0))
+    closest = distance([[7, 1], [5, 1]], ["LINESTRING (-9 0, 9 0)"]).smallest
+    assert (closest.on_a, closest.on_b) == ((7, 1), (7, 0))
+
+
+def test_the_number_of_threads_changes_nothing():
+    random = np.random.default_rng(3)
+    a, b = ([shapely.LineString(random.random((5000, 2)).cumsum(axis=0))] for _ in range(2))
+    for boundary in (False, True):
+        one = hausdorff(a, b, boundary=boundary, threads=1)
+        assert one == hausdorff(a, b, boundary=boundary, threads=4)
+        assert distance(a, b, threads=1) == distance(a, b, threads=3)
+
+
+@pytest.mark.parametrize("factor", [1e-60, 2.0**-30, 1e60])
+def test_large_and_small_coordinates(factor):
+    assert hausdorff([np.array(A) * factor], [np.array(B) * factor]).distance == pytest.approx(
+        hausdorff([A], [B]).distance * factor, rel=1e-14
+    )
+
+
+def test_one_direction():
+    found = hausdorff([[0, 0], [4, 0]], [[0, 0]], directed=True)
+    assert (found.distance, found.from_b) == (4, None)
+    assert hausdorff([[0, 0]], [[0, 0], [4, 0]], directed=True).distance == 0
+
+
+def test_what_they_turn_into():
+    found = hausdorff([[0, 0]], [[3, 4]])
+    assert float(found) == 5
+    assert repr(found) == "Distances: hausdorff 5, a to b 5, b to a 5"
+    assert found.to_pandas()["what"].tolist() == ["hausdorff", "a to b", "b to a"]
+    assert found.to_shapely()[1].wkt == "LINESTRING (0 0, 3 4)"
+
+
+def test_overlapping_polygons_are_filled_where_any_is():
+    shapes = [shapely.box(0, 0, 2, 2), shapely.box(1, 1, 3, 3)]
+    assert hausdorff([[1.5, 1.5]], shapes).from_a.distance == 0
+    assert hausdorff([[2.5, 0.5]], shapes).from_a.distance == 0.5
+
+
+@pytest.mark.parametrize("empty", [[], np.empty((0, 2)), ["POLYGON EMPTY"]])
+def test_what_has_no_places(empty):
+    for function in (hausdorff, distance):
+        with pytest.raises(InputError, match="invalid b: it has no places"):
+            function([[0, 0]], empty)
+
+
+def test_different_systems():
+    geopandas = pytest.importorskip("geopandas")
+    a, b = (geopandas.GeoSeries([shapely.Point(0, 0)], crs=crs) for crs in ("EPSG:2056", "EPSG:3857"))
+    with pytest.raises(InputError, match="EPSG:2056 and EPSG:3857: reproject"):
+        hausdorff(a, b)
+    assert hausdorff(a, [[3, 4]]).crs is not None
+
+
+def test_the_checker_finds_what_is_wrong():
+    good = hausdorff([SQUARE], [RING])
+    verify_distances(good)
+    there = good.from_a
+    line = [shapely.LineString(B)]
+    lines, closest = hausdorff([shapely.LineString(A)], line), distance([shapely.LineString(A)], line)
+    verify_distances(lines)
+    verify_distances(closest)
+    wrong = [
+        replace(good, from_a=replace(there, distance=there.distance + 1)),
+        replace(good, from_a=vorotool.PlacePair(0.0, (0.0, 0.0), (0.0, 0.0))),
+        replace(good, from_b=vorotool.PlacePair(1.0, (0.0, 0.0), (1.0, 0.0))),
+        replace(lines, from_a=hausdorff([A[0]], line).from_a),
+        replace(closest, smallest=vorotool.PlacePair(11.0, (26.0, 8.0), (15.0, 8.0))),
+        replace(closest, smallest=distance([A[-1]], line).smallest),
+    ]
+    for each in wrong:
+        with pytest.raises(VerificationError):
+            verify_distances(each)
