@@ -34,7 +34,7 @@ def verify_discs(discs: Discs, *, progress: Progress = None) -> None:
     sites; the centre is inside. Of each feature the discs come from the largest, and are disjoint if they have to be.
     Feet hold those that are the largest, or larger than those around them: they do not leave half of the circle free,
     so that no disc near by is larger. That none elsewhere is larger than the first by a part in 256 is shown by squares
-    that cover the feature, each divided until the distances from its centre tell.
+    that cover the feature, each divided until the distances from its centre tell, up to 131 072 of them.
 
     Parameters
     ----------
