@@ -22,6 +22,8 @@ INPUTS = {
 }
 NEEDED = {"offset": ["-d", "-20,5"], "points": ["--every", "20"], "transects": ["--every", "20"]}
 """Of skeletons."""
+OF_IMAGES = {("skeleton-exact", "thickness")}
+"""What is of no polygons."""
 
 
 @pytest.mark.parametrize(("command", "what"), [(command, what) for command in INPUTS for what in formats_of(command)])
@@ -33,7 +35,8 @@ def test_every_format_is_written(run, folder, command, what):
         named, chosen = folder / f"a{FORMATS[fmt].endings[0]}", folder / "b"
         frames = ["--frames", 2] if fmt in ANIMATIONS else []
         for way in (["-o", named.name], ["-f", fmt, "-o", "b"] if fmt != "zarr" else ["-o", named.name]):
-            done = run(command, *INPUTS[command], "--what", what, *more, *frames, *way)
+            inputs = [DATA / "blobs.png"] if (command, what) in OF_IMAGES else INPUTS[command]
+            done = run(command, *inputs, "--what", what, *more, *frames, *way)
             assert (done.code, done.err if what not in ("compare", "persistence") else "") == (0, ""), fmt
         assert fmt == "zarr" or named.read_bytes() == chosen.read_bytes() != b"", fmt
 
