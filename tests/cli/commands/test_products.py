@@ -10,7 +10,7 @@ from vorotool.products.formats import ANIMATIONS, FORMATS
 from vorotool.products.registry import PRODUCTS, all_layers, formats_of, layers_of
 from vorotool.render.label_images import png as label_png
 from vorotool.render.label_images import svg as label_svg
-from vorotool.render.layers import alpha, cells, mesh, necks, offsets, points_along, polygons, skeleton
+from vorotool.render.layers import alpha, cells, discs, mesh, necks, offsets, points_along, polygons, skeleton
 
 DATA = Path(__file__).parents[3] / "data"
 INPUTS = {
@@ -50,7 +50,7 @@ def test_layers_are_those_that_are_drawn():
     assert own["skeleton"] == tuple(layer for layer in skeleton.LAYERS if layer != "exact")
     along = dict.fromkeys(["points", "transects"], points_along.LAYERS)
     cut = {"necks": necks.LAYERS, "parts": necks.PART_LAYERS}
-    shapes = {"offset": offsets.LAYERS, "shape": polygons.SHAPE_LAYERS}
+    shapes = {"offset": offsets.LAYERS, "shape": polygons.SHAPE_LAYERS, "discs": discs.LAYERS, "thickness": None}
     assert {what: own[what] for what in DERIVED} == {**shapes, **along, **cut}
 
 
