@@ -68,12 +68,13 @@ def smooth(lines: Skeleton | LedOn, tolerance: float, *, progress: Progress = No
     """
     check_value(lines, "lines", Skeleton, Centerlines, ExtendedSkeleton)
     tolerance = checked_tolerance(tolerance)
-    samples = sampled_lines(lines, tolerance)
-    size = float(np.ptp(samples.xy, axis=1).max(initial=0.0)) if samples.xy.size else 0.0
+    path = lines if isinstance(lines, Skeleton) else lines.path
+    size = float(np.ptp(path.vertices, axis=0).max()) if len(path.vertices) else 0.0
     if tolerance < FINEST * size:
         raise InputError(
             f"the tolerance is {tolerance:g}: fitted curves need at least {FINEST * size:.2g} for lines of this extent"
         )
+    samples = sampled_lines(lines, tolerance)
     first, control, error = _fitted_lines(samples, tolerance, progress)
     line = np.searchsorted(samples.start, first, side="right") - 1
     start = np.searchsorted(line, np.arange(len(samples.start)))
