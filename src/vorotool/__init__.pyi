@@ -32,6 +32,12 @@ from vorotool.engines.arrangement.planar_graph import (
 from vorotool.engines.centerlines.centerline import (
     centerline as centerline,
 )
+from vorotool.engines.centerlines.extended_ends import (
+    extend_ends as extend_ends,
+)
+from vorotool.engines.centerlines.verify_extended import (
+    verify_extended as verify_extended,
+)
 from vorotool.engines.delaunay.cell_statistics import (
     cell_statistics as cell_statistics,
 )
@@ -77,6 +83,15 @@ from vorotool.engines.digital.triangulation import (
 from vorotool.engines.digital.verify_digital import (
     verify_digital_triangulation as verify_digital_triangulation,
 )
+from vorotool.engines.distances.hausdorff import (
+    hausdorff as hausdorff,
+)
+from vorotool.engines.distances.smallest import (
+    distance as distance,
+)
+from vorotool.engines.distances.verify_distances import (
+    verify_distances as verify_distances,
+)
 from vorotool.engines.from_skeleton.empty_discs import (
     largest_empty_discs as largest_empty_discs,
 )
@@ -91,6 +106,15 @@ from vorotool.engines.from_skeleton.reconstruction import (
 )
 from vorotool.engines.from_skeleton.verify_discs import (
     verify_discs as verify_discs,
+)
+from vorotool.engines.from_skeleton.verify_thickness import (
+    verify_thickness as verify_thickness,
+)
+from vorotool.engines.junctions.joining import (
+    join_junctions as join_junctions,
+)
+from vorotool.engines.junctions.verify_joining import (
+    verify_joining as verify_joining,
 )
 from vorotool.engines.label_images.outlines import (
     outlines as outlines,
@@ -304,6 +328,12 @@ from vorotool.geometry.skeleton.critical_values import (
 )
 from vorotool.geometry.skeleton.discs import (
     Discs as Discs,
+)
+from vorotool.geometry.skeleton.extended import (
+    ExtendedSkeleton as ExtendedSkeleton,
+)
+from vorotool.geometry.skeleton.necks import (
+    Necks as Necks,
 )
 from vorotool.geometry.skeleton.offsets import (
     Offsets as Offsets,

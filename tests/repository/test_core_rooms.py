@@ -26,13 +26,15 @@ cells -> base, delaunay, kernel, numbers, spatial, text
 digital -> base, delaunay, kernel, label_images, numbers, tessellation
 segment_voronoi/build -> base, delaunay, kernel, numbers, segment_voronoi/discs, spatial
 segment_voronoi/verify -> base, kernel, numbers, segment_voronoi/build, segment_voronoi/discs, spatial
-skeleton -> base, kernel, numbers, segment_voronoi/build
+skeleton -> base, kernel, numbers, segment_voronoi/build, segment_voronoi/discs
 offsets -> base, graphs, kernel, numbers, segment_voronoi/build, skeleton
 pruning -> base, graphs, kernel, numbers, skeleton
 sampled_skeleton -> base, delaunay, kernel, numbers, segment_voronoi/build, skeleton, spatial
 voronoi -> base, kernel, segment_voronoi/build, skeleton
 volumes -> base, label_images, numbers, spatial, tessellation
 proximity -> alpha, base, delaunay, kernel
+distances -> base, kernel
+thickness -> base, kernel, pruning, skeleton
 """)
 """What each room includes, after all that it may include."""
 

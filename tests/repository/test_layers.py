@@ -45,20 +45,23 @@ formats/polygons -> formats/io, formats/parsing, formats/points, formats/text, g
     geometry/polygons, products
 render/pages -> geometry, geometry/alpha, geometry/curves, geometry/mesh, geometry/skeleton, geometry/voronoi, products,
     render/canvas, render/label_images
-formats/results -> formats/io, formats/parsing, formats/polygons, formats/text, geometry, geometry/alpha,
-    geometry/arguments, geometry/curves, geometry/mesh, geometry/polygons, geometry/skeleton, geometry/voronoi, products
 formats -> formats/drawing, formats/features, formats/images, formats/io, formats/parsing, formats/points,
     formats/polygons, geometry, geometry/arguments, geometry/points, geometry/polygons, geometry/skeleton,
     geometry/volumes, geometry/voronoi, products
-geometry/any -> geometry, geometry/alpha, geometry/curves, geometry/mesh, geometry/points, geometry/polygons,
-    geometry/skeleton, geometry/volumes, geometry/voronoi, products
+formats/volumes -> formats, formats/images, formats/io, formats/parsing, formats/points, formats/zarr, geometry,
+    geometry/volumes, products
+engines/smoothing -> geometry, geometry/arguments, geometry/curves, geometry/skeleton
+geometry/distances -> geometry, geometry/polygons
+formats/results -> formats/images, formats/io, formats/parsing, formats/polygons, formats/text, geometry,
+    geometry/alpha, geometry/arguments, geometry/curves, geometry/distances, geometry/mesh, geometry/polygons,
+    geometry/skeleton, geometry/voronoi, products
+geometry/any -> geometry, geometry/alpha, geometry/curves, geometry/distances, geometry/mesh, geometry/points,
+    geometry/polygons, geometry/skeleton, geometry/volumes, geometry/voronoi, products
 engines/common -> geometry, geometry/any
 engines/tessellation -> engines/common, geometry, geometry/arguments, geometry/curves, geometry/points,
     geometry/polygons, geometry/volumes, products, typing
 engines/skeleton -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi, geometry,
     geometry/arguments, geometry/curves, geometry/polygons, geometry/skeleton
-engines/from_skeleton -> engines/arrangement, engines/skeleton, geometry, geometry/arguments, geometry/curves,
-    geometry/polygons, geometry/skeleton
 engines/offsets -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi, engines/skeleton,
     geometry, geometry/arguments, geometry/curves, geometry/polygons, geometry/skeleton, typing
 engines/pruning -> engines/common, engines/skeleton, geometry, geometry/arguments, geometry/curves, geometry/skeleton,
@@ -67,34 +70,42 @@ engines/sampled_skeleton -> engines/arrangement, engines/common, engines/feature
     engines/skeleton, geometry, geometry/curves, geometry/polygons, geometry/skeleton
 batch -> engines/tessellation, formats, formats/io, formats/text, formats/zarr
 engines -> engines/sampled_skeleton, engines/skeleton, geometry, geometry/arguments, geometry/skeleton, typing
-engines/centerlines -> engines/from_skeleton, engines/skeleton, geometry, geometry/arguments, geometry/polygons,
-    geometry/skeleton, typing
+engines/from_skeleton -> engines, engines/arrangement, engines/common, engines/skeleton, geometry, geometry/arguments,
+    geometry/curves, geometry/polygons, geometry/skeleton, typing
+engines/centerlines -> engines/common, engines/from_skeleton, engines/pruning, engines/skeleton, geometry,
+    geometry/arguments, geometry/polygons, geometry/skeleton, typing
 engines/voronoi -> engines/arrangement, engines/common, engines/segment_voronoi, engines/skeleton, geometry,
     geometry/arguments, geometry/curves, geometry/polygons, geometry/skeleton, geometry/voronoi, typing
 engines/label_images -> engines/common, engines/tessellation, geometry, geometry/arguments, geometry/points,
     geometry/polygons, products, typing
 engines/digital -> engines/common, engines/delaunay, engines/label_images, engines/tessellation, geometry, geometry/any,
     geometry/arguments, geometry/curves, geometry/mesh, geometry/points, typing
+engines/junctions -> engines/common, engines/pruning, engines/skeleton, geometry, geometry/arguments, geometry/skeleton
+engines/distances -> engines/arrangement, engines/common, engines/segment_voronoi, geometry, geometry/arguments,
+    geometry/distances, geometry/polygons, geometry/skeleton
+engines/necks -> engines, engines/arrangement, engines/common, engines/features, engines/from_skeleton,
+    engines/skeleton, geometry, geometry/arguments, geometry/polygons, geometry/skeleton, typing
+engines/volumes -> engines/common, engines/tessellation, geometry, geometry/arguments, geometry/volumes, typing
 engines/peers -> engines, engines/delaunay, engines/from_skeleton, engines/label_images, engines/pruning,
     engines/tessellation, engines/volumes, geometry, geometry/arguments, geometry/mesh, geometry/points,
     geometry/volumes, typing
-formats/volumes -> formats, formats/images, formats/io, formats/parsing, formats/points, formats/zarr, geometry,
-    geometry/volumes, products
+render/layers -> geometry, geometry/alpha, geometry/distances, geometry/mesh, geometry/polygons, geometry/skeleton,
+    geometry/voronoi, render/canvas, render/label_images
 jobs -> batch, engines/alpha, engines/arrangement, engines/centerlines, engines/delaunay, engines/digital,
-    engines/from_skeleton, engines/label_images, engines/pruning, engines/tessellation, engines/voronoi, formats,
-    formats/images, formats/io, formats/parsing, formats/points, formats/text, formats/volumes, formats/zarr, geometry,
-    geometry/alpha, geometry/any, geometry/arguments, geometry/curves, geometry/mesh, geometry/points,
-    geometry/polygons, geometry/skeleton, geometry/volumes, geometry/voronoi, products, render/canvas,
-    render/label_images, render/layers, render/pages, typing
+    engines/distances, engines/from_skeleton, engines/label_images, engines/pruning, engines/tessellation,
+    engines/voronoi, formats, formats/images, formats/io, formats/parsing, formats/points, formats/text,
+    formats/volumes, formats/zarr, geometry, geometry/alpha, geometry/any, geometry/arguments, geometry/curves,
+    geometry/distances, geometry/mesh, geometry/points, geometry/polygons, geometry/skeleton, geometry/volumes,
+    geometry/voronoi, products, render/canvas, render/label_images, render/layers, render/pages, typing
 cli/options -> engines/offsets, engines/pruning, geometry, jobs, products
 cli/batch -> batch, cli/options, formats/io, geometry, jobs, products
 jobs/volumes -> engines/label_images, engines/tessellation, engines/volumes, formats/io, formats/volumes, formats/zarr,
     geometry, geometry/points, geometry/volumes, jobs, products, render/canvas, render/pages
-engines/junctions -> engines/common, engines/pruning, geometry, geometry/arguments, geometry/skeleton
 jobs/skeletons -> engines, engines/arrangement, engines/centerlines, engines/features, engines/from_skeleton,
-    engines/junctions, engines/offsets, engines/pruning, engines/sampled_skeleton, engines/segment_voronoi,
-    engines/skeleton, formats/io, geometry, geometry/polygons, geometry/skeleton, jobs, products, render/canvas,
-    render/layers, render/pages
+    engines/junctions, engines/necks, engines/offsets, engines/pruning, engines/sampled_skeleton,
+    engines/segment_voronoi, engines/skeleton, engines/smoothing, formats/images, formats/io, geometry,
+    geometry/polygons, geometry/skeleton, jobs, products, render/canvas, render/label_images, render/layers,
+    render/pages
 cli/commands -> cli/batch, cli/options, jobs, jobs/skeletons, jobs/volumes, products
 cli -> cli/commands, jobs
 """

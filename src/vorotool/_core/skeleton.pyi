@@ -24,3 +24,8 @@ def extract_skeleton(diagram: vorotool._core.segment_voronoi.Diagram, kept: nump
 
 def steps_along(skeleton: Skeleton, first: numpy.typing.NDArray[numpy.int64], counts: numpy.typing.NDArray[numpy.int64], every: float, threads: int, progress: Callable[[float], object] | None) -> dict[str, Any]:
     """Places at equal steps along branches, whose first arcs are given."""
+
+def clearance_course(vertices: numpy.typing.NDArray[numpy.float64], radius: numpy.typing.NDArray[numpy.float64], arcs: numpy.typing.NDArray[numpy.int32], sites: numpy.typing.NDArray[numpy.int32], site_places: numpy.typing.NDArray[numpy.int32], error: float, sites_are_exact: bool, threads: int, progress: Callable[[float], object] | None) -> tuple[numpy.typing.NDArray[numpy.int8], numpy.typing.NDArray[numpy.float64]]:
+    """
+    How the clearance begins to change at the source and target of each arc, and where it is least; all on the lattice.
+    """

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.pruning.pruning import core_skeleton
+from vorotool.engines.skeleton.core_skeleton import core_skeleton
 from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.ragged import ranges
 from vorotool.geometry.skeleton.skeleton import EDGE, SiteTable, Skeleton
