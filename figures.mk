@@ -8,7 +8,7 @@ FIGURE_9_STEPS := 20 15 10 5
 GALLERY_PICTURES := letters-all.svg letters.svg letters-angle.svg vessels.png vessels.csv river.svg widths.svg \
                     silhouettes.svg silhouettes-chord.svg silhouettes.csv slider.html lakes.svg offsets.svg \
                     cells.svg outside.svg alpha.svg houses.svg territories.svg nuclei.svg thickness.png \
-                    thickness-dark.png discs.svg sociology.svg sociology.csv colonies.svg persistence.svg \
+                    thickness-dark.png discs.svg parts.svg sociology.svg sociology.csv colonies.svg persistence.svg \
                     strokes.svg strokes-dark.svg
 
 NAMES := figure-01 figure-02 figure-03a figure-03b figure-03c figure-03d figure-04a figure-04b figure-04c \
@@ -229,6 +229,10 @@ $(FIGURES)/gallery-offsets.svg: data/great-lakes.geojson $(BUILD)/.installed | $
 # Purpose: the same lakes, and the largest discs in them.
 $(FIGURES)/gallery-discs.svg: data/great-lakes.geojson $(BUILD)/.installed | $(FIGURES)
 	$(VOROTOOL) skeleton-exact $< --what discs --count 40 -q -o $@
+
+# Purpose: the same lakes, cut at their necks.
+$(FIGURES)/gallery-parts.svg: data/great-lakes.geojson $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) skeleton-exact $< --what parts -q -o $@
 
 # Purpose: labels that touch: each is an object of its own. The elements are the outlines.
 $(FIGURES)/gallery-cells.svg: data/cells.png $(BUILD)/.installed | $(FIGURES)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.delaunay.delaunay import core_mesh, delaunay
+from vorotool.engines.delaunay.local_areas import cut_out
 from vorotool.errors import InputError, VerificationError, warn
 from vorotool.geometry.arguments.boxes import as_box
 from vorotool.geometry.arguments.polygons import as_geometry
@@ -163,7 +164,7 @@ def _clipped(cells: CellSet, area: Any) -> CellSet:
     inside, meets = shapely.contains_properly(area, shapes), shapely.intersects(area, shapes)
     crossing = meets & ~inside
     shapes[~meets] = shapely.Polygon()
-    parts = shapely.intersection(shapes[crossing], area)
+    parts = cut_out(shapes[crossing], area)
     shapes[crossing] = [_polygons_of(part) for part in parts]
     return _from_shapely(cells, shapes)
 

@@ -1,0 +1,50 @@
+"""What is cut out of an area piece by piece is what is cut out of it as a whole."""
+
+import numpy as np
+import pytest
+import shapely
+
+from vorotool.engines.delaunay.local_areas import Rings, cut_out
+
+
+def coast(count, seed, holes=3):
+    """A polygon of many vertices with holes, and an island."""
+    random = np.random.default_rng(seed)
+
+    def ring(x, y, size, corners):
+        angle = np.sort(random.uniform(0, 2 * np.pi, corners))
+        radius = size * random.uniform(0.7, 1.0, corners)
+        return np.column_stack([x + radius * np.cos(angle), y + radius * np.sin(angle)])
+
+    inner = [ring(4 * k - 4, 0, 1, 60) for k in range(holes)]
+    return shapely.union_all([shapely.Polygon(ring(0, 0, 10, count), inner), shapely.Polygon(ring(20, 3, 2, 80))])
+
+
+def boxes(count, seed, size):
+    random = np.random.default_rng(seed)
+    x, y = random.uniform(-12, 23, count), random.uniform(-12, 12, count)
+    return shapely.box(x, y, x + random.uniform(0.1, size, count), y + random.uniform(0.1, size, count))
+
+
+@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("size", [0.7, 6.0, 40.0])
+def test_pieces_are_those_of_the_whole(seed, size):
+    area, shapes = coast(3000, seed), boxes(300, seed, size)
+    for ours, theirs in zip(cut_out(shapes, area), shapely.intersection(shapes, area), strict=True):
+        assert ours.wkb == theirs.wkb
+
+
+def test_one_shape_none_and_all():
+    area = coast(2000, 9)
+    assert len(cut_out(np.empty(0, dtype=object), area)) == 0
+    for box in (shapely.box(100, 100, 101, 101), shapely.box(-50, -50, 50, 50), shapely.box(-1, -1, 0, 0)):
+        assert cut_out(np.array([box]), area)[0].wkb == shapely.intersection(box, area).wkb
+
+
+def test_rings_around_a_place_are_short_and_the_same_inside():
+    area = coast(5000, 3)
+    rings = Rings.of(area)
+    near = rings.around(np.array([9.0, -1.0, 11.0, 1.0]), rings.bounds())
+    assert len(near.xy) < len(rings.xy) / 5
+    window = shapely.box(9.3, -0.7, 10.7, 0.7)
+    assert shapely.intersection(window, near.area()).equals(shapely.intersection(window, area))
