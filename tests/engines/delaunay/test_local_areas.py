@@ -44,7 +44,7 @@ def test_one_shape_none_and_all():
 def test_rings_around_a_place_are_short_and_the_same_inside():
     area = coast(5000, 3)
     rings = Rings.of(area)
-    near = rings.around(np.array([9.0, -1.0, 11.0, 1.0]), rings.bounds())
+    near = rings.around(np.array([9.0, -1.0, 11.0, 1.0]))
     assert len(near.xy) < len(rings.xy) / 5
     window = shapely.box(9.3, -0.7, 10.7, 0.7)
     assert shapely.intersection(window, near.area()).equals(shapely.intersection(window, area))

@@ -43,17 +43,15 @@ def cut_out(shapes: NDArray[Any], area: Any) -> NDArray[Any]:
     import shapely
 
     made = np.empty(len(shapes), dtype=object)
-    whole = Rings.of(area)
-    reach = whole.bounds()
     centre = shapely.bounds(shapes).reshape(-1, 2, 2).mean(axis=1)
-    waiting = [(np.arange(len(shapes)), whole)]
+    waiting = [(np.arange(len(shapes)), Rings.of(area))]
     while waiting:
         chosen, rings = waiting.pop()
         if not len(chosen):
             continue
-        bounds = shapely.total_bounds(shapes[chosen])
+        bounds = rings.with_crossing_edges(shapely.total_bounds(shapes[chosen]))
         margin = MARGIN * max(bounds[2] - bounds[0], bounds[3] - bounds[1])
-        rings = rings.around(bounds + margin * np.array([-1, -1, 1, 1]), reach)
+        rings = rings.around(bounds + margin * np.array([-1, -1, 1, 1]))
         if len(chosen) <= FEW_SHAPES or len(rings.xy) <= FEW_VERTICES:
             made[chosen] = _cut_out_of(shapes[chosen], rings.area(), area)
             continue
@@ -109,12 +107,18 @@ class Rings:
         least, most = {"initial": np.inf}, {"initial": -np.inf}
         return np.array([x.min(**least), y.min(**least), x.max(**most), y.max(**most)])
 
-    def around(self, bounds: Floats, whole: Floats) -> Rings:
-        """Rings that are the same inside some bounds, with fewer vertices outside.
+    def with_crossing_edges(self, bounds: Floats) -> Floats:
+        """Bounds that hold the edges that reach into some bounds, too: GEOS looks at all that is in these."""
+        after = np.arange(1, len(self.xy) + 1)
+        after[self.start[1:] - 1] = self.start[:-1]
+        ends = self.xy, self.xy[after]
+        least, most = np.minimum(*ends), np.maximum(*ends)
+        meets = ((most >= bounds[:2]) & (least <= bounds[2:])).all(axis=1)
+        edges = Rings(np.concatenate([least[meets], most[meets]]), self.start, self.part).bounds()
+        return np.concatenate([np.minimum(bounds[:2], edges[:2]), np.maximum(bounds[2:], edges[2:])])
 
-        Where the bounds of all rings would no longer reach beyond a side, though those of the `whole` do, a small
-        triangle does: by the common bounds GEOS decides where it cuts long edges first.
-        """
+    def around(self, bounds: Floats) -> Rings:
+        """Rings that are the same inside some bounds, with fewer vertices outside, and the same bounds of their own."""
         side = np.zeros(len(self.xy), dtype=np.int8)
         for number, is_beyond in enumerate(
             (self.xy[:, 0] < bounds[0], self.xy[:, 0] > bounds[2], self.xy[:, 1] < bounds[1], self.xy[:, 1] > bounds[3])
@@ -125,31 +129,18 @@ class Rings:
         place = np.arange(len(side))
         before, after = np.where(place == first, last, place - 1), np.where(place == last, first, place + 1)
         kept = (side == 0) | (side != side[before]) | (side != side[after])
+        farthest = np.concatenate([self.xy.argmin(axis=0), self.xy.argmax(axis=0)])
+        kept[[farthest, before[farthest], after[farthest]]] = True
         ring = owners(lengths)
+        # with a shell beyond one side its holes are gone, too
+        is_ring = np.bincount(ring[kept], minlength=len(lengths)) > 0
+        # at the top of a ring GEOS sees which way it goes around
+        y = self.xy[:, 1]
+        top = np.flatnonzero(y == np.maximum.reduceat(y, self.start[:-1])[ring])
+        kept[np.concatenate([top, before[top], after[top]])] = True
+        kept &= is_ring[ring]
         counts = np.bincount(ring[kept], minlength=len(lengths))
-        is_ring = counts > 0  # with a shell beyond one side its holes are gone, too
-        made = Rings(self.xy[kept & is_ring[ring]], starts_of(counts[is_ring]), self.part[is_ring])
-        return made.reaching(bounds, whole)
-
-    def reaching(self, bounds: Floats, whole: Floats) -> Rings:
-        """With a triangle beyond each side of the bounds that the whole reaches beyond, and these rings do not."""
-        own = self.bounds()
-        added = []
-        middle = (bounds[:2] + bounds[2:]) / 2
-        for k, axis in ((0, 0), (1, 1), (2, 0), (3, 1)):
-            if whole[k] < bounds[k] <= own[k] if k < 2 else whole[k] > bounds[k] >= own[k]:
-                corner = np.tile(middle, (3, 1))
-                corner[:, axis] = whole[k], (whole[k] + bounds[k]) / 2, (whole[k] + bounds[k]) / 2
-                corner[2, 1 - axis] += abs(whole[k] - bounds[k]) / 2
-                added.append(corner)
-        if not added:
-            return self
-        last = int(self.part[-1]) + 1 if len(self.part) else 0
-        return Rings(
-            np.concatenate([self.xy, *added]),
-            starts_of([*np.diff(self.start), *([3] * len(added))]),
-            np.concatenate([self.part, last + np.arange(len(added))]),
-        )
+        return Rings(self.xy[kept], starts_of(counts[is_ring]), self.part[is_ring])
 
     def area(self) -> Any:
         """Make a polygon of them, which need not be valid outside the bounds that they are around."""
