@@ -168,7 +168,10 @@ def test_the_commands_that_are_named_take_it_and_no_others(run, info, name):
         options = OPTIONS.get(command, [])
         if command == "tessellate":
             options = OF_IMAGES.get(name.rpartition(".")[2], options)
-        done = run(command, name, *options, "-o", f"{command}-out.{'png' if command == 'tessellate' else 'svg'}", "-q")
+        inputs = [name, name] if command == "distance" else [name]
+        done = run(
+            command, *inputs, *options, "-o", f"{command}-out.{'png' if command == 'tessellate' else 'svg'}", "-q"
+        )
         assert done.code in (0, 3)
         taken += [command] if done.code == 0 else []
     assert sorted(told["commands"]) == sorted(taken)
@@ -186,7 +189,7 @@ def test_text_is_for_people(run, tmp_path):
         "  bounds     x 0.5 to 2, y 1 to 7\n"
         "  y          down\n"
         "  labels     the input's own\n"
-        "  taken by   tessellate, delaunay, alphashape, voronoi\n"
+        "  taken by   tessellate, delaunay, alphashape, voronoi, distance\n"
         "  note       a.csv: columns x, y, label are read as x, y, label\n"
         "a.tif\n"
         "  format     tiff\n"
@@ -197,7 +200,7 @@ def test_text_is_for_people(run, tmp_path):
         "  pixel size 0.05 cm\n"
         "  foreground 4 pixels\n"
         "  objects    1\n"
-        "  taken by   tessellate, delaunay, alphashape, voronoi, skeleton-approx, skeleton-exact, draw\n"
+        "  taken by   tessellate, delaunay, alphashape, voronoi, skeleton-approx, skeleton-exact, distance, draw\n"
     )
 
 

@@ -491,9 +491,13 @@ def test_repairs_are_refused_when_asked(run, folder):
 
 def test_files_are_told_of(run, mixed):
     told = json.loads(run("info", mixed, "--json").out)
-    assert (told["kind"], told["features"], told["commands"]) == ("points, lines and polygons", 6, ["voronoi"])
+    assert (told["kind"], told["features"], told["commands"]) == (
+        "points, lines and polygons",
+        6,
+        ["voronoi", "distance"],
+    )
     assert (told["points"], told["lines"], told["polygons"]) == (4, 1, 3)
     assert run("voronoi", mixed, "-q", "-o", "a.json").code == 0
     told = json.loads(run("info", "a.json", "--json").out)
     assert (told["kind"], told["cells"]) == ("Voronoi map", 6)
-    assert told["commands"] == ["voronoi", "skeleton-approx", "skeleton-exact", "draw"]
+    assert told["commands"] == ["voronoi", "skeleton-approx", "skeleton-exact", "distance", "draw"]

@@ -55,6 +55,8 @@ def outputs(run, command, folder, options, *, r, more=()):
     formats = formats_of(command)
     wanted = [(what, fmt) for what in formats for fmt in formats[what] if not FORMATS[fmt].is_image]
     wanted = [(what, fmt) for what, fmt in wanted if what != "compare"]  # goes with nothing else
+    if "--side" in options:  # necks are inside
+        wanted = [(what, fmt) for what, fmt in wanted if what not in ("necks", "parts")]
     if command == "alphashape":  # of which points, lines and polygons are, and a Shapefile holds one of them
         wanted = [(what, fmt) for what, fmt in wanted if fmt != "shp" or what not in ("general", "hull")]
     if "--what" in options:

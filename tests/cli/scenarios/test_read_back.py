@@ -17,6 +17,9 @@ MADE_BY = {
     "skeleton-approx": ["shape.json", "--step", "5", "-d", "2", "--every", "9"],
 }
 NEEDS = {"-d": ("offset",), "--every": ("points", "transects")}
+INPUTS = {"necks": "great-lakes.geojson", "parts": "great-lakes.geojson"}
+MORE = {"discs": ["--count", "9"]}
+"""Of what a plain shape has few rows."""
 ROWS = ("csv", "tsv", "json", "jsonl", "npz")
 COORDINATES = {
     **dict.fromkeys(("edges", "complex"), "x_a,y_a"),
@@ -31,7 +34,7 @@ def coordinates_of(command, what):
 
 
 NOT_OF_PLACES = {
-    *("neighbours", "triangles", "compare", "family", "spectrum", "curves", "branches"),
+    *("neighbours", "triangles", "compare", "family", "spectrum", "curves", "branches", "statistics", "persistence"),
     *("alphashape table", "skeleton-exact table", "skeleton-approx table"),
 }
 """Tables of what has no place."""
@@ -49,7 +52,7 @@ def products():
 
 def is_of_rows(command, what, fmt):
     """Whether a format has the rows of the table, and no features or arrays of several lengths."""
-    if what in ("skeleton", "diagram", "offset", "cells", "polygons", "shape"):
+    if what in ("skeleton", "diagram", "offset", "cells", "polygons", "shape", "parts"):
         return fmt in ("csv", "tsv")
     data = PRODUCTS[command][what].data
     return not (fmt == "jsonl" and "geojson" in data)
@@ -65,8 +68,9 @@ def made(run, tmp_path):
             if option in options and what not in of:
                 place = options.index(option)
                 del options[place : place + 2]
+        source = INPUTS.get(what, source)
         run("sample", source, "-o", source)
-        done = run(command, source, *options, "--what", what, "-o", f"{what}.{fmt}", "-q")
+        done = run(command, source, *options, *MORE.get(what, []), "--what", what, "-o", f"{what}.{fmt}", "-q")
         assert done.code == 0, done.err
         return tmp_path / f"{what}.{fmt}"
 
