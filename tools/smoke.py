@@ -35,6 +35,7 @@ RUNS = {
     "skeleton-approx": ["shape.json --step 1 -o approximate.json"],
     "skeleton-exact": ["shape.json -o skeleton.json --verify", "shape.json -o skeleton.svg"],
     "voronoi": ["shape.json -o cells.geojson --verify", "mask.pgm --max-distance 2 -o cells.svg"],
+    "distance": ["shape.json dots.csv --verify"],
     "draw": ["labels.png -o labels.svg", "skeleton.json -o again.png"],
     "info": ["dots.csv mask.pgm shape.json", "labels.png --json"],
     "sample": ["six-seeds.csv", "blobs.png -o blobs.png"],

@@ -42,7 +42,7 @@ def test_the_pictures_are_drawn(figures):
     for name, path in made.items():
         if name.endswith(".svg"):
             assert re.search(
-                r'<g id="(skeleton|centerline|transects|offset|cells|polygons|regions)"[^>]*>\s*<(path|text)',
+                r'<g id="(skeleton|centerline|transects|offset|cells|polygons|regions|parts)"[^>]*>\s*<(path|text)',
                 path.read_text(),
             ), name
     with Image.open(made["gallery-vessels.png"]) as image:

@@ -29,21 +29,22 @@ TYPES = sorted(
     for name in vorotool.__all__
     if inspect.isclass(getattr(vorotool, name)) and not issubclass(getattr(vorotool, name), BaseException | Warning)
 )
+TABLES = {"Table", "DigitalComparison", "CriticalValues", "CellStatistics", "RegionPersistence"}
 METHODS = {
-    "to_shapely": {"Raster", "Table", "DigitalComparison", "CriticalValues"},
-    "to_geopandas": {"Raster", "Table", "DigitalComparison", "CriticalValues"},
-    "__geo_interface__": {"Raster", "Table", "DigitalComparison", "CriticalValues"},
+    "to_shapely": {"Raster", *TABLES},
+    "to_geopandas": {"Raster", *TABLES},
+    "__geo_interface__": {"Raster", *TABLES},
     "to_pandas": {"Raster"},
-    "plot": {"Table", "DigitalComparison", "CriticalValues"},
-    "_repr_svg_": {"Table", "DigitalComparison", "CriticalValues"},
-    "_repr_html_": {"DigitalComparison", "CriticalValues"},
+    "plot": TABLES,
+    "_repr_svg_": TABLES,
+    "_repr_html_": TABLES - {"Table"},
 }
 """The types without a method, beside those of volumes."""
 VOLUME_METHODS = {"to_pandas": {"LabelVolume"}}
 ONLY = {
     "to_networkx": {
         *("Skeleton", "Triangulation", "DigitalTriangulation", "LabelImage", "LabelVolume", "PlanarGraph"),
-        "VoronoiMap",
+        *("VoronoiMap", "ProximityGraph"),
     },
     "__array__": {"LabelImage", "LabelVolume", "Raster", "PointSet", "VolumePoints"},
 }

@@ -10,6 +10,7 @@ from vorotool.products.writing import chosen_part
 
 POINTS = [[0, 0], [4, 0], [0, 3], [5, 5]]
 SQUARE = [[0, 0], [4, 0], [4, 4], [0, 4]]
+WAIST = [[0, 0], [4, 1], [8, 0], [8, 4], [4, 3], [0, 4]]
 
 
 def values():
@@ -35,10 +36,11 @@ def values():
         vorotool.offset(SQUARE, -1),
         vorotool.rebuild(skeleton),
         vorotool.points_along(skeleton, every=1),
-        vorotool.necks(skeleton),
-        vorotool.parts(skeleton),
+        vorotool.necks(WAIST),
+        vorotool.parts(WAIST),
         vorotool.voronoi(SQUARE),
         vorotool.largest_discs(SQUARE, count=2),
+        vorotool.hausdorff(SQUARE, POINTS),
     ]
     return {type(value).__name__: value for value in found}
 

@@ -82,7 +82,7 @@ engines/digital -> engines/common, engines/delaunay, engines/label_images, engin
     geometry/arguments, geometry/curves, geometry/mesh, geometry/points, typing
 engines/junctions -> engines/common, engines/pruning, engines/skeleton, geometry, geometry/arguments, geometry/skeleton
 engines/distances -> engines/arrangement, engines/common, engines/segment_voronoi, geometry, geometry/arguments,
-    geometry/distances, geometry/polygons, geometry/skeleton
+    geometry/curves, geometry/distances, geometry/polygons, geometry/skeleton
 engines/necks -> engines, engines/arrangement, engines/common, engines/features, engines/from_skeleton,
     engines/skeleton, geometry, geometry/arguments, geometry/polygons, geometry/skeleton, typing
 engines/volumes -> engines/common, engines/tessellation, geometry, geometry/arguments, geometry/volumes, typing

@@ -194,7 +194,8 @@ def test_only_what_has_places_is_written():
     def of(command):
         return " ".join(what for what, each in PRODUCTS[command].items() if "dxf" in each.written)
 
-    assert of("skeleton-exact") == of("skeleton-approx") == "skeleton diagram centerline offset shape points transects"
+    along = "skeleton diagram centerline offset shape points transects"
+    assert (of("skeleton-exact"), of("skeleton-approx")) == (f"{along} necks parts", along)
     assert of("delaunay") == "edges triangles cells"
     assert of("alphashape") == "edges polygons complex general hull"
     assert of("tessellate") == of("draw") == ""

@@ -13,7 +13,11 @@ TAKING = {
     for name in vorotool.__all__
     if inspect.isfunction(function := getattr(vorotool, name))
     and str(next(iter(inspect.signature(function).parameters.values())).annotation)
-    in {"AnyTriangulation", *(each for each in vorotool.__all__ if inspect.isclass(getattr(vorotool, each)))}
+    in {
+        "AnyTriangulation",
+        "AnyTriangulation | ProximityGraph",
+        *(each for each in vorotool.__all__ if inspect.isclass(getattr(vorotool, each))),
+    }
 }
 WANTED = {"delta": 1, "every": 1.0, "r": 1.0, "columns": {}, "distances": [1.0], "angle": 30.0}
 

@@ -12,7 +12,7 @@ from vorotool.geometry.crs import crs_member
 
 CRS = "EPSG:2056"
 ARCS = ("arcs", "control", "sites", "polygon", "side", "branch", "length", "error_bound")
-NOT_VALUES = {"Box", "Frame", "PixelGrid", "VoxelFrame", "VoxelGrid"}
+NOT_VALUES = {"PlacePair", "Box", "Frame", "PixelGrid", "VoxelFrame", "VoxelGrid"}
 """Small records of numbers, which are dataclasses as Python has them."""
 
 
@@ -99,6 +99,10 @@ def example_values():
         "Offsets": vorotool.offset(polygons, [-1, 2]),
         "VoronoiMap": vorotool.voronoi(polygons),
         "Discs": vorotool.largest_discs(polygons, count=2),
+        "Distances": vorotool.hausdorff(polygons, points),
+        "ProximityGraph": vorotool.proximity_graph(mesh, "gabriel"),
+        "CellStatistics": vorotool.cell_statistics(points),
+        "RegionPersistence": vorotool.persistence(shape.family),
     }
 
 

@@ -52,21 +52,21 @@ def hausdorff(
     InputError
         If a shape has no place, the two are in different coordinate reference systems, or coordinates are out of range.
 
+    See Also
+    --------
+    distance : The smallest distance.
+
     Notes
     -----
     `shapely.hausdorff_distance` measures from vertices only: for the two lines below it gives 1. All that lies inside a
     shell and in none of its holes, each by the even-odd rule, and all edges belong to a polygon.
-
-    See Also
-    --------
-    distance : the smallest distance.
 
     Examples
     --------
     >>> import vorotool
     >>> found = vorotool.hausdorff(["LINESTRING (0 0, 8 0)"], ["LINESTRING (0 0, 0 1, 8 1, 8 0)"])
     >>> found.distance, found.from_a.on_a, found.from_a.on_b
-    (1.0, (1.0, 0.0), (0.0, 0.0))
+    (1.0, (4.0, 0.0), (4.0, 1.0))
     >>> ring = "POLYGON ((0 0, 9 0, 9 9, 0 9, 0 0), (1 1, 8 1, 8 8, 1 8, 1 1))"
     >>> vorotool.hausdorff(["POLYGON ((0 0, 9 0, 9 9, 0 9, 0 0))"], [ring]).from_a
     PlacePair(distance=3.5, on_a=(4.5, 4.5), on_b=(4.5, 1.0))

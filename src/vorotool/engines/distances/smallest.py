@@ -16,7 +16,7 @@ def distance(a: Any, b: Any, *, boundary: bool = False, threads: int = 0, progre
 
     Parameters
     ----------
-    a, b, boundary, threads, progress
+    a, b, boundary, threads, progress : optional
         As of `vorotool.hausdorff`.
 
     Returns
@@ -32,7 +32,7 @@ def distance(a: Any, b: Any, *, boundary: bool = False, threads: int = 0, progre
 
     See Also
     --------
-    hausdorff : the largest distance from a place of one to the other.
+    hausdorff : The largest distance from a place of one to the other.
 
     Examples
     --------

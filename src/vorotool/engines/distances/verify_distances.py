@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from vorotool.engines.common.faults import fail
 from vorotool.geometry.arguments.values import check_value
+from vorotool.geometry.curves.inverse_functions import hypotenuse
 from vorotool.geometry.distances.distances import FROM_A, FROM_B, SMALLEST, Distances, PlacePair
 from vorotool.geometry.polygons.conversion import to_shapely
 from vorotool.geometry.polygons.polygon_set import LINE, PolygonSet
@@ -138,7 +139,7 @@ def _check_places(name: str, pair: PlacePair, a: _Checked, b: _Checked, toleranc
         off = float(shape.distance(np.array([place]))[0])
         if not off <= tolerance:
             fail(f"{name}: the place {place} is not on {which}, but {off:g} away from it")
-    apart = float(np.linalg.norm(np.subtract(pair.on_a, pair.on_b)))
+    apart = float(hypotenuse(*np.subtract(pair.on_a, pair.on_b)))
     if not abs(apart - pair.distance) <= tolerance:
         fail(f"{name}: the places are {apart!r} apart, but the distance is {pair.distance!r}")
 

@@ -148,12 +148,12 @@ class _Discs:
         to_focus, to_source = place - self.focus[near], place - self.source[near]
         way, radius = (self.target - self.source)[near], self.radius[near]
         growth = radius[:, 1] - radius[:, 0]
-        linear = (_dot(way, way) - growth**2, -_dot(way, to_source) - growth * radius[:, 0])
+        linear = (_dot(way, way) - growth * growth, -_dot(way, to_source) - growth * radius[:, 0])
         bent = (-2 * _dot(self.bend[near], to_focus), -_dot(self.way[near], to_focus))
         start = _dot(to_focus, to_focus) - 2 * _dot(self.source[near] - self.focus[near], to_focus)
         is_linear = self.is_linear[near]
         a, b = np.where(is_linear, linear, bent)
-        c = np.where(is_linear, _dot(to_source, to_source) - radius[:, 0] ** 2, start)
+        c = np.where(is_linear, _dot(to_source, to_source) - radius[:, 0] * radius[:, 0], start)
         with np.errstate(divide="ignore", invalid="ignore"):
             sums = -(b + np.copysign(np.sqrt(b * b - a * c), b))
             u = np.concatenate([sums / a, c / sums])

@@ -48,7 +48,7 @@ def necks(
         As of :func:`vorotool.skeleton_exact`, or what that has made of the inside, not pruned and without a gap.
     features : {"separate", "together"}
         Take each feature by itself, or all of them as one drawing.
-    strict, threads, progress
+    strict, threads, progress : optional
         As of :func:`vorotool.skeleton_exact`.
 
     Returns

@@ -55,7 +55,7 @@ def parts(
         The largest ratio of necks that are cut, from 0 to 1: 1 cuts all.
     features : {"separate", "together"}
         Take each feature by itself, or all of them as one drawing.
-    strict, threads, progress
+    strict, threads, progress : optional
         As of :func:`vorotool.skeleton_exact`.
 
     Returns

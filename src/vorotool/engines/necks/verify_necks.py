@@ -92,7 +92,7 @@ def verify_parts(parts: Parts, *, threads: int = 0, progress: Progress = None) -
     ----------
     parts : Parts
         However they were made.
-    threads, progress
+    threads, progress : optional
         As of `verify_necks`.
 
     Raises
@@ -267,7 +267,7 @@ def _check_area(parts: Parts, polygons: NDArray[np.integer], graph: PlanarGraph)
     inside = graph.is_inside.astype(np.int64)
     left, right = inside[graph.segment_faces].T
     (x, y), (u, v) = (graph.points[graph.segments[:, end]].astype(np.float64).T for end in (0, 1))
-    area = float(((x * v - u * y) * (left - right)).sum()) / 2 * graph.scale**2
+    area = float(((x * v - u * y) * (left - right)).sum()) / 2 * (graph.scale * graph.scale)
     summed = float(parts.area[np.isin(parts.source, polygons)].sum())
     extent = float(np.ptp(graph.points, axis=0).max()) * graph.scale if len(graph.points) else 0.0
     around = _norm((graph.points[graph.segments[:, 0]] - graph.points[graph.segments[:, 1]]).astype(float)).sum()

@@ -21,6 +21,9 @@ _MAKERS = {
     "ExtendedSkeleton": "extend_ends",
     "SmoothLines": "smooth",
     "Offsets": "offset",
+    "Discs": "largest_discs",
+    "Necks": "necks",
+    "Parts": "parts",
     "VoronoiMap": "voronoi",
     "Distances": "hausdorff",
 }

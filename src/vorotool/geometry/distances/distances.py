@@ -25,7 +25,7 @@ class PlacePair:
     distance : float
         In the units of the input.
     on_a, on_b : tuple of float
-        x and y.
+        Their x and y.
     """
 
     distance: float
@@ -50,7 +50,7 @@ class Distances(Value, Tabular, Geometric, Pictured):
     smallest : PlacePair, optional
         A place of each that are closest to each other.
     shapes : tuple of PolygonSet
-        a and b.
+        Both, a and b.
     is_boundary : bool
         Polygons are their outlines; else they are filled.
 

@@ -29,8 +29,10 @@ def scale_colours(count: int) -> NDArray[np.uint8]:
     """
     stops = np.array([list(bytes.fromhex(stop)) for stop in _STOPS], dtype=np.float64)
     place = np.linspace(0, len(stops) - 1, count)
-    channels = [np.interp(place, np.arange(len(stops)), stops[:, k]) for k in range(3)]
-    return np.rint(np.stack(channels, axis=1)).astype(np.uint8)
+    below = np.minimum(place.astype(np.intp), len(stops) - 2)
+    colours = stops[below] + (place - below)[:, None] * (stops[below + 1] - stops[below])
+    rounded: NDArray[np.uint8] = np.rint(colours).astype(np.uint8)
+    return rounded
 
 
 def colour_bar(largest: float, unit: str | None, page: Page) -> list[Layer]:
