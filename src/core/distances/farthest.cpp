@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 #include <vector>
 
 #include "core/base/parallel.hpp"
@@ -54,16 +53,17 @@ class Walk {
   explicit Walk(const Shape& to) : to_(to) {}
 
   const End& to(const Point& p) {
-    if (last_ && last_->at == p) return last_->end;
+    if (has_last_ && last_.at == p) return last_.end;
     End end{{}, false};
-    if (last_) {
-      const std::uint32_t before = last_->end.nearest.element;
+    if (has_last_) {
+      const std::uint32_t before = last_.end.nearest.element;
       end.nearest = {square_distance(to_.elements()[before], p), before};
     }
     end.nearest = to_.tree().nearest(p, end.nearest);
     end.is_inside = to_.is_filled() && is_inside(p, end.nearest);
     last_ = {p, end};
-    return last_->end;
+    has_last_ = true;
+    return last_.end;
   }
 
  private:
@@ -74,13 +74,14 @@ class Walk {
 
   // Outlines do not come into the disc around a place that reaches to the nearest of them.
   bool is_inside(const Point& p, const Nearest& nearest) const {
-    if (last_ && square(p - last_->at) < surely * std::max(nearest.d2, last_->end.nearest.d2))
-      return last_->end.is_inside;
+    if (has_last_ && square(p - last_.at) < surely * std::max(nearest.d2, last_.end.nearest.d2))
+      return last_.end.is_inside;
     return to_.contains(p);
   }
 
   const Shape& to_;
-  std::optional<Stop> last_;
+  Stop last_{};
+  bool has_last_ = false;
 };
 
 // Looks along one segment for places that are farther than the best.
