@@ -126,7 +126,7 @@ class Parts(Value, Tabular, Geometric, Pictured):
         )
 
     def described(self) -> PolygonSet:
-        """Give the pieces with what is told of them as properties; a name that the input has takes the prefix voro_.
+        """Give the pieces with what is told of them as properties, ``voro_`` before a name that the input has, too.
 
         Examples
         --------
