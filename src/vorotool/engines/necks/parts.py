@@ -130,7 +130,7 @@ def _rings(outlines: Outlines) -> _Rings:
             pieces = [part for part in cut_at_repetitions(outlines.point[first:last].tolist()) if len(part) > 2]
         for piece in pieces:
             ring = _without_spikes(first + np.array(piece), outlines.edge)
-            if is_twice[contour] and len(ring) < 3:
+            if not len(ring) or (is_twice[contour] and len(ring) < 3):  # around a line alone nothing is left
                 continue
             least = int(np.lexsort(outlines.xy[ring].T[::-1])[0])
             rings.append(np.roll(ring, -least))
