@@ -202,9 +202,8 @@ def _check_none_larger(discs: Discs, disc: int, tree: STRtree, inside: Any, tole
 
     enough = float(discs.radius[disc]) * (1 + LARGER) + tolerance
     x0, y0, x1, y1 = inside.bounds
-    side = min(x1 - x0, y1 - y0) or max(x1 - x0, y1 - y0)
-    x, y = (np.arange(low + side / 2, max(high, low + side) + side / 2, side) for low, high in ((x0, x1), (y0, y1)))
-    places = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
+    side = max(x1 - x0, y1 - y0)
+    places = np.array([[x0 + side / 2, y0 + side / 2]])  # one square over all: a thin shape has no wide first grid
     while len(places) and len(places) <= _MOST_CELLS:
         away = _distances(tree, places)
         larger = first_wrong((away > enough) & shapely.contains_xy(inside, *places.T))
