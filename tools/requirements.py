@@ -1,6 +1,7 @@
-"""Print requirements that pyproject.toml states: `tools/requirements.py [--oldest] EXTRA...`.
+"""Print requirements that pyproject.toml states: `tools/requirements.py [--oldest] NAME...`.
 
-Those of running come first, then those of each extra. `--oldest` gives the oldest version that each allows.
+Those of running come first, then those of each extra or dependency group. `--oldest` prints the oldest version that
+each allows. pip reads dependency groups from version 25.1 on; the pip of Python 3.11 is older.
 """
 
 from __future__ import annotations
@@ -15,20 +16,25 @@ from typing import Any
 REQUIREMENT = re.compile(r"(?P<name>[A-Za-z0-9_.-]+)>=(?P<version>[0-9.]+)")
 
 
-def requirements(project: dict[str, Any], extras: list[str]) -> list[str]:
-    """Give what running and some extras require.
+def requirements(pyproject: dict[str, Any], names: list[str]) -> list[str]:
+    """Return what running and some extras or dependency groups require.
 
     Examples
     --------
-    >>> requirements({"dependencies": ["numpy>=2.0"], "optional-dependencies": {"zarr": ["zarr>=3"]}}, ["zarr"])
-    ['numpy>=2.0', 'zarr>=3']
+    >>> project = {"dependencies": ["numpy>=2.0"], "optional-dependencies": {"zarr": ["zarr>=3"]}}
+    >>> requirements({"project": project, "dependency-groups": {"dev": ["pytest>=8"]}}, ["zarr", "dev"])
+    ['numpy>=2.0', 'zarr>=3', 'pytest>=8']
     """
-    further = (project["optional-dependencies"][extra] for extra in extras)
-    return list(dict.fromkeys([*project["dependencies"], *(line for lines in further for line in lines)]))
+    project = pyproject["project"]
+    known = project["optional-dependencies"] | pyproject["dependency-groups"]
+    unknown = [name for name in names if name not in known]
+    if unknown:
+        raise SystemExit(f"pyproject.toml has no {unknown[0]!r}: use some of {', '.join(known)}")
+    return list(dict.fromkeys([*project["dependencies"], *(line for name in names for line in known[name])]))
 
 
 def oldest(stated: list[str]) -> list[str]:
-    """Give the oldest version that each requirement allows.
+    """Return the oldest version that each requirement allows.
 
     Examples
     --------
@@ -48,8 +54,8 @@ def oldest(stated: list[str]) -> list[str]:
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--oldest", action="store_true")
-    parser.add_argument("extras", nargs="*", metavar="EXTRA")
+    parser.add_argument("names", nargs="*", metavar="NAME", help="extra or dependency group")
     given = parser.parse_args()
     text = (Path(__file__).parents[1] / "pyproject.toml").read_text(encoding="utf-8")
-    found = requirements(tomllib.loads(text)["project"], given.extras)
+    found = requirements(tomllib.loads(text), given.names)
     sys.stdout.write(" ".join(oldest(found) if given.oldest else found) + "\n")

@@ -9,13 +9,22 @@ from requirements import oldest, requirements
 from support.processes.ended import ended_python
 
 ROOT = Path(__file__).parents[2]
+PYPROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+PROJECT = PYPROJECT["project"]
+
+
+def test_requirements_are_those_of_extras_and_of_groups():
+    for name in PROJECT["optional-dependencies"] | PYPROJECT["dependency-groups"]:
+        assert requirements(PYPROJECT, [name])[: len(PROJECT["dependencies"])] == PROJECT["dependencies"]
+    assert set(requirements(PYPROJECT, ["bench"])) > set(PYPROJECT["dependency-groups"]["bench"])
+    with pytest.raises(SystemExit, match="'benches'"):
+        requirements(PYPROJECT, ["build", "benches"])
 
 
 def test_the_oldest_versions_are_those_that_are_stated():
-    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    extras = [extra for extra in project["optional-dependencies"] if extra not in ("bench", "all")]
-    found = dict(requirement.split("==") for requirement in oldest(requirements(project, extras)))
-    for requirement in project["dependencies"]:
+    names = [name for name in (*PROJECT["optional-dependencies"], "build", "dev", "docs") if name != "all"]
+    found = dict(requirement.split("==") for requirement in oldest(requirements(PYPROJECT, names)))
+    for requirement in PROJECT["dependencies"]:
         name, version = requirement.split(">=")
         assert found[name] == version
     assert {"pytest", "zarr", "networkx", "dask", "nanobind"} < found.keys()
