@@ -1,4 +1,4 @@
-"""The small files that come with the package: where they are."""
+"""The samples that come with the package: their names and paths."""
 
 from __future__ import annotations
 
@@ -11,18 +11,17 @@ from vorotool.products.samples import SAMPLES
 
 
 def sample(name: str) -> Path:
-    """Give the path of a small file that comes with the package, for `read`.
+    """Return the path of a sample, a small file that comes with the package.
 
     Parameters
     ----------
     name : str
-        ``dots.csv``, ``six-seeds.csv``, ``blobs.png``, ``cells.png``, ``nuclei.tif``, ``shape.json``,
-        ``two-shapes.json``, ``segments.wkt`` or ``great-lakes.geojson``; ``vorotool sample`` says what each is.
+        Name of a sample, with or without its extension: ``dots.csv`` or ``dots``. ``vorotool sample`` lists all.
 
     Returns
     -------
     Path
-        Of the file in the package.
+        The file in the package, for `read`.
 
     Raises
     ------
@@ -35,11 +34,14 @@ def sample(name: str) -> Path:
     >>> len(vorotool.read(sample("dots.csv")))
     53
     """
-    if name not in SAMPLES:
-        meant = " or ".join(get_close_matches(name.lower(), SAMPLES))
-        raise UsageError(f"there is no sample {name!r}: " + (f"did you mean {meant}?" if meant else _listing()))
-    return Path(str(files("vorotool").joinpath("samples", name)))
+    return Path(str(files("vorotool").joinpath("samples", sample_name(name))))
 
 
-def _listing() -> str:
-    return f"use one of {', '.join(SAMPLES)}"
+def sample_name(name: str) -> str:
+    """Return the full name of a sample that is named with or without its extension."""
+    names = {Path(each).stem: each for each in SAMPLES} | {each: each for each in SAMPLES}
+    if name not in names:
+        close = " or ".join(dict.fromkeys(names[each] for each in get_close_matches(str(name).lower(), names)))
+        advice = f"did you mean {close}?" if close else f"use one of {', '.join(SAMPLES)}"
+        raise UsageError(f"there is no sample {name!r}: {advice}")
+    return names[name]

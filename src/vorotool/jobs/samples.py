@@ -1,12 +1,14 @@
-"""The small files that come with the package, written where they are wanted."""
+"""Write the samples that come with the package."""
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
-from vorotool.errors import UsageError
+from vorotool.errors import OutputError, UsageError
 from vorotool.formats.samples import sample
 from vorotool.products.formats import EXTENSIONS, FORMATS
+from vorotool.products.samples import SAMPLES
 
 
 def write_sample(name: str, output: str | None) -> None:
@@ -15,27 +17,71 @@ def write_sample(name: str, output: str | None) -> None:
     Parameters
     ----------
     name : str
-        One of `vorotool.products.samples.SAMPLES`.
+        One of `vorotool.products.samples.SAMPLES`, with or without its extension.
     output : str, optional
         Where to write; by default standard output, for text.
 
     Raises
     ------
     UsageError
-        If there is no such sample, or it is binary and nothing says where to.
+        If there is no such sample, or it is binary and `output` is missing.
 
     Examples
     --------
-    >>> write_sample("dots", None)
+    >>> write_sample("dot", None)
     Traceback (most recent call last):
         ...
-    vorotool.errors.UsageError: there is no sample 'dots': did you mean dots.csv?
+    vorotool.errors.UsageError: there is no sample 'dot': did you mean dots.csv?
     """
     from vorotool.formats.io.atomic_output import open_output
 
     path = sample(name)
-    is_binary = not FORMATS[EXTENSIONS[Path(name).suffix]].is_text
+    is_binary = not FORMATS[EXTENSIONS[path.suffix]].is_text
     if output is None and is_binary:
-        raise UsageError(f"{name} is binary: say where it goes with -o {name}")
+        raise UsageError(f"{path.name} is binary: name a file with -o {path.name}")
     with open_output(output or "-", binary=is_binary) as out:
         out.write(path.read_bytes())
+
+
+def write_all_samples(folder: str) -> None:
+    """Write every sample into a folder, which is made if it is missing; never replace a file with other content.
+
+    Parameters
+    ----------
+    folder : str
+        Where to write.
+
+    Raises
+    ------
+    UsageError
+        If the folder is standard output.
+    OutputError
+        If one of the files exists with other content, before any is written, or if one cannot be written.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     write_all_samples(folder)
+    ...     "dots.csv" in os.listdir(folder)
+    True
+    """
+    from vorotool.formats.io.atomic_output import make_folder
+    from vorotool.formats.io.descriptors import STANDARD
+
+    if folder == STANDARD:
+        raise UsageError("--all writes files: name a folder with -o")
+    make_folder(folder)
+    targets = {name: Path(folder) / name for name in SAMPLES}
+    missing = {name: target for name, target in targets.items() if not _is_written(name, target)}
+    for name, target in missing.items():
+        write_sample(name, str(target))
+
+
+def _is_written(name: str, target: Path) -> bool:
+    """Whether a sample is in its place already; refuse to replace anything else that is there."""
+    if not os.path.lexists(target):
+        return False
+    if target.is_file() and target.read_bytes() == sample(name).read_bytes():
+        return True
+    raise OutputError(f"{target} exists with other content, which is never replaced: name another folder with -o")

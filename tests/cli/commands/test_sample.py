@@ -4,7 +4,9 @@ from pathlib import Path
 
 import pytest
 
+from vorotool import UsageError
 from vorotool.formats import read
+from vorotool.formats.samples import sample
 from vorotool.products.samples import SAMPLES
 
 ROOT = Path(__file__).parents[3]
@@ -40,21 +42,24 @@ def test_what_is_binary_goes_through_pipes_where_it_is_said(process):
 
 
 @pytest.mark.parametrize(
-    ("words", "code", "said"),
+    ("words", "code", "named"),
     [
-        ("cells.png", 2, "error: cells.png is binary: say where it goes with -o cells.png"),
-        ("dots", 2, "error: there is no sample 'dots': did you mean dots.csv?"),
-        ("Cells.PNG", 2, "error: there is no sample 'Cells.PNG': did you mean cells.png or blobs.png?"),
-        ("../dots.csv/..", 2, "error: there is no sample '../dots.csv/..': did you mean dots.csv?"),
-        ("qqqq", 2, "error: there is no sample 'qqqq': use one of dots.csv, six-seeds.csv, "),
-        ("-o dots.csv", 2, "error: -o dots.csv needs the name of a sample: use one of dots.csv, "),
-        ("dots.csv -o no/such/folder.csv", 4, "error: no/such/folder.csv cannot be written"),
+        ("cells.png", 2, ["cells.png", "-o"]),
+        ("blobs", 2, ["-o blobs.png"]),
+        ("dot", 2, ["'dot'", "dots.csv"]),
+        ("Cells.PNG", 2, ["'Cells.PNG'", "cells.png"]),
+        ("../dots.csv/..", 2, ["'../dots.csv/..'", "dots.csv"]),
+        ("qqqq", 2, ["'qqqq'", *SAMPLES]),
+        ("-o dots.csv", 2, ["-o dots.csv", "--all"]),
+        ("dots.csv --all", 2, ["dots.csv", "--all"]),
+        ("--all -o -", 2, ["--all", "-o"]),
+        ("dots.csv -o no/such/folder.csv", 4, ["no/such/folder.csv"]),
     ],
 )
-def test_what_cannot_be_written(run, words, code, said):
+def test_what_cannot_be_written(run, words, code, named):
     done = run("sample", *words.split())
     assert (done.code, done.out) == (code, "")
-    assert done.err.startswith(said)
+    assert all(text in done.err for text in named), done.err
 
 
 def test_completion_offers_the_names(process):
@@ -62,4 +67,60 @@ def test_completion_offers_the_names(process):
 
     asked = {"_VOROTOOL_COMPLETE": "bash_complete", "COMP_WORDS": "vorotool sample s", "COMP_CWORD": "2"}
     done = process(env={**os.environ, **asked})
-    assert done.communicate()[0].decode().split() == ["plain,six-seeds.csv", "plain,shape.json", "plain,segments.wkt"]
+    names = ["six-seeds.csv", "shape.json", "segments.wkt", "streets.geojson"]
+    assert done.communicate()[0].decode().split() == [f"plain,{name}" for name in names]
+
+
+# ---- names without extensions, all samples -------------------------------------------------------
+@pytest.mark.parametrize("name", SAMPLES)
+def test_a_name_without_its_extension_is_enough(run, tmp_path, name):
+    assert sample(Path(name).stem) == sample(name)
+    assert run("sample", Path(name).stem, "-o", "out").code == 0
+    assert (tmp_path / "out").read_bytes() == sample(name).read_bytes()
+
+
+def test_the_library_refuses_other_names():
+    for name in ("", "dot", "DOTS", "nuclei.ome.", "samples/dots.csv"):
+        with pytest.raises(UsageError, match="sample"):
+            sample(name)
+
+
+@pytest.mark.parametrize("folder", [None, "new/folder", "."])
+def test_all_samples_are_written_at_once_and_again(run, tmp_path, folder):
+    words = ["sample", "--all", *(["-o", folder] if folder else [])]
+    for _ in range(2):
+        done = run(*words)
+        assert (done.code, done.out, done.err) == (0, "", "")
+        written = {path.name: path.read_bytes() for path in (tmp_path / (folder or ".")).iterdir() if path.is_file()}
+        assert written == {name: sample(name).read_bytes() for name in SAMPLES}
+    (tmp_path / (folder or ".") / "logo.svg").unlink()
+    assert run(*words).code == 0
+    assert (tmp_path / (folder or ".") / "logo.svg").read_bytes() == sample("logo").read_bytes()
+
+
+def occupy(path, kind):
+    """Put something other than a sample in its place."""
+    if kind == "folder":
+        path.mkdir()
+    elif kind == "link":
+        path.symlink_to("nowhere")
+    else:
+        path.write_text("mine")
+
+
+@pytest.mark.parametrize("kind", ["file", "folder", "link"])
+@pytest.mark.parametrize("name", ["dots.csv", "great-lakes.geojson"])
+def test_all_samples_replace_nothing_that_is_there(run, tmp_path, name, kind):
+    occupy(tmp_path / name, kind)
+    done = run("sample", "--all")
+    assert (done.code, done.out) == (4, "")
+    assert name in done.err
+    assert [path.name for path in tmp_path.iterdir()] == [name]
+    assert kind != "file" or (tmp_path / name).read_text() == "mine"
+
+
+def test_all_samples_need_a_folder(run, tmp_path):
+    (tmp_path / "a").write_text("")
+    done = run("sample", "--all", "-o", "a")
+    assert done.code == 4
+    assert "'a'" in done.err

@@ -10,27 +10,39 @@ from vorotool.products.samples import SAMPLES
 
 @click.command("sample")
 @click.argument("name", required=False, shell_complete=words(SAMPLES))
+@click.option("--all", "every", is_flag=True, help="Write every sample into a folder.")
 @click.option(
-    "-o", "--output", metavar="FILE", help="Where to write; by default standard output.", shell_complete=any_file
+    "-o",
+    "--output",
+    metavar="FILE",
+    help="Output file; by default standard output. With --all a folder; by default the current one.",
+    shell_complete=any_file,
 )
-def command(name: str | None, output: str | None) -> None:
+def command(name: str | None, every: bool, output: str | None) -> None:
     """Write a small file to try commands on; without a name, list all.
 
     \b
     Example:
       vorotool sample dots.csv -o dots.csv
 
-    The examples of all commands use these files, so that they run in any folder. Text goes to standard output unless
-    -o names a file, so that it can be read by another command: vorotool sample shape.json | vorotool skeleton-exact -
+    The examples of all commands and of the documentation use these files. vorotool sample --all writes every one into
+    the current folder and never replaces a file with other content. Text goes to standard output unless -o names a
+    file, for another command to read: vorotool sample shape.json | vorotool skeleton-exact -
     """
     from vorotool.errors import UsageError
 
-    if name is not None:
+    if every and name is not None:
+        raise UsageError(f"--all writes every sample: leave out {name}, or --all")
+    if every:
+        from vorotool.jobs.samples import write_all_samples
+
+        write_all_samples("." if output is None else output)
+    elif name is not None:
         from vorotool.jobs.samples import write_sample
 
         write_sample(name, output)
     elif output is not None:
-        raise UsageError(f"-o {output} needs the name of a sample: use one of {', '.join(SAMPLES)}")
+        raise UsageError(f"-o {output} needs the name of a sample, or --all: use one of {', '.join(SAMPLES)}")
     else:
         width = max(map(len, SAMPLES))
         click.echo("\n".join(f"{each:{width}}  {text}" for each, text in SAMPLES.items()))
