@@ -1,6 +1,7 @@
 """What is said is known by its kind and by the input that it is about, never by its words."""
 
 import json
+import os
 
 import pytest
 
@@ -86,3 +87,43 @@ def test_arrays_of_a_skeleton_are_no_points(run, folder):
     for command in ("delaunay", "alphashape"):
         done = run(command, "a.npz")
         assert (done.code, "JSON" in done.err, "--input-format" in done.err) == (3, True, False)
+
+
+HOSTILE = "a\x1b[31m\nb\u202e.csv"
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["info"],
+        ["delaunay"],
+        ["delaunay", "--out-dir", "out", "-j", "1"],
+        ["skeleton-exact", "--no-such-option"],
+        [None],
+    ],
+)
+@pytest.mark.parametrize("content", [None, "x,y\n1,nonsense\n", "x,y\n1,2\n3,4\n5,9\n"])
+def test_names_of_files_do_not_drive_the_terminal(run, tmp_path, arguments, content):
+    if content is not None:
+        (tmp_path / HOSTILE).write_text(content)
+    outcome = run(*[HOSTILE if each is None else each for each in arguments], HOSTILE)
+    shown = outcome.err + (outcome.out if arguments == ["info"] else "")
+    assert not set("\x1b\u202e") & set(shown)
+    if arguments == ["info"]:
+        assert "a\\x1b[31m\\nb\\u202e.csv" in shown
+
+
+@pytest.mark.parametrize("encoding", ["ascii", "cp1252", "gbk"])
+@pytest.mark.parametrize("arguments", [["sample"], ["alphashape", "--help"], ["voronoi", "-h"], ["info", "日.csv"]])
+def test_any_encoding_of_the_terminal_will_do(process, tmp_path, encoding, arguments):
+    (tmp_path / "日.csv").write_text("x,y\n1,2\n")
+    done = process(*arguments, env={**os.environ, "PYTHONIOENCODING": encoding})
+    out, err = done.communicate()
+    assert (done.returncode, err) == (0, b"")
+    assert out
+
+
+def test_standard_input_is_described_once(run):
+    outcome = run("info", "-", "-")
+    assert (outcome.code, outcome.out) == (2, "")
+    assert "-" in outcome.err

@@ -103,7 +103,7 @@ def connected(address: str, jobs: int | None) -> Iterator[Any]:
     try:
         import distributed
     except ImportError:
-        raise UsageError("--cluster needs dask.distributed: pip install vorotool[distributed]") from None
+        raise UsageError("--cluster needs dask.distributed: pip install 'vorotool[distributed]'") from None
     with ExitStack() as stack:
         yield _client(distributed, address, jobs, stack)
 

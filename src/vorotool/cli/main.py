@@ -15,6 +15,7 @@ import click
 from vorotool import __version__
 from vorotool.errors import VorotoolError
 from vorotool.jobs.failures import explained
+from vorotool.jobs.terminal import escaped, print_text, tell
 from vorotool.signals import handle_termination, insist_on_the_end, received, settled
 
 if TYPE_CHECKING:
@@ -170,7 +171,7 @@ def _run(arguments: list[str] | None) -> int:
         shown = io.StringIO()
         error.show(shown)
         with suppress(OSError):  # the exit code remains
-            click.echo(re.sub("^Error: ", "error: ", shown.getvalue(), flags=re.MULTILINE), err=True, nl=False)
+            print_text(_lines_of(shown.getvalue()), sys.stderr)
         return error.exit_code
     except SignalledError as error:
         return error.code
@@ -180,6 +181,11 @@ def _run(arguments: list[str] | None) -> int:
         if isinstance(error, OSError) and not isinstance(error, VorotoolError):
             return _fail(_of_streams(error), EXIT_OUTPUT)
         return _fail(*explained(error))
+
+
+def _lines_of(text: str) -> str:
+    """Write the lines of click's message as ours are."""
+    return "\n".join(map(escaped, re.sub("^Error: ", "error: ", text, flags=re.MULTILINE).split("\n")))
 
 
 def _of_streams(error: OSError) -> str:
@@ -192,5 +198,5 @@ def _of_streams(error: OSError) -> str:
 
 def _fail(message: str, code: int) -> int:
     with suppress(OSError):  # the exit code remains
-        click.echo(f"error: {message}", err=True)
+        tell(f"error: {message}")
     return code

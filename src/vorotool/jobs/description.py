@@ -32,9 +32,9 @@ from vorotool.geometry.polygons.polygon_set import HOLE, PolygonSet
 from vorotool.geometry.skeleton.offsets import Offsets
 from vorotool.geometry.skeleton.skeleton import Skeleton
 from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
-from vorotool.jobs.inputs import refuse
+from vorotool.jobs.inputs import check_streams, refuse
 from vorotool.jobs.options import ReadingOptions
-from vorotool.jobs.run_log import tell
+from vorotool.jobs.terminal import escaped, tell
 from vorotool.products.inputs import NAMES_WITH, TAKEN_BY, VOLUME_NAMES, VOLUMES_TAKEN_BY
 
 MOST_CHANNELS = 4
@@ -62,6 +62,7 @@ def describe_inputs(options: ReadingOptions) -> None:
     names = [each for name in options.inputs for each in _named_by(name)]
     if not names:
         raise UsageError("0 inputs are given: name files, a folder, or - for standard input")
+    check_streams(("the input", name) for name in names)
     failed = 0
     for name in names:
         try:
@@ -391,7 +392,7 @@ def as_text(told: Description) -> bytes:
     lines = [f"  {_TITLES.get(name, name):10} {text}" for name, text in shown.items() if text]
     lines += [f"  {'note':10} {text}" for text in told.get("notes", ())]
     title = "standard input" if told["input"] == "-" else told["input"]
-    return "\n".join([title, *lines, ""]).encode("utf-8", "surrogateescape")
+    return "\n".join([*map(escaped, (title, *lines)), ""]).encode("utf-8", "surrogateescape")
 
 
 _TITLES = {

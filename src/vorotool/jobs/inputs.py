@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from vorotool.errors import InputError, UsageError
+from vorotool.formats.io.descriptors import input_identity
 from vorotool.jobs.masks import settled_foreground
 from vorotool.jobs.options import (
     ComputingOptions,
@@ -102,6 +103,32 @@ def read_opened(
     if isinstance(o, SiteOptions):
         refuse(o.for_images(), "is for images, but the input is a list of points")
     return value
+
+
+def check_streams(named: Iterable[tuple[str, str]]) -> None:
+    """Refuse two names of one stream: whoever reads it first leaves nothing for the other.
+
+    Parameters
+    ----------
+    named : iterable of (str, str)
+        What reads, as the user knows it, and the name that it reads.
+
+    Raises
+    ------
+    UsageError
+        Naming both.
+    """
+    readers: dict[Hashable, str] = {}
+    for reader, name in named:
+        identity = input_identity(name)
+        if identity is None:
+            continue
+        if identity in readers:
+            raise UsageError(
+                f"{reader} {name} and {readers[identity]} are one stream, which is read once: name a file for one of "
+                "the two"
+            )
+        readers[identity] = f"{reader} {name}"
 
 
 def check_components(o: SiteOptions) -> None:

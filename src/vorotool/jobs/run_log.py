@@ -13,6 +13,7 @@ from typing import Any
 from vorotool import __version__
 from vorotool.errors import Kind, Message, VorotoolWarning
 from vorotool.geometry.progress import Progress, Report
+from vorotool.jobs.terminal import tell
 from vorotool.signals import end_by_exceptions
 
 PROGRESS_AFTER = 1.0
@@ -21,12 +22,6 @@ PROGRESS_AFTER = 1.0
 
 MakeBar = Callable[[str], AbstractContextManager[Report]]
 """Make a bar with a label."""
-
-
-def tell(message: str) -> None:
-    """Say something on standard error."""
-    sys.stderr.write(f"{message}\n")
-    sys.stderr.flush()
 
 
 class Run:

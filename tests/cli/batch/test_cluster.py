@@ -103,7 +103,7 @@ def test_what_a_cluster_needs(run, many, monkeypatch):
     monkeypatch.setitem(sys.modules, "distributed", None)
     failed = run("tessellate", "many", "--out-dir", "out", "--cluster", "local")
     assert failed.code == 2
-    assert "pip install vorotool[distributed]" in failed.err
+    assert "pip install 'vorotool[distributed]'" in failed.err
 
 
 @pytest.mark.parametrize(

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping
+from collections.abc import Mapping
 
 from vorotool.batch.inputs import is_several
 from vorotool.cli.batch.progress_bar import progress_bar
 from vorotool.errors import UsageError
-from vorotool.formats.io.descriptors import input_identity
+from vorotool.jobs.inputs import check_streams
 from vorotool.jobs.job import Options, Recipe, process_input
 from vorotool.jobs.options import JobOptions
 from vorotool.jobs.run_log import Run
@@ -30,7 +30,7 @@ def run_command(recipe: Recipe[Options], o: Options) -> None:
     UsageError
         If there is no input, or options do not go together.
     """
-    _check_streams(o)
+    check_streams([*(("the input", name) for name in o.inputs), *o.files_read().items()])
     o = with_spacing(o)
     if _is_batch(o):
         from vorotool.cli.batch.run_many import run_many
@@ -69,23 +69,6 @@ def refuse_several(named: Mapping[str, str]) -> None:
     for name, path in named.items():
         if is_several(path):
             raise UsageError(f"{name} {path} stands for several files, but two are compared: name one file each")
-
-
-def _check_streams(o: JobOptions) -> None:
-    """Refuse two names of one stream: whoever reads it first leaves nothing for the other."""
-    named = [(name, "the input") for name in o.inputs]
-    named += [(name, option) for option, name in o.files_read().items()]
-    readers: dict[Hashable, str] = {}
-    for name, reader in named:
-        identity = input_identity(name)
-        if identity is None:
-            continue
-        if identity in readers:
-            other = readers[identity]
-            raise UsageError(
-                f"{reader} {name} and {other} are one stream, which is read once: name a file for one of the two"
-            )
-        readers[identity] = f"{reader} {name}"
 
 
 def _is_batch(o: JobOptions) -> bool:

@@ -9,13 +9,12 @@ from contextlib import ExitStack
 from types import TracebackType
 from typing import Any
 
-import click
-
 from vorotool.batch.tasks import Outcome, Task
 from vorotool.cli.batch.progress_bar import progress_bar
 from vorotool.errors import BatchError, Message
 from vorotool.geometry.progress import Progress
 from vorotool.jobs.run_log import Run
+from vorotool.jobs.terminal import print_text, tell
 
 NO_COUNTS = frozenset({"threads", "passes", "steps_per_pixel", "largest_label"})
 """Whole numbers in statistics that mean nothing when they are added."""
@@ -59,16 +58,16 @@ class Report:
         status = "kept" if outcome.kept else "failed" if outcome.code else "done"
         self._counts[status] += 1
         if self._progress is not None and (outcome.warnings or outcome.code):
-            click.echo("\r\033[K", err=True, nl=False)  # in the place of the bar, which is drawn again below
+            print_text("\r\033[K", sys.stderr)  # in the place of the bar, which is drawn again below
         for warning in outcome.warnings:
             self._run.warn(_named(task.source, Message.of(warning)))
         if outcome.code:
             self._failures.append({"input": task.source, "exit": outcome.code, "error": outcome.message})
-            click.echo(f"error: {_named(task.source, Message.of(outcome.message))}", err=True)
+            tell(f"error: {_named(task.source, Message.of(outcome.message))}")
         if self._progress is not None:
             self._progress(self._counts.total() / self._total)
         elif not self._quiet:
-            click.echo(f"{self._counts.total()}/{self._total} {task.source}: {status}", err=True)
+            tell(f"{self._counts.total()}/{self._total} {task.source}: {status}")
         for name, seconds in outcome.seconds.items():
             self._run.seconds[name] = self._run.seconds.get(name, 0.0) + seconds
         self._totals.update({name: n for name, n in outcome.stats.items() if type(n) is int and name not in NO_COUNTS})

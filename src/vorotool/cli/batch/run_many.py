@@ -12,8 +12,6 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-import click
-
 from vorotool.batch.pages import PageName, path_of
 from vorotool.batch.plan import check_inside
 from vorotool.batch.run import Results, run_batch
@@ -32,6 +30,7 @@ from vorotool.jobs.job import Options, Recipe, process_input
 from vorotool.jobs.options import ALL_PAGES, JobOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
+from vorotool.jobs.terminal import print_text, tell
 from vorotool.jobs.units import unit_stats
 from vorotool.signals import end_by_exceptions
 
@@ -87,7 +86,7 @@ def run_many(recipe: Recipe[Options], o: Options) -> None:
     if o.dry_run:
         _print_plan(plan)
         for text in () if o.quiet else plan.notes:
-            click.echo(f"note: {text}", err=True)
+            tell(f"note: {text}")
         return
     _check_files(o)
     end_by_exceptions()
@@ -124,7 +123,7 @@ def _print_plan(plan: Plan[Options]) -> None:
     for task in plan.tasks:
         kept = task.done is not None and is_done(task, digest_of(path_of(task.source)))
         record = {"input": task.source, "status": "kept" if kept else "planned", "outputs": task.outputs}
-        click.echo(json.dumps(record))
+        print_text(json.dumps(record) + "\n")
 
 
 def _check_files(o: JobOptions) -> None:

@@ -18,6 +18,8 @@ from click.shell_completion import (
     split_arg_string,
 )
 
+from vorotool.jobs.terminal import print_text
+
 VARIABLE = "_VOROTOOL_COMPLETE"
 """Set where a shell asks for candidates."""
 
@@ -168,4 +170,4 @@ def command(context: click.Context, shell: str) -> None:
     """
     group = context.find_root().command
     text = ShellComplete.source(SHELLS[shell](group, {}, "vorotool", VARIABLE))
-    click.echo(text, nl=False)
+    print_text(text)

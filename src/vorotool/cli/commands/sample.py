@@ -44,5 +44,7 @@ def command(name: str | None, every: bool, output: str | None) -> None:
     elif output is not None:
         raise UsageError(f"-o {output} needs the name of a sample, or --all: use one of {', '.join(SAMPLES)}")
     else:
+        from vorotool.jobs.terminal import print_text
+
         width = max(map(len, SAMPLES))
-        click.echo("\n".join(f"{each:{width}}  {text}" for each, text in SAMPLES.items()))
+        print_text("".join(f"{each:{width}}  {text}\n" for each, text in SAMPLES.items()))

@@ -8,6 +8,7 @@ from typing import Any
 import click
 
 from vorotool.cli.options.shared import Names
+from vorotool.jobs.terminal import print_text
 
 _GROUPS = {
     "Output": "output format what dtype chunk levels tiled flatten precision no_properties safe_csv no_clobber",
@@ -108,5 +109,5 @@ class GroupedCommand(click.Command):
             formatter.write_dl([self._shortened(name, records[name]) for name in COMMON if name in records][:MOST])
         formatter.write_paragraph()
         formatter.write_text(f"All options: {ctx.command_path} --help")
-        click.echo(formatter.getvalue().rstrip("\n"), color=ctx.color)
+        print_text(formatter.getvalue().rstrip("\n") + "\n")
         ctx.exit()

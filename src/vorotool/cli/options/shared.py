@@ -175,7 +175,7 @@ class Page(ParameterType[int]):
 class Names(ParameterType[tuple[str, ...]]):
     """Names from a list, separated by commas."""
 
-    name = "A[,B…]"
+    name = "A[,B...]"
 
     def __init__(self, choices: tuple[str, ...]) -> None:
         self.choices = choices

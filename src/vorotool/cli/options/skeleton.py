@@ -59,7 +59,7 @@ _BEFORE: tuple[Decorator, ...] = (
         "--smooth",
         type=Length(zero=False),
         metavar="TOLERANCE",
-        help="Fit cubic Bézier curves to skeletons and centerlines that are nowhere farther from them than this.",
+        help="Fit cubic Bezier curves to skeletons and centerlines that are nowhere farther from them than this.",
     ),
     click.option(
         "--features",

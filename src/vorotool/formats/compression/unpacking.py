@@ -128,7 +128,7 @@ def _numcodecs(name: str) -> Any:
     try:
         return importlib.import_module(f"numcodecs.{name}")
     except ImportError:
-        raise UsageError(f"data packed with {name} need the numcodecs package: pip install vorotool[zarr]") from None
+        raise UsageError(f"data packed with {name} need the numcodecs package: pip install 'vorotool[zarr]'") from None
 
 
 def _inflated(data: Packed, limit: int, window: int) -> tuple[bytes, bytes]:

@@ -40,7 +40,7 @@ def zarr_module() -> Any:
     try:
         import zarr
     except ImportError:
-        raise UsageError("Zarr stores need the zarr package: pip install vorotool[zarr]") from None
+        raise UsageError("Zarr stores need the zarr package: pip install 'vorotool[zarr]'") from None
     return zarr
 
 

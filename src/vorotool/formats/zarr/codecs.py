@@ -55,7 +55,7 @@ class Checksum:
         try:
             import google_crc32c
         except ImportError:
-            raise UsageError("checksums of Zarr stores need google-crc32c: pip install vorotool[zarr]") from None
+            raise UsageError("checksums of Zarr stores need google-crc32c: pip install 'vorotool[zarr]'") from None
         body, stated = data[:-_CHECKSUM_BYTES], data[-_CHECKSUM_BYTES:]
         if google_crc32c.value(bytes(body)) != int.from_bytes(stated, "little"):
             raise ValueError("a chunk has a wrong checksum")

@@ -1,0 +1,47 @@
+"""Text for people: file names and values in it may hold characters that would drive a terminal."""
+
+from __future__ import annotations
+
+import re
+import sys
+from typing import TextIO
+
+_UNPRINTABLE = re.compile("[\x00-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069]")
+"""Control characters, ends of lines, and what changes the direction of text."""
+
+
+def escaped(text: str) -> str:
+    r"""Write characters that a terminal acts upon as escapes.
+
+    Parameters
+    ----------
+    text : str
+        One line.
+
+    Examples
+    --------
+    >>> print(escaped("a\x1b[2J\nb.csv: é"))
+    a\x1b[2J\nb.csv: é
+    """
+    return _UNPRINTABLE.sub(lambda match: repr(match[0])[1:-1], text)
+
+
+def tell(line: str) -> None:
+    """Print one line on standard error, with escapes."""
+    print_text(f"{escaped(line)}\n", sys.stderr)
+
+
+def print_text(text: str, stream: TextIO | None = None) -> None:
+    """Print text on standard output or another stream; characters that its encoding lacks become escapes.
+
+    Parameters
+    ----------
+    text : str
+        With its ends of lines.
+    stream : text stream, optional
+        By default standard output.
+    """
+    stream = sys.stdout if stream is None else stream
+    encoding = getattr(stream, "encoding", None) or "utf-8"
+    stream.write(text.encode(encoding, "backslashreplace").decode(encoding))
+    stream.flush()
