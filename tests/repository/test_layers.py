@@ -15,15 +15,15 @@ geometry -> products
 formats/io -> geometry
 geometry/points -> geometry
 geometry/polygons -> geometry
-formats/parsing -> formats/io, geometry, geometry/points, geometry/polygons
 geometry/curves -> geometry, geometry/polygons
-formats/points -> formats/io, formats/parsing, geometry, geometry/points
+formats/parsing -> formats/io, geometry, geometry/curves, geometry/points, geometry/polygons
+formats/points -> formats/io, formats/parsing, geometry, geometry/curves, geometry/points
 render/canvas -> geometry, geometry/curves, products
 render/label_images -> geometry, geometry/points, products, render/canvas
 geometry/voronoi -> geometry, geometry/curves, geometry/polygons, products
 render ->
 geometry/volumes -> geometry, geometry/points
-geometry/arguments -> geometry, geometry/points, geometry/polygons, geometry/volumes, products
+geometry/arguments -> geometry, geometry/curves, geometry/points, geometry/polygons, geometry/volumes, products
 formats/zarr -> formats/compression, formats/io, geometry, geometry/volumes
 formats/images -> formats/compression, formats/io, formats/parsing, formats/zarr, geometry, geometry/points
 geometry/mesh -> geometry, geometry/arguments, geometry/curves
@@ -34,7 +34,7 @@ engines/delaunay -> geometry, geometry/arguments, geometry/curves, geometry/mesh
 engines/segment_voronoi -> geometry, geometry/polygons, geometry/skeleton
 formats/text -> geometry, geometry/skeleton
 formats/features -> formats/io, formats/parsing, formats/points, formats/text, geometry, geometry/arguments,
-    geometry/points, geometry/polygons, products
+    geometry/curves, geometry/points, geometry/polygons, products
 geometry/alpha -> geometry, geometry/curves, geometry/mesh, geometry/polygons
 formats/drawing -> formats/compression, formats/io, formats/parsing, geometry, geometry/alpha, geometry/curves,
     geometry/polygons, geometry/skeleton, products
@@ -42,7 +42,7 @@ engines/alpha -> engines/delaunay, geometry, geometry/alpha, geometry/arguments,
     geometry/points, geometry/polygons, typing
 engines/features -> engines/arrangement, geometry, geometry/polygons, geometry/skeleton
 formats/polygons -> formats/io, formats/parsing, formats/points, formats/text, geometry, geometry/arguments,
-    geometry/polygons, products
+    geometry/curves, geometry/polygons, products
 render/pages -> geometry, geometry/alpha, geometry/curves, geometry/mesh, geometry/skeleton, geometry/voronoi, products,
     render/canvas, render/label_images
 formats -> formats/drawing, formats/features, formats/images, formats/io, formats/parsing, formats/points,

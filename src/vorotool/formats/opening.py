@@ -120,7 +120,8 @@ class Opened:
             told("zarr")
             return read_rows(self.array, max_pixels=given.max_pixels, note=given.note)
         content = read_source(self.name) if self.content is None else self.content
-        holds, source = recognised(replace(content, layer=self.layer), self.geometry, self.said, given.columns)
+        content = replace(content, layer=self.layer, max_sites=given.max_sites, flatten=given.flatten)
+        holds, source = recognised(content, self.geometry, self.said, given.columns)
         told(source.format)
         value: PointSet | PolygonSet | Sites | Raster | Skeleton | Offsets | VoronoiMap
         value = read_recognised(holds, source, given)

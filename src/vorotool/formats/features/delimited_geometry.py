@@ -17,6 +17,7 @@ from vorotool.formats.parsing.reader_options import shortened
 from vorotool.formats.parsing.reference_systems import crs_of_numbers
 from vorotool.formats.points.delimited import DelimitedText, delimited_text
 from vorotool.geometry.crs import without_number
+from vorotool.geometry.curves.well_known import geometry_of_binary, geometry_of_texts
 
 _GEOMETRY_COLUMNS = ("wkt", "geometry", "geom", "the_geom", "wkb", "wkb_geometry", "wkt_geom")
 _BINARY = re.compile(r"(00|01)([0-9A-Fa-f]{2}){8,}")
@@ -56,27 +57,25 @@ def features_of(source: Source) -> Features:
     columns = text.columns()
     written = columns.pop(list(columns)[column])
     check_nesting("\n".join(written), name=source.name)
-    geometry, crs = _parsed(text, written)
+    geometry, crs, curves = _parsed(text, written, source.flatten)
 
     def place(feature: int) -> str:
         return f"{source.name}, line {text.line_of(feature)}"
 
-    return Features(source.name, geometry, columns, None, crs, place)
+    return Features(source.name, geometry, columns, None, crs, place, curves=curves)
 
 
-def _parsed(text: DelimitedText, written: Sequence[str]) -> tuple[NDArray[np.object_], Any]:
-    import shapely
-
+def _parsed(text: DelimitedText, written: Sequence[str], flatten: float | None) -> tuple[NDArray[np.object_], Any, int]:
+    """The geometry, its reference system, and how many curves were flattened."""
     fields = [field.strip() for field in written]
     kept = [row for row, field in enumerate(fields) if field]
     geometry = np.full(len(fields), None, dtype=object)
     if all(_BINARY.fullmatch(fields[row]) for row in kept) and kept:
-        geometry[kept] = shapely.from_wkb([fields[row] for row in kept], on_invalid="ignore")
+        geometry[kept], curves = geometry_of_binary([fields[row] for row in kept], flatten)
         crs = crs_of_geometry(text.name, geometry[kept], lambda index: text.line_of(kept[index]))
     else:
         cut = [without_number(fields[row]) for row in kept]
-        with np.errstate(all="ignore"):  # numbers beyond the largest double are found by their readers
-            geometry[kept] = shapely.from_wkt(np.array([wkt for wkt, _ in cut], dtype=object), on_invalid="ignore")
+        geometry[kept], curves = geometry_of_texts([wkt for wkt, _ in cut], flatten)
         crs = crs_of_numbers(text.name, [number for _, number in cut], lambda index: text.line_of(kept[index]))
     bad = next((row for row in kept if geometry[row] is None), None)
     if bad is not None:
@@ -84,4 +83,4 @@ def _parsed(text: DelimitedText, written: Sequence[str]) -> tuple[NDArray[np.obj
             f"{text.name}, line {text.line_of(bad)}: {shortened(fields[bad])} is neither WKT nor WKB; write for "
             "example POINT (3 4)"
         )
-    return geometry, crs
+    return geometry, crs, curves

@@ -42,6 +42,8 @@ class Features:
         Gives the words for a feature (0-based), for messages.
     is_table : bool
         There is no geometry at all: coordinates are among the columns, if anywhere.
+    curves : int
+        How many curves were flattened.
     """
 
     name: str
@@ -51,6 +53,7 @@ class Features:
     crs: Any = None
     place: Callable[[int], str] | None = None
     is_table: bool = False
+    curves: int = 0
 
     @property
     def holds_shapes(self) -> bool:
@@ -128,6 +131,7 @@ def _shapes_of(features: Features, kept: NDArray[np.int64], options: ReadOptions
     import shapely
 
     geometry = features.geometry[kept]
+    options.note_curves(features.name, features.curves)
     if shapely.has_z(geometry).any():
         options.note_heights(features.name)
     options.check_vertices(features.name, int(shapely.get_num_coordinates(geometry).sum()))

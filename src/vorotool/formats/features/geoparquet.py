@@ -12,6 +12,7 @@ from vorotool.formats.features.feature_table import Features
 from vorotool.formats.io.limits import decoding
 from vorotool.formats.io.sources import Source
 from vorotool.geometry.crs import LONGITUDE_LATITUDE, crs_member, member_of_text
+from vorotool.geometry.curves.well_known import geometry_of_binary
 from vorotool.geometry.extras import needed
 
 _TITLE = "Parquet"
@@ -29,8 +30,6 @@ def features_of(source: Source) -> Features:
     UsageError
         If pyarrow is not installed.
     """
-    import shapely
-
     with decoding(source.name, _TITLE):
         columns, document = _columns(source)
         if document is None:
@@ -44,10 +43,13 @@ def features_of(source: Source) -> Features:
                 "anew, as geopandas does by default"
             )
         others = [each for each in document["columns"] if each != name]
-        geometry = np.asarray(shapely.from_wkb(np.array(columns.pop(name), dtype=object)))
+        geometry, curves = geometry_of_binary(written := columns.pop(name), source.flatten)
+        bad = next((row for row, each in enumerate(written) if each is not None and geometry[row] is None), None)
+        if bad is not None:
+            raise InputError(f"{source.name}: the geometry of row {bad + 1} is not WKB; is the file damaged?")
         kept = {each: values for each, values in columns.items() if each not in others}
         ids = kept.pop("id", None) if document.get("vorotool_ids") else None
-    return Features(source.name, geometry, kept, ids, _crs(described))
+    return Features(source.name, geometry, kept, ids, _crs(described), curves=curves)
 
 
 def _columns(source: Source) -> tuple[dict[str, list[Any]], Any]:

@@ -13,6 +13,7 @@ from vorotool.errors import InputError
 from vorotool.formats.features.feature_table import Features
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reference_systems import crs_of_numbers
+from vorotool.geometry.curves.well_known import geometry_of_binary
 
 _HEXADECIMAL = re.compile(rb"[0-9A-Fa-f\s]*")
 
@@ -34,12 +35,14 @@ def features_of(source: Source) -> Features:
 
     if not source.data.strip():
         raise InputError(f"{source.name} is empty: well-known binary was expected; check what was to write it")
-    written = source.data.split() if _HEXADECIMAL.fullmatch(source.data) else [source.data]
-    geometry = np.asarray(shapely.from_wkb(np.array(written, dtype=object), on_invalid="ignore")).reshape(-1)
+    is_digits = _HEXADECIMAL.fullmatch(source.data) is not None
+    written = source.data.split() if is_digits else [source.data]
+    geometry, curves = geometry_of_binary([item.decode() for item in written] if is_digits else written, source.flatten)
     bad = np.flatnonzero(shapely.is_missing(geometry))
     if bad.size:
         raise InputError(f"{source.name}: geometry {bad[0] + 1} is no WKB; is the file damaged or cut off?")
-    return Features(source.name, geometry, {}, None, crs_of_geometry(source.name, geometry, lambda row: row + 1))
+    crs = crs_of_geometry(source.name, geometry, lambda row: row + 1)
+    return Features(source.name, geometry, {}, None, crs, curves=curves)
 
 
 def crs_of_geometry(name: str, geometry: NDArray[Any], line_of: Callable[[int], int]) -> Any:

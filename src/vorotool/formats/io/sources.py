@@ -36,6 +36,10 @@ class Source:
         The JSON in it, or the features of a map, once that has been parsed.
     layer : str, optional
         The layer of a map that is wanted.
+    max_sites : int, optional
+        Most features of a map, which are read to tell what they are.
+    flatten : float, optional
+        How far lines may be from the curves of these.
 
     Examples
     --------
@@ -48,6 +52,8 @@ class Source:
     format: str = ""
     document: Any = None
     layer: str | None = None
+    max_sites: int | None = None
+    flatten: float | None = None
 
     @property
     def is_file(self) -> bool:

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError, LimitError, option
+from vorotool.geometry.curves.well_known import flattened_note
 from vorotool.geometry.pixel_frame import MAX_PIXELS
 
 LARGEST_LABEL = 0xFFFFFFFF
@@ -85,6 +86,11 @@ class ReadOptions:
         """Say how many sites have no geometry, if any."""
         if features:
             self.note(f"{name}: {features} features without a geometry have empty cells")
+
+    def note_curves(self, name: str, curves: int) -> None:
+        """Say how many curves were flattened, if any."""
+        if curves:
+            self.note(f"{name}: {flattened_note(curves)}")
 
     def note_heights(self, name: str) -> None:
         """Say that coordinates beyond x and y are not used."""

@@ -13,6 +13,7 @@ from vorotool.formats.parsing.reader_options import ReadOptions, no_points, shor
 from vorotool.formats.parsing.reference_systems import crs_of_numbers
 from vorotool.formats.points.rows import PointRows, point_set
 from vorotool.geometry.crs import without_number
+from vorotool.geometry.curves.well_known import geometry_of_texts
 from vorotool.geometry.points.conversion import COLLECTION, MULTIPOINT, POINT, part_numbers, single_points
 from vorotool.geometry.points.point_set import PointSet
 
@@ -29,8 +30,7 @@ def wkt_rows(source: Source, options: ReadOptions) -> PointRows:
     check_nesting(source.data, name=source.name)
     texts, lines, srids = geometry_texts(source)
     crs = crs_of_numbers(source.name, srids, lines.__getitem__)
-    with np.errstate(all="ignore"):  # numbers beyond the largest double are found below
-        geometries = shapely.from_wkt(np.array(texts, dtype=object), on_invalid="ignore")
+    geometries, _ = geometry_of_texts(texts)  # of which curves are no points
     for index in np.flatnonzero(shapely.get_type_id(geometries) != POINT):
         _check_geometry(geometries[index], texts[index], f"{source.name}, line {lines[index]}")
     points, owners = single_points(geometries)

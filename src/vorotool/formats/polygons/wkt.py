@@ -17,11 +17,12 @@ from vorotool.formats.points.wkt import geometry_texts
 from vorotool.formats.polygons.geojson import feature_ranges
 from vorotool.formats.text.coordinate_text import Digits
 from vorotool.geometry.arguments.sites import Sites
+from vorotool.geometry.curves.well_known import geometry_of_texts
 from vorotool.geometry.polygons.conversion import polygons_of_geometry
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 
 _COMMENT = re.compile(rb"^\s*#.*$", re.MULTILINE)
-_SHAPE = re.compile(rb"POLYGON|LINESTRING|LINEARRING", re.IGNORECASE)
+_SHAPE = re.compile(rb"POLYGON|LINESTRING|LINEARRING|CIRCULARSTRING|CURVE|SURFACE|TIN|TRIANGLE", re.IGNORECASE)
 _POINTS, _SHAPES, _COLLECTION = (0, 4), (1, 2, 3, 5, 6), 7  # type numbers of GEOS
 
 
@@ -53,12 +54,12 @@ def _read(source: Source, options: ReadOptions, *, takes_points: bool = False) -
     check_nesting(source.data, name=source.name)
     texts, lines, srids = geometry_texts(source)
     crs = crs_of_numbers(source.name, srids, lines.__getitem__)
-    with np.errstate(all="ignore"):  # numbers beyond the largest double are found below
-        geometries = shapely.from_wkt(np.array(texts, dtype=object), on_invalid="ignore")
+    geometries, curves = geometry_of_texts(texts, options.flatten)
     for index in np.flatnonzero(~np.isin(shapely.get_type_id(geometries), expected)):
         _check_geometry(geometries[index], texts[index], f"{source.name}, line {lines[index]}", expected)
     options.check_vertices(source.name, int(shapely.get_num_coordinates(geometries).sum()))
     _check_finite(source.name, geometries, texts, lines)
+    options.note_curves(source.name, curves)
     if shapely.has_z(geometries).any():
         options.note_heights(source.name)
     polygons = polygons_of_geometry(geometries, takes_points=takes_points)

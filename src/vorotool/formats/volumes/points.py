@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from os import PathLike, fspath
 
 import numpy as np
@@ -81,7 +82,7 @@ def read_xyz(
     )
     name = fspath(path)
     with reading(name):
-        rows = _rows(read_source(name), said, options)
+        rows = _rows(replace(read_source(name), max_sites=max_sites), said, options)
     return VolumePoints(rows.coordinates, rows.labels, rows.properties)
 
 

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError
+from vorotool.errors import InputError, warn
 from vorotool.geometry.arguments.descriptions import LONGEST
 from vorotool.geometry.arguments.tables import index_of, listed
 from vorotool.geometry.crs import crs_member, member_of_text, without_number
+from vorotool.geometry.curves.well_known import flattened_note, geometry_of_texts, without_curves
 from vorotool.geometry.row_index import index_of_rows
 
 SIMPLE_TYPES = ("Point", "LineString", "Polygon")
@@ -39,6 +40,8 @@ class HeldFeatures:
         What a series or a data frame calls them.
     crs : object, optional
         The ``crs`` member of GeoJSON.
+    curves : int
+        How many curves of texts were flattened.
     is_map : bool
         They come from a form in which features say where they are: pictures have y upwards, and what has no geometry is
         left out, since an index or an id tells of the others which they are.
@@ -49,6 +52,7 @@ class HeldFeatures:
     ids: list[Any] | None = None
     index: Any = None
     crs: Any = None
+    curves: int = 0
     is_map: bool = False
 
     @property
@@ -96,6 +100,11 @@ def held_features(source: Any) -> HeldFeatures | None:
     >>> held_features("POINT (1 2)").geometry.tolist(), held_features([[1, 2]]) is None
     ([<POINT (1 2)>], True)
     """
+    held = _held(source)
+    return held if held is None else _without_curves(held)
+
+
+def _held(source: Any) -> HeldFeatures | None:
     if is_shapely(source):
         is_nothing = source.is_empty and source.geom_type in ("Point", "MultiPoint", "GeometryCollection")
         return HeldFeatures([] if is_nothing else [source])
@@ -148,35 +157,31 @@ def _of_items(items: list[Any], index: Any) -> HeldFeatures | None:
         held = _of_geojson({"type": "FeatureCollection", "features": items})
     else:
         plain = [_plain_item(item) for item in items]
-        held = HeldFeatures(plain, is_map=bool(items) and all(map(is_geojson, plain)))
-    if held is None or index is None:
-        return held
-    return HeldFeatures(held.items, held.properties, held.ids, index, held.crs, is_map=True)
+        is_map = bool(items) and all(is_geojson(each) for each, _ in plain)
+        held = HeldFeatures([each for each, _ in plain], curves=sum(curves for _, curves in plain), is_map=is_map)
+    return held if held is None or index is None else replace(held, index=index, is_map=True)
 
 
-def _plain_item(item: Any) -> Any:
-    """Give the geometry of an item of a mixed list; what is none stays as it is, for whoever knows it."""
+def _plain_item(item: Any) -> tuple[Any, int]:
+    """Give the geometry of an item of a mixed list, and its curves; what is none stays as it is."""
     if isinstance(item, str):
         held: Any = _of_texts([item])
     elif is_shapely(item) or not (is_geojson(item) or hasattr(item, "__geo_interface__")):
-        return item
+        return item, 0
     else:
         held = _of_geojson(item if is_geojson(item) else item.__geo_interface__)
     if held is None or len(held.items) == 1:
-        return item if held is None else held.items[0]
-    return {"type": "GeometryCollection", "geometries": [each for each in held.items if each is not None]}
+        return (item, 0) if held is None else (held.items[0], held.curves)
+    return {"type": "GeometryCollection", "geometries": [each for each in held.items if each is not None]}, 0
 
 
 def _of_texts(texts: Sequence[Any], *, is_alone: bool = False) -> HeldFeatures:
-    import shapely
-
     plain = [without_number(text.strip()) if isinstance(text, str) else (text, 0) for text in texts]
     for number, text in enumerate(texts, 1):
         if _is_deep(text):  # shapely would take each level apart in a call of its own
             place = "the text" if is_alone else f"item {number}"
             raise InputError(f"brackets of {place} are nested more than {MOST_LEVELS} deep; check the brackets")
-    with np.errstate(all="ignore"):  # numbers beyond the largest double are found later
-        geometry = shapely.from_wkt(np.array([text for text, _ in plain], dtype=object), on_invalid="ignore")
+    geometry, curves = geometry_of_texts([text for text, _ in plain])
     wrong = [k for k, text in enumerate(texts) if text is not None and geometry[k] is None]
     if wrong:
         text = texts[wrong[0]]
@@ -187,7 +192,19 @@ def _of_texts(texts: Sequence[Any], *, is_alone: bool = False) -> HeldFeatures:
     numbers = sorted({number for _, number in plain if number})
     if len(numbers) > 1:
         raise InputError(f"geometry is in EPSG:{numbers[0]} and EPSG:{numbers[1]}: bring all into one system")
-    return HeldFeatures(list(geometry), crs=crs_member(f"EPSG:{numbers[0]}") if numbers else None, is_map=True)
+    crs = crs_member(f"EPSG:{numbers[0]}") if numbers else None
+    return HeldFeatures(list(geometry), crs=crs, curves=curves, is_map=True)
+
+
+def _without_curves(held: HeldFeatures) -> HeldFeatures:
+    """Flatten the curves in collections of shapely, and warn once of these and of those of texts."""
+    items = np.empty(len(held.items), dtype=object)
+    for k, item in enumerate(held.items):  # one by one: some may be sequences
+        items[k] = item
+    flat = without_curves(items)
+    if flat.curves + held.curves:
+        warn(flattened_note(flat.curves + held.curves))
+    return replace(held, items=flat.geometry) if flat.curves else held
 
 
 def _is_deep(text: Any) -> bool:
