@@ -8,11 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.formats.drawing.windings import windings
 from vorotool.geometry.box import bounds
 
 Floats = NDArray[np.float64]
-
-_FACES_AT_ONCE = 4096
 
 
 def filled_polygons(rings: Sequence[Floats], rule: str) -> list[list[Floats]]:
@@ -129,33 +128,11 @@ def _of_faces(rings: Sequence[Floats], rule: str) -> list[list[Floats]]:
     faces = shapely.get_parts(shapely.polygonize(shapely.get_parts(shapely.node(shapely.multilinestrings(lines)))))
     if not len(faces):
         return []
-    winding = _windings(rings, shapely.get_coordinates(shapely.point_on_surface(faces)))
-    whole = shapely.union_all(faces[_is_filled(winding, rule)])
+    winding = windings(rings, shapely.get_coordinates(shapely.point_on_surface(faces)))
+    whole = shapely.coverage_union_all(faces[_is_filled(winding, rule)])  # faces meet in whole edges only
     polygons = []
     for polygon in shapely.get_parts(whole):
         parts = [polygon.exterior, *polygon.interiors] if polygon.geom_type == "Polygon" else []
         if parts:
             polygons.append([shapely.get_coordinates(part)[:-1] for part in parts])
     return polygons
-
-
-def _windings(rings: Sequence[Floats], places: Floats) -> NDArray[np.int64]:
-    """How often rings turn around places that are on none of them: by what a ray towards larger x crosses."""
-    import shapely
-
-    start = np.concatenate(rings)
-    end = np.concatenate([np.roll(ring, -1, axis=0) for ring in rings])
-    largest = float(np.maximum(start, end)[:, 0].max()) + 1
-    tree = shapely.STRtree(shapely.linestrings(np.stack([start, end], axis=1)))
-    found = np.zeros(len(places), dtype=np.int64)
-    for first in range(0, len(places), _FACES_AT_ONCE):
-        here = places[first : first + _FACES_AT_ONCE]
-        rays = shapely.box(here[:, 0], here[:, 1], largest, here[:, 1])
-        of, edge = tree.query(rays)
-        x, y = here[of].T
-        (ax, ay), (bx, by) = start[edge].T, end[edge].T
-        goes_up, goes_down = (ay <= y) & (by > y), (by <= y) & (ay > y)
-        side = (bx - ax) * (y - ay) - (by - ay) * (x - ax)  # above 0: the place is left of the edge
-        turn = (goes_up & (side > 0)).astype(np.int64) - (goes_down & (side < 0))
-        found[first : first + len(here)] = np.bincount(of, weights=turn, minlength=len(here))
-    return found

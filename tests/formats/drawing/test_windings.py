@@ -1,0 +1,59 @@
+"""How often rings turn around places, beside a count over all edges, and in how much memory."""
+
+import tracemalloc
+
+import numpy as np
+import pytest
+
+from vorotool.formats.drawing import windings as module
+from vorotool.formats.drawing.fill_rules import filled_polygons
+from vorotool.formats.drawing.windings import windings
+
+
+def counted(rings, places):
+    """Count the edges that a ray towards larger x crosses, one by one."""
+    found = []
+    for x, y in places:
+        turns = 0
+        for ring in rings:
+            for (ax, ay), (bx, by) in zip(ring, np.roll(ring, -1, axis=0), strict=True):
+                side = (bx - ax) * (y - ay) - (by - ay) * (x - ax)
+                turns += int(ay <= y < by and side > 0) - int(by <= y < ay and side < 0)
+        found.append(turns)
+    return found
+
+
+@pytest.mark.parametrize("at_once", [2**17, 7])
+@pytest.mark.parametrize("seed", range(12))
+def test_windings_of_all_edges(seed, at_once, monkeypatch):
+    monkeypatch.setattr(module, "_PAIRS_AT_ONCE", at_once)
+    random = np.random.default_rng(seed)
+    rings = [random.integers(0, 9, (size, 2)).astype(float) for size in random.integers(1, 40, 4)]
+    places = random.integers(0, 18, (60, 2)) / 2  # on vertices and edges, too
+    assert windings(rings, places).tolist() == counted(rings, places)
+
+
+def zigzag(teeth):
+    """A line that goes up and down, whose every tooth is in the row of every other."""
+    x = np.arange(2 * teeth + 1.0)
+    return np.column_stack([x, x % 2])
+
+
+def test_memory_of_windings_is_linear():
+    ring = zigzag(20_000)
+    places = np.column_stack([np.arange(20_000) * 2 + 1.0, np.full(20_000, 0.5)])
+    tracemalloc.start()
+    try:
+        assert (np.abs(windings([ring], places)) == 1).all()
+        peak = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    assert peak < 2**26
+
+
+@pytest.mark.parametrize("rule", ["nonzero", "evenodd"])
+def test_a_long_zigzag_is_filled(rule):
+    ring = zigzag(3000)
+    filled = filled_polygons([ring, ring + np.array([0.5, 7.0])], rule)
+    assert len(filled) == 6000
+    assert all(len(polygon) == 1 and len(polygon[0]) == 3 for polygon in filled)
