@@ -75,7 +75,7 @@ def opened_tiff(name: str, file: str | BinaryIO) -> Any:
                 check_tags(name, tags)
         else:
             check_tags(name, file)
-        return tifffile.TiffFile(file)
+        return tifffile.TiffFile(file, is_ndpi=False)  # whose pages would be chained in another way
 
 
 def page_of(file: Any, name: str, page: int | None) -> Any:

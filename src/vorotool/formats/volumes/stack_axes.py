@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
@@ -60,7 +61,7 @@ def stack_axes(name: str, file: Any, count: int) -> StackAxes:
     if file.is_imagej:
         return _of_imagej(name, file.imagej_metadata or {}, file.pages[0])
     if file.is_shaped:
-        return StackAxes(_slices_of_shape(name, (file.shaped_metadata or ({},))[0]))
+        return StackAxes(_slices_of_shape(name, _shape_of(file.pages[0].shaped_description)))
     return StackAxes()
 
 
@@ -94,6 +95,12 @@ def _imagej_grid(said: Mapping[str, Any], page: Any) -> VoxelGrid | None:
 
 def _is_ratio(value: Any) -> bool:
     return isinstance(value, tuple) and len(value) == 2 and all(type(each) is int and each > 0 for each in value)
+
+
+def _shape_of(text: str) -> Mapping[str, Any]:
+    """Read what tifffile wrote; it would do so itself only with all pages, and with all below them."""
+    said = json.loads(text) if text.startswith("{") else {}
+    return said if isinstance(said, dict) else {}
 
 
 def _slices_of_shape(name: str, said: Mapping[str, Any]) -> int | None:

@@ -1,0 +1,152 @@
+"""The chain of the pages of a TIFF: followed once, within bounds, before any library follows it."""
+
+import json
+import struct
+
+import numpy as np
+import pytest
+
+import vorotool
+from support.processes.peak_memory import watched
+from vorotool.errors import InputError, LimitError
+from vorotool.formats.images import tiff_tags
+from vorotool.formats.pages import page_count
+from vorotool.formats.volumes.opening import open_volume
+
+CLASSIC, BIG = ("H", "HHI", "I"), ("Q", "HHQ", "Q")
+SHORT, LONG, ASCII = 3, 4, 2
+PIXEL = {256: 1, 257: 1, 258: 8, 259: 1, 262: 1, 277: 1, 278: 1, 279: 1}
+
+
+def chain(tags, following, order="<", forms=CLASSIC, text=b""):
+    """A file of pages of one pixel: the tags of each, and the number of the page behind it, None behind the last."""
+    count_form, entry_form, next_form = (struct.Struct(order + form) for form in forms)
+    head = 16 if forms is BIG else 8
+    sizes = [count_form.size + (entry_form.size + next_form.size) * len(page) + next_form.size for page in tags]
+    first = head + len(tags) + len(text)
+    starts = np.cumsum([first, *sizes]).tolist()
+    places = {"text": head + len(tags)} | {f"page {page}": start for page, start in enumerate(starts)}
+    made = {"<": b"II", ">": b"MM"}[order] + struct.pack(order + "H", 43 if forms is BIG else 42)
+    made += struct.pack(order + "HHQ", 8, 0, first) if forms is BIG else struct.pack(order + "I", first)
+    made += bytes(range(1, len(tags) + 1)) + text if len(tags) < 256 else bytes(len(tags)) + text
+    for index, (page, after) in enumerate(zip(tags, following, strict=True)):
+        made += count_form.pack(len(page))
+        for tag, value in sorted(page.items()):
+            kind, count, content = value if isinstance(value, tuple) else (LONG, 1, value)
+            content = head + index if content == "pixel" else places.get(content, content)
+            made += entry_form.pack(tag, kind, count)
+            made += struct.pack(order + "I", content).ljust(next_form.size, b"\0")
+        made += next_form.pack(0 if after is None else starts[after] if isinstance(after, int) else int(after))
+    return made
+
+
+def pages(count):
+    return [{**PIXEL, 273: "pixel"} for _ in range(count)]
+
+
+def written(tmp_path, data):
+    path = tmp_path / "a.tif"
+    path.write_bytes(data)
+    return path
+
+
+@pytest.mark.parametrize("order", "<>")
+@pytest.mark.parametrize("forms", [CLASSIC, BIG], ids=["classic", "big"])
+@pytest.mark.parametrize(("count", "back"), [(1, 0), (2, 0), (4, 0), (4, 2), (150, 149), (300, 120)])
+def test_pages_in_a_circle(tmp_path, order, forms, count, back):
+    path = written(tmp_path, chain(pages(count), [*range(1, count), back], order, forms))
+    for read in (vorotool.read, lambda path: vorotool.read(path, page=0), open_volume_and_look):
+        with pytest.raises(InputError, match=rf"a\.tif.* page {count - 1} .* page {back}\b"):
+            read(path)
+    assert page_count(str(path)) == 1  # for the command that reads it then
+
+
+def open_volume_and_look(path):
+    return open_volume(path).shape
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        ["info", "a.tif"],
+        ["info", "--page", "1", "a.tif"],
+        ["tessellate", "a.tif", "-o", "b.tif"],
+        ["tessellate", "--volume", "a.tif", "-o", "b.tif"],
+        ["tessellate", "a.tif", "--page", "all", "--out-dir", "out"],
+        ["skeleton-exact", "a.tif", "-o", "b.json"],
+    ],
+)
+def test_a_circle_through_a_page_without_tags(tmp_path, command):
+    written(tmp_path, chain([*pages(1), {}, *pages(1)], [1, 2, 1]))
+    code, errors, peak = watched(command, tmp_path)
+    assert (code, peak < 2**29) == (6 if "--out-dir" in command else 3, True), errors
+    assert "a.tif" in "".join(errors)
+    assert not (tmp_path / "b.tif").exists()
+
+
+def test_pages_in_any_order(tmp_path):
+    """Pages may be chained backwards, as writers that append do it."""
+    data = chain(pages(4), [None, 0, 1, 2])
+    first = struct.unpack_from("<I", data, 4)[0]
+    size = (len(data) - first) // 4
+    path = written(tmp_path, data[:4] + struct.pack("<I", first + 3 * size) + data[8:])
+    assert open_volume(path).slices(0, 4).ravel().tolist() == [4, 3, 2, 1]
+    assert page_count(str(path)) == 4
+
+
+@pytest.mark.parametrize("cut", [1, 4, 5, 100, 113])
+def test_tags_that_are_cut_off(tmp_path, cut):
+    data = chain(pages(3), [1, 2, None])[:-cut]
+    for read in (vorotool.read, open_volume_and_look):
+        with pytest.raises(InputError, match=rf"a\.tif is cut off after {len(data)} bytes.* page 2"):
+            read(written(tmp_path, data))
+
+
+def test_a_page_behind_the_end(tmp_path):
+    data = chain(pages(2), [1, "4000000000"])
+    with pytest.raises(InputError, match=r"a\.tif is cut off .* 4000000000"):
+        open_volume(written(tmp_path, data)).shape  # noqa: B018
+
+
+def test_more_pages_than_are_read(tmp_path, monkeypatch):
+    monkeypatch.setattr(tiff_tags, "MOST_ENTRIES", 100)
+    assert open_volume(written(tmp_path, chain(pages(10), [*range(1, 10), None]))).shape == (10, 1, 1)
+    path = written(tmp_path, chain(pages(11), [*range(1, 11), None]))
+    for read in (vorotool.read, open_volume_and_look):
+        with pytest.raises(LimitError, match=r"a\.tif"):
+            read(path)
+
+
+def test_pages_that_share_a_long_text(tmp_path, monkeypatch):
+    """Each page would read it anew: the time is that of their product."""
+    text = b"x" * 10_000
+    shared = [{**page, 270: (ASCII, len(text), "text")} for page in pages(40)]
+    path = written(tmp_path, chain(shared, [*range(1, 40), None], text=text))
+    assert open_volume(path).shape == (40, 1, 1)
+    monkeypatch.setattr(tiff_tags, "_SPARE", 0)
+    with pytest.raises(InputError, match=rf"a\.tif.* {path.stat().st_size} bytes"):
+        open_volume(path).shape  # noqa: B018
+
+
+def test_subdirectories_that_branch_are_not_followed(tmp_path):
+    """The shape of what tifffile wrote is in its first page: 2^40 paths lead through the pages below it."""
+    text = json.dumps({"shape": [1, 1]}).encode()
+    told = {270: (ASCII, len(text), "text"), 330: (LONG, 2, 0)}
+    data = chain([page | told for page in pages(41)], [None] * 41, text=text + bytes(8 * 41))
+    path = written(tmp_path, with_branches(data, len(text)))
+    assert open_volume(path).shape == (1, 1, 1)
+    assert vorotool.read(path, page=0).values.tolist() == [[1]]
+
+
+def with_branches(data, text):
+    """Let both offsets of the subdirectories of each page but the last be that of the next."""
+    table, made = 8 + 41 + text, bytearray(data)
+    start = struct.unpack_from("<I", data, 4)[0]
+    size = (len(data) - start) // 41
+    for page in range(41):
+        struct.pack_into("<2I", made, table + 8 * page, *[start + size * (page + 1) if page < 40 else 0] * 2)
+        at = start + size * page + 2
+        while struct.unpack_from("<H", made, at)[0] != 330:
+            at += 12
+        struct.pack_into("<I", made, at + 8, table + 8 * page)
+    return bytes(made)
