@@ -32,6 +32,7 @@ WORDS += [
 TOKENS = re.compile(rb"[A-Za-z_|<>]+|[-+.0-9eE]+|\s+|.", re.DOTALL)
 CHUNKS = (b"IDAT", b"PLTE", b"tRNS", b"zTXt", b"iCCP", b"gAMA", b"IEND", b"acTL", b"fdAT")
 TAGS = (256, 257, 258, 259, 262, 266, 273, 277, 278, 279, 284, 317, 322, 323, 324, 325, 339, 347, 513, 32997, 50838)
+DESCRIPTION = re.compile(rb"<OME .*OME>|ImageJ=[ -~\n]*|{[ -~]*}", re.DOTALL)
 TYPE = re.compile(rb"(?<='descr': )'[^']*'")
 TYPES = (b"'<u2'", b"'|O'", b"'<c8'", b"[('a', '<u2')]", b"'<U4'", b"'<M8[s]'", b"'>f2'", b"'|b1'", b"'<f16'")
 RESULTS = {"skeleton", "offsets", "voronoi"}
@@ -57,7 +58,7 @@ def mutated(bundle: Bundle, others: list[Bundle], chance: random.Random) -> Bund
 def _change(kind: str, name: str) -> Callable[[bytes, random.Random], bytes]:
     if kind in TEXTS or name.endswith((".json", ".zarray", ".zattrs")):
         return _tokens
-    return {"png": _png, "tiff": _tiff, "npy": _npy}.get(kind, _bytes)
+    return {"png": _png, "tiff": _tiff, "ome-tiff": _ome_tiff, "npy": _npy}.get(kind, _bytes)
 
 
 def _any(data: bytes, others: list[Bundle], chance: random.Random) -> bytes:
@@ -184,6 +185,15 @@ def _tiff(data: bytes, chance: random.Random) -> bytes:
         small = chance.choice(("H", value_type))
         struct.pack_into(order + small, made, at + 4 + width, number % 256 ** struct.calcsize(order + small))
     return bytes(made)
+
+
+def _ome_tiff(data: bytes, chance: random.Random) -> bytes:
+    """Change the description, which keeps its length, or a tag."""
+    match = DESCRIPTION.search(data)
+    if match is None or chance.random() < 0.5:
+        return _tiff(data, chance)
+    text, (start, end) = _tokens(match[0], chance), match.span()
+    return data[:start] + text.ljust(end - start)[: end - start] + data[end:]
 
 
 def _npy(data: bytes, chance: random.Random) -> bytes:

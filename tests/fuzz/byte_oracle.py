@@ -19,19 +19,26 @@ import vorotool
 from fuzz.byte_seeds import Bundle
 from support.readers.sources import bands_of
 from vorotool.cli.main import main
+from vorotool.geometry.points.raster import Raster
 
 LIMITS = {"max_pixels": 2**16, "max_sites": 2**14, "threads": 1}
 LONGEST = 2**22
 """Pixels of an image that a command is given: one that passes by in bands may have any number, and takes its time."""
 
 READ, REFUSED, LIMIT, WRONG = "read", "refused", "limit", "wrong"
-IMAGES = {"png", "tiff", "npy", "pnm", "zarr", "jpeg", "bmp", "gif", "webp", "avif"}
+VOLUMES = {"ome-tiff", "ome-zarr"}
+IMAGES = {"png", "tiff", "npy", "pnm", "zarr", "jpeg", "bmp", "gif", "webp", "avif", *VOLUMES}
 SHAPES = {"json", "geojson", "wkt", "poly", "skeleton", "voronoi", "svg", "dxf"}
 COMMANDS = {
     "images": (
         ["tessellate", "{}", "-o", "out.npy"],
         ["draw", "{}", "-o", "out.svg"],
         ["skeleton-exact", "{}", "-o", "out.json"],
+    ),
+    "volumes": (
+        ["tessellate", "--volume", "{}", "-o", "out.npy"],
+        ["info", "{}"],
+        ["tessellate", "{}", "-o", "out.tif"],
     ),
     "points": (["tessellate", "{}", "-o", "out.tif", "--size", "40x30"], ["delaunay", "{}", "-o", "out.geojson"]),
     "shapes": (
@@ -60,13 +67,16 @@ def judge_reading(path: Path, kind: str, chance: random.Random) -> tuple[str, st
         options["geometry"] = chance.choice(("points", "polygons"))
     if kind == "tiff" and chance.random() < 0.5:
         options["page"] = 0
+    if kind in VOLUMES:
+        volume = {"max_pixels": LIMITS["max_pixels"], "geometry": "volume"}
+        options = volume if chance.random() < 0.7 else LIMITS | {"page": 0}
     if kind in ("csv", "npy") and chance.random() < 0.2:
         options["columns"] = chance.choice(("1,2", "x,y", "2,1,3"))
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             value = vorotool.read(path, **options)
-            if kind in ("tiff", "zarr"):
+            if kind in ("tiff", "zarr") or (kind in VOLUMES and isinstance(value, Raster)):
                 _check_rows(path, value.values, options.get("page"))
     except vorotool.VorotoolError as error:
         return (
@@ -90,10 +100,12 @@ def _check_rows(path: Path, values: np.ndarray, page: object) -> None:
 def judge_command(path: Path, kind: str, chance: random.Random) -> tuple[str, str]:
     """Give a file to a command in a folder of its own; the outcome, and what is wrong."""
     key = "images" if kind in IMAGES else "shapes" if kind in SHAPES and chance.random() < 0.7 else "points"
+    key = "volumes" if kind in VOLUMES else key
     command = [word.format(path.name) for word in chance.choice(COMMANDS[key])]
-    limits = ["--max-pixels", "65536"] * ("draw" not in command) + ["--max-sites", "2000"] * ("draw" not in command)
+    limits = ["--max-pixels", "65536"] * ("draw" not in command)
+    limits += ["--max-sites", "2000"] * (command[0] not in ("draw", "info"))
     before = set(os.listdir(path.parent))  # noqa: PTH208
-    code, said = run_command([*command, *limits, "-q"], path.parent)
+    code, said = run_command([*command, *limits, *["-q"] * ("info" not in command)], path.parent)
     if code not in (0, 2, 3, 5) or "Traceback" in said:
         return WRONG, f"{' '.join(command)}: exit {code}: {said[-1500:]}"
     made = set(os.listdir(path.parent)) - before  # noqa: PTH208
@@ -126,18 +138,22 @@ def judge_manifest(data: bytes, folder: Path, chance: random.Random) -> tuple[st
 
 def run_command(arguments: list[str], folder: Path) -> tuple[object, str]:
     """Run a command in this process; its exit code, and what it says."""
-    said, hook, before = io.StringIO(), sys.unraisablehook, Path.cwd()
+    said, hook, before = io.TextIOWrapper(io.BytesIO(), "utf-8", write_through=True), sys.unraisablehook, Path.cwd()
     os.chdir(folder)
     try:
         with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said), warnings.catch_warnings():
             main([*arguments, "--threads", "1"])
     except SystemExit as end:
-        return end.code, said.getvalue()
+        return end.code, _text(said)
     except BaseException:  # which nothing should let through
-        return None, said.getvalue() + traceback.format_exc()
+        return None, _text(said) + traceback.format_exc()
     finally:
         sys.unraisablehook = hook
         os.chdir(before)
+
+
+def _text(written: io.TextIOWrapper) -> str:
+    return written.buffer.getvalue().decode("utf-8", "replace")
 
 
 def judge(bundle: Bundle, folder: Path, chance: random.Random, commands: float) -> tuple[str, str]:

@@ -42,6 +42,7 @@ def seeds() -> list[Bundle]:
         for kind, name, data in (
             *_pngs(),
             *_tiffs(),
+            *_stacks(),
             *_pictures(),
             *_arrays(),
             *_maps(),
@@ -50,7 +51,7 @@ def seeds() -> list[Bundle]:
             *_drawings(),
             *_results(),
         )
-    ] + [*_stores(), *_shapefiles()]
+    ] + [*_stores(), *_ome_stores(), *_shapefiles()]
 
 
 def _saved(image: Image.Image, fmt: str, **options: object) -> bytes:
@@ -130,6 +131,21 @@ def _tiffs() -> list[tuple[str, str, bytes]]:
     files.append(tiff_file(grey(11, 13, 1) | {42113: (2, [55, 0]), 266: (SHORT, [2])}, strips, left_out=[3, 4]))
     files.append(tiff_file(grey(11, 13, 1) | {282: (LONG, [3])}, strips))
     return [("tiff", "a.tif", data) for data in files]
+
+
+def _stacks() -> list[tuple[str, str, bytes]]:
+    """Volumes with a description of OME, of ImageJ or of tifffile; one with smaller copies below its pages."""
+    cube, sides = np.stack([GREY, GREY[::-1], GREY + 1]), {"PhysicalSizeX": 0.25, "PhysicalSizeY": 0.25}
+    about = {"axes": "ZYX", "UUID": "urn:uuid:0", "PhysicalSizeZ": 2, **sides}
+    options: tuple[dict[str, object], ...] = ({}, {"compression": "zlib", "tile": (16, 16)}, {"bigtiff": True})
+    files = [_tiff(cube, ome=True, photometric="minisblack", metadata=about, **option) for option in options]
+    files.append(_tiff(cube, imagej=True, metadata={"axes": "ZYX", "spacing": 2, "unit": "um"}))
+    files.append(_tiff(cube, photometric="minisblack", metadata={"axes": "ZYX"}))
+    out = io.BytesIO()
+    with tifffile.TiffWriter(out, ome=True) as writer:
+        writer.write(cube, subifds=1, photometric="minisblack", metadata=about)
+        writer.write(cube[:, ::2, ::2], subfiletype=1, photometric="minisblack")
+    return [("ome-tiff", "a.ome.tif", data) for data in (*files, out.getvalue())]
 
 
 def _arrays() -> list[tuple[str, str, bytes]]:
@@ -321,6 +337,44 @@ def _stores() -> list[Bundle]:
             path = Path(folder) / f"{number}.zarr"
             array = zarr.create_array(path, shape=GREY.shape, dtype="u2", chunks=(8, 6), **option)
             array[:9] = GREY[:9]
-            files = {f"a.zarr/{p.relative_to(path)}": p.read_bytes() for p in sorted(path.rglob("*")) if p.is_file()}
-            found.append(Bundle("zarr", "a.zarr", files))
+            found.append(_store("zarr", path))
     return found
+
+
+def _store(kind: str, path: Path) -> Bundle:
+    files = {f"a.zarr/{p.relative_to(path)}": p.read_bytes() for p in sorted(path.rglob("*")) if p.is_file()}
+    return Bundle(kind, "a.zarr", files)
+
+
+def _ome_stores() -> list[Bundle]:
+    """Images and volumes of OME-Zarr, of both formats, with coarser copies, further axes and labels."""
+    import zarr
+
+    found = []
+    with tempfile.TemporaryDirectory() as folder:
+        for number, (version, axes) in enumerate(itertools.product((2, 3), ("yx", "zyx", "tczyx"))):
+            path, shape = Path(folder) / str(number), ((1, 1, 2, *GREY.shape)[-len(axes) :])
+            levels = []
+            for level in range(2):
+                where, sides = path / str(level), (*shape[:-2], *(side >> level for side in GREY.shape))
+                chunks = (*(1 for _ in axes[:-2]), 8, 6)
+                array = zarr.create_array(where, shape=sides, dtype="u1", chunks=chunks, zarr_format=version)
+                rows = (*sides[:-2], sides[-2] - 4, sides[-1])
+                array[..., : rows[-2], :] = np.broadcast_to(GREY[: rows[-2], : rows[-1]], rows)
+                scale = [{"type": "scale", "scale": [0.5 * 2**level] * len(axes)}]
+                levels.append({"path": str(level), "coordinateTransformations": scale})
+            named = [{"name": axis, "type": "space", "unit": "micrometer"} for axis in axes]
+            _write_ome(path, version, {"multiscales": [{"axes": named, "datasets": levels, "name": "a"}]})
+            found.append(_store("ome-zarr", path))
+    return found
+
+
+def _write_ome(folder: Path, version: int, about: dict[str, object]) -> None:
+    import json
+
+    if version == 3:
+        made = {"zarr_format": 3, "node_type": "group", "attributes": {"ome": {"version": "0.5"} | about}}
+        (folder / "zarr.json").write_text(json.dumps(made))
+    else:
+        (folder / ".zgroup").write_text('{"zarr_format": 2}')
+        (folder / ".zattrs").write_text(json.dumps(about))
