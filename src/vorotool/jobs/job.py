@@ -62,7 +62,7 @@ class Recipe(Generic[Options]):
 
 
 def process_input(recipe: Recipe[Options], run: Run, options: Options, path: str, targets: Sequence[Target]) -> None:
-    """Read one input, compute, check and write its results.
+    """Read one input, compute, check and write its results, which take their places together.
 
     Parameters
     ----------
@@ -78,6 +78,7 @@ def process_input(recipe: Recipe[Options], run: Run, options: Options, path: str
         The outputs.
     """
     from vorotool.formats.io.atomic_output import make_folder
+    from vorotool.formats.io.commit import committed_together
     from vorotool.formats.text.tables import safe_texts, unit_column
 
     computing = options if isinstance(options, ComputingOptions) else None
@@ -95,12 +96,13 @@ def process_input(recipe: Recipe[Options], run: Run, options: Options, path: str
     end_by_exceptions()
     size = options.unit
     unit = None if size is None else run.stats.get("unit") if size.is_auto else size.unit
-    for target in targets:
-        if options.out_dir is not None:
-            make_folder(Path(target.path).parent)
-        is_safe = computing is not None and computing.safe_csv
-        with run.phase(f"write {target.what}"), safe_texts(is_safe), unit_column(unit):
-            products.write(target, inputs=(path,))
+    with committed_together():
+        for target in targets:
+            if options.out_dir is not None:
+                make_folder(Path(target.path).parent)
+            is_safe = computing is not None and computing.safe_csv
+            with run.phase(f"write {target.what}"), safe_texts(is_safe), unit_column(unit):
+                products.write(target, inputs=(path,))
     if options.stats is not None:
         with run.phase("count"):
             run.stats.update({**products.stats(), **unit_stats(options.unit)})

@@ -210,7 +210,7 @@ def check_targets(options: JobOptions, targets: Sequence[Target], source: str) -
     source : str
         The input, which is never replaced; neither are further files that are read.
     """
-    from vorotool.formats.io.atomic_output import check_output
+    from vorotool.formats.io.atomic_output import Rules, check_output
     from vorotool.formats.zarr.store import check_store
 
     rules: dict[str, Any] = {
@@ -223,8 +223,10 @@ def check_targets(options: JobOptions, targets: Sequence[Target], source: str) -
             check_store(target.path, **rules)
         else:
             check_output(target.path, binary=target.is_binary, **rules)
-            for extension in FORMATS[target.fmt].parts if stream_kind(target.path) is None else ():
-                check_output(Path(target.path).with_suffix(extension), binary=True, **rules)
+            if FORMATS[target.fmt].parts and stream_kind(target.path) is None:
+                from vorotool.formats.features.shapefile_parts import check_parts
+
+                check_parts(target.path, Rules(options.no_clobber, rules["inputs"]), makes_folder=rules["makes_folder"])
     if options.stats is not None:
         in_out_dir = options.out_dir is not None and Path(options.stats).parent == Path(options.out_dir)
         check_output(options.stats, no_clobber=options.no_clobber, makes_folder=in_out_dir, option="--stats")

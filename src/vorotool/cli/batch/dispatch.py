@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from vorotool.batch.inputs import is_several
 from vorotool.cli.batch.progress_bar import progress_bar
 from vorotool.errors import UsageError
+from vorotool.formats.io.commit import committed_together
 from vorotool.jobs.inputs import check_streams
 from vorotool.jobs.job import Options, Recipe, process_input
 from vorotool.jobs.options import JobOptions
@@ -47,9 +48,12 @@ def run_command(recipe: Recipe[Options], o: Options) -> None:
     check_units(o, targets)
     o = lengths_in_pixels(o, o.unit)
     recipe.check_options(o, targets)
-    with Run(
-        recipe.name, quiet=o.quiet, verbose=o.verbose, stats=o.stats, no_clobber=o.no_clobber, bar=progress_bar
-    ) as run:
+    with (
+        committed_together(),  # the statistics, too
+        Run(
+            recipe.name, quiet=o.quiet, verbose=o.verbose, stats=o.stats, no_clobber=o.no_clobber, bar=progress_bar
+        ) as run,
+    ):
         process_input(recipe, run, o, source, targets)
 
 

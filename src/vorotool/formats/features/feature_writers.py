@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import errno
 import io
-import tempfile
+import os
 import warnings
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -15,9 +16,11 @@ from numpy.typing import NDArray
 
 from vorotool.errors import OUTPUT, OutputError, UsageError
 from vorotool.formats.features.feature_rows import FeatureRows, TypedColumn
-from vorotool.formats.features.shapefile_parts import PARTS
-from vorotool.formats.io.atomic_output import open_output
+from vorotool.formats.features.shapefile_parts import PARTS, check_parts, older_parts, removal
+from vorotool.formats.io.atomic_output import current_rules, failure, open_output
+from vorotool.formats.io.commit import committed_together
 from vorotool.formats.io.descriptors import stream_kind
+from vorotool.formats.io.temporaries import new_folder
 from vorotool.geometry.crs import crs_text
 from vorotool.geometry.extras import needed
 
@@ -61,7 +64,7 @@ class GeoPackage(FeatureRows):
 
         geometry = self.geometry
         has_times = {name: np.full(len(each.values), _UTC, np.int32) for name, each in columns.items() if each.is_utc}
-        with _settings(self._gdal):
+        with _settings(self._gdal), _explained(self._gdal, self._path):
             self._gdal.raw.write(
                 out,
                 shapely.to_wkb(geometry) if self.is_of_features else None,
@@ -93,6 +96,7 @@ class Shapefile(GeoPackage):
         super().__init__(out, what, path)
         if stream_kind(path) is not None:
             raise UsageError(f"a Shapefile is several files, and no stream holds them: name a file with {OUTPUT}")
+        check_parts(path, current_rules())
 
     def finish(self) -> None:
         """Write the files."""
@@ -102,17 +106,36 @@ class Shapefile(GeoPackage):
                 f"{self._path} cannot be written: a Shapefile holds geometry of one kind, but this is {held}; write a "
                 "GeoPackage (.gpkg)"
             )
-        with tempfile.TemporaryDirectory() as folder:
-            place = Path(folder) / "layer.shp"
+        rules, whole = current_rules(), Path(self._path)
+        with committed_together() as commit:
+            place = commit.temporaries.make(Path(os.path.realpath(whole)), new_folder).path / "layer.shp"
             self._write(
                 place, self.columns(), driver="ESRI Shapefile", layer_options={"DBF_DATE_LAST_UPDATE": "1970-01-01"}
             )
-            for extension in PARTS[1:]:
-                part = place.with_suffix(extension)
-                if part.exists():
-                    with open_output(Path(self._path).with_suffix(extension), binary=True) as out:
-                        out.write(part.read_bytes())
-            self._out.write(place.read_bytes())
+            written = [extension for extension in PARTS if place.with_suffix(extension).exists()]
+            for older in older_parts(whole, written):
+                commit.add(removal(older, rules))
+            for extension in written[1:]:
+                with open_output(whole.with_suffix(extension), binary=True, **rules._asdict()) as out:
+                    _move(place.with_suffix(extension), out)
+            _move(place, self._out)
+
+
+def _move(path: Path, out: BinaryIO) -> None:
+    """Write the bytes of a file, and remove it."""
+    out.write(path.read_bytes())
+    path.unlink()
+
+
+@contextmanager
+def _explained(gdal: Any, path: str) -> Iterator[None]:
+    """Turn what GDAL says of a disk, or of what a format does not hold, into an `OutputError` that names the output."""
+    kinds = (gdal.errors.DataSourceError, gdal.errors.DataLayerError, gdal.errors.FeatureError)
+    try:
+        yield
+    except kinds as error:
+        is_full = os.strerror(errno.ENOSPC) in str(error)
+        raise failure(path, OSError(errno.ENOSPC if is_full else 0, str(error)), current_rules().option) from error
 
 
 @contextmanager

@@ -3,15 +3,23 @@
 from __future__ import annotations
 
 import io
+import os
 import zipfile
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
+from contextlib import suppress
+from functools import partial
 from pathlib import Path
 
-from vorotool.errors import InputError, LimitError
+from vorotool.errors import InputError, LimitError, OutputError
+from vorotool.formats.io.atomic_output import Rules, check_output, explained, followed
+from vorotool.formats.io.commit import Placement
 from vorotool.formats.io.sources import Source
 
 PARTS = (".shp", ".shx", ".dbf", ".prj", ".cpg")
 """Extensions of the files, the one that is named first: geometry, index, attributes, reference system, encoding."""
+
+_OF_OLDER = {*PARTS, ".sbn", ".sbx", ".fbn", ".fbx", ".ain", ".aih", ".idm", ".ind", ".qix", ".qpj"}
+"""Extensions of files that hold for one content of a Shapefile: the parts, and indexes that other programs make."""
 
 ZIP_MAGIC = b"PK\x03\x04"
 _MOST_BYTES = 1 << 34
@@ -82,3 +90,54 @@ def holds_shapefile(data: bytes) -> bool:
             return any(name.lower().endswith(".shp") for name in archive.namelist())
     except zipfile.BadZipFile:
         return False
+
+
+def check_parts(path: str, rules: Rules, *, makes_folder: bool = False) -> None:
+    """Find out before any work whether the other files of a Shapefile can be written and older ones replaced.
+
+    Parameters
+    ----------
+    path : str
+        The ``.shp``.
+    rules : Rules
+        Of the output.
+    makes_folder : bool
+        The folder is yet to be made.
+
+    Raises
+    ------
+    UsageError, OutputError
+        As by `check_output`, or if links lead to parts of another Shapefile.
+    """
+    whole = Path(path)
+    target = followed(path)
+    for extension in PARTS[1:]:
+        part, real = whole.with_suffix(extension), target.with_suffix(extension)
+        check_output(part, binary=True, makes_folder=makes_folder, **rules._asdict())
+        if whole.is_symlink() and real.exists() and followed(str(part)) != real:
+            raise OutputError(
+                f"{path} is a link to a Shapefile whose {real.name} would not be replaced: give {rules.option} {target}"
+            )
+    for older in older_parts(whole, ()):
+        rules.check(str(older))
+
+
+def older_parts(path: Path, written: Collection[str]) -> list[Path]:
+    """Files of an older Shapefile, besides those whose extensions are written; extensions may be in any case.
+
+    Examples
+    --------
+    >>> older_parts(Path("data/dots.shp"), [])
+    []
+    """
+    with suppress(OSError):
+        names = {f"{path.stem}{extension}" for extension in written}
+        beside = [each for each in path.parent.iterdir() if each.stem == path.stem and each.suffix.lower() in _OF_OLDER]
+        return sorted(each for each in beside if each.name not in names and not each.is_dir())
+    return []
+
+
+def removal(part: Path, rules: Rules) -> Placement:
+    """Make the removal of a file of an older Shapefile part of what is written."""
+    place = Path(os.path.realpath(part.parent), part.name)
+    return Placement(place, None, partial(rules.check, str(part)), partial(explained, str(part), rules.option))

@@ -6,13 +6,15 @@ import errno
 import os
 import stat
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
+from contextvars import ContextVar
 from functools import partial
 from pathlib import Path
-from typing import BinaryIO
+from typing import BinaryIO, NamedTuple
 
 from vorotool.errors import FORMAT, NO_CLOBBER, OUTPUT, OutputError, UsageError, VorotoolError
+from vorotool.formats.io.commit import Placement, committed_together
 from vorotool.formats.io.descriptors import (
     STANDARD,
     check_writable,
@@ -21,9 +23,37 @@ from vorotool.formats.io.descriptors import (
     open_onward,
     open_output_descriptor,
 )
-from vorotool.formats.io.temporaries import new_file, temporary_beside
+from vorotool.formats.io.temporaries import new_file
 
 STANDARD_OUTPUT = "standard output"
+
+
+class Rules(NamedTuple):
+    """What an output must not replace, for its further files.
+
+    Parameters
+    ----------
+    no_clobber, inputs, option
+        As for `open_output`.
+    """
+
+    no_clobber: bool = False
+    inputs: Sequence[str | os.PathLike[str]] = ()
+    option: str = OUTPUT
+
+    def check(self, name: str) -> None:
+        """Refuse to replace or remove a file."""
+        target = followed(name, self.option)
+        if target.exists():
+            _check_replaced(name, target, self)
+
+
+_RULES: ContextVar[Rules] = ContextVar("rules")
+
+
+def current_rules() -> Rules:
+    """Return the rules of the output that is being written."""
+    return _RULES.get(Rules())
 
 
 @contextmanager
@@ -84,7 +114,7 @@ def open_output(
     else:
         target = _checked_target(name, no_clobber, inputs, option)
         if _is_regular(target):
-            writer = _replacing(name, target, no_clobber, option)
+            writer = _replacing(name, target, Rules(no_clobber, tuple(inputs), option))
         else:
             writer = _direct(name, target, binary, option)
     with writer as out:
@@ -218,14 +248,20 @@ def _checked_target(name: str, no_clobber: bool, inputs: Iterable[str | os.PathL
         raise OutputError(f"{name!r} is {'a directory' if name else 'no name'}: name a file{' in it' * bool(name)}")
     if not exists or not _is_regular(target):
         return target
-    for each in inputs:
-        if is_same_file(target, os.fspath(each)):
-            raise UsageError(f"{name} is also an input, which is never replaced: choose another name with {option}")
-    if no_clobber:
-        raise clobber_error(name, option)
+    _check_replaced(name, target, Rules(no_clobber, tuple(inputs), option))
     if not os.access(target, os.W_OK):
         raise OutputError(f"{name} cannot be written: it is write-protected; choose another name with {option}")
     return target
+
+
+def _check_replaced(name: str, target: Path, rules: Rules) -> None:
+    for each in rules.inputs:
+        if is_same_file(target, os.fspath(each)):
+            raise UsageError(
+                f"{name} is also an input, which is never replaced: choose another name with {rules.option}"
+            )
+    if rules.no_clobber:
+        raise clobber_error(name, rules.option)
 
 
 def followed(name: str, option: str = OUTPUT) -> Path:
@@ -284,13 +320,21 @@ def _direct(name: str, target: Path, binary: bool, option: str) -> Iterator[Bina
 
 
 @contextmanager
-def _replacing(name: str, target: Path, no_clobber: bool, option: str) -> Iterator[BinaryIO]:
-    with explained(name, option), temporary_beside(target, partial(_create, target=target)) as temporary:
-        with temporary.opened() as out:
-            yield out
-        if no_clobber and target.exists():
-            raise clobber_error(name, option)
-        temporary.move_to(target)
+def _replacing(name: str, target: Path, rules: Rules) -> Iterator[BinaryIO]:
+    def check() -> None:
+        if rules.no_clobber and target.exists():
+            raise clobber_error(name, rules.option)
+
+    outer = current_rules()
+    with explained(name, rules.option), committed_together() as commit:
+        temporary = commit.temporaries.make(target, partial(_create, target=target))
+        _RULES.set(rules)
+        try:
+            with temporary.opened() as out:
+                yield out
+        finally:
+            _RULES.set(outer)
+        commit.add(Placement(target, temporary, check, partial(explained, name, rules.option)))
 
 
 def _create(temporary: Path, target: Path) -> int:

@@ -80,26 +80,72 @@ class Temporary:
         if self.descriptor >= 0 and not _is_at(self.path, self.descriptor):
             raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), os.fspath(self.path))
 
+    def is_at(self, path: Path) -> bool:
+        """Return whether it has a name by now."""
+        return _is_at(path, self.descriptor) if self.descriptor >= 0 else not os.path.lexists(self.path)
+
     def move_to(self, target: Path) -> None:
         """Give it its final name, in the place of an older file."""
         self.check()
         self.path.replace(target)
 
 
+class Temporaries:
+    """Temporary files and folders, whose rest is removed at the end, whatever happens.
+
+    What dead processes have left is removed when a process, or a batch, first writes in a folder.
+
+    Examples
+    --------
+    >>> with Temporaries() as temporaries:
+    ...     temporaries.make(Path("build/folder"), new_folder).path.is_dir()
+    True
+    """
+
+    def __init__(self) -> None:
+        self._names: list[Path] = []
+        self._made: list[Temporary] = []
+
+    def make(self, target: Path, make: Callable[[Path], int], *, ending: str = ".tmp") -> Temporary:
+        """Make one beside a place.
+
+        Parameters
+        ----------
+        target : Path
+            What it is beside.
+        make : callable
+            ``make(path)`` makes it, and returns an open descriptor of it.
+        ending : str
+            Of the name.
+        """
+        _remove_dead_once(target.parent)
+        temporary = Temporary(target, _make_ours(target.parent, make, ending, self._names))
+        temporary.path = self._names[-1]
+        self._made.append(temporary)
+        return temporary
+
+    def __enter__(self) -> Temporaries:
+        """Make some."""
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """Remove what is left of them, and give the locks back."""
+        try:
+            _discard_ours(self._names)
+        finally:
+            for each in self._made:
+                if each.descriptor >= 0:
+                    os.close(each.descriptor)
+
+
 @contextmanager
 def temporary_beside(target: Path, make: Callable[[Path], int], *, ending: str = ".tmp") -> Iterator[Temporary]:
     """Make a temporary file or folder, and remove what is left of it at the end, whatever happens.
 
-    What dead processes have left is removed when a process, or a batch, first writes in a folder.
-
     Parameters
     ----------
-    target : Path
-        What it is beside.
-    make : callable
-        ``make(path)`` makes it, and gives an open descriptor of it.
-    ending : str
-        Of the name.
+    target, make, ending
+        As for `Temporaries.make`.
 
     Examples
     --------
@@ -107,17 +153,8 @@ def temporary_beside(target: Path, make: Callable[[Path], int], *, ending: str =
     ...     temporary.path.is_dir()
     True
     """
-    _remove_dead_once(target.parent)
-    names: list[Path] = []
-    temporary = Temporary(target, -1)
-    try:
-        temporary.descriptor = _make_ours(target.parent, make, ending, names)
-        temporary.path = names[-1]
-        yield temporary
-    finally:
-        _discard_ours(names)
-        if temporary.descriptor >= 0:
-            os.close(temporary.descriptor)
+    with Temporaries() as temporaries:
+        yield temporaries.make(target, make, ending=ending)
 
 
 def new_file(path: Path) -> int:

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import os
-import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 
 from vorotool.errors import OUTPUT, InputError, OutputError, UsageError
 from vorotool.formats.io.atomic_output import check_folder, clobber_error, explained, followed, is_same_file
+from vorotool.formats.io.commit import Placement, committed_together
 from vorotool.formats.io.descriptors import STANDARD, stream_kind
-from vorotool.formats.io.temporaries import ASIDE, Temporary, new_folder, temporary_beside
+from vorotool.formats.io.temporaries import new_folder
 
 _METADATA = ("zarr.json", ".zarray", ".zgroup")
 
@@ -168,41 +169,16 @@ def open_store(
     """
     name = os.fspath(path)
     target = check_store(name, no_clobber=no_clobber, inputs=inputs)
-    with explained(name), temporary_beside(target, new_folder) as temporary:
+
+    def check() -> None:
+        if not target.exists():
+            return
+        if no_clobber:
+            raise clobber_error(str(target))
+        if not _may_be_replaced(target):
+            raise _other_error(str(target))
+
+    with explained(name), committed_together() as commit:
+        temporary = commit.temporaries.make(target, new_folder)
         yield temporary.path
-        if target.exists():
-            _replace(target, temporary, no_clobber)
-        else:
-            temporary.move_to(target)
-
-
-def _replace(target: Path, temporary: Temporary, no_clobber: bool) -> None:
-    """Put a folder in the place of another, which then goes with the temporary name or with a folder aside.
-
-    Where the system cannot exchange the two, the older store is away for a moment. Of a process that is killed then
-    it is put back by the next one that writes in the folder.
-    """
-    if no_clobber:
-        raise clobber_error(str(target))
-    if not _may_be_replaced(target):
-        raise _other_error(str(target))
-    temporary.check()
-    if _exchange(temporary.path, target):
-        return
-    with temporary_beside(target, new_folder, ending=ASIDE) as aside:
-        target.rename(aside.path / target.name)
-        temporary.move_to(target)
-
-
-def _exchange(one: Path, other: Path) -> bool:
-    """Exchange two folders at once, or say that the system or the file system cannot."""
-    if sys.platform != "linux":
-        return False
-    import ctypes
-
-    here, exchange = -100, 2  # AT_FDCWD, RENAME_EXCHANGE
-    try:
-        rename = ctypes.CDLL(None).renameat2
-    except (OSError, AttributeError):
-        return False
-    return bool(rename(here, os.fsencode(one), here, os.fsencode(other), exchange) == 0)
+        commit.add(Placement(target, temporary, check, partial(explained, name)))

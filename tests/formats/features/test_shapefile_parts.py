@@ -1,0 +1,90 @@
+"""The files of a Shapefile are replaced together."""
+
+import errno
+import os
+
+import geopandas
+import pytest
+import shapely
+
+import vorotool
+from support.processes.leftovers import contents
+from vorotool.errors import OutputError
+from vorotool.formats.io.temporaries import Temporary
+from vorotool.geometry.arguments.polygons import as_polygons
+
+PARTS = (".shp", ".shx", ".dbf", ".prj", ".cpg")
+
+
+def boxes(count, crs=None):
+    return as_polygons(geopandas.GeoSeries([shapely.box(2 * k, 0, 2 * k + 1, 1) for k in range(count)], crs=crs))
+
+
+@pytest.fixture
+def older(tmp_path):
+    """A Shapefile with a reference system, an index of another program, and what is the user's own."""
+    vorotool.write(boxes(3, crs="EPSG:2056"), tmp_path / "a.shp")
+    for ending in (".qix", ".SBN", ".shp.xml", ".qml"):
+        (tmp_path / f"a{ending}").write_text(f"older {ending}")
+    return tmp_path
+
+
+@pytest.mark.parametrize("part", PARTS)
+@pytest.mark.parametrize("crs", ["EPSG:3857", None])
+def test_no_part_is_replaced_if_one_cannot_be(older, monkeypatch, part, crs):
+    before, move_to = contents(older), Temporary.move_to
+
+    def fail(self, target):
+        if target.suffix == part:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        move_to(self, target)
+
+    monkeypatch.setattr(Temporary, "move_to", fail)
+    if crs is None and part == ".prj":
+        vorotool.write(boxes(900, crs), older / "a.shp")
+        assert len(vorotool.read(older / "a.shp")) == 900
+        return
+    with pytest.raises(OutputError, match=rf"a\{part} cannot be written"):
+        vorotool.write(boxes(900, crs), older / "a.shp")
+    assert contents(older) == before
+
+
+def test_parts_that_the_new_one_lacks_go_and_the_users_own_stay(older):
+    (older / "ab.prj").write_text("of another")
+    vorotool.write(boxes(2), older / "a.shp")
+    assert sorted(contents(older)) == ["a.cpg", "a.dbf", "a.qml", "a.shp", "a.shp.xml", "a.shx", "ab.prj"]
+    assert vorotool.read(older / "a.shp").crs is None
+
+
+def test_what_gdal_cannot_write_is_an_output_error(older, monkeypatch):
+    import pyogrio
+
+    before = contents(older)
+
+    def fail(*_, **__):
+        raise pyogrio.errors.FeatureError(f"at index 7: {os.strerror(errno.ENOSPC)}")
+
+    monkeypatch.setattr(pyogrio.raw, "write", fail)
+    for fmt in ("shp", "gpkg", "fgb"):
+        with pytest.raises(OutputError, match=rf"a\.{fmt} cannot be written: at index 7"):
+            vorotool.write(boxes(2), older / f"a.{fmt}")
+    assert contents(older) == before
+
+
+def test_a_link_whose_other_parts_are_elsewhere(older):
+    (older / "links").mkdir()
+    link = older / "links/b.shp"
+    link.symlink_to(older / "a.shp")
+    before = contents(older)
+    with pytest.raises(OutputError, match=r"b\.shp is a link to a Shapefile whose a\.shx"):
+        vorotool.write(boxes(2), link)
+    assert contents(older) == before
+
+
+def test_links_of_all_parts_stay_links(older):
+    (older / "links").mkdir()
+    for part in PARTS:
+        (older / f"links/b{part}").symlink_to(older / f"a{part}")
+    vorotool.write(boxes(900, "EPSG:2056"), older / "links/b.shp")
+    assert all((older / f"links/b{part}").is_symlink() for part in PARTS)
+    assert len(vorotool.read(older / "a.shp")) == 900
