@@ -5,9 +5,12 @@ from __future__ import annotations
 import gzip
 import io
 import itertools
+import sqlite3
+import struct
 import tempfile
 import zipfile
 import zlib
+from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -185,6 +188,9 @@ def _maps() -> list[tuple[str, str, bytes]]:
         "MULTIPOINT ((1 2), (3 4))\nPOINT (5 6)",
         "SRID=3057;POINT (1 2)",
         f"GEOMETRYCOLLECTION ({wkt})",
+        "CURVEPOLYGON (CIRCULARSTRING (0 0, 4 0, 4 4, 0 4, 0 0), (1 1, 3 3, 3 1, 1 1))\nTRIANGLE ((9 9, 8 9, 9 8, 9 9))",  # noqa: E501
+        "MULTISURFACE (((0 0, 1 0, 1 1, 0 0)), CURVEPOLYGON (COMPOUNDCURVE (CIRCULARSTRING (5 5, 6 6, 7 5), (7 5, 5 5))))",  # noqa: E501
+        "GEOMETRYCOLLECTION Z (TIN Z (((0 0 1, 1 0 1, 0 1 1, 0 0 1))), MULTICURVE Z ((0 0 1, 3 3 2)))",
         "POINT EMPTY",
     ]
     return [("geojson", "a.geojson", json.dumps(value).encode()) for value in values] + [
@@ -217,6 +223,15 @@ def _layers() -> list[tuple[str, str, bytes]]:
     rows = f'id,geometry\n7,"{shapely.from_wkb(wkb).wkt}"\n8,{wkb}\n9,SRID=3057;POINT (1 2)\n'
     with tempfile.TemporaryDirectory() as folder:
         files = [(fmt, f"a.{fmt}", _layer(Path(folder), f"a.{fmt}").read_bytes()) for fmt in ("gpkg", "fgb", "parquet")]
+        with closing(sqlite3.connect(Path(folder) / "a.gpkg")) as database, database:
+            view = "WITH RECURSIVE n(i) AS (VALUES (1) UNION ALL SELECT i + 1 FROM n LIMIT 3) SELECT n.i, polygons.* "
+            (table,) = database.execute("SELECT table_name FROM gpkg_contents").fetchone()
+            database.execute(f"CREATE VIEW v AS {view.replace('polygons', table)} FROM n, {table}")
+            database.execute("UPDATE gpkg_contents SET table_name = 'v'")
+            database.execute("UPDATE gpkg_geometry_columns SET table_name = 'v'")
+        files.append(("gpkg", "a.gpkg", (Path(folder) / "a.gpkg").read_bytes()))
+    arcs = struct.pack("<BIIBII", 1, 10, 1, 1, 8, 5) + struct.pack("<10d", 0, 0, 4, 0, 4, 4, 0, 4, 0, 0)
+    files.append(("wkb", "a.wkb", struct.pack("<BII", 1, 12, 2) + arcs + bytes.fromhex(wkb)))
     texts = [("kml", "a.kml", f"{kml}</kml>"), ("gpx", "a.gpx", gpx), ("csv", "a.csv", rows), ("wkb", "a.wkb", wkb)]
     return [*files, *((kind, name, text.encode()) for kind, name, text in texts)]
 

@@ -27,7 +27,7 @@ from fuzz.byte_mutations import mutated
 from fuzz.byte_oracle import LIMIT, READ, REFUSED, WRONG, batch_of_two, judge, write_bundle
 from fuzz.byte_seeds import Bundle, seeds
 
-SECONDS = 10.0
+SECONDS = 20.0
 """A case that takes longer hangs; of a busy machine, and of whole batches, more is borne with."""
 
 MEMORY = 2**30

@@ -99,7 +99,7 @@ _ALL = (
         sites="formats.polygons.json:read_sites",
     ),
     _of("poly", polygons="formats.polygons.poly:read_poly"),
-    _of_maps("gpkg"),
+    _of_maps("gpkg", module="geopackage"),
     _of_maps("fgb"),
     _of_maps("shp", "shp", "shz"),
     _of_maps("kml"),

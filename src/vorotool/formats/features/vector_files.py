@@ -1,4 +1,4 @@
-"""Files of maps, as GDAL reads them through pyogrio: GeoPackage, FlatGeobuf, Shapefile, KML, GPX.
+"""Files of maps, as GDAL reads them through pyogrio: FlatGeobuf, Shapefile, KML, GPX.
 
 Only what has been told to be one of these is passed on, in memory: other formats of GDAL open further files, or a
 network. Features are read one by one and not as batches of Arrow, whose offsets GDAL 3.12 has wrong for FlatGeobuf
@@ -10,34 +10,32 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from datetime import date, datetime
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError, option
+from vorotool.errors import InputError
 from vorotool.formats.features.feature_table import Features
+from vorotool.formats.features.layers import chosen_layer
 from vorotool.formats.features.shapefile_parts import archive_of
 from vorotool.formats.io.limits import decoding, interruptible
 from vorotool.formats.io.sources import Source
 from vorotool.geometry.crs import member_of_text
+from vorotool.geometry.curves.well_known import geometry_of_binary
 from vorotool.geometry.extras import needed
 
-TITLES = {"gpkg": "GeoPackage", "fgb": "FlatGeobuf", "shp": "Shapefile", "kml": "KML", "gpx": "GPX"}
+TITLES = {"fgb": "FlatGeobuf", "shp": "Shapefile", "kml": "KML", "gpx": "GPX"}
 """Formats and what they are called."""
 
 _MARKUP = rb"(?:\xef\xbb\xbf)?\s*(?:<[?!][^>]*>\s*)*<%b[\s>]"
 _BEGINNINGS = {
-    "gpkg": re.compile(rb"SQLite format 3\0"),
     "fgb": re.compile(rb"fgb\x03fgb"),
     "shp": re.compile(rb"\0\0\x27\x0a|PK\x03\x04"),
     "kml": re.compile(_MARKUP % b"kml"),
     "gpx": re.compile(_MARKUP % b"gpx"),
 }
 """Of each format: GDAL takes a file for what it begins as, whatever it is called, and some formats name others."""
-_NUMBERED = ("gpkg",)
-"""Formats whose files number their features themselves."""
 _TIMES = {"OFTDate": date, "OFTDateTime": datetime}
 _BYTES = "OFTBinary"
 
@@ -58,7 +56,7 @@ def features_of(source: Source) -> Features:
     pyogrio = needed("pyogrio", "gis", f"{title} files")
     try:
         with decoding(source.name, title):
-            return _read(pyogrio, _readable(source), source)
+            return _read(pyogrio, archive_of(source) if source.format == "shp" else source.data, source)
     except InputError as error:
         if error.__cause__ is None:
             raise
@@ -66,54 +64,21 @@ def features_of(source: Source) -> Features:
         raise InputError(f"{source.name} is no {title} that can be read; is it damaged or cut off?") from error
 
 
-def _readable(source: Source) -> bytes | Path:
-    """What GDAL is given: the bytes; of a GeoPackage that is being written its place, beside which is what is new."""
-    if source.format == "shp":
-        return archive_of(source)
-    if source.format == "gpkg" and Path(f"{source.name}-wal").exists():
-        return Path(source.name).resolve()
-    return source.data
-
-
-def _read(pyogrio: Any, data: bytes | Path, source: Source) -> Features:
-    import shapely
-
+def _read(pyogrio: Any, data: bytes, source: Source) -> Features:
     layers = pyogrio.list_layers(data).tolist()
-    options = {"layer": _chosen_layer(source, layers), "datetime_as_string": True}
+    options = {"layer": chosen_layer(source, layers), "datetime_as_string": True}
     # what is made in another thread is slower to read: GDAL alone works there
-    meta, numbers, wkb, values = interruptible(lambda: pyogrio.raw.read(data, return_fids=True, **options))
+    meta, _, wkb, values = interruptible(lambda: pyogrio.raw.read(data, **options))
     columns = _columns(meta, values)
     lossy = [name for name in columns if _has_lost_digits(meta, name, values)]
     if lossy:
         exact = pyogrio.read_arrow(data, columns=lossy, read_geometry=False, **options)[1].to_pydict()
         columns |= {name: exact[name] for name in lossy}
-    try:
-        geometry = shapely.from_wkb(wkb)
-    except shapely.errors.ShapelyError as error:
-        raise InputError(
-            f"{source.name} holds geometry that is not read ({error}): convert it, for example: ogr2ogr -nlt "
-            f"CONVERT_TO_LINEAR converted.gpkg {source.name}"
-        ) from None
-    has_ids = source.format in _NUMBERED and not np.array_equal(numbers, np.arange(1, len(numbers) + 1))
-    ids = numbers.tolist() if has_ids else None
-    return Features(source.name, np.asarray(geometry), columns, ids, member_of_text(meta["crs"]))
-
-
-def _chosen_layer(source: Source, layers: Sequence[tuple[str, str | None]]) -> int:
-    """The number of the layer: one without a name is called differently each time that it is looked at."""
-    named = {name: number for number, (name, kind) in enumerate(layers) if kind is not None}
-    held = ", ".join(named) or "none with geometry"
-    if source.layer is not None:
-        if source.layer not in named:
-            raise InputError(f"{source.name} has no layer {source.layer!r}: its layers are {held}")
-        return named[source.layer]
-    if not named:
-        raise InputError(f"{source.name} holds no layer with geometry: nothing can be read of it")
-    if len(named) > 1:
-        raise InputError(
-            f"{source.name} holds {len(named)} layers: choose one of {held} by {option('--input-layer', 'layer=...')}"
-        )
-    return next(iter(named.values()))
+    geometry, curves = geometry_of_binary(wkb.tolist(), source.flatten)
+    bad = next((k for k, each in enumerate(wkb) if each is not None and geometry[k] is None), None)
+    if bad is not None:
+        raise InputError(f"{source.name}: the geometry of feature {bad + 1} cannot be read; is the file damaged?")
+    return Features(source.name, geometry, columns, None, member_of_text(meta["crs"]), curves=curves)
 
 
 def _columns(meta: dict[str, Any], values: Sequence[NDArray[Any]]) -> dict[str, list[Any]]:

@@ -15,6 +15,10 @@ from vorotool.geometry.parallel import start
 _MOMENT = 0.05
 """Seconds after which signals are looked for."""
 
+MOST_UNPACKED = 1 << 29
+"""Bytes that any file may become, however small it is."""
+_MOST_TIMES = 100
+
 Result = TypeVar("Result")
 
 
@@ -39,6 +43,34 @@ def check_pixels(name: str, width: int, height: int, max_pixels: int) -> None:
         raise LimitError(
             f"{name} is {width} x {height} = {width * height} pixels, more than {limit}: "
             "raise that if there is memory for it, or crop the image"
+        )
+
+
+def check_unpacked(name: str, size: int, packed: int) -> None:
+    """Refuse what becomes larger than 512 MiB and than 100 times the file that holds it.
+
+    Parameters
+    ----------
+    name : str
+        The input.
+    size : int
+        Bytes that it becomes, as far as is known.
+    packed : int
+        Those of the file.
+
+    Raises
+    ------
+    LimitError
+        If that is too much.
+
+    Examples
+    --------
+    >>> check_unpacked("a.parquet", 10**8, 1000)
+    """
+    if size > max(MOST_UNPACKED, _MOST_TIMES * packed):
+        raise LimitError(
+            f"{name} is {packed} bytes that become {size} or more, over {_MOST_TIMES} times as many: split it, or "
+            "write it without compression"
         )
 
 

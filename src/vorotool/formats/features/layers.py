@@ -1,0 +1,43 @@
+"""Layers of files of maps: which one is read."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from vorotool.errors import InputError, option
+from vorotool.formats.io.sources import Source
+
+
+def chosen_layer(source: Source, layers: Sequence[tuple[str, str | None]]) -> int:
+    """Give the number of the layer that is wanted, or of the only one that has geometry.
+
+    Parameters
+    ----------
+    source : Source
+        The file, and the layer that the caller wants.
+    layers : sequence of (str, str or None)
+        Names, of which one may be different each time that it is asked for, and kinds of geometry, None of none.
+
+    Raises
+    ------
+    InputError
+        If there is no such layer, or none with geometry, or several and none is wanted.
+
+    Examples
+    --------
+    >>> chosen_layer(Source("a.gpkg", b"", layer="lakes"), [("roads", "LineString"), ("lakes", "Polygon")])
+    1
+    """
+    named = {name: number for number, (name, kind) in enumerate(layers) if kind is not None}
+    held = ", ".join(named) or "none with geometry"
+    if source.layer is not None:
+        if source.layer not in named:
+            raise InputError(f"{source.name} has no layer {source.layer!r}: its layers are {held}")
+        return named[source.layer]
+    if not named:
+        raise InputError(f"{source.name} holds no layer with geometry: nothing can be read of it")
+    if len(named) > 1:
+        raise InputError(
+            f"{source.name} holds {len(named)} layers: choose one of {held} by {option('--input-layer', 'layer=...')}"
+        )
+    return next(iter(named.values()))
