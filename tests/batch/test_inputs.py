@@ -38,9 +38,95 @@ def test_folders_are_searched_and_mirrored(folder):
     assert ("out/1.csv", "out/1.csv") in expanded(".", without="elsewhere")
 
 
-def test_links_to_folders_are_not_followed(folder):
-    (folder / "a/back").symlink_to(folder)
-    assert expanded("a") == [("a/1.csv", "1.csv")]
+LINKED = [("a/1.csv", "1.csv"), ("a/elsewhere/b/2.csv", "elsewhere/b/2.csv")]
+
+
+@pytest.fixture
+def linked(folder):
+    """Links to the folder that they are in, to each other, to files, and to a folder elsewhere."""
+    for name, target in (("back", "."), ("top", "../a"), ("self", "self"), ("elsewhere", "../.elsewhere")):
+        (folder / "a" / name).symlink_to(target)
+    elsewhere = folder / ".elsewhere"
+    (elsewhere / "b").mkdir(parents=True)
+    (elsewhere / "b/2.csv").write_text("x")
+    (elsewhere / "again").symlink_to(folder / "a")
+    return folder
+
+
+@pytest.mark.parametrize("name", ["a", "a/**/*.csv", "a/**/**/[!n]*.csv"])
+def test_links_to_folders_are_followed_on_request_each_folder_once(linked, name):
+    notes = []
+    assert expanded(name, note=notes.append) == LINKED[:1]
+    said = " ".join(notes)
+    assert "3 links" in said
+    assert all(f"a/{each}" in said for each in ("back", "top", "elsewhere"))
+    assert expanded(name, follow=True) == LINKED
+
+
+def test_a_link_that_is_named_is_followed(linked):
+    assert expanded("a/elsewhere", "a/elsewhere/b/*.csv") == [
+        ("a/elsewhere/b/2.csv", "b/2.csv"),
+        ("a/elsewhere/b/2.csv", "2.csv"),
+    ]
+
+
+def test_a_pattern_for_folders_matches_links_on_request(linked):
+    notes = []
+    with pytest.raises(InputError, match="3 links to folders"):
+        expanded("a/*/b/*.csv", note=notes.append)
+    assert expanded("a/*/b/*.csv", follow=True) == LINKED[1:]
+
+
+def test_links_to_files_are_followed(linked):
+    (linked / "a/3.csv").symlink_to("../b/2.csv")
+    assert expanded("a") == [*LINKED[:1], ("a/3.csv", "3.csv")]
+
+
+def test_many_links_between_folders_take_no_time(folder):
+    for number in range(30):
+        place = folder / f"deep/{number}"
+        place.mkdir(parents=True)
+        (place / "0.csv").write_text("x")
+        for other in range(30):
+            (place / f"to{other}").symlink_to(f"../{other}")
+    for name in ("deep", "deep/**/*.csv"):
+        assert len(expanded(name, follow=True)) == 30
+
+
+@pytest.mark.parametrize(
+    ("text", "is_read"),
+    [
+        ("1 2\n3 4\n", True),
+        ("x;y;name\n1,5;2,5;a\n", True),
+        ("# dots of a microscope, version 3\n1\t2\n", True),
+        ("a 1 2\nb -.5 1e3\n", True),
+        ("POLYGON ((0 0, 1 0, 1 1, 0 0))\n", True),
+        ('[{"x": 1, "y": 2}]', True),
+        ("", True),
+        ("Dots of 12 fields.\n\nTaken on 2024-05-01 by nobody.\nSee the paper.\n", False),
+        ("BSD 3-Clause License\n\nCopyright 2020\n", False),
+        ("\0\1\2", False),
+    ],
+)
+def test_text_in_folders_is_read_where_it_holds_numbers_or_geometry(folder, text, is_read):
+    (folder / "b/readme.txt").write_text(text)
+    notes = []
+    found = expand_inputs(["b"], extensions=["csv", "txt"], note=notes.append)
+    assert ("readme.txt" in [each.name for each in found]) is is_read
+    assert any("b/readme.txt" in note for note in notes) is not is_read
+
+
+def test_files_that_are_not_read_are_said_with_a_count_but_not_companions(folder):
+    for name in ("b/2.prj", "b/2.csv.aux.xml", "b/.hidden", "b/x.manifest.jsonl", *(f"b/c/{i}.pdf" for i in range(11))):
+        (folder / name).write_text("x")
+    (folder / "b/c/1.CSV").rename(folder / "b/c/z.CSV")
+    notes = []
+    assert expanded("b", note=notes.append) == [("b/2.csv", "2.csv"), ("b/c/z.CSV", "c/z.CSV")]
+    (note,) = notes
+    assert "11 files" in note
+    assert "b/c/0.pdf" in note
+    assert "prj" not in note
+    assert "xml" not in note
 
 
 def test_patterns_are_matched_below_their_fixed_part(folder):
@@ -77,7 +163,7 @@ def test_what_is_no_file_is_left_out_and_said(folder):
     for name in ("a", "a/*.csv"):
         notes = []
         assert expanded(name, note=notes.append) == [("a/1.csv", "1.csv")]
-        assert notes == words
+        assert notes[:3] == words
     for name, kind in (("a/0.csv", "a pipe"), ("/dev/stdin", "an open descriptor")):
         with pytest.raises(UsageError, match=f"{name} is {kind}, which this process alone can read"):
             expanded(name, "b")

@@ -57,10 +57,15 @@ def test_outputs_stay_in_their_folder(tmp_path):
     check_outputs([Task("a.png", (f"{tmp_path}/out/new/a.csv",))], tmp_path / "out")
 
 
-def test_shares_are_a_partition():
-    inputs = [Input(f"masks/{number}.png", f"{number}.png") for number in range(300)]
-    parts = [share(inputs, part, 7) for part in range(1, 8)]
-    assert sorted(each.source for part in parts for each in part) == sorted(each.source for each in inputs)
-    assert all(20 <= len(part) <= 80 for part in parts)
-    moved = [Input(f"/elsewhere/{each.name}", each.name) for each in parts[3]]
-    assert share(moved, 4, 7) == moved
+@pytest.mark.parametrize(("count", "parts"), [(300, 7), (8, 8), (3, 5), (1, 1)])
+def test_shares_are_a_partition_into_equal_parts(count, parts):
+    inputs = [Input(f"masks/{number}.png", f"{number}.png") for number in range(count)]
+    shares = [share(inputs, part, parts) for part in range(1, parts + 1)]
+    assert sorted(each.source for part in shares for each in part) == sorted(each.source for each in inputs)
+    sizes = sorted(len(part) for part in shares)
+    assert sizes[-1] - sizes[0] <= 1
+    moved = [Input(f"/elsewhere/{each.name}", each.name) for each in reversed(inputs)]
+    for part, chosen in enumerate(shares, 1):
+        assert {each.name for each in share(moved, part, parts)} == {each.name for each in chosen}
+    names = sorted(each.name for each in inputs)
+    assert sorted(each.name for each in shares[0]) == names[::parts]

@@ -4,17 +4,22 @@ from __future__ import annotations
 
 import glob
 import os
-from collections.abc import Callable, Collection, Iterable, Iterator
+import re
+from collections.abc import Callable, Collection, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
 from vorotool.batch.manifest import RECORD_ENDING
 from vorotool.batch.pages import PageName
+from vorotool.batch.search import LeftOut, Search
 from vorotool.errors import InputError, UsageError
 from vorotool.formats.io.descriptors import stream_kind
 from vorotool.formats.zarr.store import is_folder, is_store
 
 STANDARD_INPUT = "-"
+HEAD = 2**16
+"""Bytes of a text by which data and prose are told apart."""
+_NUMBER = re.compile(rb"(?<![\w.])[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?(?![\w.])")
 
 
 @dataclass(frozen=True)
@@ -75,6 +80,7 @@ def expand_inputs(
     *,
     extensions: Collection[str],
     without: str | os.PathLike[str] | None = None,
+    follow: bool = False,
     note: Callable[[str], None] | None = None,
 ) -> list[Input]:
     """Find the inputs that names stand for, in the order of the names, those of one name sorted.
@@ -83,13 +89,17 @@ def expand_inputs(
     ----------
     names : iterable of str
         Files; folders, which are searched for files with the extensions, hidden ones and records of batches left out;
-        patterns with ``*``, ``?`` or ``[``, of which ``**`` matches any folders.
+        patterns with ``*``, ``?`` or ``[``, of which ``**`` matches any folders. Links to files are followed, and so
+        are links that are named; links to folders that are found are not, unless `follow` says so.
     extensions : collection of str
         Without their dots, in lower case.
     without : path, optional
         A folder that is not searched: that of the outputs.
+    follow : bool
+        Follow links to folders, each folder once.
     note : callable, optional
-        Told in words what was left out: pipes, sockets and devices in folders, and among what patterns match.
+        Called with a line for each kind of what was left out: pipes, sockets and devices, links to folders, and files
+        in folders that are not in a format that is read.
 
     Raises
     ------
@@ -105,14 +115,17 @@ def expand_inputs(
     """
     found: list[Input] = []
     excluded = None if without is None else os.path.realpath(without)
+    search = Search(LeftOut(), follow, excluded)
     for name in names:
         if _is_pattern(name):
-            found += _matching(name, note)
+            found += _matching(name, search)
         elif name and _is_folder(Path(name)):
-            found += _inside(name, frozenset(extensions), excluded, note)
+            found += _inside(name, frozenset(extensions), search)
         else:
             _check_file(name)
             found.append(Input(name, Path(name).name))
+    for text in search.left_out.notes() if note is not None else ():
+        note(text)
     return found
 
 
@@ -124,18 +137,6 @@ def _check_file(name: str) -> None:
             f"{name} is {kind}, which this process alone can read: give it as the only input with -o, or write what "
             "comes through it to a file first"
         )
-
-
-def _files(paths: Iterable[Path], note: Callable[[str], None] | None) -> list[Path]:
-    """Leave out what is no file, and say so, in the order of the names."""
-    files = []
-    for path in sorted(paths):
-        kind = stream_kind(str(path))
-        if kind is None:
-            files.append(path)
-        elif note is not None:
-            note(f"{path} is {kind}: left out")
-    return files
 
 
 def read_names(path: str, *, null: bool = False) -> list[str]:
@@ -178,46 +179,54 @@ def _is_folder(path: Path) -> bool:
     return is_folder(path) and not is_store(path) and path.suffix.lower() != ".zarr"
 
 
-def _matching(pattern: str, note: Callable[[str], None] | None) -> list[Input]:
+def _matching(pattern: str, search: Search) -> list[Input]:
     """Files that match, named below the folder that the pattern begins with."""
     parts = Path(pattern).parts
     fixed = Path(*parts[: next(i for i, part in enumerate(parts) if glob.has_magic(part))])
-    found = map(Path, glob.glob(pattern, recursive=True))  # noqa: PTH207, as shells do it leaves hidden files out
-    files = _files((path for path in found if not _is_folder(path)), note)
+    files = search.left_out.files(path for path in search.matches(pattern) if not _is_folder(path))
     if not files:
-        raise InputError(f"no file matches {pattern}: check the pattern; for what is in a folder name the folder")
+        raise InputError(
+            f"no file matches {pattern}{search.left_out.reasons()}; check the pattern, or name a folder for what is in "
+            "it"
+        )
     return [Input(str(file), str(file.relative_to(fixed))) for file in files]
 
 
-def _inside(
-    folder: str, extensions: frozenset[str], excluded: str | None, note: Callable[[str], None] | None
-) -> list[Input]:
-    files = _files((Path(folder) / file for file in _walk(folder, extensions, excluded)), note)
+def _inside(folder: str, extensions: frozenset[str], search: Search) -> list[Input]:
+    """Files in a folder that are in a format that is read; companions of these are not worth a note."""
+    files: list[Path] = []
+    others: list[Path] = []
+    for place, names in search.folders(Path(folder)):
+        for path in (place / name for name in names if not name.startswith(".") and not name.endswith(RECORD_ENDING)):
+            (files if _is_known(path, extensions) else others).append(path)
+    stems = {(path.parent, path.name.partition(".")[0]) for path in files}
+    unknown = [path for path in others if (path.parent, path.name.partition(".")[0]) not in stems]
+    search.left_out.unknown.extend(map(str, unknown))
+    files = search.left_out.files(files)
     if not files:
         known = ", ".join(sorted(extensions))
-        raise InputError(f"{folder} holds no file that is read here ({known}): for others use a pattern, {folder}/*")
+        raise InputError(
+            f"{folder} holds no file that is read here ({known}){search.left_out.reasons()}; for others use a pattern, "
+            f"{folder}/*"
+        )
     return [Input(str(file), str(file.relative_to(folder))) for file in files]
 
 
-def _walk(folder: str, extensions: frozenset[str], excluded: str | None) -> Iterator[Path]:
-    """Paths below a folder; links to folders are not followed, as they may lead back."""
+def _is_known(path: Path, extensions: frozenset[str]) -> bool:
+    """Whether a file is in a format that is read, by its extension; text must hold numbers or geometry, too."""
+    extension = path.suffix.lower().lstrip(".")
+    return extension in extensions and (extension != "txt" or not path.is_file() or _is_data(path))
 
-    def fail(error: OSError) -> None:
-        raise InputError(f"the folder {error.filename} cannot be read: {error.strerror}; check who owns it")
 
-    for place, folders, files in os.walk(folder, onerror=fail):
-        folders[:] = [
-            name
-            for name in folders
-            if not name.startswith(".") and (excluded is None or os.path.realpath(Path(place) / name) != excluded)
-        ]
-        below = Path(place).relative_to(folder)
-        stores = [name for name in folders if is_store(Path(place) / name)]
-        folders[:] = [name for name in folders if name not in stores]
-        for name in (*files, *stores):
-            if (
-                not name.startswith(".")
-                and not name.endswith(RECORD_ENDING)
-                and Path(name).suffix.lower().lstrip(".") in extensions
-            ):
-                yield below / name
+def _is_data(path: Path) -> bool:
+    """Whether text looks like points or geometry: a readme does not."""
+    try:
+        with path.open("rb") as file:
+            head = file.read(HEAD)
+    except OSError:  # whoever reads it says what is wrong
+        return True
+    if b"\0" in head:
+        return False
+    lines = [line for line in head.splitlines() if line.strip() and not line.lstrip().startswith(b"#")]
+    rows = sum(len(_NUMBER.findall(line)) >= 2 for line in lines)
+    return 2 * rows >= len(lines) or head.lstrip().startswith((b"{", b"["))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import os
 import stat
 import sys
@@ -164,16 +163,14 @@ def check_inside(paths: Iterable[str | os.PathLike[str]], folder: str | os.PathL
 
 
 def share(inputs: Iterable[Input], part: int, parts: int) -> list[Input]:
-    """Give one part of the inputs; which part one is in depends on its name alone, so on every machine.
+    """Return one part of the inputs: every `parts`-th in the order of their names, beginning with number `part`.
 
     Examples
     --------
     >>> inputs = [Input(f"masks/{name}.png", f"{name}.png") for name in "abcdefgh"]
     >>> [[each.name[0] for each in share(inputs, part, 3)] for part in (1, 2, 3)]
-    [['b', 'c', 'd', 'e', 'f'], ['h'], ['a', 'g']]
+    [['a', 'd', 'g'], ['b', 'e', 'h'], ['c', 'f']]
     """
-    return [each for each in inputs if _number(each.name) % parts == part - 1]
-
-
-def _number(name: str) -> int:
-    return int.from_bytes(hashlib.sha256(os.fsencode(PurePath(name).as_posix())).digest()[:8], "big")
+    inputs = list(inputs)
+    ranked = sorted(range(len(inputs)), key=lambda i: (PurePath(inputs[i].name).as_posix(), inputs[i].source))
+    return [inputs[i] for i in sorted(ranked[part - 1 :: parts])]

@@ -59,7 +59,7 @@ def describe_inputs(options: ReadingOptions) -> None:
     InputError, LimitError, UsageError
         As `described`, of a single one.
     """
-    names = [each for name in options.inputs for each in _named_by(name)]
+    names = _named_by(options)
     if not names:
         raise UsageError("0 inputs are given: name files, a folder, or - for standard input")
     check_streams(("the input", name) for name in names)
@@ -79,11 +79,18 @@ def describe_inputs(options: ReadingOptions) -> None:
         raise BatchError(f"{failed} of {len(names)} inputs cannot be read")
 
 
-def _named_by(name: str) -> list[str]:
-    """Give the files of a folder or a pattern, or the name itself."""
-    if not is_several(name):
-        return [name]
-    return [each.source for each in expand_inputs([name], extensions=NAMES_WITH[None])]
+def _named_by(options: ReadingOptions) -> list[str]:
+    """Return names of files: those given, and those that folders and patterns stand for."""
+    names: list[str] = []
+    for name in options.inputs:
+        if not is_several(name):
+            names.append(name)
+            continue
+        found = expand_inputs(
+            [name], extensions=NAMES_WITH[None], follow=options.follow, note=lambda text: tell(f"note: {text}")
+        )
+        names += [each.source for each in found]
+    return names
 
 
 def described(path: str, options: ReadingOptions) -> Description:

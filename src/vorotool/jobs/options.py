@@ -66,6 +66,7 @@ class JobOptions:
     dry_run: bool
     resume: bool
     shard: tuple[int, int] | None
+    follow: bool
     cluster: str | None
 
     @property
@@ -106,10 +107,9 @@ class JobOptions:
         return chosen if self.label_by is None or "labels" in chosen else (*chosen, "labels")
 
     @property
-    def is_of_many(self) -> bool:
-        """Whether there are options that make a batch of one input, too."""
-        given = (self.files_from, self.null, self.keep_going, self.dry_run, self.resume, self.shard, self.table_of_all)
-        return any(given) or self.page == ALL_PAGES
+    def is_shared(self) -> bool:
+        """Whether there are options of many inputs that mean something for one, too."""
+        return any((self.null, self.dry_run, self.resume, self.shard, self.table_of_all))
 
     def files_of_inputs(self) -> dict[str, str]:
         """Give the files that are read beside each input, by the names of the options."""
@@ -131,6 +131,7 @@ class ReadingOptions:
     input_crs: str | None = None
     columns: str | None = None
     page: int | None = None
+    follow: bool = False
     max_pixels: int = 2**31
     threads: int = 0
 
@@ -378,6 +379,7 @@ class DistanceOptions(ComputingOptions):
     dry_run: bool = False
     resume: bool = False
     shard: tuple[int, int] | None = None
+    follow: bool = False
     cluster: str | None = None
     connectivity: Literal["8", "4", "26", "6"] | None = None
     threshold: float | Literal["otsu"] | None = None

@@ -42,6 +42,6 @@ def print_text(text: str, stream: TextIO | None = None) -> None:
         By default standard output.
     """
     stream = sys.stdout if stream is None else stream
-    encoding = getattr(stream, "encoding", None) or "utf-8"
+    encoding = stream.encoding or "utf-8"
     stream.write(text.encode(encoding, "backslashreplace").decode(encoding))
     stream.flush()

@@ -8,9 +8,10 @@ from vorotool.batch.inputs import is_several
 from vorotool.cli.batch.progress_bar import progress_bar
 from vorotool.errors import UsageError
 from vorotool.formats.io.commit import committed_together
+from vorotool.formats.io.descriptors import stream_kind
 from vorotool.jobs.inputs import check_streams
 from vorotool.jobs.job import Options, Recipe, process_input
-from vorotool.jobs.options import JobOptions
+from vorotool.jobs.options import ALL_PAGES, JobOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import check_stats, plan_targets
 from vorotool.jobs.units import check_units, lengths_in_pixels, with_spacing
@@ -40,6 +41,11 @@ def run_command(recipe: Recipe[Options], o: Options) -> None:
         return
     if not o.inputs:
         raise UsageError("0 inputs are given: name files, a folder, or - for standard input")
+    if o.is_shared:
+        from vorotool.cli.batch.one_input import run_one
+
+        run_one(recipe, o)
+        return
     (source,) = o.inputs
     targets = plan_targets(recipe.formats, o.what, output=o.output, fmt=o.format, out_dir=o.out_dir, source=source)
     check_stats(o, targets, source)
@@ -76,8 +82,10 @@ def refuse_several(named: Mapping[str, str]) -> None:
 
 
 def _is_batch(o: JobOptions) -> bool:
-    """Whether inputs are shared out; a cluster may also share out the bands of the one output of one input."""
-    if len(o.inputs) > 1 or any(map(is_several, o.inputs)):
+    """Whether there are several inputs, or one whose outputs and record are in a folder."""
+    if len(o.inputs) > 1 or any(map(is_several, o.inputs)) or o.files_from is not None or o.page == ALL_PAGES:
         return True
-    is_of_bands = bool(o.cluster is not None and o.output is not None and o.inputs)
-    return o.is_of_many or (not is_of_bands and bool(o.cluster or o.jobs))
+    if o.output is not None or not o.inputs or stream_kind(o.inputs[0]) is not None:
+        return False
+    has_folder = o.out_dir is not None and (o.is_shared or o.keep_going or o.jobs is not None)
+    return has_folder or o.cluster is not None

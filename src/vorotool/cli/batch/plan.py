@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import os
 import re
+import tempfile
 from collections.abc import Callable
+from contextlib import ExitStack
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import Any, Generic
@@ -11,15 +14,16 @@ from typing import Any, Generic
 import click
 from click.core import ParameterSource
 
-from vorotool.batch.inputs import Input, expand_inputs, pages_of, read_names
+from vorotool.batch.inputs import Input, expand_inputs, is_several, pages_of, read_names
 from vorotool.batch.manifest import RECORD_ENDING, History, Manifest, digest_of_values, read_history
 from vorotool.batch.plan import check_outputs, output_paths, share
 from vorotool.batch.tables import TABLE_FORMATS
 from vorotool.batch.tasks import Task, digest_of
 from vorotool.cli.options.shared import BATCH_OPTIONS
-from vorotool.errors import UsageError
+from vorotool.errors import OutputError, UsageError
 from vorotool.formats.io.atomic_output import spoken
 from vorotool.formats.io.descriptors import STANDARD, descriptor_of, is_same_output, stream_kind
+from vorotool.formats.io.temporaries import new_folder, temporary_beside
 from vorotool.jobs.job import Options, Recipe
 from vorotool.jobs.options import ALL_PAGES, ComputingOptions, JobOptions
 from vorotool.jobs.targets import Target, plan_targets
@@ -98,10 +102,10 @@ def plan_batch(recipe: Recipe[Options], o: Options) -> Plan[Options]:
         If there are no inputs, or outputs would replace something that they must not.
     """
     _check_options(o)
-    o, notes = _named_for_shard(o)
-    table = _joint_table(o)
+    o, notes = named_for_shard(o)
+    table = joint_table(o)
     if o.out_dir is None:
-        _check_table_only(o)
+        check_table_only(o)
         o = replace(o, what=())
     targets = [] if o.out_dir is None else plan_targets(
         recipe.formats, o.what, output=None, fmt=o.format, out_dir=o.out_dir, source="input"
@@ -121,7 +125,7 @@ def plan_batch(recipe: Recipe[Options], o: Options) -> Plan[Options]:
 
 def _check_options(o: JobOptions) -> None:
     table = o.table_of_all
-    inputs = f"{len(o.inputs)} inputs are given" if len(o.inputs) > 1 else "many inputs are asked for"
+    inputs = _several(o)
     if o.output is not None:
         raise UsageError(f"{inputs}, but -o names one output: name a folder for all with --out-dir")
     if o.out_dir is None and table is None:
@@ -142,8 +146,32 @@ def _check_options(o: JobOptions) -> None:
         raise UsageError("-j is for this machine: a cluster has the workers that it has")
 
 
-def _named_for_shard(o: Options) -> tuple[Options, list[str]]:
-    """Give the table and the statistics of a part names of their own: parts would replace those of each other."""
+def _several(o: JobOptions) -> str:
+    """Return why this is a batch, by what the user typed."""
+    if len(o.inputs) > 1:
+        return f"{len(o.inputs)} inputs are given"
+    if o.files_from is not None:
+        return f"--files-from {o.files_from} lists inputs"
+    if any(map(is_several, o.inputs)):
+        return f"{o.inputs[0]} stands for several inputs"
+    return "--page all makes each page an input" if o.page == ALL_PAGES else "--cluster is for several inputs"
+
+
+def named_for_shard(o: Options) -> tuple[Options, list[str]]:
+    """Give the table and the statistics of a part names of their own: parts would replace those of each other.
+
+    Parameters
+    ----------
+    o : JobOptions
+        Of the command line.
+
+    Returns
+    -------
+    options : JobOptions
+        With the names.
+    notes : list of str
+        The names, for the user.
+    """
     if o.shard is None:
         return o, []
     own: dict[str, Any] = {}
@@ -168,14 +196,37 @@ def name_of_part(path: str, part: int, parts: int) -> str:
     return str(name.with_name(f"{name.stem}.{mark}{name.suffix}"))
 
 
-def _check_table_only(o: JobOptions) -> None:
+def check_table_only(o: JobOptions) -> None:
+    """Refuse other results where the table is the only output.
+
+    Parameters
+    ----------
+    o : JobOptions
+        Of the command line.
+
+    Raises
+    ------
+    UsageError
+        If ``--what`` names others.
+    """
     source = click.get_current_context().get_parameter_source("what")
     if source != ParameterSource.DEFAULT and o.what != ("table",):
-        raise UsageError(f"--what {','.join(o.what)} needs --out-dir DIR: --table is a file of tables alone")
+        raise UsageError(f"--what {','.join(o.what)} needs -o FILE or --out-dir DIR: --table collects tables only")
 
 
-def _joint_table(o: JobOptions) -> JointTable | None:
-    """The table of all inputs; its format is what its name says, unless there is no other output for -f."""
+def joint_table(o: JobOptions) -> JointTable | None:
+    """Return the table of all inputs; its format is what its name says, unless there is no other output for -f.
+
+    Parameters
+    ----------
+    o : JobOptions
+        Of the command line.
+
+    Raises
+    ------
+    UsageError
+        If the name is of another format.
+    """
     if not isinstance(o, ComputingOptions) or o.table is None:
         return None
     path = o.table
@@ -186,6 +237,35 @@ def _joint_table(o: JobOptions) -> JointTable | None:
     if fmt not in TABLE_FORMATS:
         raise UsageError(f"--table {path} is written as CSV, TSV or JSON: name it .csv, .tsv or .json")
     return JointTable(path, fmt, o.safe_csv, o.unit is not None)
+
+
+def folder_of_parts(command: str, o: JobOptions, table: JointTable, stack: ExitStack) -> str:
+    """Return the folder for the tables of inputs: beside the record of what was done, else one until the end.
+
+    Parameters
+    ----------
+    command : str
+        Its name.
+    o : JobOptions
+        Of the command line.
+    table : JointTable
+        Made of the tables.
+    stack : ExitStack
+        Removes the folder.
+
+    Raises
+    ------
+    OutputError
+        If no folder can be made.
+    """
+    if o.out_dir is not None:
+        return str(Path(o.out_dir) / f".{command}.tables")
+    is_beside = stream_kind(table.path) is None
+    folder = Path(os.path.realpath(table.path)).parent if is_beside else Path(tempfile.gettempdir())
+    try:
+        return str(stack.enter_context(temporary_beside(folder / "tables", new_folder)).path)
+    except OSError as error:
+        raise OutputError(f"tables cannot be written in {folder}: {error.strerror}; choose another name") from error
 
 
 def _record(recipe: Recipe[Options], o: Options, targets: list[Target]) -> tuple[Manifest | None, History]:
@@ -230,5 +310,5 @@ def _inputs(recipe: Recipe[Options], o: Options, note: Callable[[str], None]) ->
         if o.files_from is not None:
             advice = f"--files-from {o.files_from} holds no names; write one on each line"
         raise UsageError(f"0 inputs are given: {advice}")
-    found = expand_inputs(names, extensions=known, without=o.out_dir, note=note)
+    found = expand_inputs(names, extensions=known, without=o.out_dir, follow=o.follow, note=note)
     return pages_of(found) if o.page == ALL_PAGES else found

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import tempfile
 from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import replace
@@ -17,13 +16,11 @@ from vorotool.batch.plan import check_inside
 from vorotool.batch.run import Results, run_batch
 from vorotool.batch.tables import join_tables, part_path
 from vorotool.batch.tasks import Outcome, Process, Task, digest_of, is_done
-from vorotool.cli.batch.plan import JointTable, Plan, plan_batch
+from vorotool.cli.batch.plan import JointTable, Plan, folder_of_parts, plan_batch
 from vorotool.cli.batch.progress_bar import progress_bar
 from vorotool.cli.batch.report import Report
-from vorotool.errors import InputError, OutputError
+from vorotool.errors import InputError
 from vorotool.formats.io.atomic_output import check_output, open_output
-from vorotool.formats.io.descriptors import stream_kind
-from vorotool.formats.io.temporaries import new_folder, temporary_beside
 from vorotool.geometry.length_units import unit_name
 from vorotool.jobs.failures import explained
 from vorotool.jobs.job import Options, Recipe, process_input
@@ -93,7 +90,7 @@ def run_many(recipe: Recipe[Options], o: Options) -> None:
     with ExitStack() as stack:
         tasks = plan.tasks
         if plan.table is not None:
-            folder = _folder_of_parts(recipe.name, o, plan.table, stack)
+            folder = folder_of_parts(recipe.name, o, plan.table, stack)
             tasks = [_with_part(task, folder, plan.table.fmt) for task in tasks]
         _check_records(plan, tasks)
         run = stack.enter_context(
@@ -133,18 +130,6 @@ def _check_files(o: JobOptions) -> None:
             is_inside = o.out_dir is not None and Path(path).parent == Path(o.out_dir)
             may_replace = not o.no_clobber or o.resume
             check_output(path, no_clobber=not may_replace, makes_folder=is_inside, option=f"--{option}")
-
-
-def _folder_of_parts(command: str, o: JobOptions, table: JointTable, stack: ExitStack) -> str:
-    """Where the tables of inputs are kept: with the record of what was done, else until the end."""
-    if o.out_dir is not None:
-        return str(Path(o.out_dir) / f".{command}.tables")
-    is_beside = stream_kind(table.path) is None
-    folder = Path(os.path.realpath(table.path)).parent if is_beside else Path(tempfile.gettempdir())
-    try:
-        return str(stack.enter_context(temporary_beside(folder / "tables", new_folder)).path)
-    except OSError as error:
-        raise OutputError(f"tables cannot be written in {folder}: {error.strerror}; choose another name") from error
 
 
 def _with_part(task: Task, folder: str, fmt: str) -> Task:

@@ -14,7 +14,7 @@ from vorotool.products.inputs import NAMES_WITH
 @click.command("info")
 @inputs_argument(NAMES_WITH[None])
 @click.option("--json", is_flag=True, help="Print a JSON object on one line for each input.")
-@shared("columns", "input-format", "input-crs", "page", "threads", "max-pixels")
+@shared("columns", "input-format", "input-crs", "page", "follow", "threads", "max-pixels")
 def command(**options: Any) -> None:
     """Tell how a file is read: its format, what it holds, how much, where, and which commands take it.
 

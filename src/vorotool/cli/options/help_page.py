@@ -20,7 +20,7 @@ _GROUPS = {
     "Frame": "size window cell_size frame clip enclosures",
     "Pictures": "layers slice overlay width y_up scale drawing_unit aspect extent background colours "
     "line_widths label_by legend scale_bar animate frames fps",
-    "Many inputs": "out_dir files_from null jobs keep_going dry_run resume shard table cluster",
+    "Many inputs": "out_dir files_from null jobs keep_going dry_run resume shard follow table cluster",
     "Checks and resources": "verify strict stats threads max_pixels max_sites quiet verbose",
 }
 GROUPS = {title: names.split() for title, names in _GROUPS.items()}

@@ -256,7 +256,8 @@ OPTIONS: dict[str, Decorator] = {
     "keep-going": click.option("--keep-going", is_flag=True, help="Go on with the others when an input fails."),
     "dry-run": click.option("--dry-run", is_flag=True, help="Print the plan as JSON lines, and write nothing."),
     "resume": click.option("--resume", is_flag=True, help="Leave out inputs that were done before."),
-    "shard": click.option("--shard", type=Shard(), help="Take the I-th of N parts of the inputs."),
+    "shard": click.option("--shard", type=Shard(), help="Take every N-th input in the order of names, from the I-th."),
+    "follow": click.option("--follow", is_flag=True, help="Follow links to folders that are found in folders."),
     "cluster": click.option(
         "--cluster", metavar="ADDRESS|local", help="Work on a Dask cluster.", shell_complete=words(("local",))
     ),
@@ -352,8 +353,8 @@ OPTIONS: dict[str, Decorator] = {
 }
 
 
-BATCH_OPTIONS = ("files_from", "null", "jobs", "keep_going", "dry_run", "resume", "shard", "table", "cluster")
-"""Options that make a batch of one input, too."""
+BATCH_OPTIONS = ("files_from", "null", "jobs", "keep_going", "dry_run", "resume", "shard", "follow", "table", "cluster")
+"""Options of many inputs."""
 
 
 def together(*options: Decorator) -> Decorator:

@@ -1,0 +1,114 @@
+"""One input with options of many: its share, its plan, its table."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from contextlib import ExitStack
+from dataclasses import replace
+from pathlib import Path
+
+from vorotool.batch.inputs import Input
+from vorotool.batch.plan import share
+from vorotool.batch.tables import join_tables, part_path
+from vorotool.cli.batch.plan import JointTable, check_table_only, folder_of_parts, joint_table, named_for_shard
+from vorotool.cli.batch.progress_bar import progress_bar
+from vorotool.errors import UsageError
+from vorotool.formats.io.atomic_output import check_output, is_same_file, open_output, spoken
+from vorotool.formats.io.descriptors import STANDARD, descriptor_of, is_same_output
+from vorotool.jobs.job import Options, Recipe, process_input
+from vorotool.jobs.options import JobOptions
+from vorotool.jobs.run_log import Run
+from vorotool.jobs.targets import Target, check_stats, plan_targets
+from vorotool.jobs.terminal import print_text, tell
+from vorotool.jobs.units import check_units, lengths_in_pixels
+
+
+def run_one(recipe: Recipe[Options], o: Options) -> None:
+    """Process one input as a batch would, in this process; its outputs may be files that `-o` names.
+
+    Parameters
+    ----------
+    recipe : Recipe
+        Of the command.
+    o : JobOptions
+        Of the command line.
+
+    Raises
+    ------
+    UsageError
+        If an option needs several inputs, or a folder for outputs.
+    """
+    (source,) = o.inputs
+    if o.null:
+        raise UsageError("-0 is about the list of --files-from: leave it out")
+    if o.resume:
+        raise UsageError("--resume needs --out-dir DIR, where it is recorded what was done, and a file as its input")
+    o, notes = named_for_shard(o)
+    table = joint_table(o)
+    targets = _targets(recipe, o, source, has_table=table is not None)
+    check_stats(o, targets, source)
+    if table is not None:
+        _check_table(o, table, targets, source)
+        o = replace(o, what=tuple(dict.fromkeys((*(o.what if targets else ()), "table"))))
+    planned = targets if table is None else [*targets, Target("table", f"part.{table.fmt}", table.fmt)]
+    check_units(o, planned)
+    o = lengths_in_pixels(o, o.unit)
+    recipe.check_options(o, planned)
+    if o.shard is not None and not share([Input(source, Path(source).name)], *o.shard):
+        notes = [f"{source} is in part 1 of {o.shard[1]}: nothing is done for part {o.shard[0]}"]
+    elif not o.dry_run:
+        _process(recipe, o, source, targets, table, notes)
+        return
+    else:
+        outputs = [target.path for target in targets]
+        print_text(json.dumps({"input": source, "status": "planned", "outputs": outputs}) + "\n")
+    for text in () if o.quiet else notes:
+        tell(f"note: {text}")
+
+
+def _targets(recipe: Recipe[Options], o: Options, source: str, *, has_table: bool) -> list[Target]:
+    """Lay out the outputs; without -o or --out-dir a table of its own is the only one."""
+    if has_table and o.output is None and o.out_dir is None:
+        check_table_only(o)
+        return []
+    return plan_targets(recipe.formats, o.what, output=o.output, fmt=o.format, out_dir=o.out_dir, source=source)
+
+
+def _check_table(o: JobOptions, table: JointTable, targets: Sequence[Target], source: str) -> None:
+    """Refuse a table that would replace the input or another output."""
+    is_open = table.path == STANDARD or descriptor_of(table.path) is not None
+    for role, path in () if is_open else (("the input", source), *o.files_read().items()):
+        if is_same_file(Path(table.path), path):
+            raise UsageError(f"--table {table.path} is also {role}, which is never replaced: choose another name")
+    outputs = [(f"the output of {target.what}", target.path) for target in targets]
+    for role, path in [*outputs, *([("--stats", o.stats)] if o.stats else [])]:
+        if is_same_output(table.path, path):
+            where = spoken(table.path) if is_open else table.path
+            raise UsageError(f"--table {table.path}: {where} is also {role}; choose another name")
+    check_output(table.path, no_clobber=o.no_clobber, option="--table")
+
+
+def _process(
+    recipe: Recipe[Options],
+    o: Options,
+    source: str,
+    targets: Sequence[Target],
+    table: JointTable | None,
+    notes: Sequence[str],
+) -> None:
+    with ExitStack() as stack:
+        planned = list(targets)
+        if table is not None:
+            folder = folder_of_parts(recipe.name, replace(o, out_dir=None), table, stack)
+            planned.append(Target("table", part_path(folder, source, table.fmt), table.fmt))
+        run = stack.enter_context(
+            Run(recipe.name, quiet=o.quiet, verbose=o.verbose, stats=o.stats, no_clobber=o.no_clobber, bar=progress_bar)
+        )
+        for text in notes:
+            run.note(text)
+        process_input(recipe, run, o, source, planned)
+        if table is not None:
+            with run.phase("write --table"), open_output(table.path, no_clobber=o.no_clobber, option="--table") as out:
+                parts = [(source, planned[-1].path)]
+                join_tables(out, parts, table.fmt, is_safe=table.is_safe, has_unit=table.has_unit)

@@ -1,0 +1,86 @@
+"""Options of many inputs with one input: each does what it can."""
+
+import io
+import json
+import sys
+
+import pytest
+
+POINTS = "x,y\n2,1\n7,5\n1,6\n4,3\n"
+
+
+@pytest.fixture
+def alone(run, tmp_path):
+    """What the command writes without any of the options."""
+    (tmp_path / "p.csv").write_text(POINTS)
+    assert run("tessellate", "p.csv", "-o", "alone.tif").code == 0
+    return (tmp_path / "alone.tif").read_bytes()
+
+
+@pytest.mark.parametrize("options", ["-j 1", "-j 0", "-j 4", "--keep-going", "--shard 1/1", "--shard 1/3", "--follow"])
+def test_options_that_change_nothing(run, tmp_path, alone, options):
+    done = run("tessellate", "p.csv", "-o", "l.tif", *options.split())
+    assert (done.code, done.out, done.err) == (0, "", "")
+    assert (tmp_path / "l.tif").read_bytes() == alone
+    text = run("delaunay", "p.csv")
+    assert run("delaunay", "p.csv", *options.split()).out == text.out
+
+
+def test_another_part_has_nothing_to_do(run, tmp_path, alone):
+    done = run("tessellate", "p.csv", "-o", "l.tif", "--shard", "2/3")
+    assert done.code == 0
+    assert "p.csv" in done.err
+    assert not (tmp_path / "l.tif").exists()
+
+
+@pytest.mark.parametrize("output", [["-o", "l.tif"], ["--what", "table"], ["--out-dir", "out"]])
+def test_the_plan_is_printed(run, tmp_path, alone, output):
+    done = run("tessellate", "p.csv", "--dry-run", *output)
+    assert (done.code, done.err) == (0, "")
+    path = {"-o": "l.tif", "--out-dir": "out/p.png", "--what": "-"}[output[0]]
+    assert json.loads(done.out) == {"input": "p.csv", "status": "planned", "outputs": [path]}
+    assert sorted(each.name for each in tmp_path.iterdir()) == ["alone.tif", "p.csv"]
+
+
+@pytest.mark.parametrize("table", ["t.csv", "t.tsv", "t.json", "-"])
+def test_a_table_beside_another_output(run, tmp_path, alone, table):
+    done = run("tessellate", "p.csv", "-o", "l.tif", "--table", table, "--stats", "s.json")
+    assert (done.code, done.err) == (0, "")
+    assert (tmp_path / "l.tif").read_bytes() == alone
+    written = done.out if table == "-" else (tmp_path / table).read_text()
+    only = "only.csv" if table == "-" else f"only-{table}"
+    assert run("tessellate", "p.csv", "--table", only).code == 0
+    assert (tmp_path / only).read_text() == written
+    assert json.loads((tmp_path / "s.json").read_text())["seeds"] == 4
+    assert [each.name for each in tmp_path.iterdir() if each.name.startswith(".")] == []
+
+
+def test_a_table_of_standard_input(run, tmp_path, alone, monkeypatch):
+    monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(POINTS.encode())))
+    done = run("tessellate", "-", "-o", "l.tif", "--table", "t.csv", "-j", "2", "--keep-going")
+    assert (done.code, done.err) == (0, "")
+    assert (tmp_path / "l.tif").read_bytes() == alone
+    assert (tmp_path / "t.csv").read_text().splitlines()[1].startswith("-,1,2,1,")
+
+
+def test_a_failure_has_the_code_that_it_has_alone(run, tmp_path):
+    (tmp_path / "bad.csv").write_text("x,y\n1,nonsense\n")
+    for options in ([], ["-j", "2"], ["--table", "t.csv"], ["--keep-going", "--table", "t.csv"]):
+        assert run("tessellate", "bad.csv", "-o", "l.tif", *options).code == 3
+    assert [each.name for each in tmp_path.iterdir()] == ["bad.csv"]
+
+
+def test_a_folder_with_a_readme_and_links_is_done(run, tmp_path):
+    (tmp_path / "in").mkdir()
+    (tmp_path / "in/p.csv").write_text(POINTS)
+    (tmp_path / "in/readme.txt").write_text("Dots.\n\nNobody knows whose.\n")
+    (tmp_path / "in/back").symlink_to(".")
+    for options in ([], ["--resume"], ["--follow", "--resume"]):
+        done = run("delaunay", "in", "--out-dir", "out", *options)
+        assert done.code == 0, done.err
+        assert "1/1 in/p.csv" in done.err
+        assert "in/readme.txt" in done.err
+        assert ("in/back" in done.err) is ("--follow" not in options)
+    done = run("info", "in")
+    assert done.code == 0
+    assert "in/readme.txt" in done.err
