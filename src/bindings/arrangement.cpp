@@ -15,6 +15,7 @@
 #include "core/arrangement/lattice_placement.hpp"
 #include "core/arrangement/planar_graph.hpp"
 #include "core/arrangement/segment_set.hpp"
+#include "core/arrangement/sound_polygons.hpp"
 #include "core/arrangement/verify_planar_graph.hpp"
 
 namespace vorotool::bindings {
@@ -104,6 +105,24 @@ std::optional<std::string> find_fault(const IndexRows& points, const IndexRows& 
   return run_interruptible(progress, core::arrangement::find_fault, graph);
 }
 
+auto polygon_faults(const Places& points, const Vector<const std::int64_t>& ring_start,
+                    const Vector<const std::int64_t>& polygon_start, bool is_coverage, unsigned threads,
+                    const Progress& progress) {
+  const core::arrangement::PolygonRings rings{rows<core::kernel::Point>(points), view(ring_start),
+                                              view(polygon_start)};
+  const auto divides = [](std::span<const std::int64_t> starts, std::size_t size) {
+    return !starts.empty() && starts.front() == 0 && std::is_sorted(starts.begin(), starts.end()) &&
+           static_cast<std::size_t>(starts.back()) == size;
+  };
+  if (!divides(rings.ring_start, rings.points.size()) ||
+      !divides(rings.polygon_start, rings.ring_start.size() - 1)) {
+    throw std::invalid_argument("the arrays of rings have lengths that do not go together");
+  }
+  return to_numpy(run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::arrangement::find_polygon_faults(rings, is_coverage, threads, monitor);
+  }));
+}
+
 }  // namespace
 
 void bind_arrangement(nb::module_& room) {
@@ -118,6 +137,10 @@ void bind_arrangement(nb::module_& room) {
            "Arrays of a PlanarGraph; repairs: of each kind the count, an edge, and what meets it or -1.");
   room.def("boundary_rings", &boundary_rings, "graph"_a, "face_start"_a, "face_polygon"_a,
            "progress"_a.none(), "The indices of faces must be in range.");
+  room.def("polygon_faults", &polygon_faults, "points"_a, "ring_start"_a, "polygon_start"_a, "is_coverage"_a,
+           "threads"_a, "progress"_a.none(),
+           "Of each polygon 1 if it is not seen to be one simple ring, 2 if it clashes with others of its "
+           "coverage.");
   room.def("find_fault", &find_fault, "points"_a, "segments"_a, "faces"_a.none(), "progress"_a.none());
 }
 

@@ -276,14 +276,17 @@ core::text::RowShape shape_of(const std::optional<ShapeTexts>& shape, std::size_
 }
 
 auto format_rows(const nb::typed<nb::list, nb::any>& values,
-                 const std::vector<std::optional<InputArray<bool>>>& missing, int precision, unsigned threads,
-                 const std::optional<ShapeTexts>& shape, bool by_tabs) {
+                 const std::vector<std::optional<InputArray<bool>>>& missing, const std::vector<int>& digits,
+                 unsigned threads, const std::optional<ShapeTexts>& shape, bool by_tabs) {
   if (values.size() != missing.size()) throw nb::value_error("one mask, or None, a column");
+  if (!digits.empty() && digits.size() != values.size())
+    throw nb::value_error("one number of digits a column");
   ColumnStore store;
   for (std::size_t i = 0; i < missing.size(); ++i) store.add(values[i], missing[i]);
+  for (std::size_t i = 0; i < digits.size(); ++i) store.columns[i].digits = digits[i];
   const core::text::RowShape row = shape_of(shape, missing.size(), by_tabs, store);
   const std::vector<std::string> blocks =
-      run_interruptible({}, core::text::format_rows, store.columns, row, precision, threads);
+      run_interruptible({}, core::text::format_rows, store.columns, row, threads);
   nb::typed<nb::list, nb::bytes> result;
   for (const std::string& block : blocks) result.append(nb::bytes(block.data(), block.size()));
   return result;
@@ -308,8 +311,8 @@ void bind_text(nb::module_& room) {
   room.def("line_of_row", &line_of_row, "text"_a, "delimiter"_a, "header_records"_a, "row"_a);
   room.def("first_record", &first_record, "text"_a, "delimiter"_a, "Its line, its text and its fields.");
   room.def("find_too_deep", &find_too_deep, "text"_a, "limit"_a);
-  room.def("format_rows", &format_rows, "values"_a, "missing"_a, "precision"_a = 0, "threads"_a = 0,
-           "shape"_a = nb::none(), "by_tabs"_a = false);
+  room.def("format_rows", &format_rows, "values"_a, "missing"_a, "digits"_a = std::vector<int>(),
+           "threads"_a = 0, "shape"_a = nb::none(), "by_tabs"_a = false);
   nb::class_<core::text::NumberTexts>(room, "NumberTexts")
       .def("__init__", &make_number_texts, "values"_a, "precision"_a = 0, "threads"_a = 0)
       .def("__len__", &core::text::NumberTexts::size);

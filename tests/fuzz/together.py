@@ -41,6 +41,7 @@ ENGINES = (
     Share("predicates.py", ("--calls", MORE)),
     Share("delaunay.py"),
     Share("cells.py"),
+    Share("written.py"),
     Share("alphashape.py"),
     Share("digital.py"),
     Share("planar_graph.py"),

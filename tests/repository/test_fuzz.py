@@ -31,6 +31,7 @@ def test_a_script_that_compares_nothing_fails(script):
         ("spacing.py", "--pixels 100000 --first 1 --seed 7", ", 0 wrong, "),
         ("volumes.py", "--voxels 200000 --first 1 --seed 7", ", 0 wrong, "),
         ("digital.py", "--sets 12 --seed 3", "0 failures"),
+        ("written.py", "--sets 40 --seed 2", "0 failures"),
         ("voronoi.py", "--cases 72 --seed 2", "0 failures"),
         ("voronoi_cuts.py", "--cases 36 --seed 2", "0 failures"),
         ("bytes.py", "--cases 2000 --minutes 5 --seed 7 --commands 0.02", "2,000 inputs, 0 failures"),

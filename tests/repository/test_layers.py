@@ -20,19 +20,20 @@ formats/parsing -> formats/io, geometry, geometry/curves, geometry/points, geome
 formats/points -> formats/io, formats/parsing, geometry, geometry/curves, geometry/points
 render/canvas -> geometry, geometry/curves, products
 render/label_images -> geometry, geometry/points, products, render/canvas
-geometry/voronoi -> geometry, geometry/curves, geometry/polygons, products
 render ->
 geometry/volumes -> geometry, geometry/points
 geometry/arguments -> geometry, geometry/curves, geometry/points, geometry/polygons, geometry/volumes, products
 formats/zarr -> formats/compression, formats/io, geometry, geometry/volumes
 formats/images -> formats/compression, formats/io, formats/parsing, formats/zarr, geometry, geometry/points
-geometry/mesh -> geometry, geometry/arguments, geometry/curves
+geometry/mesh -> geometry, geometry/arguments, geometry/curves, products
+geometry/voronoi -> geometry, geometry/curves, geometry/mesh, geometry/polygons, products
+formats/written -> geometry, geometry/mesh, geometry/polygons
 geometry/skeleton -> geometry, geometry/arguments, geometry/curves, geometry/polygons
 typing -> geometry, geometry/mesh, geometry/points, geometry/polygons, geometry/skeleton, geometry/volumes
 engines/arrangement -> geometry, geometry/arguments, geometry/curves, geometry/polygons, geometry/skeleton, typing
 engines/delaunay -> geometry, geometry/arguments, geometry/curves, geometry/mesh, geometry/points, products, typing
 engines/segment_voronoi -> geometry, geometry/polygons, geometry/skeleton
-formats/text -> geometry, geometry/skeleton
+formats/text -> formats/written, geometry, geometry/skeleton
 formats/features -> formats/io, formats/parsing, formats/points, formats/text, geometry, geometry/arguments,
     geometry/curves, geometry/points, geometry/polygons, products
 geometry/alpha -> geometry, geometry/curves, geometry/mesh, geometry/polygons
@@ -41,8 +42,8 @@ formats/drawing -> formats/compression, formats/io, formats/parsing, geometry, g
 engines/alpha -> engines/delaunay, geometry, geometry/alpha, geometry/arguments, geometry/curves, geometry/mesh,
     geometry/points, geometry/polygons, typing
 engines/features -> engines/arrangement, geometry, geometry/polygons, geometry/skeleton
-formats/polygons -> formats/io, formats/parsing, formats/points, formats/text, geometry, geometry/arguments,
-    geometry/curves, geometry/polygons, products
+formats/polygons -> formats/io, formats/parsing, formats/points, formats/text, formats/written, geometry,
+    geometry/arguments, geometry/curves, geometry/polygons, products
 render/pages -> geometry, geometry/alpha, geometry/curves, geometry/mesh, geometry/skeleton, geometry/voronoi, products,
     render/canvas, render/label_images
 formats -> formats/drawing, formats/features, formats/images, formats/io, formats/parsing, formats/points,
@@ -52,8 +53,8 @@ formats/volumes -> formats, formats/images, formats/io, formats/parsing, formats
     geometry/volumes, products
 engines/smoothing -> geometry, geometry/arguments, geometry/curves, geometry/skeleton
 geometry/distances -> geometry, geometry/polygons
-formats/results -> formats/images, formats/io, formats/parsing, formats/polygons, formats/text, geometry,
-    geometry/alpha, geometry/arguments, geometry/curves, geometry/distances, geometry/mesh, geometry/polygons,
+formats/results -> formats/images, formats/io, formats/parsing, formats/polygons, formats/text, formats/written,
+    geometry, geometry/alpha, geometry/arguments, geometry/curves, geometry/distances, geometry/mesh, geometry/polygons,
     geometry/skeleton, geometry/voronoi, products
 geometry/any -> geometry, geometry/alpha, geometry/curves, geometry/distances, geometry/mesh, geometry/points,
     geometry/polygons, geometry/skeleton, geometry/volumes, geometry/voronoi, products
@@ -94,7 +95,7 @@ render/layers -> geometry, geometry/alpha, geometry/distances, geometry/mesh, ge
 jobs -> batch, engines/alpha, engines/arrangement, engines/centerlines, engines/delaunay, engines/digital,
     engines/distances, engines/from_skeleton, engines/label_images, engines/pruning, engines/tessellation,
     engines/voronoi, formats, formats/images, formats/io, formats/parsing, formats/points, formats/text,
-    formats/volumes, formats/zarr, geometry, geometry/alpha, geometry/any, geometry/arguments, geometry/curves,
+    formats/volumes, formats/written, formats/zarr, geometry, geometry/alpha, geometry/any, geometry/arguments, geometry/curves,
     geometry/distances, geometry/mesh, geometry/points, geometry/polygons, geometry/skeleton, geometry/volumes,
     geometry/voronoi, products, render/canvas, render/label_images, render/layers, render/pages, typing
 cli/options -> engines/offsets, engines/pruning, geometry, jobs, products

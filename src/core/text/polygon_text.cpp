@@ -18,8 +18,8 @@ constexpr Marks marks_of_json{"[", "]", ",", "[", ",", "]", ",", false};
 
 class Writer {
  public:
-  Writer(std::string& out, const PolygonTexts& texts, const Marks& marks, int precision)
-      : out_(out), texts_(texts), marks_(marks), precision_(precision) {}
+  Writer(std::string& out, const PolygonTexts& texts, const Marks& marks)
+      : out_(out), texts_(texts), marks_(marks) {}
 
   // A list of the items from `first` to `last - 1`, each appended by item(number).
   template <class Item>
@@ -56,28 +56,27 @@ class Writer {
  private:
   void point(const kernel::Point& p) {
     out_ += marks_.point_opens;
-    append_number(out_, p.x, precision_);
+    append_number(out_, p.x);
     out_ += marks_.between_numbers;
-    append_number(out_, p.y, precision_);
+    append_number(out_, p.y);
     out_ += marks_.point_closes;
   }
 
   std::string& out_;
   const PolygonTexts& texts_;
   const Marks& marks_;
-  const int precision_;
 };
 
 }  // namespace
 
-bool PolygonTexts::append(std::string& out, std::size_t row, int precision) const {
+bool PolygonTexts::append(std::string& out, std::size_t row) const {
   const std::int64_t first = rows[row], last = rows[row + 1];
   if (style == PolygonStyle::json) {
     if (first == last) {
       out += "\"shell\":[],\"holes\":[]";
       return true;
     }
-    Writer writer(out, *this, marks_of_json, precision);
+    Writer writer(out, *this, marks_of_json);
     const auto at = static_cast<std::size_t>(first);
     out += "\"shell\":";
     writer.ring(polygons[at]);
@@ -87,7 +86,7 @@ bool PolygonTexts::append(std::string& out, std::size_t row, int precision) cons
   }
   if (first == last) return false;
   const bool is_wkt = style == PolygonStyle::wkt, is_multi = last - first > 1;
-  Writer writer(out, *this, is_wkt ? marks_of_wkt : marks_of_geojson, precision);
+  Writer writer(out, *this, is_wkt ? marks_of_wkt : marks_of_geojson);
   if (is_wkt) {
     out += is_multi ? "MULTIPOLYGON " : "POLYGON ";
   } else {

@@ -27,9 +27,9 @@ struct PolygonTexts {
 
   std::size_t size() const { return rows.size() - 1; }
 
-  // Appends the polygons of a row. Without any, nothing is appended and the result is false; but JSON has an
-  // empty shell then.
-  bool append(std::string& out, std::size_t row, int precision) const;
+  // Appends the polygons of a row; coordinates read back the same. Without any, nothing is appended and the
+  // result is false; but JSON has an empty shell then.
+  bool append(std::string& out, std::size_t row) const;
 };
 
 }  // namespace vorotool::core::text

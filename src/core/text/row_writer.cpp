@@ -14,7 +14,7 @@ constexpr std::size_t block_rows = std::size_t{1} << 13;
 struct FieldWriter {
   std::string& out;
   std::size_t row;
-  int precision;
+  int digits;
   char delimiter;
 
   bool operator()(std::span<const std::int64_t> values) const {
@@ -27,7 +27,7 @@ struct FieldWriter {
   }
   bool operator()(std::span<const double> values) const {
     if (!std::isfinite(values[row])) return false;
-    append_number(out, values[row], precision);
+    append_number(out, values[row], digits);
     return true;
   }
   bool operator()(std::span<const std::string_view> values) const {
@@ -47,30 +47,29 @@ struct FieldWriter {
     const std::size_t begin = out.size();
     const bool is_csv = delimiter == ',';  // commas abound
     if (is_csv) out += '"';
-    const bool exists = polygons->append(out, row, precision);
+    const bool exists = polygons->append(out, row);
     if (is_csv) out += '"';
     if (!exists) out.resize(begin);
     return exists;
   }
 };
 
-void append_field(std::string& out, const TextColumn& column, std::size_t row, const RowShape& shape,
-                  int precision) {
+void append_field(std::string& out, const TextColumn& column, std::size_t row, const RowShape& shape) {
   if (column.index) row = (*column.index)[row];
   const bool exists = column.missing.empty() || column.missing[row] == 0;
-  if (!exists || !std::visit(FieldWriter{out, row, precision, shape.delimiter}, column.values)) {
+  if (!exists || !std::visit(FieldWriter{out, row, column.digits, shape.delimiter}, column.values)) {
     out += shape.missing;
   }
 }
 
 // A row of one empty field would be a blank line, which readers of CSV skip: it is written as "".
-void append_row(std::string& out, std::span<const TextColumn> columns, std::size_t row, const RowShape& shape,
-                int precision) {
+void append_row(std::string& out, std::span<const TextColumn> columns, std::size_t row,
+                const RowShape& shape) {
   out += shape.around.front();
   const std::size_t begin = out.size();
   for (std::size_t i = 0; i < columns.size(); ++i) {
     if (i > 0) out += shape.around[i];
-    append_field(out, columns[i], row, shape, precision);
+    append_field(out, columns[i], row, shape);
   }
   if (shape.delimiter != '\0' && out.size() == begin) out += "\"\"";
   out += shape.around.back();
@@ -113,13 +112,13 @@ RowShape delimited_shape(std::size_t columns, char delimiter) {
 }
 
 std::vector<std::string> format_rows(std::span<const TextColumn> columns, const RowShape& shape,
-                                     int precision, unsigned threads, const base::Monitor& monitor) {
+                                     unsigned threads, const base::Monitor& monitor) {
   const std::size_t rows = columns.empty() ? 0 : row_count(columns.front());
   std::vector<std::string> blocks(base::piece_count(rows, block_rows));
   const auto write = [&](std::size_t block, std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end; ++row) {
       if (row > 0) blocks[block] += shape.separator;
-      append_row(blocks[block], columns, row, shape, precision);
+      append_row(blocks[block], columns, row, shape);
     }
   };
   base::for_pieces(rows, block_rows, threads, monitor, write);

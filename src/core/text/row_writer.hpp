@@ -35,6 +35,7 @@ struct TextColumn {
       values;
   std::span<const std::uint8_t> missing;
   std::optional<StridedIndices> index = {};
+  int digits = 0;  // significant ones of doubles; 0: the shortest text that reads back the same
 };
 
 std::size_t value_count(const TextColumn& column);
@@ -51,11 +52,10 @@ struct RowShape {
 // The shape of text with `columns` columns, a comma or a tab between them, each row ended by LF.
 RowShape delimited_shape(std::size_t columns, char delimiter);
 
-// The text of the rows in blocks to be written one after the other. All columns have the same length. Doubles
-// have `precision` significant digits, or with 0 the shortest text that reads back the same. The text does
-// not depend on the number of threads.
+// The text of the rows in blocks to be written one after the other. All columns have the same length. The
+// text does not depend on the number of threads.
 std::vector<std::string> format_rows(std::span<const TextColumn> columns, const RowShape& shape,
-                                     int precision, unsigned threads, const base::Monitor& monitor = {});
+                                     unsigned threads, const base::Monitor& monitor = {});
 
 // A field as it stands in delimited text: in quotes where a reader would otherwise misread it.
 void append_csv_field(std::string& out, std::string_view value, char delimiter = ',');

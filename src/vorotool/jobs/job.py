@@ -80,6 +80,7 @@ def process_input(recipe: Recipe[Options], run: Run, options: Options, path: str
     from vorotool.formats.io.atomic_output import make_folder
     from vorotool.formats.io.commit import committed_together
     from vorotool.formats.text.tables import safe_texts, unit_column
+    from vorotool.formats.written.grid import coordinates_written
 
     computing = options if isinstance(options, ComputingOptions) else None
     check_targets(options, targets, path)
@@ -96,12 +97,14 @@ def process_input(recipe: Recipe[Options], run: Run, options: Options, path: str
     end_by_exceptions()
     size = options.unit
     unit = None if size is None else run.stats.get("unit") if size.is_auto else size.unit
-    with committed_together():
+    is_safe = computing is not None and computing.safe_csv
+    decimals = None if computing is None else computing.decimals
+    is_verified = computing is not None and computing.verify
+    with committed_together(), safe_texts(is_safe), unit_column(unit):
         for target in targets:
             if options.out_dir is not None:
                 make_folder(Path(target.path).parent)
-            is_safe = computing is not None and computing.safe_csv
-            with run.phase(f"write {target.what}"), safe_texts(is_safe), unit_column(unit):
+            with run.phase(f"write {target.what}"), coordinates_written(decimals, is_verified=is_verified):
                 products.write(target, inputs=(path,))
     if options.stats is not None:
         with run.phase("count"):

@@ -165,6 +165,7 @@ class ComputingOptions(JobOptions):
     fill_holes: bool
     strict: bool
     verify: bool
+    decimals: int | None
     precision: int | None
     pixel_size: PixelSize | None
     table: str | None

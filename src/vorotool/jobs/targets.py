@@ -163,7 +163,7 @@ def check_picture_options(
 
 
 def check_precision(options: ComputingOptions, formats: Mapping[str, Sequence[str]], targets: Sequence[Target]) -> None:
-    """Refuse a number of digits that no output would show.
+    """Refuse numbers of digits or decimals that no output would show.
 
     Parameters
     ----------
@@ -177,8 +177,11 @@ def check_precision(options: ComputingOptions, formats: Mapping[str, Sequence[st
     Raises
     ------
     UsageError
-        If it is given, and no format has numbers in text.
+        If one is given, and no format has numbers in text, or geometry.
     """
+    written = [FORMATS[target.fmt] for target in targets if target.fmt in FORMATS]
+    if options.decimals is not None and not any(each.has_digits or each.made_from for each in written):
+        raise UsageError("--decimals is for coordinates in tables and vectors: leave it out")
     if options.precision is None or with_digits(target.fmt for target in targets):
         return
     possible = with_digits(dict.fromkeys(fmt for target in targets for fmt in formats[target.what]))

@@ -31,6 +31,7 @@ def write(
     fmt: str | None = None,
     what: str | None = None,
     flatten: float | None = None,
+    decimals: int | None = None,
     precision: int | None = None,
     layers: Sequence[str] | None = None,
     width: int | None = None,
@@ -62,8 +63,10 @@ def write(
         label image ``labels`` or ``colour``, its picture as PNG. By default what the format is for, else the first.
     flatten : float, optional
         Of a skeleton or offsets in formats without curves: how far lines may be from them.
+    decimals : int, optional
+        Decimals of coordinates; polygons are valid with them. By default all that read back the same.
     precision : int, optional
-        Significant digits of floating-point numbers in text; by default the shortest that reads back the same.
+        Significant digits of other floating-point numbers in text; by default the shortest that reads back the same.
     layers : sequence of str, optional
         Of a picture, as the command line has them.
     width : int, optional
@@ -101,6 +104,7 @@ def write(
     >>> write(vorotool.alpha_shape([[0, 0], [4, 0], [0, 3]], r=2.5), "build/shape.geojson")
     >>> write(vorotool.skeleton_exact([[0, 0], [4, 0], [0, 3]]), "build/skeleton.svg")
     """
+    from vorotool.formats.written.grid import coordinates_written
     from vorotool.geometry.checks import checked_threads
 
     name = fmt or Path(path).suffix
@@ -118,16 +122,18 @@ def write(
     if is_of(value, "LabelVolume", "Volume"):
         from vorotool.jobs.volume_writing import write_volume_value
 
-        more = {"what": None if what == "labels" else what, "flatten": flatten, "precision": precision}
+        more = {"what": None if what == "labels" else what, "flatten": flatten}
+        more |= {"decimals": decimals, "precision": precision}
         write_volume_value(value, fspath(path), chosen, {**more, "layers": layers, "width": width, **styles}, threads)
         return
     if chosen not in PICTURES or (is_of(value, "LabelImage") and chosen == "png" and what in (None, "labels")):
         for option, given in {"layers": layers, "width": width, "y_up": y_up, **styles}.items():
             if given is not None:
                 raise UsageError(f"{option} is for pictures: use fmt='svg' or fmt='png', or leave it out")
-        _write_data(value, fspath(path), chosen, what, flatten, precision, threads)
+        with coordinates_written(decimals):
+            _write_data(value, fspath(path), chosen, what, flatten, precision, threads)
         return
-    for option, number in (("flatten", flatten), ("precision", precision)):
+    for option, number in (("flatten", flatten), ("decimals", decimals), ("precision", precision)):
         if number is not None:
             raise UsageError(f"{option} is for numbers in text: leave it out of pictures")
     if width is not None and not 0 <= whole_number(width, "width") <= MAX_SIDE:

@@ -291,7 +291,7 @@ def test_text_of_numbers(values, digits):
     shortest = format_text([array]).split()
     assert bits(map(float, shortest)) == bits(values)
     assert [_digits(text) for text in shortest] == [_digits(repr(value)) for value in values]
-    assert format_text([array], precision=digits).split() == [f"{value:.{digits}g}" for value in values]
+    assert format_text([array], digits=[digits]).split() == [f"{value:.{digits}g}" for value in values]
 
 
 def _digits(text):
@@ -300,7 +300,7 @@ def _digits(text):
 
 def test_text_does_not_depend_on_threads():
     values = np.random.default_rng(5).normal(size=(2, 50000))
-    texts = [b"".join(_core.text.format_rows([*values], [None, None], 0, threads)) for threads in (1, 2, 3, 8)]
+    texts = [b"".join(_core.text.format_rows([*values], [None, None], [], threads)) for threads in (1, 2, 3, 8)]
     assert len(set(texts)) == 1
     assert texts[0].count(b"\n") == 50000
     np.testing.assert_array_equal(parse(texts[0]), values.T)
@@ -317,7 +317,7 @@ def test_format_refuses_columns_of_other_types_and_lengths():
 
 def rows(*columns, around=None, separator="", missing=""):
     shape = None if around is None else (around, separator, missing)
-    return b"".join(_core.text.format_rows(list(columns), [None] * len(columns), 0, 2, shape)).decode()
+    return b"".join(_core.text.format_rows(list(columns), [None] * len(columns), [], 2, shape)).decode()
 
 
 def test_rows_of_any_shape():
@@ -353,10 +353,10 @@ def test_texts_of_numbers_are_those_of_columns():
     values[::1000] = math.inf
     index = np.random.default_rng(4).integers(0, len(values), 30_000).astype(np.int32)
     for precision in (0, 3):
-        expected = format_text([values[index]], precision=precision)
+        expected = format_text([values[index]], digits=[precision])
         for threads in (1, 3):
             texts = _core.text.NumberTexts(values, precision, threads)
-            assert format_text([(texts, index)], precision=precision) == expected
+            assert format_text([(texts, index)], digits=[precision]) == expected
 
 
 @pytest.mark.parametrize("bad", [-1, 3, 2**31 - 1])

@@ -117,9 +117,9 @@ def test_parts_share_their_properties():
 
 
 @pytest.mark.parametrize("fmt", ["csv", "wkt", "geojson", "json"])
-def test_precision(fmt):
+def test_decimals(fmt):
     cells = voronoi_cells([[0.123456, 0], [1, 1 / 3]], frame=(0, 0, 1, 1))
-    text = written(cells, fmt, precision=3).decode()
+    text = written(cells, fmt, decimals=3).decode()
     assert "0.123" in text or fmt == "wkt"
     assert "0.1234" not in text
     assert {len(part.split(".")[1]) for part in re.findall(r"\d+\.\d+", text)} == {3}
@@ -143,7 +143,7 @@ def test_no_cells(fmt):
 
 def test_the_library_writes_cells(tmp_path):
     cells = voronoi_cells([[1, 1], [3, 1]])
-    write(cells, tmp_path / "a.wkt", precision=4)
-    assert (tmp_path / "a.wkt").read_bytes() == written(cells, "wkt", precision=4)
+    write(cells, tmp_path / "a.wkt", decimals=4)
+    assert (tmp_path / "a.wkt").read_bytes() == written(cells, "wkt", decimals=4)
     with pytest.raises(UsageError, match="a CellSet cannot be written as 'obj': use one of geojson"):
         write(cells, tmp_path / "a.obj")

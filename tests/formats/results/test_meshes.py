@@ -137,13 +137,13 @@ def test_nothing_and_little():
                     assert data.split()[0] == b"%d" % count
 
 
-def test_precision_and_lengths_that_no_double_holds():
+def test_decimals_and_lengths_that_no_double_holds():
     mesh = delaunay([[-1.7e308, 0], [1.7e308, 1 / 3]])
     assert written(mesh, "csv").endswith(b",\n")
     assert json.loads(written(mesh, "json"))[0]["length"] is None
     assert json.loads(written(mesh, "geojson"))["features"][0]["properties"]["length"] is None
     for fmt in ("csv", "geojson", "obj"):
-        assert b"0.333 " in written(mesh, fmt, precision=3).replace(b"]", b" ").replace(b",", b" ")
+        assert b"0.333 " in written(mesh, fmt, decimals=3).replace(b"]", b" ").replace(b",", b" ")
 
 
 @pytest.mark.parametrize("what", ["edges", "triangles"])

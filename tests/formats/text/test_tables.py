@@ -30,7 +30,7 @@ def written(table, fmt, **options):
 MIXED = Table(
     {
         "label": np.array([1, 2, 3], dtype=np.uint16),
-        "x": np.array([0.5, 100000.0, 1 / 3]),
+        "r": np.array([0.5, 100000.0, 1 / 3]),
         "nearest_label": np.ma.array([2, 0, 1], mask=[False, True, False]),
         "touches_frame": np.array([True, False, True]),
         "name": ["a,b", None, 'é "q"'],
@@ -41,7 +41,7 @@ MIXED = Table(
 
 def test_csv():
     assert written(MIXED, "csv").decode() == (
-        "label,x,nearest_label,touches_frame,name,other\n"
+        "label,r,nearest_label,touches_frame,name,other\n"
         '1,0.5,2,1,"a,b",1\n'
         '2,100000,,0,,"{""k"":[1,true]}"\n'
         '3,0.3333333333333333,1,1,"é ""q""",\n'
@@ -62,18 +62,18 @@ def test_tsv():
 
 def test_json():
     assert json.loads(written(MIXED, "json")) == [
-        {"label": 1, "x": 0.5, "nearest_label": 2, "touches_frame": True, "name": "a,b", "other": 1.0},
+        {"label": 1, "r": 0.5, "nearest_label": 2, "touches_frame": True, "name": "a,b", "other": 1.0},
         {
             "label": 2,
-            "x": 100000.0,
+            "r": 100000.0,
             "nearest_label": None,
             "touches_frame": False,
             "name": None,
             "other": {"k": [1, True]},
         },
-        {"label": 3, "x": 1 / 3, "nearest_label": 1, "touches_frame": True, "name": 'é "q"', "other": None},
+        {"label": 3, "r": 1 / 3, "nearest_label": 1, "touches_frame": True, "name": 'é "q"', "other": None},
     ]
-    assert json.loads(written(MIXED, "json", precision=2))[2]["x"] == 0.33
+    assert json.loads(written(MIXED, "json", precision=2))[2]["r"] == 0.33
     assert written(MIXED, "json").count(b"\n") == 5
 
 

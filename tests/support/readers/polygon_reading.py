@@ -9,6 +9,7 @@ from support.readers.sources import read_as
 from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source
 from vorotool.formats.polygons.writer import write_polygons
+from vorotool.formats.written.grid import coordinates_written
 
 
 def read(text, name="shapes.json", **options):
@@ -22,9 +23,10 @@ def rings(shapes):
     return [(kind, polygon, shapes.ring(k).tolist()) for k, (kind, polygon) in enumerate(rows)]
 
 
-def written(shapes, fmt, **options):
+def written(shapes, fmt, *, decimals=None):
     out = io.BytesIO()
-    write_polygons(out, shapes, fmt, **options)
+    with coordinates_written(decimals):
+        write_polygons(out, shapes, fmt)
     return out.getvalue().decode()
 
 

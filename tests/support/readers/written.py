@@ -5,6 +5,7 @@ import io
 
 import numpy as np
 
+from vorotool.formats.written.grid import coordinates_written
 from vorotool.products.formats import FORMATS
 from vorotool.products.writing import chosen_part, write_product
 
@@ -17,10 +18,11 @@ def streamed(product):
     return [fmt for fmt in product.written if not FORMATS[fmt].parts]
 
 
-def written(value, fmt, what=None, **options):
+def written(value, fmt, what=None, *, decimals=None, **options):
     """Give what a file would hold."""
     out = io.BytesIO()
-    write_product(out, value, chosen_part(value, fmt, what), fmt, **options)
+    with coordinates_written(decimals):
+        write_product(out, value, chosen_part(value, fmt, what), fmt, **options)
     return out.getvalue()
 
 

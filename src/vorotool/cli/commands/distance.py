@@ -35,7 +35,9 @@ FORMATS = formats_of("distance")
 @layers_option(all_layers("distance"))
 @shared("width", "y-up")
 @picture_style_options()
-@shared("threads", "stats", "verify", "precision", "max-pixels", "max-sites", "no-clobber", "quiet", "verbose")
+@shared(
+    "threads", "stats", "verify", "decimals", "precision", "max-pixels", "max-sites", "no-clobber", "quiet", "verbose"
+)
 def command(a: str, b: str, **options: Any) -> None:
     """Measure how far two shapes are apart: the Hausdorff distance, both ways, and the smallest distance.
 

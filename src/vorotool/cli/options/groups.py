@@ -31,7 +31,7 @@ def result_options(layers: tuple[str, ...], *, has_scale: bool = True) -> Decora
         layers_option(layers),
         shared("overlay", "width", "y-up"),
         picture_style_options(has_scale=has_scale),
-        shared("out-dir", "threads", "stats", "verify", "strict", "precision"),
+        shared("out-dir", "threads", "stats", "verify", "strict", "decimals", "precision"),
         shared("max-pixels", "max-sites"),
         pixel_size_option(),
         batch_options(),

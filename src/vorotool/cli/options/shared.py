@@ -279,11 +279,17 @@ OPTIONS: dict[str, Decorator] = {
     ),
     "verify": click.option("--verify", is_flag=True, help="Check the result independently; exit 1 if it is wrong."),
     "strict": click.option("--strict", is_flag=True, help="Refuse what would be repaired or snapped."),
+    "decimals": click.option(
+        "--decimals",
+        type=click.IntRange(0, 17),
+        metavar="N",
+        help="Decimals of coordinates; polygons stay valid. Default: all that round-trip.",
+    ),
     "precision": click.option(
         "--precision",
         type=click.IntRange(1, 17),
         metavar="N",
-        help="Significant digits; by default the shortest that round-trips.",
+        help="Significant digits of other numbers; by default the shortest that round-trips.",
     ),
     "max-pixels": click.option(
         "--max-pixels",

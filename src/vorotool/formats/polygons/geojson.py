@@ -22,7 +22,6 @@ from vorotool.formats.parsing.geometry_advice import OF_SITES, not_a_shape_advic
 from vorotool.formats.parsing.reader_options import ReadOptions, shortened
 from vorotool.formats.parsing.reference_systems import note_unnamed
 from vorotool.formats.polygons.ring_collector import RingCollector
-from vorotool.formats.text.coordinate_text import Digits
 from vorotool.formats.text.feature_collection import collection_opening
 from vorotool.formats.text.tables import json_bytes
 from vorotool.geometry.arguments.sites import Sites
@@ -100,9 +99,8 @@ def _collect(collector: RingCollector, feature: int, geometry: Any, place: str) 
         raise InputError(f"{place}: {shortened(kind)} is no polygon or line; {not_a_shape_advice(str(kind))}")
 
 
-def write_geojson(out: BinaryIO, polygons: PolygonSet, precision: int | None) -> None:
+def write_geojson(out: BinaryIO, polygons: PolygonSet) -> None:
     """Write one feature for each feature of the input, with its id and properties."""
-    digits = Digits(precision)
     out.write(collection_opening(polygons.crs))
     separator = b"\n"
     for first, last in feature_ranges(polygons):
@@ -110,7 +108,7 @@ def write_geojson(out: BinaryIO, polygons: PolygonSet, precision: int | None) ->
         if polygons.ids is not None and polygons.ids[first] is not None:
             feature["id"] = polygons.ids[first]
         feature["properties"] = {key: values[first] for key, values in polygons.properties.items()}
-        feature["geometry"] = _joined([_geometry(polygons, i, digits) for i in range(first, last)])
+        feature["geometry"] = _joined([_geometry(polygons, i) for i in range(first, last)])
         out.write(separator + json_bytes(feature))
         separator = b",\n"
     out.write(b"\n]}\n" if len(polygons) else b"]}\n")
@@ -123,8 +121,8 @@ def feature_ranges(polygons: PolygonSet) -> list[tuple[int, int]]:
     return list(pairwise([*starts, len(polygons)]))
 
 
-def _geometry(polygons: PolygonSet, index: int, digits: Digits) -> dict[str, Any]:
-    rings = [digits.rounded(ring) for ring in polygons.rings_of(index)]
+def _geometry(polygons: PolygonSet, index: int) -> dict[str, Any]:
+    rings = [ring.tolist() for ring in polygons.rings_of(index)]
     if polygons.is_line[index]:
         return {"type": "LineString", "coordinates": rings[0]}
     return {"type": "Polygon", "coordinates": [[*ring, ring[0]] for ring in rings]}

@@ -14,7 +14,6 @@ from vorotool.formats.parsing.reader_options import ReadOptions, shortened
 from vorotool.formats.polygons.geojson import read_geojson
 from vorotool.formats.polygons.geojson import read_sites as read_geojson_sites
 from vorotool.formats.polygons.ring_collector import RingCollector
-from vorotool.formats.text.coordinate_text import Digits
 from vorotool.formats.text.tables import json_bytes
 from vorotool.geometry.arguments.sites import Sites, as_sites
 from vorotool.geometry.polygons.conversion import closed_ring
@@ -153,18 +152,15 @@ def _features(described: list[dict[str, Any]], owners: list[int], place: Any) ->
     return features
 
 
-def write_json(out: BinaryIO, polygons: PolygonSet, precision: int | None) -> None:
+def write_json(out: BinaryIO, polygons: PolygonSet) -> None:
     """Write ``{"polygons": […]}``, one polygon or line a line of text."""
     out.write(b"{")
-    write_items(out, polygons, precision)
+    write_items(out, polygons)
     out.write(b"}\n")
 
 
-def write_items(
-    out: BinaryIO, polygons: PolygonSet, precision: int | None, own: Mapping[str, Sequence[Any]] | None = None
-) -> None:
+def write_items(out: BinaryIO, polygons: PolygonSet, own: Mapping[str, Sequence[Any]] | None = None) -> None:
     """Write ``"polygons": […]``, a member of an object; each item has further members of its ``own``."""
-    digits = Digits(precision)
     part = polygons.part.tolist()
     in_parts = max(part, default=1) > 1
     out.write(b'"polygons":[')
@@ -177,7 +173,7 @@ def write_items(
         if polygons.properties:
             item["properties"] = {key: values[index] for key, values in polygons.properties.items()}
         item |= {name: values[index] for name, values in (own or {}).items()}
-        rings = [digits.rounded(ring) for ring in polygons.rings_of(index)]
+        rings = [ring.tolist() for ring in polygons.rings_of(index)]
         item |= {"line": rings[0]} if is_line else {"shell": rings[0], "holes": rings[1:]}
         out.write((b",\n" if index else b"\n") + json_bytes(item))
     out.write(b"\n]" if len(polygons) else b"]")

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions, shortened
-from vorotool.formats.text.coordinate_text import Digits
+from vorotool.formats.text.coordinate_text import coordinate_text
 from vorotool.geometry.box import bounds
 from vorotool.geometry.polygons.conversion import to_shapely
 from vorotool.geometry.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet, set_of_rings
@@ -256,13 +256,12 @@ def _smallest_around(shapes: Any, points: Any, own: Any) -> list[int]:
     return found
 
 
-def write_poly(out: BinaryIO, polygons: PolygonSet, precision: int | None) -> None:
+def write_poly(out: BinaryIO, polygons: PolygonSet) -> None:
     """Write vertices from 1, segments, and a point in each hole; the format has no place for ids and properties."""
-    digits = Digits(precision)
     write = out.write
     write(f"{len(polygons.xy)} 2 0 0\n".encode())
     for number, (x, y) in enumerate(polygons.xy.tolist(), 1):
-        write(f"{number} {digits.text(x)} {digits.text(y)}\n".encode())
+        write(f"{number} {coordinate_text(x)} {coordinate_text(y)}\n".encode())
     segments = _segments_of(polygons)
     write(f"{len(segments)} 0\n".encode())
     for number, (a, b) in enumerate((segments + 1).tolist(), 1):
@@ -270,7 +269,7 @@ def write_poly(out: BinaryIO, polygons: PolygonSet, precision: int | None) -> No
     holes = _hole_points(polygons)
     write(f"{len(holes)}\n".encode())
     for number, (x, y) in enumerate(holes, 1):
-        write(f"{number} {digits.text(x)} {digits.text(y)}\n".encode())
+        write(f"{number} {coordinate_text(x)} {coordinate_text(y)}\n".encode())
 
 
 def _segments_of(polygons: PolygonSet) -> NDArray[np.int64]:

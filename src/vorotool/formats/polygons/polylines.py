@@ -107,7 +107,7 @@ def write_polylines(
     token[start] = np.arange(1, len(start) + 1)
     out.write(wording.before)
     if len(points):
-        columns = [Column("", Lookup(texts, token)), Column("", points[:, 0].copy()), Column("", points[:, 1].copy())]
+        columns = [Column("", Lookup(texts, token)), *map(Column.of_places, points.T)]
         write_rows(out, columns, RowShape(("", "", wording.space, "")), precision=precision, threads=threads)
         out.write(wording.closing.rstrip(",\n").encode() + b"\n")
     out.write(wording.after)

@@ -15,7 +15,7 @@ from vorotool.formats.parsing.reader_options import ReadOptions, shortened
 from vorotool.formats.parsing.reference_systems import crs_of_numbers
 from vorotool.formats.points.wkt import geometry_texts
 from vorotool.formats.polygons.geojson import feature_ranges
-from vorotool.formats.text.coordinate_text import Digits
+from vorotool.formats.text.coordinate_text import coordinate_text
 from vorotool.geometry.arguments.sites import Sites
 from vorotool.geometry.curves.well_known import geometry_of_texts
 from vorotool.geometry.polygons.conversion import polygons_of_geometry
@@ -104,12 +104,11 @@ def _check_finite(name: str, geometries: Any, texts: list[str], lines: list[int]
         )
 
 
-def write_wkt(out: BinaryIO, polygons: PolygonSet, precision: int | None) -> None:
+def write_wkt(out: BinaryIO, polygons: PolygonSet) -> None:
     """Write one geometry a line for each feature; WKT has no place for ids and properties."""
-    digits = Digits(precision)
     is_line = polygons.is_line
     for first, last in feature_ranges(polygons):
-        bodies = [_body(polygons, index, digits) for index in range(first, last)]
+        bodies = [_body(polygons, index) for index in range(first, last)]
         kinds = ["LINESTRING" if line else "POLYGON" for line in is_line[first:last]]
         if len(bodies) == 1:
             text = f"{kinds[0]} {bodies[0]}"
@@ -121,10 +120,10 @@ def write_wkt(out: BinaryIO, polygons: PolygonSet, precision: int | None) -> Non
         out.write(text.encode() + b"\n")
 
 
-def _body(polygons: PolygonSet, index: int, digits: Digits) -> str:
+def _body(polygons: PolygonSet, index: int) -> str:
     rings = []
     for ring in polygons.rings_of(index):
-        positions = [f"{digits.text(x)} {digits.text(y)}" for x, y in ring.tolist()]
+        positions = [f"{coordinate_text(x)} {coordinate_text(y)}" for x, y in ring.tolist()]
         if polygons.is_line[index]:  # of a single vertex it would be no line
             return f"({', '.join(positions * 2 if len(positions) == 1 else positions)})"
         rings.append(f"({', '.join(positions + positions[:1] * max(1, 4 - len(positions)))})")

@@ -9,9 +9,10 @@ from vorotool.formats.polygons.geojson import write_geojson
 from vorotool.formats.polygons.json import write_json
 from vorotool.formats.polygons.poly import write_poly
 from vorotool.formats.polygons.wkt import write_wkt
+from vorotool.formats.written.polygons import written_polygons
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 
-_WRITERS: dict[str, Callable[[BinaryIO, PolygonSet, int | None], None]] = {
+_WRITERS: dict[str, Callable[[BinaryIO, PolygonSet], None]] = {
     "json": write_json,
     "geojson": write_geojson,
     "wkt": write_wkt,
@@ -19,20 +20,22 @@ _WRITERS: dict[str, Callable[[BinaryIO, PolygonSet, int | None], None]] = {
 }
 
 
-def write_polygons(out: BinaryIO, polygons: PolygonSet, fmt: str, *, precision: int | None = None) -> None:
-    r"""Write polygons and lines; the bytes depend on nothing but these, the format and the precision.
+def write_polygons(out: BinaryIO, polygons: PolygonSet, fmt: str, *, is_coverage: bool = False) -> None:
+    r"""Write polygons and lines; polygons are valid on the grid of the file.
 
     The parts of a feature become one multi-part geometry, but in JSON, which numbers them. WKT and ``.poly`` have no
     place for ids and properties; ``.poly`` has none for features either.
 
     Parameters
     ----------
-    out, precision
-        As of `vorotool.formats.text.tables.write_table`.
+    out : binary file object
+        Need not be seekable.
     polygons : PolygonSet
         What to write.
     fmt : {"json", "geojson", "wkt", "poly"}
         The format.
+    is_coverage : bool
+        The features do not overlap, and share vertices where they touch.
 
     Examples
     --------
@@ -43,4 +46,4 @@ def write_polygons(out: BinaryIO, polygons: PolygonSet, fmt: str, *, precision: 
     >>> out.getvalue()
     b'POLYGON ((0 0, 4 0.5, 0 3, 0 0))\n'
     """
-    _WRITERS[fmt](out, polygons, precision)
+    _WRITERS[fmt](out, written_polygons(polygons, is_coverage=is_coverage))

@@ -12,9 +12,11 @@ from numpy.typing import NDArray
 from vorotool.formats.io.npy_arrays import write_array
 from vorotool.formats.polygons.writer import write_polygons
 from vorotool.formats.results.meshes import write_features
-from vorotool.formats.text.coordinate_text import Digits
+from vorotool.formats.text.coordinate_text import coordinate_text
 from vorotool.formats.text.feature_collection import collection_opening
 from vorotool.formats.text.tables import json_text, write_table
+from vorotool.formats.written.grid import on_grid
+from vorotool.formats.written.polygons import written_polygons
 from vorotool.geometry.alpha.complex import CLASSES, AlphaComplex
 from vorotool.geometry.alpha.hull import AlphaHull
 from vorotool.geometry.alpha.persistence import RegionPersistence
@@ -26,6 +28,8 @@ from vorotool.geometry.alpha.tables import (
     shape_edge_table,
     shape_point_table,
 )
+from vorotool.geometry.polygons.polygon_set import HOLE, SHELL, PolygonSet, set_of_rings
+from vorotool.geometry.ragged import owners, within
 from vorotool.geometry.table import Table
 from vorotool.products.formats import TABLES
 
@@ -78,11 +82,11 @@ def write_shape(
     elif fmt in TABLES and what in _TABLES:
         write_table(out, _TABLES[what](shape), fmt, precision=precision, threads=threads)
     elif what == "polygons":
-        write_polygons(out, described_polygons(shape), fmt, precision=precision)
+        write_polygons(out, described_polygons(shape), fmt)
     elif what == "general":
-        write_general(out, shape, fmt, precision=precision)
+        write_general(out, shape, fmt)
     elif what == "hull":
-        write_hull_geojson(out, shape, precision=precision)
+        write_hull_geojson(out, shape)
     else:
         write_shape_edges(out, shape, interior=what == "complex", precision=precision, threads=threads)
 
@@ -129,13 +133,13 @@ def write_shape_edges(
     )
 
 
-def write_general(out: BinaryIO, shape: AlphaShape, fmt: str, *, precision: int | None = None) -> None:
+def write_general(out: BinaryIO, shape: AlphaShape, fmt: str) -> None:
     r"""Write all of a shape: regions as polygons, singular edges as lines, isolated points.
 
     Parameters
     ----------
-    out, precision
-        As of `vorotool.formats.text.tables.write_table`.
+    out : binary file object
+        Need not be seekable.
     shape : AlphaShape
         What to write.
     fmt : {"geojson", "wkt"}
@@ -150,21 +154,20 @@ def write_general(out: BinaryIO, shape: AlphaShape, fmt: str, *, precision: int 
     >>> out.getvalue()
     b'LINESTRING (0 0, 0 3)\nLINESTRING (0 0, 4 0)\nPOINT (9 9)\n'
     """
-    digits = Digits(precision)
     if fmt == "wkt":
-        for geometry, _ in _parts(shape, digits):
-            out.write(f"{geometry['type'].upper()} {_wkt(geometry, digits)}\n".encode())
+        for geometry, _ in _parts(shape):
+            out.write(f"{geometry['type'].upper()} {_wkt(geometry)}\n".encode())
     else:
-        _write_collection(out, shape.family.mesh.crs, _parts(shape, digits))
+        _write_collection(out, shape.family.mesh.crs, _parts(shape))
 
 
-def write_hull_geojson(out: BinaryIO, hull: AlphaHull, *, precision: int | None = None) -> None:
+def write_hull_geojson(out: BinaryIO, hull: AlphaHull) -> None:
     """Write a hull as GeoJSON: its rings flattened to polygons, and points without extent.
 
     Parameters
     ----------
-    out, precision
-        As of `vorotool.formats.text.tables.write_table`.
+    out : binary file object
+        Need not be seekable.
     hull : AlphaHull
         What to write.
 
@@ -177,36 +180,49 @@ def write_hull_geojson(out: BinaryIO, hull: AlphaHull, *, precision: int | None 
     >>> out.getvalue().count(b"Polygon"), out.getvalue().count(b"Point")
     (1, 3)
     """
-    digits = Digits(precision)
     mesh = hull.shape.family.mesh
 
     def parts() -> Iterator[tuple[dict[str, Any], dict[str, Any]]]:
-        for rings in hull.polygons():
-            closed = [[*ring, ring[0]] for ring in map(digits.rounded, rings)]
-            yield {"type": "Polygon", "coordinates": closed}, {"class": "hull"}
+        polygons = written_polygons(_polygon_set(hull.polygons()))
+        for k in range(len(polygons)):
+            yield {"type": "Polygon", "coordinates": _closed_rings(polygons, k)}, {"class": "hull"}
         for v in hull.points.tolist():
-            place = digits.rounded(mesh.points[[v]])[0]
+            place = on_grid(mesh.points[v]).tolist()
             yield {"type": "Point", "coordinates": place}, {"class": "point", "label": int(mesh.label_array[v])}
 
     _write_collection(out, mesh.crs, parts())
 
 
-def _parts(shape: AlphaShape, digits: Digits) -> Iterator[tuple[dict[str, Any], dict[str, Any]]]:
+def _polygon_set(polygons: list[list[NDArray[np.float64]]]) -> PolygonSet:
+    rings = [ring for polygon in polygons for ring in polygon]
+    counts = np.array([len(polygon) for polygon in polygons], dtype=np.int64)
+    kinds = np.where(within(counts) == 0, SHELL, HOLE)
+    xy = np.concatenate([np.empty((0, 2)), *rings])
+    return set_of_rings(xy, [len(ring) for ring in rings], kinds, owners(counts))
+
+
+def _closed_rings(polygons: PolygonSet, index: int) -> list[list[list[float]]]:
+    return [[*ring, ring[0]] for ring in (each.tolist() for each in polygons.rings_of(index))]
+
+
+def _parts(shape: AlphaShape) -> Iterator[tuple[dict[str, Any], dict[str, Any]]]:
     """Geometry and properties of each part."""
     mesh = shape.family.mesh
-    polygons = described_polygons(shape)
+    polygons = written_polygons(described_polygons(shape))
     for k in range(len(polygons)):
-        rings = [[*ring, ring[0]] for ring in map(digits.rounded, polygons.rings_of(k))]
         values = {name: column[k] for name, column in polygons.properties.items()}
-        yield {"type": "Polygon", "coordinates": rings}, {"class": "region", "region": k + 1, **values}
+        yield (
+            {"type": "Polygon", "coordinates": _closed_rings(polygons, k)},
+            {"class": "region", "region": k + 1, **values},
+        )
     for a, b in shape.edges[shape.kind == CLASSES.index("singular")].tolist():
         labels = {"label_a": int(mesh.label_array[a]), "label_b": int(mesh.label_array[b])}
         yield (
-            {"type": "LineString", "coordinates": digits.rounded(mesh.points[[a, b]])},
+            {"type": "LineString", "coordinates": on_grid(mesh.points[[a, b]]).tolist()},
             {"class": "singular", **labels},
         )
     for v in shape.isolated.tolist():
-        place = digits.rounded(mesh.points[[v]])[0]
+        place = on_grid(mesh.points[v]).tolist()
         yield {"type": "Point", "coordinates": place}, {"class": "isolated", "label": int(mesh.label_array[v])}
 
 
@@ -220,9 +236,9 @@ def _write_collection(out: BinaryIO, crs: Any, parts: Iterator[tuple[dict[str, A
     out.write(b"\n]}\n" if separator != "\n" else b"]}\n")
 
 
-def _wkt(geometry: dict[str, Any], digits: Digits) -> str:
+def _wkt(geometry: dict[str, Any]) -> str:
     def position(place: list[float]) -> str:
-        return " ".join(digits.text(value) for value in place)
+        return " ".join(map(coordinate_text, place))
 
     def line(places: list[list[float]]) -> str:
         return f"({', '.join(map(position, places))})"

@@ -13,6 +13,9 @@ from vorotool import _core
 from vorotool.formats.text.feature_collection import write_collection
 from vorotool.formats.text.row_writer import Column, RowShape, write_list_rows, write_rows
 from vorotool.formats.text.tables import json_column, json_text, object_shape, write_npz, write_table
+from vorotool.formats.written.grid import current_decimals, on_grid
+from vorotool.formats.written.report import report_emptied
+from vorotool.formats.written.rings import written_rings
 from vorotool.geometry.mesh.cells import CellSet, Nesting
 from vorotool.geometry.ragged import owners, within
 from vorotool.geometry.table import Computed, Lookup, Table
@@ -131,9 +134,27 @@ def write_shapes(out: BinaryIO, cells: CellShapes, fmt: str, *, precision: int |
 
 def _shapes_of(cells: CellSet) -> CellShapes:
     """Label and place of the sites are our columns."""
-    x, y = np.ascontiguousarray(cells.sites.T)
+    x, y = np.ascontiguousarray(on_grid(cells.sites).T)
     columns = {"label": cells.label_array, "x": x, "y": y}
-    return CellShapes(columns, cells.properties, cells.coordinates, cells.nesting, crs=cells.crs)
+    made = written_cells(cells.coordinates, cells.nesting, in_box=cells.polygon_starts is None)
+    return CellShapes(columns, cells.properties, *made, crs=cells.crs)
+
+
+def written_cells(
+    points: NDArray[np.float64], nesting: Nesting, *, in_box: bool = False
+) -> tuple[NDArray[np.float64], Nesting]:
+    """Round the vertices of cells to the decimals of the file, where they are a valid coverage.
+
+    Examples
+    --------
+    >>> import vorotool
+    >>> cells = vorotool.voronoi_cells([[1, 1], [3, 1]], frame=(0, 0, 4, 2))
+    >>> written_cells(cells.coordinates, cells.nesting)[0][:2].tolist()
+    [[0.0, 0.0], [2.0, 0.0]]
+    """
+    made = written_rings(points, nesting, decimals=current_decimals(), is_coverage=True, in_box=in_box)
+    report_emptied(made.emptied, "cell")
+    return made.points, made.nesting
 
 
 def _write_geojson(out: BinaryIO, cells: CellShapes, precision: int | None, threads: int) -> None:
@@ -153,14 +174,14 @@ def _write_geojson(out: BinaryIO, cells: CellShapes, precision: int | None, thre
 
 def _write_json(out: BinaryIO, cells: CellSet, precision: int | None, threads: int) -> None:
     """One item a polygon, and one for each empty cell."""
-    of_cells = cells.nesting.cells
+    shapes = _shapes_of(cells)
+    of_cells = shapes.nesting.cells
     sizes = np.maximum(np.diff(of_cells), 1)
     cell = owners(sizes, dtype=np.int32)
     part = within(sizes)
     rows = np.append(of_cells[cell] + part, of_cells[-1])
-    empty = cells.is_empty
+    empty = np.diff(of_cells) == 0
     rows[:-1][empty[cell]] = of_cells[1:][empty]  # an empty row ends where it begins
-    shapes = _shapes_of(cells)
     table = shapes.table().stored()
     ids = table.pop("id", cells.label_array)
     columns = [_looked_up(name, values, cell, precision) for name, values in table.items()]
@@ -186,10 +207,11 @@ def _looked_up(name: str, values: Any, cell: NDArray[np.int32], precision: int |
 
 
 def _write_npz(out: BinaryIO, cells: CellSet, _precision: int | None, threads: int) -> None:
-    rings, polygons, of_cells = cells.nesting
-    x, y = np.ascontiguousarray(cells.coordinates.T)
+    shapes = _shapes_of(cells)
+    rings, polygons, of_cells = shapes.nesting
+    x, y = np.ascontiguousarray(shapes.coordinates.T)
     arrays = {
-        **_shapes_of(cells).table().stored(),
+        **shapes.table().stored(),
         "cell_starts": of_cells,
         "polygon_starts": polygons,
         "ring_starts": rings,

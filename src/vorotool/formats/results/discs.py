@@ -52,4 +52,4 @@ def write_discs(
     if fmt in TABLES:
         write_table(out, discs.table(), fmt, precision=precision, threads=threads)
         return
-    write_polygons(out, discs.flattened(checked_flatten(flatten, discs.polygons)), fmt, precision=precision)
+    write_polygons(out, discs.flattened(checked_flatten(flatten, discs.polygons)), fmt)

@@ -50,7 +50,7 @@ def write_distances(
     if fmt in TABLES:
         write_table(out, found.table(), fmt, precision=precision, threads=threads)
         return
-    coordinates = [Column("", values.copy()) for values in found.places.reshape(-1, 4).T]
+    coordinates = [Column.of_places(values) for values in found.places.reshape(-1, 4).T]
     if fmt == "wkt":
         shape = RowShape(("LINESTRING (", " ", ", ", " ", ")\n"))
         write_rows(out, coordinates, shape, precision=precision, threads=threads)

@@ -113,7 +113,7 @@ def write_features(
     """
     x, y = np.ascontiguousarray(points.T)
     ring = [*rows.T, *([rows[:, 0]] if rows.shape[1] == 3 else [])]
-    corners = [Column("", Lookup(values, index)) for index in ring for values in (x, y)]
+    corners = [Column.of_places(values, index) for index in ring for values in (x, y)]
     properties = [json_column(Column.of(name, column), precision) for name, column in columns.items()]
     numbers = Column.of("id", np.arange(1, len(rows) + 1))
     shape = _feature_shape(list(columns), rows.shape[1])
@@ -132,7 +132,7 @@ def _feature_shape(names: list[str], vertices: int) -> RowShape:
 def _write_obj(
     out: BinaryIO, mesh: AnyTriangulation | ProximityGraph, what: str, precision: int | None, threads: int
 ) -> None:
-    x, y = (Column("", values) for values in np.ascontiguousarray(mesh.points.T))
+    x, y = map(Column.of_places, mesh.points.T)
     write_rows(out, [x, y], RowShape(("v ", " ", " 0\n")), precision=precision, threads=threads)
     if what == "edges":
         write_rows(out, _numbers(mesh, mesh.edges), RowShape(("l ", " ", "\n")), threads=threads)
@@ -161,7 +161,7 @@ def _write_ele(out: BinaryIO, mesh: Triangulation, _what: str, _precision: int |
 def _write_node(out: BinaryIO, mesh: Triangulation, _what: str, precision: int | None, threads: int) -> None:
     """``<vertices> <dimension> <attributes> <markers>``, then ``<number> <x> <y> <marker>``."""
     out.write(f"{len(mesh.points)} 2 0 1\n".encode())
-    x, y = (Column("", values) for values in np.ascontiguousarray(mesh.points.T))
+    x, y = map(Column.of_places, mesh.points.T)
     on_hull = np.zeros(len(mesh.points), dtype=np.int64)
     on_hull[mesh.hull] = 1
     columns = [_counted(mesh, len(mesh.points)), x, y, Column("", on_hull)]

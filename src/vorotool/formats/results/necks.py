@@ -75,4 +75,4 @@ def write_parts(out: BinaryIO, parts: Parts, fmt: str, *, precision: int | None 
     if fmt in ("csv", "tsv", "npz"):
         write_table(out, parts.table(), fmt, precision=precision, threads=threads)
     else:
-        write_polygons(out, parts.described(), fmt, precision=precision)
+        write_polygons(out, parts.described(), fmt)

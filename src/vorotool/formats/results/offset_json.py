@@ -43,7 +43,7 @@ def write_json(out: BinaryIO, offsets: Offsets, *, precision: int | None = None,
     if offsets.features != "separate":
         head["features"] = offsets.features
     out.write(json_text(head).removesuffix("}").encode() + b",\n")
-    write_items(out, polygons, precision)
+    write_items(out, polygons)
     write_sites(out, offsets.site_table, threads=threads)
     shapes = [
         Column("", offsets.distance),

@@ -61,7 +61,7 @@ def write_offsets(
         write_arrays(out, offset_arrays(offsets), threads=threads)
     else:
         tolerance = checked_flatten(flatten, offsets.polygons)
-        write_polygons(out, offsets.flattened(tolerance), fmt, precision=precision)
+        write_polygons(out, offsets.flattened(tolerance), fmt)
 
 
 def offset_arrays(offsets: Offsets) -> dict[str, NDArray[Any]]:

@@ -59,7 +59,7 @@ def write_skeleton_points(
         write_table(out, points.table(), fmt, precision=precision, threads=threads)
         return
     places = points.xy if what == "points" else points.feet.reshape(-1, 4)
-    coordinates = [Column("", values.copy()) for values in places.T]
+    coordinates = [Column.of_places(values) for values in places.T]
     if fmt == "wkt":
         around = ("POINT (", " ", ")\n") if what == "points" else ("LINESTRING (", " ", ", ", " ", ")\n")
         write_rows(out, coordinates, RowShape(around), precision=precision, threads=threads)

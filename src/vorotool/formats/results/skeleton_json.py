@@ -60,7 +60,7 @@ def write_json(out: BinaryIO, skeleton: Skeleton, *, precision: int | None = Non
     if polygons.connectivity is not None:
         head["connectivity"] = polygons.connectivity
     out.write(json_text(head).removesuffix("}").encode() + b",\n")
-    write_items(out, polygons, precision)
+    write_items(out, polygons)
     write_sites(out, skeleton.site_table, threads=threads)
     _write_vertices(out, skeleton, precision, threads)
     _write_arcs(out, skeleton, precision, threads)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.formats.polygons.polylines import Wording, wkt_wording, write_polylines
-from vorotool.formats.results.cells import CellShapes, write_shapes
+from vorotool.formats.results.cells import CellShapes, write_shapes, written_cells
 from vorotool.formats.results.voronoi_json import write_json
 from vorotool.formats.results.voronoi_npz import write_npz
 from vorotool.formats.text.feature_collection import collection_opening
@@ -80,8 +80,7 @@ def _shapes_of(cells: VoronoiMap, tolerance: float) -> CellShapes:
     return CellShapes(
         {"label": np.arange(1, len(cells) + 1), "area": cells.areas, "perimeter": cells.perimeters},
         cells.properties,
-        points,
-        Nesting(start, cells.polygon_start, cells.cell_start),
+        *written_cells(points, Nesting(start, cells.polygon_start, cells.cell_start)),
         cells.ids,
         cells.crs,
     )

@@ -45,7 +45,7 @@ def write_json(out: BinaryIO, cells: VoronoiMap, *, precision: int | None = None
     out.write(json_text(head).removesuffix("}").encode() + b",\n")
     assert polygons.feature is not None
     own = {"feature": polygons.feature.tolist(), "site": cells.polygon_site.tolist()}
-    write_items(out, polygons, precision, own)
+    write_items(out, polygons, own)
     _write_sites(out, cells, threads)
     x, y = np.ascontiguousarray(cells.vertices.T)
     missing = np.isnan(cells.radius)
@@ -83,7 +83,7 @@ def _document(polygons: PolygonSet) -> dict[str, Any]:
     out = io.BytesIO()
     out.write(b"{")
     assert polygons.feature is not None
-    write_items(out, polygons, None, {"feature": polygons.feature.tolist()})
+    write_items(out, polygons, {"feature": polygons.feature.tolist()})
     out.write(b"}")
     items: dict[str, Any] = orjson.loads(out.getvalue())
     return _placed(polygons) | items

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, BinaryIO, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.errors import UsageError, option
+from vorotool.formats.written.grid import on_grid
 from vorotool.geometry.numbers import shown_number, whole_number
 from vorotool.geometry.parallel import in_order
 from vorotool.geometry.table import Computed, Lookup
@@ -38,6 +39,14 @@ class Column:
     name: str
     values: NDArray[Any] | list[Any] | Lookup | Computed
     missing: NDArray[np.bool_] | None = None
+    is_place: bool = False
+    """Of coordinates: they have decimals, and not digits."""
+
+    @staticmethod
+    def of_places(values: NDArray[np.float64], index: NDArray[np.int32] | None = None, name: str = "") -> Column:
+        """Make a column of coordinates, those at an index of each row if there is one."""
+        on = on_grid(np.ascontiguousarray(values))
+        return Column(name, on if index is None else Lookup(on, index), is_place=True)
 
     @staticmethod
     def of(name: str, column: Any) -> Column:
@@ -61,9 +70,9 @@ class Column:
     def part(self, rows: slice) -> Column:
         """Give some of the rows; of a lookup, not yet looked up; others are computed now."""
         if isinstance(self.values, Lookup):
-            return Column(self.name, Lookup(self.values.values, self.values.index[rows]))
-        values = self.values[rows]
-        return Column(self.name, values, None if self.missing is None else self.missing[rows])
+            return replace(self, values=Lookup(self.values.values, self.values.index[rows]), missing=None)
+        missing = None if self.missing is None else self.missing[rows]
+        return replace(self, values=self.values[rows], missing=missing)
 
 
 def _widened(array: NDArray[Any]) -> NDArray[Any]:
@@ -151,13 +160,15 @@ def write_rows(
     if not columns:
         return
     digits = check_precision(precision)
-    texts = _lookup_texts(columns, digits, threads)
+    each_digits = [0 if column.is_place else digits for column in columns]
+    texts = _lookup_texts(columns, each_digits, threads)
     rows = len(columns[0].values)
 
     def formatted(part: slice) -> list[bytes]:
         parts = [column.part(part) for column in columns]
         values = [_core_values(column, texts) for column in parts]
-        return _core.text.format_rows(values, [column.missing for column in parts], digits, 1, shape, by_tabs)
+        missing = [column.missing for column in parts]
+        return _core.text.format_rows(values, missing, each_digits, 1, shape, by_tabs)
 
     between = b"" if shape is None else shape.separator.encode()
     for number, blocks in enumerate(in_order(formatted, slices(rows, SLICE_ROWS), threads if rows > SLICE_ROWS else 1)):
@@ -193,12 +204,16 @@ def slices(rows: int, size: int) -> list[slice]:
     return [slice(begin, min(begin + size, rows)) for begin in range(0, rows, size)]
 
 
-def _lookup_texts(columns: Sequence[Column], digits: int, threads: int) -> dict[int, _core.text.NumberTexts]:
+def _lookup_texts(columns: Sequence[Column], digits: Sequence[int], threads: int) -> dict[int, _core.text.NumberTexts]:
     """Texts of the numbers that lookups show, by the identity of their arrays: each array once."""
-    arrays = {id(c.values.values): c.values.values for c in columns if isinstance(c.values, Lookup)}
+    arrays = {
+        id(c.values.values): (c.values.values, n)
+        for c, n in zip(columns, digits, strict=True)
+        if isinstance(c.values, Lookup)
+    }
     return {
-        key: _core.text.NumberTexts(array, digits, threads)
-        for key, array in arrays.items()
+        key: _core.text.NumberTexts(array, n, threads)
+        for key, (array, n) in arrays.items()
         if isinstance(array, np.ndarray) and array.dtype.kind == "f"
     }
 

@@ -7,6 +7,7 @@ import zipfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
+from dataclasses import replace
 from datetime import date
 from typing import Any, BinaryIO
 
@@ -14,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.formats.text.row_writer import Column, RowShape, check_precision, slices, write_list_rows, write_rows
+from vorotool.formats.written.grid import on_grid
 from vorotool.geometry.number_text import NumberText
 from vorotool.geometry.parallel import in_order
 from vorotool.geometry.table import Computed, Lookup, Table
@@ -36,8 +38,8 @@ def write_table(out: BinaryIO, table: Table, fmt: str, *, precision: int | None 
     fmt : {"csv", "tsv", "json", "npz"}
         CSV and TSV always have a header; JSON is a list of one object a row; NPZ has one array a column.
     precision : int, optional
-        Significant digits of floating-point numbers in text; by default the shortest that
-        reads back the same.
+        Significant digits of floating-point numbers in text, but of coordinates; by default the shortest that reads
+        back the same.
     threads : int
         Threads for text; 0 for all.
 
@@ -55,13 +57,30 @@ def write_table(out: BinaryIO, table: Table, fmt: str, *, precision: int | None 
     b'label,x\n1,0.5\n2,\n'
     """
     check_precision(precision)
-    columns = [Column.of(name, values) for name, values in _with_unit(table).items()]
+    columns = [_placed(Column.of(name, values)) for name, values in _with_unit(table).items()]
     if fmt in ("csv", "tsv"):
         _write_delimited(out, columns, fmt == "tsv", precision, threads)
     elif fmt == "json":
         _write_json(out, columns, precision, threads)
     else:
         write_npz(out, columns, threads)
+
+
+_ENDS = ("", "0", "1", "_a", "_b", "_1", "_2", "_3")
+_PLACES = frozenset(["z", "cx", "cy", *(f"{axis}{end}" for axis in "xy" for end in _ENDS)])
+"""Columns of coordinates."""
+
+
+def _placed(column: Column) -> Column:
+    """Round a column of coordinates to the decimals of the file."""
+    values = column.values
+    if column.name.removeprefix("voro_") not in _PLACES:
+        return column
+    if isinstance(values, Lookup) and isinstance(values.values, np.ndarray) and values.values.dtype.kind == "f":
+        return replace(column, values=Lookup(on_grid(values.values), values.index), is_place=True)
+    if isinstance(values, np.ndarray) and values.dtype.kind == "f":
+        return replace(column, values=on_grid(values), is_place=True)
+    return column
 
 
 # ---- units ---------------------------------------------------------------------------------------

@@ -15,6 +15,7 @@ from vorotool.geometry.curves.inverse_functions import hypotenuse
 from vorotool.geometry.ragged import divides, following, starts_of
 from vorotool.geometry.row_index import check_index
 from vorotool.geometry.values import Geometric, Pictured, Tabular, Value, counted, placed
+from vorotool.products.formats import resolved
 
 
 class Nesting(NamedTuple):
@@ -152,18 +153,10 @@ class CellSet(Value, Tabular, Geometric, Pictured):
 
     def to_shapely(self) -> NDArray[Any]:
         """(n,) shapely geometries: polygons, multipolygons where a cell has several parts, empty polygons."""
-        import shapely
-
-        rings, polygons, cells = self.nesting
-        closed = np.insert(self.coordinates, rings[1:], self.coordinates[rings[:-1]], axis=0)
-        rings = rings + np.arange(len(rings))
-        parts = shapely.from_ragged_array(shapely.GeometryType.POLYGON, closed, (rings, polygons))
-        sizes = np.diff(cells)
-        result = np.full(len(self), shapely.Polygon(), dtype=object)
-        result[sizes == 1] = parts[cells[:-1][sizes == 1]]
-        for i in np.flatnonzero(sizes > 1):
-            result[i] = shapely.MultiPolygon(list(parts[cells[i] : cells[i + 1]]))
-        return result
+        made: NDArray[Any] = resolved("formats.written.rings:valid_coverage")(
+            self.coordinates, self.nesting, in_box=self.polygon_starts is None
+        )
+        return made
 
     def _sum(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
         """Sums over the vertices of each cell."""

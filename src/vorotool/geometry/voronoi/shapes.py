@@ -7,9 +7,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.geometry.mesh.cells import Nesting
 from vorotool.geometry.ragged import owners, starts_of, within
 from vorotool.geometry.voronoi.cut_corners import with_feet_of_corners
 from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
+from vorotool.products.formats import resolved
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -136,22 +138,7 @@ def cell_polygons(cells: VoronoiMap, tolerance: float) -> NDArray[Any]:
     >>> [cell.area for cell in cell_polygons(voronoi([[0, 0], [4, 0]], frame=(0, 0, 4, 2)), 1.0)]
     [4.0, 4.0]
     """
-    import shapely
-
     points, start = cell_rings(cells, tolerance)
-    lengths = np.diff(start) + 1
-    closed = np.repeat(start[:-1], lengths) + within(lengths)
-    closed[np.cumsum(lengths) - 1] = start[:-1]
-    polygons = shapely.from_ragged_array(
-        shapely.GeometryType.POLYGON, points[closed], (starts_of(lengths), cells.polygon_start)
-    )
-    made = np.empty(len(cells), dtype=object)
-    made[:] = shapely.Polygon()
-    count = cells.components
-    single = count == 1
-    made[single] = polygons[cells.cell_start[:-1][single]]
-    several = np.flatnonzero(count > 1)
-    if several.size:
-        chosen = np.isin(cells.cell_of_polygon, several)
-        made[several] = shapely.multipolygons(polygons[chosen], indices=owners(count[several]))
+    nesting = Nesting(start, cells.polygon_start, cells.cell_start)
+    made: NDArray[Any] = resolved("formats.written.rings:valid_coverage")(points, nesting)
     return made

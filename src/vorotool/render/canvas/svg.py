@@ -123,7 +123,7 @@ def layer_parts(layer: Layer, page: Page, threads: int) -> Iterator[bytes]:
 
 
 def _rows(columns: list[Any], around: tuple[str, ...], threads: int) -> list[bytes]:
-    return _core.text.format_rows(columns, [None] * len(columns), 0, threads, (around, "", ""))
+    return _core.text.format_rows(columns, [None] * len(columns), [], threads, (around, "", ""))
 
 
 def _chunks(count: int, size: int) -> Iterator[slice]:

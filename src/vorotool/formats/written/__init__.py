@@ -1,0 +1,1 @@
+"""Coordinates as they are written: on a grid, rings valid, coverages without gaps and overlaps."""

@@ -1,0 +1,111 @@
+"""The grid of the coordinates of a file: multiples of a power of ten, or the doubles themselves."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import UsageError, option
+from vorotool.geometry.numbers import shown_number, whole_number
+
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
+MOST_DECIMALS = 17
+
+_EXACT = 2.0**52
+"""Numbers of steps below this, and the results of dividing them by a power of ten, are distinct doubles."""
+
+
+_DECIMALS: ContextVar[int | None] = ContextVar("decimals", default=None)
+_IS_VERIFIED: ContextVar[bool] = ContextVar("is_verified", default=False)
+
+
+@contextmanager
+def coordinates_written(decimals: int | None, *, is_verified: bool = False) -> Iterator[None]:
+    """Say how coordinates of files are written within.
+
+    Parameters
+    ----------
+    decimals : int or None
+        They are multiples of 10 to the power of minus this; with None the doubles themselves.
+    is_verified : bool
+        Polygons are checked as they are written.
+
+    Raises
+    ------
+    UsageError
+        If it is not from 0 to 17.
+    """
+    name = option("--decimals")
+    if decimals is not None and not 0 <= whole_number(decimals, name) <= MOST_DECIMALS:
+        raise UsageError(f"{name} is {shown_number(decimals)}: use 0 to {MOST_DECIMALS}, or leave it out")
+    tokens = _DECIMALS.set(decimals), _IS_VERIFIED.set(is_verified)
+    try:
+        yield
+    finally:
+        _DECIMALS.reset(tokens[0])
+        _IS_VERIFIED.reset(tokens[1])
+
+
+def current_decimals() -> int | None:
+    """Return the decimals of the coordinates of the file that is being written."""
+    return _DECIMALS.get()
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Multiples of a step: of 10 to the power -decimals, or of 2 to the power of the exponent."""
+
+    decimals: int | None
+    exponent: int = 0
+
+    @classmethod
+    def of(cls, points: Floats, decimals: int | None) -> Grid:
+        """Make the grid of these coordinates: powers of two where doubles are coarser than the decimals."""
+        most = float(np.abs(points).max(initial=0))
+        if decimals is not None and most * 10.0**decimals < _EXACT:
+            return cls(decimals)
+        return cls(None, int(np.frexp(most)[1]) - 53)
+
+    def steps(self, values: Floats) -> Integers:
+        """Return the nearest number of steps of each coordinate."""
+        if self.decimals is None:
+            return np.rint(np.ldexp(values, -self.exponent)).astype(np.int64)
+        return np.rint(values * 10.0**self.decimals).astype(np.int64)
+
+    def values(self, steps: Integers) -> Floats:
+        """Return coordinates: the doubles nearest to multiples of the step."""
+        made = steps.astype(np.float64)
+        return np.ldexp(made, self.exponent) if self.decimals is None else made / 10.0**self.decimals
+
+
+def is_verified() -> bool:
+    """Return whether polygons are checked as they are written."""
+    return _IS_VERIFIED.get()
+
+
+def on_grid(points: Floats) -> Floats:
+    """Round coordinates to the decimals of the file that is being written."""
+    return rounded(points, _DECIMALS.get())
+
+
+def rounded(points: Floats, decimals: int | None) -> Floats:
+    """Round coordinates to decimals; those whose doubles are coarser stay.
+
+    Examples
+    --------
+    >>> rounded(np.array([[0.126, 2.0], [-0.001, 1e300]]), 2).tolist()
+    [[0.126, 2.0], [-0.001, 1e+300]]
+    >>> rounded(np.array([[0.126, 2.0], [-0.001, 7.0]]), 2).tolist()
+    [[0.13, 2.0], [0.0, 7.0]]
+    """
+    if decimals is None:
+        return points
+    grid = Grid.of(points, decimals)
+    return points if grid.decimals is None else grid.values(grid.steps(points))

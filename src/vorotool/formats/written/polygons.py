@@ -1,0 +1,64 @@
+"""Polygons and lines as they are written."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.formats.written.grid import current_decimals, on_grid
+from vorotool.formats.written.report import report_emptied
+from vorotool.formats.written.rings import written_rings
+from vorotool.geometry.mesh.cells import Nesting
+from vorotool.geometry.polygons.polygon_set import HOLE, SHELL, PolygonSet
+from vorotool.geometry.ragged import owners
+from vorotool.geometry.row_index import index_of_rows
+
+
+def written_polygons(polygons: PolygonSet, *, is_coverage: bool = False) -> PolygonSet:
+    """Round polygons to the decimals of the file, and repair those that are invalid then.
+
+    Features without area on the grid are left out, with a warning. Sets with open lines, or with rings of one or two
+    vertices, are only rounded.
+
+    Examples
+    --------
+    >>> from vorotool.formats.written.grid import coordinates_written
+    >>> with coordinates_written(0):
+    ...     written_polygons(PolygonSet([[0, 0], [4.3, 0], [0, 3]], [0, 3], [0], [0])).xy.tolist()
+    [[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]]
+    """
+    if polygons.is_line.any() or (np.diff(polygons.ring_start) < 3).any():
+        return replace(polygons, xy=on_grid(polygons.xy))
+    assert polygons.feature is not None
+    first = np.flatnonzero(np.diff(polygons.feature, prepend=-1))
+    nesting = Nesting(polygons.ring_start, polygons.polygon_start, np.append(first, len(polygons)))
+    made = written_rings(polygons.xy, nesting, decimals=current_decimals(), is_coverage=is_coverage)
+    if made.nesting is nesting:
+        return polygons if made.points is polygons.xy else replace(polygons, xy=made.points)
+    report_emptied(made.emptied, "feature")
+    return _with_rings(polygons, made.points, made.nesting, first)
+
+
+def _with_rings(polygons: PolygonSet, points: NDArray[np.float64], nesting: Nesting, first: NDArray[Any]) -> PolygonSet:
+    """Give the features of polygons other rings; what is known of a feature is that of its first polygon."""
+    rings, parts, cells = nesting
+    feature = owners(np.diff(cells))
+    source = first[feature]
+    kind = np.full(len(rings) - 1, HOLE)
+    kind[parts[:-1]] = SHELL
+    rows = source.tolist()
+    _, numbered = np.unique(feature, return_inverse=True)
+    return replace(
+        polygons,
+        xy=points,
+        ring_start=rings,
+        ring_kind=kind,
+        ring_polygon=owners(np.diff(parts), dtype=np.int32),
+        ids=None if polygons.ids is None else [polygons.ids[i] for i in rows],
+        feature=numbered.reshape(-1),
+        properties={name: [values[i] for i in rows] for name, values in polygons.properties.items()},
+        index=index_of_rows(polygons.index, source),
+    )

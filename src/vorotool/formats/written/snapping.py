@@ -1,0 +1,241 @@
+"""Snap rounding of the rings of features, on a lattice of multiples of the grid of a file."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool import _core
+from vorotool.formats.written.grid import Grid
+from vorotool.geometry.mesh.cells import Nesting
+from vorotool.geometry.ragged import following, owners, starts_of
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.int64]
+Rings = tuple[Floats, Nesting]
+
+_LIMIT = 2**30 - 1
+"""Coordinates on the lattice of `core/arrangement` are at most this."""
+
+
+@dataclass(frozen=True, eq=False)
+class Snapped:
+    """Features after snap rounding, and what that means for others with the same vertices and edges.
+
+    Parameters
+    ----------
+    rings : pair of array and Nesting
+        Of the features, in their order; those without area have none.
+    before, after : (k, 2) float64 array
+        Vertices of the features, and where they are now.
+    edges : (e, 2, 2) float64 array
+        Edges, by their ends before, that have further vertices now.
+    chains : list of (c, 2) float64 array
+        These, from the first end to the second.
+    """
+
+    rings: Rings
+    before: Floats
+    after: Floats
+    edges: Floats
+    chains: list[Floats]
+
+    def applied_to(self, points: Floats, nesting: Nesting, features: NDArray[np.bool_]) -> Rings:
+        """Move the vertices of other features, and lead their edges along the chains, which run the other way."""
+        rings = nesting.rings
+        of_these = np.repeat(features, np.diff(rings[nesting.polygons[nesting.cells]]))
+        at = np.flatnonzero(of_these & is_among(points, self.before))
+        new = points.copy()
+        names, name_of = _Names.of(self.before), np.full(len(points), -1, dtype=np.int64)
+        name_of[at] = names.find(points[at])
+        shared = np.flatnonzero(name_of >= 0)
+        new[shared] = self.after[names.first[name_of[shared]]]
+        if not self.chains:
+            return new, nesting
+        ends = names.find(self.edges.reshape(-1, 2)).reshape(-1, 2)
+        chain_of = {(b, a): chain[::-1] for (a, b), chain in zip(ends.tolist(), self.chains, strict=True)}
+        after = following(rings)
+        both = shared[name_of[after[shared]] >= 0]
+        pairs = zip(name_of[both].tolist(), name_of[after[both]].tolist(), strict=True)
+        inserted = {i: chain_of[pair] for i, pair in zip(both.tolist(), pairs, strict=True) if pair in chain_of}
+        counts = np.zeros(len(points), dtype=np.int64)
+        counts[list(inserted)] = [len(chain) for chain in inserted.values()]
+        behind = np.repeat(np.arange(1, len(points) + 1), counts)
+        longer = np.insert(new, behind, np.concatenate([np.empty((0, 2)), *inserted.values()]), axis=0)
+        return longer, nesting._replace(rings=starts_of(1 + counts)[rings])
+
+
+def is_among(points: Floats, others: Floats) -> NDArray[np.bool_]:
+    """(n,) whether points may be among others: false for most that are not, true for all that are."""
+    keys = np.sort(_hashes(others))
+    if not len(keys):
+        return np.zeros(len(points), dtype=bool)
+    own = _hashes(points)
+    found: NDArray[np.bool_] = keys[np.minimum(np.searchsorted(keys, own), len(keys) - 1)] == own
+    return found
+
+
+def _hashes(points: Floats) -> NDArray[np.uint64]:
+    x, y = (np.ascontiguousarray(points + 0.0).view(np.uint64)).T  # no negative zeros
+    return (x * np.uint64(0x9E3779B97F4A7C15)) ^ (y * np.uint64(0xC2B2AE3D27D4EB4F) + (y >> np.uint64(29)))
+
+
+@dataclass(frozen=True, eq=False)
+class _Names:
+    """Numbers of distinct points: the points in order, and one index of each."""
+
+    points: NDArray[np.complex128]
+    first: Indices
+
+    @classmethod
+    def of(cls, points: Floats) -> _Names:
+        made, first = np.unique(_complex(points), return_index=True)
+        return cls(made, first)
+
+    def find(self, points: Floats) -> Indices:
+        """(n,) the number of each point, -1 of those that are not here."""
+        own = _complex(points)
+        rank = np.minimum(np.searchsorted(self.points, own), len(self.points) - 1)
+        return np.where(self.points[rank] == own, rank, -1)
+
+
+def _complex(points: Floats) -> NDArray[np.complex128]:
+    """Points as numbers that numpy sorts by x, then by y."""
+    return np.ascontiguousarray(points + 0.0).view(np.complex128).reshape(-1)
+
+
+def snapped(
+    points: Floats, nesting: Nesting, grid: Grid, *, is_coverage: bool = False, keeps_vertices: bool = True
+) -> Snapped:
+    """Make the rings of features valid by snap rounding, together.
+
+    Parameters
+    ----------
+    points, nesting
+        Of the features.
+    grid : Grid
+        Vertices stay on it; they move to a lattice that is coarser by a power of two where the features together are
+        wider than 2^31 steps.
+    is_coverage : bool
+        Where features overlap the first one has the place.
+    keeps_vertices : bool
+        A place of the lattice has the coordinates of the first vertex there. Nearly always that is valid, too; without
+        it the result is valid by construction.
+    """
+    rings, polygons, cells = nesting
+    lattice = _Lattice.of(points, grid)
+    vertices = lattice.places(points)
+    places = _Places.of(lattice, points, vertices, keeps_vertices=keeps_vertices)
+    kind = np.ones(len(rings) - 1, dtype=np.int8)
+    kind[polygons[:-1]] = 0
+    graph = _core.arrangement.make_planar_graph(vertices, rings, kind, owners(np.diff(polygons), dtype=np.int32), None)
+    faces = _features_of_faces(graph, owners(np.diff(cells)), first_only=is_coverage)
+    core = _core.kernel.PlanarGraph(graph["points"], graph["segments"], graph["segment_faces"])
+    found = _core.arrangement.boundary_rings(core, *faces, None)
+    part_sizes = np.bincount(found["ring_part"], minlength=len(found["part_polygon"]))
+    made = Nesting(
+        found["start"].astype(np.int64),
+        starts_of(part_sizes),
+        starts_of(np.bincount(found["part_polygon"], minlength=len(cells) - 1)),
+    )
+    edges, chains = _chains(graph, vertices, rings) if is_coverage else (np.zeros(0, dtype=np.int64), [])
+    ends = np.stack([points, points[following(rings)]], axis=1)[edges]
+    return Snapped(
+        (places.coordinates(graph["points"])[found["point"]], made),
+        points,
+        places.coordinates(vertices),
+        ends,
+        [places.coordinates(chain) for chain in chains],
+    )
+
+
+@dataclass(frozen=True)
+class _Lattice:
+    """Multiples of the grid by a power of two, from an origin on."""
+
+    grid: Grid
+    origin: Indices
+    shift: int
+
+    @classmethod
+    def of(cls, points: Floats, grid: Grid) -> _Lattice:
+        if grid.decimals is None:
+            grid = Grid.of(points, None)  # of these points alone: finer than that of all
+        steps = grid.steps(points)
+        low, high = steps.min(axis=0), steps.max(axis=0)
+        half = int((high - low).max()) // 2 + 1
+        shift = max(0, half.bit_length() - 29)
+        return cls(grid, ((low + high) // 2) >> shift << shift, shift)
+
+    def places(self, points: Floats) -> NDArray[np.int32]:
+        """Return the nearest lattice point of each point."""
+        offset = self.grid.steps(points) - self.origin
+        return ((offset + (1 << self.shift >> 1)) >> self.shift).astype(np.int32)
+
+    def values(self, places: NDArray[np.integer]) -> Floats:
+        """Return coordinates of lattice points."""
+        return self.grid.values(self.origin + (places.astype(np.int64) << self.shift))
+
+
+@dataclass(frozen=True, eq=False)
+class _Places:
+    """Coordinates of places of a lattice."""
+
+    lattice: _Lattice
+    keys: Indices
+    kept: Floats
+
+    @classmethod
+    def of(cls, lattice: _Lattice, points: Floats, vertices: NDArray[np.int32], *, keeps_vertices: bool) -> _Places:
+        keys, first = np.unique(_place_keys(vertices), return_index=True)
+        return cls(lattice, keys if keeps_vertices else keys[:0], points[first])
+
+    def coordinates(self, places: NDArray[np.int32]) -> Floats:
+        """Return those of the first vertex at each place, else those of the lattice."""
+        made = self.lattice.values(places)
+        if not len(self.keys):
+            return made
+        own = _place_keys(places)
+        rank = np.minimum(np.searchsorted(self.keys, own), len(self.keys) - 1)
+        return np.where((self.keys[rank] == own)[:, None], self.kept[rank], made)
+
+
+def _place_keys(places: NDArray[np.int32]) -> Indices:
+    x, y = places.astype(np.int64).T
+    return (x << 32) + y
+
+
+def _features_of_faces(
+    graph: dict[str, NDArray[np.int32]], feature: Indices, *, first_only: bool
+) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """Return the features of each face, ascending: where each begins, and all; of a coverage the first alone."""
+    start, polygon = graph["face_start"], graph["face_polygon"]
+    of_face = owners(np.diff(start))
+    features = feature[polygon].astype(np.int32)
+    kept = np.ones(len(features), dtype=bool)
+    same_face = np.diff(of_face) == 0
+    kept[1:] = ~same_face if first_only else ~(same_face & (np.diff(features) == 0))
+    return starts_of(np.bincount(of_face[kept], minlength=len(start) - 1)).astype(np.int32), features[kept]
+
+
+def _chains(
+    graph: dict[str, NDArray[np.int32]], vertices: NDArray[np.int32], rings: Indices
+) -> tuple[Indices, list[NDArray[np.int32]]]:
+    """Edges that have vertices between their ends now, and these in order along each."""
+    points, segments = graph["points"], graph["segments"]
+    segment, edge = owners(np.diff(graph["source_start"])), graph["source_edge"].astype(np.int64)
+    order = np.argsort(edge, kind="stable")
+    named, first, counts = np.unique(edge[order], return_index=True, return_counts=True)
+    after = vertices[following(rings)]
+    edges, chains = [], []
+    several = counts > 1
+    for e, begin, count in zip(*(values[several].tolist() for values in (named, first, counts)), strict=True):
+        ends = points[np.unique(segments[segment[order[begin : begin + count]]])].astype(np.int64)
+        along = np.sign(after[e].astype(np.int64) - vertices[e])
+        inner = ends[(ends != vertices[e]).any(axis=1) & (ends != after[e]).any(axis=1)]
+        if len(inner):
+            edges.append(e)
+            chains.append(inner[np.lexsort((inner * along).T[::-1])])
+    return np.array(edges, dtype=np.int64), chains
