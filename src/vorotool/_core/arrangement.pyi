@@ -31,4 +31,9 @@ def make_planar_graph(vertices: numpy.typing.NDArray[numpy.int32], ring_start: n
 def boundary_rings(graph: vorotool._core.kernel.PlanarGraph, face_start: numpy.typing.NDArray[numpy.int32], face_polygon: numpy.typing.NDArray[numpy.int32], progress: Callable[[float], object] | None) -> dict[str, Any]:
     """The indices of faces must be in range."""
 
+def polygon_faults(points: numpy.typing.NDArray[numpy.float64], ring_start: numpy.typing.NDArray[numpy.int64], polygon_start: numpy.typing.NDArray[numpy.int64], is_coverage: bool, threads: int, progress: Callable[[float], object] | None) -> numpy.typing.NDArray[numpy.uint8]:
+    """
+    Of each polygon 1 if it is not seen to be one simple ring, 2 if it clashes with others of its coverage.
+    """
+
 def find_fault(points: numpy.typing.NDArray[numpy.int32], segments: numpy.typing.NDArray[numpy.int32], faces: numpy.typing.NDArray[numpy.int32] | None, progress: Callable[[float], object] | None) -> str | None: ...

@@ -51,7 +51,7 @@ def test_csv():
 
 def test_tsv():
     assert written(MIXED, "tsv").decode() == (
-        "label\tx\tnearest_label\ttouches_frame\tname\tother\n"
+        "label\tr\tnearest_label\ttouches_frame\tname\tother\n"
         "1\t0.5\t2\t1\ta,b\t1\n"
         '2\t100000\t\t0\t\t"{""k"":[1,true]}"\n'
         '3\t0.3333333333333333\t1\t1\t"é ""q"""\t\n'

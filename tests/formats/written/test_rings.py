@@ -124,6 +124,16 @@ def test_neighbors_get_the_vertices_that_an_edge_receives():
     assert shapely.area(shapes).tolist() == [50, 0, 40]
 
 
+def test_a_cell_that_turns_over():
+    """Three cells around a corner, one of which rounding turns inside out."""
+    points, nesting = nest(
+        [[[(0, 0), (3.4, -2.4), (3.6, -2.6)]]],
+        [[[(0, 0), (3.6, -2.6), (9, 0)]]],
+        [[[(0, 0), (0, -9), (9, -9), (9, 0), (3.6, -2.6), (3.4, -2.4)]]],
+    )
+    check(points, nesting, 0)
+
+
 def test_overlaps_of_a_coverage_go_to_the_first():
     points, nesting = nest([[BOX]], [[[(8.4, 0), (16, 0), (16, 8), (7.6, 8), (8.4, 4)]]])
     _, shapes = check(points, nesting, 0)

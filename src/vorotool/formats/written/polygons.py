@@ -58,7 +58,7 @@ def _with_rings(polygons: PolygonSet, points: NDArray[np.float64], nesting: Nest
         ring_kind=kind,
         ring_polygon=owners(np.diff(parts), dtype=np.int32),
         ids=None if polygons.ids is None else [polygons.ids[i] for i in rows],
-        feature=numbered.reshape(-1),
+        feature=numbered.reshape(-1).astype(np.int32),
         properties={name: [values[i] for i in rows] for name, values in polygons.properties.items()},
         index=index_of_rows(polygons.index, source),
     )

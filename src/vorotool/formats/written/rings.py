@@ -76,7 +76,9 @@ def written_rings(
     >>> made.points.tolist(), made.nesting.cells.tolist()
     ([[0.0, 0.0], [2.0, 0.0], [0.0, 3.0], [4.0, 0.0], [4.0, 2.0], [2.0, 0.0]], [0, 2])
     """
-    given = _compact(rounded(points, decimals), nesting)
+    given = rounded(points, decimals), nesting
+    if is_coverage or decimals is not None:
+        given = _compact(*given)
     made, repaired = given, 0
     bad = _invalid(*given, is_coverage=is_coverage and not in_box, threads=threads)
     if in_box and bad.any():
@@ -130,8 +132,21 @@ def _invalid(points: Floats, nesting: Nesting, *, is_coverage: bool, threads: in
     doubtful &= ~bad
     chosen = np.flatnonzero(doubtful)
     if chosen.size:
-        bad[chosen] = ~shapely.is_valid(geometry(*select(points, nesting, chosen)))
+        own = select(points, nesting, chosen)
+        bad[chosen] = ~shapely.is_valid(geometry(*own)) | (_is_turned_over(*own) if is_coverage else False)
     return bad
+
+
+def _is_turned_over(points: Floats, nesting: Nesting) -> NDArray[np.bool_]:
+    """(f,) whether the shell of a polygon runs clockwise or a hole counter-clockwise: other features lie in it."""
+    import shapely
+
+    rings, polygons, cells = nesting
+    lines = shapely.linearrings(points, indices=owners(np.diff(rings)))
+    is_shell = np.zeros(len(lines), dtype=bool)
+    is_shell[polygons[:-1]] = True
+    turned: NDArray[np.bool_] = np.logical_or.reduceat(shapely.is_ccw(lines) != is_shell, polygons[cells[:-1]])
+    return turned
 
 
 def select(points: Floats, nesting: Nesting, features: Indices) -> Rings:

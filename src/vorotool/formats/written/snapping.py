@@ -79,7 +79,10 @@ def is_among(points: Floats, others: Floats) -> NDArray[np.bool_]:
 
 def _hashes(points: Floats) -> NDArray[np.uint64]:
     x, y = (np.ascontiguousarray(points + 0.0).view(np.uint64)).T  # no negative zeros
-    return (x * np.uint64(0x9E3779B97F4A7C15)) ^ (y * np.uint64(0xC2B2AE3D27D4EB4F) + (y >> np.uint64(29)))
+    made: NDArray[np.uint64] = (x * np.uint64(0x9E3779B97F4A7C15)) ^ (
+        y * np.uint64(0xC2B2AE3D27D4EB4F) + (y >> np.uint64(29))
+    )
+    return made
 
 
 @dataclass(frozen=True, eq=False)
@@ -204,7 +207,8 @@ class _Places:
 
 def _place_keys(places: NDArray[np.int32]) -> Indices:
     x, y = places.astype(np.int64).T
-    return (x << 32) + y
+    keys: Indices = (x << 32) + y
+    return keys
 
 
 def _features_of_faces(
