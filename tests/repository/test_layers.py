@@ -94,10 +94,11 @@ render/layers -> geometry, geometry/alpha, geometry/distances, geometry/mesh, ge
     geometry/voronoi, render/canvas, render/label_images
 jobs -> batch, engines/alpha, engines/arrangement, engines/centerlines, engines/delaunay, engines/digital,
     engines/distances, engines/from_skeleton, engines/label_images, engines/pruning, engines/tessellation,
-    engines/voronoi, formats, formats/images, formats/io, formats/parsing, formats/points, formats/text,
-    formats/volumes, formats/written, formats/zarr, geometry, geometry/alpha, geometry/any, geometry/arguments,
-    geometry/curves, geometry/distances, geometry/mesh, geometry/points, geometry/polygons, geometry/skeleton, geometry/volumes,
-    geometry/voronoi, products, render/canvas, render/label_images, render/layers, render/pages, typing
+    engines/voronoi, formats, formats/features, formats/images, formats/io, formats/parsing, formats/points,
+    formats/text, formats/volumes, formats/written, formats/zarr, geometry, geometry/alpha, geometry/any,
+    geometry/arguments, geometry/curves, geometry/distances, geometry/mesh, geometry/points, geometry/polygons,
+    geometry/skeleton, geometry/volumes, geometry/voronoi, products, render/canvas, render/label_images, render/layers,
+    render/pages, typing
 cli/options -> engines/offsets, engines/pruning, geometry, jobs, products
 cli/batch -> batch, cli/options, formats/io, geometry, jobs, products
 jobs/volumes -> engines/label_images, engines/tessellation, engines/volumes, formats/io, formats/volumes, formats/zarr,

@@ -69,7 +69,7 @@ class Grid:
     def of(cls, points: Floats, decimals: int | None) -> Grid:
         """Make the grid of these coordinates: powers of two where doubles are coarser than the decimals."""
         most = float(np.abs(points).max(initial=0))
-        if decimals is not None and most * 10.0**decimals < _EXACT:
+        if decimals is not None and most * float(10**decimals) < _EXACT:
             return cls(decimals)
         return cls(None, int(np.frexp(most)[1]) - 53)
 
@@ -77,12 +77,12 @@ class Grid:
         """Return the nearest number of steps of each coordinate."""
         if self.decimals is None:
             return np.rint(np.ldexp(values, -self.exponent)).astype(np.int64)
-        return np.rint(values * 10.0**self.decimals).astype(np.int64)
+        return np.rint(values * float(10**self.decimals)).astype(np.int64)
 
     def values(self, steps: Integers) -> Floats:
         """Return coordinates: the doubles nearest to multiples of the step."""
         made = steps.astype(np.float64)
-        return np.ldexp(made, self.exponent) if self.decimals is None else made / 10.0**self.decimals
+        return np.ldexp(made, self.exponent) if self.decimals is None else made / float(10**self.decimals)
 
 
 def is_verified() -> bool:

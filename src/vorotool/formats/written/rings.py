@@ -80,9 +80,7 @@ def written_rings(
     if is_coverage or decimals is not None:
         given = _compact(*given)
     made, repaired = given, 0
-    bad = _invalid(*given, is_coverage=is_coverage and not in_box, threads=threads)
-    if in_box and bad.any():
-        bad = _invalid(*given, is_coverage=True, threads=threads)
+    bad = _invalid(*given, is_coverage=is_coverage, in_box=in_box, threads=threads)
     if bad.any():
         grid = Grid.of(points, decimals)
         repair = _repair_coverage if is_coverage else _repair_each
@@ -118,12 +116,19 @@ def _compact(points: Floats, nesting: Nesting) -> Rings:
 
 
 # ---- what is invalid -----------------------------------------------------------------------------
-def _invalid(points: Floats, nesting: Nesting, *, is_coverage: bool, threads: int) -> NDArray[np.bool_]:
-    """(f,) whether each feature is invalid, or overlaps or misses the vertices of others of its coverage."""
+def _invalid(
+    points: Floats, nesting: Nesting, *, is_coverage: bool, in_box: bool = False, threads: int = 0
+) -> NDArray[np.bool_]:
+    """(f,) whether each feature is invalid, or overlaps or misses the vertices of others of its coverage.
+
+    In a box no two features clash if all are valid and the right way round.
+    """
     import shapely
 
     rings, polygons, cells = nesting
-    faults = _core.arrangement.polygon_faults(np.ascontiguousarray(points), rings, polygons, is_coverage, threads, None)
+    faults = _core.arrangement.polygon_faults(
+        np.ascontiguousarray(points), rings, polygons, is_coverage and not in_box, threads, None
+    )
     feature = owners(np.diff(cells))
     bad = np.zeros(len(cells) - 1, dtype=bool)
     bad[feature[(faults & _CLASHES) != 0]] = True
@@ -134,6 +139,8 @@ def _invalid(points: Floats, nesting: Nesting, *, is_coverage: bool, threads: in
     if chosen.size:
         own = select(points, nesting, chosen)
         bad[chosen] = ~shapely.is_valid(geometry(*own)) | (_is_turned_over(*own) if is_coverage else False)
+    if in_box and bad.any():
+        return _invalid(points, nesting, is_coverage=is_coverage, threads=threads)
     return bad
 
 

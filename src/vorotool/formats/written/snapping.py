@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,9 +16,6 @@ from vorotool.geometry.ragged import following, owners, starts_of
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
 Rings = tuple[Floats, Nesting]
-
-_LIMIT = 2**30 - 1
-"""Coordinates on the lattice of `core/arrangement` are at most this."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,9 +129,9 @@ def snapped(
     lattice = _Lattice.of(points, grid)
     vertices = lattice.places(points)
     places = _Places.of(lattice, points, vertices, keeps_vertices=keeps_vertices)
-    kind = np.ones(len(rings) - 1, dtype=np.int8)
-    kind[polygons[:-1]] = 0
-    graph = _core.arrangement.make_planar_graph(vertices, rings, kind, owners(np.diff(polygons), dtype=np.int32), None)
+    outer = _outer_edges(points, rings) if is_coverage else np.zeros(0, dtype=np.int64)
+    ends = np.stack([outer, following(rings)[outer]], axis=1)
+    graph = _graph(vertices, vertices[ends.reshape(-1)], rings, polygons)
     faces = _features_of_faces(graph, owners(np.diff(cells)), first_only=is_coverage)
     core = _core.kernel.PlanarGraph(graph["points"], graph["segments"], graph["segment_faces"])
     found = _core.arrangement.boundary_rings(core, *faces, None)
@@ -143,15 +141,33 @@ def snapped(
         starts_of(part_sizes),
         starts_of(np.bincount(found["part_polygon"], minlength=len(cells) - 1)),
     )
-    edges, chains = _chains(graph, vertices, rings) if is_coverage else (np.zeros(0, dtype=np.int64), [])
-    ends = np.stack([points, points[following(rings)]], axis=1)[edges]
+    chains = _chains(graph, vertices[ends.reshape(-1)]) if len(outer) else []
+    longer = [k for k, chain in enumerate(chains) if len(chain)]
     return Snapped(
         (places.coordinates(graph["points"])[found["point"]], made),
         points,
         places.coordinates(vertices),
-        ends,
-        [places.coordinates(chain) for chain in chains],
+        points[ends[longer]],
+        [places.coordinates(chains[k]) for k in longer],
     )
+
+
+def _graph(
+    vertices: NDArray[np.int32], line_ends: NDArray[np.int32], rings: Indices, polygons: Indices
+) -> dict[str, Any]:
+    """Arrange rings of polygons, and lines of two vertices each, which stay in the graph whatever they bound."""
+    lines = len(line_ends) // 2
+    kind = np.full(len(rings) - 1 + lines, 1, dtype=np.int8)
+    kind[polygons[:-1]], kind[len(rings) - 1 :] = 0, 2
+    polygon = owners(np.diff(polygons), dtype=np.int32)
+    graph = _core.arrangement.make_planar_graph(
+        np.concatenate([vertices, line_ends]),
+        np.concatenate([rings, rings[-1] + 2 * np.arange(1, lines + 1)]),
+        kind,
+        np.concatenate([polygon, len(polygons) - 1 + np.arange(lines, dtype=np.int32)]),
+        None,
+    )
+    return graph | {"vertex_count": len(vertices) + len(line_ends)}
 
 
 @dataclass(frozen=True)
@@ -212,7 +228,7 @@ def _place_keys(places: NDArray[np.int32]) -> Indices:
 
 
 def _features_of_faces(
-    graph: dict[str, NDArray[np.int32]], feature: Indices, *, first_only: bool
+    graph: dict[str, Any], feature: Indices, *, first_only: bool
 ) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
     """Return the features of each face, ascending: where each begins, and all; of a coverage the first alone."""
     start, polygon = graph["face_start"], graph["face_polygon"]
@@ -224,22 +240,30 @@ def _features_of_faces(
     return starts_of(np.bincount(of_face[kept], minlength=len(start) - 1)).astype(np.int32), features[kept]
 
 
-def _chains(
-    graph: dict[str, NDArray[np.int32]], vertices: NDArray[np.int32], rings: Indices
-) -> tuple[Indices, list[NDArray[np.int32]]]:
-    """Edges that have vertices between their ends now, and these in order along each."""
-    points, segments = graph["points"], graph["segments"]
-    segment, edge = owners(np.diff(graph["source_start"])), graph["source_edge"].astype(np.int64)
-    order = np.argsort(edge, kind="stable")
-    named, first, counts = np.unique(edge[order], return_index=True, return_counts=True)
-    after = vertices[following(rings)]
-    edges, chains = [], []
-    several = counts > 1
-    for e, begin, count in zip(*(values[several].tolist() for values in (named, first, counts)), strict=True):
-        ends = points[np.unique(segments[segment[order[begin : begin + count]]])].astype(np.int64)
-        along = np.sign(after[e].astype(np.int64) - vertices[e])
-        inner = ends[(ends != vertices[e]).any(axis=1) & (ends != after[e]).any(axis=1)]
-        if len(inner):
-            edges.append(e)
-            chains.append(inner[np.lexsort((inner * along).T[::-1])])
-    return np.array(edges, dtype=np.int64), chains
+def _outer_edges(points: Floats, rings: Indices) -> Indices:
+    """Return the edges, by their first vertex, that no ring runs along the other way."""
+    after = following(rings)
+    places, name = np.unique(_complex(points), return_inverse=True)
+    name = name.reshape(-1)
+    width = len(places)
+    return np.flatnonzero(~np.isin(name * width + name[after], name[after] * width + name))
+
+
+def _chains(graph: dict[str, Any], vertices: NDArray[np.int32]) -> list[NDArray[np.int32]]:
+    """Return the places inside each of the last edges of a graph, in order; they are lines of two vertices."""
+    points, source = graph["points"], graph["source_edge"].astype(np.int64)
+    lines = len(vertices) // 2
+    line, rest = np.divmod(source - (graph["vertex_count"] - 2 * lines), 2)
+    at = np.flatnonzero((line >= 0) & (rest == 0))
+    segment = owners(np.diff(graph["source_start"]))[at]
+    line = np.repeat(line[at], 2)
+    places = points[graph["segments"][segment].reshape(-1)]
+    first, last = vertices[0::2][line], vertices[1::2][line]
+    inner = (places != first).any(axis=1) & (places != last).any(axis=1)
+    along = ((places.astype(np.int64) - first) * (last.astype(np.int64) - first)).sum(axis=1)
+    order = np.flatnonzero(inner)
+    order = order[np.lexsort((along[order], line[order]))]
+    kept = np.ones(len(order), dtype=bool)
+    kept[1:] = (np.diff(line[order]) > 0) | (np.diff(places[order], axis=0) != 0).any(axis=1)
+    order = order[kept]
+    return np.split(places[order], np.searchsorted(line[order], np.arange(1, lines)))

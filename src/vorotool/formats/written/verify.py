@@ -50,11 +50,11 @@ def verify_written(made: NDArray[Any], given: NDArray[Any], decimals: int | None
     xy = shapely.get_coordinates(made)
     extent = float(np.abs(xy).max(initial=0))
     step = extent * _COARSEST
-    if decimals is not None and extent * 10.0**decimals < 2.0**52:
+    if decimals is not None and extent * float(10**decimals) < 2.0**52:
         bad = np.flatnonzero((np.round(xy, decimals) != xy).any(axis=1))
         if bad.size:
             raise VerificationError(f"coordinate {xy[bad[0]].tolist()} has more than {decimals} decimals")
-        step = max(step, 10.0**-decimals)
+        step = max(step, 1 / float(10**decimals))
     bound = 2 * step * (shapely.length(made) + shapely.length(given)) + 16 * step * step
     far = np.flatnonzero(np.abs(shapely.area(made) - shapely.area(given)) > bound)
     if far.size and not is_coverage:
