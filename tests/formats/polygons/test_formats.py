@@ -96,7 +96,7 @@ def test_points_and_polygons_in_one_file(tmp_path, geometries, message):
             STANDARD_INPUT,
             "standard input is the .shp of a Shapefile, which is several files: name it as a file, or give all of them",
         ),
-        (b"SQLite format 3\0", "a", "a is no GeoPackage that can be read; is it damaged or cut off?"),
+        (b"SQLite format 3\0", "a", "a cannot be read as GeoPackage"),
         (b"1,2\n", "a.csv", "a.csv holds no polygons or lines that are read (it looks like csv): use JSON, GeoJSON"),
         (b"\xff\xfea", "a.wkt", "a.wkt is UTF-16 text"),
         (b"\0", "a.wkt", "a.wkt is binary"),
