@@ -501,3 +501,14 @@ def test_files_are_told_of(run, mixed):
     told = json.loads(run("info", "a.json", "--json").out)
     assert (told["kind"], told["cells"]) == ("Voronoi map", 6)
     assert told["commands"] == ["voronoi", "skeleton-approx", "skeleton-exact", "distance", "draw"]
+
+
+@pytest.mark.parametrize("what", ["cells", "edges", "neighbours", "table", "discs"])
+@pytest.mark.parametrize("frame", ["0,0,2,2", "8,8,1,2"])
+def test_a_clip_outside_of_the_frame_is_an_empty_result(run, folder, what, frame):
+    (folder / "two.wkt").write_text("POINT (0 0)\nPOINT (1 1)\n")
+    (folder / "far.wkt").write_text("POLYGON ((9 9, 10 9, 9 10, 9 9))\n")
+    done = run("voronoi", "two.wkt", "--frame", frame, "--clip", "far.wkt", "--what", what, "-f", "csv", "--verify")
+    assert (done.code, "all 2 cells are empty" in done.err) == (0, True), done.err
+    rows = done.out.splitlines()
+    assert len(rows) == (3 if what in ("cells", "table") else 1)

@@ -96,7 +96,7 @@ def _region(given: PolygonSet, within: Any) -> PolygonSet:
             raise InputError(f"invalid within {frame}: expected X, Y, W, H, the last two above 0, or polygons")
     if frame is None:
         region = as_polygons(within, name="within")
-        if not len(region) or region.is_line.all():
+        if len(region) and region.is_line.all():
             raise InputError("invalid within: it has no inside; expected X, Y, W, H, or polygons")
         return region
     x, y, w, h = frame
@@ -104,13 +104,7 @@ def _region(given: PolygonSet, within: Any) -> PolygonSet:
 
 
 def shared_region(given: PolygonSet, clip: PolygonSet | None, frame: Frame | None) -> PolygonSet:
-    """Give what a map in a frame and a clip shares out: what lies in both, if there are both.
-
-    Raises
-    ------
-    InputError
-        If they have nothing in common.
-    """
+    """Give what a map in a frame and a clip shares out: what lies in both, if there are both; it may be nothing."""
     if clip is None or frame is None:
         return _region(given, clip or frame)
     import shapely
@@ -118,14 +112,14 @@ def shared_region(given: PolygonSet, clip: PolygonSet | None, frame: Frame | Non
     x, y, w, h = frame
     area = shapely.union_all(shapely.make_valid(to_shapely(clip)[~clip.is_line]))
     common = shapely.intersection(area, shapely.box(x, y, x + w, y + h))
-    if not common.area > 0:
-        raise InputError("the frame and the clip have nothing in common: choose others")
     return as_polygons([each for each in shapely.get_parts(common) if each.area > 0])
 
 
 def _discs_in(diagram: Any, region: PolygonSet, count: int, threads: int, progress: Progress) -> Discs:
-    low, high = bounds(region.xy)
-    frame = (*low.tolist(), *(high - low).tolist())
+    frame = None
+    if len(region):
+        low, high = bounds(region.xy)
+        frame = (*low.tolist(), *(high - low).tolist())
     skeleton = skeleton_in(
         diagram, side="exterior", features="together", frame=frame, threads=threads, progress=progress
     )

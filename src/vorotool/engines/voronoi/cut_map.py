@@ -23,6 +23,10 @@ Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 
+_ALONG = (0.5, 0.3125, 0.71875)
+"""Of parts of cuts: where a limit only touches one of them, the others tell."""
+
+
 @dataclass(frozen=True, eq=False)
 class CutMap:
     """Cells between borders and cuts.
@@ -161,24 +165,23 @@ def _with_all_sites(overlay: Overlay, sites: Indices, order: Indices) -> Arcs:
 
 
 def _found_by_places(overlay: Overlay, rings: Indices, start: Indices, half_edge: Indices) -> Indices:
-    """(r,) the site of each of some rings of cuts alone: nearest to the middles of most of its length."""
+    """(r,) the site of each of some rings of cuts alone: nearest to places along most of its length."""
     nearest = NearestElements(overlay.local)
     first = 2 * len(overlay.pieces.piece)
-    cuts, edges, lines = overlay.cuts, overlay.edges, overlay.lines
+    cuts, edges = overlay.cuts, overlay.edges
     made = np.empty(len(rings), dtype=np.int64)
     sizes = np.diff(start)[rings]
     half = half_edge[np.repeat(start[rings] - np.cumsum(sizes) + sizes, sizes) + np.arange(int(sizes.sum()))] - first
-    ring = owners(sizes)
-    edge, hand = cuts.edge[half >> 1], half & 1
-    region = edges.regions[edge, hand]
-    a, b = (edges.points[edges.ends[edge, k]] for k in (0, 1))
-    site = np.empty(len(half), dtype=np.int64)
+    part = half >> 1
+    region = edges.regions[cuts.edge[part], half & 1]
+    places, length = overlay.places_along(part, _ALONG)
+    site = np.empty(places.shape[:2], dtype=np.int64)
     for each in np.unique(region).tolist():
         own = np.flatnonzero(region == each)
-        site[own] = nearest.sites(((a + b) / 2)[own], each)
-    length = lines.length[edge]
-    pairs, row = np.unique(np.stack([ring, site], axis=1), axis=0, return_inverse=True)
-    total = np.bincount(row.reshape(-1), length, minlength=len(pairs))
+        site[own] = nearest.sites(places[own].reshape(-1, 2), each).reshape(len(own), -1)
+    ring = np.repeat(owners(sizes), len(_ALONG))
+    pairs, row = np.unique(np.stack([ring, site.ravel()], axis=1), axis=0, return_inverse=True)
+    total = np.bincount(row.reshape(-1), np.repeat(length, len(_ALONG)), minlength=len(pairs))
     order = np.lexsort((-pairs[:, 1], total, pairs[:, 0]))
     made[pairs[order, 0]] = pairs[order, 1]  # the longest comes last, and stays
     return made

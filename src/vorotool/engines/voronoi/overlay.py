@@ -251,6 +251,30 @@ class Overlay:
             told = np.where(turned, sites[row, 1 - hand], sites[row, hand])
             cuts.sites[part[own], hand] = told[own]
 
+    def places_along(self, part: Indices, shares: tuple[float, ...]) -> tuple[Floats, Floats]:
+        """Give places along parts of cuts, on the lattice, and the lengths of the parts.
+
+        Parameters
+        ----------
+        part : (k,) int64 array
+            Of `cuts`.
+        shares : tuple of float
+            Of the length of each, from its source.
+
+        Returns
+        -------
+        places : (k, s, 2) float64 array
+            One for each share.
+        length : (k,) float64 array
+            Of the parts.
+        """
+        edge = self.cuts.edge[part]
+        first, last = (self._far(node, edge) for node in self.cuts.ends[part].T)
+        far = first[:, None] + (last - first)[:, None] * np.array(shares)
+        way = (self.lines.target - self.lines.source)[edge]
+        places: Floats = self.lines.source[edge, None] + (far / self.lines.length[edge, None])[..., None] * way[:, None]
+        return places, last - first
+
     # ---- what lies in its region ------------------------------------------------------------------------
     def _is_kept(self, pieces: Pieces) -> NDArray[np.bool_]:
         """Whether parts of borders are in their region: all that hangs together between cuts is, or is not."""

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.voronoi.joint_graph import JointGraph, packed
+from vorotool.errors import Kind, Message, VorotoolWarning, warn
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.ragged import owners, starts_of
 from vorotool.geometry.sorted_sets import distinct, is_among
@@ -75,9 +76,9 @@ class Regions:
 def regions_of(joint: JointGraph, site: NDArray[np.int32], count: int) -> Regions:
     """Find the faces of enclosures, or the whole, within the frame and the clip.
 
-    An end of an enclosure with one face on both sides cuts nothing, unless it reaches the frame or the clip: what it
-    parts there are faces of their own. A face is shared among the sites that meet its inside, without enclosures the
-    only one among all; where there are none it is nobody's.
+    An end of an enclosure with one face on both sides cuts nothing, unless it reaches the frame or the clip, or runs
+    along their edge: what it parts there are faces of their own. A face is shared among the sites that meet its inside,
+    without enclosures the only one among all; where there are none it is nobody's.
 
     Parameters
     ----------
@@ -90,6 +91,9 @@ def regions_of(joint: JointGraph, site: NDArray[np.int32], count: int) -> Region
     """
     graph = joint.graph
     shared = _is_shared_out(joint)
+    if count and not shared.any():
+        reason = "no area lies both in the frame and in the clip" if joint.of_clip else "the frame is too small"
+        warn(VorotoolWarning(Message(f"all {count} cells are empty: {reason}", Kind.EMPTY_RESULT)))
     if len(joint.of_enclosures):
         is_line = _has_source(graph, joint.of_enclosures)
         face = _parted(graph, _faces(graph, is_line), is_line, shared)
@@ -103,6 +107,7 @@ def regions_of(joint: JointGraph, site: NDArray[np.int32], count: int) -> Region
         region = np.where(met[at] == face, at, NOBODY) if len(met) else np.full(graph.faces, NOBODY)
     else:
         is_line = np.zeros(len(graph), dtype=bool)
+        count = count if shared.any() else 0  # nothing lies both in the frame and in the clip
         met = np.zeros(min(count, 1), dtype=np.int64)
         region = np.full(graph.faces, 0 if len(joint.sites.points) else NOBODY, dtype=np.int64)
         pairs = np.stack([np.zeros(count, dtype=np.int64), np.arange(count)], axis=1)
@@ -144,7 +149,8 @@ def _parted(graph: PlanarGraph, face: Indices, is_line: NDArray[np.bool_], share
     is_inner = shared[left] & shared[right]
     joined = graph.segment_faces[~is_line & is_inner].astype(np.int32)
     part = _core.graphs.connected_components(joined, graph.faces).astype(np.int64)
-    divides = is_line & is_inner & (face[left] == face[right]) & (part[left] != part[right])
+    is_along = shared[left] != shared[right]  # an edge of the frame or the clip
+    divides = is_line & (face[left] == face[right]) & (is_along | (is_inner & (part[left] != part[right])))
     is_parted = np.isin(face, face[left[divides]])
     return np.where(is_parted, np.where(shared, graph.faces + part, 2 * graph.faces), face)
 
@@ -203,11 +209,12 @@ def _meetings_of_points(
     sides = face[graph.segment_faces].reshape(-1, 2)
     boundary = np.flatnonzero(sides[:, 0] != sides[:, 1])
     sides = sides[boundary]
-    found = np.full(len(lone), face[0], dtype=np.int64)
     names, shapes = faces_of_sides(graph.points[graph.segments[boundary]].astype(np.float64), sides)
     row, at = shapely.STRtree(shapely.points(places)).query(shapes, predicate="intersects")
-    found[at] = names[row]
-    return np.stack([found, site[given.ring_polygon[lone]]], axis=1)
+    # in no face of a shape is around all of them; on an edge of the frame or the clip is in every face there
+    around = np.setdiff1d(np.arange(len(lone)), at)
+    found = np.concatenate([names[row], np.full(len(around), face[0], dtype=np.int64)])
+    return np.stack([found, site[given.ring_polygon[lone[np.concatenate([at, around])]]]], axis=1)
 
 
 def faces_of_sides(lines: Floats, sides: Indices) -> tuple[Indices, NDArray[Any]]:

@@ -34,7 +34,8 @@ def shared_out(cells: VoronoiMap) -> Any:
     if cells.clip is None:
         return box
     clip = shapely.make_valid(to_shapely(cells.clip))
-    return shapely.intersection(shapely.union_all(clip[shapely.area(clip) > 0]), box)
+    both = shapely.get_parts(shapely.intersection(shapely.union_all(clip[shapely.area(clip) > 0]), box))
+    return shapely.multipolygons(both[shapely.area(both) > 0])  # where both only touch there are lines and points
 
 
 class EnclosedFaces:
@@ -60,12 +61,14 @@ class EnclosedFaces:
         noded = shapely.union_all([*lines, shapely.boundary(shared)])
         faces = np.asarray(shapely.get_parts(shapely.polygonize(shapely.get_parts(noded))))
         self.shapes = faces[shapely.covers(shared, shapely.point_on_surface(faces))]
-        around = self._closed(shapely.union_all(lines), shared, geometry)
+        cuts = shapely.union_all(lines)
+        around = self._closed(cuts, shared, geometry)
         self.geometry, self.near = geometry, near
         self.sure, self.possible = (
             self._meeting(shapely.buffer(np.array([*self.shapes, *around]), step)) for step in (-near, near)
         )
-        self.face_of = self._whole_faces(shared, around)
+        self.possible_of = self._whole_faces(shared, around)
+        self.sure_of = self._without_beyond(around, cuts)
         self.tree = shapely.STRtree(self.shapes)
 
     def _closed(self, lines: Any, shared: Any, geometry: NDArray[Any]) -> list[Any]:
@@ -91,6 +94,16 @@ class EnclosedFaces:
                     found[face] = len(self.shapes) + k
         return found
 
+    def _without_beyond(self, around: list[Any], cuts: Any) -> list[int]:
+        """The same, but each face for itself where open lines may part what is around it at the frame or the clip."""
+        import shapely
+
+        found = list(self.possible_of)
+        for k, each in enumerate(around):
+            if shapely.intersects(cuts, shapely.buffer(each, -2 * self.near)):
+                found = [face if whole == len(self.shapes) + k else whole for face, whole in enumerate(found)]
+        return found
+
     def _meeting(self, shapes: NDArray[Any]) -> list[NDArray[np.int64]]:
         import shapely
 
@@ -106,7 +119,7 @@ class EnclosedFaces:
         place, face = self.tree.query(points, predicate="dwithin", distance=self.near)
         for each in np.unique(face).tolist():
             own = place[face == each]
-            sites = self.sure[self.face_of[each]]
+            sites = self.sure[self.sure_of[each]]
             if sites.size:
                 distance = shapely.distance(self.geometry[sites][:, None], points[own][None, :]).min(axis=0)
                 # a place on a line is in both faces: the farther one tells less
@@ -120,5 +133,5 @@ class EnclosedFaces:
         fits = np.zeros(len(places), dtype=bool)
         place, face = self.tree.query(shapely.points(places), predicate="dwithin", distance=self.near)
         for at, each in zip(place.tolist(), face.tolist(), strict=True):
-            fits[at] |= bool((self.possible[self.face_of[each]] == rows[at]).any())
+            fits[at] |= bool((self.possible[self.possible_of[each]] == rows[at]).any())
         return fits

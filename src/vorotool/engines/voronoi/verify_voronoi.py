@@ -281,28 +281,30 @@ def _check_places(cells: VoronoiMap, sites: _SitePlaces, random: np.random.Gener
             f"but another one is {least[place[at]]} from there"
         )
     if cells.max_distance is not None:
-        _check_reach(cells, places, least, place, near)
+        _check_reach(cells, (places, least), (place, distance), near)
     if cells.clip is not None or sites.faces is not None:
         _check_shares(cells, sites, (places, least), (place, cell), near)
     if sites.faces is None:
         _check_ties(cells, sites, places[place], cell, shapes, near)
 
 
-def _check_reach(cells: VoronoiMap, places: Floats, least: Floats, held: Indices, near: float) -> None:
-    """Places in cells are within the limit; those in none are beyond it, if nothing else cuts cells."""
+def _check_reach(
+    cells: VoronoiMap, at_places: tuple[Floats, Floats], held: tuple[Indices, Floats], near: float
+) -> None:
+    """Places in cells are within the limit of their site; those in none are beyond it, if nothing else cuts cells."""
+    (places, least), (place, distance) = at_places, held
     limit = cells.max_distance
     assert limit is not None
-    is_held = np.zeros(len(places), dtype=bool)
-    is_held[held] = True
-    is_wrong = is_held & (least > limit + near)
-    if cells.clip is None and cells.enclosures is None:
-        is_wrong |= ~is_held & (least < limit - near)
-    at = first_wrong(is_wrong)
+    at = first_wrong(distance > limit + near)
     if at is not None:
-        fail(
-            f"{tuple(places[at].tolist())} is {least[at]} from the nearest site, and in {'a' if is_held[at] else 'no'} "
-            f"cell: the limit is {limit}"
-        )
+        fail(f"{tuple(places[place[at]].tolist())} is {distance[at]} from the site of its cell: the limit is {limit}")
+    if cells.clip is not None or cells.enclosures is not None:
+        return
+    is_free = np.ones(len(places), dtype=bool)
+    is_free[place] = False
+    at = first_wrong(is_free & (least < limit - near))
+    if at is not None:
+        fail(f"{tuple(places[at].tolist())} is {least[at]} from the nearest site, and in no cell: the limit is {limit}")
 
 
 def _check_shares(

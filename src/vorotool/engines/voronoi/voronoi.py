@@ -72,7 +72,8 @@ def voronoi(
         Values that join features into sites: a column of the input, or one value a feature. Sites are numbered by first
         appearance.
     clip : PolygonSet, geometry of shapely, geopandas, GeoJSON or WKT, optional
-        Polygons that cells are cut by: a place in one of them is shared out. Sites outside count as well.
+        Polygons that cells are cut by: a place in one of them is shared out. Sites outside count as well. Where the
+        frame has no area in common with it, all cells are empty.
     frame : Box or (x, y, w, h), optional
         Rectangle that cells are cut by; by default the bounds and a tenth of their larger side around them, with a clip
         nothing else.
@@ -110,6 +111,8 @@ def voronoi(
     -----
     RepairWarning
         If vertices are repeated, or an edge or a polygon bounds nothing.
+    VorotoolWarning
+        If all cells are empty, as the frame and the clip have no area in common.
 
     References
     ----------
