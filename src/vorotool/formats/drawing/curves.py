@@ -242,11 +242,31 @@ def turned(degrees: float) -> Point:
     >>> turned(-90), turned(720)
     ((0.0, -1.0), (1.0, 0.0))
     """
-    quarter = round((degrees % 360) / 90)
-    cosine, sine = (float(value) for value in cosine_and_sine((degrees % 360 - 90 * quarter) * PI / 180))
-    ways = ((cosine, sine), (-sine, cosine), (-cosine, -sine), (sine, -cosine))
-    x, y = ways[quarter % 4]
-    return (x + 0.0, y + 0.0)  # no -0
+    return turned_each([degrees])[0]
+
+
+def turned_each(degrees: Sequence[float]) -> list[Point]:
+    """Give cosine and sine of each of many angles, as `turned` does.
+
+    Raises
+    ------
+    ValueError
+        If one is not finite.
+
+    Examples
+    --------
+    >>> turned_each([90.0, 180.0])
+    [(0.0, 1.0), (-1.0, 0.0)]
+    """
+    if not all(map(isfinite, degrees)):
+        raise ValueError("an angle is not finite")
+    angles = np.asarray(degrees, dtype=np.float64) % 360
+    quarters = np.rint(angles / 90)
+    cosine, sine = cosine_and_sine((angles - 90 * quarters) * PI / 180)
+    turn = quarters.astype(np.int64) % 4
+    x = np.choose(turn, (cosine, -sine, -cosine, sine)) + 0.0  # no -0
+    y = np.choose(turn, (sine, cosine, -sine, -cosine)) + 0.0
+    return list(zip(x.tolist(), y.tolist(), strict=True))
 
 
 def whole_ellipse(centre: Point, first: Point, second: Point) -> Curve:

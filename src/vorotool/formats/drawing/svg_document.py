@@ -9,13 +9,15 @@ from functools import cached_property
 from vorotool.errors import INPUT_FORMAT, InputError, LimitError
 from vorotool.formats.drawing.svg_shapes import SHAPES
 from vorotool.formats.drawing.svg_styles import Style, StyleSheet, referred
-from vorotool.formats.drawing.xml_tree import MOST_ELEMENTS, Element, parse_xml
+from vorotool.formats.drawing.xml_tree import Element, parse_xml
 from vorotool.formats.parsing.reader_options import shortened
 
 NAMESPACE = "http://www.w3.org/2000/svg"
 _LINK = "http://www.w3.org/1999/xlink}href"
 GROUPS = ("g", "a", "svg", "switch")
 """Elements that show what is in them."""
+MOST_REPEATED = 2**17
+"""Elements that are drawn, or pieces of curves, where some are used many times: a kilobyte could ask for billions."""
 _DEEPEST = 250
 _REFUSED = {
     "text": "is text, which only its font makes shapes of: convert it to paths, in Inkscape with Path > Object to Path",
@@ -45,6 +47,7 @@ class Document:
     name: str
     root: Element
     hidden: int = 0
+    _most: int = 0
     _counted: dict[Element, tuple[int, int] | None] = field(default_factory=dict)
 
     @classmethod
@@ -53,7 +56,7 @@ class Document:
         root = parse_xml(name, data, NAMESPACE)
         if root.tag != "svg":
             raise InputError(f"{name} is no SVG: it begins with <{root.tag[:40]}>; name the format with {INPUT_FORMAT}")
-        made = cls(name, root)
+        made = cls(name, root, _most=max(MOST_REPEATED, sum(1 for _ in root.walk())))
         made._count(root, 0)
         return made
 
@@ -116,9 +119,9 @@ class Document:
             counts = [self._count(part, level + 1) for part in parts]
             known = (1 + sum(count for count, _ in counts), 1 + max((depth for _, depth in counts), default=0))
             self._counted[element] = known
-        if known[0] > MOST_ELEMENTS:
+        if known[0] > self._most:
             raise LimitError(
-                f"{self.place(element)}: more than {MOST_ELEMENTS} elements are drawn for it, as some are used many "
+                f"{self.place(element)}: more than {self._most} elements are drawn for it, as some are used many "
                 "times; split the drawing"
             )
         if level + known[1] > _DEEPEST:

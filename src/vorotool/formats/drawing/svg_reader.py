@@ -8,9 +8,9 @@ from typing import NamedTuple
 
 from vorotool.errors import InputError, LimitError
 from vorotool.formats.compression.unpacking import unpack_gzip
-from vorotool.formats.drawing.curves import Affine
+from vorotool.formats.drawing.curves import Affine, Curve
 from vorotool.formats.drawing.polygons import Shape, shapes_to_polygons
-from vorotool.formats.drawing.svg_document import GROUPS, Document
+from vorotool.formats.drawing.svg_document import GROUPS, MOST_REPEATED, Document
 from vorotool.formats.drawing.svg_shapes import (
     MM,
     PX,
@@ -59,7 +59,7 @@ def read_svg(source: Source, options: ReadOptions) -> PolygonSet:
     """
     document = Document.parsed(source.name, _unpacked(source))
     page = _page(document)
-    reader = _Reader(document)
+    reader = _Reader(document, options)
     reader.walk_root(_State(page.map, Style(), page.viewport, None))
     if document.hidden:
         options.note(f"{source.name}: {document.hidden} elements that are not displayed are left out")
@@ -131,13 +131,14 @@ def _size(root: Element, name: str, place: str) -> tuple[float | None, bool]:
 
 # ---- elements --------------------------------------------------------------------------------------
 class _State(NamedTuple):
-    """What elements inherit: the map, the style, what percentages are of, the id of what uses them, their layer."""
+    """What elements inherit: the map, the style, what percentages are of, what uses them, their layer."""
 
     map: Affine
     style: Style
     viewport: Viewport
     used_as: str | None
     layer: str | None = None
+    is_used: bool = False
 
 
 @dataclass
@@ -145,9 +146,14 @@ class _Reader:
     """What is found on a walk through a drawing."""
 
     document: Document
+    options: ReadOptions
     shapes: list[Shape] = field(default_factory=list)
     layers: list[str | None] = field(default_factory=list)
     unpainted: int = 0
+    _maps: dict[str, Affine] = field(default_factory=dict)  # of the transforms of all elements
+    _used: dict[Element, list[Curve]] = field(default_factory=dict)  # paths that may be used again
+    _repeated: int = 0
+    _places: int = 0
 
     def walk_root(self, state: _State) -> None:
         """Walk through all of it; its outermost element has its place already."""
@@ -155,7 +161,7 @@ class _Reader:
         own = document.styles.of_element(root)
         style = state.style.inherited_by(own)
         document.check_own(root, own, style)
-        by = state.map.after(parsed_transform(own.get("transform", ""), document.place(root)))
+        by = state.map.after(self._transform(root, own))
         if own.get("display", "").lower() == "none":
             document.hidden += 1
         else:
@@ -180,7 +186,7 @@ class _Reader:
             return
         document.check_drawn(element)
         document.check_own(element, own, style)
-        by = state.map.after(parsed_transform(own.get("transform", ""), document.place(element)))
+        by = state.map.after(self._transform(element, own))
         state = state._replace(map=by, style=style)
         if element.tag == "use":
             self._use(element, state)
@@ -193,11 +199,17 @@ class _Reader:
         else:
             self._shape(element, state)
 
+    def _transform(self, element: Element, own: dict[str, str]) -> Affine:
+        text = own.get("transform", "")
+        if text not in self._maps:
+            self._maps[text] = parsed_transform(text, self.document.place(element))
+        return self._maps[text]
+
     def _use(self, use: Element, state: _State) -> None:
         target = self.document.target(use)
         of = Geometry(use.attributes, self.document.place(use), state.viewport)
         moved = state.map.after(Affine(e=of.across("x"), f=of.down("y")))
-        state = state._replace(map=moved, used_as=state.used_as or use.attributes.get("id"))
+        state = state._replace(map=moved, used_as=state.used_as or use.attributes.get("id"), is_used=True)
         if target.tag not in ("symbol", "svg"):
             self.walk(target, state)
             return
@@ -232,14 +244,31 @@ class _Reader:
         if not style.is_stroked and (is_line or not style.is_filled):
             self.unpainted += 1
             return
-        curves = SHAPES[element.tag](Geometry(element.attributes, place, state.viewport))
-        mapped = [curve.mapped(state.map) for curve in curves]
+        mapped = [curve.mapped(state.map) for curve in self._curves(element, state)]
         if not mapped:
             return
+        self._places += len(mapped)
+        self.options.check_vertices(self.document.name, self._places)  # of each curve one, before any is flattened
         identity = state.used_as or element.attributes.get("id")
         rule = style.rule if style.is_filled and not is_line else None
         self.layers.append(state.layer)
         self.shapes.append(Shape(mapped, rule, identity, place, style.is_stroked))
+
+    def _curves(self, element: Element, state: _State) -> list[Curve]:
+        """Give the curves of a shape; paths that are used are parsed once, and counted before they are repeated."""
+        known = self._used.get(element)
+        if known is not None:
+            self._repeated += sum(len(curve.pieces) for curve in known)
+            if self._repeated > MOST_REPEATED:
+                raise LimitError(
+                    f"{self.document.place(element)}: more than {MOST_REPEATED} pieces of curves are drawn by what is "
+                    "used many times; split the drawing"
+                )
+            return known
+        made = SHAPES[element.tag](Geometry(element.attributes, self.document.place(element), state.viewport))
+        if state.is_used and element.tag in ("path", "polygon", "polyline"):  # of which nothing is a percentage
+            self._used[element] = made
+        return made
 
 
 def _layer_of(group: Element, outer: str | None) -> str | None:

@@ -8,7 +8,7 @@ from math import inf, isfinite, sqrt
 from typing import NamedTuple
 
 from vorotool.errors import InputError
-from vorotool.formats.drawing.curves import Affine, Arc, Curve, Line, Point, turned, whole_ellipse
+from vorotool.formats.drawing.curves import Affine, Arc, Curve, Line, Point, turned_each, whole_ellipse
 from vorotool.formats.drawing.svg_paths import path_curves
 from vorotool.formats.parsing.reader_options import shortened
 
@@ -171,13 +171,13 @@ SHAPES: dict[str, Callable[[Geometry], list[Curve]]] = {
 
 
 # ---- maps ----------------------------------------------------------------------------------------
-def _rotated(degrees: float, x: float = 0.0, y: float = 0.0) -> Affine:
-    cosine, sine = turned(degrees)
-    return Affine(e=x, f=y).after(Affine(cosine, sine, -sine, cosine)).after(Affine(e=-x, f=-y))
+def _rotated(way: Point, x: float = 0.0, y: float = 0.0) -> Affine:
+    cosine, sine = way
+    return Affine(cosine, sine, 0.0 - sine, cosine, x, y).after(Affine(e=-x, f=-y))
 
 
-def _skewed(degrees: float) -> float:
-    cosine, sine = turned(degrees)
+def _skewed(way: Point) -> float:
+    cosine, sine = way
     return sine / cosine if cosine else inf
 
 
@@ -185,10 +185,13 @@ _MAPS: dict[str, Callable[..., Affine]] = {
     "matrix": Affine,
     "translate": lambda x, y=0.0: Affine(e=x, f=y),
     "scale": lambda x, y=None: Affine(a=x, d=x if y is None else y),
-    "rotate": _rotated,
-    "skewX": lambda degrees: Affine(c=_skewed(degrees)),
-    "skewY": lambda degrees: Affine(b=_skewed(degrees)),
 }
+_TURNS: dict[str, Callable[..., Affine]] = {
+    "rotate": _rotated,
+    "skewX": lambda way: Affine(c=_skewed(way)),
+    "skewY": lambda way: Affine(b=_skewed(way)),
+}
+"""Maps whose first number is an angle: they are given its cosine and sine."""
 _COUNTS = {"matrix": (6,), "translate": (1, 2), "scale": (1, 2), "rotate": (1, 3), "skewX": (1,), "skewY": (1,)}
 _TRANSFORM = re.compile(r"([a-zA-Z]+)\s*\(([^)]*)\)")
 
@@ -207,14 +210,22 @@ def parsed_transform(text: str, place: str) -> Affine:
         raise InputError(
             f"{place}: transform is {shortened(text)}; write matrix, translate, scale, rotate, skewX, skewY of numbers"
         )
-    made = Affine()
-    for name, listed in _TRANSFORM.findall(text):
-        numbers = [float(number) for number in re.findall(_NUMBER, listed)]
-        if len(numbers) not in _COUNTS[name]:
+    steps = _TRANSFORM.findall(text)
+    numbers = {step: [float(number) for number in re.findall(_NUMBER, step[1])] for step in dict.fromkeys(steps)}
+    for (name, _), given in numbers.items():
+        if len(given) not in _COUNTS[name]:
             raise InputError(f"{place}: transform is {shortened(text)}: the count of numbers in {name} is wrong")
-        if not all(map(isfinite, numbers)):
+        if not all(map(isfinite, given)):
             raise InputError(f"{place}: transform is {shortened(text)}, which goes beyond the largest number")
-        made = made.after(_MAPS[name](*numbers))
+    turns = [step for step in numbers if step[0] in _TURNS]
+    ways = dict(zip(turns, turned_each([numbers[step][0] for step in turns]), strict=True))
+    maps = {
+        step: _TURNS[step[0]](ways[step], *given[1:]) if step in ways else _MAPS[step[0]](*given)
+        for step, given in numbers.items()
+    }
+    made = Affine()
+    for step in steps:
+        made = made.after(maps[step])
     if not all(map(isfinite, made)):
         raise InputError(f"{place}: transform is {shortened(text)}, which goes beyond the largest number")
     return made

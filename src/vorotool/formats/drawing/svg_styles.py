@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 from vorotool.formats.drawing.xml_tree import Element
 
-_COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)
-_RULE = re.compile(r"([^{}]+)\{([^{}]*)\}")
+_COMMENT = re.compile(r"/\*.*?(?:\*/|\Z)", re.DOTALL)  # one without an end goes on to that of the text
 _SELECTOR = re.compile(r"(\*|[A-Za-z][\w-]*)?(?:([.#])([\w-]+))?")
-_URL = re.compile(r"url\(\s*['\"]?([^'\")]*)['\"]?\s*\)")
 _HAVE_STYLE = ("fill", "stroke", "fill-rule", "display", "visibility", "clip-path", "mask", "transform")
+Ranked = dict[str, tuple[tuple[int, int], str]]
+"""Properties, each with a value and its rank: how specific its rule is, then how late."""
 
 
 class Style(NamedTuple):
@@ -53,8 +54,9 @@ def referred(value: str) -> str | None:
     >>> referred("url(#a) none"), referred("none")
     ('#a', None)
     """
-    match = _URL.search(value)
-    return None if match is None else match[1]
+    _, sign, rest = value.partition("url(")
+    name, end, _ = rest.partition(")")
+    return name.strip(" \t\r\n'\"") if sign and end else None
 
 
 @dataclass(frozen=True)
@@ -63,24 +65,24 @@ class StyleSheet:
 
     Parameters
     ----------
-    rules : tuple of (int, str, str, dict)
-        How much each counts, the tag it is for, its class or id with the sign before it, and what it says.
+    rules : dict
+        By the tag, and the class or the id with the sign before it: the value of each property, with its rank.
     others : tuple of str
         Selectors that are left out: those of elements within others, and pseudo-classes.
     """
 
-    rules: tuple[tuple[int, str, str, dict[str, str]], ...]
+    rules: dict[tuple[str, str], Ranked]
     others: tuple[str, ...]
+    _known: dict[Element, dict[str, str]] = field(default_factory=dict)
 
     @classmethod
     def of(cls, root: Element) -> StyleSheet:
         """Collect those of a drawing."""
-        rules: list[tuple[int, str, str, dict[str, str]]] = []
+        made = cls({}, ())
         others: list[str] = []
+        count = 0
         for element in root.walk():
-            if element.tag != "style":
-                continue
-            for selectors, body in _RULE.findall(_COMMENT.sub("", "".join(element.text))):
+            for selectors, body in _rules("".join(element.text)) if element.tag == "style" else ():
                 said = _declarations(body)
                 for selector in (each.strip() for each in selectors.split(",") if said):
                     match = _SELECTOR.fullmatch(selector)
@@ -89,18 +91,40 @@ class StyleSheet:
                         continue
                     tag, sign, name = (part or "" for part in match.groups())
                     weight = {"": 0, ".": 10, "#": 100}[sign] + (tag not in ("", "*"))
-                    rules.append((weight, tag if tag != "*" else "", sign + name, said))
-        return cls(tuple(sorted(rules, key=lambda rule: rule[0])), tuple(others))
+                    count += 1
+                    ranked = made.rules.setdefault((tag if tag != "*" else "", sign + name), {})
+                    ranked |= {each: ((weight, count), value) for each, value in said.items()}
+        return replace(made, others=tuple(others))
 
     def of_element(self, element: Element) -> dict[str, str]:
         """Give what is said of an element: by its attributes, over them by rules, over these by its own style."""
+        if element not in self._known:
+            attributes = element.attributes
+            own = {name: attributes[name].strip() for name in _HAVE_STYLE if name in attributes}
+            self._known[element] = own | self._by_rules(element) | _declarations(attributes.get("style", ""))
+        return self._known[element]
+
+    def _by_rules(self, element: Element) -> dict[str, str]:
+        """Give what the rules say: of each property that of the highest rank."""
+        if not self.rules:
+            return {}
         attributes = element.attributes
-        own = {name: attributes[name].strip() for name in _HAVE_STYLE if name in attributes}
-        names = {f".{name}" for name in attributes.get("class", "").split()} | {"#" + attributes.get("id", "")}
-        for _, tag, name, said in self.rules:
-            if tag in ("", element.tag) and (not name or name in names):
-                own |= said
-        return own | _declarations(attributes.get("style", ""))
+        names = {"", *(f".{name}" for name in attributes.get("class", "").split()), "#" + attributes.get("id", "")}
+        best: Ranked = {}
+        for key in ((tag, name) for name in names for tag in ("", element.tag)):
+            for each, ranked in self.rules.get(key, {}).items():
+                best[each] = max(best.get(each, ranked), ranked)
+        return {name: value for name, (_, value) in best.items()}
+
+
+def _rules(text: str) -> Iterator[tuple[str, str]]:
+    """Give the selectors and the body of each rule that has an end."""
+    *pieces, _ = _COMMENT.sub("", text).split("}")
+    for piece in pieces:
+        before, sign, body = piece.rpartition("{")
+        selectors = before.rpartition("{")[2]
+        if sign and selectors:
+            yield selectors, body
 
 
 def _declarations(text: str) -> dict[str, str]:

@@ -13,10 +13,13 @@ MOST_LEVELS = 200
 """Of elements in elements; drawings have a dozen."""
 
 MOST_ELEMENTS = 2**21
-"""Of a file, and of a drawing once what is used several times is there as often."""
+"""Of a file."""
+
+_LONGEST_NAMESPACE = 255
+"""The name of every element and attribute in a namespace begins with it."""
 
 
-@dataclass(eq=False)
+@dataclass(eq=False, slots=True)
 class Element:
     """An element.
 
@@ -64,7 +67,7 @@ def parse_xml(name: str, data: bytes, namespace: str) -> Element:
     Raises
     ------
     InputError
-        If it is no XML, declares entities, or is nested too deep; the line is named.
+        If it is no XML, declares entities or a long namespace, or is nested too deep; the line is named.
     LimitError
         If it has too many elements.
 
@@ -77,6 +80,8 @@ def parse_xml(name: str, data: bytes, namespace: str) -> Element:
     parser = expat.ParserCreate(namespace_separator="}")
     builder.parser = parser
     parser.buffer_text = True
+    parser.specified_attributes = True  # no defaults, which a declaration would give to every element
+    parser.StartNamespaceDeclHandler = builder.check_namespace
     parser.StartElementHandler = builder.start
     parser.EndElementHandler = builder.end
     parser.CharacterDataHandler = builder.characters
@@ -128,6 +133,13 @@ class _Builder:
     def characters(self, text: str) -> None:
         if self.open[-1].tag == "style":
             self.open[-1].text.append(text)
+
+    def check_namespace(self, _: str | None, name: str | None) -> None:
+        if name is not None and len(name) > _LONGEST_NAMESPACE:
+            raise InputError(
+                f"{self.name}, line {self.parser.CurrentLineNumber}: the namespace {name[:40]!r}… has more than "
+                f"{_LONGEST_NAMESPACE} characters; save the drawing as plain SVG"
+            )
 
     def refuse_entity(self, entity: str, *_: object) -> None:
         raise InputError(

@@ -1,0 +1,99 @@
+"""Drawings in SVG that are small, and would take long or much memory: none does."""
+
+import tracemalloc
+
+import pytest
+
+from support.readers.svg_reading import read, svg
+from vorotool.errors import InputError, LimitError
+
+RECT = '<rect class="a" width="4" height="3"/>'
+MANY = 300_000
+
+
+@pytest.mark.parametrize(
+    "style",
+    [
+        "/*" * MANY,
+        "/* a */" * MANY + "/*",
+        "a" * MANY,
+        "a{" * MANY,
+        "a,{}" * MANY,
+        "}" * MANY,
+        ".a{fill:red}" * MANY,
+        ".a{fill:" + "url(" * MANY + "}",
+    ],
+)
+def test_styles_take_no_longer(style):
+    drawing, _ = svg(f"<style>{style}</style>{RECT}")
+    assert len(drawing) == 1
+
+
+def test_many_rules_and_many_elements():
+    rules = "".join(f".a{{stroke:none}}.b{k}{{fill:none}}" for k in range(20_000))
+    body = '<rect class="a" width="1" height="1"/><rect class="b7" width="1" height="1"/>' * 10_000
+    drawing, notes = svg(f"<style>{rules}</style>{body}")
+    assert len(drawing) == 10_000
+    assert any("10000" in note for note in notes)
+
+
+@pytest.mark.parametrize(
+    ("style", "is_shown"),
+    [
+        (".a{display:none}", False),
+        (".a{display:none} .a{display:inline}", True),
+        ("rect.a{display:none} .a{display:inline}", False),
+        ("#r{display:none} rect.a{display:inline}", False),
+        ("*{fill:none} rect{fill:red}", True),
+        ("@media print {.a{display:none}}", False),
+        ("/* .a{display:none} ", True),
+        ("/**/.a/* b */{display:none}", False),
+        (".a{display:none", True),
+        ("{display:none}.b,.a{display:none}", False),
+    ],
+)
+def test_the_rule_that_counts(style, is_shown):
+    drawing, _ = svg(f'<style>{style}</style><rect id="r" class="b a" width="4" height="3"/>')
+    assert len(drawing) == is_shown
+
+
+@pytest.mark.parametrize("step", ["rotate(0)", "rotate(90 1 2)", "translate(0)", "skewX(0)", "matrix(1 0 0 1 0 0)"])
+def test_long_transforms(step):
+    drawing, _ = svg(f'<rect width="4" height="3" transform="{step * 40_000}"/>')
+    assert drawing.xy.tolist() == [[0, 0], [4, 0], [4, 3], [0, 3]]
+
+
+def test_declared_attributes_are_not_given_to_elements():
+    declared = f'<!DOCTYPE svg [<!ATTLIST g a CDATA "{"y" * 100_000}"><!ATTLIST rect height CDATA "3">]>'
+    text = f'{declared}<svg>{"<g/>" * 5000}<rect width="4"/></svg>'
+    tracemalloc.start()
+    try:
+        assert len(read(text)[0]) == 0
+        peak = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    assert peak < 2**24
+
+
+@pytest.mark.parametrize("prefix", ["xmlns", "xmlns:p"])
+def test_long_namespaces_are_refused(prefix):
+    with pytest.raises(InputError, match=r"line 2.*'uuuuuu"):
+        read(f'<svg>\n<g {prefix}="{"u" * 1000}"/></svg>')
+
+
+def tens_of_tens(inner):
+    """Definitions in which each of four groups uses the one before ten times."""
+    groups = "".join(f"<g id='a{k + 1}'>" + f"<use href='#a{k}'/>" * 10 + "</g>" for k in range(4))
+    return f"<defs>{inner}{groups}</defs>"
+
+
+def test_long_paths_are_not_repeated_without_end():
+    defined = tens_of_tens(f"<path id='a0' d='M0 0{'l1 1' * 5000}V0z'/>")
+    with pytest.raises(LimitError, match=r"path #a0.*split the drawing"):
+        svg(f"{defined}<use href='#a4'/>")
+    assert len(svg(f"{defined}<use href='#a1'/>")[0]) == 10
+
+
+def test_shapes_are_counted_before_their_vertices():
+    with pytest.raises(LimitError, match="holds 1001 vertices, more than the limit of 1000"):
+        svg(tens_of_tens(f"<g id='a0'>{RECT}</g>") + "<use href='#a4'/>", max_sites=1000)
