@@ -44,6 +44,7 @@ class JobOptions:
     format: str | None
     out_dir: str | None
     no_clobber: bool
+    overwrite: bool
     stats: str | None
     layers: tuple[str, ...] | None
     overlay: str | None

@@ -226,6 +226,10 @@ def check_targets(options: JobOptions, targets: Sequence[Target], source: str) -
             check_store(target.path, **rules)
         else:
             check_output(target.path, binary=target.is_binary, **rules)
+            if target.fmt == "gpkg" and stream_kind(target.path) is None:
+                from vorotool.formats.features.geopackage import check_layers
+
+                check_layers(target.path, target.what, overwrite=options.overwrite)
             if FORMATS[target.fmt].parts and stream_kind(target.path) is None:
                 from vorotool.formats.features.shapefile_parts import check_parts
 

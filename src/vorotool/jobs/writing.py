@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from vorotool.errors import UsageError
+from vorotool.formats.io.descriptors import stream_kind
 from vorotool.geometry.numbers import shown_number, whole_number
 from vorotool.geometry.pixel_frame import MAX_SIDE
 from vorotool.geometry.spacing import SQUARE
@@ -42,6 +43,7 @@ def write(
     label_by: str | None = None,
     legend: bool = False,
     scale_bar: bool = False,
+    overwrite: bool = False,
     threads: int = 0,
 ) -> None:
     """Write a value in any format that has a place for it, or draw it.
@@ -84,13 +86,15 @@ def write(
         Column of the properties that names objects or sites in a picture, instead of their ids.
     legend, scale_bar : bool
         Draw the names of the layers with their colours, and a length, in corners of a picture.
+    overwrite : bool
+        Replace a GeoPackage that has other layers than the one that is written.
     threads : int
         0 uses all.
 
     Raises
     ------
     OutputError
-        If the file cannot be written; an older one is untouched.
+        If the file cannot be written, or is a GeoPackage with other layers; an older one is untouched.
     UsageError
         If the value cannot be written in this format, or an option is not for it.
     LimitError
@@ -130,8 +134,13 @@ def write(
         for option, given in {"layers": layers, "width": width, "y_up": y_up, **styles}.items():
             if given is not None:
                 raise UsageError(f"{option} is for pictures: use fmt='svg' or fmt='png', or leave it out")
+        product = _part(value, chosen, what, flatten)
+        if chosen == "gpkg" and stream_kind(fspath(path)) is None:
+            from vorotool.formats.features.geopackage import check_layers
+
+            check_layers(fspath(path), product.what, overwrite=overwrite)
         with coordinates_written(decimals):
-            _write_data(value, fspath(path), chosen, what, flatten, precision, threads)
+            _write_data(value, fspath(path), chosen, product, flatten, precision, threads)
         return
     for option, number in (("flatten", flatten), ("decimals", decimals), ("precision", precision)):
         if number is not None:
@@ -186,11 +195,10 @@ def _part(value: Any, fmt: str, what: str | None, flatten: float | None) -> Prod
 
 
 def _write_data(
-    value: Any, path: str, fmt: str, what: str | None, flatten: float | None, precision: int | None, threads: int
+    value: Any, path: str, fmt: str, product: Product, flatten: float | None, precision: int | None, threads: int
 ) -> None:
     from vorotool.formats.io.atomic_output import open_output
 
-    product = _part(value, fmt, what, flatten)
     if fmt == "zarr":
         from vorotool.formats.zarr.arrays import write_zarr
 

@@ -31,7 +31,7 @@ from vorotool.jobs.units import check_units, lengths_in_pixels
 from vorotool.products.formats import EXTENSIONS
 
 WITHOUT_EFFECT = frozenset(
-    {"inputs", "output", "out_dir", "threads", "quiet", "verbose", "stats", "no_clobber", *BATCH_OPTIONS}
+    {"inputs", "output", "out_dir", "threads", "quiet", "verbose", "stats", "no_clobber", "overwrite", *BATCH_OPTIONS}
 )
 """Options that change no byte of an output."""
 

@@ -33,7 +33,7 @@ FORMATS = formats_of("draw")
 @picture_style_options()
 @shared("out-dir", "threads", "stats", "max-pixels")
 @batch_options(table=False)
-@shared("no-clobber", "quiet", "verbose")
+@shared("no-clobber", "overwrite", "quiet", "verbose")
 def command(**options: Any) -> None:
     """Draw a label image, in which neighbouring regions never share a colour, a skeleton, a Voronoi map, or shapes.
 

@@ -308,6 +308,9 @@ OPTIONS: dict[str, Decorator] = {
         help="Maximum number of seeds, samples or vertices.",
     ),
     "no-clobber": click.option("--no-clobber", is_flag=True, help="Refuse to replace an existing file."),
+    "overwrite": click.option(
+        "--overwrite", is_flag=True, help="Replace a GeoPackage that holds other layers, which are lost."
+    ),
     "safe-csv": click.option(
         "--safe-csv",
         is_flag=True,

@@ -9,16 +9,16 @@ import shutil
 import sqlite3
 import tempfile
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import closing, contextmanager
+from contextlib import closing, contextmanager, suppress
 from datetime import date, datetime
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from vorotool.errors import InputError, LimitError
+from vorotool.errors import OUTPUT, OVERWRITE, InputError, LimitError, OutputError
 from vorotool.formats.features.feature_table import Features
 from vorotool.formats.features.layers import chosen_layer
 from vorotool.formats.io.limits import check_unpacked, decoding, interruptible
-from vorotool.formats.io.sources import Source
+from vorotool.formats.io.sources import Source, read_source
 from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.geometry.crs import member_of_text
 from vorotool.geometry.curves.well_known import geometry_of_binary
@@ -82,6 +82,44 @@ def layers_of(source: Source) -> list[str]:
     """Give the names of all tables of a GeoPackage that are registered, those without geometry too."""
     with decoding(source.name, "GeoPackage"), _connected(source) as database:
         return [name for (name,) in database.execute("SELECT table_name FROM gpkg_contents ORDER BY rowid")]
+
+
+def check_layers(path: str, layer: str, *, overwrite: bool = False) -> None:
+    """Refuse to replace a GeoPackage that holds more than the layer that is written, or that is being written to.
+
+    Parameters
+    ----------
+    path : str
+        Of the output.
+    layer : str
+        What is written.
+    overwrite : bool
+        Its other layers may be lost.
+
+    Raises
+    ------
+    OutputError
+        If there are other layers, which are named, or a journal of another program.
+
+    Examples
+    --------
+    >>> check_layers("build/none.gpkg", "cells")
+    """
+    journal = next((path + ending for ending in JOURNALS if Path(path + ending).exists()), None)
+    if journal is not None:
+        raise OutputError(
+            f"{path} is being written by another program ({journal}): close it there, or choose another name with "
+            f"{OUTPUT}"
+        )
+    if overwrite or not Path(path).is_file():
+        return
+    with suppress(InputError):  # what is no GeoPackage has no layers
+        others = [name for name in layers_of(read_source(path)) if name != layer]
+        if others:
+            raise OutputError(
+                f"{path} holds the layers {', '.join(others)}, which would be lost: choose another name with {OUTPUT}, "
+                f"or replace the file with {OVERWRITE}"
+            )
 
 
 def _read(source: Source) -> Features:
