@@ -244,7 +244,7 @@ def test_insertions_are_counted_before_they_are_made(drawing):
         block.add_blockref(f"b{k}", (0, 0))
         block.add_blockref(f"b{k}", (1, 0))
     drawing.modelspace().add_blockref("b40", (0, 0))
-    with pytest.raises(LimitError, match="more than 2097152 entities are drawn, as blocks are inserted many times"):
+    with pytest.raises(LimitError, match="more than 131072 entities are drawn, as blocks are inserted many times"):
         read(drawing)
     other = ezdxf.new()
     other.blocks.new("b").add_circle((0, 0), 1)
@@ -381,9 +381,31 @@ def test_no_settings_are_read(tmp_path, drawing):
     assert done.stdout == "1\n", done.stderr
 
 
-def test_most_entities(monkeypatch, drawing):
-    monkeypatch.setattr(dxf_reader, "MOST_ENTITIES", 3)
-    for _ in range(4):
-        drawing.modelspace().add_circle((0, 0), 1)
-    with pytest.raises(LimitError, match="more than 3 entities"):
+@pytest.mark.parametrize("filling", ["empty", "nested", "circle"])
+def test_large_arrays_are_refused(drawing, filling):
+    block = drawing.blocks.new("b")
+    if filling == "circle":
+        block.add_circle((0, 0), 1)
+    if filling == "nested":
+        drawing.blocks.new("c")
+        block.add_blockref("c", (0, 0))
+    array = {"column_count": 32767, "row_count": 32767, "column_spacing": 1, "row_spacing": 1}
+    drawing.modelspace().add_blockref("b", (0, 0), array)
+    with pytest.raises(LimitError, match="entities are drawn"):
         read(drawing)
+
+
+def test_long_lines_are_not_repeated_without_end(drawing):
+    drawing.blocks.new("b").add_lwpolyline([(k, k % 7) for k in range(5000)])
+    array = drawing.modelspace().add_blockref("b", (0, 0), {"column_count": 100, "column_spacing": 9000})
+    with pytest.raises(LimitError, match="pieces of curves are drawn"):
+        read(drawing)
+    array.dxf.column_count = 3
+    assert len(read(drawing)[0]) == 3
+
+
+def test_entities_of_the_file_are_not_limited(monkeypatch, drawing):
+    monkeypatch.setattr(dxf_reader, "MOST_ENTITIES", 3)
+    for k in range(9):
+        drawing.modelspace().add_circle((3 * k, 0), 1)
+    assert len(read(drawing)[0]) == 9

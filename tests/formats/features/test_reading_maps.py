@@ -13,7 +13,7 @@ import shapely
 
 import vorotool
 from support.families.vector_files import ATTRIBUTES, DRIVERS, SHAPES, frame, load, save
-from vorotool.errors import InputError, UsageError
+from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.geometry.crs import crs_name
 from vorotool.geometry.polygons.conversion import to_shapely
 from vorotool.geometry.polygons.polygon_set import PolygonSet
@@ -385,3 +385,16 @@ def test_many_features_are_read_as_geopandas_reads_them(tmp_path):
         assert all(one.equals(other) for one, other in zip(to_shapely(made), parts, strict=True))
         assert made.properties["t"] == [expected.t[index] for index, _ in parts.index]
         assert made.properties["n"] == [int(expected.n[index]) for index, _ in parts.index]
+
+
+def test_archives_of_many_shapefiles(tmp_path):
+    (tmp_path / "in").mkdir()
+    save(frame(), tmp_path / "in" / "lakes.shp")
+    path = zipped(tmp_path / "in", "lakes", tmp_path / "many.zip")
+    with zipfile.ZipFile(path, "a") as archive:
+        for number in range(5000):
+            archive.writestr(f"pond{number}.shp", b"")
+            archive.writestr(f"{number}.txt", b"")
+    with pytest.raises(LimitError, match=r"many.zip holds 5001 Shapefiles"):
+        vorotool.read(path)
+    assert len(vorotool.read(path, layer="lakes")) > 0

@@ -21,8 +21,9 @@ from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 
-MOST_ENTITIES = 2**21
-"""Of a drawing once its blocks are there as often as they are inserted."""
+MOST_ENTITIES = 2**17
+"""Of a drawing once its blocks are there as often as they are inserted, where that is more than the file holds; and
+pieces of curves in blocks that are inserted."""
 
 MOST_LEVELS = 100
 """Of blocks in blocks."""
@@ -134,6 +135,8 @@ class _Blocks:
     hidden: int = 0
     _seen: dict[str | None, _Seen | None] = field(default_factory=dict)
     _shown: dict[str, bool] = field(default_factory=dict)
+    _inserted: dict[Any, list[Curve]] = field(default_factory=dict)
+    _repeated: int = 0
 
     def entities(self, block: str | None) -> Any:
         """What is in a block."""
@@ -158,20 +161,24 @@ class _Blocks:
             self._seen[key] = None
             entities, levels = 0, 0
             for entity in self.entities(block):
-                entities += 1
                 if entity.dxftype() == "INSERT":
                     inner = self.count(str(entity.dxf.name), level + 1)
-                    entities += max(int(entity.mcount), 1) * inner.entities
+                    entities += max(int(entity.mcount), 1) * (1 + inner.entities)
                     levels = max(levels, inner.levels)
+                else:
+                    entities += 1
             known = self._seen[key] = _Seen(entities, levels + 1)
-        if known.entities > MOST_ENTITIES:
-            raise LimitError(
-                f"{self.name}: more than {MOST_ENTITIES} entities are drawn, as blocks are inserted many times; split "
-                "the drawing"
-            )
+        most = max(MOST_ENTITIES, len(self.drawing.entitydb))
+        if known.entities > most:
+            raise self._too_many(most, "entities")
         if level + known.levels > MOST_LEVELS:
             raise self._too_deep()
         return known
+
+    def _too_many(self, most: int, noun: str) -> LimitError:
+        return LimitError(
+            f"{self.name}: more than {most} {noun} are drawn, as blocks are inserted many times; split the drawing"
+        )
 
     def _too_deep(self) -> InputError:
         return InputError(f"{self.name}: blocks are nested more than {MOST_LEVELS} deep; explode some of them")
@@ -192,8 +199,21 @@ class _Blocks:
                 self.left_out[kind] += 1
             else:
                 found = self.curves.setdefault(own, [])
-                curves = [curve for curve in curves_of(entity, flatten) if curve.has_extent()]
+                curves = [curve for curve in self._curves(entity, block, flatten) if curve.has_extent()]
                 found += curves if block is None else [curve.mapped(by) for curve in curves]
+
+    def _curves(self, entity: Any, block: str | None, flatten: float | None) -> list[Curve]:
+        """Give the curves of an entity; those in blocks are made once, and counted before they are repeated."""
+        if block is None:
+            return curves_of(entity, flatten)
+        known = self._inserted.get(entity)
+        if known is None:
+            known = self._inserted[entity] = curves_of(entity, flatten)
+            return known
+        self._repeated += sum(len(curve.pieces) for curve in known)
+        if self._repeated > MOST_ENTITIES:
+            raise self._too_many(MOST_ENTITIES, "pieces of curves")
+        return known
 
     def _is_shown(self, layer: str) -> bool:
         if layer not in self._shown:

@@ -10,7 +10,7 @@ from contextlib import suppress
 from functools import partial
 from pathlib import Path
 
-from vorotool.errors import InputError, LimitError, OutputError
+from vorotool.errors import InputError, LimitError, OutputError, option
 from vorotool.formats.io.atomic_output import Rules, check_output, explained, followed
 from vorotool.formats.io.commit import Placement
 from vorotool.formats.io.sources import Source
@@ -25,6 +25,9 @@ ZIP_MAGIC = b"PK\x03\x04"
 _MOST_BYTES = 1 << 34
 """Of what an archive unpacks to."""
 
+_MOST_LAYERS = 100
+"""Shapefiles in an archive: all of them are opened to tell which there are."""
+
 
 def archive_of(source: Source) -> bytes:
     """Give a ZIP archive of a Shapefile: what is beside the ``.shp`` that is named, or the archive that is.
@@ -34,11 +37,18 @@ def archive_of(source: Source) -> bytes:
     InputError
         If only the ``.shp`` came through a stream, or parts are missing.
     LimitError
-        If the archive unpacks to more than 16 GiB.
+        If the archive unpacks to more than 16 GiB, or holds more than 100 Shapefiles.
     """
     if source.data.startswith(ZIP_MAGIC):
         with zipfile.ZipFile(io.BytesIO(source.data)) as archive:
             entries = [entry for entry in archive.infolist() if Path(entry.filename).suffix.lower() in PARTS]
+            entries = [entry for entry in entries if Path(entry.filename).stem == source.layer] or entries
+            layers = sum(entry.filename.lower().endswith(".shp") for entry in entries)
+            if layers > _MOST_LAYERS:
+                raise LimitError(
+                    f"{source.name} holds {layers} Shapefiles, more than {_MOST_LAYERS}: unpack it and name one of "
+                    f"them, or choose one by {option('--input-layer', 'layer=...')}"
+                )
             size = sum(entry.file_size for entry in entries)
             if size > _MOST_BYTES:
                 raise LimitError(f"{source.name} unpacks to {size} bytes, more than {_MOST_BYTES}: unpack and split it")
