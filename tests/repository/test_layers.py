@@ -12,7 +12,7 @@ ARROWS = """
 formats/compression ->
 products ->
 geometry -> products
-formats/io -> geometry
+formats/io -> formats/compression, geometry
 geometry/points -> geometry
 geometry/polygons -> geometry
 geometry/curves -> geometry, geometry/polygons

@@ -14,6 +14,7 @@ from vorotool.batch.pages import path_of
 from vorotool.batch.tasks import Task
 from vorotool.errors import OutputError, UsageError
 from vorotool.formats.io.descriptors import STANDARD, descriptor_of
+from vorotool.formats.io.sources import without_gz
 
 _NOWHERE = (-1, -1)
 
@@ -36,7 +37,7 @@ def output_paths(name: str, endings: Sequence[str], folder: str | os.PathLike[st
     >>> output_paths("day-1/a.json", [".table.csv", ".skeleton.svg"], "out")
     ('out/day-1/a.table.csv', 'out/day-1/a.skeleton.svg')
     """
-    stem = Path(folder) / PurePath(os.path.normpath(name)).with_suffix("")
+    stem = Path(folder) / PurePath(without_gz(os.path.normpath(name))).with_suffix("")
     return tuple(f"{stem}{ending}" for ending in endings)
 
 

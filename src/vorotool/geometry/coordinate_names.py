@@ -8,7 +8,14 @@ COORDINATE_NAMES = (
     ("x", "y"),
     ("lon", "lat"),
     ("longitude", "latitude"),
+    ("long", "lat"),
     ("easting", "northing"),
+    ("e", "n"),
+    ("centroid_x", "centroid_y"),
+    ("location_center_x", "location_center_y"),  # CellProfiler
+    ("position_x", "position_y"),  # TrackMate
+    ("centroid x µm", "centroid y µm"),  # QuPath
+    ("centroid x px", "centroid y px"),
     ("centroid-1", "centroid-0"),  # scikit-image: row first
     ("axis-1", "axis-0"),  # napari: row first
 )
@@ -17,8 +24,8 @@ SPACE_NAMES = (
     ("centroid-2", "centroid-1", "centroid-0"),  # scikit-image: slice first
     ("axis-2", "axis-1", "axis-0"),  # napari: slice first
 )
-LONGITUDE_LATITUDE_NAMES = (("lon", "lat"), ("longitude", "latitude"))
-MAP_NAMES = (*LONGITUDE_LATITUDE_NAMES, ("easting", "northing"))
+LONGITUDE_LATITUDE_NAMES = (("lon", "lat"), ("long", "lat"), ("longitude", "latitude"))
+MAP_NAMES = (*LONGITUDE_LATITUDE_NAMES, ("easting", "northing"), ("e", "n"))
 """Of which the second one grows northwards."""
 
 
@@ -71,7 +78,7 @@ def plain_name(text: str) -> str:
     >>> plain_name(" Lon")
     'lon'
     """
-    return text.strip().lower()
+    return text.strip().lower().replace("\u03bc", "µ")
 
 
 def is_longitude_latitude(x: str, y: str) -> bool:

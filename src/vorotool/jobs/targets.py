@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from vorotool.errors import UsageError
 from vorotool.formats.io.atomic_output import is_same_file, spoken
 from vorotool.formats.io.descriptors import STANDARD, descriptor_of, is_same_output, stream_kind
+from vorotool.formats.io.sources import without_gz
 from vorotool.jobs.picture_style import check_style
 from vorotool.products.formats import EXTENSIONS, FORMATS, format_named, with_digits
 
@@ -63,7 +64,7 @@ def plan_targets(
     fmt = _known_format(fmt, formats)
     several = len(what) > 1
     if out_dir is not None:
-        stem = Path(out_dir) / ("stdin" if source == "-" else Path(source).stem)
+        stem = Path(out_dir) / ("stdin" if source == "-" else Path(without_gz(source)).stem)
         choose = _several_format if several else _chosen
         chosen = {name: choose(formats, name, fmt, None) for name in what}
         return [Target(name, _named(stem, name if several else None, chosen[name]), chosen[name]) for name in what]
@@ -257,6 +258,11 @@ def _chosen(formats: Mapping[str, Sequence[str]], what: str, fmt: str | None, ex
         if chosen is None:
             raise UsageError(f"the extension {extension} names no format: use one of {', '.join(possible)}, or -f")
     chosen = chosen or possible[0]
+    if chosen not in possible and what == "picture":
+        raise UsageError(
+            f"draw makes pictures, which are not written as {chosen}: use one of {', '.join(possible)}, or -f {chosen} "
+            "with the command that computes the result"
+        )
     if chosen not in possible:
         others = [name for name, those in formats.items() if chosen in those]
         instead = f"use --what {' or '.join(others)}, or " if others else "use "

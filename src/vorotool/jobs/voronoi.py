@@ -109,7 +109,9 @@ class VoronoiProducts:
             check_html_size(len(self.cells), len(self.cells.ring_arcs))
         if target.what == "discs" and not len(self.discs):
             self.run.warn(Message("there are no discs: no place is outside of all sites", Kind.EMPTY_RESULT))
-        if target.what in ("edges", "neighbours") and not self.cells.is_border.any():
+        if not self.features:
+            self.run.warn(Message("there are no cells: the input is empty", Kind.EMPTY_RESULT))
+        elif target.what in ("edges", "neighbours") and not self.cells.is_border.any():
             count = len(self.cells)
             self.run.warn(Message(f"there are no {target.what} of {count} site{'s' * (count != 1)}", Kind.EMPTY_RESULT))
 

@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
+
+import click
+from click.core import ParameterSource
 
 from vorotool.batch.inputs import is_several
 from vorotool.cli.batch.progress_bar import progress_bar
@@ -33,7 +37,7 @@ def run_command(recipe: Recipe[Options], o: Options) -> None:
         If there is no input, or options do not go together.
     """
     check_streams([*(("the input", name) for name in o.inputs), *o.files_read().items()])
-    o = with_spacing(o)
+    o = with_spacing(_without_environment(o))
     if _is_batch(o):
         from vorotool.cli.batch.run_many import run_many
 
@@ -61,6 +65,20 @@ def run_command(recipe: Recipe[Options], o: Options) -> None:
         ) as run,
     ):
         process_input(recipe, run, o, source, targets)
+
+
+def _without_environment(o: Options) -> Options:
+    """Leave out workers that the environment names where one input needs none, or other workers are typed."""
+    source = click.get_current_context().get_parameter_source
+    is_environment = {name: source(name) == ParameterSource.ENVIRONMENT for name in ("jobs", "cluster")}
+    if not is_environment["jobs"] and not is_environment["cluster"]:
+        return o
+    kept = replace(o, **{name: None for name, is_set in is_environment.items() if is_set})
+    if not _is_batch(kept):
+        return kept
+    if not is_environment["cluster"]:
+        return kept if o.cluster is not None else o
+    return replace(o, cluster=None) if kept.jobs is not None else replace(o, jobs=None)
 
 
 def refuse_several(named: Mapping[str, str]) -> None:

@@ -15,6 +15,7 @@ from vorotool.cli.options.picture_style import animation_options
 from vorotool.cli.options.shared import (
     Decimal,
     Names,
+    accumulated,
     inputs_argument,
     output_options,
 )
@@ -47,8 +48,14 @@ OF_DIGITAL_RULE = frozenset({"edges", "complex", "family", "spectrum"})
 @click.option("--auto", is_flag=True, help="The smallest r whose shape is one region with every point: the default.")
 @click.option("--regions", type=click.IntRange(min=1), metavar="K", help="Regions that --auto allows; by default 1.")
 @output_options(FORMATS)
-@click.option("--what", type=Names(tuple(FORMATS)), help=f"What to write: {', '.join(FORMATS)}; several separated by "
-              f"commas. By default edges; polygons for {_OF_POLYGONS}.")  # fmt: skip
+@click.option(
+    "--what",
+    type=Names(tuple(FORMATS)),
+    multiple=True,
+    callback=accumulated,
+    help=f"What to write: {', '.join(FORMATS)}; several separated by commas. By default edges; polygons for "
+    f"{_OF_POLYGONS}.",
+)
 @click.option(
     "--rule",
     type=click.Choice(["corrected", "printed"], case_sensitive=False),

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from vorotool.jobs.skeletons.approximate import ApproximateProducts
 
 
-@click.command("skeleton-approx", cls=GroupedCommand)
+@click.command("skeleton-approx", cls=GroupedCommand, instead={"--offset": "give -d D with --what offset"})
 @skeleton_options(
     click.option("--step", type=Length(zero=False), metavar="H", help="Sample the edges at this distance."),
     click.option(

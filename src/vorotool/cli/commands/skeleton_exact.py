@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from vorotool.jobs.skeletons.exact import ExactProducts
 
 
-@click.command("skeleton-exact", cls=GroupedCommand)
+@click.command("skeleton-exact", cls=GroupedCommand, instead={"--offset": "give -d D with --what offset"})
 @skeleton_options(
     click.option(
         "--gap",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import re
 from typing import Any
 
 import click
@@ -34,6 +35,8 @@ COMMON = _COMMON.split(" ")
 """Parameters from which the short page takes the first ten that a command has."""
 
 MOST, MOST_NAMES = 10, 5
+CLOSE = 0.75
+"""How like an option that is mistyped is to those that are named: --offset is not like --aspect."""
 
 
 class GroupedCommand(click.Command):
@@ -61,13 +64,22 @@ class GroupedCommand(click.Command):
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Say what to do instead where an option is one of other commands."""
+        typed = [*args]
         try:
             return super().parse_args(ctx, args)
         except click.NoSuchOption as error:
-            if error.option_name not in self._instead:
-                raise
-            said = f"{self.name} has no {error.option_name}: {self._instead[error.option_name]}"
-            raise click.UsageError(said, ctx) from None
+            name = error.option_name
+            if name in self._instead:
+                raise click.UsageError(f"{self.name} has no {name}: {self._instead[name]}", ctx) from None
+            if re.match(r"-[.\d]", name):
+                number = next(each for each in typed if each.startswith(name))
+                said = f"{number} is a number, not an option: separate the values of a list by commas, as in -d -1,-2"
+                raise click.UsageError(said, ctx) from None
+            from difflib import get_close_matches
+
+            known = [each for param in self.get_params(ctx) for each in (*param.opts, *param.secondary_opts)]
+            error.possibilities = get_close_matches(name, known, cutoff=CLOSE)
+            raise
 
     def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the options under the titles of their groups."""

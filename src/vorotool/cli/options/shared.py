@@ -196,6 +196,11 @@ class Names(ParameterType[tuple[str, ...]]):
         return listed(self.choices, incomplete)
 
 
+def accumulated(_ctx: click.Context, _param: click.Parameter, value: tuple[tuple[Any, ...], ...]) -> Any:
+    """Join the lists of an option that is repeated; None where it is not given."""
+    return tuple(dict.fromkeys(each for values in value for each in values)) or None
+
+
 def _named_folder(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
     """Refuse an empty name, such as a variable of a shell that is not set leaves: it would stand for this folder."""
     if value == "":
@@ -208,6 +213,11 @@ def _named_image(ctx: click.Context, param: click.Parameter, value: str | None) 
     if value is not None and value.startswith("-") and value != "-":
         raise click.BadParameter(f"{value!r} is no image: name one, or write ./{value}", ctx, param)
     return value
+
+
+def _from_environment(name: str) -> dict[str, Any]:
+    """Let an option that changes no result be set for all runs."""
+    return {"envvar": f"VOROTOOL_{name}", "show_envvar": True}
 
 
 OPTIONS: dict[str, Decorator] = {
@@ -238,7 +248,12 @@ OPTIONS: dict[str, Decorator] = {
         shell_complete=folders,
     ),
     "jobs": click.option(
-        "-j", "--jobs", type=click.IntRange(0, 1024), metavar="N", help="Worker processes; 0 uses all cores."
+        "-j",
+        "--jobs",
+        type=click.IntRange(0, 1024),
+        metavar="N",
+        **_from_environment("JOBS"),
+        help="Worker processes; 0 uses all cores.",
     ),
     "table": click.option(
         "--table",
@@ -259,7 +274,11 @@ OPTIONS: dict[str, Decorator] = {
     "shard": click.option("--shard", type=Shard(), help="Take every N-th input in the order of names, from the I-th."),
     "follow": click.option("--follow", is_flag=True, help="Follow links to folders that are found in folders."),
     "cluster": click.option(
-        "--cluster", metavar="ADDRESS|local", help="Work on a Dask cluster.", shell_complete=words(("local",))
+        "--cluster",
+        metavar="ADDRESS|local",
+        **_from_environment("CLUSTER"),
+        help="Work on a Dask cluster.",
+        shell_complete=words(("local",)),
     ),
     "threads": click.option(
         "--threads",
@@ -267,9 +286,16 @@ OPTIONS: dict[str, Decorator] = {
         metavar="N",
         default=0,
         show_default=True,
+        **_from_environment("THREADS"),
         help="Threads; 0 uses all.",
     ),
-    "quiet": click.option("-q", "--quiet", is_flag=True, help="Print no notes, warnings or progress."),
+    "quiet": click.option(
+        "-q",
+        "--quiet",
+        is_flag=True,
+        **_from_environment("QUIET"),
+        help="Print no notes, warnings or progress.",
+    ),
     "verbose": click.option("-v", "--verbose", is_flag=True, help="Report the time of each phase."),
     "stats": click.option(
         "--stats",
@@ -297,6 +323,7 @@ OPTIONS: dict[str, Decorator] = {
         metavar="N",
         default=2**31,
         show_default=True,
+        **_from_environment("MAX_PIXELS"),
         help="Maximum number of pixels held in memory.",
     ),
     "max-sites": click.option(
@@ -305,6 +332,7 @@ OPTIONS: dict[str, Decorator] = {
         metavar="N",
         default=2**31 - 1,
         show_default=True,
+        **_from_environment("MAX_SITES"),
         help="Maximum number of seeds, samples or vertices.",
     ),
     "no-clobber": click.option("--no-clobber", is_flag=True, help="Refuse to replace an existing file."),
@@ -418,7 +446,9 @@ def what_option(choices: tuple[str, ...]) -> Decorator:
     return click.option(
         "--what",
         type=Names(choices),
-        default=choices[0],
+        multiple=True,
+        callback=accumulated,
+        default=(choices[0],),
         show_default=True,
         help=f"What to write: {', '.join(choices)}; several separated by commas.",
     )
@@ -426,4 +456,10 @@ def what_option(choices: tuple[str, ...]) -> Decorator:
 
 def layers_option(choices: tuple[str, ...]) -> Decorator:
     """Add ``--layers`` of pictures."""
-    return click.option("--layers", type=Names(choices), help=f"Layers of pictures: {', '.join(choices)}.")
+    return click.option(
+        "--layers",
+        type=Names(choices),
+        multiple=True,
+        callback=accumulated,
+        help=f"Layers of pictures: {', '.join(choices)}.",
+    )

@@ -12,6 +12,7 @@ from vorotool.cli.options.pruning import FORMS, Place, PruningType
 from vorotool.cli.options.shapes import frame_option, shape_options
 from vorotool.cli.options.shared import (
     Decorator,
+    accumulated,
     inputs_argument,
     output_options,
     together,
@@ -74,6 +75,8 @@ _READING: tuple[Decorator, ...] = (
         "-d",
         "--distance",
         type=Distances(),
+        multiple=True,
+        callback=accumulated,
         help="Distances of --what offset, separated by commas: positive outwards, negative inwards.",
     ),
     click.option(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import shutil
 import sys
+import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -12,10 +13,17 @@ from pathlib import Path
 from typing import Any, BinaryIO
 
 from vorotool import _core
-from vorotool.errors import InputError, UsageError, VorotoolError
+from vorotool.errors import InputError, LimitError, UsageError, VorotoolError
+from vorotool.formats.compression.unpacking import unpack_gzip
 from vorotool.formats.io.descriptors import STANDARD, descriptor_of, open_input, stream_kind
 
 STANDARD_INPUT = "standard input"
+GZIP = b"\x1f\x8b\x08"
+"""The first bytes of what gzip has packed."""
+MOST_UNPACKED = 2**30
+"""Bytes that gzip may have packed in an input."""
+MOST_BLANKS = 2**12
+"""Bytes of an input that are looked at for anything but blanks."""
 NESTING_LIMIT = 100
 """Levels of brackets; no file of points or polygons has ten."""
 
@@ -40,6 +48,8 @@ class Source:
         Most features of a map, which are read to tell what they are.
     flatten : float, optional
         How far lines may be from the curves of these.
+    is_unpacked : bool
+        The content was packed by gzip.
 
     Examples
     --------
@@ -54,16 +64,17 @@ class Source:
     layer: str | None = None
     max_sites: int | None = None
     flatten: float | None = None
+    is_unpacked: bool = False
 
     @property
     def is_file(self) -> bool:
         """Whether it has a place where it can be read again, with what is beside it."""
-        return self.name != STANDARD_INPUT and stream_kind(self.name) is None
+        return self.name != STANDARD_INPUT and not self.is_unpacked and stream_kind(self.name) is None
 
     @property
     def suffix(self) -> str:
-        """Extension of the name in lower case, with its dot; empty for standard input."""
-        return Path(self.name).suffix.lower()
+        """Extension of the name in lower case, with its dot, that of gzip left out; empty for standard input."""
+        return Path(without_gz(self.name)).suffix.lower()
 
     def line_at(self, offset: int) -> int:
         """1-based line of the byte at ``offset``."""
@@ -71,16 +82,48 @@ class Source:
 
 
 def read_source(path: str | os.PathLike[str]) -> Source:
-    """Read a whole file, or standard input for ``-``.
+    """Read a whole file, or standard input for ``-``; what gzip has packed is unpacked.
 
     Raises
     ------
     InputError
-        If there is no such file, it is a directory, or it cannot be read.
+        If there is no such file, it is a directory, it cannot be read, or standard input is empty.
+    LimitError
+        If more than `MOST_UNPACKED` bytes are packed in it.
     """
     name = os.fspath(path)
     with explained_reading(name):
-        return Source(STANDARD_INPUT if name == STANDARD else name, read_bytes(name))
+        data = read_bytes(name)
+    spoken = STANDARD_INPUT if name == STANDARD else name
+    if (name == STANDARD or descriptor_of(name) == 0) and (not data or (len(data) < MOST_BLANKS and data.isspace())):
+        raise InputError(f"{spoken} is empty: check the program that writes it, or name a file instead of {name}")
+    if data.startswith(GZIP) and not name.lower().endswith(".svgz"):
+        return Source(spoken, _unpacked(data, spoken), is_unpacked=True)
+    return Source(spoken, data)
+
+
+def without_gz(name: str) -> str:
+    """Return a name without the extension of gzip.
+
+    Examples
+    --------
+    >>> without_gz("a.csv.gz"), without_gz("a.csv")
+    ('a.csv', 'a.csv')
+    """
+    return name[: -len(".gz")] if name.lower().endswith(".gz") else name
+
+
+def _unpacked(data: bytes, name: str) -> bytes:
+    """Undo gzip up to the limit."""
+    try:
+        made = unpack_gzip(data, MOST_UNPACKED)
+    except (ValueError, zlib.error) as error:
+        raise InputError(f"{name} cannot be unpacked by gzip: {error}; is the file damaged or cut off?") from None
+    if len(made) > MOST_UNPACKED:
+        raise LimitError(
+            f"{name} holds more than {MOST_UNPACKED} bytes packed by gzip: unpack it first, and give the file"
+        )
+    return made
 
 
 @contextmanager

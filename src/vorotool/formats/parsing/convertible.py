@@ -12,7 +12,7 @@ from vorotool.formats.io.sources import Source
 _MAPS = (".gml", ".gdb", ".tab", ".mif")
 _DRAWINGS = (".pdf", ".eps", ".ps", ".ai")
 _FONTS = (".ttf", ".otf", ".ttc", ".woff", ".woff2")
-_OTHERS = (".dwg", ".zip", *_FONTS)
+_OTHERS = (".dwg", ".zip", ".qgz", ".qgs", ".roi", *_FONTS)
 _HEADS = (
     *((b"%PDF-", ".pdf"), (b"%!PS", ".ps"), (b"\xc5\xd0\xd3\xc6", ".eps"), (b"OTTO\0", ".otf")),
     *((b"\0\1\0\0\0", ".ttf"), (b"wOFF", ".woff"), (b"wOF2", ".woff2"), (b"ttcf", ".ttc")),
@@ -46,6 +46,8 @@ convert it: dwg2dxf -o plan.dxf plan.dwg
     found = source.suffix if source.suffix in _MAPS + _DRAWINGS + _OTHERS else next(heads, None)
     if found is None and _DWG.match(source.data):
         found = ".dwg"
+    if found == ".zip" and b".roi" in source.data:
+        found = ".roi"
     if found is not None:
         file = source.name if source.suffix == found else f"FILE{found}"
         raise InputError(f"{source.name}: {found} files are not read; {_CONVERSIONS.get(found, _as_map)(file)}")
@@ -87,4 +89,6 @@ _CONVERSIONS: dict[str, Callable[[str], str]] = {
     **dict.fromkeys(_FONTS, _written),
     ".dwg": _as_dxf,
     ".zip": _unpacked,
+    **dict.fromkeys((".qgz", ".qgs"), lambda _: "it is a project of QGIS: give the files of its layers"),
+    ".roi": lambda _: "make a mask of the regions in ImageJ (Edit, Selection, Create Mask), and give that image",
 }

@@ -1,0 +1,61 @@
+"""Options that the environment sets: none changes a result, and a bad value names its variable."""
+
+import json
+
+import pytest
+
+POINTS = "x,y\n2,1\n7,5\n1,6\n4,3\n"
+
+
+@pytest.fixture
+def points(tmp_path):
+    (tmp_path / "p.csv").write_text(POINTS)
+    (tmp_path / "q.csv").write_text(POINTS)
+
+
+@pytest.mark.parametrize("name", ["THREADS", "JOBS", "MAX_PIXELS", "MAX_SITES", "QUIET"])
+@pytest.mark.parametrize("value", ["-1", "many", "1e9999"])
+def test_a_bad_value_names_the_variable(run, points, monkeypatch, name, value):
+    monkeypatch.setenv(f"VOROTOOL_{name}", value)
+    done = run("delaunay", "p.csv")
+    assert (done.code, done.out) == (2, "")
+    assert f"VOROTOOL_{name}" in done.err
+    assert value in done.err
+
+
+def test_values_are_taken_and_what_is_typed_holds(run, points, monkeypatch):
+    monkeypatch.setenv("VOROTOOL_MAX_SITES", "3")
+    assert run("delaunay", "p.csv").code == 5
+    assert run("delaunay", "p.csv", "--max-sites", "4").code == 0
+    monkeypatch.setenv("VOROTOOL_MAX_SITES", "")
+    assert run("delaunay", "p.csv").code == 0
+    monkeypatch.setenv("VOROTOOL_THREADS", "1")
+    assert run("tessellate", "p.csv", "-o", "l.tif", "--stats", "s.json").code == 0
+
+
+def test_quiet(run, points, tmp_path, monkeypatch):
+    (tmp_path / "none.csv").write_text("x,y\n")
+    assert run("delaunay", "none.csv").err
+    monkeypatch.setenv("VOROTOOL_QUIET", "1")
+    assert run("delaunay", "none.csv").err == ""
+    monkeypatch.setenv("VOROTOOL_QUIET", "no")
+    assert run("delaunay", "none.csv").err
+
+
+@pytest.mark.parametrize("variables", [{"JOBS": "2"}, {"CLUSTER": "local"}, {"JOBS": "2", "CLUSTER": "tcp://nobody:1"}])
+def test_workers_for_many_change_nothing_for_one(run, points, tmp_path, monkeypatch, variables):
+    text = run("delaunay", "p.csv").out
+    for name, value in variables.items():
+        monkeypatch.setenv(f"VOROTOOL_{name}", value)
+    done = run("delaunay", "p.csv")
+    assert (done.code, done.out, done.err) == (0, text, "")
+    assert run("delaunay", "p.csv", "--out-dir", "out").code == 0
+    assert [path.name for path in (tmp_path / "out").iterdir()] == ["p.csv"]
+
+
+def test_jobs_of_many_and_a_cluster_that_is_not_asked_where_jobs_are_typed(run, points, tmp_path, monkeypatch):
+    monkeypatch.setenv("VOROTOOL_JOBS", "2")
+    assert run("delaunay", "p.csv", "q.csv", "--out-dir", "out", "-q").code == 0
+    monkeypatch.setenv("VOROTOOL_CLUSTER", "tcp://127.0.0.1:1")
+    assert run("delaunay", "p.csv", "q.csv", "--out-dir", "two", "-q", "-j", "1", "--stats", "s.json").code == 0
+    assert json.loads((tmp_path / "s.json").read_text())["done"] == 2
