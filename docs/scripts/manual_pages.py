@@ -20,7 +20,7 @@ FOLDER = Path(__file__).parents[1] / "man/man1"
 
 EXITS = {
     0: "Done.",
-    1: "A defect of vorotool, or --verify failed.",
+    1: "An internal error in vorotool, or --verify failed.",
     2: "Usage.",
     3: "Bad input: the message names the file, the place, the value and what to do.",
     4: "Output cannot be written; an older file is untouched.",

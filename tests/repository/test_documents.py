@@ -10,6 +10,7 @@ import pytest
 from support.documents import blocks
 from support.processes.ended import ended, ended_bash, ended_python
 from vorotool.cli.main import COMMANDS
+from vorotool.jobs.samples import write_all_samples
 
 ROOT = Path(__file__).parents[2]
 PICTURES = [*(ROOT / "docs/images").glob("*.svg")]
@@ -25,8 +26,8 @@ def cases(language):
 
 @pytest.fixture
 def folder(tmp_path):
-    """A folder like the root of the repository, to write into."""
-    shutil.copytree(ROOT / "data", tmp_path / "data")
+    """A folder with what a reader has there: the samples, and the pipeline that a page explains."""
+    write_all_samples(str(tmp_path))
     shutil.copytree(ROOT / "docs/pipeline", tmp_path / "docs/pipeline")
     return tmp_path
 
@@ -42,6 +43,7 @@ def test_console_block(block, folder):
         assert done.returncode == 0, f"{command}\n{done.stderr}"
         assert done.stderr == ""
         assert done.stdout == expected, command
+    write_all_samples(str(folder))  # which refuses where a command has replaced one
     for picture in PICTURES:
         made = folder / picture.name
         assert not made.exists() or made.read_bytes() == picture.read_bytes(), f"copy {picture.name} anew"
@@ -51,6 +53,7 @@ def test_console_block(block, folder):
 def test_python_block(block, folder):
     done = ended_python("-c", block, cwd=folder)
     assert done.returncode == 0, done.stderr
+    write_all_samples(str(folder))
 
 
 @pytest.mark.parametrize("block", cases("sh"))
@@ -61,7 +64,7 @@ def test_what_needs_the_network_or_minutes_could_be_run(block):
         words = line.partition("#")[0].split()
         if words[0] == "make":
             assert ended_bash(f"make -n {words[1]}", ROOT).returncode == 0, line
-        elif words[1:3] == ["-m", "pip"]:
+        elif words[:2] == ["pip", "install"] or words[1:3] == ["-m", "pip"]:
             named = re.search(r"\[([a-z,]+)\]", line)
             assert set(named[1].split(",") if named else ()) <= set(extras), line
         elif words[0] == ".venv/bin/python":
