@@ -38,7 +38,7 @@ RUNS = {
     "distance": ["shape.json dots.csv --verify"],
     "draw": ["labels.png -o labels.svg", "skeleton.json -o again.png"],
     "info": ["dots.csv mask.pgm shape.json", "labels.png --json"],
-    "sample": ["six-seeds.csv", "blobs.png -o blobs.png"],
+    "sample": ["six-seeds.csv", "blobs.png -o blobs.png", "--all -o samples"],
     "completion": ["bash", "zsh", "fish"],
 }
 """Of each command what it is given, one after the other; a command that is not here is a failure."""
@@ -94,8 +94,11 @@ class Smoke:
                 printed = self.run(command, *words.split())
                 _, names, output = words.partition(" -o ")
                 written = (self.folder / output.split()[0]).stat().st_size if names else len(printed)
-                check(written > 0 or "--out-dir" in words, f"what vorotool {command} {words} writes")
+                check(
+                    written > 0 or "--out-dir" in words or "--all" in words, f"what vorotool {command} {words} writes"
+                )
         check(len(list((self.folder / "many").glob("*.png"))) == 2, "the outputs of a batch")
+        check((self.folder / "samples/dots.csv").stat().st_size > 0, "the samples")
 
 
 def library() -> None:
@@ -112,8 +115,10 @@ def library() -> None:
     check(mesh.triangles.shape == (1, 3), "a triangle")
 
 
-def manual_pages() -> None:
-    """Look for a manual page of each command where `man` looks for those of this environment."""
+def documents(help_page: str) -> None:
+    """Look for the README, and for a manual page of each command where `man` looks for those of this environment."""
+    readme = Path(sys.prefix).resolve() / "share/doc/vorotool/README.md"
+    check(readme.is_file() and str(readme) in help_page, f"{readme}, and its name in the help")
     folder = Path(sys.prefix) / "share/man/man1"
     for name in ["vorotool", *(f"vorotool-{command}" for command in RUNS)]:
         check((folder / f"{name}.1").is_file(), f"the manual page {name}.1 in {folder}")
@@ -134,8 +139,9 @@ def main() -> None:
         smoke = Smoke(Path(folder))
         check(smoke.run("--version").split()[-1] == metadata.version("vorotool"), "the version")
         smoke.all_commands()
+        help_page = smoke.run("--help")
     library()
-    manual_pages()
+    documents(help_page)
 
 
 if __name__ == "__main__":

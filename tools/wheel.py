@@ -8,6 +8,7 @@ build/dist.
 from __future__ import annotations
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -18,8 +19,11 @@ from pathlib import Path
 ROOT = Path(__file__).parents[1]
 WORK, DIST = ROOT / "build/wheel", ROOT / "build/dist"
 COMPILERS = ["cc", "c++", "gcc", "g++", "clang", "clang++", "cl", "clang-cl", "cmake", "ninja"]
-IN_SDIST = {"src", "docs", "pyproject.toml", "PKG-INFO", "README.md", "CHANGELOG.md", "LICENSE", "CITATION.cff"}
+IN_SDIST = {"src", "docs", "data", "pyproject.toml", "PKG-INFO"}
+IN_SDIST |= {"README.md", "CHANGELOG.md", "CONTRIBUTING.md", "LICENSE", "CITATION.cff"}
 """What an sdist has and nothing else: what is built, and what is read."""
+
+RELATIVE_LINK = re.compile(r"\]\((?!https://)[^)]*\)")
 
 SCRIPTS = "Scripts" if sys.platform == "win32" else "bin"
 
@@ -51,24 +55,29 @@ def main() -> None:
 def check_sdist(sdist: Path) -> None:
     """Refuse an sdist with more than it needs, or less."""
     with tarfile.open(sdist) as archive:
-        names = {member.name.partition("/")[2] for member in archive.getmembers()}
+        names = {member.name.partition("/")[2] for member in archive.getmembers() if member.isfile()}
     strange = {name.partition("/")[0] for name in names} - IN_SDIST
+    strange |= {name for name in names if name.startswith("data/")} - {"data/README.md"}
     if strange or not {"PKG-INFO", "CITATION.cff", "src/vorotool/py.typed", "docs/man/man1/vorotool.1"} <= names:
         raise SystemExit(f"{sdist.name}: too much ({sorted(strange)}), or too little")
 
 
 def check_wheel(wheel: Path) -> None:
-    """Refuse a wheel without types or pages, with what only tests call, or with code for this processor alone."""
+    """Refuse a wheel without types or pages, with links that lead nowhere, or with code for this processor alone."""
     with zipfile.ZipFile(wheel) as archive:
         names = archive.namelist()
         [core] = [name for name in names if name.startswith("vorotool/_core.")]
         instructions = archive.read(core)
+        [metadata] = [archive.read(name).decode() for name in names if name.endswith(".dist-info/METADATA")]
     wanted = ["vorotool/py.typed", "vorotool/_core/__init__.pyi"]
     missing = [name for name in wanted if name not in names]
-    missing += [] if any(name.endswith("share/man/man1/vorotool.1") for name in names) else ["vorotool.1"]
+    for shared in ("man/man1/vorotool.1", "doc/vorotool/README.md", "doc/vorotool/docs/start/shell.md"):
+        missing += [] if any(name.endswith(f"share/{shared}") for name in names) else [shared]
     unwanted = [name for name in names if "_core_testing" in name or name.endswith((".cpp", ".hpp"))]
     if missing or unwanted or b"march=native" in instructions:
         raise SystemExit(f"{wheel.name}: it lacks {missing} and has {unwanted}, or is for this processor only")
+    if RELATIVE_LINK.search(metadata) or "## First command" not in metadata:
+        raise SystemExit(f"{wheel.name}: its description is not the README without relative links")
     stable = "-abi3-" in wheel.name
     if stable != (".abi3." in core or core == "vorotool/_core.pyd"):
         raise SystemExit(f"{wheel.name}: its name and that of {core} tell of different ABIs")

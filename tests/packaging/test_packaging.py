@@ -25,7 +25,7 @@ def test_the_citation_is_of_this_version():
 
 
 def test_the_version_is_in_no_other_place():
-    assert PROJECT["project"]["dynamic"] == ["version"]
+    assert "version" in PROJECT["project"]["dynamic"]
     assert "version" not in PROJECT["project"]
 
 
@@ -80,3 +80,23 @@ def test_headers_of_one_system_are_asked_for_on_it_alone():
                 found += 1
                 assert lines[number - 1] in ("#ifdef __linux__", "#ifdef __GLIBC__"), f"{path}:{number + 1}"
     assert found == 3
+
+
+def test_the_description_is_the_readme_without_links_that_lead_nowhere():
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    words = re.findall(r"\w+", re.sub(r"!\[.*?\]\(.*?\)|\]\(.*?\)", "", text))
+    for each in PROJECT["tool"]["hatch"]["metadata"]["hooks"]["fancy-pypi-readme"]["substitutions"]:
+        text = re.sub(each["pattern"], each["replacement"], text)
+    assert "](" not in text
+    assert re.findall(r"\w+", text) == words
+
+
+def test_what_work_on_vorotool_needs_is_no_extra():
+    extras = names(*PROJECT["project"]["optional-dependencies"].values())
+    assert not {"pytest", "ruff", "sphinx", "cmake", "pyvoronoi"} & extras
+    assert names(PROJECT["build-system"]["requires"]) < names(PROJECT["dependency-groups"]["build"])
+
+
+def names(*lists):
+    """Names of the packages in lists of requirements."""
+    return {line.partition(">")[0] for lines in lists for line in lines}

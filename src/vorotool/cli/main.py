@@ -88,6 +88,7 @@ class LazyGroup(click.Group):
         if cmd_name not in COMMANDS:
             return None
         command: click.Command = import_module(f"vorotool.cli.commands.{cmd_name.replace('-', '_')}").command
+        command.epilog = f"Manual page: man vorotool-{cmd_name}. Documents: vorotool --help says where they are."
         return command
 
     def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem[str]]:
@@ -102,6 +103,15 @@ class LazyGroup(click.Group):
         with formatter.section("Commands"):
             formatter.write_dl(list(COMMANDS.items()))
 
+    def format_epilog(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Say where the manual pages and the documents are."""
+        from vorotool.cli.documentation import places
+
+        with formatter.section("Documentation"):
+            formatter.write_text("vorotool COMMAND --help lists all options of a command, -h the common ones.")
+            for name, where in places():
+                formatter.write(f"  {name}\n      {where}\n")
+
 
 @click.group(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(__version__, prog_name="vorotool")
@@ -111,7 +121,7 @@ def vorotool() -> None:
     \b
     Example:
       vorotool sample dots.csv -o dots.csv
-      vorotool tessellate dots.csv --size 512x512 --what colour -o cells.png
+      vorotool tessellate dots.csv --size 512x512 --what colour -o picture.png
     """
 
 
