@@ -97,3 +97,11 @@ def test_long_paths_are_not_repeated_without_end():
 def test_shapes_are_counted_before_their_vertices():
     with pytest.raises(LimitError, match="holds 1001 vertices, more than the limit of 1000"):
         svg(tens_of_tens(f"<g id='a0'>{RECT}</g>") + "<use href='#a4'/>", max_sites=1000)
+
+
+@pytest.mark.parametrize("rule", ["nonzero", "evenodd"])
+@pytest.mark.parametrize("far", [10**12, 10**16, 18446744073709551615])
+def test_faces_that_rounding_moves_over_one_another(far, rule):
+    path = f'd="M1 2L9 2q3 4 0 {far}zm1 1c1 2 3 4 5 6s1 2 0-3A4 3 20 1 0 2 2Z" transform="rotate(20 3 4)"'
+    drawing, _ = svg(f'<path fill-rule="{rule}" {path}/>', 'width="90mm" height="5cm" viewBox="0 0 30 20"')
+    assert len(drawing) > 0

@@ -129,7 +129,11 @@ def _of_faces(rings: Sequence[Floats], rule: str) -> list[list[Floats]]:
     if not len(faces):
         return []
     winding = windings(rings, shapely.get_coordinates(shapely.point_on_surface(faces)))
-    whole = shapely.coverage_union_all(faces[_is_filled(winding, rule)])  # faces meet in whole edges only
+    filled = faces[_is_filled(winding, rule)]
+    try:
+        whole = shapely.coverage_union_all(filled)  # faces meet in whole edges
+    except shapely.errors.GEOSException:  # but where rounded crossings moved edges over one another
+        whole = shapely.union_all(filled)
     polygons = []
     for polygon in shapely.get_parts(whole):
         parts = [polygon.exterior, *polygon.interiors] if polygon.geom_type == "Polygon" else []
