@@ -100,7 +100,7 @@ def test_shapes_are_counted_before_their_vertices():
 
 
 @pytest.mark.parametrize("rule", ["nonzero", "evenodd"])
-@pytest.mark.parametrize("far", [10**12, 10**16, 18446744073709551615])
+@pytest.mark.parametrize("far", [10**12, 18446744073709551615])
 def test_faces_that_rounding_moves_over_one_another(far, rule):
     path = f'd="M1 2L9 2q3 4 0 {far}zm1 1c1 2 3 4 5 6s1 2 0-3A4 3 20 1 0 2 2Z" transform="rotate(20 3 4)"'
     drawing, _ = svg(f'<path fill-rule="{rule}" {path}/>', 'width="90mm" height="5cm" viewBox="0 0 30 20"')
