@@ -14,6 +14,7 @@ from vorotool.geometry.arguments.sites import as_sites
 from vorotool.geometry.crs import crs_name, same_crs
 from vorotool.geometry.magnitude import check_magnitude
 from vorotool.geometry.polygons.polygon_set import HOLE, LINE, PolygonSet
+from vorotool.geometry.polygons.used_shapes import with_used_rings
 from vorotool.geometry.progress import Progress
 
 
@@ -66,7 +67,7 @@ def measured_shapes(
             raise InputError(f"invalid {name}: it has no places, and nothing is far from it: give a shape with some")
     _check_crs(*given)
     check_magnitude(np.concatenate([polygons.xy for polygons in given]))
-    first, second = (_measured(polygons, boundary, progress) for polygons in given)
+    first, second = (_measured(with_used_rings(polygons), boundary, progress) for polygons in given)
     return first, second
 
 

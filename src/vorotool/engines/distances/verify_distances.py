@@ -12,8 +12,8 @@ from vorotool.engines.common.faults import fail
 from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.curves.inverse_functions import hypotenuse
 from vorotool.geometry.distances.distances import FROM_A, FROM_B, SMALLEST, Distances, PlacePair
-from vorotool.geometry.polygons.conversion import to_shapely
 from vorotool.geometry.polygons.polygon_set import LINE, PolygonSet
+from vorotool.geometry.polygons.used_shapes import used_shapes
 
 Floats = NDArray[np.float64]
 
@@ -95,8 +95,8 @@ class _Checked:
         """Polygons that are filled."""
         import shapely
 
-        shapes = to_shapely(self.polygons)[~self.polygons.is_line]
-        shapes = shapely.make_valid(shapes[:0] if self.is_boundary else shapes)
+        shapes = used_shapes(self.polygons)[~self.polygons.is_line]
+        shapes = shapes[:0] if self.is_boundary else shapes
         return shapes[shapely.area(shapes) > 0]
 
     @cached_property

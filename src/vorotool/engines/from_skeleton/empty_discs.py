@@ -18,8 +18,8 @@ from vorotool.geometry.arguments.polygons import as_polygons
 from vorotool.geometry.arguments.sites import as_sites
 from vorotool.geometry.box import Box, bounds
 from vorotool.geometry.checks import checked_threads
-from vorotool.geometry.polygons.conversion import to_shapely
 from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.polygons.used_shapes import used_shapes
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.ragged import starts_of
 from vorotool.geometry.skeleton.discs import Discs
@@ -110,7 +110,7 @@ def shared_region(given: PolygonSet, clip: PolygonSet | None, frame: Frame | Non
     import shapely
 
     x, y, w, h = frame
-    area = shapely.union_all(shapely.make_valid(to_shapely(clip)[~clip.is_line]))
+    area = shapely.union_all(used_shapes(clip)[~clip.is_line])
     common = shapely.intersection(area, shapely.box(x, y, x + w, y + h))
     return as_polygons([each for each in shapely.get_parts(common) if each.area > 0])
 
@@ -135,8 +135,8 @@ class _Space(Axis):
         import shapely
 
         self.region = region
-        self._area = shapely.union_all(shapely.make_valid(to_shapely(region)[~region.is_line]))
-        self._shapes = shapely.union_all(shapely.make_valid(to_shapely(skeleton.polygons)[~skeleton.polygons.is_line]))
+        self._area = shapely.union_all(used_shapes(region)[~region.is_line])
+        self._shapes = shapely.union_all(used_shapes(skeleton.polygons)[~skeleton.polygons.is_line])
         shapely.prepare([self._area, self._shapes])
         self._crossings = self._on_border()
         crossed = np.zeros(len(self.middles), dtype=bool)

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from vorotool.engines.common.faults import fail, first_wrong
 from vorotool.engines.skeleton.site_distances import ULPS, largest_coordinate
 from vorotool.geometry.arguments.values import check_value
-from vorotool.geometry.polygons.conversion import to_shapely
 from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.polygons.used_shapes import used_shapes
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.discs import Discs
 
@@ -157,8 +157,8 @@ def _check_feature(discs: Discs, chosen: NDArray[np.intp], polygons: NDArray[np.
     import shapely
 
     tree = _check_clear(discs, chosen, _edges(discs, polygons), tolerance)
-    shapes = [shape for shape in to_shapely(discs.polygons)[polygons] if shape.geom_type.endswith("Polygon")]
-    inside = shapely.union_all(shapely.make_valid(shapes))
+    shapes = [shape for shape in used_shapes(discs.polygons)[polygons] if shape.geom_type.endswith("Polygon")]
+    inside = shapely.union_all(shapes)
     shapely.prepare(inside)
     at = first_wrong(~shapely.contains_xy(inside, *discs.xy[chosen].T))
     if at is not None:
@@ -178,9 +178,9 @@ def _check_empty(discs: Discs, within: PolygonSet, tolerance: float) -> None:
         return
     _check_order(discs, everything, tolerance)
     tree = _check_clear(discs, everything, _edges(discs, np.arange(len(discs.polygons))), tolerance)
-    filled = [shape for shape in to_shapely(discs.polygons) if shape.geom_type.endswith("Polygon")]
-    region = shapely.union_all(shapely.make_valid(to_shapely(within)))
-    space = shapely.difference(region, shapely.union_all(shapely.make_valid(filled)))
+    filled = [shape for shape in used_shapes(discs.polygons) if shape.geom_type.endswith("Polygon")]
+    region = shapely.union_all(used_shapes(within))
+    space = shapely.difference(region, shapely.union_all(filled))
     shapely.prepare(space)
     at = first_wrong(~(shapely.distance(space, shapely.points(discs.xy)) <= tolerance))
     if at is not None:

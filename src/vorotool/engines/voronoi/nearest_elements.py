@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from vorotool.engines.voronoi.elements import NOBODY
 from vorotool.engines.voronoi.local_diagrams import LocalDiagrams
-from vorotool.geometry.polygons.conversion import to_shapely
+from vorotool.geometry.polygons.used_shapes import used_shapes
 from vorotool.geometry.voronoi.voronoi_map import OUTSIDE
 
 Floats = NDArray[np.float64]
@@ -75,7 +75,7 @@ class NearestElements:
         """Polygons that have an inside, and the site of each."""
         import shapely
 
-        shapes = shapely.make_valid(to_shapely(self.local.polygons))
+        shapes = used_shapes(self.local.polygons)
         kept = np.flatnonzero(shapely.area(shapes) > 0)
         return shapes[kept], self.local.site[kept].astype(np.int64)
 

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.geometry.polygons.conversion import to_shapely
+from vorotool.geometry.polygons.used_shapes import used_shapes
 from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 
 Floats = NDArray[np.float64]
@@ -33,7 +34,7 @@ def shared_out(cells: VoronoiMap) -> Any:
     box = shapely.box(x, y, x + w, y + h)
     if cells.clip is None:
         return box
-    clip = shapely.make_valid(to_shapely(cells.clip))
+    clip = used_shapes(cells.clip)
     both = shapely.get_parts(shapely.intersection(shapely.union_all(clip[shapely.area(clip) > 0]), box))
     return shapely.multipolygons(both[shapely.area(both) > 0])  # where both only touch there are lines and points
 

@@ -11,7 +11,7 @@ from vorotool.engines.common.faults import fail, first_wrong
 from vorotool.engines.voronoi.verify_cuts import EnclosedFaces, shared_out
 from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.curves.inverse_functions import PI, angle_of
-from vorotool.geometry.polygons.conversion import to_shapely
+from vorotool.geometry.polygons.used_shapes import used_shapes
 from vorotool.geometry.ragged import owners
 from vorotool.geometry.voronoi.shapes import flattened_arcs
 from vorotool.geometry.voronoi.voronoi_map import OUTSIDE, VoronoiMap
@@ -171,10 +171,7 @@ class _SitePlaces:
         import shapely
 
         given = cells.polygons
-        parts = shapely.make_valid(to_shapely(given))
-        single = given.is_line & (np.diff(given.ring_start)[given.polygon_start[:-1]] == 1)
-        first = given.ring_start[given.polygon_start[:-1]][single]
-        parts[single] = shapely.points(given.xy[first])
+        parts = used_shapes(given)
         order = np.argsort(cells.polygon_site, kind="stable")
         self.numbers, rows = np.unique(cells.polygon_site[order], return_inverse=True)
         self.geometry = shapely.geometrycollections(parts[order], indices=rows)

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.polygons.conversion import to_shapely
+from vorotool.geometry.polygons.used_shapes import used_shapes
 from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 
 Floats = NDArray[np.float64]
@@ -18,7 +18,7 @@ _MANY = 1 << 20
 
 
 def site_shapes(cells: VoronoiMap) -> NDArray[Any]:
-    """(s,) all that each site has as one collection of shapely; an empty one of a site without places.
+    """(s,) what each site bounds or is, as one collection of shapely; an empty one of a site without places.
 
     Parameters
     ----------
@@ -33,12 +33,7 @@ def site_shapes(cells: VoronoiMap) -> NDArray[Any]:
     """
     import shapely
 
-    given = cells.polygons
-    parts = shapely.make_valid(to_shapely(given))
-    if len(given):
-        first = given.ring_start[given.polygon_start[:-1]]
-        single = given.is_line & (np.diff(given.ring_start)[given.polygon_start[:-1]] == 1)
-        parts[single] = shapely.points(given.xy[first[single]])
+    parts = used_shapes(cells.polygons)
     shapes = np.full(len(cells), shapely.GeometryCollection(), dtype=object)
     order = np.argsort(cells.polygon_site, kind="stable")
     if len(order):
