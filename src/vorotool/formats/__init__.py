@@ -115,7 +115,8 @@ def read(
     layer : str, optional
         The layer of a map that has several.
     flatten : float, optional
-        How far lines may be from the curves of an SVG or DXF drawing; by default 1/4096 of its extent.
+        How far lines may be from the curves of an SVG or DXF drawing; by default 1/2000
+        of the diagonal of the box of each piece, and 0.01 mm where the unit is known.
     join_tolerance : float, optional
         How far ends of the lines of a DXF drawing may be apart that are joined; by default 2^-20 of its extent.
 

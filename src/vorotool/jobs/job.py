@@ -80,7 +80,7 @@ def process_input(recipe: Recipe[Options], run: Run, options: Options, path: str
     from vorotool.formats.io.atomic_output import make_folder
     from vorotool.formats.io.commit import committed_together
     from vorotool.formats.text.tables import safe_texts, unit_column
-    from vorotool.formats.written.grid import coordinates_written
+    from vorotool.geometry.coordinate_grid import coordinates_written
 
     computing = options if isinstance(options, ComputingOptions) else None
     check_targets(options, targets, path)
@@ -100,12 +100,16 @@ def process_input(recipe: Recipe[Options], run: Run, options: Options, path: str
     is_safe = computing is not None and computing.safe_csv
     decimals = None if computing is None else computing.decimals
     is_verified = computing is not None and computing.verify
+    deviation = 0.0
     with committed_together(), safe_texts(is_safe), unit_column(unit):
         for target in targets:
             if options.out_dir is not None:
                 make_folder(Path(target.path).parent)
-            with run.phase(f"write {target.what}"), coordinates_written(decimals, is_verified=is_verified):
+            with run.phase(f"write {target.what}"), coordinates_written(decimals, is_verified=is_verified) as curves:
                 products.write(target, inputs=(path,))
+            deviation = max(deviation, curves.deviation)
     if options.stats is not None:
         with run.phase("count"):
             run.stats.update({**products.stats(), **unit_stats(options.unit)})
+            if deviation:
+                run.stats["deviation"] = deviation

@@ -108,8 +108,8 @@ def write(
     >>> write(vorotool.alpha_shape([[0, 0], [4, 0], [0, 3]], r=2.5), "build/shape.geojson")
     >>> write(vorotool.skeleton_exact([[0, 0], [4, 0], [0, 3]]), "build/skeleton.svg")
     """
-    from vorotool.formats.written.grid import coordinates_written
     from vorotool.geometry.checks import checked_threads
+    from vorotool.geometry.coordinate_grid import coordinates_written
 
     name = fmt or Path(path).suffix
     chosen = format_named(name) or name.lower().removeprefix(".")

@@ -12,7 +12,7 @@ import shapely
 from support.families.point_families import draw
 from vorotool import PointSet, UsageError, alpha_complex, alpha_hull, alpha_shape, write
 from vorotool.formats.results.alpha import write_general, write_hull_geojson, write_shape_edges
-from vorotool.formats.written.grid import coordinates_written
+from vorotool.geometry.coordinate_grid import coordinates_written
 
 FAMILY = alpha_complex(PointSet(draw("uniform", 120, 5), crs={"type": "name"}))
 SHAPE = alpha_shape(FAMILY, r=float(FAMILY.spectrum[len(FAMILY.spectrum) // 2]))

@@ -5,7 +5,7 @@ import pytest
 import shapely
 
 import vorotool
-from vorotool.formats.written.grid import rounded
+from vorotool.geometry.coordinate_grid import rounded
 from vorotool.formats.written.rings import geometry, written_rings
 from vorotool.geometry.mesh.cells import Nesting
 

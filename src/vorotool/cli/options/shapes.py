@@ -34,7 +34,8 @@ def shape_options(*between: str, flattened: str = "") -> Decorator:
             type=Length(zero=False),
             metavar="TOLERANCE",
             help=f"How far lines may be from curves where a format ({_FLATTENED}){flattened} has none, and from those "
-            "of an SVG or DXF input; by default 1/4096 of the extent.",
+            "that are read. Default: arcs 1/2000 of their radius, others 1/2000 of their extent or 1/100 of their "
+            "clearance.",
         ),
         click.option(
             "--join-tolerance",

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.geometry.curves.circular_arcs import chords_of
+from vorotool.geometry.curves.flatten import circle_tolerances
 from vorotool.geometry.skeleton.skeleton import Skeleton
 
 Floats = NDArray[np.float64]
@@ -24,7 +25,7 @@ class Ring(NamedTuple):
     part: int
 
 
-def covered_rings(skeleton: Skeleton, arcs: Indices, tolerance: float) -> list[Ring]:
+def covered_rings(skeleton: Skeleton, arcs: Indices, tolerance: float | None) -> list[Ring]:
     """Rings around the discs along some arcs, polygon by polygon.
 
     Where an arc is between two points of the border, all its discs are in those at its ends. Where it leads to a corner
@@ -82,11 +83,11 @@ def _to_corner(skeleton: Skeleton, arcs: Indices) -> NDArray[np.bool_]:
     return found
 
 
-def _circles(skeleton: Skeleton, node: NDArray[np.integer], tolerance: float) -> tuple[Floats, Indices]:
+def _circles(skeleton: Skeleton, node: NDArray[np.integer], tolerance: float | None) -> tuple[Floats, Indices]:
     """Vertices of the circle about each node, and which circle each is of."""
     centre, r = (np.repeat(values[node], 4, axis=0) for values in (skeleton.vertices, skeleton.radius))
     ways = r[:, None] * np.tile(_QUARTERS, (len(node), 1))
     ends = r[:, None] * np.tile(np.roll(_QUARTERS, -1, axis=0), (len(node), 1))
     is_left = np.ones(len(r), dtype=bool)
-    xy, first = chords_of(centre + ways, centre + ends, centre, is_left, tolerance)
+    xy, first = chords_of(centre + ways, centre + ends, centre, is_left, circle_tolerances(centre, r, tolerance))
     return xy, np.repeat(np.arange(len(r)) // 4, np.diff(first))

@@ -16,7 +16,8 @@ from vorotool.engines.from_skeleton.simple_rings import cut_at_repetitions, repe
 from vorotool.errors import UsageError
 from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.curves.circular_arcs import chords_of, middles_of
-from vorotool.geometry.curves.flatten import checked_flatten
+from vorotool.geometry.curves.flatten import checked_flatten, circle_tolerances
+from vorotool.geometry.curves.inverse_functions import hypotenuse
 from vorotool.geometry.polygons.polygon_set import HOLE, SHELL, PolygonSet
 from vorotool.geometry.ragged import owners, starts_of
 from vorotool.geometry.row_index import index_of_rows
@@ -45,7 +46,7 @@ def rebuild(skeleton: Skeleton, *, flatten: float | None = None) -> PolygonSet:
     skeleton : Skeleton
         Without a gap; pruned or not. Arcs outside make no difference.
     flatten : float, optional
-        How far chords may be from circles, in input units; by default 1/4096 of the larger side of the bounds.
+        How far chords may be from circles, in input units; by default 1/2000 of the radius of each.
 
     Returns
     -------
@@ -67,7 +68,7 @@ def rebuild(skeleton: Skeleton, *, flatten: float | None = None) -> PolygonSet:
     check_value(skeleton, "skeleton", Skeleton)
     if skeleton.gap:
         raise UsageError(f"a skeleton with a gap of {skeleton.gap:g} leaves the corners out: use one without a gap")
-    tolerance = checked_flatten(flatten, skeleton.polygons)
+    tolerance = checked_flatten(flatten)
     is_inside = skeleton.side == INTERIOR
     is_drawn = np.ones(len(skeleton), dtype=bool) if skeleton.error_bound.any() else _is_disc(skeleton)
     contours = contours_of(skeleton, np.flatnonzero(is_inside & ~is_drawn))
@@ -158,7 +159,7 @@ def _noise(skeleton: Skeleton) -> float:
 
 
 # ---- outlines ------------------------------------------------------------------------------------
-def _outline(skeleton: Skeleton, contours: Contours, tolerance: float) -> tuple[Floats, Indices, Indices]:
+def _outline(skeleton: Skeleton, contours: Contours, tolerance: float | None) -> tuple[Floats, Indices, Indices]:
     """Vertices of each contour, the point of the polygons that each is, -1 for none, and where contours begin.
 
     A point has one place, the best of all, in all contours that go through it: what touches does not overlap.
@@ -206,7 +207,7 @@ def _caps(
     start: Floats,
     end: Floats,
     centre: Floats,
-    tolerance: float,
+    tolerance: float | None,
 ) -> list[_Places]:
     """Chords of circles between feet; a foot on a vertex is there already."""
     run = np.flatnonzero(is_cap)
@@ -218,7 +219,8 @@ def _caps(
     ends = np.concatenate([np.where(is_long[:, None], middle, b), b[is_long]])
     centres, runs = np.concatenate([c, c[is_long]]), np.concatenate([run, run[is_long]])
     rank = np.concatenate([np.ones(len(run)), np.full(int(is_long.sum()), 2)]).astype(np.int64)
-    xy, first = chords_of(starts, ends, centres, np.ones(len(runs), dtype=bool), tolerance)
+    each = circle_tolerances(centres, hypotenuse(*(starts - centres).T), tolerance)
+    xy, first = chords_of(starts, ends, centres, np.ones(len(runs), dtype=bool), each)
     piece = owners(np.diff(first))
     kept = (np.arange(len(xy)) > first[piece]) | (rank[piece] == 2) | is_edge[runs[piece]]
     to_edge = is_edge[after[run]]

@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from vorotool.engines.voronoi.elements import OwnedGraph, owned_graph, shared_elements
 from vorotool.errors import RepairWarning
-from vorotool.geometry.curves.flatten import checked_flatten
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.sorted_sets import distinct
 from vorotool.geometry.voronoi.shapes import cell_polygons
@@ -111,6 +110,6 @@ def _cut_to_cells(areas: Floats, cells: VoronoiMap) -> None:
 
     at = distinct(cells.sites[cells.is_cut])
     at = at[at != OUTSIDE]
-    shapes = cell_polygons(cells, checked_flatten(None, cells.polygons))[at]
+    shapes = cell_polygons(cells, None)[at]
     of_sites = shapely.union_all(site_shapes(cells)[at][:, None], axis=1)
     areas[at] = shapely.area(shapely.intersection(shapes, of_sites))

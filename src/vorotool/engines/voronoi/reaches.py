@@ -17,7 +17,6 @@ from vorotool.engines.voronoi.local_diagrams import local_diagrams
 from vorotool.engines.voronoi.measures import graph_again
 from vorotool.engines.voronoi.regions import regions_of
 from vorotool.errors import RepairWarning
-from vorotool.geometry.curves.flatten import checked_flatten
 from vorotool.geometry.voronoi.shapes import cell_polygons
 from vorotool.geometry.voronoi.site_shapes import site_shapes
 from vorotool.geometry.voronoi.voronoi_map import OUTSIDE, VoronoiMap
@@ -109,7 +108,7 @@ def _take_ridges_between_cuts(reach: Floats, cells: VoronoiMap) -> None:
     radius = scale * ridges.radius[end]
     higher = np.flatnonzero(radius > reach[site])
     site, end, radius = site[higher], end[higher], radius[higher]
-    shapes = cell_polygons(cells, checked_flatten(None, cells.polygons))
+    shapes = cell_polygons(cells, None)
     inside = shapely.intersects(shapes[site], shapely.points(joint.sites.coordinates(ridges.places[end])))
     _take(reach, cells, site[inside], radius[inside])
 

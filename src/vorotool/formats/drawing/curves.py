@@ -9,14 +9,14 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
-from math import ceil, isfinite, sqrt
+from math import ceil, inf, isfinite, sqrt, ulp
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.geometry.curves.circular_arcs import chords_of
-from vorotool.geometry.curves.flatten import FLATTEN, MOST_PIECES
+from vorotool.geometry.curves.flatten import CURVE_PART, MOST_PIECES
 from vorotool.geometry.curves.inverse_functions import PI, cosine_and_sine, hypotenuse
 
 Floats = NDArray[np.float64]
@@ -189,11 +189,14 @@ class Curve:
         """Map all pieces."""
         return Curve(by.of(self.start), [piece.mapped(by) for piece in self.pieces], self.is_closed)
 
-    def flattened(self, tolerance: float) -> Floats:
-        """(n, 2) places along it, both ends included, but the start once if it is closed; none twice in succession."""
+    def flattened(self, tolerance: float | None = None, most: float = inf) -> Floats:
+        """(n, 2) places along it, both ends included, but the start once if it is closed; none twice in succession.
+
+        Without a tolerance each piece is within 1/2000 of the diagonal of the box that holds it, and within `most`.
+        """
         made, begin = [np.array([self.start])], self.start
         for piece in self.pieces:
-            made.append(piece.flattened(begin, tolerance))
+            made.append(piece.flattened(begin, tolerance or _tolerance_of(begin, piece, most)))
             begin = piece.end
         points = np.concatenate(made)
         kept = np.append(True, (points[1:] != points[:-1]).any(axis=1))
@@ -212,13 +215,23 @@ class Curve:
         )
 
 
-def tolerance_for(curves: Sequence[Curve]) -> float:
-    """How far lines may be from curves where nobody says: 1/4096 of the larger side of what holds the curves.
+def _tolerance_of(begin: Point, piece: Piece, most: float) -> float:
+    """Return how far lines may be from a piece; never less than 16 steps of the largest coordinate."""
+    if isinstance(piece, Line):
+        return inf
+    x, y = zip(begin, *piece.reach(), strict=True)
+    across, down = max(x) - min(x), max(y) - min(y)
+    least = 16 * ulp(max(map(abs, (*x, *y))))
+    return max(min(CURVE_PART * sqrt(across * across + down * down), most), least)
+
+
+def extent_of(curves: Sequence[Curve]) -> float:
+    """Return the larger side of what holds curves; 1 of nothing.
 
     Examples
     --------
-    >>> tolerance_for([Curve((0.0, 0.0), [Line((4096.0, 1.0))])])
-    1.0
+    >>> extent_of([Curve((0.0, 0.0), [Line((4096.0, 1.0))])])
+    4096.0
     """
     places = [place for curve in curves for piece in curve.pieces for place in piece.reach()]
     places += [curve.start for curve in curves]
@@ -227,7 +240,7 @@ def tolerance_for(curves: Sequence[Curve]) -> float:
     across, down = zip(*places, strict=True)
     with np.errstate(over="ignore"):
         side = max(max(across) / 2 - min(across) / 2, max(down) / 2 - min(down) / 2)
-    return min(2 * FLATTEN * side, 1e300) or 1.0
+    return min(2 * side, 1e300) or 1.0
 
 
 # ---- arcs ----------------------------------------------------------------------------------------

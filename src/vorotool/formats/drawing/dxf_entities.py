@@ -17,11 +17,11 @@ from vorotool.formats.drawing.curves import (
     Point,
     arc_between,
     bulged,
-    tolerance_for,
+    extent_of,
     turned,
     whole_ellipse,
 )
-from vorotool.geometry.curves.flatten import MOST_PIECES
+from vorotool.geometry.curves.flatten import CURVE_PART, MOST_PIECES
 from vorotool.geometry.curves.inverse_functions import PI, cosine_and_sine, hypotenuse
 
 _SAME = 1e-12
@@ -129,7 +129,8 @@ def _spline(entity: Any, flatten: float | None) -> list[Curve]:
             return []
         return [Curve(parts[0][0], [Bezier(tuple(part[1:])) for part in parts], is_closed)]
     control = [_xy(point) for point in tool.control_points]
-    tolerance = flatten or tolerance_for([Curve(control[0], [Line(point) for point in control[1:]])]) / 4
+    extent = extent_of([Curve(control[0], [Line(point) for point in control[1:]])])
+    tolerance = flatten or CURVE_PART / 4 * extent
     inner = sorted(set(knots[order - 1 : len(knots) - order + 1]))
     places = [_xy(tool.point(inner[0]))]
     for begin, end in itertools.pairwise(inner):

@@ -10,7 +10,7 @@ from math import isfinite
 from typing import Any, NamedTuple
 
 from vorotool.errors import InputError, LimitError, VorotoolError
-from vorotool.formats.drawing.curves import Affine, Curve, tolerance_for
+from vorotool.formats.drawing.curves import Affine, Curve, extent_of
 from vorotool.formats.drawing.dxf_drawing import UNITS
 from vorotool.formats.drawing.dxf_entities import ENTITIES, curves_of, is_flat
 from vorotool.formats.drawing.ezdxf_library import ezdxf_module
@@ -68,7 +68,7 @@ def _polygons(name: str, blocks: _Blocks, options: ReadOptions, unit: str | None
         raise InputError(f"{name}, layer {beyond}: a place is beyond the largest number; correct or remove it")
     everything = [curve for curves in blocks.curves.values() for curve in curves]
     near = options.join_tolerance
-    near = JOINED / 2.0**-12 * tolerance_for(everything) if near is None else near
+    near = JOINED * extent_of(everything) if near is None else near
     shapes: list[Shape] = []
     layers: list[str] = []
     for layer, curves in blocks.curves.items():

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from fractions import Fraction
+from math import inf
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
-from vorotool.formats.drawing.curves import Curve, tolerance_for
+from vorotool.formats.drawing.curves import Curve
 from vorotool.formats.drawing.fill_rules import filled_polygons, nested_polygons
 from vorotool.formats.parsing.reader_options import ReadOptions
+from vorotool.geometry.length_units import ratio
 from vorotool.geometry.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet, set_of_rings
 
 NESTED = "nested"
@@ -62,7 +65,8 @@ def shapes_to_polygons(
     shapes : sequence of Shape
         In order.
     options : ReadOptions
-        Its ``flatten`` says how far lines may be from curves; by default 1/4096 of the extent.
+        Its ``flatten`` says how far lines may be from curves; by default
+        1/2000 of the diagonal of the box of each piece, and 0.01 mm where the unit is known.
     unit, y_up : optional
         Of the coordinates.
     properties : dict of str to list, optional
@@ -85,10 +89,9 @@ def shapes_to_polygons(
     beyond = next((shape for shape in shapes if not all(curve.is_finite() for curve in shape.curves)), None)
     if beyond is not None:
         raise InputError(f"{beyond.place}: a place is beyond the largest number; correct or remove it")
-    tolerance = options.flatten or tolerance_for([curve for shape in shapes for curve in shape.curves])
-    collected = _Rings(name, options)
+    collected = _Rings(name, options, _finest(unit))
     for index, shape in enumerate(shapes):
-        collected.add(index, shape, tolerance)
+        collected.add(index, shape)
     owner = collected.owner
     ids = [shapes[k].id for k in owner]
     named = options.properties and any(value is not None for value in ids)
@@ -109,11 +112,17 @@ def shapes_to_polygons(
     return made
 
 
+def _finest(unit: str | None) -> float:
+    """Return 0.01 mm in a unit; infinity where it is not known."""
+    length = None if unit is None else ratio(unit, "mm")
+    return inf if length is None else float(Fraction(1, 100) / length)
+
+
 class _Rings:
     """Rings of all shapes."""
 
-    def __init__(self, name: str, options: ReadOptions) -> None:
-        self.name, self.options = name, options
+    def __init__(self, name: str, options: ReadOptions, most: float) -> None:
+        self.name, self.options, self.most = name, options, most
         self.rings: list[NDArray[np.float64]] = []
         self.kinds: list[int] = []
         self.polygons: list[int] = []
@@ -121,11 +130,11 @@ class _Rings:
         self.owner: list[int] = []  # its shape
         self.outlines = self.vertices = self._next = 0
 
-    def add(self, index: int, shape: Shape, tolerance: float) -> None:
+    def add(self, index: int, shape: Shape) -> None:
         """Flatten a shape."""
         flat = []
         for curve in shape.curves:
-            flat.append(curve.flattened(tolerance))
+            flat.append(curve.flattened(self.options.flatten, self.most))
             self.vertices += len(flat[-1])
             self.options.check_vertices(self.name, self.vertices)
         self._begin()

@@ -15,7 +15,6 @@ from vorotool.formats.results.meshes import write_features
 from vorotool.formats.text.coordinate_text import coordinate_text
 from vorotool.formats.text.feature_collection import collection_opening
 from vorotool.formats.text.tables import json_text, write_table
-from vorotool.formats.written.grid import on_grid
 from vorotool.formats.written.polygons import written_polygons
 from vorotool.geometry.alpha.complex import CLASSES, AlphaComplex
 from vorotool.geometry.alpha.hull import AlphaHull
@@ -28,6 +27,7 @@ from vorotool.geometry.alpha.tables import (
     shape_edge_table,
     shape_point_table,
 )
+from vorotool.geometry.coordinate_grid import on_grid
 from vorotool.geometry.polygons.polygon_set import HOLE, SHELL, PolygonSet, set_of_rings
 from vorotool.geometry.ragged import owners, within
 from vorotool.geometry.table import Table

@@ -13,9 +13,9 @@ from vorotool import _core
 from vorotool.formats.text.feature_collection import write_collection
 from vorotool.formats.text.row_writer import Column, RowShape, write_list_rows, write_rows
 from vorotool.formats.text.tables import json_column, json_text, object_shape, write_npz, write_table
-from vorotool.formats.written.grid import current_decimals, on_grid
 from vorotool.formats.written.report import report_emptied
 from vorotool.formats.written.rings import written_rings
+from vorotool.geometry.coordinate_grid import current_decimals, on_grid
 from vorotool.geometry.mesh.cells import CellSet, Nesting
 from vorotool.geometry.ragged import owners, within
 from vorotool.geometry.table import Computed, Lookup, Table

@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from vorotool.formats.polygons.polylines import geojson_wording, wkt_wording, write_polylines
 from vorotool.formats.text.tables import write_table
-from vorotool.geometry.curves.flatten import checked_flatten
 from vorotool.geometry.skeleton.centerline import Centerlines, centerline_table
 from vorotool.geometry.skeleton.extended import extended_table
 from vorotool.geometry.skeleton.led_on import LedOn
@@ -57,7 +56,7 @@ def write_centerlines(
     if fmt in TABLES:
         write_table(out, _table(lines), fmt, precision=precision, threads=threads)
         return
-    points, start = lines.flattened(checked_flatten(flatten, lines.path.polygons))
+    points, start = lines.flattened(flatten)
     own = {name: column.tolist() for name, column in _columns(lines).items()}
     wording = (
         wkt_wording(len(lines)) if fmt == "wkt" else geojson_wording(lines.path.polygons, lines.polygon.tolist(), own)

@@ -6,7 +6,6 @@ from typing import BinaryIO
 
 from vorotool.formats.polygons.writer import write_polygons
 from vorotool.formats.text.tables import write_table
-from vorotool.geometry.curves.flatten import checked_flatten
 from vorotool.geometry.skeleton.discs import Discs
 from vorotool.products.formats import TABLES
 
@@ -32,8 +31,7 @@ def write_discs(
         The first four are of tables. GeoJSON and WKT have no circles: these are polygons, in GeoJSON with the id and
         the properties of the polygon, and ``rank``, ``x``, ``y``, ``r`` and ``feet``.
     flatten : float, optional
-        How far a chord may be from its circle, in input units; by default 1/4096 of the larger side of the bounds of
-        the polygons.
+        How far a chord may be from its circle, in input units; by default 1/2000 of the radius.
 
     Raises
     ------
@@ -52,4 +50,4 @@ def write_discs(
     if fmt in TABLES:
         write_table(out, discs.table(), fmt, precision=precision, threads=threads)
         return
-    write_polygons(out, discs.flattened(checked_flatten(flatten, discs.polygons)), fmt)
+    write_polygons(out, discs.flattened(flatten), fmt)

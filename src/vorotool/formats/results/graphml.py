@@ -47,7 +47,8 @@ def write_graphml(
     by : {"branch", "arc"}
         What an edge is; its id is the number of it, and the id of a node that of the vertex.
     flatten : float, optional
-        How far the geometry may be from parabolas; by default 1/4096 of the larger side of the bounds.
+        How far the geometry may be from parabolas; by default as of
+        `Skeleton.flattened`.
     precision : int, optional
         Significant digits of floating-point numbers; by default the shortest that reads back the same.
     threads : int

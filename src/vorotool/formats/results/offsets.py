@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 from vorotool.formats.polygons.writer import write_polygons
 from vorotool.formats.results.offset_json import write_json
 from vorotool.formats.text.tables import write_arrays, write_table
-from vorotool.geometry.curves.flatten import checked_flatten
 from vorotool.geometry.skeleton.offsets import Offsets
 
 
@@ -36,8 +35,7 @@ def write_offsets(
     fmt : {"json", "csv", "tsv", "geojson", "npz", "wkt"}
         The format.
     flatten : float, optional
-        How far a chord may be from its arc, in input units; by default 1/4096 of the larger side of the bounds of the
-        polygons.
+        How far a chord may be from its arc, in input units; by default 1/2000 of the radius.
 
     Raises
     ------
@@ -60,8 +58,7 @@ def write_offsets(
     elif fmt == "npz":
         write_arrays(out, offset_arrays(offsets), threads=threads)
     else:
-        tolerance = checked_flatten(flatten, offsets.polygons)
-        write_polygons(out, offsets.flattened(tolerance), fmt)
+        write_polygons(out, offsets.flattened(flatten), fmt)
 
 
 def offset_arrays(offsets: Offsets) -> dict[str, NDArray[Any]]:

@@ -11,7 +11,7 @@ from vorotool.formats.polygons.polylines import Wording, geojson_wording, wkt_wo
 from vorotool.formats.results.centerlines import write_centerlines
 from vorotool.formats.results.skeleton_json import write_json
 from vorotool.formats.text.tables import write_arrays, write_table
-from vorotool.geometry.curves.flatten import chained, checked_flatten
+from vorotool.geometry.curves.flatten import chained
 from vorotool.geometry.skeleton.led_on import LedOn
 from vorotool.geometry.skeleton.skeleton import SIDES, Skeleton
 from vorotool.geometry.skeleton.smooth_lines import SmoothLines
@@ -47,7 +47,8 @@ def write_skeleton(
     what : {"skeleton", "diagram", "elements", "branches", "table"}
         What to write.
     flatten : float, optional
-        How far a polyline may be from its parabola, in input units; by default 1/4096 of the larger side of the bounds.
+        How far a polyline may be from its parabola, in input units; by default as of
+        `Skeleton.flattened`.
 
     Examples
     --------
@@ -69,7 +70,7 @@ def write_skeleton(
         write_arrays(out, skeleton_arrays(skeleton), threads=threads)
     else:
         first_arcs = np.flatnonzero(np.diff(skeleton.branch, prepend=-1))
-        arcs = skeleton.flattened(checked_flatten(flatten, skeleton.polygons))
+        arcs = skeleton.flattened(flatten)
         points, start = chained(*arcs, first_arcs)
         wording = _wording(skeleton, fmt, first_arcs, threads)
         write_polylines(out, points, start[:-1], wording, precision=precision, threads=threads)

@@ -52,7 +52,8 @@ def write_voronoi(
     what : {"cells", "edges", "neighbours", "table"}
         What to write.
     flatten : float, optional
-        How far lines may be from curves, in input units; by default 1/4096 of the larger side of the bounds.
+        How far lines may be from curves, in input units; by default each has its own tolerance:
+        see `vorotool.geometry.voronoi.shapes.flattened_arcs`.
 
     Examples
     --------
@@ -65,17 +66,17 @@ def write_voronoi(
     if what != "cells" and fmt in TABLES:
         write_table(out, _TABLES[what](cells), fmt, precision=precision, threads=threads)
     elif what != "cells":
-        _write_borders(out, cells, fmt, checked_flatten(flatten, cells.polygons), precision, threads)
+        _write_borders(out, cells, fmt, checked_flatten(flatten), precision, threads)
     elif fmt == "json":
         write_json(out, cells, precision=precision, threads=threads)
     elif fmt == "npz":
         write_npz(out, cells, threads=threads)
     else:
-        shapes = _shapes_of(cells, checked_flatten(flatten, cells.polygons))
+        shapes = _shapes_of(cells, checked_flatten(flatten))
         write_shapes(out, shapes, fmt, precision=precision, threads=threads)
 
 
-def _shapes_of(cells: VoronoiMap, tolerance: float) -> CellShapes:
+def _shapes_of(cells: VoronoiMap, tolerance: float | None) -> CellShapes:
     points, start = cell_rings(cells, tolerance)
     return CellShapes(
         {"label": np.arange(1, len(cells) + 1), "area": cells.areas, "perimeter": cells.perimeters},
@@ -88,7 +89,7 @@ def _shapes_of(cells: VoronoiMap, tolerance: float) -> CellShapes:
 
 # ---- borders -------------------------------------------------------------------------------------
 def _write_borders(
-    out: BinaryIO, cells: VoronoiMap, fmt: str, tolerance: float, precision: int | None, threads: int
+    out: BinaryIO, cells: VoronoiMap, fmt: str, tolerance: float | None, precision: int | None, threads: int
 ) -> None:
     """One line a piece of a border, in the order of the table."""
     points, start = flattened_arcs(cells, tolerance)

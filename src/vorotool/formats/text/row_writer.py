@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.errors import UsageError, option
-from vorotool.formats.written.grid import on_grid
+from vorotool.geometry.coordinate_grid import on_grid
 from vorotool.geometry.numbers import shown_number, whole_number
 from vorotool.geometry.parallel import in_order
 from vorotool.geometry.table import Computed, Lookup

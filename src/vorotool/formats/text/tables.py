@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.formats.text.row_writer import Column, RowShape, check_precision, slices, write_list_rows, write_rows
-from vorotool.formats.written.grid import on_grid
+from vorotool.geometry.coordinate_grid import on_grid
 from vorotool.geometry.number_text import NumberText
 from vorotool.geometry.parallel import in_order
 from vorotool.geometry.table import Computed, Lookup, Table

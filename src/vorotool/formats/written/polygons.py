@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.formats.written.grid import current_decimals, on_grid
 from vorotool.formats.written.report import report_emptied
 from vorotool.formats.written.rings import written_rings
+from vorotool.geometry.coordinate_grid import current_decimals, on_grid
 from vorotool.geometry.mesh.cells import Nesting
 from vorotool.geometry.polygons.polygon_set import HOLE, SHELL, PolygonSet
 from vorotool.geometry.ragged import owners
@@ -25,7 +25,7 @@ def written_polygons(polygons: PolygonSet, *, is_coverage: bool = False) -> Poly
 
     Examples
     --------
-    >>> from vorotool.formats.written.grid import coordinates_written
+    >>> from vorotool.geometry.coordinate_grid import coordinates_written
     >>> with coordinates_written(0):
     ...     written_polygons(PolygonSet([[0, 0], [4.3, 0], [0, 3]], [0, 3], [0], [0])).xy.tolist()
     [[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]]

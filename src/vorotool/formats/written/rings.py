@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.errors import VerificationError
-from vorotool.formats.written.grid import Grid, is_verified, rounded
 from vorotool.formats.written.snapping import is_among, snapped
 from vorotool.formats.written.verify import verify_written
+from vorotool.geometry.coordinate_grid import Grid, is_verified, rounded
 from vorotool.geometry.mesh.cells import Nesting
 from vorotool.geometry.ragged import following, owners, ranges, starts_of
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.formats.written.grid import Grid
+from vorotool.geometry.coordinate_grid import Grid
 from vorotool.geometry.mesh.cells import Nesting
 from vorotool.geometry.ragged import following, owners, starts_of
 

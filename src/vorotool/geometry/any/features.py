@@ -290,7 +290,7 @@ def _of_centerlines(paths: LedOn, flatten: float | None = None) -> Features:
     least, most = paths.width_range
     own = {"length": paths.length, "width_mean": paths.width_mean, "width_min": least, "width_max": most}
     columns = {"polygon": paths.polygon, "id": ids_of(polygons, paths.polygon), **own}
-    geometry = lines(*paths.flattened(checked_flatten(flatten, polygons)))
+    geometry = lines(*paths.flattened(flatten))
     return Features(geometry, _with_polygons(columns, polygons, paths.polygon), polygons, paths.polygon)
 
 
@@ -309,7 +309,7 @@ def _of_smooth(smoothed: SmoothLines, flatten: float | None = None) -> Features:
         "curves": np.diff(start),
         "error": smoothed.error,
     }
-    geometry = lines(*smoothed.flattened(checked_flatten(flatten, polygons)))
+    geometry = lines(*smoothed.flattened(flatten))
     return Features(geometry, _with_polygons(columns, polygons, polygon), polygons, polygon)
 
 
@@ -355,7 +355,7 @@ def _of_parts(parts: Parts) -> Features:
 
 def _of_offsets(offsets: Offsets, flatten: float | None = None) -> Features:
     polygons, of = offsets.polygons, offsets.polygon
-    shapes = offsets.flattened(checked_flatten(flatten, polygons))
+    shapes = offsets.flattened(flatten)
     columns = {
         "polygon": np.ma.array(of, mask=of < 0),
         "id": ids_of(polygons, of),
@@ -367,13 +367,13 @@ def _of_offsets(offsets: Offsets, flatten: float | None = None) -> Features:
 
 def _of_discs(discs: Discs, flatten: float | None = None) -> Features:
     polygons = discs.polygons
-    shapes = discs.flattened(checked_flatten(flatten, polygons))
+    shapes = discs.flattened(flatten)
     columns = _with_polygons(discs.table().stored(), polygons, discs.polygon)
     return Features(to_shapely(shapes), columns, polygons, discs.polygon)
 
 
 def _of_voronoi(cells: VoronoiMap, flatten: float | None = None) -> Features:
-    geometry = cell_polygons(cells, checked_flatten(flatten, cells.polygons))
+    geometry = cell_polygons(cells, checked_flatten(flatten))
     return Features(geometry, cell_table(cells), cells, _every(len(cells)))
 
 

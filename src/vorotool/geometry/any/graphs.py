@@ -63,7 +63,8 @@ def to_networkx(
     by : {"branch", "arc"}, optional
         What an edge of a skeleton is; by default a branch. A closed branch joins a node with itself.
     flatten : float, optional
-        How far the geometry may be from parabolas; by default 1/4096 of the larger side of the bounds.
+        How far the geometry may be from parabolas; by default as of
+        `Skeleton.flattened`.
 
     Returns
     -------

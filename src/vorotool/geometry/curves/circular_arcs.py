@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.geometry.coordinate_grid import record_deviation
 from vorotool.geometry.ragged import starts_of
 
 Floats = NDArray[np.float64]
@@ -82,6 +83,7 @@ def _halvings(start: Floats, end: Floats, centre: Floats, tolerance: float | Flo
         height = quarter / np.maximum(radius + np.sqrt(np.maximum(square - quarter, 0)), np.finfo(float).tiny)
         more = is_arc & (is_wide | (height > tolerance))
         if not more.any():
+            record_deviation(height[is_arc])
             break
         halvings += more
         quarter = np.where(more, radius * height / 2, quarter)

@@ -52,7 +52,7 @@ def parts_between(control: Floats, first: Floats, last: Floats) -> Floats:
     return made
 
 
-def cubic_polylines(control: Floats, tolerance: float) -> tuple[Floats, NDArray[np.int64]]:
+def cubic_polylines(control: Floats, tolerance: float | Floats) -> tuple[Floats, NDArray[np.int64]]:
     """Curves as polylines, divided evenly in their parameter.
 
     A chord over 1/n of the parameter is off by a quarter of the larger second difference of the control points times

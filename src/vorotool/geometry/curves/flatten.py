@@ -5,42 +5,96 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.geometry.coordinate_grid import finest_deviation, record_deviation
 from vorotool.geometry.curves.inverse_functions import hypotenuse
 from vorotool.geometry.numbers import checked_tolerance
-from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.ragged import owners, starts_of, within
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
-FLATTEN = 2.0**-12
-"""Of the larger side of the bounds, where nothing else is asked for."""
+CURVE_PART = 1 / 2000
+"""How far lines may be from a curve: of the radius of a circular arc, of the extent of another curve."""
+
+CLEARANCE_PART = 1 / 100
+"""The same of the least distance of a curve from sites, where that is more."""
 
 MOST_PIECES = 1 << 12
 """Of a curve: 2^24 times nearer than its chord."""
 
 
-def default_flatten(polygons: PolygonSet) -> float:
-    """1/4096 of the larger side of the bounds of polygons; 1 of nothing.
-
-    Examples
-    --------
-    >>> default_flatten(PolygonSet([[0, 0], [4096, 0], [0, 3]], [0, 3], [0], [0]))
-    1.0
-    """
-    xy = polygons.xy
-    return FLATTEN * (float(np.ptp(xy, axis=0).max()) or 1.0) if len(xy) else 1.0
-
-
-def checked_flatten(tolerance: float | None, polygons: PolygonSet) -> float:
-    """A tolerance, or the default one.
+def checked_flatten(tolerance: float | None) -> float | None:
+    """Return a tolerance, None if each curve has its own.
 
     Raises
     ------
     UsageError
-        If it is no finite number, or not positive.
+        If it is not a finite number, or not positive.
     """
-    return default_flatten(polygons) if tolerance is None else checked_tolerance(tolerance)
+    return None if tolerance is None else checked_tolerance(tolerance)
+
+
+def circle_tolerances(center: Floats, radius: Floats, tolerance: float | None) -> float | Floats:
+    """(k,) how far lines may be from circular arcs: 1/2000 of the radius, where no tolerance is given.
+
+    Examples
+    --------
+    >>> circle_tolerances(np.zeros((1, 2)), np.array([4.0]), None).tolist()
+    [0.002]
+    """
+    if tolerance is not None:
+        return tolerance
+    far = np.abs(center).max(axis=1, initial=0) + radius
+    return np.maximum(CURVE_PART * radius, finest_deviation(far[:, None]))
+
+
+def curve_tolerances(control: Floats, clearance: Floats | float, tolerance: float | None) -> float | Floats:
+    """(k,) how far lines may be from curves, where no tolerance is given.
+
+    Parameters
+    ----------
+    control : (k, n, 2) float64 array
+        Control points. The extent of a curve is the diagonal of the box of its ends.
+    clearance : float, or (k,) float64 array
+        The least distance of each from sites.
+    tolerance : float, optional
+        That of all.
+
+    Examples
+    --------
+    >>> curve_tolerances(np.array([[[0.0, 0.0], [1.0, 9.0], [3.0, 4.0]]]), np.array([0.1]), None).tolist()
+    [0.0025]
+    """
+    if tolerance is not None:
+        return tolerance
+    extent = hypotenuse(*(control[:, -1] - control[:, 0]).T)
+    own = np.maximum(CURVE_PART * extent, CLEARANCE_PART * np.asarray(clearance))
+    return np.maximum(own, finest_deviation(control))
+
+
+def least_focal_distances(source: Floats, control: Floats, target: Floats) -> Floats:
+    """(k,) the least distance of parabolas from their foci, as their Bézier curves have it; infinity of lines.
+
+    It is (t^2 + h^2) / (2 h), with t along the directrix from the axis, along which the curve runs evenly.
+
+    Examples
+    --------
+    >>> arch = np.array([[[-2.0, 2.0]], [[0.0, -2.0]], [[2.0, 2.0]]])
+    >>> least_focal_distances(*arch).tolist()
+    [0.5]
+    """
+    least = np.full(len(source), np.inf)
+    first, second = control - source, target - control
+    bend = second - first
+    size = np.sqrt((bend * bend).sum(axis=1))
+    bent = np.flatnonzero(size > 0)
+    axis = bend[bent] / size[bent][:, None]
+    half = np.abs(first[bent, 0] * axis[:, 1] - first[bent, 1] * axis[:, 0])
+    height = 2 * half * half / size[bent]
+    slopes = [(way[bent] * axis).sum(axis=1) / np.where(half > 0, half, 1) for way in (first, second)]
+    nearest = np.where(slopes[0] * slopes[1] < 0, 0, np.minimum(np.abs(slopes[0]), np.abs(slopes[1])))
+    least[bent] = np.where(half > 0, height * (1 + nearest * nearest) / 2, np.inf)
+    return least
 
 
 def polylines(
@@ -75,6 +129,7 @@ def polylines(
     # a chord over 1/n of the parameter is off by |bend| / (4 n^2)
     pieces = np.ceil(np.sqrt(hypotenuse(*bend.T) / 4 / tolerance))
     pieces = np.where(is_curve, np.clip(pieces, 1, MOST_PIECES), 1).astype(np.int64)
+    record_deviation(hypotenuse(*bend.T) / 4 / (pieces * pieces))
     start, curve = starts_of(pieces + 1), owners(pieces + 1)
     t = (within(pieces + 1) / pieces[curve])[:, None]
     points = source[curve] + t * (2 * (control - source)[curve] + t * bend[curve])

@@ -8,10 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError
 from vorotool.geometry.checks import set_array
 from vorotool.geometry.curves.circular_arcs import chords_of
-from vorotool.geometry.numbers import nearest_double, real_number, shown_number
+from vorotool.geometry.curves.flatten import checked_flatten, circle_tolerances
 from vorotool.geometry.polygons.polygon_set import SHELL, PolygonSet
 from vorotool.geometry.ragged import within
 from vorotool.geometry.row_index import index_of_rows
@@ -157,13 +156,13 @@ class Discs(Value, Tabular, Curved, Pictured):
             columns |= {f"shape_{k + 1}": np.ma.array(shape[:, k], mask=is_missing[:, k]) for k in range(SHOWN_FEET)}
         return Table(columns)
 
-    def flattened(self, tolerance: float) -> PolygonSet:
+    def flattened(self, tolerance: float | None = None) -> PolygonSet:
         """Circles as polygons, arcs as chords between places on them.
 
         Parameters
         ----------
-        tolerance : float
-            How far a chord may be from its circle.
+        tolerance : float, optional
+            How far a chord may be from its circle, by default 1/2000 of its radius.
 
         Returns
         -------
@@ -173,20 +172,17 @@ class Discs(Value, Tabular, Curved, Pictured):
 
         Raises
         ------
-        InputError
-            If the tolerance is not positive.
         UsageError
-            If it is no number.
+            If the tolerance is not a positive number.
         """
-        tolerance = nearest_double(real_number(tolerance, "the tolerance"))
-        if not tolerance > 0:
-            raise InputError(f"the tolerance is {shown_number(tolerance)}: it must be positive")
         count = len(self)
         across = self.radius[:, None] * (1, 0)
         start = np.stack([self.xy + across, self.xy - across], axis=1)
         ends = start[:, ::-1].reshape(-1, 2)
         is_left = np.ones(2 * count, dtype=bool)
-        xy, first = chords_of(start.reshape(-1, 2), ends, np.repeat(self.xy, 2, axis=0), is_left, tolerance)
+        each = np.broadcast_to(circle_tolerances(self.xy, self.radius, checked_flatten(tolerance)), count)
+        centre = np.repeat(self.xy, 2, axis=0)
+        xy, first = chords_of(start.reshape(-1, 2), ends, centre, is_left, np.repeat(each, 2))
         polygons = self.polygons
         return PolygonSet(
             xy,

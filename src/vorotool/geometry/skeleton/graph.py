@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import UsageError
-from vorotool.geometry.curves.flatten import chained, checked_flatten
+from vorotool.geometry.curves.flatten import chained
 from vorotool.geometry.skeleton.skeleton import KINDS, SIDES, Skeleton
 from vorotool.geometry.skeleton.tables import branch_table, ids_of
 from vorotool.geometry.sorted_sets import distinct
@@ -64,7 +64,8 @@ def skeleton_graph(skeleton: Skeleton, *, by: str = "branch", flatten: float | N
     by : {"branch", "arc"}
         What an edge is. Nodes are the ends of edges; a closed branch joins one of its vertices with itself.
     flatten : float, optional
-        How far the polylines may be from parabolas; by default 1/4096 of the larger side of the bounds.
+        How far the polylines may be from parabolas; by default as of
+        `Skeleton.flattened`.
 
     Raises
     ------
@@ -73,7 +74,7 @@ def skeleton_graph(skeleton: Skeleton, *, by: str = "branch", flatten: float | N
     """
     if by not in BY:
         raise UsageError(f"by is {by!r}: use {' or '.join(BY)}")
-    points, start = skeleton.flattened(checked_flatten(flatten, skeleton.polygons))
+    points, start = skeleton.flattened(flatten)
     first = np.flatnonzero(np.diff(skeleton.branch, prepend=-1))
     if by == "arc":
         first = np.arange(len(skeleton))

@@ -108,7 +108,7 @@ class LedOn(Value, Tabular, Curved, Pictured):
     def _summed(self, values: Floats) -> Floats:
         return np.add.reduceat(values, self.arc_start[:-1]) if len(self) else np.zeros(0)
 
-    def flattened(self, tolerance: float) -> tuple[Floats, NDArray[np.int64]]:
+    def flattened(self, tolerance: float | None = None) -> tuple[Floats, NDArray[np.int64]]:
         """Whole lines as polylines, as of `Skeleton.flattened`; no vertex is where one is led on exactly straight."""
         points, start = chained(*self.path.flattened(tolerance), self.arc_start[:-1])
         first, last = self.extended

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError
 from vorotool.geometry.checks import set_array
 from vorotool.geometry.curves.circular_arcs import chords_of
+from vorotool.geometry.curves.flatten import checked_flatten, circle_tolerances
 from vorotool.geometry.curves.inverse_functions import inverse_sine
-from vorotool.geometry.numbers import nearest_double, real_number, shown_number
 from vorotool.geometry.polygons.polygon_set import HOLE, SHELL, PolygonSet
 from vorotool.geometry.ragged import divides, owners
 from vorotool.geometry.row_index import index_of_rows
@@ -171,13 +171,14 @@ class Offsets(Value, Tabular, Curved, Pictured):
         """Whether pictures are drawn y upwards."""
         return self.polygons.y_up
 
-    def flattened(self, tolerance: float) -> PolygonSet:
+    def flattened(self, tolerance: float | None = None) -> PolygonSet:
         """Shapes as polygons, arcs as chords between places on them.
 
         Parameters
         ----------
-        tolerance : float
-            How far a chord may be from its arc; none takes more than a quarter of a circle.
+        tolerance : float, optional
+            How far a chord may be from its arc, by default 1/2000 of its radius; none takes more than a quarter of a
+            circle.
 
         Returns
         -------
@@ -186,16 +187,12 @@ class Offsets(Value, Tabular, Curved, Pictured):
 
         Raises
         ------
-        InputError
-            If the tolerance is not positive.
         UsageError
-            If it is no number.
+            If the tolerance is not a positive number.
         """
-        tolerance = nearest_double(real_number(tolerance, "the tolerance"))
-        if not tolerance > 0:
-            raise InputError(f"the tolerance is {shown_number(tolerance)}: it must be positive")
         is_left = self.piece_distance > 0
-        xy, first = chords_of(self.start, self.end, self.centre, is_left, tolerance)
+        each = circle_tolerances(self.start, np.abs(self.piece_distance), checked_flatten(tolerance))
+        xy, first = chords_of(self.start, self.end, self.centre, is_left, each)
         return PolygonSet(
             xy,
             first[self.ring_start],

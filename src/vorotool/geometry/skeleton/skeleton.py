@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.geometry.checks import set_array
-from vorotool.geometry.curves.flatten import polylines
-from vorotool.geometry.numbers import nearest_double, real_number, shown_number
+from vorotool.geometry.curves.flatten import checked_flatten, curve_tolerances, least_focal_distances, polylines
 from vorotool.geometry.parallel import in_chunks
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.skeleton.arc_measures import ArcMeasures
@@ -276,13 +275,14 @@ class Skeleton(Value, Tabular, Branched, Pictured):
             self.length[arcs],
         )
 
-    def flattened(self, tolerance: float) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    def flattened(self, tolerance: float | None = None) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
         """Arcs as polylines, parabolas divided evenly in their parameter.
 
         Parameters
         ----------
-        tolerance : float
-            How far a polyline may be from its arc.
+        tolerance : float, optional
+            How far a polyline may be from its arc; by default the larger of 1/2000 of the extent of the arc and 1/100
+            of its least radius.
 
         Returns
         -------
@@ -293,16 +293,14 @@ class Skeleton(Value, Tabular, Branched, Pictured):
 
         Raises
         ------
-        InputError
-            If the tolerance is not positive.
         UsageError
-            If it is no number.
+            If the tolerance is not a positive number.
         """
-        tolerance = nearest_double(real_number(tolerance, "the tolerance"))
-        if not tolerance > 0:
-            raise InputError(f"the tolerance is {shown_number(tolerance)}: it must be positive")
         source, target = self.vertices[self.arcs[:, 0]], self.vertices[self.arcs[:, 1]]
-        return polylines(source, self.control, target, self.is_parabola, tolerance)
+        least = np.where(self.is_parabola, least_focal_distances(source, self.control, target), 0)
+        ends = np.stack([source, target], axis=1)
+        each = curve_tolerances(ends, least, checked_flatten(tolerance))
+        return polylines(source, self.control, target, self.is_parabola, each)
 
     def _summary(self) -> str:
         branches = counted(int(self.branch[-1]) + 1 if len(self) else 0, "branch", "branches")

@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError
 from vorotool.geometry.checks import set_array
 from vorotool.geometry.curves.cubics import cubic_polylines
-from vorotool.geometry.curves.flatten import chained
-from vorotool.geometry.numbers import checked_tolerance
+from vorotool.geometry.curves.flatten import chained, checked_flatten, curve_tolerances
 from vorotool.geometry.ragged import divides, owners
 from vorotool.geometry.skeleton.led_on import LedOn
 from vorotool.geometry.skeleton.skeleton import Skeleton
@@ -86,13 +85,13 @@ class SmoothLines(Value, Tabular, Curved, Pictured):
         """(k,) the line of each curve."""
         return owners(np.diff(self.start))
 
-    def flattened(self, tolerance: float) -> tuple[Floats, NDArray[np.int64]]:
+    def flattened(self, tolerance: float | None = None) -> tuple[Floats, NDArray[np.int64]]:
         """Lines as polylines.
 
         Parameters
         ----------
-        tolerance : float
-            How far a polyline may be from its curves.
+        tolerance : float, optional
+            How far a polyline may be from its curves; by default 1/2000 of the extent of each.
 
         Returns
         -------
@@ -104,9 +103,10 @@ class SmoothLines(Value, Tabular, Curved, Pictured):
         Raises
         ------
         UsageError
-            If the tolerance is not positive.
+            If the tolerance is not a positive number.
         """
-        return chained(*cubic_polylines(self.control, checked_tolerance(tolerance)), self.start[:-1])
+        each = curve_tolerances(self.control, 0.0, checked_flatten(tolerance))
+        return chained(*cubic_polylines(self.control, each), self.start[:-1])
 
     def table(self) -> Table:
         """Give one row a curve, line by line.

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.geometry.curves.flatten import circle_tolerances, curve_tolerances, least_focal_distances
 from vorotool.geometry.mesh.cells import Nesting
 from vorotool.geometry.ragged import owners, starts_of, within
 from vorotool.geometry.voronoi.cut_corners import with_feet_of_corners
@@ -23,7 +24,7 @@ _BEND_OF_TWO = 10
 """A parabola that may be off by its second difference over this is divided in two: more than 4, at most 16."""
 
 
-def flattened_arcs(cells: VoronoiMap, tolerance: float) -> tuple[Floats, Indices]:
+def flattened_arcs(cells: VoronoiMap, tolerance: float | None) -> tuple[Floats, Indices]:
     """Give each arc as a polyline, from its source to its target.
 
     A chord of a parabola lies in the sector of the cell between the focus and the parabola as long as it is nearer to
@@ -35,8 +36,10 @@ def flattened_arcs(cells: VoronoiMap, tolerance: float) -> tuple[Floats, Indices
     ----------
     cells : VoronoiMap
         With the arcs.
-    tolerance : float
-        How far polylines may be from curves; where these come nearer to sites, a fourth of that distance.
+    tolerance : float, optional
+        How far polylines may be from curves; where these come nearer to sites, a fourth of that distance. By default
+        1/2000 of the radius of circular arcs, of other curves the larger of 1/2000 of their extent and 1/100 of their
+        least distance from sites.
 
     Returns
     -------
@@ -53,9 +56,14 @@ def flattened_arcs(cells: VoronoiMap, tolerance: float) -> tuple[Floats, Indices
     3
     """
     arcs = cells.mixed_arcs
-    most = np.minimum(tolerance, PART_OF_RADIUS * _least_radii(arcs.source, arcs.control, arcs.target))
+    least = least_focal_distances(arcs.source, arcs.control, arcs.target)
+    ends = np.stack([arcs.source, arcs.target], axis=1)
+    clearance = np.where(np.isfinite(least), least, 0)
+    most = np.minimum(curve_tolerances(ends, clearance, tolerance), PART_OF_RADIUS * least)
     if cells.max_distance is not None:
-        most[cells.is_circle] = min(tolerance, PART_OF_RADIUS * cells.max_distance)
+        at = np.flatnonzero(cells.is_circle)
+        radius = np.full(len(at), cells.max_distance)
+        most[at] = np.minimum(circle_tolerances(arcs.center[at], radius, tolerance), PART_OF_RADIUS * radius)
     paired = _in_pairs(cells)
     bend = (arcs.source - 2 * arcs.control + arcs.target)[paired]
     most[paired] = np.fmin(most[paired], np.sqrt((bend * bend).sum(axis=1)) / _BEND_OF_TWO)
@@ -70,33 +78,14 @@ def _in_pairs(cells: VoronoiMap) -> Indices:
     return arcs
 
 
-def _least_radii(source: Floats, control: Floats, target: Floats) -> Floats:
-    """(a,) the least distance of parabolas from their foci, as their Bezier curves tell; infinity of lines.
-
-    It is (t^2 + h^2) / (2 h), with t along the directrix from the axis, which the curve goes along evenly.
-    """
-    least = np.full(len(source), np.inf)
-    first, second = control - source, target - control
-    bend = second - first
-    size = np.sqrt((bend * bend).sum(axis=1))
-    bent = np.flatnonzero(size > 0)
-    axis = bend[bent] / size[bent][:, None]
-    half = np.abs(first[bent, 0] * axis[:, 1] - first[bent, 1] * axis[:, 0])
-    height = 2 * half * half / size[bent]
-    slopes = [(way[bent] * axis).sum(axis=1) / np.where(half > 0, half, 1) for way in (first, second)]
-    nearest = np.where(slopes[0] * slopes[1] < 0, 0, np.minimum(np.abs(slopes[0]), np.abs(slopes[1])))
-    least[bent] = np.where(half > 0, height * (1 + nearest * nearest) / 2, np.inf)
-    return least
-
-
-def cell_rings(cells: VoronoiMap, tolerance: float) -> tuple[Floats, Indices]:
+def cell_rings(cells: VoronoiMap, tolerance: float | None) -> tuple[Floats, Indices]:
     """Give the vertices of all rings of cells, the first of each not repeated.
 
     Parameters
     ----------
     cells : VoronoiMap
         With its rings.
-    tolerance : float
+    tolerance : float, optional
         As of `flattened_arcs`.
 
     Returns
@@ -122,14 +111,14 @@ def cell_rings(cells: VoronoiMap, tolerance: float) -> tuple[Floats, Indices]:
     return points[taken], starts_of(sizes)[cells.ring_start]
 
 
-def cell_polygons(cells: VoronoiMap, tolerance: float) -> NDArray[Any]:
+def cell_polygons(cells: VoronoiMap, tolerance: float | None) -> NDArray[Any]:
     """(s,) each cell as a polygon or multipolygon of shapely; what two cells share is the same in both, bit for bit.
 
     Parameters
     ----------
     cells : VoronoiMap
         Empty cells are empty polygons.
-    tolerance : float
+    tolerance : float, optional
         As of `flattened_arcs`.
 
     Examples

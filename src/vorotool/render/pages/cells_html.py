@@ -13,7 +13,6 @@ import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from vorotool.errors import LimitError
-from vorotool.geometry.curves.flatten import FLATTEN
 from vorotool.geometry.mesh.cells import CellSet
 from vorotool.geometry.ragged import starts_of
 from vorotool.geometry.spacing import SQUARE, PixelSides
@@ -28,6 +27,9 @@ MOST_CELLS, MOST_VERTICES = 100_000, 3_000_000
 
 PAGE = "cells_page.html"
 _PLACE = "/*DATA*/null"
+
+_FINE = 2.0**-12
+"""How far lines may be from curves: of the larger side of the frame."""
 
 
 class Shapes(NamedTuple):
@@ -82,7 +84,7 @@ def shapes_of_map(cells: VoronoiMap, *, y_up: bool | None = None) -> Shapes:
     ['1', '2']
     """
     x, y, w, h = cells.frame
-    xy, rings = cell_rings(cells, FLATTEN * max(w, h))
+    xy, rings = cell_rings(cells, _FINE * max(w, h))
     ids = [str(label) for label in (range(1, len(cells) + 1) if cells.ids is None else cells.ids)]
     up = cells.polygons.y_up if y_up is None else y_up
     return Shapes(xy, rings, cells.polygon_start[cells.cell_start], ids, (x, y, x + w, y + h), up)

@@ -26,8 +26,25 @@ _DECIMALS: ContextVar[int | None] = ContextVar("decimals", default=None)
 _IS_VERIFIED: ContextVar[bool] = ContextVar("is_verified", default=False)
 
 
+@dataclass
+class WrittenCurves:
+    """What happened to curves where there are none: the largest distance of lines from them."""
+
+    deviation: float = 0.0
+
+
+_CURVES: ContextVar[WrittenCurves | None] = ContextVar("curves", default=None)
+
+
+def record_deviation(distances: Floats) -> None:
+    """Record how far lines that are written are from their curves."""
+    curves = _CURVES.get()
+    if curves is not None:
+        curves.deviation = max(curves.deviation, float(distances.max(initial=0)))
+
+
 @contextmanager
-def coordinates_written(decimals: int | None, *, is_verified: bool = False) -> Iterator[None]:
+def coordinates_written(decimals: int | None, *, is_verified: bool = False) -> Iterator[WrittenCurves]:
     """Say how coordinates of files are written within.
 
     Parameters
@@ -37,6 +54,11 @@ def coordinates_written(decimals: int | None, *, is_verified: bool = False) -> I
     is_verified : bool
         Polygons are checked as they are written.
 
+    Yields
+    ------
+    WrittenCurves
+        Known at the end.
+
     Raises
     ------
     UsageError
@@ -45,12 +67,14 @@ def coordinates_written(decimals: int | None, *, is_verified: bool = False) -> I
     name = option("--decimals")
     if decimals is not None and not 0 <= whole_number(decimals, name) <= MOST_DECIMALS:
         raise UsageError(f"{name} is {shown_number(decimals)}: use 0 to {MOST_DECIMALS}, or leave it out")
-    tokens = _DECIMALS.set(decimals), _IS_VERIFIED.set(is_verified)
+    curves = WrittenCurves()
+    tokens = _DECIMALS.set(decimals), _IS_VERIFIED.set(is_verified), _CURVES.set(curves)
     try:
-        yield
+        yield curves
     finally:
         _DECIMALS.reset(tokens[0])
         _IS_VERIFIED.reset(tokens[1])
+        _CURVES.reset(tokens[2])
 
 
 def current_decimals() -> int | None:
@@ -83,6 +107,20 @@ class Grid:
         """Return coordinates: the doubles nearest to multiples of the step."""
         made = steps.astype(np.float64)
         return np.ldexp(made, self.exponent) if self.decimals is None else made / float(10**self.decimals)
+
+
+def finest_deviation(places: Floats) -> Floats:
+    """(n,) how near to curves lines are never asked to be: a step of the grid, of doubles 16 of the largest coordinate.
+
+    Parameters
+    ----------
+    places : (n, ..., 2) float64 array
+        Of each curve.
+    """
+    largest = np.abs(places).reshape(len(places), -1).max(axis=1, initial=0)
+    steps: Floats = 16 * np.spacing(largest)
+    decimals = _DECIMALS.get()
+    return steps if decimals is None else np.maximum(steps, 1 / float(10**decimals))
 
 
 def is_verified() -> bool:
