@@ -125,8 +125,9 @@ def expand_inputs(
         else:
             _check_file(name)
             found.append(Input(name, Path(name).name))
-    for text in search.left_out.notes() if note is not None else ():
-        note(text)
+    if note is not None:
+        for text in search.left_out.notes():
+            note(text)
     return found
 
 

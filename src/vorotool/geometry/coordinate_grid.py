@@ -117,7 +117,7 @@ def finest_deviation(places: Floats) -> Floats:
     places : (n, ..., 2) float64 array
         Of each curve.
     """
-    largest = np.abs(places).reshape(len(places), -1).max(axis=1, initial=0)
+    largest = np.abs(places).max(axis=tuple(range(1, places.ndim)), initial=0)
     steps: Floats = 16 * np.spacing(largest)
     decimals = _DECIMALS.get()
     return steps if decimals is None else np.maximum(steps, 1 / float(10**decimals))

@@ -32,7 +32,7 @@ def test_flattened_arcs_are_within_the_tolerance(tolerance):
 
 
 def test_no_tolerance_is_refused():
-    with pytest.raises(InputError, match="positive"):
+    with pytest.raises(UsageError, match="positive"):
         MADE.flattened(0)
 
 
