@@ -18,7 +18,7 @@ MODULES = sorted((SOURCES / "vorotool").rglob("*.py"))
 
 ALIKE = frozenset(
     {"inf", "nan", "pi", "isfinite", "isnan", "isinf", "floor", "ceil", "sqrt", "isqrt", "gcd", "lcm", "comb", "prod"}
-    | {"ldexp", "nextafter", "factorial"}
+    | {"ldexp", "nextafter", "ulp", "factorial"}
 )
 """What may be used of math; all else of it is the C library's."""
 

@@ -15,7 +15,7 @@ geometry -> products
 formats/io -> formats/compression, geometry
 geometry/points -> geometry
 geometry/polygons -> geometry
-geometry/curves -> geometry, geometry/polygons
+geometry/curves -> geometry
 formats/parsing -> formats/io, geometry, geometry/curves, geometry/points, geometry/polygons
 formats/points -> formats/io, formats/parsing, geometry, geometry/curves, geometry/points
 render/canvas -> geometry, geometry/curves, products
@@ -33,7 +33,7 @@ typing -> geometry, geometry/mesh, geometry/points, geometry/polygons, geometry/
 engines/arrangement -> geometry, geometry/arguments, geometry/curves, geometry/polygons, geometry/skeleton, typing
 engines/delaunay -> geometry, geometry/arguments, geometry/curves, geometry/mesh, geometry/points, products, typing
 engines/segment_voronoi -> geometry, geometry/polygons, geometry/skeleton
-formats/text -> formats/written, geometry, geometry/skeleton
+formats/text -> geometry, geometry/skeleton
 formats/features -> formats/io, formats/parsing, formats/points, formats/text, geometry, geometry/arguments,
     geometry/curves, geometry/points, geometry/polygons, products
 geometry/alpha -> geometry, geometry/curves, geometry/mesh, geometry/polygons
@@ -95,7 +95,7 @@ render/layers -> geometry, geometry/alpha, geometry/distances, geometry/mesh, ge
 jobs -> batch, engines/alpha, engines/arrangement, engines/centerlines, engines/delaunay, engines/digital,
     engines/distances, engines/from_skeleton, engines/label_images, engines/pruning, engines/tessellation,
     engines/voronoi, formats, formats/features, formats/images, formats/io, formats/parsing, formats/points,
-    formats/text, formats/volumes, formats/written, formats/zarr, geometry, geometry/alpha, geometry/any,
+    formats/text, formats/volumes, formats/zarr, geometry, geometry/alpha, geometry/any,
     geometry/arguments, geometry/curves, geometry/distances, geometry/mesh, geometry/points, geometry/polygons,
     geometry/skeleton, geometry/volumes, geometry/voronoi, products, render/canvas, render/label_images, render/layers,
     render/pages, typing

@@ -14,7 +14,6 @@ from vorotool.batch.pages import PageName
 from vorotool.batch.search import LeftOut, Search
 from vorotool.errors import InputError, UsageError
 from vorotool.formats.io.descriptors import stream_kind
-from vorotool.formats.io.sources import without_gz
 from vorotool.formats.zarr.store import is_folder, is_store
 
 STANDARD_INPUT = "-"
@@ -216,6 +215,8 @@ def _inside(folder: str, extensions: frozenset[str], search: Search) -> list[Inp
 
 def _is_known(path: Path, extensions: frozenset[str]) -> bool:
     """Whether a file is in a format that is read, by its extension; text must hold numbers or geometry, too."""
+    from vorotool.formats.io.sources import without_gz
+
     plain = Path(without_gz(path.name))
     extension = plain.suffix.lower().lstrip(".")
     is_plain_text = extension == "txt" and plain.name == path.name and path.is_file()

@@ -133,7 +133,6 @@ WITHOUT = "import sys; sys.modules.update({name: None for name in %r}); from vor
 @pytest.mark.parametrize(
     ("arguments", "lacking", "message"),
     [
-        (["skeleton-exact", "lakes.gpkg"], "pyogrio", "GeoPackage files need the package pyogrio"),
         (["skeleton-exact", "lakes.shp"], "pyogrio", "Shapefile files need the package pyogrio"),
         (["skeleton-exact", "lakes.parquet"], "pyarrow", "Parquet files need the package pyarrow"),
         (["delaunay", "dots.csv", "-o", "a.fgb"], "pyogrio", "GeoPackage, FlatGeobuf and Shapefile need the package"),

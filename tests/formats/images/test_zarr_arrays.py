@@ -58,7 +58,7 @@ def test_rows_of_chunks_stay_small():
 
 def test_zarr_is_named_where_it_is_missing(monkeypatch):
     monkeypatch.setitem(sys.modules, "zarr", None)
-    with pytest.raises(UsageError, match=r"pip install vorotool\[zarr\]"):
+    with pytest.raises(UsageError, match=r"pip install 'vorotool\[zarr\]'"):
         zarr_module()
 
 

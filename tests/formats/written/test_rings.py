@@ -5,8 +5,8 @@ import pytest
 import shapely
 
 import vorotool
-from vorotool.geometry.coordinate_grid import rounded
 from vorotool.formats.written.rings import geometry, written_rings
+from vorotool.geometry.coordinate_grid import rounded
 from vorotool.geometry.mesh.cells import Nesting
 
 DECIMALS = [None, 6, 3, 1, 0]

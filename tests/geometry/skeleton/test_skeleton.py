@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import vorotool
-from vorotool.errors import InputError, UsageError
+from vorotool.errors import UsageError
 from vorotool.geometry import parallel
 from vorotool.geometry.skeleton.tables import connected_roots
 

@@ -70,13 +70,13 @@ def run_command(recipe: Recipe[Options], o: Options) -> None:
 def _without_environment(o: Options) -> Options:
     """Leave out workers that the environment names where one input needs none, or other workers are typed."""
     source = click.get_current_context().get_parameter_source
-    is_environment = {name: source(name) == ParameterSource.ENVIRONMENT for name in ("jobs", "cluster")}
-    if not is_environment["jobs"] and not is_environment["cluster"]:
+    has_jobs, has_cluster = (source(name) == ParameterSource.ENVIRONMENT for name in ("jobs", "cluster"))
+    if not has_jobs and not has_cluster:
         return o
-    kept = replace(o, **{name: None for name, is_set in is_environment.items() if is_set})
+    kept = replace(o, jobs=None if has_jobs else o.jobs, cluster=None if has_cluster else o.cluster)
     if not _is_batch(kept):
         return kept
-    if not is_environment["cluster"]:
+    if not has_cluster:
         return kept if o.cluster is not None else o
     return replace(o, cluster=None) if kept.jobs is not None else replace(o, jobs=None)
 

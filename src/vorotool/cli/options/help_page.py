@@ -78,8 +78,8 @@ class GroupedCommand(click.Command):
             from difflib import get_close_matches
 
             known = [each for param in self.get_params(ctx) for each in (*param.opts, *param.secondary_opts)]
-            error.possibilities = get_close_matches(name, known, cutoff=CLOSE)
-            raise
+            near = get_close_matches(name, known, cutoff=CLOSE)
+            raise click.NoSuchOption(name, possibilities=near, ctx=ctx) from None
 
     def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the options under the titles of their groups."""

@@ -49,8 +49,11 @@ def flattened_arcs(points: Floats, flatten: float | None = None) -> Floats:
         )
     knots = np.append(first[:-1], len(inner))
     xy = np.concatenate([inner, points[-1:, :2]])
-    rest = [np.interp(np.arange(len(xy)), knots, column) for column in points[:, 2:].T]
-    return np.column_stack([xy, *rest])
+    at = np.arange(len(xy))
+    arc = np.minimum(np.searchsorted(knots, at, side="right") - 1, len(knots) - 2)
+    part = ((at - knots[arc]) / np.diff(knots)[arc])[:, None]
+    rest = points[arc, 2:] + part * (points[arc + 1, 2:] - points[arc, 2:])
+    return np.concatenate([xy, rest], axis=1)
 
 
 def _circles(a: Floats, b: Floats, c: Floats) -> tuple[Floats, NDArray[np.bool_]]:
