@@ -7,6 +7,7 @@ from importlib.resources import files
 from pathlib import Path
 
 from vorotool.errors import UsageError
+from vorotool.geometry.checks import is_choice
 from vorotool.products.samples import SAMPLES
 
 
@@ -40,7 +41,7 @@ def sample(name: str) -> Path:
 def sample_name(name: str) -> str:
     """Return the full name of a sample that is named with or without its extension."""
     names = {Path(each).stem: each for each in SAMPLES} | {each: each for each in SAMPLES}
-    if name not in names:
+    if not is_choice(name, names):
         close = " or ".join(dict.fromkeys(names[each] for each in get_close_matches(str(name).lower(), names)))
         advice = f"did you mean {close}?" if close else f"use one of {', '.join(SAMPLES)}"
         raise UsageError(f"there is no sample {name!r}: {advice}")

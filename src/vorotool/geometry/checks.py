@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterable
 from operator import index
 from typing import Any
 
@@ -43,6 +44,17 @@ def available_threads() -> int:
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
+
+
+def is_choice(value: object, choices: Iterable[object]) -> bool:
+    """Tell whether an argument is one of a few names or numbers; an array, which has no single answer, is not.
+
+    Examples
+    --------
+    >>> is_choice("both", ("inner", "both")), is_choice(np.array([4, 8]), (4, 8))
+    (True, False)
+    """
+    return isinstance(value, str | int | float | np.bool_ | np.number | None) and value in tuple(choices)
 
 
 def set_rows(value: object, name: str, dtype: DTypeLike, width: int = 0) -> None:

@@ -85,7 +85,7 @@ def pixel_sides(spacing: Any, axes: int = 2) -> PixelSides:
     """
     if spacing is None:
         return PixelSides((1,) * axes)
-    is_one = np.ndim(spacing) == 0
+    is_one = not isinstance(spacing, list | tuple) and np.ndim(spacing) == 0
     given: list[Any] = [spacing] if is_one else list(spacing)
     read = [real_number(each, "spacing") for each in given]
     if len(given) not in (1, axes) or not all(0 < side < float("inf") for side in read):

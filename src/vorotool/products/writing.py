@@ -87,7 +87,7 @@ def chosen_part(value: Any, fmt: str, what: str | None) -> Product:
     if not parts:
         *others, last = public_types()
         raise UsageError(f"a {name} cannot be written: give a {', '.join(others)} or {last}")
-    if what is not None and what not in parts:
+    if what is not None and not (isinstance(what, str) and what in parts):
         instead = f"use {' or '.join(parts)}" if len(parts) > 1 else "leave it out"
         raise UsageError(f"what={what!r} is nothing that a {name} is written as: {instead}")
     having = [each for each in parts.values() if fmt in each.written]

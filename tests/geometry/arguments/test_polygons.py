@@ -187,7 +187,7 @@ def test_extended_text_names_its_system():
         (geopandas.GeoSeries.from_xy([1], [2]), "item 1 is or holds a Point: give polygons or lines"),
         ({"type": "Point", "coordinates": [1, 2]}, "item 1 is or holds a Point"),
         (pd.DataFrame({"x": [1], "y": [2]}), "expected polygons .* but got a DataFrame with the columns x, y"),
-        (np.ones((9, 9), bool), r"an image\? vorotool.outlines\(shapes\)"),
+        (np.ones((9, 9), int), r"an image\? vorotool.outlines\(shapes\)"),
         (
             vorotool.Raster(np.ones((9, 9), bool)),
             r"vorotool.outlines\(shapes\) gives those of an image, but got a Raster",

@@ -25,7 +25,7 @@ from vorotool.errors import InputError, UsageError, option
 from vorotool.geometry.alpha.complex import AlphaComplex, Radius, checked_radius
 from vorotool.geometry.alpha.shape import AlphaShape
 from vorotool.geometry.arguments.values import check_value
-from vorotool.geometry.checks import checked_threads
+from vorotool.geometry.checks import checked_threads, is_choice
 from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation
 from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.numbers import real_number, shown_number, whole_number
@@ -104,7 +104,7 @@ def alpha_complex(
     corrected 2.5 2.9
     printed 2.0 2.9
     """
-    if rule not in RULES:
+    if not is_choice(rule, RULES):
         raise UsageError(f"rule is {rule!r}: use corrected, or printed for the text of the paper")
     threads = checked_threads(threads)
     if isinstance(points, DigitalTriangulation):

@@ -16,6 +16,7 @@ from vorotool.engines.centerlines.path_network import Network, Paths, geometry_o
 from vorotool.errors import InputError, UsageError, warn
 from vorotool.geometry.arguments.points import as_place
 from vorotool.geometry.arguments.values import check_value
+from vorotool.geometry.checks import is_choice
 from vorotool.geometry.magnitude import check_lengths
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.ragged import owners
@@ -107,7 +108,7 @@ def centerline(
     [[2.0, 1.0], [3.0, 1.0]]
     """
     check_value(skeleton, "skeleton", Skeleton)
-    if ends not in get_args(Ends):
+    if not is_choice(ends, get_args(Ends)):
         raise UsageError(f"ends is {ends!r}: use {', '.join(get_args(Ends))}")
     is_whole = ends == "corner"
     network = Network(forked(skeleton) if is_whole else unforked(skeleton), by_edge=not is_whole)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from vorotool import _core
 from vorotool.engines.delaunay.delaunay import core_mesh, delaunay
 from vorotool.errors import InputError, UsageError
-from vorotool.geometry.checks import checked_threads
+from vorotool.geometry.checks import checked_threads, is_choice
 from vorotool.geometry.mesh.proximity import KINDS, ProximityGraph
 from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.progress import Progress
@@ -71,7 +71,7 @@ def proximity_graph(
     >>> [len(proximity_graph(square, kind)) for kind in ("gabriel", "relative", "mst")]
     [4, 4, 3]
     """
-    if kind not in KINDS:
+    if not is_choice(kind, KINDS):
         raise UsageError(f"kind is {kind!r}: use {', '.join(KINDS[:-1])} or {KINDS[-1]}")
     threads = checked_threads(threads)
     if isinstance(points, Triangulation):

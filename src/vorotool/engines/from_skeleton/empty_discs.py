@@ -80,7 +80,8 @@ def largest_empty_discs(
     >>> discs.xy.tolist(), discs.radius.round(6).tolist()
     ([[2.0, 2.0]], [2.828427])
     """
-    check_count(count)
+    check_count(1 if count is None else count)
+    count = 1 if count is None else count
     given = as_sites(shapes, None).polygons
     region = _region(given, within)
     threads = checked_threads(threads)

@@ -23,7 +23,8 @@ from vorotool.engines.tessellation.raster_objects import (
 )
 from vorotool.errors import LimitError, UsageError, option
 from vorotool.geometry.arguments.images import as_raster
-from vorotool.geometry.numbers import shown_number
+from vorotool.geometry.checks import checked_threads, is_choice
+from vorotool.geometry.numbers import shown_number, whole_number
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.raster import Raster
 from vorotool.geometry.polygons.polygon_set import PolygonSet
@@ -147,13 +148,13 @@ def outlines(
     >>> outlines(np.array([[7, 7, 2]])).ids
     [2, 7]
     """
-    if outline not in KINDS:
+    if not is_choice(outline, KINDS):
         raise UsageError(f"the outline is {outline!r}: it must be one of {', '.join(KINDS)}")
-    if border not in BORDERS:
+    if not is_choice(border, BORDERS):
         raise UsageError(f"the border is {border!r}: it must be one of {', '.join(BORDERS)}")
-    if mode not in (None, *get_args(Objects)):
+    if not is_choice(mode, (None, *get_args(Objects))):
         raise UsageError(f"mode is {mode!r}: it must be one of {', '.join(get_args(Objects))}")
-    if connectivity not in (4, 8):
+    if not is_choice(connectivity, (4, 8)):
         raise UsageError(f"connectivity is {shown_number(connectivity)}: it must be 4 or 8")
     origin = (0, 0)
     if isinstance(image, LabelImage):
@@ -215,7 +216,7 @@ def _traced(
         )
     labels = np.array(labels, order="C")  # a copy: vertices are counted, then filled in, and links followed
     labels = labels.view(np.uint8) if labels.dtype == bool else labels
-    most = min(max_sites, MOST_VERTICES)
+    most, threads = min(whole_number(max_sites, "max_sites"), MOST_VERTICES), checked_threads(threads)
     count = _core.label_images.count_crack_vertices(labels, threads, progress)
     if count > most:
         raise LimitError(

@@ -172,7 +172,7 @@ def region_table(
         return own
     image = _labelled(image)
     threads = checked_threads(threads)
-    measures = measures or measure_regions(image, threads=threads, progress=progress)
+    measures = _checked_measures(measures) or measure_regions(image, threads=threads, progress=progress)
     labels, sites = _sites(image, measures)
     rows = _rows_of(measures.labels, labels, image)
     nearest_label, nearest_distance = nearest_sites(labels, sites, threads, progress)
@@ -246,7 +246,7 @@ def neighbour_table(
         own: Table = _in_space("tables:volume_neighbours", image, threads, progress, measures=measures)
         return own
     image = _labelled(image)
-    measures = measures or measure_regions(image, threads=threads, progress=progress)
+    measures = _checked_measures(measures) or measure_regions(image, threads=threads, progress=progress)
     labels, sites = _sites(image, measures)
     position = sites[_rows_of(measures.labels, labels, image)]
     step = position[measures.borders[:, 0]] - position[measures.borders[:, 1]]
@@ -352,7 +352,7 @@ def region_colours(
     """
     if measures is None and is_of_space(image):
         measures = _in_space("measures:measure_volume", image, threads, progress)
-    measures = measures or measure_regions(image, threads=threads, progress=progress)
+    measures = _checked_measures(measures) or measure_regions(image, threads=threads, progress=progress)
     a, b = (np.ascontiguousarray(measures.borders[:, side]) for side in (0, 1))
     return measures.labels, _core.graphs.colour_graph(len(measures.labels), a, b, progress)
 
@@ -439,6 +439,13 @@ def _areas(image: LabelImage, pixels: NDArray[Any]) -> NDArray[Any]:
 def _border_lengths(image: LabelImage, count: NDArray[np.int64], vertical: NDArray[np.int64]) -> NDArray[np.int64]:
     """Lengths in steps of the sides, of so many sides of pixels of which some are vertical."""
     return (count - vertical) * image.sides.x + vertical * image.sides.y
+
+
+def _checked_measures(measures: Any) -> Any:
+    """Refuse what is not measures of regions."""
+    if measures is not None and not (hasattr(measures, "labels") and hasattr(measures, "borders")):
+        raise InputError(f"invalid measures: expected None or RegionMeasures, but got a {type(measures).__name__}")
+    return measures
 
 
 def _rows_of(found: NDArray[np.uint32], labels: NDArray[np.uint32], image: LabelImage) -> NDArray[np.intp]:

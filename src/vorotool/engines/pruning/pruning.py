@@ -15,7 +15,7 @@ from vorotool import _core
 from vorotool.engines.skeleton.core_skeleton import core_skeleton
 from vorotool.errors import UsageError
 from vorotool.geometry.arguments.values import check_value
-from vorotool.geometry.checks import available_threads, checked_threads
+from vorotool.geometry.checks import available_threads, checked_threads, is_choice
 from vorotool.geometry.curves.inverse_functions import inverse_sine
 from vorotool.geometry.numbers import finite_double, shown_number
 from vorotool.geometry.parallel import in_threads
@@ -218,7 +218,7 @@ def critical_values(skeleton: Skeleton, criterion: Criterion, *, progress: Progr
     [1.414213562, 1.414213562, 1.414213562, 1.414213562, inf]
     """
     check_value(skeleton, "skeleton", Skeleton)
-    if criterion not in CRITERIA:
+    if not is_choice(criterion, CRITERIA):
         raise UsageError(f"unknown criterion {criterion!r}: choose one of {', '.join(CRITERIA)}")
     ends, most, kept_arc, kept_place = _core.pruning.critical_values(
         core_skeleton(skeleton, has_sites=criterion != "scale"), _core.pruning.Criterion[criterion], progress

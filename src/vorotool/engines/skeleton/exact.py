@@ -15,7 +15,7 @@ from vorotool.engines.segment_voronoi.segment_voronoi import core_diagram, segme
 from vorotool.engines.skeleton.open_border import Opening
 from vorotool.errors import Kind, Message, UsageError, VorotoolWarning, option, warn
 from vorotool.geometry.box import bounds
-from vorotool.geometry.checks import checked_threads
+from vorotool.geometry.checks import checked_threads, is_choice
 from vorotool.geometry.numbers import finite_double, shown_number
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.polygons.polygon_set import PolygonSet
@@ -35,7 +35,7 @@ Frame = tuple[float, float, float, float]
 
 def check_skeleton_options(side: str, gap: float, frame: Frame | None) -> None:
     """Raise UsageError for what is no side, gap or frame."""
-    if side not in SIDE_NAMES:
+    if not is_choice(side, SIDE_NAMES):
         raise UsageError(f"the side is {side!r}: use {', '.join(SIDE_NAMES)}")
     if finite_double(gap, "the gap") < 0:
         raise UsageError(f"the gap is {shown_number(gap)}: use a length of 0 or more")
@@ -45,7 +45,7 @@ def check_skeleton_options(side: str, gap: float, frame: Frame | None) -> None:
 
 def check_features(features: str) -> None:
     """Raise UsageError for what tells not how features are taken."""
-    if features not in FEATURES:
+    if not is_choice(features, FEATURES):
         raise UsageError(f"features is {features!r}: use {' or '.join(FEATURES)}")
 
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from vorotool.engines.tessellation.raster_objects import numbered_components
 from vorotool.errors import UsageError
+from vorotool.geometry.checks import is_choice
 from vorotool.geometry.numbers import shown_number
 
 
@@ -69,7 +70,7 @@ def cleaned_mask(
     >>> int(made.mask.sum()), made.filled, made.removed
     (9, 1, 1)
     """
-    if connectivity not in (4, 8):
+    if not is_choice(connectivity, (4, 8)):
         raise UsageError(f"connectivity is {shown_number(connectivity)}: it must be 4 or 8")
     made = _filled(mask, 12 - connectivity) if fill_holes else mask
     if missing is not None:

@@ -20,6 +20,7 @@ from vorotool.engines.tessellation.frames import (
 )
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import InputError, UsageError, option
+from vorotool.geometry.checks import is_choice
 from vorotool.geometry.numbers import shown_number
 from vorotool.geometry.pixel_frame import MAX_PIXELS, Frame
 from vorotool.geometry.points.label_image import LabelImage
@@ -60,7 +61,7 @@ def propagate(
     >>> propagate(seeds, Frame(0, 0, 14, 8)).labels[7, 13]  # 2 is nearer: sqrt 169 against sqrt 170
     np.uint16(1)
     """
-    if passes not in (1, 2):
+    if not is_choice(passes, (1, 2)):
         raise UsageError(f"passes is {shown_number(passes)}: it must be 1 or 2")
     require_seeds(seeds)
     frame = frame or default_frame(seeds)

@@ -23,7 +23,8 @@ from vorotool.engines.tessellation.seed_lattice import report_snapped, sites_of_
 from vorotool.errors import LimitError, UsageError, option
 from vorotool.geometry.arguments.images import as_raster
 from vorotool.geometry.arguments.points import as_points
-from vorotool.geometry.numbers import shown_number
+from vorotool.geometry.checks import is_choice
+from vorotool.geometry.numbers import shown_number, whole_number
 from vorotool.geometry.pixel_frame import Frame
 from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.points.seed_set import SeedSet
@@ -150,12 +151,13 @@ def seeds_from_raster(
     >>> seeds_from_raster(np.array([[1, 0, 1], [0, 0, 1]])).labels.tolist()
     [1, 2, 2]
     """
-    if connectivity not in (4, 8):
+    if not is_choice(connectivity, (4, 8)):
         of_volumes = "; 26 and 6 are of volumes" if connectivity in (26, 6) else ""
         raise UsageError(f"connectivity is {shown_number(connectivity)}: it must be 4 or 8{of_volumes}")
+    max_sites = whole_number(max_sites, "max_sites")
     raster = as_raster(raster, "raster", is_grey=True)
     values = foreground_values(raster, threshold, invert=invert)
-    if mode not in (None, *get_args(SeedMode)):
+    if not is_choice(mode, (None, *get_args(SeedMode))):
         raise UsageError(f"mode is {mode!r}: it must be one of {', '.join(get_args(SeedMode))}")
     frame = Frame(0, 0, values.shape[1], values.shape[0])
     if not values.any():

@@ -19,7 +19,8 @@ from vorotool.engines.volumes.volume_objects import HeldSlices, SlicesSource, Vo
 from vorotool.errors import LimitError, UsageError, option
 from vorotool.geometry.arguments.volume_points import as_volume_points
 from vorotool.geometry.arguments.volumes import as_volume
-from vorotool.geometry.numbers import shown_number
+from vorotool.geometry.checks import is_choice
+from vorotool.geometry.numbers import shown_number, whole_number
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.volumes.volume_points import VolumePoints
 from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
@@ -199,16 +200,16 @@ def seeds_of_slabs(
     >>> len(seeds), seeds.object_volume.tolist(), seeds.sites.tolist()
     (26, [27], [[1.0, 1.0, 1.0]])
     """
-    if connectivity not in _CONNECTIVITY:
+    if not is_choice(connectivity, _CONNECTIVITY):
         of_images = "; 8 and 4 are of images" if connectivity in (8, 4) else ""
         raise UsageError(f"connectivity is {shown_number(connectivity)}: it must be 26 or 6 in a volume{of_images}")
-    if mode not in (None, *get_args(SeedMode)):
+    if not is_choice(mode, (None, *get_args(SeedMode))):
         raise UsageError(f"mode is {mode!r}: it must be one of {', '.join(get_args(SeedMode))}")
     depth, height, width = source.shape
     frame = VoxelFrame(0, 0, 0, width, height, depth)
     objects = VolumeObjects.of(source, threshold, invert=invert, slices=slices)
     kind = objects.kind(note=note) if mode in (None, "centroids") else mode
-    most = min(max_sites, MOST_SEEDS)
+    most = min(whole_number(max_sites, "max_sites"), MOST_SEEDS)
     is_alone = mode == "centroids"
     outer = OuterSeeds(objects, kind, connectivity, None if is_alone else most)
     made = outer.read(frame, progress)

@@ -82,6 +82,20 @@ def listing(names: list[Any]) -> str:
     return ", ".join([*shown, *(["…"] if len(names) > MOST_SHOWN else [])])
 
 
+def items_of(source: Iterator[Any]) -> list[Any]:
+    """Take all items of an iterator.
+
+    Raises
+    ------
+    InputError
+        If it cannot be read, as a file that is closed.
+    """
+    try:
+        return list(source)
+    except (OSError, ValueError) as error:
+        raise InputError(f"{described(source)} cannot be read: {error}") from None
+
+
 def column_names(value: Any) -> list[Any] | None:
     """Give the names of the columns of a data frame; None of what is none.
 

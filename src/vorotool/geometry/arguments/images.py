@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.geometry.arguments.descriptions import column_names, described, naming, refuse_paths, unexpected
 from vorotool.geometry.arguments.grids import grid_of
+from vorotool.geometry.checks import is_choice
 from vorotool.geometry.coordinates import MOST_AXES
 from vorotool.geometry.numbers import real_number
 from vorotool.geometry.pixel_frame import MAX_PIXELS
@@ -49,7 +50,7 @@ def is_image(source: Any, name: str, image: bool | None = None) -> bool:
     >>> is_image(np.eye(3, dtype=bool), "seeds"), is_image(np.zeros((9, 2), int), "seeds"), is_image([[1, 2]], "seeds")
     (True, False, False)
     """
-    if image not in (None, True, False):
+    if not is_choice(image, (None, True, False)):
         raise UsageError(f"invalid image {image!r}: expected True, False or None")
     if isinstance(source, Raster | LabelImage):
         return True

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
-from vorotool.geometry.arguments.descriptions import described, naming, refuse_paths, unexpected
+from vorotool.geometry.arguments.descriptions import described, items_of, naming, refuse_paths, unexpected
 from vorotool.geometry.arguments.features import HeldFeatures, held_features, is_shapely, joined_parts
 from vorotool.geometry.arguments.tables import is_table, points_of_table
 from vorotool.geometry.coordinates import MOST_AXES, number_array
@@ -88,7 +88,7 @@ def _points_of(source: Any, name: str) -> PointSet:
         raise unexpected(source, f"points; of an image take vorotool.seeds_from_raster({name})")
     refuse_paths(source)
     if isinstance(source, Iterator):
-        source = list(source)
+        source = items_of(source)
     if isinstance(source, np.ndarray) and source.dtype.names is None and source.dtype.kind not in "OU":
         return PointSet(_checked(source, name))
     held = held_features(source)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
-from vorotool.geometry.arguments.descriptions import described, naming, refuse_paths, unexpected
+from vorotool.geometry.arguments.descriptions import described, items_of, naming, refuse_paths, unexpected
 from vorotool.geometry.arguments.features import HeldFeatures, held_features, is_geojson, is_shapely, joined_parts
 from vorotool.geometry.arguments.tables import is_table
 from vorotool.geometry.coordinates import coordinate_rows, number_array
@@ -17,6 +17,7 @@ from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.raster import Raster
 from vorotool.geometry.polygons.conversion import polygons_of_geometry, to_shapely
 from vorotool.geometry.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet, set_of_rings
+from vorotool.products.formats import resolved
 
 EXPECTED = (
     "polygons or lines of shapely, geopandas, GeoJSON or WKT, an (n, 2) array of the vertices of one shell, "
@@ -34,8 +35,8 @@ def as_polygons(source: Any, name: str = "polygons") -> PolygonSet:
     source : object
         A `PolygonSet`, which is given back; shapely geometry, a GeoSeries, a GeoDataFrame, GeoJSON, well-known text; an
         (n, 2) array, which is the shell of one polygon; a mapping with ``shell`` and ``holes``, or ``line``; a list of
-        these. Each row or item is one feature, and the polygons of a multi-part geometry are its parts. Empty and
-        missing geometry is left out.
+        these. Of a mask, a 2-D array of truth values, the outlines are taken. Each row or item is one feature, and the
+        polygons of a multi-part geometry are its parts. Empty and missing geometry is left out.
     name : str
         Of the parameter, for messages.
 
@@ -87,7 +88,10 @@ def _polygons_in(source: Any, name: str) -> PolygonSet:
     if isinstance(source, Raster | LabelImage):
         raise unexpected(source, f"polygons; vorotool.outlines({name}) gives those of an image")
     if isinstance(source, Iterator):
-        source = list(source)
+        source = items_of(source)
+    if isinstance(source, np.ndarray) and source.ndim == 2 and source.dtype == bool:
+        outlined: PolygonSet = resolved("engines.label_images.outlines:outlines")(source)
+        return outlined
     held = held_features(source)
     if held is not None:
         return _of_features(held)

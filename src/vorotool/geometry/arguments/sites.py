@@ -11,12 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError, UsageError, option
-from vorotool.geometry.arguments.descriptions import naming, unexpected
+from vorotool.geometry.arguments.descriptions import described, items_of, naming, unexpected
 from vorotool.geometry.arguments.features import HeldFeatures, held_features
 from vorotool.geometry.arguments.images import as_raster, is_image
 from vorotool.geometry.arguments.points import as_points
 from vorotool.geometry.arguments.polygons import as_polygons, is_ring
-from vorotool.geometry.arguments.tables import MISSING_TYPES, is_table
+from vorotool.geometry.arguments.tables import MISSING_TYPES, is_table, listed
+from vorotool.geometry.numbers import shown_number
 from vorotool.geometry.pixel_grid import PixelGrid
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.point_set import PointSet
@@ -98,7 +99,7 @@ def as_sites(source: Any, by: Any = None, name: str = "sites") -> Sites:
 
 def _features(source: Any, name: str) -> Sites:
     if isinstance(source, Iterator):
-        source = list(source)
+        source = items_of(source)
     if isinstance(source, PolygonSet | Sites):
         return _of_polygons(source) if isinstance(source, PolygonSet) else source
     if isinstance(source, PointSet | SeedSet):
@@ -128,9 +129,13 @@ def _shapely_of(item: Any) -> Any:
     """Geometry of shapely for an object of GeoJSON."""
     if not isinstance(item, Mapping):
         return item
+    import shapely
     from shapely.geometry import shape
 
-    return shape(item)
+    try:
+        return shape(item)
+    except (TypeError, ValueError, AttributeError, IndexError, KeyError, shapely.GEOSException) as error:
+        raise InputError(f"a geometry of type {item.get('type')!r} has coordinates that are none: {error}") from None
 
 
 def _of_points(points: PointSet) -> Sites:
@@ -190,18 +195,32 @@ def _values(features: Sites, by: Any) -> list[Any]:
     """The value of each feature."""
     if isinstance(by, str):
         columns = features.properties if features.ids is None else {"id": features.ids, **features.properties}
+        column, _, path = by.partition(".")
+        if by not in columns and path and column in columns:
+            inner = [_within(value, path) for value in columns[column]]
+            columns = columns if all(value is None for value in inner) else {**columns, by: inner}
         if by not in columns:
             names = ", ".join(columns) or "there is none"
             more = option("", ", or one value a feature")
             raise UsageError(f"invalid {_BY} {by!r}: expected a column of the sites ({names}){more}")
         by = columns[by]
-    values = by.tolist() if hasattr(by, "tolist") else list(by)
+    try:
+        values = [*listed(by)]
+    except (TypeError, ValueError):  # a closed file is a ValueError
+        raise InputError(f"invalid {_BY} {shown_number(by)}: expected a column, or one value a feature") from None
     if len(values) != features.count:
         raise InputError(f"invalid {_BY}: expected one value a feature, {features.count}, but got {len(values)}")
     missing = [k for k, value in enumerate(values) if _is_missing(value)]
     if missing:
         raise InputError(f"invalid {_BY}: feature {missing[0]} has no value ({len(missing)} such features): fill it in")
     return values
+
+
+def _within(value: Any, path: str) -> Any:
+    """Follow a path of names with dots into an object; None where it does not lead anywhere."""
+    for name in path.split("."):
+        value = value.get(name) if isinstance(value, Mapping) else None
+    return value
 
 
 def _is_missing(value: Any) -> bool:
@@ -212,5 +231,11 @@ def _first_appearances(values: list[Any]) -> tuple[NDArray[np.int32], list[Any]]
     """The number of each value, and the values in order."""
     numbers: dict[Any, int] = {}
     for value in values:
-        numbers.setdefault(value, len(numbers))
+        try:
+            numbers.setdefault(value, len(numbers))
+        except TypeError:  # an object or a list
+            raise InputError(
+                f"invalid {_BY}: {shown_number(value)} is {described(value)}, expected texts or numbers; a dot leads "
+                "into an object, such as column.name"
+            ) from None
     return np.array([numbers[value] for value in values], dtype=np.int32), list(numbers)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from vorotool.errors import InputError
-from vorotool.geometry.arguments.descriptions import described, naming, refuse_paths
+from vorotool.geometry.arguments.descriptions import described, items_of, naming, refuse_paths
 from vorotool.geometry.arguments.features import HeldFeatures, held_features
 from vorotool.geometry.arguments.tables import is_table, volume_points_of_table
 from vorotool.geometry.coordinates import number_array
@@ -56,7 +56,7 @@ def _points_of(source: Any) -> VolumePoints:
         return VolumePoints(source.sites, labels, source.properties, source.index)
     refuse_paths(source)
     if isinstance(source, Iterator):
-        source = list(source)
+        source = items_of(source)
     is_plain = isinstance(source, np.ndarray) and source.dtype.names is None and source.dtype.kind not in "OU"
     held = None if is_plain else held_features(source)
     if held is not None:

@@ -30,7 +30,10 @@ def is_volume(values: Any) -> bool:
     >>> is_volume(np.zeros((4, 5, 6), bool)), is_volume(np.zeros((4, 5, 3), np.uint8))
     (True, False)
     """
-    shape = np.shape(values) if isinstance(values, list | tuple) else getattr(values, "shape", ())
+    try:
+        shape = np.shape(values) if isinstance(values, list | tuple) else getattr(values, "shape", ())
+    except ValueError:  # lists of several lengths
+        return False
     is_colour = getattr(values, "dtype", None) == np.uint8 and shape[-1:] in ((3,), (4,))
     return len(shape) == AXES and not is_colour
 

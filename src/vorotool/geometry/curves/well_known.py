@@ -69,8 +69,17 @@ def geometry_of_texts(texts: Sequence[str | None], flatten: float | None = None)
     plain = np.array([*texts, None], dtype=object)[:-1]
     plain[own] = None
     with np.errstate(all="ignore"):  # numbers beyond the largest double are found by whoever reads the vertices
-        geometry = shapely.from_wkt(plain, on_invalid="ignore")
+        try:
+            geometry = shapely.from_wkt(plain, on_invalid="ignore")
+        except (shapely.GEOSException, UnicodeEncodeError):  # a text with half a surrogate pair
+            plain[[k for k, text in enumerate(plain) if isinstance(text, str) and not _is_unicode(text)]] = None
+            geometry = shapely.from_wkt(plain, on_invalid="ignore")
     return _with_own(geometry, {k: _read_later(_TextReader, texts[k]) for k in own}, flatten)
+
+
+def _is_unicode(text: str) -> bool:
+    """Tell whether a text can be written as UTF-8."""
+    return not any("\ud800" <= letter <= "\udfff" for letter in text)
 
 
 def geometry_of_binary(items: Sequence[bytes | str | None], flatten: float | None = None) -> Flat:

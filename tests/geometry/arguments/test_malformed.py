@@ -1,0 +1,93 @@
+"""Malformed values of the arguments that all functions share: errors of ours, whatever is inside."""
+
+import pathlib
+
+import numpy as np
+import pytest
+
+import vorotool
+from vorotool import VorotoolError, VorotoolWarning
+
+RING = [[0, 0], [4, 0], [0, 3]]
+ARRAY = np.array([[4, 8], [8, 4]])
+
+
+def closed_file():
+    with pathlib.Path(__file__).open(encoding="utf-8") as file:
+        return file
+
+
+@pytest.mark.parametrize(
+    "value",
+    [
+        {"type": "Point", "coordinates": ["a", "b"]},
+        {"type": "Polygon", "coordinates": [[[0, 0], [1, 1]]]},
+        {"type": "LineString", "coordinates": [1, 2]},
+        "\ud800",
+        ["POINT (0 0)", "POINT (\udfff 1)"],
+        closed_file(),
+    ],
+    ids=["texts", "ring of two", "numbers", "surrogate", "surrogates", "closed file"],
+)
+@pytest.mark.parametrize("function", ["voronoi", "delaunay", "skeleton_exact", "largest_empty_discs", "tessellate"])
+def test_geometry(function, value):
+    with pytest.raises((VorotoolError, VorotoolWarning)):  # warnings are errors in tests
+        getattr(vorotool, function)(value)
+
+
+@pytest.mark.parametrize(
+    "by", [5, [[1]] * 3, [{"name": "a"}] * 3, float("nan"), np.array(3.5), object(), closed_file()]
+)
+def test_by(by):
+    with pytest.raises(VorotoolError, match="by"):
+        vorotool.voronoi(RING, by=by)
+
+
+@pytest.mark.parametrize(
+    ("function", "arguments"),
+    [
+        ("skeleton_exact", {"polygons": RING, "side": ARRAY}),
+        ("skeleton_exact", {"polygons": RING, "features": ARRAY}),
+        ("outlines", {"image": np.eye(4, dtype=bool), "connectivity": ARRAY}),
+        ("outlines", {"image": np.eye(4, dtype=bool), "max_sites": None}),
+        ("outlines", {"image": np.eye(4, dtype=bool), "threads": None}),
+        ("seeds_from_raster", {"raster": np.eye(4, dtype=bool), "max_sites": "9"}),
+        ("proximity_graph", {"points": RING, "kind": ARRAY}),
+        ("alpha_complex", {"points": RING, "rule": ARRAY}),
+        ("neighbour_table", {"image": np.eye(4, dtype=int), "measures": 5}),
+    ],
+)
+def test_choices_and_counts(function, arguments):
+    with pytest.raises(VorotoolError):
+        getattr(vorotool, function)(**arguments)
+
+
+def test_no_count_is_one_disc():
+    assert len(vorotool.largest_empty_discs(RING, count=None)) == 1
+
+
+def test_by_a_path_into_objects():
+    features = [
+        {
+            "type": "Feature",
+            "geometry": {"type": "Point", "coordinates": [x, 0]},
+            "properties": {"classification": {"name": name}},
+        }
+        for x, name in enumerate("aba")
+    ]
+    document = {"type": "FeatureCollection", "features": features}
+    assert vorotool.voronoi(document, by="classification.name").ids == ["a", "b"]
+    with pytest.raises(VorotoolError, match=r"classification\.name|column\.name"):
+        vorotool.voronoi(document, by="classification")
+    with pytest.raises(VorotoolError, match=r"classification\.colour"):
+        vorotool.voronoi(document, by="classification.colour")
+
+
+def test_masks_are_their_outlines():
+    mask = np.zeros((6, 9), dtype=bool)
+    mask[1:5, 1:8] = True
+    outlines = vorotool.outlines(mask)
+    assert vorotool.skeleton_exact(mask) == vorotool.skeleton_exact(outlines)
+    assert vorotool.largest_discs(mask).radius.tolist() == vorotool.largest_discs(outlines).radius.tolist()
+    with pytest.warns(VorotoolWarning, match="no foreground"):
+        assert len(vorotool.offset(np.zeros((3, 3), dtype=bool), [1]).polygons) == 0
