@@ -167,7 +167,7 @@ def _of_header(source: Opened) -> Description | None:
     return {
         "format": "tiff" if source.array is None else "zarr",
         "kind": "image",
-        **_of_pixels(width, height, rows.rows(0, 1).dtype, rows.grid),
+        **_of_pixels(width, height, rows.rows(0, 0).dtype, rows.grid),
         "commands": list(TAKEN_BY["image"]),
     }
 

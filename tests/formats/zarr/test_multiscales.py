@@ -87,6 +87,8 @@ def test_scales_of_all_levels_are_multiplied(tmp_path):
             {"datasets": [{"path": "0", "coordinateTransformations": [{"type": "scale", "scale": ["a"]}]}]},
             "no metadata",
         ),
+        ({"coordinateTransformations": [{"type": "scale", "scale": [1e300, 1e-300]}] * 4_000}, "no metadata"),
+        ({"axes": [{"name": "y"}] * 4_000}, "no metadata"),
     ],
 )
 def test_damaged_metadata(tmp_path, change, words):

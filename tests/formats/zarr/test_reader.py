@@ -177,6 +177,10 @@ def test_a_codec_of_format_3_that_is_not_known(tmp_path, name):
         (version_3(codecs=[{"name": "transpose", "configuration": {"order": [0, 0]}}]), 3, "none of 2 axes"),
         (version_3({"name": "crc32c"}, {"name": "transpose"}), 3, "codec 'transpose' is not accepted"),
         (version_3(zarr_format=4), 3, "format is 4"),
+        (version_3(shape=[1] * 50_000), 3, "50000 axes"),
+        (version_3(*[{"name": "shuffle"}] * 9_999), 3, "10000 codecs"),
+        (version_2(filters=[{"id": "shuffle"}] * 9_999), 2, "9999 codecs"),
+        (version_3(codecs=[{"name": "transpose", "configuration": {"order": "C"}}] * 9_999), 3, "9999 codecs"),
         ("[" * 100_000, 3, "brackets are nested more than 100 deep"),
         ('{"a":' * 100_000, 2, "brackets are nested more than 100 deep"),
         (" " * 2**20 + "{}", 3, "more than 1048576 bytes"),
@@ -233,7 +237,7 @@ def test_indices_of_shards_that_lie(tmp_path):
     for offset, size in ((2**40, 8), (0, 2**62), (2**64 - 1, 8), (0, 7)):
         index = offset.to_bytes(8, "little") + size.to_bytes(8, "little") + data[-52:-4]
         file.write_bytes(data[:-68] + index + google_crc32c.value(index).to_bytes(4, "little"))
-        with pytest.raises(InputError, match=r"cannot be read as Zarr: .*(of a shard has|needs 8 bytes)"):
+        with pytest.raises(InputError, match=r"cannot be read as Zarr: .*(of a shard|needs 8 bytes)"):
             vorotool.read(tmp_path / "a")
     file.write_bytes(data[:-1])
     with pytest.raises(InputError, match="wrong checksum"):
@@ -262,3 +266,52 @@ def test_chunks_that_are_left_out_are_not_looked_for_one_by_one(tmp_path, names,
     expected = np.full((2**19, 6), 9, np.uint16)
     expected[400_000:400_003, 3:] = 5
     np.testing.assert_array_equal(values, expected)
+
+
+@pytest.mark.parametrize("separator", ["/", "."])
+def test_only_chunks_that_are_stored_are_gone_through(tmp_path, separator):
+    """An array of a few bytes may have room for 2^60 chunks; those that it has are found whatever their number."""
+    side, grid = 2**30, {"name": "regular", "configuration": {"chunk_shape": [1, 1]}}
+    encoding = {"name": "default", "configuration": {"separator": separator}}
+    about = version_3(shape=[side, side], chunk_grid=grid, fill_value=7, chunk_key_encoding=encoding)
+    path = store(tmp_path / "a", about)
+    for value, place in enumerate(((0, 0), (3, 2**29), (2**29, 5), (side - 1, side - 1))):
+        file = path / separator.join(map(str, ("c", *place)))
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_bytes(bytes([value]))
+    stored = StoredArray("a.zarr", path)
+    region = (slice(2**29 - 2**11, 2**29 + 2**11), slice(0, 2**11))
+    expected = np.full((2**12, 2**11), 7, np.uint8)
+    expected[2**11, 5] = 2
+    np.testing.assert_array_equal(stored.read(region), expected)
+    assert stored.read((slice(0, 4), slice(2**29, 2**29 + 2))).tolist() == [[7, 7]] * 3 + [[1, 7]]
+    assert stored.read((slice(side - 1, side), slice(side - 2, side))).tolist() == [[7, 3]]
+
+
+def test_chunks_of_a_shard_share_no_bytes(tmp_path):
+    """Each would be decoded anew: the time is that of their number and what one of them unpacks to."""
+    array = zarr.create_array(
+        tmp_path / "a", shape=(64, 64), dtype="u1", chunks=(1, 1), shards=(64, 64), compressors=[codecs.GzipCodec()]
+    )
+    array[...] = 1
+    file = tmp_path / "a/c/0/0"
+    data = file.read_bytes()
+    index = np.frombuffer(data[-(64 * 64 * 16 + 4) : -4], "<u8").reshape(-1, 2).copy()
+    index[:] = index[0] * [1, 2]
+    file.write_bytes(data[: -len(index.tobytes()) - 4] + index.tobytes() + crc32c(index))
+    with pytest.raises(InputError, match=f"a shard of {len(data)} bytes"):
+        vorotool.read(tmp_path / "a")
+
+
+def crc32c(values):
+    return google_crc32c.value(values.tobytes()).to_bytes(4, "little")
+
+
+def test_a_shard_that_lacks_nearly_all_chunks(tmp_path):
+    array = zarr.create_array(tmp_path / "a", shape=(40, 30), dtype="u2", chunks=(2, 3), shards=(20, 30), fill_value=4)
+    array[7, 29] = 9
+    expected = np.full((40, 30), 4, np.uint16)
+    expected[7, 29] = 9
+    stored = StoredArray("a.zarr", tmp_path / "a")
+    for rows, columns in ((slice(0, 40), slice(0, 30)), (slice(7, 8), slice(28, 30)), (slice(8, 21), slice(3, 4))):
+        np.testing.assert_array_equal(stored.read((rows, columns)), expected[rows, columns])

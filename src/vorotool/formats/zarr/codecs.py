@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError, UsageError
 from vorotool.formats.compression import unpacking
 
-SPARE = 2**16
+SPARE = 2**12
 """Bytes that a chunk may have beyond its values before it is undone: headers, and what did not compress."""
 
 BYTES_CODECS: dict[str, unpacking.Unpacker] = {
@@ -126,7 +126,7 @@ class Pipeline:
     def most_bytes(self) -> int:
         """Bytes that a chunk takes at most, however it is stored."""
         size = self.size + self.size // 16 + SPARE
-        return size if self.shard is None else size + math.prod(self.shard.counts) * (SPARE // 64)
+        return size if self.shard is None else size + math.prod(self.shard.counts) * (SPARE // 4)
 
     def decoded(self, data: bytes, region: tuple[slice, ...]) -> NDArray[Any]:
         """Decode a chunk, and give a region of it.
@@ -174,15 +174,23 @@ class Shard:
         """Decode those smaller chunks that have some of a region of the shard."""
         places = self._places(data)
         result = np.full([part.stop - part.start for part in region], whole.fill, whole.dtype)
-        for place in places_within(region, self.inner.shape):
+        for place in self._stored_within(region, places, len(data)):
             offset, size = (int(number) for number in places[place])
-            if (offset, size) == (_MISSING, _MISSING):
-                continue
             if offset + size > len(data) or size > self.inner.most_bytes:
                 raise ValueError(f"chunk {place} of a shard has {size} bytes at byte {offset} of {len(data)}")
             target, source = overlap(region, place, self.inner.shape)
             result[target] = self.inner.decoded(data[offset : offset + size], source)
         return result
+
+    def _stored_within(self, region: tuple[slice, ...], places: NDArray[np.uint64], size: int) -> list[tuple[int, ...]]:
+        """List the places of those chunks that are stored and have some of a region; they share no bytes."""
+        is_stored = (places != _MISSING).any(axis=-1)
+        if float(places[..., 1][is_stored].sum(dtype=np.float64)) > size:
+            raise ValueError(f"the chunks of a shard of {size} bytes have more bytes than it")
+        starts = [part.start // side for part, side in zip(region, self.inner.shape, strict=True)]
+        ends = [-(-part.stop // side) for part, side in zip(region, self.inner.shape, strict=True)]
+        within = np.argwhere(is_stored[tuple(map(slice, starts, ends))]) + starts
+        return [tuple(place) for place in within.tolist()]
 
     def _places(self, data: bytes) -> NDArray[np.uint64]:
         size = self.index.size + _CHECKSUM_BYTES * len(self.index.codecs)

@@ -26,6 +26,9 @@ LARGEST_METADATA = 2**20
 LARGEST_CHUNK = 2**26
 """Bytes of a chunk; only a larger array may have larger ones."""
 
+_MOST_AXES, _MOST_CODECS = 32, 32
+"""Arrays have a few of either; each codec goes over all bytes of a chunk."""
+
 _VERSION_3, _VERSION_2 = "zarr.json", ".zarray"
 _NAMED_TYPE = re.compile(r"bool|u?int(8|16|32|64)|float(16|32|64)|complex(64|128)")
 _CODED_TYPE = re.compile(r"[<>|](b1|[iu][1248]|f[248]|c(8|16))")
@@ -149,6 +152,7 @@ def _version_2(made: dict[str, Any]) -> ZarrMetadata:
         raise InputError(f"it holds {code!r:.60}: an image of numbers was expected")
     dtype = np.dtype(code)
     steps = [*(made.get("filters") or ()), *([made["compressor"]] if made.get("compressor") else ())]
+    _check_count(steps)
     codecs = tuple(checked_bytes_codec(*_named(step, "id"), dtype) for step in steps)
     orders = (tuple(range(len(shape)))[::-1],) if _choice(made, "order", ("C", "F")) == "F" else ()
     separator = _choice(made, "dimension_separator", (".", "/"))
@@ -185,6 +189,7 @@ def _pipeline(steps: Any, shape: tuple[int, ...], dtype: np.dtype[Any], fill: An
     """Codecs of format 3: of arrays, one that makes bytes of them, and of bytes."""
     if not isinstance(steps, list):
         raise InputError(f"its codecs are {steps!r:.60}: a list was expected")
+    _check_count(steps)
     orders: list[tuple[int, ...]] = []
     shard: Shard | None = None
     stored: np.dtype[Any] | None = None
@@ -234,7 +239,14 @@ def _named(step: Any, key: str) -> tuple[str, dict[str, Any]]:
 def _sizes(values: Any, least: int) -> tuple[int, ...]:
     if not isinstance(values, list) or not all(type(value) is int and least <= value < 2**62 for value in values):
         raise InputError(f"{values!r:.60} is no shape: whole numbers from {least} on were expected")
+    if len(values) > _MOST_AXES:
+        raise InputError(f"its shape {values!r:.60} has {len(values)} axes: at most {_MOST_AXES} were expected")
     return tuple(values)
+
+
+def _check_count(steps: list[Any]) -> None:
+    if len(steps) > _MOST_CODECS:
+        raise InputError(f"it has {len(steps)} codecs, one after the other: at most {_MOST_CODECS} were expected")
 
 
 def _check_axes(shape: tuple[int, ...], chunks: tuple[int, ...]) -> None:

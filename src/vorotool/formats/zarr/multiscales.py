@@ -24,6 +24,9 @@ DECIMATED = {"method": "vorotool: every second voxel along each axis"}
 """How coarser images are made, as their metadata have it."""
 
 _PLANE = ["y", "x"]
+_MOST_AXES, _MOST_CHANGES = 16, 16
+"""Axes of an image, and transformations of one: OME-Zarr has at most five and four."""
+
 _LONG_UNITS = {"pm": "picometer", "nm": "nanometer", "µm": "micrometer", "mm": "millimeter", "cm": "centimeter"}
 _LONG_UNITS |= {"m": "meter", "km": "kilometer", "Å": "angstrom", "inch": "inch", "ft": "foot"}
 
@@ -151,11 +154,13 @@ def _ome_attributes(folder: str) -> dict[str, Any]:
 
 
 def _scale(axes: int, changes: list[dict[str, Any]]) -> tuple[Fraction, ...]:
-    """The products of all scales."""
+    """Multiply all scales."""
+    if axes > _MOST_AXES or len(changes) > _MOST_CHANGES:
+        raise ValueError("the exact product would have very many digits")
     sides = [Fraction(1)] * axes
     for change in changes:
         if change.get("type") == "scale":
-            factors = [Fraction(repr(float(factor))) for factor in change["scale"]][-axes:]
+            factors = [Fraction(repr(float(factor))) for factor in change["scale"][-axes:]]
             if len(factors) < len(_PLANE):
                 raise ValueError("a plane has two")
             for axis, factor in enumerate(factors, axes - len(factors)):

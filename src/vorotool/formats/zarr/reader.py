@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 import os
 import stat
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +19,11 @@ from vorotool.geometry.parallel import in_order
 
 _WORTH_THREADS = 2**20
 """Bytes from which threads take less time than they cost."""
+
+_MANY_CHUNKS = 2**16
+"""Where there may be more, those that are stored are listed, and no others looked for."""
+
+_MOST_DIGITS = 19
 
 
 class StoredArray:
@@ -41,7 +48,7 @@ class StoredArray:
             raise InputError(f"{name} holds no Zarr array")
         self.folder = Path(path)
         self.metadata: ZarrMetadata = array_metadata(name, made)
-        self._rows: frozenset[int] | None = None  # rows of chunks of which some are stored, when they have been listed
+        self._stored: dict[int, list[tuple[int, ...]]] | None = None  # places by rows of chunks, when they are listed
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -62,7 +69,12 @@ class StoredArray:
             If a chunk is damaged.
         """
         chunk = self.metadata.pipeline.shape
+        if self._stored is None and self._places > _MANY_CHUNKS:
+            self._stored = self._listed()
+        places = places_within(region, chunk) if self._stored is None else self._stored_within(region)
         result = np.empty([part.stop - part.start for part in region], self.dtype)
+        if self._stored is not None:
+            result[...] = self.metadata.pipeline.fill
 
         def put(place: tuple[int, ...]) -> None:
             target, source = overlap(region, place, chunk)
@@ -72,35 +84,66 @@ class StoredArray:
             else:
                 result[target] = self.metadata.pipeline.decoded(data, source)
 
-        for _ in in_order(put, places_within(region, chunk), 1 if result.nbytes < _WORTH_THREADS else threads):
+        for _ in in_order(put, places, 1 if result.nbytes < _WORTH_THREADS else threads):
             pass
         return result
 
-    def _chunk(self, place: tuple[int, ...]) -> bytes | None:
-        """Bytes of a chunk; None if it is left out.
+    @property
+    def _places(self) -> int:
+        """How many chunks there may be."""
+        return math.prod(-(-side // part) for side, part in zip(self.shape, self.metadata.chunks, strict=True))
 
-        The first that is left out has the folder listed: a sparse array may lack millions of rows of chunks.
+    def _chunk(self, place: tuple[int, ...]) -> bytes | None:
+        """Read the bytes of a chunk; None if it is left out.
+
+        The first that is left out has the folder listed: a sparse array may lack millions of chunks.
         """
-        if place and self._rows is not None and place[0] not in self._rows:
-            return None
         key, most = self.metadata.key(place), self.metadata.pipeline.most_bytes
         path = self.folder / key
         try:
             status = path.stat()
         except FileNotFoundError:
-            if self._rows is None:
-                self._rows = self._stored_rows()
+            if self._stored is None:
+                self._stored = self._listed()
             return None
         if not stat.S_ISREG(status.st_mode) or status.st_size > most:
             raise ValueError(f"chunk {key} is no file of at most {most} bytes")
         return path.read_bytes()
 
-    def _stored_rows(self) -> frozenset[int]:
-        """Numbers of the rows of chunks of which some may be stored."""
+    def _stored_within(self, region: tuple[slice, ...]) -> Iterator[tuple[int, ...]]:
+        """Go through the places of the chunks that are stored and have some of a region."""
+        limits = [
+            (part.start // side, -(-part.stop // side)) for part, side in zip(region, self.metadata.chunks, strict=True)
+        ]
+        stored = self._stored or {}
+        first, end = limits[0]
+        for row in range(first, end) if end - first < len(stored) else sorted(stored):
+            for place in stored.get(row, ()):
+                if all(low <= number < high for number, (low, high) in zip(place, limits, strict=True)):
+                    yield place
+
+    def _listed(self) -> dict[int, list[tuple[int, ...]]]:
+        """List the places of the chunks that are stored, by their rows."""
         within, start = os.path.split(self.metadata.prefix)
-        try:
-            with os.scandir(self.folder / within) as entries:
-                names = (entry.name.removeprefix(start).split(self.metadata.separator)[0] for entry in entries)
-                return frozenset(int(name) for name in names if name.isascii() and name.isdigit())
-        except FileNotFoundError:
-            return frozenset()
+        places: dict[int, list[tuple[int, ...]]] = {}
+        for place in _numbers_below(self.folder / within, start, self.metadata.separator, len(self.shape)):
+            places.setdefault(place[0], []).append(place)
+        return places
+
+
+def _numbers_below(folder: Path, start: str, separator: str, axes: int) -> Iterator[tuple[int, ...]]:
+    """Read the names in a folder of chunks, and in those within, as places of so many axes."""
+    try:
+        with os.scandir(folder) as entries:
+            names = [(entry.name, entry.is_dir()) for entry in entries]
+    except FileNotFoundError:
+        return
+    for name, is_folder in names:
+        parts = name.removeprefix(start).split(separator)
+        if not all(part.isascii() and part.isdigit() and len(part) <= _MOST_DIGITS for part in parts):
+            continue
+        numbers = tuple(map(int, parts))
+        if len(numbers) == axes:
+            yield numbers
+        elif len(numbers) < axes and is_folder:
+            yield from (numbers + more for more in _numbers_below(folder / name, "", separator, axes - len(numbers)))
