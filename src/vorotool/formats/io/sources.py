@@ -12,9 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, BinaryIO
 
-from vorotool import _core
 from vorotool.errors import InputError, LimitError, UsageError, VorotoolError
-from vorotool.formats.compression.unpacking import unpack_gzip
 from vorotool.formats.io.descriptors import STANDARD, descriptor_of, open_input, stream_kind
 
 STANDARD_INPUT = "standard input"
@@ -115,6 +113,8 @@ def without_gz(name: str) -> str:
 
 def _unpacked(data: bytes, name: str) -> bytes:
     """Undo gzip up to the limit."""
+    from vorotool.formats.compression.unpacking import unpack_gzip
+
     try:
         made = unpack_gzip(data, MOST_UNPACKED)
     except (ValueError, zlib.error) as error:
@@ -292,6 +292,8 @@ def check_nesting(text: str | bytes, limit: int = NESTING_LIMIT, name: str = "th
     vorotool.errors.InputError: deep.wkt, line 1: brackets are nested more than 100 deep; check the brackets
     """
     data = text.encode("utf-8", "replace") if isinstance(text, str) else text
+    from vorotool import _core
+
     offset = _core.text.find_too_deep(data, limit)
     if offset is not None:
         line = data.count(b"\n", 0, offset) + 1
