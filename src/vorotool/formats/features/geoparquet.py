@@ -3,21 +3,24 @@
 from __future__ import annotations
 
 import io
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
-from vorotool.errors import InputError, LimitError
+from vorotool.errors import InputError
 from vorotool.formats.features.feature_table import Features
-from vorotool.formats.io.limits import decoding
+from vorotool.formats.io.limits import check_unpacked, decoding
 from vorotool.formats.io.sources import Source
+from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.geometry.crs import LONGITUDE_LATITUDE, crs_member, member_of_text
 from vorotool.geometry.curves.well_known import geometry_of_binary
 from vorotool.geometry.extras import needed
 
 _TITLE = "Parquet"
-_MOST_BYTES = 1 << 35
-"""Of what a file unpacks to, as it says itself."""
+_BATCH = 4096
+_CELL = 32
+"""Bytes of memory that a value takes at least."""
 
 
 def features_of(source: Source) -> Features:
@@ -53,19 +56,51 @@ def features_of(source: Source) -> Features:
 
 
 def _columns(source: Source) -> tuple[dict[str, list[Any]], Any]:
-    """The columns as lists, and what the file says of its geometry."""
+    """The columns as lists, and what the file says of its geometry; values are counted before they are made."""
     import orjson
 
     parquet = needed("pyarrow.parquet", "gis", f"{_TITLE} files")
     with parquet.ParquetFile(io.BytesIO(source.data)) as file:
-        groups = (file.metadata.row_group(index) for index in range(file.metadata.num_row_groups))
-        size = sum(group.total_byte_size for group in groups)
-        if size > _MOST_BYTES:
-            raise LimitError(f"{source.name} unpacks to {size} bytes, more than {_MOST_BYTES}: split it")
-        table = file.read()
-    said = (table.schema.metadata or {}).get(b"geo")
-    columns = {name: column.to_pylist() for name, column in zip(table.column_names, table.columns, strict=True)}
-    return columns, None if said is None else orjson.loads(said)
+        about, schema = file.metadata, file.schema_arrow
+    ReadOptions(max_sites=source.max_sites).check_sites(source.name, about.num_rows)
+    groups = [about.row_group(index) for index in range(about.num_row_groups)]
+    cells = _CELL * about.num_rows * max(about.num_columns, 1)
+    check_unpacked(source.name, cells + sum(group.total_byte_size for group in groups), len(source.data))
+    found: list[list[Any]] = [[] for _ in schema.names]
+    size = 0
+    with parquet.ParquetFile(io.BytesIO(source.data), read_dictionary=_repeated(groups)) as file:
+        for batch in file.iter_batches(_BATCH):
+            size += sum(map(_size, batch.columns))
+            check_unpacked(source.name, size, len(source.data))
+            for values, column in zip(found, batch.columns, strict=True):
+                values.extend(column.to_pylist())
+    said = (schema.metadata or {}).get(b"geo")
+    return dict(zip(schema.names, found, strict=True)), None if said is None else orjson.loads(said)
+
+
+def _repeated(groups: Sequence[Any]) -> list[str]:
+    """Columns of bytes of which a value may stand for many rows: they stay so until they are counted."""
+    chunks = (group.column(index) for group in groups for index in range(group.num_columns))
+    return list(
+        dict.fromkeys(
+            chunk.path_in_schema
+            for chunk in chunks
+            if chunk.physical_type == "BYTE_ARRAY" and any("DICTIONARY" in each for each in chunk.encodings)
+        )
+    )
+
+
+def _size(array: Any) -> int:
+    """Bytes that an array of Arrow becomes as a list."""
+    arrow = needed("pyarrow", "gis", f"{_TITLE} files")
+    if arrow.types.is_dictionary(array.type):
+        lengths = arrow.compute.binary_length(array.dictionary).take(array.indices)
+        return _CELL * len(array) + int(arrow.compute.sum(lengths).as_py() or 0)
+    if arrow.types.is_list(array.type) or arrow.types.is_large_list(array.type):
+        return _CELL * len(array) + _size(array.flatten())
+    if arrow.types.is_struct(array.type):
+        return _CELL * len(array) + sum(map(_size, array.flatten()))
+    return _CELL * len(array) + int(array.nbytes)
 
 
 def _crs(described: dict[str, Any]) -> Any:

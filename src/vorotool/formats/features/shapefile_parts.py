@@ -4,16 +4,21 @@ from __future__ import annotations
 
 import io
 import os
+import struct
 import zipfile
 from collections.abc import Collection, Mapping
 from contextlib import suppress
 from functools import partial
 from pathlib import Path
 
+import numpy as np
+
 from vorotool.errors import InputError, LimitError, OutputError, option
 from vorotool.formats.io.atomic_output import Rules, check_output, explained, followed
 from vorotool.formats.io.commit import Placement
+from vorotool.formats.io.limits import check_unpacked
 from vorotool.formats.io.sources import Source
+from vorotool.formats.parsing.reader_options import ReadOptions
 
 PARTS = (".shp", ".shx", ".dbf", ".prj", ".cpg")
 """Extensions of the files, the one that is named first: geometry, index, attributes, reference system, encoding."""
@@ -22,8 +27,8 @@ _OF_OLDER = {*PARTS, ".sbn", ".sbx", ".fbn", ".fbx", ".ain", ".aih", ".idm", ".i
 """Extensions of files that hold for one content of a Shapefile: the parts, and indexes that other programs make."""
 
 ZIP_MAGIC = b"PK\x03\x04"
-_MOST_BYTES = 1 << 34
-"""Of what an archive unpacks to."""
+_RECORD, _HEADER = 8, 100
+"""Bytes of an entry of the index, and of what is before the first one."""
 
 _MOST_LAYERS = 100
 """Shapefiles in an archive: all of them are opened to tell which there are."""
@@ -37,7 +42,7 @@ def archive_of(source: Source) -> bytes:
     InputError
         If only the ``.shp`` came through a stream, or parts are missing.
     LimitError
-        If the archive unpacks to more than 16 GiB, or holds more than 100 Shapefiles.
+        If the archive unpacks to too much, holds more than 100 Shapefiles, or there are too many shapes.
     """
     if source.data.startswith(ZIP_MAGIC):
         with zipfile.ZipFile(io.BytesIO(source.data)) as archive:
@@ -50,9 +55,8 @@ def archive_of(source: Source) -> bytes:
                     f"them, or choose one by {option('--input-layer', 'layer=...')}"
                 )
             size = sum(entry.file_size for entry in entries)
-            if size > _MOST_BYTES:
-                raise LimitError(f"{source.name} unpacks to {size} bytes, more than {_MOST_BYTES}: unpack and split it")
-            return _archived({Path(entry.filename).name: archive.read(entry) for entry in entries})
+            check_unpacked(source.name, size, len(source.data))
+            return _archived(source, {Path(entry.filename).name: archive.read(entry) for entry in entries})
     if not source.is_file:
         raise InputError(
             f"{source.name} is the .shp of a Shapefile, which is several files: name it as a file, or give all of them "
@@ -60,16 +64,33 @@ def archive_of(source: Source) -> bytes:
         )
     path = Path(source.name)
     beside = {f"{path.stem}{extension}": part.read_bytes() for extension, part in _beside(path).items()}
-    return _archived({f"{path.stem}.shp": source.data, **beside})
+    return _archived(source, {f"{path.stem}.shp": source.data, **beside})
 
 
-def _archived(parts: Mapping[str, bytes]) -> bytes:
+def _archived(source: Source, parts: Mapping[str, bytes]) -> bytes:
     """Give an archive of nothing but these: GDAL looks at all that is in one."""
+    for stem in dict.fromkeys(Path(name).stem for name in parts):
+        own = {Path(name).suffix.lower(): data for name, data in parts.items() if Path(name).stem == stem}
+        _check_sizes(source, own)
     out = io.BytesIO()
     with zipfile.ZipFile(out, "w", zipfile.ZIP_STORED) as archive:
         for name, data in parts.items():
             archive.writestr(name, data)
     return out.getvalue()
+
+
+def _check_sizes(source: Source, parts: Mapping[str, bytes]) -> None:
+    """Refuse an index of shapes, or a table, that announces more than its file holds."""
+    index, table = parts.get(".shx", b""), parts.get(".dbf", b"")
+    count = max(len(index) - _HEADER, 0) // _RECORD
+    ReadOptions(max_sites=source.max_sites).check_sites(source.name, count)
+    entries = np.frombuffer(index, ">u4", 2 * count, _HEADER) if count else np.empty(0, np.uint32)
+    shapes = 2 * int(entries[1::2].sum(dtype=np.int64))
+    rows, before, width = struct.unpack_from("<IHH", table, 4) if len(table) >= 12 else (0, 0, 0)
+    if shapes > len(parts.get(".shp", b"")) or before + rows * width > len(table) + _HEADER:
+        raise InputError(
+            f"{source.name}: its index or its table announces more than is there; is it damaged or cut off?"
+        )
 
 
 def _beside(path: Path) -> dict[str, Path]:

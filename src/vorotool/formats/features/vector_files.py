@@ -8,6 +8,7 @@ without geometry (it then crashes); for a million polygons of nine vertices that
 from __future__ import annotations
 
 import re
+import struct
 from collections.abc import Sequence
 from datetime import date, datetime
 from typing import Any
@@ -21,6 +22,7 @@ from vorotool.formats.features.layers import chosen_layer
 from vorotool.formats.features.shapefile_parts import archive_of
 from vorotool.formats.io.limits import decoding, interruptible
 from vorotool.formats.io.sources import Source
+from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.geometry.crs import member_of_text
 from vorotool.geometry.curves.well_known import geometry_of_binary
 from vorotool.geometry.extras import needed
@@ -38,6 +40,8 @@ _BEGINNINGS = {
 """Of each format: GDAL takes a file for what it begins as, whatever it is called, and some formats name others."""
 _TIMES = {"OFTDate": date, "OFTDateTime": datetime}
 _BYTES = "OFTBinary"
+_COUNT_FIELD, _SMALLEST = 8, 8
+"""Which field of the header of a FlatGeobuf counts its features, and bytes that each has at least."""
 
 
 def features_of(source: Source) -> Features:
@@ -56,12 +60,30 @@ def features_of(source: Source) -> Features:
     pyogrio = needed("pyogrio", "gis", f"{title} files")
     try:
         with decoding(source.name, title):
+            if source.format == "fgb":
+                _check_count(source)
             return _read(pyogrio, archive_of(source) if source.format == "shp" else source.data, source)
     except InputError as error:
         if error.__cause__ is None:
             raise
         # what GDAL says is of drivers and of the place in memory that the file had
         raise InputError(f"{source.name} is no {title} that can be read; is it damaged or cut off?") from error
+
+
+def _check_count(source: Source) -> None:
+    """Refuse a FlatGeobuf whose header announces more features than there is room for: GDAL believes it."""
+    root = 12 + struct.unpack_from("<I", source.data, 12)[0]
+    fields = root - struct.unpack_from("<i", source.data, root)[0]
+    place = fields + 4 + 2 * _COUNT_FIELD
+    if fields < 0 or place + 2 > fields + struct.unpack_from("<H", source.data, fields)[0]:
+        return
+    at = struct.unpack_from("<H", source.data, place)[0]
+    count = struct.unpack_from("<Q", source.data, root + at)[0] if at else 0
+    if count > len(source.data) // _SMALLEST:
+        raise InputError(
+            f"{source.name} announces {count} features, more than its {len(source.data)} bytes hold; is it damaged?"
+        )
+    ReadOptions(max_sites=source.max_sites).check_sites(source.name, count)
 
 
 def _read(pyogrio: Any, data: bytes, source: Source) -> Features:

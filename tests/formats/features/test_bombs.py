@@ -1,0 +1,76 @@
+"""Small files that announce or become much are refused before memory is taken."""
+
+import io
+import struct
+import zipfile
+
+import numpy as np
+import pyarrow
+import pyarrow.parquet
+import pytest
+import shapely
+
+import vorotool
+from support.families.vector_files import frame, save
+from vorotool.errors import InputError, LimitError
+
+
+def parquet(path, **columns):
+    pyarrow.parquet.write_table(pyarrow.table(columns), path, compression="zstd")
+    return path
+
+
+@pytest.mark.parametrize("kind", ["text", "lists", "rows"])
+def test_parquet(tmp_path, kind):
+    text = pyarrow.DictionaryArray.from_arrays(np.zeros(3000, "i4"), ["x" * 400_000])
+    columns = {
+        "text": {"x": np.zeros(3000), "y": np.zeros(3000), "t": text},
+        "lists": {"x": np.zeros(3000), "t": pyarrow.ListArray.from_arrays(np.arange(3001, dtype="i4"), text)},
+        "rows": {"x": np.zeros(2 * 10**7, bool), "y": np.zeros(2 * 10**7, bool)},
+    }[kind]
+    path = parquet(tmp_path / "a.parquet", **columns)
+    assert path.stat().st_size < 2 * 10**5
+    with pytest.raises(LimitError, match=r"a\.parquet"):
+        vorotool.read(path)
+
+
+def test_rows_of_parquet_are_counted_first(tmp_path):
+    path = parquet(tmp_path / "a.parquet", x=np.arange(50.0), y=np.arange(50.0), t=["a"] * 50)
+    assert vorotool.read(path, max_sites=50).properties["t"] == ["a"] * 50
+    with pytest.raises(LimitError, match="50 points, more than the limit of 49"):
+        vorotool.read(path, max_sites=49)
+
+
+def test_archives(tmp_path):
+    out = io.BytesIO()
+    with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as archive:
+        for part in (".shp", ".shx", ".dbf"):
+            with archive.open(f"a{part}", "w") as member:
+                for _ in range(200):
+                    member.write(bytes(10**6))
+    (tmp_path / "a.zip").write_bytes(out.getvalue())
+    with pytest.raises(LimitError, match=r"a\.zip"):
+        vorotool.read(tmp_path / "a.zip")
+
+
+def test_an_index_whose_entries_are_one_shape(tmp_path):
+    path = save(frame(), tmp_path / "a.shp")
+    index = path.with_suffix(".shx")
+    data = index.read_bytes()
+    index.write_bytes(data[:100] + data[100:108] * 1000)
+    with pytest.raises(InputError, match=r"a\.shp"):
+        vorotool.read(path)
+    index.write_bytes(data)
+    with pytest.raises(LimitError, match="3 points, more than the limit of 2"):
+        vorotool.read(path, max_sites=2)
+
+
+def test_flatgeobuf_that_announces_what_is_not_there(tmp_path):
+    path = save(frame([shapely.Point(k, 0) for k in range(50)], n=list(range(50))), tmp_path / "a.fgb")
+    with pytest.raises(LimitError, match="50 points, more than the limit of 49"):
+        vorotool.read(path, max_sites=49)
+    data = path.read_bytes()
+    at = data.index(struct.pack("<Q", 50))
+    path.write_bytes(data[:at] + struct.pack("<Q", 2**40) + data[at + 8 :])
+    with pytest.raises(InputError, match=r"a\.fgb announces 1099511627776 features"):
+        vorotool.read(path)
