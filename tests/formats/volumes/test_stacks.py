@@ -14,6 +14,7 @@ import vorotool
 from support.families.tiff_files import grey, tiff_file
 from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.formats.volumes import writer
+from vorotool.formats.volumes.ome_stack import ome_stack
 from vorotool.formats.volumes.opening import open_volume, read_volume
 from vorotool.formats.volumes.writer import write_volume
 from vorotool.geometry.volumes.voxel_grid import VoxelGrid
@@ -110,6 +111,16 @@ def test_the_order_of_slices_in_ome(tmp_path):
     planes = "".join(f'<TiffData IFD="{4 - k}" FirstZ="{k}"/>' for k in range(5))
     path = described(tmp_path / "a.tif", ome('SizeZ="5"', planes))
     check(path, VALUES[::-1].astype(np.uint8))
+
+
+def test_planes_that_are_stated_again_and_again():
+    """The time is that of their number and of the slices: 2^14 of each would take minutes."""
+    once = '<TiffData FirstZ="0" IFD="0" PlaneCount="16384"/>'
+    stack = ome_stack(f'<OME><Image><Pixels SizeZ="16384">{once * 2}</Pixels></Image></OME>')
+    assert stack.pages("a.tif", 2**14) == tuple(range(2**14))
+    stack = ome_stack(f'<OME><Image><Pixels SizeZ="16384">{once * 2**14}</Pixels></Image></OME>')
+    with pytest.raises(InputError, match=r"a\.tif.* 16384 TiffData"):
+        stack.pages("a.tif", 2**14)
 
 
 @pytest.mark.parametrize(

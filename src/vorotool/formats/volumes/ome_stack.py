@@ -16,6 +16,8 @@ PIXEL = "pixel"
 
 _NO_LENGTH = "reference frame"
 _MOST_DIGITS = 12
+_MOST_REPEATS = 4
+"""How often a slice may be given a page: once, but for careless writers."""
 
 
 @dataclass
@@ -61,9 +63,16 @@ class OmeStack:
         if not self.planes:
             return tuple(range(depth))
         place: dict[int, int] = {}
+        stated = 0
         for plane in self.planes:
             first, page = (_whole(name, plane.get(key, "0"), key) for key in ("FirstZ", "IFD"))
             planes = _whole(name, plane.get("PlaneCount", "1" if "IFD" in plane else str(depth)), "PlaneCount")
+            stated += min(planes, depth)
+            if stated > _MOST_REPEATS * depth:
+                raise InputError(
+                    f"{name} is damaged: its XML has {len(self.planes)} TiffData, which name the pages of its {depth} "
+                    f"slices more than {_MOST_REPEATS} times"
+                )
             place |= {first + k: page + k for k in range(min(planes, depth))}
         missing = next((k for k in range(depth) if not 0 <= place.get(k, -1) < count), None)
         if missing is not None:
