@@ -2,6 +2,8 @@
 
 import io
 import struct
+import subprocess
+import sys
 import zipfile
 
 import numpy as np
@@ -32,6 +34,13 @@ def test_parquet(tmp_path, kind):
     assert path.stat().st_size < 2 * 10**5
     with pytest.raises(LimitError, match=r"a\.parquet"):
         vorotool.read(path)
+
+
+def test_parquet_in_a_process_that_has_imported_nothing(tmp_path):
+    path = parquet(tmp_path / "a.parquet", x=np.arange(5.0), y=np.arange(5.0), t=["a"] * 5)
+    script = f"import vorotool; print(vorotool.read({str(path)!r}).properties)"
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
+    assert (done.stdout.strip(), done.stderr) == ("{'t': ['a', 'a', 'a', 'a', 'a']}", "")
 
 
 def test_rows_of_parquet_are_counted_first(tmp_path):

@@ -94,8 +94,9 @@ def _size(array: Any) -> int:
     """Bytes that an array of Arrow becomes as a list."""
     arrow = needed("pyarrow", "gis", f"{_TITLE} files")
     if arrow.types.is_dictionary(array.type):
-        lengths = arrow.compute.binary_length(array.dictionary).take(array.indices)
-        return _CELL * len(array) + int(arrow.compute.sum(lengths).as_py() or 0)
+        compute = needed("pyarrow.compute", "gis", f"{_TITLE} files")
+        lengths = compute.binary_length(array.dictionary).take(array.indices)
+        return _CELL * len(array) + int(compute.sum(lengths).as_py() or 0)
     if arrow.types.is_list(array.type) or arrow.types.is_large_list(array.type):
         return _CELL * len(array) + _size(array.flatten())
     if arrow.types.is_struct(array.type):
