@@ -8,6 +8,7 @@ from typing import Any, BinaryIO
 
 import numpy as np
 
+from vorotool import _core
 from vorotool.errors import AS_JSON, InputError
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.geojson import (
@@ -22,10 +23,12 @@ from vorotool.formats.parsing.geometry_advice import OF_SITES, not_a_shape_advic
 from vorotool.formats.parsing.reader_options import ReadOptions, shortened
 from vorotool.formats.parsing.reference_systems import note_unnamed
 from vorotool.formats.polygons.ring_collector import RingCollector
-from vorotool.formats.text.feature_collection import collection_opening
-from vorotool.formats.text.tables import json_bytes
+from vorotool.formats.text.feature_collection import write_collection
+from vorotool.formats.text.row_writer import Column, RowShape
+from vorotool.formats.text.tables import json_text
 from vorotool.geometry.arguments.sites import Sites
 from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.table import Computed
 
 
 def read_geojson(source: Source, options: ReadOptions) -> PolygonSet:
@@ -101,17 +104,37 @@ def _collect(collector: RingCollector, feature: int, geometry: Any, place: str) 
 
 def write_geojson(out: BinaryIO, polygons: PolygonSet) -> None:
     """Write one feature for each feature of the input, with its id and properties."""
-    out.write(collection_opening(polygons.crs))
-    separator = b"\n"
-    for first, last in feature_ranges(polygons):
-        feature: dict[str, Any] = {"type": "Feature"}
-        if polygons.ids is not None and polygons.ids[first] is not None:
-            feature["id"] = polygons.ids[first]
-        feature["properties"] = {key: values[first] for key, values in polygons.properties.items()}
-        feature["geometry"] = _joined([_geometry(polygons, i) for i in range(first, last)])
-        out.write(separator + json_bytes(feature))
-        separator = b",\n"
-    out.write(b"\n]}\n" if len(polygons) else b"]}\n")
+    ranges = feature_ranges(polygons)
+    openings = [_opening(polygons, first) for first, _ in ranges]
+    texts: Computed | list[str] | None = feature_texts(polygons, "geojson")
+    if texts is None:
+        texts = [json_text(_joined([_geometry(polygons, i) for i in range(*each)])) for each in ranges]
+    shape = RowShape(("", ',"geometry":', "}"), ",\n")
+    write_collection(out, [Column("", openings), Column("", texts)], shape, crs=polygons.crs)
+
+
+def _opening(polygons: PolygonSet, index: int) -> str:
+    """Return the text of a feature before its geometry."""
+    feature: dict[str, Any] = {"type": "Feature"}
+    if polygons.ids is not None and polygons.ids[index] is not None:
+        feature["id"] = polygons.ids[index]
+    feature["properties"] = {key: values[index] for key, values in polygons.properties.items()}
+    return json_text(feature).removesuffix("}")
+
+
+def feature_texts(polygons: PolygonSet, style: str) -> Computed | None:
+    """Return the geometry of features as text, made in the core; None where there are lines or few vertices."""
+    if not len(polygons) or polygons.is_line.any() or (np.diff(polygons.ring_start) < 3).any():
+        return None
+    starts = np.array([first for first, _ in feature_ranges(polygons)] + [len(polygons)], dtype=np.int64)
+    rings, parts = polygons.ring_start, polygons.polygon_start
+
+    def texts(part: slice) -> Any:
+        begin, end, _ = part.indices(len(starts) - 1)
+        own = _core.text.PolygonStyle[style]
+        return _core.text.PolygonTexts(polygons.xy, rings, parts, starts[begin : end + 1], own)
+
+    return Computed(texts, len(starts) - 1)
 
 
 def feature_ranges(polygons: PolygonSet) -> list[tuple[int, int]]:

@@ -14,8 +14,9 @@ from vorotool.formats.parsing.geometry_advice import OF_SITES, not_a_shape_advic
 from vorotool.formats.parsing.reader_options import ReadOptions, shortened
 from vorotool.formats.parsing.reference_systems import crs_of_numbers
 from vorotool.formats.points.wkt import geometry_texts
-from vorotool.formats.polygons.geojson import feature_ranges
+from vorotool.formats.polygons.geojson import feature_ranges, feature_texts
 from vorotool.formats.text.coordinate_text import coordinate_text
+from vorotool.formats.text.row_writer import Column, RowShape, write_rows
 from vorotool.geometry.arguments.sites import Sites
 from vorotool.geometry.curves.well_known import geometry_of_texts
 from vorotool.geometry.polygons.conversion import polygons_of_geometry
@@ -106,6 +107,10 @@ def _check_finite(name: str, geometries: Any, texts: list[str], lines: list[int]
 
 def write_wkt(out: BinaryIO, polygons: PolygonSet) -> None:
     """Write one geometry a line for each feature; WKT has no place for ids and properties."""
+    texts = feature_texts(polygons, "wkt")
+    if texts is not None:
+        write_rows(out, [Column("", texts)], RowShape(("", "\n")))
+        return
     is_line = polygons.is_line
     for first, last in feature_ranges(polygons):
         bodies = [_body(polygons, index) for index in range(first, last)]
