@@ -105,7 +105,7 @@ def test_standard_input_is_not_replaced_either(process, folder):
     before = (folder / "dots.csv").read_bytes()
     with (folder / "dots.csv").open("rb") as stdin:
         done = process("tessellate", "-", "-o", "dots.csv", "-f", "npy", stdin=stdin)
-        _, err = done.communicate(timeout=30)
+        _, err = done.communicate(timeout=600)
     assert done.returncode == 2
     assert b"also an input" in err
     assert (folder / "dots.csv").read_bytes() == before

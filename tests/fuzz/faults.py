@@ -34,7 +34,7 @@ class Known:
 
     def __init__(self, scratch, names):
         scratch.mkdir()
-        import_modules(scratch / "imports", names)
+        import_modules(scratch / "imports", map(WRITERS.get, names))
         self.contents, self.steps, self.scratch = {}, {}, scratch
         for name in names:
             for number in (1, 2):

@@ -67,6 +67,7 @@ def write_all_samples(folder: str) -> None:
     True
     """
     from vorotool.formats.io.atomic_output import make_folder
+    from vorotool.formats.io.commit import committed_together
     from vorotool.formats.io.descriptors import STANDARD
 
     if folder == STANDARD:
@@ -74,8 +75,9 @@ def write_all_samples(folder: str) -> None:
     make_folder(folder)
     targets = {name: Path(folder) / name for name in SAMPLES}
     missing = {name: target for name, target in targets.items() if not _is_written(name, target)}
-    for name, target in missing.items():
-        write_sample(name, str(target))
+    with committed_together():
+        for name, target in missing.items():
+            write_sample(name, str(target))
 
 
 def _is_written(name: str, target: Path) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import combinations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -222,6 +223,9 @@ def check_targets(options: JobOptions, targets: Sequence[Target], source: str) -
         "inputs": (source, *options.files_read().values()),
         "makes_folder": options.out_dir is not None,
     }
+    for one, other in combinations(targets, 2):
+        if is_same_output(one.path, other.path):
+            raise UsageError(f"{one.path} and {other.path} are links to one file: {one.what} and {other.what} need two")
     for target in targets:
         if target.fmt == "zarr":
             check_store(target.path, **rules)
@@ -231,7 +235,7 @@ def check_targets(options: JobOptions, targets: Sequence[Target], source: str) -
                 from vorotool.formats.features.geopackage import check_layers
 
                 check_layers(target.path, target.what, overwrite=options.overwrite)
-            if FORMATS[target.fmt].parts and stream_kind(target.path) is None:
+            if FORMATS[target.fmt].parts:
                 from vorotool.formats.features.shapefile_parts import check_parts
 
                 check_parts(target.path, Rules(options.no_clobber, rules["inputs"]), makes_folder=rules["makes_folder"])

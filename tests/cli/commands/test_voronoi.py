@@ -374,7 +374,7 @@ def test_named_pipes(process, mixed):
     feeder = threading.Thread(target=lambda: (mixed.parent / "pipe").write_bytes(mixed.read_bytes()))
     feeder.start()
     done = process("voronoi", "pipe", "-q", "--what", "table")
-    out, _ = done.communicate(timeout=60)
+    out, _ = done.communicate(timeout=600)
     feeder.join()
     assert (done.returncode, len(rows_of(out.decode()))) == (0, 6)
 

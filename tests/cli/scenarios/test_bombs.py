@@ -2,10 +2,10 @@
 
 import json
 import lzma
+import os
 import signal
 import subprocess
 import sys
-import time
 import zlib
 
 import numcodecs.blosc
@@ -16,7 +16,7 @@ from support.processes.peak_memory import watched
 
 HUGE = 2**30
 MEMORY = 300e6
-SECONDS = 10  # ten times what it takes on an idle machine
+SECONDS = 10  # of work, whatever else the machine does: ten times what it takes
 
 
 def repeated(compressor, flush):
@@ -114,6 +114,12 @@ def make(folder, kind):
     return "a.png"
 
 
+def worked():
+    """Return the seconds of work of all child processes that have ended."""
+    spent = os.times()
+    return spent.children_user + spent.children_system
+
+
 KINDS = ["tiff-deflate", "tiff-lzma", "tiff-zstd", "tiff-packbits", "png-IDAT", "png-zTXt", "png-iTXt", "png-iCCP"]
 KINDS += [f"zarr-{name}" for name in ("gzip", "zlib", "lzma", "zstd", "zstd-unstated", "blosc", "lz4", "shard")]
 
@@ -122,9 +128,9 @@ KINDS += [f"zarr-{name}" for name in ("gzip", "zlib", "lzma", "zstd", "zstd-unst
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_bomb_is_refused(tmp_path, kind):
     name = make(tmp_path, kind)
-    begin = time.monotonic()
+    begin = worked()
     code, errors, peak = watched(["tessellate", name, "-o", "b.npy", "-q"], tmp_path)
-    assert time.monotonic() - begin < SECONDS
+    assert worked() - begin < SECONDS
     assert peak < MEMORY
     if kind.startswith("png-"):  # what is beyond the rows of the picture, or beside it, is not unpacked
         assert code in (0, 3), errors
@@ -168,6 +174,6 @@ def test_a_signal_ends_decoding(tmp_path, kind):
     child = subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     assert child.stdout.readline() == b"decoding\n"
     child.send_signal(signal.SIGTERM)
-    said, _ = child.communicate(timeout=60)
+    said, _ = child.communicate(timeout=600)
     assert (child.returncode, said) == (143, b"")
     assert not (tmp_path / "b.npy").exists()

@@ -1,10 +1,14 @@
 """All outputs of a run are replaced, or none is."""
 
 import os
+import resource
 
 import pytest
 
 from support.processes.leftovers import contents
+
+LIMIT = (20_000, 20_000)
+"""Bytes that a file may have, as if the disk were full then."""
 
 SEVERAL = ("--what", "cells,triangles,table", "-o", "o.shp", "--stats", "s.json")
 OUTPUTS = sorted(
@@ -65,4 +69,44 @@ def test_no_clobber_holds_for_all_parts(run, folder, older):
     done = run("delaunay", "dots.csv", "--what", "cells", "-o", "a.shp", "--no-clobber")
     assert done.code == 4
     assert older in done.err
+    assert contents(folder) == before
+
+
+@pytest.mark.parametrize("part", [".shp", ".dbf", ".cpg"])
+@pytest.mark.parametrize("is_device", [True, False])
+def test_no_part_of_a_shapefile_is_a_stream(run, folder, part, is_device):
+    if is_device:
+        (folder / f"a{part}").symlink_to(os.devnull)
+    else:
+        os.mkfifo(folder / f"a{part}")
+    done = run("delaunay", "dots.csv", "--what", "cells", "-o", "a.shp")
+    assert done.code == 2
+    assert f"a{part}" in done.err
+    assert [path.name for path in folder.glob("a.*")] == [f"a{part}"]
+
+
+def test_two_results_are_not_links_to_one_file(run, folder):
+    (folder / "one.csv").write_text("mine")
+    for what in ("cells", "table"):
+        (folder / f"a.{what}.csv").symlink_to("one.csv")
+    done = run("delaunay", "dots.csv", "--what", "cells,table", "-o", "a.csv")
+    assert done.code == 2
+    assert "a.cells.csv" in done.err
+    assert "a.table.csv" in done.err
+    assert (folder / "one.csv").read_text() == "mine"
+
+
+@pytest.mark.parametrize("fmt", ["csv", "shp", "gpkg", "png"])
+def test_a_disk_that_is_full_keeps_the_older_outputs(process, folder, fmt):
+    options = ("--what", "cells,table", "-o", f"o.{fmt}", "--stats", "s.json")
+    assert process("delaunay", "dots.csv", *options).communicate()[1] == b""
+    before = contents(folder)
+    rows = "".join(f"{k},{k * k % 997}\n" for k in range(4000))
+    (folder / "more.csv").write_text(f"x,y\n{rows}")
+    before["more.csv"] = (folder / "more.csv").read_bytes()
+    full = process(
+        "delaunay", "more.csv", *options, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, LIMIT)
+    )
+    said = full.communicate()[1]
+    assert (full.returncode, b"Traceback" in said) == (4, False), said
     assert contents(folder) == before

@@ -159,6 +159,6 @@ def test_standard_input_that_does_not_wait(folder, process):
         os.write(writing, line)
         time.sleep(0.3)
     os.close(writing)
-    out, err = child.communicate(timeout=60)
+    out, err = child.communicate(timeout=600)
     assert (child.returncode, err) == (0, b"")
     assert out == bash(folder, "V tessellate dots.csv --size 9x9 -f text -q").stdout

@@ -282,7 +282,7 @@ def run(code, stdout):
         stdout=stdout,
         stderr=subprocess.PIPE,
         text=True,
-        timeout=60,
+        timeout=600,
         check=False,
     )
 

@@ -107,7 +107,7 @@ def test_a_killed_process(tmp_path, store):
     script = (
         "import sys, time\nfrom vorotool.formats.io.atomic_output import open_output\n"
         "from vorotool.formats.zarr.store import open_store\n"
-        f"with {'open_store' if store else 'open_output'}('a'):\n    print(flush=True)\n    time.sleep(60)\n"
+        f"with {'open_store' if store else 'open_output'}('a'):\n    print(flush=True)\n    time.sleep(600)\n"
     )
     child = subprocess.Popen([sys.executable, "-c", script], cwd=tmp_path, stdout=subprocess.PIPE)
     assert child.stdout.readline() == b"\n"

@@ -8,10 +8,17 @@ from pathlib import Path
 from vorotool.batch.tasks import Outcome, Task
 from vorotool.formats.io.atomic_output import open_output
 
+LONG = 600.0
+"""Seconds that a sleeper sleeps."""
+
 
 class Sleeper:
+    def __init__(self, sign):
+        self.sign = sign
+
     def __del__(self):
-        time.sleep(60)
+        self.sign.touch()
+        time.sleep(LONG)
 
 
 def obey(source, outputs):
@@ -26,9 +33,9 @@ def obey(source, outputs):
             if text == "die":
                 os.kill(os.getpid(), signal.SIGKILL)
             if text == "deaf":
-                Sleeper()  # goes at once, and its method lets no exception out
+                Sleeper(Path(source).with_suffix(".asleep"))  # goes at once, and its method lets no exception out
             if text in ("sleep", "deaf"):
-                time.sleep(60)
+                time.sleep(LONG)
     return Outcome(stats={"letters": len(text)}, seconds={"copy": 0.5})
 
 

@@ -15,7 +15,7 @@ def contents(folder, pattern="*"):
 
 def wait_until(condition, child=None):
     """Wait for something, or for the end of a process that may end before."""
-    deadline = time.monotonic() + 60
+    deadline = time.monotonic() + 600
     while not condition() and (child is None or child.poll() is None):
         assert time.monotonic() < deadline, "it does not come"
         time.sleep(0.01)

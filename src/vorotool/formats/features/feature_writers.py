@@ -14,12 +14,11 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import OUTPUT, OutputError, UsageError
+from vorotool.errors import OutputError
 from vorotool.formats.features.feature_rows import FeatureRows, TypedColumn
 from vorotool.formats.features.shapefile_parts import PARTS, check_parts, older_parts, removal
 from vorotool.formats.io.atomic_output import current_rules, failure, open_output
 from vorotool.formats.io.commit import committed_together
-from vorotool.formats.io.descriptors import stream_kind
 from vorotool.formats.io.temporaries import new_folder
 from vorotool.geometry.crs import crs_text
 from vorotool.geometry.extras import needed
@@ -94,8 +93,6 @@ class Shapefile(GeoPackage):
 
     def __init__(self, out: BinaryIO, what: str, path: str) -> None:
         super().__init__(out, what, path)
-        if stream_kind(path) is not None:
-            raise UsageError(f"a Shapefile is several files, and no stream holds them: name a file with {OUTPUT}")
         check_parts(path, current_rules())
 
     def finish(self) -> None:

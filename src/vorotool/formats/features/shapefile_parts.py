@@ -13,9 +13,10 @@ from pathlib import Path
 
 import numpy as np
 
-from vorotool.errors import InputError, LimitError, OutputError, option
+from vorotool.errors import InputError, LimitError, OutputError, UsageError, option
 from vorotool.formats.io.atomic_output import Rules, check_output, explained, followed
 from vorotool.formats.io.commit import Placement
+from vorotool.formats.io.descriptors import stream_kind
 from vorotool.formats.io.limits import check_unpacked
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions
@@ -138,9 +139,15 @@ def check_parts(path: str, rules: Rules, *, makes_folder: bool = False) -> None:
     Raises
     ------
     UsageError, OutputError
-        As by `check_output`, or if links lead to parts of another Shapefile.
+        As by `check_output`, or if one of them is a stream, or if links lead to parts of another Shapefile.
     """
     whole = Path(path)
+    for name in (path, *(str(whole.with_suffix(extension)) for extension in PARTS[1:])):
+        if stream_kind(name) is not None:
+            raise UsageError(
+                f"a Shapefile is several files, and no stream such as {name} holds them: name a file with "
+                f"{rules.option}, or write a GeoPackage (.gpkg)"
+            )
     target = followed(path)
     for extension in PARTS[1:]:
         part, real = whole.with_suffix(extension), target.with_suffix(extension)
