@@ -141,7 +141,6 @@ NO_POLYGONS = {
     "frame": pd.DataFrame(XY, columns=["x", "y"]),
     "mapping": {"hull": [[0, 0], [1, 0], [0, 1]]},
     "three columns": np.ones((4, 3)),
-    "mask": np.ones((9, 9), bool),
     "Raster": v.Raster(np.ones((9, 9), bool)),
     "infinite": [[0, 0], [np.inf, 1], [1, 1]],
     "WKT": "POLYGON ((0 0, 1 1",
@@ -157,6 +156,14 @@ def test_what_are_no_polygons(function, form):
         return  # that is the default
     with pytest.raises(InputError, match=f"^invalid {name}: "):
         call(NO_POLYGONS[form])
+
+
+@pytest.mark.parametrize("function", POLYGON_FUNCTIONS)
+def test_a_mask_is_its_outlines(function):
+    call, _, read = POLYGON_FUNCTIONS[function]
+    mask = np.zeros((9, 12), bool)
+    mask[1:8, 2:7], mask[3:5, 4:6], mask[4:8, 9:11] = True, False, True
+    assert np.array_equal(read(call(mask)), read(call(v.outlines(mask))))
 
 
 def test_systems_that_differ_are_not_mixed():
