@@ -52,9 +52,9 @@ def test_a_column_that_is_chosen_by_name(tmp_path):
     path = saved(tmp_path, "x,y,wkt\n1,2,POINT (5 6)\n")
     assert vorotool.read(path).xy.tolist() == [[1, 2]]
     assert vorotool.read(path, input_format="csv-wkt").xy.tolist() == [[5, 6]]
-    path = saved(tmp_path, "e,n,wkt\n1,2,POINT (5 6)\n")
+    path = saved(tmp_path, "u,v,wkt\n1,2,POINT (5 6)\n")
     assert vorotool.read(path).xy.tolist() == [[5, 6]]
-    assert vorotool.read(path, columns="e,n").xy.tolist() == [[1, 2]]
+    assert vorotool.read(path, columns="u,v").xy.tolist() == [[1, 2]]
 
 
 def test_systems(tmp_path):

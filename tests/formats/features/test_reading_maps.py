@@ -290,10 +290,10 @@ def test_parquet_without_geometry(tmp_path):
     points = vorotool.read(tmp_path / "a.parquet")
     assert points.xy.tolist() == [[1.5, 3], [2, 4]]
     assert points.properties == {"name": ["a", "b"]}
-    pandas.DataFrame({"e": [1.5, 2], "n": [3, 4]}).to_parquet(tmp_path / "b.parquet")
+    pandas.DataFrame({"u": [1.5, 2], "v": [3, 4]}).to_parquet(tmp_path / "b.parquet")
     with pytest.raises(InputError, match=r"b.parquet: the header names no known pair of coordinates"):
         vorotool.read(tmp_path / "b.parquet")
-    assert vorotool.read(tmp_path / "b.parquet", columns="e,n").xy.tolist() == [[1.5, 3], [2, 4]]
+    assert vorotool.read(tmp_path / "b.parquet", columns="u,v").xy.tolist() == [[1.5, 3], [2, 4]]
 
 
 # ---- what is none ----------------------------------------------------------------------------------
