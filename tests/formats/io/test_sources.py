@@ -28,8 +28,8 @@ def test_a_file(tmp_path):
 
 def test_standard_input(monkeypatch):
     monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(b"1,2\n")))
-    assert read_source("-") == Source("standard input", b"1,2\n")
-    assert read_source("-").suffix == ""
+    source = read_source("-")
+    assert (source, source.suffix) == (Source("standard input", b"1,2\n"), "")
 
 
 def test_closed_standard_input(monkeypatch):
