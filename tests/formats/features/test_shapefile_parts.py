@@ -71,6 +71,28 @@ def test_what_gdal_cannot_write_is_an_output_error(older, monkeypatch):
     assert contents(older) == before
 
 
+@pytest.mark.parametrize("count", [0, 2])
+@pytest.mark.parametrize("part", PARTS)
+@pytest.mark.parametrize("size", [0, -1, 20])
+def test_a_part_that_is_cut_off_is_not_taken(older, monkeypatch, part, size, count):
+    import pyogrio
+
+    before, write = contents(older), pyogrio.raw.write
+
+    def cut(path, *arguments, **options):
+        write(path, *arguments, **options)
+        found = path.with_suffix(part)
+        data = found.read_bytes()
+        found.write_bytes(data[:size] if part != ".cpg" else b"")
+
+    monkeypatch.setattr(pyogrio.raw, "write", cut)
+    if part in (".dbf", ".prj") and size == -1:  # a mark of the end, which nobody needs
+        return
+    with pytest.raises(OutputError, match=r"a\.shp cannot be written: No space left"):
+        vorotool.write(boxes(count, "EPSG:2056"), older / "a.shp")
+    assert contents(older) == before
+
+
 def test_a_link_whose_other_parts_are_elsewhere(older):
     (older / "links").mkdir()
     link = older / "links/b.shp"

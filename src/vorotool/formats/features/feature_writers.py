@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import OutputError
 from vorotool.formats.features.feature_rows import FeatureRows, TypedColumn
-from vorotool.formats.features.shapefile_parts import PARTS, check_parts, older_parts, removal
+from vorotool.formats.features.shapefile_parts import PARTS, check_parts, is_whole, older_parts, removal
 from vorotool.formats.io.atomic_output import current_rules, failure, open_output
 from vorotool.formats.io.commit import committed_together
 from vorotool.formats.io.temporaries import new_folder
@@ -109,6 +109,8 @@ class Shapefile(GeoPackage):
             self._write(
                 place, self.columns(), driver="ESRI Shapefile", layer_options={"DBF_DATE_LAST_UPDATE": "1970-01-01"}
             )
+            if not is_whole(place, len(self.geometry)):
+                raise failure(self._path, OSError(errno.ENOSPC, os.strerror(errno.ENOSPC)), rules.option)
             written = [extension for extension in PARTS if place.with_suffix(extension).exists()]
             for older in older_parts(whole, written):
                 commit.add(removal(older, rules))

@@ -175,6 +175,42 @@ def older_parts(path: Path, written: Collection[str]) -> list[Path]:
     return []
 
 
+def is_whole(path: Path, count: int) -> bool:
+    """Return whether all parts of a Shapefile have the sizes that follow from their headers and the count of features.
+
+    GDAL does not report that a disk was full when it wrote the last bytes.
+
+    Parameters
+    ----------
+    path : Path
+        The ``.shp``.
+    count : int
+        Of the features.
+
+    Examples
+    --------
+    >>> is_whole(Path("data/dots.shp"), 0)
+    False
+    """
+    shp, shx, dbf, prj, cpg = map(path.with_suffix, PARTS)
+    if not all(part.exists() and part.stat().st_size >= 100 for part in (shp, shx)):
+        return False
+    with shp.open("rb") as file:
+        words = int.from_bytes(file.read(28)[24:], "big")
+    with dbf.open("rb") as file:
+        header = file.read(12)
+    rows, start, width = (int.from_bytes(header[a:b], "little") for a, b in ((4, 8), (8, 10), (10, 12)))
+    sizes = {shp: 2 * words, shx: 100 + 8 * count}
+    return (
+        all(part.stat().st_size == size for part, size in sizes.items())
+        and len(header) == 12
+        and rows == count
+        and dbf.stat().st_size >= start + rows * width
+        and all(part.stat().st_size > 0 for part in (prj, cpg) if part.exists())
+        and (not prj.exists() or prj.read_bytes().rstrip().endswith(b"]"))
+    )
+
+
 def removal(part: Path, rules: Rules) -> Placement:
     """Make the removal of a file of an older Shapefile part of what is written."""
     place = Path(os.path.realpath(part.parent), part.name)
