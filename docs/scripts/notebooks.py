@@ -40,6 +40,7 @@ def executed(path: Path) -> Any:
     for order, cell in enumerate((cell for cell in notebook.cells if cell.cell_type == "code"), 1):
         cell.metadata = {}
         cell.execution_count = order
+        cell.outputs = joined(cell.outputs)
         for output in cell.outputs:
             if "execution_count" in output:
                 output.execution_count = order
@@ -48,6 +49,17 @@ def executed(path: Path) -> Any:
         "language_info": {"name": "python"},
     }
     return notebook
+
+
+def joined(outputs: list[Any]) -> list[Any]:
+    """Join texts that follow each other in one stream: a kernel sends them in as many pieces as it has time for."""
+    made: list[Any] = []
+    for output in outputs:
+        if output.output_type == "stream" and made and made[-1].get("name") == output.name:
+            made[-1].text += output.text
+        else:
+            made.append(output)
+    return made
 
 
 def shown(notebook: Any) -> Iterator[tuple[int, str, str]]:

@@ -3,7 +3,7 @@
 import nbformat
 import pytest
 
-from notebooks import NOTEBOOKS, executed, shown
+from notebooks import NOTEBOOKS, executed, joined, shown
 
 
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
@@ -14,3 +14,12 @@ def test_a_notebook_shows_what_is_kept_in_it(path):
 
 def test_there_is_one_for_each_user():
     assert [path.stem for path in NOTEBOOKS] == ["drawing", "geometry", "maps", "microscopy"]
+
+
+def test_text_that_comes_in_pieces_is_one():
+    pieces = [
+        nbformat.v4.new_output("stream", name=name, text=text) for name, text in (("stdout", "4"), ("stdout", "\n"))
+    ]
+    value = nbformat.v4.new_output("execute_result", data={"text/plain": "True"})
+    made = joined([*pieces, value, nbformat.v4.new_output("stream", name="stderr", text="a")])
+    assert [output.get("text") for output in made] == ["4\n", None, "a"]
