@@ -69,7 +69,7 @@ def test_nothing():
     assert (graph.coordinates().tolist(), len(graph), said) == ([[3.0, 4.0]], 0, [])
     graph, said = quietly([{"line": [[3, 4], [3, 4]]}])
     assert len(graph.points) == 1
-    assert said == ["the polygons were repaired: 1 repeated vertex left out"]
+    assert said == ["the polygons were repaired: 1 repeated vertex left out, in feature 1"]
 
 
 @pytest.mark.parametrize(
@@ -116,7 +116,7 @@ def test_nothing():
 )
 def test_repairs(source, message, place):
     _, said = quietly(source)
-    assert said == [f"the polygons were repaired: {message}"]
+    assert said == [f"the polygons were repaired: {message}, in feature {place.split()[1].rstrip(',')}"]
     with pytest.raises(InputError) as caught:
         planar_graph(source, strict=True)
     assert str(caught.value).startswith(place)
@@ -180,7 +180,9 @@ def test_natural_earth(name):
         "50m_lakes": ["457 repeated vertices left out"],
         "50m_land": [],
     }[name]
-    assert said == [f"the polygons were repaired: {each}" for each in expected]
+    assert [each.split(", in feature")[0] for each in said] == [
+        f"the polygons were repaired: {each}" for each in expected
+    ]
     np.testing.assert_allclose(graph.coordinates(), shapes.xy[graph.point_vertex], atol=graph.largest_move, rtol=0)
     assert graph.largest_move < 2e-7
     assert (np.diff(graph.face_start) <= 1).all()

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.arrangement.flat_rings import flat_holes, with_flat_shells_as_lines
-from vorotool.errors import STRICT, InputError, LimitError, RepairWarning, VerificationError, warn
+from vorotool.engines.arrangement.reports import report_repairs, report_small
+from vorotool.errors import LimitError, VerificationError
 from vorotool.geometry.arguments.polygons import as_polygons
 from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.checks import checked_threads
@@ -202,64 +203,9 @@ def graph_of_placement(
 ) -> PlanarGraph:
     """Make the planar graph of polygons whose vertices are placed; errors and warnings as of `planar_graph`."""
     made = arranged(given, placement, progress=progress)
-    report_repairs(given, made.found, made.graph.scale, strict=strict)
+    report_repairs(given, made.found, made.is_repaired, made.graph.scale, strict=strict)
+    report_small(given, placement, strict=strict)
     return made.graph
-
-
-def report_repairs(given: PolygonSet, found: dict[str, tuple[int, int, int]], step: float, *, strict: bool) -> None:
-    """Warn of repairs, if there are any; raise InputError instead if `strict`."""
-    repairs = {name: count for name, (count, _, _) in found.items()}
-    if not any(repairs.values()):
-        return
-    if strict:
-        raise InputError(_first_repair(given, found))
-    warn(_summary(repairs, step), RepairWarning)
-
-
-_WORDS = {
-    "repeated_vertices": ("repeated vertex left out", "repeated vertices left out"),
-    "touching_vertices": ("edge cut at a vertex on it", "edges cut at a vertex on them"),
-    "crossings": ("crossing of edges cut", "crossings of edges cut"),
-    "moved_edges": ("edge bent by less than {step:.2g}", "edges bent by less than {step:.2g}"),
-    "idle_segments": ("segment that bounds nothing left out", "segments that bound nothing left out"),
-    "empty_polygons": ("polygon has no inside", "polygons have no inside"),
-}
-
-
-def _summary(repairs: dict[str, int], step: float) -> str:
-    parts = [f"{count} {_WORDS[name][count != 1].format(step=step)}" for name, count in repairs.items() if count]
-    return f"the polygons were repaired: {', '.join(parts)}"
-
-
-def _first_repair(polygons: PolygonSet, found: dict[str, tuple[int, int, int]]) -> str:
-    """Name the place of the first repair along the input."""
-    names = [name for name in REPAIRS if found[name][0] and name != "moved_edges"]
-    name = min(names, key=lambda each: (found[each][1], REPAIRS.index(each)))
-    count, edge, other = found[name]
-    ends = " to ".join(_position(polygons, vertex) for vertex in (edge, _next_vertex(polygons, edge)))
-    where = f"{_edge(polygons, edge)} from {ends}"
-    what = {
-        "repeated_vertices": f"{polygons.place(edge)} at {_position(polygons, edge)} is repeated by the next one",
-        "touching_vertices": f"{where} passes through {polygons.place(other)} at {_position(polygons, other)}",
-        "crossings": f"{where} crosses {_edge(polygons, other)}",
-        "idle_segments": f"{where} bounds nothing, or a part of it does not: a spike or an overlap",
-        "empty_polygons": f"{polygons.place(edge).split(',')[0]} at {_position(polygons, edge)} has no inside",
-    }[name]
-    return f"{what} ({count} such places): repair it, or leave out {STRICT}"
-
-
-def _edge(polygons: PolygonSet, edge: int) -> str:
-    return polygons.place(edge).replace("vertex", "edge")
-
-
-def _position(polygons: PolygonSet, vertex: int) -> str:
-    x, y = polygons.xy[vertex].tolist()
-    return f"({x!r}, {y!r})"
-
-
-def _next_vertex(polygons: PolygonSet, edge: int) -> int:
-    ring = int(np.searchsorted(polygons.ring_start, edge, side="right")) - 1
-    return edge + 1 if edge + 1 < polygons.ring_start[ring + 1] else int(polygons.ring_start[ring])
 
 
 def verify_planar_graph(graph: PlanarGraph, *, progress: Progress = None) -> None:

@@ -19,8 +19,8 @@ from vorotool.engines.arrangement.planar_graph import (
     Placement,
     arranged,
     placed_vertices,
-    report_repairs,
 )
+from vorotool.engines.arrangement.reports import Found, report_repairs, report_small
 from vorotool.engines.features.crack_corners import OwnCorners, own_corners
 from vorotool.engines.features.sheets import Features, batches_of, sheets_of_boxes, sheets_of_cracks, touching_features
 from vorotool.errors import LimitError, warn
@@ -37,8 +37,6 @@ from vorotool.geometry.sorted_sets import distinct
 
 Indices = NDArray[np.int64]
 Result = TypeVar("Result")
-
-Found = dict[str, tuple[int, int, int]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -234,7 +232,9 @@ def in_batches(
         made = _done(used, placement, features, sheets, work, threads, progress)
     assert made is not None  # what is apart by its bounds is independent
     found = _all_repairs([shapes for shapes, _ in made], corners)
-    report_repairs(polygons, found, ldexp(1.0, placement.exponent), strict=strict)
+    repaired = _repaired(len(polygons), [shapes for shapes, _ in made])
+    report_repairs(polygons, found, repaired, ldexp(1.0, placement.exponent), strict=strict)
+    report_small(used, placement, strict=strict)
     return _as_a_whole(polygons, used, corners, placement, found, [shapes for shapes, _ in made]), made
 
 
@@ -249,6 +249,8 @@ def together(polygons: PolygonSet, *, strict: bool = False, threads: int = 0, pr
     graph = arranged(polygons, placement, progress=progress).graph
     if any(graph.repairs.values()):
         in_batches(polygons, lambda *_: None, strict=strict, threads=threads, progress=progress)
+    else:
+        report_small(polygons, placement, strict=strict)
     return graph
 
 
@@ -396,6 +398,14 @@ def _are_apart(made: Arrangement) -> bool:
     """Whether there is nothing to be repaired, and no face lies in two polygons."""
     graph = made.graph
     return not any(graph.repairs.values()) and bool((np.diff(graph.face_start) < 2).all())
+
+
+def _repaired(count: int, parts: Sequence[BatchShapes]) -> NDArray[np.bool_]:
+    """Of so many polygons those with repairs."""
+    made = np.zeros(count, dtype=bool)
+    for shapes in parts:
+        made[shapes.batch.polygons[shapes.arrangement.is_repaired]] = True
+    return made
 
 
 def _all_repairs(parts: Sequence[BatchShapes], corners: OwnCorners | None) -> Found:

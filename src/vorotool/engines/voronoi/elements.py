@@ -14,8 +14,8 @@ from vorotool.engines.arrangement.planar_graph import (
     Placement,
     arranged,
     placed_vertices,
-    report_repairs,
 )
+from vorotool.engines.arrangement.reports import report_repairs, report_small
 from vorotool.errors import LimitError
 from vorotool.geometry.magnitude import check_magnitude
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
@@ -168,7 +168,8 @@ def graph_of_sites(given: PolygonSet, placement: Placement, *, progress: Progres
     is_empty = ~given.is_line
     is_empty[made.graph.face_polygon] = False
     found["idle_segments"] = _with_hidden_spikes(found["idle_segments"], made.graph, given, is_empty)
-    report_repairs(given, found, made.graph.scale, strict=False)
+    report_repairs(given, found, is_empty | _lacking(made.graph, given), made.graph.scale, strict=False)
+    report_small(given, placement, strict=False)
     if is_empty.any():
         given, taken = _as_lines(given, is_empty)
         made = arranged(given, replace(placement, vertices=placement.vertices[taken]), progress=progress)
@@ -187,6 +188,25 @@ def _with_hidden_spikes(
         return found
     count, edge, other = found
     return (count + hidden.size, int(graph.source_edge[hidden].min()) if count == 0 else edge, other)
+
+
+def _lacking(graph: PlanarGraph, given: PolygonSet) -> NDArray[np.bool_]:
+    """(p,) whether a polygon has an edge that is not, or not as a whole, a part of what bounds it, or a point."""
+    assert graph.vertices is not None
+    places = graph.vertices.astype(np.int64)
+    whole = np.abs(places[given.following] - places).sum(axis=1)
+    own = owners(np.diff(given.ring_start))
+    of_vertex, is_line = given.ring_polygon[own], np.equal(given.ring_kind[own], LINE)
+    ends_line = np.zeros(len(own), dtype=bool)
+    ends_line[given.ring_start[1:] - 1] = is_line[given.ring_start[1:] - 1]
+    there = np.zeros(len(own), dtype=np.int64)
+    if len(graph):
+        is_part, _ = _bounding_sources(graph, given)
+        ends = graph.points[graph.segments].astype(np.int64)
+        length = np.repeat(np.abs(ends[:, 1] - ends[:, 0]).sum(axis=1), graph.source_count)
+        np.add.at(there, graph.source_edge[is_part], length[is_part])  # along an edge both coordinates are monotone
+    lacks = ~ends_line & ((there != whole) | (whole == 0)) & (np.diff(given.ring_start)[own] > 1)
+    return np.bincount(of_vertex, lacks, minlength=len(given)) > 0
 
 
 def _as_lines(polygons: PolygonSet, chosen: NDArray[np.bool_]) -> tuple[PolygonSet, NDArray[np.int64]]:
