@@ -39,7 +39,7 @@ from vorotool.jobs.pictures import write_layers
 from vorotool.jobs.pixel_sizes import placed_backdrop, placed_mesh, placed_sites
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
-from vorotool.jobs.units import in_units, length_in_units, table_in_units
+from vorotool.jobs.units import in_units, length_in_units, measured, table_in_units
 from vorotool.products.formats import ANIMATIONS, PICTURES, picture_format
 from vorotool.products.registry import PRODUCTS
 from vorotool.products.writing import write_product
@@ -55,13 +55,14 @@ if TYPE_CHECKING:
 
 def products(run: Run, o: AlphaShapeOptions, given: JobInput) -> ShapeProducts:
     """Read points, or find those of an image, and what their shapes of all radii are made of."""
-    radius = chosen_radius(o.r, o.alpha, o.auto)
+    if not measured(o):  # what is wrong with it is said before a long file is read
+        chosen_radius(o.r, o.alpha, o.auto)
     with run.phase("read"):
         points = read_sites(
             run, o, given, properties="points" in o.what or o.label_by is not None, is_digital=o.method != "exact"
         )
         o, points = placed_sites(run, o, given, points)
-    return ShapeProducts(run, o, given, points, radius)
+    return ShapeProducts(run, o, given, points, chosen_radius(o.r, o.alpha, o.auto))
 
 
 class ShapeProducts:

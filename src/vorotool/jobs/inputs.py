@@ -17,6 +17,7 @@ from vorotool.jobs.options import (
     TessellationOptions,
 )
 from vorotool.jobs.run_log import Run
+from vorotool.jobs.units import known_length
 
 if TYPE_CHECKING:
     from vorotool.engines.tessellation.seeding import SeedMode
@@ -85,8 +86,8 @@ def read_opened(
         note=run.note,
         crs=o.input_crs,
         to_crs=o.crs,
-        flatten=o.flatten if isinstance(o, ShapeOptions) else None,
-        join_tolerance=o.join_tolerance if isinstance(o, ShapeOptions) else None,
+        flatten=known_length(o.flatten) if isinstance(o, ShapeOptions) else None,
+        join_tolerance=known_length(o.join_tolerance) if isinstance(o, ShapeOptions) else None,
     )
     if not isinstance(value, PointSet | PolygonSet | Sites | Raster):  # which is read where no geometry is asked for
         raise InputError(

@@ -129,7 +129,7 @@ def _check_border(o: SkeletonOptions) -> None:
     given = {
         "--side": o.side != "interior",
         "--features": o.features != "separate",
-        "--gap": o.gap > 0,
+        "--gap": bool(o.gap),
         "--simplify": o.simplify is not None,
         "--frame": o.frame is not None,
     }
@@ -173,7 +173,7 @@ def _check_discs(o: SkeletonOptions) -> None:
             raise UsageError(f"{name} is for discs: use --what discs, or leave it out")
     if "discs" in o.what and o.side == "exterior":
         raise UsageError("discs are inside polygons: use --side interior or both")
-    has_gap = isinstance(o, ExactSkeletonOptions) and o.gap > 0
+    has_gap = isinstance(o, ExactSkeletonOptions) and bool(o.gap)
     for name, is_given in (("--prune", o.prune is not None), ("--gap", has_gap)):
         if is_given and set(o.what) == {"discs"}:
             raise UsageError(f"{name} is for skeletons, but discs are of the shapes: leave it out")
@@ -198,7 +198,7 @@ def _check_shapes(o: SkeletonOptions) -> None:
     """Shapes are rebuilt from what is inside them; offset curves are of the shapes, whatever the skeleton is."""
     if "shape" in o.what and o.side == "exterior":
         raise UsageError("shapes are rebuilt from inside: use --side interior or both")
-    has_gap = isinstance(o, ExactSkeletonOptions) and o.gap > 0
+    has_gap = isinstance(o, ExactSkeletonOptions) and bool(o.gap)
     if "shape" in o.what and has_gap:
         raise UsageError("a skeleton with a gap leaves the corners out: use --what shape without --gap")
     given = {"--side": o.side != "interior", "--prune": o.prune is not None, "--gap": has_gap}

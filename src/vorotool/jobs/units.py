@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from vorotool.jobs.targets import Target
 
 Value = TypeVar("Value")
+Number = TypeVar("Number", bound="float | Fraction")
 
 
 class PixelSize(NamedTuple):
@@ -175,6 +176,15 @@ class Measured:
     unit: str
     is_exact: bool
 
+    def __bool__(self) -> bool:
+        """Tell whether it is other than 0, as of a number: in every unit the answer is the same."""
+        return self.number != 0
+
+
+def known_length(length: Number | None) -> Number | None:
+    """Give a length of an option; None while only an image that is yet to be read can say what its unit is."""
+    return None if isinstance(length, Measured) else length
+
 
 Options = TypeVar("Options", bound="JobOptions")
 Computing = TypeVar("Computing", bound="ComputingOptions")
@@ -229,8 +239,8 @@ def _pixels(name: str, length: Measured, size: PixelSize | None) -> Fraction | f
         raise UsageError(f"invalid {option} {length.text!r}: expected a number alone, or with a unit of {known}")
     if size is None:
         raise UsageError(
-            f"{option} {length.text} has a unit, but that of the input is not known: give --pixel-size, such as "
-            "0.325um, or 1m for coordinates in metres"
+            f"{option} {length.text} has a unit, but that of the input is not known: give --pixel-size auto for the "
+            "size that an image carries, or a size such as 0.325um, or 1m for coordinates in metres"
         )
     found = None if size.unit is None else ratio(length.unit, size.unit)
     if found is None:
