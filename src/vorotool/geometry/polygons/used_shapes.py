@@ -97,7 +97,7 @@ def _bounded(rings: list[NDArray[np.float64]]) -> Any:
 def _is_within(ring: NDArray[np.float64], places: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Whether places are inside a ring by the even-odd rule."""
     ends = np.stack([ring, np.roll(ring, -1, axis=0)])
-    upwards = np.argsort(ends[:, :, 1], axis=0)[:, :, None]  # both ways along an edge are the same
+    upwards = np.argsort(ends[:, :, 1], axis=0, kind="stable")[:, :, None]  # both ways along an edge are the same
     a, b = np.take_along_axis(ends, upwards, axis=0)
     step = max(1, _MANY // len(ring))
     parts = [np.zeros(0, dtype=bool)]
