@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gzip
 import random
 import re
 import struct
@@ -35,6 +36,11 @@ TAGS = (256, 257, 258, 259, 262, 266, 273, 277, 278, 279, 284, 317, 322, 323, 32
 DESCRIPTION = re.compile(rb"<OME .*OME>|ImageJ=[ -~\n]*|{[ -~]*}", re.DOTALL)
 TYPE = re.compile(rb"(?<='descr': )'[^']*'")
 TYPES = (b"'<u2'", b"'|O'", b"'<c8'", b"[('a', '<u2')]", b"'<U4'", b"'<M8[s]'", b"'>f2'", b"'|b1'", b"'<f16'")
+PARTS = {
+    "svg": (re.compile(rb"<([a-z]+)\b[^<>]*(?:/>|>[^<>]*</\1>)"), re.compile(rb""" [\w:-]+=("[^"]*"|'[^']*')""")),
+    "dxf": (re.compile(rb"^ *0\r?\n.+?(?=^ *0\r?\n)", re.DOTALL | re.MULTILINE), re.compile(rb"^ *\d+\r?\n.*\n", re.M)),
+}
+"""Elements and attributes of SVG, entities and groups of DXF."""
 RESULTS = {"skeleton", "offsets", "voronoi"}
 TEXTS = {"csv", "json", "geojson", "wkt", "node", "poly", "pnm", "manifest", "svg", "dxf", *RESULTS}
 
@@ -56,6 +62,8 @@ def mutated(bundle: Bundle, others: list[Bundle], chance: random.Random) -> Bund
 
 
 def _change(kind: str, name: str) -> Callable[[bytes, random.Random], bytes]:
+    if kind in PARTS:
+        return lambda data, chance: _parts(kind, data, chance) if chance.random() < 0.5 else _tokens(data, chance)
     if kind in TEXTS or name.endswith((".json", ".zarray", ".zattrs")):
         return _tokens
     return {"png": _png, "tiff": _tiff, "ome-tiff": _ome_tiff, "npy": _npy}.get(kind, _bytes)
@@ -115,6 +123,30 @@ def _tokens(data: bytes, chance: random.Random) -> bytes:
     else:
         tokens[at] = tokens[at].swapcase() if chance.random() < 0.5 else tokens[chance.randrange(len(tokens))]
     return b"".join(tokens)
+
+
+def _parts(kind: str, data: bytes, chance: random.Random) -> bytes:
+    """Repeat, move or swap whole parts of a drawing; those of a packed one most often."""
+    if data.startswith(b"\x1f\x8b") and chance.random() < 0.9:
+        try:
+            return gzip.compress(_parts(kind, gzip.decompress(data), chance), mtime=0)
+        except (OSError, EOFError, zlib.error):
+            return _bytes(data, chance)
+    spans = [match.span() for match in chance.choice(PARTS[kind]).finditer(data)]
+    if len(spans) < 2:
+        return _tokens(data, chance)
+    (a, b), (c, d) = sorted(chance.sample(spans, 2))
+    first, between, second = data[a:b], data[b:c], data[c:d]
+    action = chance.randrange(4)
+    if action == 0:
+        first *= chance.choice((2, 2, 30, 1000))
+    elif action == 1:
+        first, second = b"", second + first
+    elif action == 2:
+        first, second = second + first, b""
+    else:
+        first, second = second, first
+    return data[:a] + first + between + second + data[d:]
 
 
 @lru_cache(maxsize=256)

@@ -105,3 +105,28 @@ def test_faces_that_rounding_moves_over_one_another(far, rule):
     path = f'd="M1 2L9 2q3 4 0 {far}zm1 1c1 2 3 4 5 6s1 2 0-3A4 3 20 1 0 2 2Z" transform="rotate(20 3 4)"'
     drawing, _ = svg(f'<path fill-rule="{rule}" {path}/>', 'width="90mm" height="5cm" viewBox="0 0 30 20"')
     assert len(drawing) > 0
+
+
+THIN = [
+    [
+        "M-10000000000000004-3000000000000001L19999999999999996 5999999999999999L9999999999999996 2999999999999998.5"
+        "L-20000000000000004-6000000000000001z M-3-3L-1 0L0-1L1-2L0-1z",
+        "nonzero",
+    ],
+    ["M-2e-16 3e-16L3e-16 0L1e-16 2e-16z M0 1e-17L-3-.8999999999999999L-1-.3L-2-.6L3 .8999999999999999z", "evenodd"],
+    ["M0 0L5 5L2 2z", "nonzero"],
+    ["M0 0h5h-3z M1 1h3h-2z", "evenodd"],
+]
+
+
+@pytest.mark.parametrize(("path", "rule"), THIN)
+def test_fills_without_area_are_left_out(path, rule):
+    drawing, notes = svg(f'<path fill-rule="{rule}" d="{path}"/>{RECT}')
+    assert drawing.xy.tolist() == [[0, 0], [4, 0], [4, 3], [0, 3]]
+    assert any("1 shapes" in note for note in notes)
+
+
+def test_crossings_that_rounding_makes_anew():
+    path = "M-1-.3L-3-.8999999999999999L3 .8999999999999999L-1-.3z"
+    path += "M1e16 0L-3e16 2e16L3e16-3e16L-1e16-1e16L1e16 1e16z"
+    assert len(svg(f'<path d="{path}"/>')[0]) > 0

@@ -109,6 +109,8 @@ def shapes_to_polygons(
     )
     if collected.outlines:
         options.note(f"{name}: {collected.outlines} closed lines without a fill are read as polygons")
+    if collected.without_area:
+        options.note(f"{name}: {collected.without_area} shapes whose fill has no area are left out")
     return made
 
 
@@ -128,7 +130,7 @@ class _Rings:
         self.polygons: list[int] = []
         self.feature: list[int] = []  # of each polygon
         self.owner: list[int] = []  # its shape
-        self.outlines = self.vertices = self._next = 0
+        self.outlines = self.without_area = self.vertices = self._next = 0
 
     def add(self, index: int, shape: Shape) -> None:
         """Flatten a shape."""
@@ -146,7 +148,9 @@ class _Rings:
         if shape.rule is not None:
             rings = [_open_end(ring) for ring in flat]
             areas = [ring for ring in rings if len(ring) > 2]
-            for polygon in filled_polygons(areas, shape.rule) if areas else ():
+            filled = filled_polygons(areas, shape.rule) if areas else []
+            self.without_area += bool(areas) and not filled
+            for polygon in filled:
                 self._polygon(index, polygon)
             for ring in (ring for ring in rings if len(ring) == 2 and shape.is_stroked):
                 self._take(index, ring, LINE)
