@@ -20,7 +20,7 @@ _WRITERS: dict[str, Callable[[BinaryIO, PolygonSet], None]] = {
 }
 
 
-def write_polygons(out: BinaryIO, polygons: PolygonSet, fmt: str, *, is_coverage: bool = False) -> None:
+def write_polygons(out: BinaryIO, polygons: PolygonSet, fmt: str) -> None:
     r"""Write polygons and lines; polygons are valid on the grid of the file.
 
     The parts of a feature become one multi-part geometry, but in JSON, which numbers them. WKT and ``.poly`` have no
@@ -34,8 +34,6 @@ def write_polygons(out: BinaryIO, polygons: PolygonSet, fmt: str, *, is_coverage
         What to write.
     fmt : {"json", "geojson", "wkt", "poly"}
         The format.
-    is_coverage : bool
-        The features do not overlap, and share vertices where they touch.
 
     Examples
     --------
@@ -46,4 +44,4 @@ def write_polygons(out: BinaryIO, polygons: PolygonSet, fmt: str, *, is_coverage
     >>> out.getvalue()
     b'POLYGON ((0 0, 4 0.5, 0 3, 0 0))\n'
     """
-    _WRITERS[fmt](out, written_polygons(polygons, is_coverage=is_coverage))
+    _WRITERS[fmt](out, written_polygons(polygons))

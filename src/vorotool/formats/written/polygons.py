@@ -17,7 +17,7 @@ from vorotool.geometry.ragged import owners
 from vorotool.geometry.row_index import index_of_rows
 
 
-def written_polygons(polygons: PolygonSet, *, is_coverage: bool = False) -> PolygonSet:
+def written_polygons(polygons: PolygonSet) -> PolygonSet:
     """Round polygons to the decimals of the file, and repair those that are invalid then.
 
     Features without area on the grid are left out, with a warning. Sets with open lines, or with rings of one or two
@@ -35,7 +35,7 @@ def written_polygons(polygons: PolygonSet, *, is_coverage: bool = False) -> Poly
     assert polygons.feature is not None
     first = np.flatnonzero(np.diff(polygons.feature, prepend=-1))
     nesting = Nesting(polygons.ring_start, polygons.polygon_start, np.append(first, len(polygons)))
-    made = written_rings(polygons.xy, nesting, decimals=current_decimals(), is_coverage=is_coverage)
+    made = written_rings(polygons.xy, nesting, decimals=current_decimals())
     if made.nesting is nesting:
         return polygons if made.points is polygons.xy else replace(polygons, xy=made.points)
     report_emptied(made.emptied, "feature")
