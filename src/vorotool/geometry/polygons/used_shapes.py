@@ -60,7 +60,7 @@ def with_used_rings(polygons: PolygonSet) -> PolygonSet:
     Examples
     --------
     >>> from vorotool.geometry.arguments.polygons import as_polygons
-    >>> with_used_rings(as_polygons([[[0, 0], [4, 0], [4, 4], [4, 9], [4, 4], [0, 4]]])).xy[:, 1].max()
+    >>> with_used_rings(as_polygons([[[0, 0], [4, 0], [4, 4], [4, 9], [4, 4], [0, 4]]])).xy[:, 1].max().item()
     4.0
     """
     import shapely
