@@ -127,8 +127,9 @@ class _Sweep:
         if len(edges) < 2:
             return edges
 
-        def compare(e: _Edge, f: _Edge) -> float:
-            return -_side(here, e.right, f.right) or (-1 if self._rank(e) < self._rank(f) else 1)
+        def compare(e: _Edge, f: _Edge) -> int:
+            side = _side(here, e.right, f.right)
+            return (side < 0) - (side > 0) or (-1 if self._rank(e) < self._rank(f) else 1)
 
         return sorted(edges, key=cmp_to_key(compare))
 
