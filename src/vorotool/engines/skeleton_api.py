@@ -17,7 +17,7 @@ from vorotool.engines.skeleton.open_border import check_border
 from vorotool.geometry.arguments.boxes import as_extent
 from vorotool.geometry.arguments.polygons import as_polygons
 from vorotool.geometry.box import Box
-from vorotool.geometry.checks import checked_threads
+from vorotool.geometry.checks import checked_flag, checked_threads
 from vorotool.geometry.magnitude import check_lengths
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.skeleton import Skeleton
@@ -207,7 +207,7 @@ def skeleton_approx(
     check_skeleton_options(side, 0, frame)
     check_features(features)
     check_lengths(frame or (), "frame's coordinate")
-    complete = (tolerance is not None) if complete is None else complete
+    complete = (tolerance is not None) if complete is None else checked_flag(complete, "complete")
     return approximation(
         as_polygons(polygons),
         options,

@@ -141,11 +141,18 @@ def read(
     """
     from vorotool.errors import UsageError
     from vorotool.formats.opening import opened
+    from vorotool.geometry.checks import checked_flag, is_choice
+    from vorotool.geometry.numbers import real_number, shown_number
     from vorotool.products.formats import resolved
     from vorotool.products.inputs import SPACE_READER, VOLUME_READER
 
-    if geometry not in (None, "points", "polygons", "volume", "space"):
-        raise UsageError(f"invalid geometry {geometry!r}: expected points, polygons, volume or space, or none")
+    if not is_choice(geometry, (None, "points", "polygons", "volume", "space")):
+        raise UsageError(
+            f"invalid geometry {shown_number(geometry)}: expected points, polygons, volume or space, or none"
+        )
+    properties = checked_flag(properties, "properties")
+    if max_sites is not None:
+        real_number(max_sites, "max_sites")
     of_maps = {"crs": crs, "to_crs": to_crs, "layer": layer, "flatten": flatten, "join_tolerance": join_tolerance}
     if geometry == "volume":
         _refuse({"columns": columns, "page": page, "max_sites": max_sites, **of_maps}, "a volume")

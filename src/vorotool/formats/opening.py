@@ -132,7 +132,7 @@ def _member(crs: str) -> dict[str, Any]:
     """Give the ``crs`` member of GeoJSON for a name."""
     from vorotool.geometry.crs import crs_member
 
-    member = crs_member(crs)
+    member = crs_member(crs) if isinstance(crs, str) else None
     if member is None:
         raise UsageError(f"{crs!r} names no coordinate reference system: write authority and code, such as EPSG:3857")
     return member

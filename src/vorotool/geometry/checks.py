@@ -39,6 +39,45 @@ def checked_threads(threads: int) -> int:
     return min(count, MOST_THREADS)
 
 
+def checked_flag(value: Any, name: str) -> bool:
+    """Return an argument that is true or false; an array, which has no single answer, is neither.
+
+    Raises
+    ------
+    UsageError
+        If it is neither.
+
+    Examples
+    --------
+    >>> checked_flag(np.True_, "local"), checked_flag(0, "local")
+    (True, False)
+    """
+    try:
+        return bool(value)
+    except (TypeError, ValueError):
+        raise UsageError(f"{name} is {shown_number(value)}: give True or False") from None
+
+
+def as_array(values: Any, name: str) -> NDArray[Any]:
+    """Return an array of what a caller holds.
+
+    Raises
+    ------
+    InputError
+        If NumPy makes none of it, as of rows of several lengths.
+
+    Examples
+    --------
+    >>> as_array([[1, 2], [3]], "distance2")
+    Traceback (most recent call last):
+    vorotool.errors.InputError: invalid distance2 [[1, 2], [3]]: expected an array
+    """
+    try:
+        return np.asarray(values)
+    except (TypeError, ValueError):
+        raise InputError(f"invalid {name} {shown_number(values)}: expected an array") from None
+
+
 def available_threads() -> int:
     """Processors that this process may use."""
     if hasattr(os, "sched_getaffinity"):

@@ -15,6 +15,9 @@ from vorotool.geometry.numbers import real_number, shown_number
 MOST_STEPS = 2**21
 """Steps that a side has at most: those of a seed between pixels are up to 256 times as many."""
 
+LARGEST_STEP = 10**140
+"""A step, or one divided by it: squares of distances are doubles then."""
+
 _ORDER = {2: "(height, width)", 3: "(depth, height, width)"}
 
 
@@ -101,7 +104,10 @@ def pixel_sides(spacing: Any, axes: int = 2) -> PixelSides:
             f"invalid spacing {shown_number(spacing)}: in whole steps of one length a side has more than {MOST_STEPS}; "
             "round the sides to fewer digits, or give them as fractions"
         )
-    return PixelSides(tuple(each // common for each in steps), Fraction(common, whole))
+    step = Fraction(common, whole)
+    if max(step.numerator, step.denominator) > LARGEST_STEP:
+        raise UsageError(f"invalid spacing {shown_number(spacing)}: expected sides from 1e-140 to 1e140")
+    return PixelSides(tuple(each // common for each in steps), step)
 
 
 def distance_as_written(distance: Any, sides: PixelSides) -> Any:

@@ -80,6 +80,14 @@ class Computed:
         return self.function(rows)
 
 
+def _rows_of(column: Any, name: Any) -> int:
+    """Count the rows of a column."""
+    try:
+        return len(column)
+    except TypeError:
+        raise InputError(f"column {name} is no list or array of values: give one value for each row") from None
+
+
 class Table(dict[str, Any], Tabular):
     """Columns by name, in order; a masked array or None marks fields that do not exist.
 
@@ -107,7 +115,7 @@ class Table(dict[str, Any], Tabular):
 
     def __init__(self, columns: Mapping[str, Any]) -> None:
         stored = columns.stored() if isinstance(columns, Table) else dict(columns)
-        lengths = {name: len(column) for name, column in stored.items()}
+        lengths = {name: _rows_of(column, name) for name, column in stored.items()}
         if len(set(lengths.values())) > 1:
             raise InputError(f"columns must have one length, but have {lengths}")
         super().__init__(stored)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from vorotool.errors import UsageError
 
@@ -163,13 +163,32 @@ def looks_of(
     """
     from vorotool.geometry.numbers import finite_double
 
-    ground = background if background in (None, "none") else _colour(background, "background")
-    colours = tuple((layer, _colour(each, f"color of {layer}")) for layer, each in (color or {}).items())
-    widths = tuple((layer, finite_double(each, f"line_width of {layer}")) for layer, each in (line_width or {}).items())
+    ground = (
+        background
+        if background is None or (isinstance(background, str) and background == "none")
+        else _colour(background, "background")
+    )
+    colours = tuple((layer, _colour(each, f"color of {layer}")) for layer, each in _by_layer(color, "color"))
+    widths = tuple(
+        (layer, finite_double(each, f"line_width of {layer}")) for layer, each in _by_layer(line_width, "line_width")
+    )
     for layer, width in widths:
         if not 0 <= width < LARGEST_WIDTH:
             raise UsageError(f"invalid line_width of {layer} {width}: expected a number of px from 0 on")
     return Looks(None, None, ground, colours, widths)
+
+
+def _by_layer(given: Any, name: str) -> list[tuple[str, Any]]:
+    """Give the layers of a mapping, and what is said of each."""
+    from vorotool.geometry.numbers import shown_number
+
+    if given is None:
+        return []
+    if not isinstance(given, Mapping) or not all(isinstance(layer, str) for layer in given):
+        raise UsageError(
+            f"invalid {name} {shown_number(given)}: expected a mapping from layers, such as {{'seeds': …}}"
+        )
+    return list(given.items())
 
 
 def _colour(text: object, what: str) -> str:

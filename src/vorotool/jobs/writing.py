@@ -108,9 +108,13 @@ def write(
     >>> write(vorotool.alpha_shape([[0, 0], [4, 0], [0, 3]], r=2.5), "build/shape.geojson")
     >>> write(vorotool.skeleton_exact([[0, 0], [4, 0], [0, 3]]), "build/skeleton.svg")
     """
-    from vorotool.geometry.checks import checked_threads
+    from vorotool.geometry.checks import checked_flag, checked_threads
     from vorotool.geometry.coordinate_grid import coordinates_written
 
+    path = _checked_path(path)
+    if not isinstance(fmt, str | None):
+        raise UsageError(f"invalid fmt {shown_number(fmt)}: expected the name of a format, such as csv")
+    legend, scale_bar = checked_flag(legend, "legend"), checked_flag(scale_bar, "scale_bar")
     name = fmt or Path(path).suffix
     chosen = format_named(name) or name.lower().removeprefix(".")
     threads = checked_threads(threads)
@@ -148,6 +152,16 @@ def write(
     if width is not None and not 0 <= whole_number(width, "width") <= MAX_SIDE:
         raise UsageError(f"width is {shown_number(width)}: give a number of pixels up to {MAX_SIDE}")
     _draw(value, _Picture(fspath(path), chosen, what, layers, width, y_up, looks, threads))
+
+
+def _checked_path(path: Any) -> str:
+    """Give the name of a file."""
+    if not isinstance(path, str | PathLike):
+        raise UsageError(f"invalid path {shown_number(path)}: expected the name of a file, such as cells.geojson")
+    name = fspath(path)
+    if not isinstance(name, str):
+        raise UsageError(f"invalid path {name!r}: expected text")
+    return name
 
 
 def to_geojson(value: Any, *, what: str | None = None, flatten: float | None = None) -> dict[str, Any]:

@@ -200,6 +200,6 @@ def known_input_format(name: str | None, names: Mapping[str, str] = NAMES_WITH[N
     """
     if name is None:
         return None
-    if name.lower() not in names:
+    if not isinstance(name, str) or name.lower() not in names:
         raise UsageError(f"invalid {option('--input-format')} {name!r}: expected one of {', '.join(names)}")
     return names[name.lower()]

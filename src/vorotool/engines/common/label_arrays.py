@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
+from vorotool.geometry.checks import as_array
 
 
 def label_array(labels: NDArray[Any], what: str = "pixel") -> NDArray[Any]:
@@ -33,7 +34,7 @@ def next_row(row: NDArray[Any] | None, name: str, labels: NDArray[Any]) -> NDArr
     """Return a row next to a band of labels, or a slice next to a slab, in the type of the labels."""
     if row is None:
         return None
-    row = np.asarray(row)
+    row = as_array(row, name)
     called = f"the {'row' if labels.ndim == 2 else 'slice'} {name}"
     if row.shape != labels.shape[1:]:
         raise InputError(f"{called} has shape {row.shape}, but the labels {labels.shape}")

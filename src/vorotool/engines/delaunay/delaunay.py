@@ -10,7 +10,7 @@ from vorotool import _core
 from vorotool.errors import STRICT, InputError, LimitError, VerificationError, warn
 from vorotool.geometry.arguments.points import as_points
 from vorotool.geometry.arguments.values import check_value
-from vorotool.geometry.checks import checked_threads
+from vorotool.geometry.checks import checked_flag, checked_threads
 from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.points.point_set import known_of_points
 from vorotool.geometry.progress import Progress
@@ -83,7 +83,7 @@ def report_duplicates(mesh: Triangulation, *, strict: bool) -> None:
     if not count:
         return
     what = f"{count} of {len(mesh.points)} points lie on an earlier point"
-    if strict:
+    if checked_flag(strict, "strict"):
         raise InputError(f"{what}: remove the duplicates, or leave out {STRICT}")
     warn(f"{what}: the first one of each place is triangulated")
 

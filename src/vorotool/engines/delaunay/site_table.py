@@ -10,7 +10,7 @@ from vorotool import _core
 from vorotool.engines.delaunay.cells import voronoi_cells
 from vorotool.errors import InputError
 from vorotool.geometry.arguments.values import check_value
-from vorotool.geometry.checks import checked_threads
+from vorotool.geometry.checks import checked_flag, checked_threads
 from vorotool.geometry.curves.inverse_functions import hypotenuse
 from vorotool.geometry.mesh.cells import CellSet
 from vorotool.geometry.mesh.triangulation import Triangulation
@@ -72,7 +72,8 @@ def site_table(
     check_value(mesh, "mesh", Triangulation)
     if cells is None:
         cells = voronoi_cells(mesh, frame=frame, threads=threads, progress=progress)
-    elif not np.array_equal(cells.sites, mesh.points):
+    check_value(cells, "cells", CellSet)
+    if not np.array_equal(cells.sites, mesh.points):
         raise InputError("the cells are not those of the triangulation's points: give cells made from it")
     threads = checked_threads(threads)
     labels = np.ascontiguousarray(mesh.label_array, dtype=np.int64)
@@ -103,4 +104,4 @@ def site_table(
         "duplicate_of_label": np.ma.array(labels[mesh.first], mask=~repeated),
     }
     table = Table(columns)
-    return table.with_properties(mesh.properties) if properties else table
+    return table.with_properties(mesh.properties) if checked_flag(properties, "properties") else table

@@ -7,7 +7,7 @@ from typing import Any
 from vorotool import _core
 from vorotool.engines.distances.inner_places import farthest_inner_place
 from vorotool.engines.distances.measured_shape import MeasuredShape, measured_shapes
-from vorotool.geometry.checks import checked_threads
+from vorotool.geometry.checks import checked_flag, checked_threads
 from vorotool.geometry.distances.distances import Distances, PlacePair
 from vorotool.geometry.progress import Progress
 
@@ -75,7 +75,7 @@ def hausdorff(
     first, second = measured_shapes(a, b, boundary=boundary, progress=progress)
     there = farthest(first, second, threads, progress)
     back = None
-    if not directed:
+    if not checked_flag(directed, "directed"):
         far = farthest(second, first, threads, progress)
         back = PlacePair(far.distance, far.on_b, far.on_a)
     return Distances(there, back, None, (first.polygons, second.polygons), boundary)

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.errors import InputError
 from vorotool.geometry.arguments.sites import as_sites
+from vorotool.geometry.checks import checked_flag
 from vorotool.geometry.crs import crs_name, same_crs
 from vorotool.geometry.magnitude import check_magnitude
 from vorotool.geometry.polygons.polygon_set import HOLE, LINE, PolygonSet
@@ -61,6 +62,7 @@ def measured_shapes(
     >>> len(first.elements), first.is_filled, len(second.elements), second.is_filled
     (2, False, 3, True)
     """
+    boundary = checked_flag(boundary, "boundary")
     given = [as_sites(source, name=name).polygons for source, name in ((a, "a"), (b, "b"))]
     for name, polygons in zip("ab", given, strict=True):
         if not len(polygons):

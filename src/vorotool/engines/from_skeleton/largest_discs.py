@@ -13,6 +13,7 @@ from vorotool.engines.skeleton.clearance import clearance_course, is_maximum, pl
 from vorotool.engines.skeleton.site_distances import SitePlaces
 from vorotool.engines.skeleton_api import skeleton_exact
 from vorotool.errors import UsageError
+from vorotool.geometry.checks import checked_flag
 from vorotool.geometry.numbers import whole_number
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.ragged import starts_of, within
@@ -110,7 +111,7 @@ def discs_of_skeleton(skeleton: Skeleton, *, count: int | None = None, local: bo
     is_inside = skeleton.side == INTERIOR
     feature = np.where(is_inside, own[skeleton.polygon] if len(own) else -1, -1).astype(np.intp)
     axis = Axis(skeleton, feature, threads)
-    if local:
+    if checked_flag(local, "local"):
         found = axis.maxima().in_order()
         rank = within(np.bincount(found.feature)) if len(found) else np.zeros(0, dtype=np.intp)
         kept = np.flatnonzero(rank < (len(rank) if count is None else count))

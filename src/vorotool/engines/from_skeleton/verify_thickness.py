@@ -2,11 +2,18 @@
 
 from __future__ import annotations
 
+from math import inf
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.common.faults import fail
+from vorotool.errors import InputError, UsageError
+from vorotool.geometry.arguments.descriptions import described
 from vorotool.geometry.arguments.values import check_value
+from vorotool.geometry.checks import as_array
+from vorotool.geometry.numbers import pair_of_doubles, shown_number, whole_number
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.skeleton import EDGE, INTERIOR, Skeleton
 
@@ -68,6 +75,11 @@ def verify_thickness(
     vorotool.errors.VerificationError: the thickness in row 0, column 0 is 2.0, but discs of 3.0 to 3.0 cover it
     """
     check_value(skeleton, "skeleton", Skeleton)
+    thickness, sides = _values(thickness), pair_of_doubles(sides, "sides")
+    if not all(0 < side < inf for side in sides):
+        raise UsageError(f"sides is {shown_number(sides)}: give numbers above 0, (height, width)")
+    if whole_number(samples, "samples") < 1:
+        raise UsageError(f"samples is {shown_number(samples)}: give at least 1")
     height, width = thickness.shape
     discs = _Discs(skeleton)
     extent = max(height * sides[0], width * sides[1], discs.extent)
@@ -81,6 +93,14 @@ def verify_thickness(
             _check_pixel(discs, place, found, distance, extent, named)
         if progress is not None:
             progress((done + 1) / len(chosen))
+
+
+def _values(thickness: Any) -> Floats:
+    """Check that it is an image of numbers."""
+    values = as_array(thickness, "thickness")
+    if values.ndim != 2 or values.dtype.kind not in "biuf":
+        raise InputError(f"invalid thickness: expected numbers of shape (H, W), but got {described(thickness)}")
+    return values.astype(np.float64, copy=False)
 
 
 def _check_pixel(discs: _Discs, place: Floats, found: float, distance: float, extent: float, named: str) -> None:

@@ -15,7 +15,7 @@ from vorotool.engines.tessellation.raster_objects import numbered_components
 from vorotool.errors import InputError, LimitError
 from vorotool.geometry.arguments.images import as_label_image
 from vorotool.geometry.arguments.volumes import is_of_space
-from vorotool.geometry.checks import checked_threads
+from vorotool.geometry.checks import as_array, checked_flag, checked_threads
 from vorotool.geometry.numbers import finite_double
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.progress import Progress
@@ -484,7 +484,7 @@ def _max_distance(
 ) -> NDArray[np.float64]:
     if distance2 is None:
         return np.zeros(len(labels))
-    values = np.ascontiguousarray(distance2)
+    values = np.ascontiguousarray(as_array(distance2, "distance2"))
     if values.shape != image.shape or values.dtype.kind not in "ui":
         raise InputError(
             f"distance2 must be an integer array of shape {image.shape}, but is {values.dtype} of shape {values.shape}"
@@ -500,6 +500,6 @@ def _with_input_columns(columns: dict[str, Any], image: LabelImage, properties: 
     if seeds is not None and seeds.object_area is not None:
         columns["object_area"] = _areas(image, np.asarray(seeds.object_area, dtype=np.int64))
     table = in_unit(Table(columns), image.sides)
-    if seeds is None or not properties or not seeds.properties:
+    if seeds is None or not checked_flag(properties, "properties") or not seeds.properties:
         return table
     return table.with_properties(seeds.properties)

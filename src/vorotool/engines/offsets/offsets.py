@@ -119,7 +119,7 @@ def offset(
 
 def checked_distances(distances: float | Sequence[float]) -> list[float]:
     """Distances as a list, after a check."""
-    wanted = np.array([finite_double(distance, "a distance") for distance in _listed(distances)])
+    wanted = np.array([finite_double(distance, "a distance") for distance in listed_distances(distances)])
     if not len(wanted):
         raise UsageError("there is no distance: give one or more, above 0 outwards, below 0 inwards")
     if not wanted.all():
@@ -132,11 +132,11 @@ def checked_distances(distances: float | Sequence[float]) -> list[float]:
     return found
 
 
-def _listed(distances: Any) -> list[Any]:
+def listed_distances(distances: Any) -> list[Any]:
     """One distance, or several, as a list; text is one that is wrong."""
     try:
         return [distances] if isinstance(distances, str | bytes) else list(distances)
-    except TypeError:
+    except (TypeError, ValueError):  # as of a file that is closed
         return [distances]
 
 

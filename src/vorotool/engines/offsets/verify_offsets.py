@@ -14,11 +14,13 @@ from vorotool import _core
 from vorotool.engines.arrangement.planar_graph import planar_graph
 from vorotool.engines.common.faults import fail, first_wrong
 from vorotool.engines.features.batches import BatchShapes, in_batches
+from vorotool.engines.offsets.offsets import listed_distances
 from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi
 from vorotool.engines.segment_voronoi.verify_segment_voronoi import verify_segment_voronoi
 from vorotool.engines.skeleton.site_distances import ULPS, largest_coordinate
 from vorotool.errors import VorotoolWarning
 from vorotool.geometry.arguments.values import check_value
+from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.curves.circular_arcs import middles_of
 from vorotool.geometry.numbers import finite_double
 from vorotool.geometry.polygons.conversion import to_shapely
@@ -69,11 +71,12 @@ def verify_offsets(
     >>> verify_offsets(offset([[0, 0], [4, 0], [4, 2], [0, 2]], [-0.5, 1]))
     """
     check_value(offsets, "offsets", Offsets)
+    threads, more = checked_threads(threads), listed_distances(distances)
     tolerance = _tolerance(offsets)
     _check_chains(offsets)
     _check_sites(offsets, tolerance)
     _check_orientation(offsets, tolerance)
-    wanted = {*(finite_double(one, "a distance") for one in distances), *offsets.distance.tolist()}
+    wanted = {*(finite_double(one, "a distance") for one in more), *offsets.distance.tolist()}
     with warnings.catch_warnings(action="ignore", category=VorotoolWarning):  # features may lie over each other
         if offsets.features == "together":
             graph = planar_graph(offsets.polygons, threads=threads, progress=progress)

@@ -15,6 +15,7 @@ from vorotool.engines.volumes.inner_voxels import outer_voxels
 from vorotool.engines.volumes.volume_tessellator import VolumeSweep
 from vorotool.errors import InputError, UsageError
 from vorotool.geometry.arguments.volumes import is_volume
+from vorotool.geometry.checks import checked_flag
 from vorotool.geometry.pixel_frame import MAX_PIXELS, Frame
 from vorotool.geometry.spacing import PixelSides, pixel_sides
 
@@ -109,6 +110,8 @@ def distance_transform(
     >>> distance_transform([[0, 1, 0]], return_distances=False, return_indices=True)[1].tolist()
     [[0, 0, 2]]
     """
+    return_distances = checked_flag(return_distances, "return_distances")
+    return_indices = checked_flag(return_indices, "return_indices")
     if not (return_distances or return_indices):
         raise UsageError("return_distances and return_indices are both False: nothing is wanted, set one of them")
     sweep: Tessellator | _Background | None

@@ -13,6 +13,7 @@ from vorotool.engines.peers.arguments import plane
 from vorotool.engines.peers.distance_transform import distance_transform
 from vorotool.engines.pruning.pruning import default_pruning_for_masks, prune
 from vorotool.engines.skeleton_api import skeleton_exact
+from vorotool.geometry.checks import checked_flag
 
 if TYPE_CHECKING:
     from vorotool.typing import ImageLike
@@ -68,6 +69,7 @@ def medial_axis(
     >>> medial_axis(np.ones((3, 9))).astype(int).tolist()
     [[0, 0, 0, 0, 0, 0, 0, 0, 0], [0, 1, 1, 1, 1, 1, 1, 1, 0], [0, 0, 0, 0, 0, 0, 0, 0, 0]]
     """
+    return_distance = checked_flag(return_distance, "return_distance")
     foreground = plane(mask, "mask") != 0
     axis = np.zeros(foreground.shape, np.bool_)
     if foreground.any():

@@ -23,7 +23,7 @@ from vorotool.engines.skeleton.exact import (
     warn_empty,
 )
 from vorotool.errors import LimitError, UsageError
-from vorotool.geometry.checks import checked_threads
+from vorotool.geometry.checks import checked_threads, is_choice
 from vorotool.geometry.numbers import finite_double, shown_number
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.progress import Progress
@@ -62,8 +62,8 @@ class SamplingOptions:
             object.__setattr__(self, name, finite_double(value, f"the {name}"))
             if not getattr(self, name) > 0:
                 raise UsageError(f"the {name} is {shown_number(value)}: use a length above 0")
-        if self.sampling is not None and self.sampling not in SAMPLINGS:
-            raise UsageError(f"the sampling is {self.sampling!r}: use {' or '.join(SAMPLINGS)}")
+        if not is_choice(self.sampling, (None, *SAMPLINGS)):
+            raise UsageError(f"the sampling is {shown_number(self.sampling)}: use {' or '.join(SAMPLINGS)}")
         if self.tolerance is not None and self.sampling == "paper":
             raise UsageError("a tolerance is met by symmetric sampling: leave the sampling out")
 

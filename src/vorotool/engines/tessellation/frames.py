@@ -225,7 +225,7 @@ def asked_numbers(shape: Any, window: Any, forms: tuple[tuple[int, str], tuple[i
         return None
     try:
         numbers = [index(number) for number in given]
-    except TypeError:
+    except (TypeError, ValueError):  # as of a file that is closed
         numbers = []
     if len(numbers) != size:
         points = ": points of space have three columns, x, y and z" * ((size, len(numbers)) in ((2, 3), (4, 6)))
@@ -255,8 +255,8 @@ def label_dtype(largest: int, dtype: Any = None) -> np.dtype[Any]:
         return np.dtype(np.uint16 if largest <= 0xFFFF else np.uint32)
     try:
         kind: np.dtype[Any] = np.dtype(dtype)
-    except TypeError:
-        raise UsageError(f"dtype is {dtype!r}: use uint8, uint16, uint32 or int32") from None
+    except (TypeError, ValueError, SyntaxError):
+        raise UsageError(f"dtype is {shown_number(dtype)}: use uint8, uint16, uint32 or int32") from None
     if kind not in (np.uint8, np.uint16, np.uint32, np.int32):
         raise UsageError(f"labels cannot have type {kind}: use uint8, uint16, uint32 or int32")
     if largest > np.iinfo(kind).max:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.errors import OTSU, STRICT, InputError, Kind, Message, VorotoolWarning, option, warn
+from vorotool.geometry.checks import checked_flag
 from vorotool.geometry.numbers import finite_double
 from vorotool.geometry.points.raster import Raster
 
@@ -61,7 +62,7 @@ def foreground_values(raster: Raster, threshold: Threshold, *, invert: bool) -> 
     >>> foreground_values(Raster(np.array([[3, 200]])), 100, invert=False).tolist()
     [[False, True]]
     """
-    values = raster.values
+    values, invert = raster.values, checked_flag(invert, "invert")
     if threshold is not None:
         number, invert = settled_threshold(raster, threshold, invert=invert)
         grey = grey_values(raster)

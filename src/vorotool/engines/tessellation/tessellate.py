@@ -22,6 +22,7 @@ from vorotool.engines.tessellation.verify_tessellation import verify_label_image
 from vorotool.errors import UsageError
 from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.arguments.volumes import is_of_space, refuse_triples
+from vorotool.geometry.checks import checked_flag, is_choice
 from vorotool.geometry.numbers import shown_number, whole_number
 from vorotool.geometry.pixel_frame import MAX_PIXELS, Frame
 from vorotool.geometry.points.label_image import LabelImage
@@ -194,6 +195,7 @@ def tessellate(
     >>> tessellate([[0, 0, 0], [2, 0, 1]], shape=(2, 1, 3)).labels.tolist()
     [[[1, 1, 2]], [[1, 2, 2]]]
     """
+    image = None if image is None else checked_flag(image, "image")
     if image is not True and is_of_space(seeds, shape, window):
         asked: dict[str, Any] = {"method": method, "passes": passes, "dtype": dtype, "out": out, "threads": threads}
         asked |= {"max_distance": max_distance, "spacing": spacing, "max_pixels": max_pixels, "progress": progress}
@@ -251,14 +253,14 @@ def labelled_rows(
     >>> labelled_rows(as_seeds([[0, 0], [2, 1]]), Frame(0, 0, 3, 2)).labels(1).tolist()
     [[1, 2, 2]]
     """
+    if not is_choice(method, ("exact", "propagation")):
+        raise UsageError(f"method is {shown_number(method)}: it must be 'exact' or 'propagation'")
     if method == "propagation":
         if max_distance is not None:
             raise UsageError("max_distance needs method='exact': the paper's propagation has no distance limit")
         if sides != SQUARE:
             raise UsageError("spacing needs method='exact': the paper's propagation is for square pixels of side 1")
         return PropagatedRows(seeds, frame, passes=passes, strict=strict, max_pixels=max_pixels, progress=progress)
-    if method != "exact":
-        raise UsageError(f"method is {method!r}: it must be 'exact' or 'propagation'")
     if whole_number(passes, "passes") != 2:
         raise UsageError(f"passes is {shown_number(passes)}, which needs method='propagation'")
     return Tessellator(

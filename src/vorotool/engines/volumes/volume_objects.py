@@ -21,6 +21,7 @@ from vorotool.engines.tessellation.raster_objects import (
     photograph_signs,
 )
 from vorotool.errors import InputError, option
+from vorotool.geometry.checks import checked_flag
 from vorotool.geometry.numbers import finite_double
 from vorotool.geometry.volumes.volume import Volume
 from vorotool.geometry.volumes.voxel_grid import VoxelGrid
@@ -166,7 +167,7 @@ class VolumeObjects:
         InputError
             If they look like grey values.
         """
-        if self.threshold is not None or self.invert:
+        if self.threshold is not None or checked_flag(self.invert, "invert"):
             return "components"
         one, found = only_value((first, self.values(first, count)) for first, count in self.limits())
         if found is None:

@@ -201,7 +201,7 @@ def seeds_of_slabs(
     (26, [27], [[1.0, 1.0, 1.0]])
     """
     if not is_choice(connectivity, _CONNECTIVITY):
-        of_images = "; 8 and 4 are of images" if connectivity in (8, 4) else ""
+        of_images = "; 8 and 4 are of images" if is_choice(connectivity, (8, 4)) else ""
         raise UsageError(f"connectivity is {shown_number(connectivity)}: it must be 26 or 6 in a volume{of_images}")
     if not is_choice(mode, (None, *get_args(SeedMode))):
         raise UsageError(f"mode is {mode!r}: it must be one of {', '.join(get_args(SeedMode))}")

@@ -9,8 +9,10 @@ from numpy.typing import NDArray
 
 from vorotool.engines.common.faults import fail, first_wrong
 from vorotool.engines.voronoi.verify_cuts import EnclosedFaces, shared_out
+from vorotool.errors import UsageError
 from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.curves.inverse_functions import PI, angle_of
+from vorotool.geometry.numbers import shown_number, whole_number
 from vorotool.geometry.polygons.used_shapes import used_shapes
 from vorotool.geometry.ragged import owners
 from vorotool.geometry.voronoi.shapes import flattened_arcs
@@ -73,6 +75,9 @@ def verify_voronoi(cells: VoronoiMap, *, places: int = 1000) -> None:
     vorotool.errors.VerificationError: the cells have an area of 64.0, but the frame one of 1
     """
     check_value(cells, "cells", VoronoiMap)
+    places = whole_number(places, "places")
+    if not 0 < places < 2**31:
+        raise UsageError(f"places is {shown_number(places)}: give an integer from 1 to {2**31 - 1}")
     _check_rings(cells)
     _check_areas(cells)
     if len(cells) and len(cells.polygons):

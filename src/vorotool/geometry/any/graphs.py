@@ -87,7 +87,7 @@ def to_networkx(
     4.0
     """
     if isinstance(value, Skeleton):
-        return _of_skeleton(_library(), value, by or "branch", flatten)
+        return _of_skeleton(_library(), value, "branch" if by is None else by, flatten)
     makers: list[tuple[Any, Callable[[Any, Any], Any]]] = [
         (Triangulation | DigitalTriangulation | ProximityGraph, _of_mesh),
         (LabelImage | LabelVolume, _of_labels),

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError, UsageError, option
 from vorotool.geometry.arguments.descriptions import described, items_of, naming, unexpected
-from vorotool.geometry.arguments.features import HeldFeatures, held_features
+from vorotool.geometry.arguments.features import HeldFeatures, held_features, is_shapely
 from vorotool.geometry.arguments.images import as_raster, is_image
 from vorotool.geometry.arguments.points import as_points
 from vorotool.geometry.arguments.polygons import as_polygons, is_ring
@@ -127,8 +127,10 @@ def _of_held(held: HeldFeatures) -> Sites:
 
 def _shapely_of(item: Any) -> Any:
     """Geometry of shapely for an object of GeoJSON."""
-    if not isinstance(item, Mapping):
+    if item is None or is_shapely(item):
         return item
+    if not isinstance(item, Mapping):
+        raise unexpected(item, "a geometry")
     import shapely
     from shapely.geometry import shape
 

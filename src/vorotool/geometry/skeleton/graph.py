@@ -8,7 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import UsageError
+from vorotool.geometry.checks import is_choice
 from vorotool.geometry.curves.flatten import chained
+from vorotool.geometry.numbers import shown_number
 from vorotool.geometry.skeleton.skeleton import KINDS, SIDES, Skeleton
 from vorotool.geometry.skeleton.tables import branch_table, ids_of
 from vorotool.geometry.sorted_sets import distinct
@@ -72,8 +74,8 @@ def skeleton_graph(skeleton: Skeleton, *, by: str = "branch", flatten: float | N
     UsageError
         If edges are to be something else, or the tolerance is not positive.
     """
-    if by not in BY:
-        raise UsageError(f"by is {by!r}: use {' or '.join(BY)}")
+    if not is_choice(by, BY):
+        raise UsageError(f"by is {shown_number(by)}: use {' or '.join(BY)}")
     points, start = skeleton.flattened(flatten)
     first = np.flatnonzero(np.diff(skeleton.branch, prepend=-1))
     if by == "arc":

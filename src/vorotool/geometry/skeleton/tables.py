@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.errors import InputError
+from vorotool.geometry.arguments.descriptions import described
 from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.parallel import in_chunks
 from vorotool.geometry.polygons.conversion import to_shapely
@@ -261,6 +263,7 @@ def polygon_table(skeleton: Skeleton, *, columns: Mapping[str, Any] | None = Non
     [[8.0], [4], [2], [0], [2.0]]
     """
     check_value(skeleton, "skeleton", Skeleton)
+    further = _mapping(columns)
     polygons, count = skeleton.polygons, len(skeleton.polygons)
     is_inside = skeleton.side == INTERIOR
     inside: Any = slice(None) if is_inside.all() else np.flatnonzero(is_inside)
@@ -297,10 +300,19 @@ def polygon_table(skeleton: Skeleton, *, columns: Mapping[str, Any] | None = Non
             "cycles": cycles,
             "width_max": np.ma.array(widest, mask=empty),
             "width_mean": np.ma.array(mean, mask=empty),
-            **(columns or {}),
+            **further,
         }
     )
     return table.with_properties(polygons.properties)
+
+
+def _mapping(columns: Any) -> dict[str, Any]:
+    """Give further columns by their names."""
+    if columns is None:
+        return {}
+    if not isinstance(columns, Mapping | Table) or not all(isinstance(name, str) for name in columns):
+        raise InputError(f"invalid columns: expected a mapping from names to values, but got {described(columns)}")
+    return {name: columns[name] for name in columns}
 
 
 def _components(
