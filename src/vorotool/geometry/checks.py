@@ -70,7 +70,7 @@ def as_array(values: Any, name: str) -> NDArray[Any]:
     --------
     >>> as_array([[1, 2], [3]], "distance2")
     Traceback (most recent call last):
-    vorotool.errors.InputError: invalid distance2 [[1, 2], [3]]: expected an array
+    vorotool.errors.InputError: invalid distance2 […, …]: expected an array
     """
     try:
         return np.asarray(values)
