@@ -20,9 +20,10 @@ from vorotool.engines.tessellation.propagation import PropagatedRows
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.engines.tessellation.verify_tessellation import verify_label_image
 from vorotool.errors import UsageError
+from vorotool.geometry.arguments.images import check_image_choice
 from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.arguments.volumes import is_of_space, refuse_triples
-from vorotool.geometry.checks import checked_flag, is_choice
+from vorotool.geometry.checks import is_choice
 from vorotool.geometry.numbers import shown_number, whole_number
 from vorotool.geometry.pixel_frame import MAX_PIXELS, Frame
 from vorotool.geometry.points.label_image import LabelImage
@@ -195,7 +196,7 @@ def tessellate(
     >>> tessellate([[0, 0, 0], [2, 0, 1]], shape=(2, 1, 3)).labels.tolist()
     [[[1, 1, 2]], [[1, 2, 2]]]
     """
-    image = None if image is None else checked_flag(image, "image")
+    check_image_choice(image)
     if image is not True and is_of_space(seeds, shape, window):
         asked: dict[str, Any] = {"method": method, "passes": passes, "dtype": dtype, "out": out, "threads": threads}
         asked |= {"max_distance": max_distance, "spacing": spacing, "max_pixels": max_pixels, "progress": progress}

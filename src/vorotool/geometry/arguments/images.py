@@ -25,6 +25,12 @@ POINT_WIDTHS = (2, 3)
 COLOUR_CHANNELS = (1, 2, 3, 4)
 
 
+def check_image_choice(image: Any) -> None:
+    """Raise UsageError unless `image` is True, False or None."""
+    if not is_choice(image, (None, True, False)):
+        raise UsageError(f"invalid image {image!r}: expected True, False or None")
+
+
 def is_image(source: Any, name: str, image: bool | None = None) -> bool:
     """Tell whether what may be points or an image is an image.
 
@@ -50,8 +56,7 @@ def is_image(source: Any, name: str, image: bool | None = None) -> bool:
     >>> is_image(np.eye(3, dtype=bool), "seeds"), is_image(np.zeros((9, 2), int), "seeds"), is_image([[1, 2]], "seeds")
     (True, False, False)
     """
-    if not is_choice(image, (None, True, False)):
-        raise UsageError(f"invalid image {image!r}: expected True, False or None")
+    check_image_choice(image)
     if isinstance(source, Raster | LabelImage):
         return True
     if image is not None:
