@@ -68,7 +68,7 @@ def placed_shapes(
     assert given is not None
     assert graph.vertices is not None
     vertex = np.concatenate([graph.point_vertex, graph.source_edge[graph.source_start[:-1]]]).astype(np.int64)
-    moved = replace(given, xy=graph.coordinates(graph.vertices)) if graph.largest_move > 0 else given
+    moved = given.moved(graph.coordinates(graph.vertices)) if graph.largest_move > 0 else given
     if any(graph.repairs.values()):
         if is_repaired is None:
             return _of_borders(graph, given, vertex)
@@ -105,6 +105,9 @@ def _of_some_borders(
     both = RingArrays.joined([RingArrays.of(given), RingArrays.of(used.polygons)])
     arrays, _, vertices = both.taken(np.concatenate([kept, len(given) + parts])[order])
     polygons = arrays.polygons(given, sources[order])
+    if graph.largest_move:
+        as_given = np.concatenate([given.as_given.xy, used.polygons.as_given.xy])[vertices]
+        polygons = replace(polygons, xy=as_given).moved(polygons.xy)
     place = np.full(len(both.xy) + 1, len(vertices), dtype=np.int64)  # of each vertex of both
     place[vertices] = np.arange(len(vertices))
     own = place[len(given.xy) + _vertices_of_sites(graph, used)]

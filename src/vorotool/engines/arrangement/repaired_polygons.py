@@ -61,7 +61,7 @@ def repaired_polygons(graph: PlanarGraph) -> RepairedPolygons:
     starts_polygon = rings.kind != HOLE
     source = rings.source[starts_polygon]
     polygons = PolygonSet(
-        graph.coordinates()[rings.point],
+        graph.coordinates_as_given[rings.point],
         starts_of(rings.sizes),
         rings.kind,
         np.cumsum(starts_polygon) - 1,
@@ -73,6 +73,8 @@ def repaired_polygons(graph: PlanarGraph) -> RepairedPolygons:
         unit=given.unit,
         index=index_of_rows(given.index, source),
     )
+    if graph.largest_move:
+        polygons = polygons.moved(graph.coordinates()[rings.point])
     return RepairedPolygons(polygons, source.astype(np.int32), rings.point, rings.segment)
 
 

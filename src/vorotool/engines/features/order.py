@@ -143,9 +143,14 @@ def _all_polygons(whole: FeatureShapes, parts: Sequence[BatchShapes], source: In
     if not any(whole.repairs.values()):
         if not placement.largest_move:
             return used
-        return replace(used, xy=np.asarray(placement.origin) + whole.scale * placement.vertices.astype(np.float64))
-    arrays = RingArrays.joined([RingArrays.of(shapes.placed.polygons) for shapes in parts])
-    return arrays.taken(order)[0].polygons(used, source)
+        return used.moved(np.asarray(placement.origin) + whole.scale * placement.vertices.astype(np.float64))
+    placed = [shapes.placed.polygons for shapes in parts]
+    arrays, _, vertices = RingArrays.joined([RingArrays.of(polygons) for polygons in placed]).taken(order)
+    made = arrays.polygons(used, source)
+    if not whole.largest_move:
+        return made
+    as_given = np.concatenate([polygons.as_given.xy for polygons in placed])[vertices]
+    return replace(made, xy=as_given).moved(made.xy)
 
 
 def _all_sites(

@@ -63,18 +63,20 @@ def own_areas(cells: VoronoiMap) -> Floats:
 
 
 def _face_areas(graph: PlanarGraph, frame: tuple[float, float, float, float]) -> Floats:
-    """(f,) areas of faces within a frame; exact in integers where these lie in it whole."""
-    places = graph.points.astype(np.int64)
+    """(f,) areas of faces within a frame, with the corners that were given."""
     x, y, w, h = frame
-    at = graph.coordinates()
+    at = graph.coordinates_as_given
     is_out = (at != at.clip([x, y], [x + w, y + h])).any(axis=1)
-    doubled, is_cut = np.zeros(graph.faces, dtype=np.int64), np.zeros(graph.faces, dtype=bool)
-    first, second = graph.segments.T
-    cross = places[first, 0] * places[second, 1] - places[first, 1] * places[second, 0]
+    doubled, is_cut = np.zeros(graph.faces), np.zeros(graph.faces, dtype=bool)
+    near = np.zeros((graph.faces, 2))  # a corner of each: products are of the size of the face
+    for hand in (0, 1):
+        near[graph.segment_faces[:, hand]] = at[graph.segments[:, 0]]
     for hand, sign in ((0, 1), (1, -1)):
-        np.add.at(doubled, graph.segment_faces[:, hand], sign * cross)  # sums that pass 2^63 come back
-        is_cut[graph.segment_faces[:, hand][is_out[graph.segments].any(axis=1)]] = True
-    area: Floats = doubled / 2 * graph.scale * graph.scale
+        face = graph.segment_faces[:, hand]
+        a, b = at[graph.segments.T] - near[face]
+        np.add.at(doubled, face, sign * (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]))
+        is_cut[face[is_out[graph.segments].any(axis=1)]] = True
+    area: Floats = doubled / 2
     if is_cut.any():
         chosen = np.flatnonzero(is_cut[graph.segment_faces].any(axis=1))
         below = _below(at[graph.segments[chosen, 0]] - [x, y], at[graph.segments[chosen, 1]] - [x, y], w, h)

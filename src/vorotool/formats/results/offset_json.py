@@ -18,6 +18,7 @@ from vorotool.formats.results.json_reader import (
     read_polygons_of,
     read_sites,
 )
+from vorotool.formats.results.placed_polygons import LATTICE_STEP, as_read, as_written
 from vorotool.formats.text.json_writer import choice, integers, number_or_null, optional_pair, write_list, write_sites
 from vorotool.formats.text.row_writer import Column
 from vorotool.formats.text.tables import json_text
@@ -34,7 +35,7 @@ def write_json(out: BinaryIO, offsets: Offsets, *, precision: int | None = None,
 
     The rings of a shape begin with the ring ``first``, its shell; the pieces of a ring with the piece ``first``.
     """
-    polygons = offsets.polygons
+    polygons, step = as_written(offsets.polygons)
     head: dict[str, Any] = {"type": TYPE, "version": VERSION}
     if polygons.y_up:
         head["y_up"] = True
@@ -42,6 +43,8 @@ def write_json(out: BinaryIO, offsets: Offsets, *, precision: int | None = None,
         head["crs"] = polygons.crs
     if offsets.features != "separate":
         head["features"] = offsets.features
+    if step:
+        head[LATTICE_STEP] = step
     out.write(json_text(head).removesuffix("}").encode() + b",\n")
     write_items(out, polygons)
     write_sites(out, offsets.site_table, threads=threads)
@@ -101,7 +104,7 @@ def read_offsets(source: Source, options: ReadOptions) -> Offsets:
     [-1.0, 1.0]
     """
     rows = opened_rows(source, TYPE, VERSION, "offset curves")
-    polygons = read_polygons_of(rows, options)
+    polygons = as_read(read_polygons_of(rows, options), rows.document)
     sites = read_sites(rows, polygons)
     shapes, rings, pieces = (rows.list_of(name) for name in ("shapes", "rings", "pieces"))
     distance = rows.numbers("shapes", shapes, "distance")

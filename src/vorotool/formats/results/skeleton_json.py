@@ -18,6 +18,7 @@ from vorotool.formats.results.json_reader import (
     read_polygons_of,
     read_sites,
 )
+from vorotool.formats.results.placed_polygons import LATTICE_STEP, as_read, as_written
 from vorotool.formats.text.json_writer import (
     choice,
     integers,
@@ -43,7 +44,7 @@ def write_json(out: BinaryIO, skeleton: Skeleton, *, precision: int | None = Non
     ``frame``, ``gap``, ``y_up``, ``crs`` and ``connectivity`` where there are such, and ``features`` where they are
     together, and ``border`` where it is open.
     """
-    polygons = skeleton.polygons
+    polygons, step = as_written(skeleton.polygons)
     head: dict[str, Any] = {"type": TYPE, "version": VERSION}
     if skeleton.frame is not None:
         head["frame"] = list(skeleton.frame)
@@ -59,6 +60,8 @@ def write_json(out: BinaryIO, skeleton: Skeleton, *, precision: int | None = Non
         head["crs"] = polygons.crs
     if polygons.connectivity is not None:
         head["connectivity"] = polygons.connectivity
+    if step:
+        head[LATTICE_STEP] = step
     out.write(json_text(head).removesuffix("}").encode() + b",\n")
     write_items(out, polygons)
     write_sites(out, skeleton.site_table, threads=threads)
@@ -123,7 +126,7 @@ def read_skeleton(source: Source, options: ReadOptions) -> Skeleton:
     4
     """
     rows = opened_rows(source, TYPE, VERSION, "skeleton")
-    polygons = read_polygons_of(rows, options)
+    polygons = as_read(read_polygons_of(rows, options), rows.document)
     sites = read_sites(rows, polygons)
     vertices = rows.list_of("vertices")
     x, y, radius = (rows.numbers("vertices", vertices, name) for name in ("x", "y", "r"))

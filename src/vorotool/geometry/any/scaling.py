@@ -117,7 +117,13 @@ def scaled(
         name: _scaled(getattr(value, name), factor, None if name in _DISTANCES else origin, unit, of_steps=of_steps)
         for name in _LENGTHS_OF[type(value)].split()
     }
-    return replace(value, **parts, unit=unit) if isinstance(value, PolygonSet) else replace(value, **parts)
+    if not isinstance(value, PolygonSet):
+        return replace(value, **parts)
+    made = replace(value, **parts, unit=unit)
+    if value.as_given is value:
+        return made
+    as_given = _scaled(value.as_given.xy, factor, origin, unit, of_steps=of_steps)
+    return replace(made, xy=as_given).moved(made.xy)
 
 
 def _scale(factor: Fraction, *, of_steps: bool) -> tuple[float, float]:

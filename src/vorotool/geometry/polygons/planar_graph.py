@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -154,6 +155,31 @@ class PlanarGraph(Value, Tabular, Geometric, Graph, Pictured):
         lattice = np.asarray(self.points if points is None else points, dtype=np.float64)
         return np.asarray(self.origin) + self.scale * lattice
 
+    @cached_property
+    def coordinates_as_given(self) -> NDArray[np.float64]:
+        """(n, 2) for each point the coordinates of the input's vertices there; the lattice's where they differ."""
+        places = self.coordinates()
+        if self.polygons is None or self.vertices is None or not self.largest_move:
+            return places
+        known = np.flatnonzero(self.point_vertex >= 0)
+        places[known] = self.polygons.xy[self.point_vertex[known]]
+        keys = _packed(self.points)
+        order = np.argsort(keys, kind="stable")
+        rank = np.minimum(np.searchsorted(keys, _packed(self.vertices), sorter=order), max(len(keys) - 1, 0))
+        point = order[rank] if len(keys) else rank[:0]
+        there = np.flatnonzero((self.points[point] == self.vertices).all(axis=1)) if len(keys) else point
+        differs = (places[point[there]] != self.polygons.xy[there]).any(axis=1)
+        several = np.unique(point[there[differs]])
+        places[several] = self.coordinates(self.points[several])
+        return places
+
     def _summary(self) -> str:
         sizes = (counted(len(self.points), "point"), counted(len(self), "segment"), counted(self.faces, "face"))
         return placed(", ".join(sizes), None if self.polygons is None else self.polygons.crs)
+
+
+def _packed(places: NDArray[np.int32]) -> NDArray[np.int64]:
+    """One number for each place of the lattice."""
+    x, y = places.astype(np.int64).T
+    packed: NDArray[np.int64] = x * 2**32 + y
+    return packed

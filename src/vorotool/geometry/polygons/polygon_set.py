@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
@@ -115,6 +115,25 @@ class PolygonSet(Value, Tabular, Geometric, Pictured):
         assert self.feature is not None
         first = np.flatnonzero(np.diff(self.feature, prepend=-1))
         return (within(np.diff(first, append=len(self.feature))) + 1).astype(np.int32)
+
+    @property
+    def as_given(self) -> PolygonSet:
+        """These polygons with the coordinates of the input, where an engine has moved vertices to a lattice."""
+        given: PolygonSet = self.__dict__.get("_as_given", self)
+        return given
+
+    def moved(self, xy: NDArray[np.float64]) -> PolygonSet:
+        """Move the vertices: `as_given` of what is returned has those of these polygons.
+
+        Examples
+        --------
+        >>> moved = set_of_rings([[0, 0], [4.1, 0], [0, 3]], [3], [SHELL], [0]).moved([[0, 0], [4, 0], [0, 3]])
+        >>> moved.xy[1].tolist(), moved.as_given.xy[1].tolist()
+        ([4.0, 0.0], [4.1, 0.0])
+        """
+        made = replace(self, xy=xy)
+        made.__dict__["_as_given"] = self.as_given
+        return made
 
     @cached_property
     def polygon_start(self) -> NDArray[np.int64]:

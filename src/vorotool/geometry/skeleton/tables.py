@@ -284,7 +284,7 @@ def polygon_table(skeleton: Skeleton, *, columns: Mapping[str, Any] | None = Non
     mean = np.divide(2 * np.bincount(of_arc, integral[inside], count), length, out=np.zeros(count), where=length > 0)
     starts = _branch_starts(skeleton)
     cycles = arcs - counted(own) + _components(skeleton, starts, node_polygon, count)
-    area, perimeter = _measures(polygons, threads)
+    area, perimeter = _measures(polygons.as_given, threads)
     empty = arcs == 0
     table = Table(
         {
