@@ -187,3 +187,12 @@ def test_curves_in_files_are_counted_once(tmp_path):
     assert len(sizes) == 1
     (tmp_path / "unnamed").write_bytes(files["a.wkt"][6:])
     assert len(vorotool.read(tmp_path / "unnamed")) == 2
+
+
+def test_a_curve_where_none_should_be_is_damage():
+    """A polygon inside a multipolygon that says that it is a circular string."""
+    data = bytearray(shapely.to_wkb(shapely.MultiPolygon([shapely.box(0, 0, 1, 1)])))
+    data[10:14] = (8).to_bytes(4, "little")
+    found = geometry_of_binary([bytes(data), shapely.to_wkb(shapely.Point(1, 2))]).geometry
+    assert found[0] is None or found[0].is_empty
+    assert found[1] == shapely.Point(1, 2)

@@ -70,10 +70,10 @@ def geometry_of_texts(texts: Sequence[str | None], flatten: float | None = None)
     plain[own] = None
     with np.errstate(all="ignore"):  # numbers beyond the largest double are found by whoever reads the vertices
         try:
-            geometry = shapely.from_wkt(plain, on_invalid="ignore")
+            geometry = _read_plain(shapely.from_wkt, plain)
         except (shapely.GEOSException, UnicodeEncodeError):  # a text with half a surrogate pair
             plain[[k for k, text in enumerate(plain) if isinstance(text, str) and not _is_unicode(text)]] = None
-            geometry = shapely.from_wkt(plain, on_invalid="ignore")
+            geometry = _read_plain(shapely.from_wkt, plain)
     return _with_own(geometry, {k: _read_later(_TextReader, texts[k]) for k in own}, flatten)
 
 
@@ -102,8 +102,19 @@ def geometry_of_binary(items: Sequence[bytes | str | None], flatten: float | Non
     own = [k for k, item in enumerate(items) if item is not None and _is_read_here(item)]
     plain = np.array([*items, None], dtype=object)[:-1]
     plain[own] = None
-    geometry = shapely.from_wkb(plain, on_invalid="ignore")
+    geometry = _read_plain(shapely.from_wkb, plain)
     return _with_own(geometry, {k: _read_later(_BinaryReader, items[k]) for k in own}, flatten)
+
+
+def _read_plain(read: Callable[..., Any], items: NDArray[np.object_]) -> NDArray[np.object_]:
+    """Read geometry by shapely; None for what is damaged, or holds curves where none should be."""
+    try:
+        made: NDArray[np.object_] = read(items, on_invalid="ignore")
+    except NotImplementedError:
+        if len(items) == 1:
+            return np.array([None], dtype=object)
+        return np.concatenate([_read_plain(read, items[k : k + 1]) for k in range(len(items))])
+    return made
 
 
 def without_curves(geometry: NDArray[np.object_], flatten: float | None = None) -> Flat:
