@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -61,14 +60,14 @@ def _columns(source: Source) -> tuple[dict[str, list[Any]], Any]:
 
     parquet = needed("pyarrow.parquet", "gis", f"{_TITLE} files")
     with parquet.ParquetFile(io.BytesIO(source.data)) as file:
-        about, schema = file.metadata, file.schema_arrow
+        about, schema, repeated = file.metadata, file.schema_arrow, _repeated(file.schema)
     ReadOptions(max_sites=source.max_sites).check_sites(source.name, about.num_rows)
     groups = [about.row_group(index) for index in range(about.num_row_groups)]
     cells = _CELL * about.num_rows * max(about.num_columns, 1)
     check_unpacked(source.name, cells + sum(group.total_byte_size for group in groups), len(source.data))
     found: list[list[Any]] = [[] for _ in schema.names]
     size = 0
-    with parquet.ParquetFile(io.BytesIO(source.data), read_dictionary=_repeated(groups)) as file:
+    with parquet.ParquetFile(io.BytesIO(source.data), read_dictionary=repeated) as file:
         for batch in file.iter_batches(_BATCH):
             size += sum(map(_size, batch.columns))
             check_unpacked(source.name, size, len(source.data))
@@ -78,16 +77,13 @@ def _columns(source: Source) -> tuple[dict[str, list[Any]], Any]:
     return dict(zip(schema.names, found, strict=True)), None if said is None else orjson.loads(said)
 
 
-def _repeated(groups: Sequence[Any]) -> list[str]:
-    """Columns of bytes of which a value may stand for many rows: they stay so until they are counted."""
-    chunks = (group.column(index) for group in groups for index in range(group.num_columns))
-    return list(
-        dict.fromkeys(
-            chunk.path_in_schema
-            for chunk in chunks
-            if chunk.physical_type == "BYTE_ARRAY" and any("DICTIONARY" in each for each in chunk.encodings)
-        )
-    )
+def _repeated(schema: Any) -> list[str]:
+    """Return the columns of bytes, of which a value may stand for many rows: they stay so until they are counted.
+
+    What the file says of its chunks would tell which do; where that is damaged pyarrow ends the process.
+    """
+    columns = (schema.column(index) for index in range(len(schema)))
+    return [column.path for column in columns if column.physical_type == "BYTE_ARRAY"]
 
 
 def _size(array: Any) -> int:
