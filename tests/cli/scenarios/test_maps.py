@@ -109,9 +109,8 @@ def test_a_shapefile_does_not_go_through_a_stream(run, lakes):
     assert done.code == 2
     assert "binary" in done.err or "a Shapefile is several files" in done.err
     done = run("skeleton-exact", "lakes.gpkg", "-q", "-o", "/dev/stdout", "-f", "shp")
-    assert (done.code, done.err) == (
-        2, "error: a Shapefile is several files, and no stream holds them: name a file with -o\n",
-    )  # fmt: skip
+    assert done.code == 2
+    assert done.err.startswith("error: a Shapefile is several files, and no stream such as /dev/stdout holds them")
 
 
 def test_no_part_of_a_shapefile_is_replaced_unasked(run, lakes):
