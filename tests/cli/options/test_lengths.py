@@ -106,7 +106,7 @@ KNOWN = "nm, um, µm, mm, cm, m, km, in, ft"
         ("skeleton-exact in.json --what points --every 1ell", "invalid --every '1ell'"),
         ("skeleton-exact in.json --gap -1um", "'-1um': expected 0 or more"),
         ("skeleton-exact in.json --what points --every 0um", "'0um': expected more than 0"),
-        ("skeleton-exact in.json --what offset -d 0um,2", "0um,2"),
+        ("skeleton-exact in.json --what offset -d 0um,2", "a distance is 0"),
         ("skeleton-exact in.json --what offset -d 1mm,1000um --pixel-size 1mm", "the distance 1 is there 2 times"),
         ("skeleton-exact in.json --prune angle=2um", "'2um' is no number"),
         ("skeleton-exact in.json --prune length=-2um", "expected a length from 0"),

@@ -109,8 +109,11 @@ def test_a_shapefile_does_not_go_through_a_stream(run, lakes):
     assert done.code == 2
     assert "binary" in done.err or "a Shapefile is several files" in done.err
     done = run("skeleton-exact", "lakes.gpkg", "-q", "-o", "/dev/stdout", "-f", "shp")
-    assert done.code == 2
-    assert done.err.startswith("error: a Shapefile is several files, and no stream such as /dev/stdout holds them")
+    assert (done.code, done.err) == (
+        2,
+        "error: a Shapefile is several files, and no stream such as /dev/stdout holds them: name a file with -o, "
+        "or write a GeoPackage (.gpkg)\n",
+    )
 
 
 def test_no_part_of_a_shapefile_is_replaced_unasked(run, lakes):

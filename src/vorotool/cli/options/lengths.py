@@ -83,7 +83,8 @@ class Distances(ParameterType[tuple[float, ...]]):
         if isinstance(value, tuple):
             return value
         try:
-            lengths = tuple(measured(part.strip()) or float(part) for part in value.split(","))
+            parts = [(part, measured(part.strip())) for part in value.split(",")]
+            lengths = tuple(float(part) if length is None else length for part, length in parts)
         except ValueError:
             self.fail(f"{value!r}: expected numbers such as -2,5", param, ctx)
         from vorotool.engines.offsets.offsets import checked_distances
