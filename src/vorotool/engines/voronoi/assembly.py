@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.engines.voronoi.frame_cut import CutBorders
 from vorotool.engines.voronoi.frame_ring import FrameRing
+from vorotool.engines.voronoi.moves import Moves
 from vorotool.errors import VerificationError
 from vorotool.geometry.curves.mixed_arcs import MixedArcs
 from vorotool.geometry.ragged import ranges, starts_of
@@ -40,6 +41,8 @@ class Arcs:
         Left and right; `OUTSIDE` of what belongs to nobody.
     order : (a, 2) int64 array
         Rising counter-clockwise around source and target.
+    moves : Moves
+        Of vertices that are vertices of the input: all is decided where the lattice has them.
     """
 
     vertices: Floats
@@ -50,6 +53,7 @@ class Arcs:
     sites: Indices
     parts: Indices
     order: Indices
+    moves: Moves
 
     def mixed(self) -> MixedArcs:
         """The arcs with their ends."""
@@ -91,6 +95,7 @@ def arcs_of(cut: CutBorders, ring: FrameRing, sites: Indices, parts: Indices, or
     used[on_frame] = False
     kept = np.concatenate([np.flatnonzero(used), on_frame])
     number[kept] = np.arange(len(kept))
+    moves = cut.moves.renumbered(number)
     ends = number.take(ends)
     turned = ends[:, 0] > ends[:, 1]
     sorting = by_ends(np.where(turned[:, None], ends[:, ::-1], ends), control, center)
@@ -101,7 +106,7 @@ def arcs_of(cut: CutBorders, ring: FrameRing, sites: Indices, parts: Indices, or
     del pairs
     control, center = control.take(sorting, axis=0), center.take(sorting, axis=0)
     center = without_lost(center, places, ends, both_sites[:, 0] != OUTSIDE)
-    return Arcs(places, radius[kept], ends, control, center, both_sites, both_parts, orders)
+    return Arcs(places, radius[kept], ends, control, center, both_sites, both_parts, orders, moves)
 
 
 def without_lost(center: Floats, places: Floats, ends: Indices, is_left: NDArray[np.bool_]) -> Floats:

@@ -83,9 +83,9 @@ class EdgeLines:
         near: Floats = np.abs((self.normal[edge] * (places - self.source[edge])).sum(axis=1))
         return near
 
-    def place(self, edges: CutEdges, edge: Indices, far: Floats) -> Floats:
-        """(k, 2) places along edges in input units; between ends of one coordinate they have that too."""
-        a, b = edges.places[edges.ends[edge, 0]], edges.places[edges.ends[edge, 1]]
+    def place(self, ends: Floats, edge: Indices, far: Floats) -> Floats:
+        """(k, 2) places along edges with such ends (m, 2, 2); between ends of one coordinate they have that too."""
+        a, b = ends[edge].swapaxes(0, 1)
         part = (far / self.length[edge])[:, None]
         made: Floats = np.where(part < 1 / 2, a + part * (b - a), b - (1 - part) * (b - a))
         return made

@@ -102,7 +102,7 @@ def frame_of(edges: CutEdges, frame: Frame | None, clip: PolygonSet | None) -> F
     clip : PolygonSet, optional
         That was given.
     """
-    places = edges.places
+    places = edges.given
     if not len(places):
         if frame is not None:
             return frame

@@ -12,10 +12,12 @@ from vorotool.engines.voronoi.assembly import Arcs, Rings, by_ends, cycles_of, r
 from vorotool.engines.voronoi.crossings import crossings_of
 from vorotool.engines.voronoi.curves import controls_of
 from vorotool.engines.voronoi.local_diagrams import LocalDiagrams
+from vorotool.engines.voronoi.moves import Moves
 from vorotool.engines.voronoi.nearest_elements import NearestElements
 from vorotool.engines.voronoi.overlay import UNKNOWN, Overlay
 from vorotool.engines.voronoi.regions import CutEdges
 from vorotool.errors import VerificationError
+from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.ragged import owners
 from vorotool.geometry.voronoi.voronoi_map import OUTSIDE
 
@@ -49,7 +51,9 @@ class CutMap:
     frame: tuple[float, float, float, float]
 
 
-def cut_map(local: LocalDiagrams, edges: CutEdges, frame: tuple[float, float, float, float]) -> CutMap:
+def cut_map(
+    local: LocalDiagrams, edges: CutEdges, joint: PlanarGraph, frame: tuple[float, float, float, float]
+) -> CutMap:
     """Put the borders of all regions between the cuts, and tell whose each side of each cut is.
 
     Where a site has both sides of an enclosure, there is no arc.
@@ -60,6 +64,8 @@ def cut_map(local: LocalDiagrams, edges: CutEdges, frame: tuple[float, float, fl
         With the borders.
     edges : CutEdges
         The cuts.
+    joint : PlanarGraph
+        Of the sites and the cuts, as they were given.
     frame : (x, y, w, h)
         Bounds of what is shared out.
 
@@ -70,7 +76,7 @@ def cut_map(local: LocalDiagrams, edges: CutEdges, frame: tuple[float, float, fl
     """
     overlay = Overlay(local, edges, crossings_of(local, edges))
     sites, order = _sites_and_order(overlay)
-    arcs = _with_all_sites(overlay, sites, order)
+    arcs = _with_all_sites(overlay, joint, sites, order)
     count = len(overlay.pieces.piece)
     is_cut = (np.arange(len(arcs.ends)) >= count) | (arcs.sites == OUTSIDE).any(axis=1)
     kept = np.flatnonzero(arcs.sites[:, 0] != arcs.sites[:, 1])
@@ -120,20 +126,33 @@ def _directions(overlay: Overlay) -> Floats:
 
 def _places(overlay: Overlay) -> tuple[Floats, Floats]:
     """Of all places where they are in input units, and their distances from sites."""
-    local, edges, found = overlay.local, overlay.edges, overlay.found
-    graph, count = local.owned.graph, overlay.count
-    inner = np.flatnonzero(found.edge >= 0)
-    places = np.full((len(found.node), 2), np.nan)
-    places[:count] = graph.coordinates(local.borders.places).reshape(-1, 2)
-    places[count : count + len(edges.places)] = edges.places
-    places[inner] = overlay.lines.place(edges, found.edge[inner], found.far[inner])
+    found, graph = overlay.found, overlay.local.owned.graph
+    places = _placed(overlay, graph.coordinates(overlay.local.borders.places).reshape(-1, 2), overlay.edges.places)
     radius = graph.scale * found.radius
-    enclosure = edges.is_enclosure[overlay.cuts.edge]
+    enclosure = overlay.edges.is_enclosure[overlay.cuts.edge]
     radius[overlay.cuts.ends[enclosure]] = np.nan
     return places, radius
 
 
-def _with_all_sites(overlay: Overlay, sites: Indices, order: Indices) -> Arcs:
+def _placed(overlay: Overlay, of_borders: Floats, of_cuts: Floats) -> Floats:
+    """Places of borders, of ends of cut edges, and of what is between these."""
+    found, count = overlay.found, overlay.count
+    inner = np.flatnonzero(found.edge >= 0)
+    places = np.full((len(found.node), 2), np.nan)
+    places[:count] = of_borders
+    places[count : count + len(of_cuts)] = of_cuts
+    places[inner] = overlay.lines.place(of_cuts[overlay.edges.ends], found.edge[inner], found.far[inner])
+    return places
+
+
+def _moves(overlay: Overlay, graph: PlanarGraph, places: Floats) -> Moves:
+    """Of places at vertices of the input, of sites and of cuts, and of those on cuts between them."""
+    given = _placed(overlay, graph.places_as_given(overlay.local.borders.places), overlay.edges.given)
+    at = np.flatnonzero((given != places).any(axis=1))
+    return Moves(at, given[at])
+
+
+def _with_all_sites(overlay: Overlay, joint: PlanarGraph, sites: Indices, order: Indices) -> Arcs:
     """Arcs of which every side is known, by the arcs around the same face, or by a place in it."""
     places, radius = _places(overlay)
     ends = _ends_of(overlay)
@@ -161,7 +180,8 @@ def _with_all_sites(overlay: Overlay, sites: Indices, order: Indices) -> Arcs:
     control[: len(own)] = graph.coordinates(own)
     center = np.full((len(ends), 2), np.nan)
     center[: len(own)] = graph.coordinates(overlay.local.borders.center[pieces.piece])
-    return Arcs(places, radius, ends, control, center, sites, sites, order)
+    moves = _moves(overlay, joint, places)
+    return Arcs(places, radius, ends, control, center, sites, sites, order, moves)
 
 
 def _found_by_places(overlay: Overlay, rings: Indices, start: Indices, half_edge: Indices) -> Indices:
@@ -214,5 +234,6 @@ def _numbered(arcs: Arcs, kept: Indices, overlay: Overlay) -> tuple[Arcs, Indice
         sites[sorting],
         sites[sorting],
         order[sorting],
+        arcs.moves.renumbered(number),
     )
     return made, sorting

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from vorotool.engines.voronoi.borders import Borders
 from vorotool.engines.voronoi.curves import INFINITY, CircularArc, controls_of, parabolas_of
+from vorotool.engines.voronoi.moves import Moves
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.voronoi.voronoi_map import OUTSIDE
 
@@ -50,6 +51,8 @@ class CutBorders:
         Of the frame, on which a place lies; -1 inside or outside.
     center : (c, 2) float64 array
         Of circular arcs, in input units; NaN of others.
+    moves : Moves
+        Of places at vertices of the input.
     """
 
     piece: Indices
@@ -59,6 +62,7 @@ class CutBorders:
     radius: Floats
     side: Indices
     center: Floats
+    moves: Moves
 
 
 class FrameBox:
@@ -152,7 +156,15 @@ def cut_borders(borders: Borders, graph: PlanarGraph, frame: tuple[float, float,
     kept, crossing = np.flatnonzero(state == _WITHIN), np.flatnonzero(state == _CROSSING)
     cutter = _Cutter(borders, graph, box, side, crossing)
     parts = [part for piece in crossing.tolist() for part in cutter.parts(piece)]
-    return cutter.put_together(places, kept, control, center, parts)
+    return cutter.put_together(places, kept, control, center, parts, _moves(borders, graph, places, box))
+
+
+def _moves(borders: Borders, graph: PlanarGraph, places: Floats, box: FrameBox) -> Moves:
+    """Of places at vertices of the input; what is not in the frame both ways stays."""
+    at = np.flatnonzero(borders.radius == 0)
+    given = graph.places_as_given(borders.places[at])
+    is_moved = (given != places[at]).any(axis=1) & (box.side_of(places[at]) == -1) & (box.side_of(given) == -1)
+    return Moves(at[is_moved], given[is_moved])
 
 
 def _states(
@@ -418,7 +430,7 @@ class _Cutter:
         return _Curve(base, way, 0.0, first, parameter(target) if target >= 0 else INFINITY)
 
     def put_together(
-        self, places: Floats, kept: Indices, control: Floats, center: Floats, parts: list[_Part]
+        self, places: Floats, kept: Indices, control: Floats, center: Floats, parts: list[_Part], moves: Moves
     ) -> CutBorders:
         """All pieces in the frame, whole ones first."""
         of_parts = np.array([part.control or (np.nan, np.nan) for part in parts]).reshape(-1, 2)
@@ -435,4 +447,5 @@ class _Cutter:
             self.graph.scale * np.concatenate([self.borders.radius, [radius for _, radius, _ in self.cuts]]),
             np.concatenate([self.sides, np.array([side for _, _, side in self.cuts], dtype=np.int64)]),
             center.take(pieces, axis=0),
+            moves,
         )

@@ -49,4 +49,4 @@ def map_between_cuts(
     local = local_diagrams(
         joint.sites, given.site, given.count, regions, limit=limit, threads=threads, progress=progress
     )
-    return cut_map(local, regions.edges, frame_of(regions.edges, frame, cuts.clip))
+    return cut_map(local, regions.edges, joint.graph, frame_of(regions.edges, frame, cuts.clip))

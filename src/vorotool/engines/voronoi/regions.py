@@ -32,6 +32,8 @@ class CutEdges:
         Their ends there.
     places : (n, 2) float64 array
         In input units.
+    given : (n, 2) float64 array
+        The same, as the input has them: see `_as_given`.
     ends : (m, 2) int64 array
         Source and target, numbers of points.
     regions : (m, 2) int64 array
@@ -42,6 +44,7 @@ class CutEdges:
 
     points: Floats
     places: Floats
+    given: Floats
     ends: Indices
     regions: Indices
     is_enclosure: NDArray[np.bool_]
@@ -118,12 +121,34 @@ def regions_of(joint: JointGraph, site: NDArray[np.int32], count: int) -> Region
     edges = CutEdges(
         graph.points[used].astype(np.float64).reshape(-1, 2),
         graph.coordinates(graph.points[used]).reshape(-1, 2),
+        _as_given(joint)[used].reshape(-1, 2),
         ends.reshape(-1, 2).astype(np.int64),
         sides[cut],
         is_line[cut],
     )
     sizes = np.bincount(pairs[:, 0], minlength=len(met))
     return Regions(edges, len(met), starts_of(sizes), pairs[np.lexsort((pairs[:, 1], pairs[:, 0])), 1])
+
+
+def _as_given(joint: JointGraph) -> Floats:
+    """(n, 2) coordinates of points in the input; others on an edge along an axis have its coordinate, as on the frame.
+
+    So an edge along an axis, and the frame whatever touches it, stays straight.
+    """
+    graph = joint.graph
+    given, made = graph.polygons, graph.coordinates_as_given.copy()
+    if given is None or not graph.largest_move:
+        return made
+    edge = graph.source_edge.astype(np.int64)
+    source, target = given.xy[edge], given.xy[given.following[edge]]
+    ends = graph.segments[owners(graph.source_count)].astype(np.int64)
+    of_frame = given.ring_polygon[np.searchsorted(given.ring_start, edge, side="right") - 1] == joint.frame
+    for axis in (0, 1):
+        along = source[:, axis] == target[:, axis]
+        for chosen, may_move in ((along, graph.point_vertex < 0), (along & of_frame, np.ones(len(made), dtype=bool))):
+            point, value = ends[chosen].ravel(), np.repeat(source[chosen, axis], 2)
+            made[point[may_move[point]], axis] = value[may_move[point]]
+    return made
 
 
 def _has_source(graph: PlanarGraph, polygons: range) -> NDArray[np.bool_]:

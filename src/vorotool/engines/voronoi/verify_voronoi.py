@@ -149,7 +149,8 @@ def _check_areas(cells: VoronoiMap) -> None:
     if cells.clip is not None:
         shared = shared_out(cells)
         whole, name = float(shared.area), "clip"
-        slack += MOVE * (w + h + largest * 2.0**-20) * float(shared.length)
+        extent = float(np.ptp(np.concatenate([cells.polygons.xy, cells.clip.xy]), axis=0).max())
+        slack += MOVE * (w + h + extent + largest * 2.0**-20) * float(shared.length)
     is_whole = cells.max_distance is None and cells.enclosures is None
     if total - whole > slack or (is_whole and whole - total > slack):
         fail(f"the cells have an area of {total}, but the {name} one of {whole}")

@@ -19,6 +19,7 @@ from vorotool.engines.voronoi.frame_cut import CutBorders, cut_borders
 from vorotool.engines.voronoi.frame_ring import UNKNOWN, frame_ring
 from vorotool.engines.voronoi.holes import shells_of
 from vorotool.engines.voronoi.map_between_cuts import map_between_cuts
+from vorotool.engines.voronoi.moves import moved_vertices
 from vorotool.engines.voronoi.nearest_site import site_at
 from vorotool.errors import UsageError
 from vorotool.geometry.arguments.boxes import as_extent
@@ -141,7 +142,7 @@ def voronoi(
         is_cut = (arcs.sites == OUTSIDE).any(axis=1)
     cells = cells_of(rings, shells_of(rings, arcs), given.count)
     return VoronoiMap(
-        arcs.vertices,
+        moved_vertices(arcs, rings),
         arcs.radius,
         arcs.ends.astype(np.int32),
         arcs.sites.astype(np.int32),

@@ -22,6 +22,9 @@ REPAIRS = (
 )
 """Names of the counts, in the order of the core: see `PlanarGraph.repairs`."""
 
+_FAR = 2.0**30
+"""Beyond all points of a lattice."""
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class PlanarGraph(Value, Tabular, Geometric, Graph, Pictured):
@@ -157,28 +160,39 @@ class PlanarGraph(Value, Tabular, Geometric, Graph, Pictured):
 
     @cached_property
     def coordinates_as_given(self) -> NDArray[np.float64]:
-        """(n, 2) for each point the coordinates of the input's vertices there; the lattice's where they differ."""
+        """(n, 2) for each point the coordinates of the first vertex of the input there, else of the lattice."""
         places = self.coordinates()
-        if self.polygons is None or self.vertices is None or not self.largest_move:
-            return places
-        known = np.flatnonzero(self.point_vertex >= 0)
-        places[known] = self.polygons.xy[self.point_vertex[known]]
+        if self.polygons is not None and self.largest_move:
+            known = np.flatnonzero(self.point_vertex >= 0)
+            places[known] = self.polygons.xy[self.point_vertex[known]]
+        return places
+
+    def places_as_given(self, places: NDArray[np.float64]) -> NDArray[np.float64]:
+        """(k, 2) input coordinates of places on the lattice; of those that are points, `coordinates_as_given`."""
+        made = self.coordinates(places)
+        if not self.largest_move:
+            return made
+        whole = np.flatnonzero((np.abs(places) < _FAR).all(axis=1) & (places == np.rint(places)).all(axis=1))
+        point = self._points_at(places[whole].astype(np.int64))
+        made[whole[point >= 0]] = self.coordinates_as_given[point[point >= 0]]
+        return made
+
+    def _points_at(self, places: NDArray[np.integer]) -> NDArray[np.int64]:
+        """(k,) the point at each place of the lattice; -1 where there is none."""
         keys = _packed(self.points)
         order = np.argsort(keys, kind="stable")
-        rank = np.minimum(np.searchsorted(keys, _packed(self.vertices), sorter=order), max(len(keys) - 1, 0))
-        point = order[rank] if len(keys) else rank[:0]
-        there = np.flatnonzero((self.points[point] == self.vertices).all(axis=1)) if len(keys) else point
-        differs = (places[point[there]] != self.polygons.xy[there]).any(axis=1)
-        several = np.unique(point[there[differs]])
-        places[several] = self.coordinates(self.points[several])
-        return places
+        if not len(keys):
+            return np.full(len(places), -1)
+        wanted = _packed(places)
+        point = order[np.minimum(np.searchsorted(keys, wanted, sorter=order), len(keys) - 1)]
+        return np.where(keys[point] == wanted, point, -1)
 
     def _summary(self) -> str:
         sizes = (counted(len(self.points), "point"), counted(len(self), "segment"), counted(self.faces, "face"))
         return placed(", ".join(sizes), None if self.polygons is None else self.polygons.crs)
 
 
-def _packed(places: NDArray[np.int32]) -> NDArray[np.int64]:
+def _packed(places: NDArray[np.integer]) -> NDArray[np.int64]:
     """One number for each place of the lattice."""
     x, y = places.astype(np.int64).T
     packed: NDArray[np.int64] = x * 2**32 + y
