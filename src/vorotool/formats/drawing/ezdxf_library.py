@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import sys
 from configparser import ConfigParser
 from typing import Any
@@ -27,6 +28,9 @@ def ezdxf_module(module: str = "ezdxf") -> Any:
     """
     if "ezdxf" in sys.modules:
         return needed(module, "cad", "DXF drawings")
+    logger = logging.getLogger("ezdxf")
+    if not logger.handlers:  # without one, what it ignores in damaged drawings goes to standard error
+        logger.addHandler(logging.NullHandler())
     own = ConfigParser.read
     try:
         ConfigParser.read = lambda *_, **__: []  # type: ignore[method-assign]
