@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.arrangement.flat_rings import flat_holes
-from vorotool.engines.from_skeleton.contour_walk import Contours, contours_of
+from vorotool.engines.from_skeleton.contour_walk import Contours, contours_of, site_points
 from vorotool.engines.from_skeleton.disc_union import Ring, covered_rings
 from vorotool.engines.from_skeleton.simple_rings import cut_at_repetitions, repeats, twice_areas
 from vorotool.errors import UsageError
@@ -21,7 +21,7 @@ from vorotool.geometry.curves.inverse_functions import hypotenuse
 from vorotool.geometry.polygons.polygon_set import HOLE, SHELL, PolygonSet
 from vorotool.geometry.ragged import owners, starts_of
 from vorotool.geometry.row_index import index_of_rows
-from vorotool.geometry.skeleton.skeleton import EDGE, INTERIOR, Skeleton
+from vorotool.geometry.skeleton.skeleton import EDGE, INTERIOR, Skeleton, ends_of_sites
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -34,9 +34,9 @@ def rebuild(skeleton: Skeleton, *, flatten: float | None = None) -> PolygonSet:
     """Rebuild polygons from the arcs inside them: what the discs of all points of the skeleton cover.
 
     Edges are the common tangents of discs, vertices the common points of discs, both from places and radii of the
-    skeleton alone. Where it was pruned the border is the circle of the disc that is left. Without pruning the polygons
-    come back as they were used, to some ulp of their extent times radius over edge length where an edge is short beside
-    the discs that touch it. An approximate skeleton tells no borders, but discs: the shape is what these cover.
+    skeleton alone; a vertex of the polygons that is met but for rounding is written as it was given. Where the skeleton
+    was pruned the border is the circle of the disc that is left. Without pruning the polygons come back. An approximate
+    skeleton tells no borders, but discs: the shape is what these cover.
 
     A point or a segment that is a hole comes back if nothing else touches it. An open line in a polygon, or such a hole
     from the border on, is a wall: where pruning leaves it on one side only, the ring goes along it twice.
@@ -186,7 +186,7 @@ def _outline(skeleton: Skeleton, contours: Contours, tolerance: float | None) ->
         _Places(np.flatnonzero(plain), 1, single[plain], contours.shared_point[plain], factor[plain]),
         *_caps(is_cap, is_edge, after, start, end, centre, tolerance),
     ]
-    return _in_order(pieces, contours)
+    return _in_order(pieces, contours, skeleton)
 
 
 @dataclass(frozen=True)
@@ -227,7 +227,7 @@ def _caps(
     return [_Places(runs[piece[kept]], rank[piece[kept]], xy[kept]), _Places(run[to_edge], 3, b[to_edge])]
 
 
-def _in_order(pieces: list[_Places], contours: Contours) -> tuple[Floats, Indices, Indices]:
+def _in_order(pieces: list[_Places], contours: Contours, skeleton: Skeleton) -> tuple[Floats, Indices, Indices]:
     run, xy = (np.concatenate([getattr(piece, name) for piece in pieces]) for name in ("run", "xy"))
     rank, point, factor = (
         np.concatenate([np.broadcast_to(getattr(piece, name), piece.run.shape) for piece in pieces])
@@ -235,10 +235,23 @@ def _in_order(pieces: list[_Places], contours: Contours) -> tuple[Floats, Indice
     )
     known = np.flatnonzero(point >= 0)
     known = known[np.lexsort((factor[known], point[known]))]
-    _, best, number = np.unique(point[known], return_index=True, return_inverse=True)
-    xy[known] = xy[known[best]][number]
+    vertex, best, number = np.unique(point[known], return_index=True, return_inverse=True)
+    found, (placed, given) = xy[known[best]], _vertices(skeleton, vertex)
+    off = np.abs(found - placed).max(axis=1, initial=0)
+    is_vertex = off <= _noise(skeleton) * (1 + factor[known[best]])
+    xy[known] = np.where(is_vertex[:, None], given, found)[number]
     order = np.lexsort((rank, run))
     return xy[order], point[order], np.searchsorted(run[order], contours.start)
+
+
+def _vertices(skeleton: Skeleton, point: Indices) -> tuple[Floats, Floats]:
+    """Where the polygons have some points, as they were used and as they were given."""
+    numbers, polygons = site_points(skeleton).reshape(-1), skeleton.polygons
+    first = np.zeros(int(numbers.max(initial=-1)) + 1, dtype=np.int64)
+    first[numbers[::-1]] = np.arange(len(numbers))[::-1]
+    ends = (skeleton.site_ends, ends_of_sites(polygons.as_given, skeleton.site_table))
+    placed, given = (each.reshape(-1, 2)[first[point]] for each in ends)
+    return placed, given
 
 
 # ---- rings ---------------------------------------------------------------------------------------
@@ -264,12 +277,12 @@ def _simple_rings(contours: Contours, xy: Floats, point: Indices, start: Indices
 
 def _flat_holes(skeleton: Skeleton, contours: Contours) -> list[Ring]:
     """Points and segments that contours go around: they are there as they were, since pruning cuts no cycle."""
-    polygons, table = skeleton.polygons, skeleton.site_table
+    polygons, table = skeleton.polygons.as_given, skeleton.site_table
     own = polygons.polygon_start[table.polygon[contours.site]] + table.ring[contours.site]
     first = contours.start[:-1]
     is_around = np.minimum.reduceat(own, first) == np.maximum.reduceat(own, first) if len(first) else first > 0
     around = np.flatnonzero(is_around)
-    around = around[flat_holes(polygons)[own[first[around]]]]
+    around = around[flat_holes(skeleton.polygons)[own[first[around]]]]
     around = around[np.argsort(own[first[around]], kind="stable")]
     return [
         Ring(polygons.ring(ring), polygon, part)

@@ -12,6 +12,7 @@ from vorotool.engines.necks.axis import Ways, clearance_flow, ways_from_necks
 from vorotool.engines.necks.feet import Feet, by_width, feet_of
 from vorotool.engines.skeleton_api import skeleton_exact
 from vorotool.errors import UsageError
+from vorotool.geometry.polygons.vertices_as_given import places_as_given
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.necks import Necks
 from vorotool.geometry.skeleton.skeleton import INTERIOR, Skeleton
@@ -133,7 +134,9 @@ def found_necks(skeleton: Skeleton, *, threads: int = 0, progress: Progress = No
     np.maximum.at(clearance, flow.plateau, skeleton.radius)
     beside = largest_beside(ways.top, feet.square, clearance)
     # the foot with less x first
-    (a, b), rows = feet.xy.swapaxes(0, 1), np.arange(len(ways))
+    polygon, together = np.repeat(skeleton.polygon[ways.arc[:, 0]], 2), skeleton.features == "together"
+    given = places_as_given(feet.xy.reshape(-1, 2), polygon, skeleton.polygons, together=together).reshape(-1, 2, 2)
+    (a, b), rows = given.swapaxes(0, 1), np.arange(len(ways))
     first = ((b[:, 0] < a[:, 0]) | ((b[:, 0] == a[:, 0]) & (b[:, 1] < a[:, 1]))).astype(np.int64)
     both = np.stack([first, 1 - first], axis=1)
     made = Necks(
@@ -141,7 +144,7 @@ def found_necks(skeleton: Skeleton, *, threads: int = 0, progress: Progress = No
         ways.arc[:, 0].astype(np.int32),
         feet.xy.mean(axis=1),
         feet.width,
-        feet.xy[rows[:, None], both],
+        given[rows[:, None], both],
         feet.site[rows[:, None], both].astype(np.int32),
         beside,
     )

@@ -16,6 +16,7 @@ from vorotool.errors import UsageError, option
 from vorotool.geometry.numbers import finite_double, shown_number
 from vorotool.geometry.polygons.polygon_set import HOLE, SHELL, PolygonSet
 from vorotool.geometry.polygons.ring_arrays import RingArrays
+from vorotool.geometry.polygons.vertices_as_given import places_as_given
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.ragged import ranges
 from vorotool.geometry.skeleton.necks import Necks
@@ -100,7 +101,14 @@ def cut_parts(found: FoundNecks, neck: float) -> Parts:
     a, b = sides.part[sides.node].T
     chosen = chosen[a != b]
     axis = _cut(found, chosen)
-    return _parts_of(axis, outlines_of(axis, found.feet.taken(chosen)), found.necks.taken(chosen))
+    return _parts_of(axis, _as_given(axis, outlines_of(axis, found.feet.taken(chosen))), found.necks.taken(chosen))
+
+
+def _as_given(axis: CutAxis, outlines: Outlines) -> Outlines:
+    """Outlines with corners where vertices were given."""
+    polygon, skeleton = np.repeat(outlines.polygon, np.diff(outlines.start)), axis.skeleton
+    together = skeleton.features == "together"
+    return replace(outlines, xy=places_as_given(outlines.xy, polygon, skeleton.polygons, together=together))
 
 
 def _cut(found: FoundNecks, chosen: Indices) -> CutAxis:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +18,7 @@ from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.polygons.vertices_as_given import places_as_given
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.ragged import owners
 from vorotool.geometry.skeleton.necks import Necks
@@ -60,7 +62,7 @@ def verify_necks(necks: Necks, *, threads: int = 0, progress: Progress = None) -
     vorotool.errors.VerificationError: neck 0: its feet are 2.0 from each other, but its width is 3.0
     """
     check_value(necks, "necks", Necks)
-    threads = checked_threads(threads)
+    threads, necks = checked_threads(threads), _placed(necks)
     places = SitePlaces(necks.skeleton)
     for foot in (0, 1):
         off = places.distances(necks.sites[:, foot], necks.feet[:, foot])
@@ -115,6 +117,7 @@ def verify_parts(parts: Parts, *, threads: int = 0, progress: Progress = None) -
     check_value(parts, "parts", Parts)
     threads = checked_threads(threads)
     verify_necks(parts.necks, threads=threads, progress=progress)
+    parts = _placed_parts(parts)
     at = first_wrong(~(parts.area > 0))
     if at is not None:
         fail(f"piece {at} has an area of {parts.area[at]}")
@@ -123,6 +126,25 @@ def verify_parts(parts: Parts, *, threads: int = 0, progress: Progress = None) -
     _check_borders(parts, threads, progress)
     with warnings.catch_warnings(action="ignore", category=VorotoolWarning):
         _check_areas(parts, threads, progress)
+
+
+# ---- where they were computed --------------------------------------------------------------------
+def _placed(necks: Necks) -> Necks:
+    """Necks whose feet at vertices are where their skeleton has these."""
+    feet = _on_lattice(necks.skeleton, necks.feet.reshape(-1, 2), np.repeat(necks.polygon, 2))
+    return replace(necks, feet=feet.reshape(-1, 2, 2))
+
+
+def _placed_parts(parts: Parts) -> Parts:
+    """Parts whose corners at vertices are where the skeleton has these."""
+    polygons = parts.polygons
+    source = np.repeat(parts.source, np.diff(polygons.ring_start[polygons.polygon_start]))
+    xy = _on_lattice(parts.necks.skeleton, polygons.xy, source)
+    return replace(parts, polygons=replace(polygons, xy=xy), necks=_placed(parts.necks))
+
+
+def _on_lattice(skeleton: Skeleton, places: Floats, polygon: NDArray[np.integer]) -> Floats:
+    return places_as_given(places, polygon, skeleton.polygons, together=skeleton.features == "together", back=True)
 
 
 # ---- distances -----------------------------------------------------------------------------------

@@ -1,0 +1,56 @@
+"""Places of results at vertices of polygons: where an engine has moved these, and where they were given."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.ragged import owners
+
+Floats = NDArray[np.float64]
+
+
+def places_as_given(
+    places: Floats, polygon: NDArray[np.integer], polygons: PolygonSet, *, together: bool, back: bool = False
+) -> Floats:
+    """Move places at vertices that an engine has moved to where these were given, of several the first, or back.
+
+    Parameters
+    ----------
+    places : (k, 2) float64 array
+        Anywhere.
+    polygon : (k,) integer array
+        The polygon that each is of.
+    polygons : PolygonSet
+        Where a result was computed.
+    together : bool
+        Whether vertices of all features count, or those of the place's own.
+    back : bool
+        From where they were given to where the result was computed.
+
+    Returns
+    -------
+    (k, 2) float64 array
+        With the same bits at equal places; elsewhere nothing is moved.
+
+    Examples
+    --------
+    >>> from vorotool.geometry.polygons.polygon_set import SHELL, set_of_rings
+    >>> moved = set_of_rings([[0, 0], [4.1, 0], [0, 3]], [3], [SHELL], [0]).moved(np.array([[0, 0], [4, 0], [0, 3.0]]))
+    >>> places_as_given(np.array([[4, 0], [1, 0.0]]), np.array([0, 0]), moved, together=True).tolist()
+    [[4.1, 0.0], [1.0, 0.0]]
+    """
+    given = polygons.as_given
+    if given is polygons or not len(places):
+        return places
+    here, there = (given.xy, polygons.xy) if back else (polygons.xy, given.xy)
+    own = polygons.ring_polygon[owners(np.diff(polygons.ring_start))]
+    group = np.zeros(len(polygons), dtype=np.int64) if together else np.asarray(polygons.feature, dtype=np.int64)
+    keys = np.column_stack([np.concatenate([group[own], group[polygon]]), np.concatenate([here, places]) + 0.0])
+    _, first, number = np.unique(keys, axis=0, return_index=True, return_inverse=True)
+    vertex = first[number.reshape(-1)[len(here) :]]
+    made = places.copy()
+    known = np.flatnonzero(vertex < len(here))
+    made[known] = there[vertex[known]]
+    return made
