@@ -27,19 +27,18 @@ using Labels = Aligned<const std::uint32_t, nb::ndim<1>, nb::c_contig, nb::devic
 using Image = Aligned<nb::ndim<2>, nb::c_contig, nb::device::cpu>;
 using Label32Image = Aligned<std::uint32_t, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
 using Halves = std::pair<std::uint64_t, std::uint64_t>;  // upper and lower 64 bits
-using Sides = std::pair<std::int32_t, std::int32_t>;     // of a pixel, along x and y
+using Sides = std::pair<std::int64_t, std::int64_t>;     // of a pixel, along x and y
 
-// Twice the steps of a pixel fit 32 bits.
-constexpr std::int32_t most_steps = std::int32_t{1} << 29;
+constexpr std::int64_t most_steps = core::tessellation::wide_bound;  // of a pixel
 
 Tessellation make_tessellation(const Integers& x, const Integers& y, const Labels& labels,
                                std::int64_t frame_x, std::int64_t frame_y, std::int32_t width,
-                               std::int32_t height, std::int32_t scale, const Sides& unit,
+                               std::int32_t height, std::int64_t scale, const Sides& unit,
                                std::string_view simd) {
   const FrameOnLattice frame{frame_x, frame_y, width, height, scale, {unit.first, unit.second}};
   if (scale < 1 || std::min(unit.first, unit.second) < 1 ||
       std::max(unit.first, unit.second) > most_steps / scale) {
-    throw std::invalid_argument("the sides of a pixel must be from 1 to 2^29 steps");
+    throw std::invalid_argument("the sides of a pixel must be from 1 to 2^40 steps");
   }
   const Simd level = simd_level(simd);
   const nb::gil_scoped_release no_gil;
@@ -84,7 +83,7 @@ void write_labels(const Tessellation& tessellation, const Image& out, std::int32
 void write_squared_distances(const Tessellation& tessellation, const Image& out, std::int32_t first,
                              unsigned threads, const Progress& progress) {
   const std::int32_t rows = rows_of(tessellation, out, first);
-  with_type<std::uint32_t, std::uint64_t>(out, [&](auto* pixels) {
+  with_type<std::uint32_t, std::uint64_t, double>(out, [&](auto* pixels) {
     run_interruptible(progress, [&](const Monitor& monitor) {
       tessellation.squared_distances(first, rows, pixels, threads, monitor);
     });
@@ -156,7 +155,7 @@ void bind_tessellation(nb::module_& room) {
           "__init__",
           [](Tessellation* self, const Integers& x, const Integers& y, const Labels& labels,
              std::int64_t frame_x, std::int64_t frame_y, std::int32_t width, std::int32_t height,
-             std::int32_t scale, const Sides& unit, std::string_view simd) {
+             std::int64_t scale, const Sides& unit, std::string_view simd) {
             new (self) Tessellation(
                 make_tessellation(x, y, labels, frame_x, frame_y, width, height, scale, unit, simd));
           },

@@ -15,25 +15,38 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 from fuzz.runner import Cases, options
-from support.families.families import random_case
-from support.oracles.oracles import nearest_labels
+from support.families.families import fine_case, random_case
+from support.oracles.oracles import nearest_labels, nearest_labels_of_fine_seeds
 from vorotool import _core
+from vorotool.engines.tessellation.bands import SeedBand, SeedBands
 from vorotool.engines.tessellation.frames import SIMD_LEVELS
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.geometry.pixel_frame import Frame
 from vorotool.geometry.points.seed_set import SeedSet
+from vorotool.geometry.spacing import SQUARE
 
 
 def check(rng: np.random.Generator, side: int) -> tuple[str, int, int]:
     """Check one configuration; give its family, its pixels, and how many of them are wrong anywhere."""
-    name, x, y, labels, scale, frame = random_case(rng, side)
-    right = nearest_labels(x, y, labels, frame, scale)
+    sides = SQUARE
+    if rng.random() < 0.5:
+        name, x, y, labels, scale, frame, sides = fine_case(rng, min(side, 100))
+        right = nearest_labels_of_fine_seeds(x, y, labels, frame, scale, sides.units)
+    else:
+        name, x, y, labels, scale, frame = random_case(rng, side)
+        right = nearest_labels(x, y, labels, frame, scale)
+    seeds, whole = SeedSet(x, y, labels, scale=scale), Frame(*frame)
     wrong = np.zeros(right.shape, dtype=bool)
     for level in SIMD_LEVELS[: SIMD_LEVELS.index(_core.tessellation.widest_simd()) + 1]:
         os.environ["VOROTOOL_SIMD"] = level
-        sweep = Tessellator(SeedSet(x, y, labels, scale=scale), Frame(*frame), threads=int(rng.integers(1, 6)))
+        sweep = Tessellator(seeds, whole, sides=sides, threads=int(rng.integers(1, 6)))
         for dtype in (None, np.int32):
             wrong |= sweep.labels(dtype=dtype) != right
+    first = int(rng.integers(whole.height))  # a band by itself, as files and clusters compute it
+    rows = int(rng.integers(1, whole.height - first + 1))
+    band = Frame(whole.x, whole.y + first, whole.width, rows)
+    apart = SeedBand(SeedBands(seeds, whole).seeds_of(first, rows), band, "labels", np.dtype(np.uint32), None, sides)
+    wrong[first : first + rows] |= apart.rows() != right[first : first + rows]
     return name, right.size, int(wrong.sum())
 
 

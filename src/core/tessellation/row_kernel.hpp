@@ -51,7 +51,7 @@ struct Candidates {
 struct PixelRow {
   std::int32_t width;
   std::int32_t middle;
-  std::int32_t steps;
+  std::int64_t steps;
   bool products_exact;  // equal rounded products are equal products (see sweep_arithmetic.hpp)
 };
 

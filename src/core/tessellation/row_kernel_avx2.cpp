@@ -57,7 +57,9 @@ struct Avx2Lanes {
   static __m256d add(__m256d a, __m256d b) { return _mm256_add_pd(a, b); }
   static __m256d sub(__m256d a, __m256d b) { return _mm256_sub_pd(a, b); }
   static __m256d mul(__m256d a, __m256d b) { return _mm256_mul_pd(a, b); }
-  static __m256d scale(__m256d a, std::int32_t factor) { return _mm256_mul_pd(a, _mm256_set1_pd(factor)); }
+  static __m256d scale(__m256d a, std::int64_t factor) {
+    return _mm256_mul_pd(a, _mm256_set1_pd(static_cast<double>(factor)));
+  }
   static Mask less(__m256d a, __m256d b) { return bits(_mm256_cmp_pd(a, b, _CMP_LT_OQ)); }
   static Mask equal(__m256d a, __m256d b) { return bits(_mm256_cmp_pd(a, b, _CMP_EQ_OQ)); }
   static Mask bits(__m256d m) { return static_cast<Mask>(_mm256_movemask_pd(m)); }

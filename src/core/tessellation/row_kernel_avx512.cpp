@@ -42,7 +42,9 @@ struct Avx512Lanes {
   static __m512d add(__m512d a, __m512d b) { return _mm512_add_pd(a, b); }
   static __m512d sub(__m512d a, __m512d b) { return _mm512_sub_pd(a, b); }
   static __m512d mul(__m512d a, __m512d b) { return _mm512_mul_pd(a, b); }
-  static __m512d scale(__m512d a, std::int32_t factor) { return _mm512_mul_pd(a, _mm512_set1_pd(factor)); }
+  static __m512d scale(__m512d a, std::int64_t factor) {
+    return _mm512_mul_pd(a, _mm512_set1_pd(static_cast<double>(factor)));
+  }
   static Mask less(__m512d a, __m512d b) { return _mm512_cmp_pd_mask(a, b, _CMP_LT_OQ); }
   static Mask equal(__m512d a, __m512d b) { return _mm512_cmp_pd_mask(a, b, _CMP_EQ_OQ); }
   static __m512d choose(Mask second, __m512d a, __m512d b) {

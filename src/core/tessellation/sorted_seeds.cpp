@@ -67,17 +67,17 @@ class RelativeSeeds {
     std::int64_t x, y;
   };
 
-  static std::int64_t wrapped(std::int64_t coordinate, std::int64_t middle, std::int32_t unit) {
+  static std::int64_t wrapped(std::int64_t coordinate, std::int64_t middle, std::int64_t unit) {
     return static_cast<std::int64_t>(
         (static_cast<std::uint64_t>(coordinate) - static_cast<std::uint64_t>(middle)) *
         static_cast<std::uint64_t>(unit));
   }
 
-  static std::int64_t relative(std::int64_t coordinate, std::int64_t middle, std::int32_t unit,
+  static std::int64_t relative(std::int64_t coordinate, std::int64_t middle, std::int64_t unit,
                                std::size_t index) {
     std::int64_t difference = 0;
     if (__builtin_sub_overflow(coordinate, middle, &difference) ||
-        __builtin_mul_overflow(difference, std::int64_t{unit}, &difference) || difference > wide_bound ||
+        __builtin_mul_overflow(difference, unit, &difference) || difference > wide_bound ||
         difference < -wide_bound) {
       throw SeedTooFar(index, wide_bound);
     }
@@ -95,8 +95,8 @@ class RelativeSeeds {
 class FrameDistance {
  public:
   explicit FrameDistance(const FrameOnLattice& frame)
-      : left_(-std::int64_t{frame.pixel().x} * frame.middle_column()),
-        right_(left_ + std::int64_t{frame.pixel().x} * (frame.width - 1)),
+      : left_(-frame.pixel().x * frame.middle_column()),
+        right_(left_ + frame.pixel().x * (frame.width - 1)),
         top_(frame.row_y(0)),
         bottom_(frame.row_y(frame.height - 1)) {}
 
@@ -228,8 +228,8 @@ Sites prepare_sites(std::span<const std::int64_t> x, std::span<const std::int64_
   sites.column_x = (table ? number_by_table : number_by_sorting)(offsets, seeds.x_range(), sites.column);
   for (std::int64_t& column : sites.column_x) column += seeds.least_x();
   sites.largest_coordinate =
-      std::max({seeds.largest_coordinate(), std::int64_t{frame.pixel().x} * (frame.middle_column() + 1),
-                std::int64_t{frame.pixel().y} * (frame.middle_row() + 1)});
+      std::max({seeds.largest_coordinate(), frame.pixel().x * (frame.middle_column() + 1),
+                frame.pixel().y * (frame.middle_row() + 1)});
   return sites;
 }
 

@@ -11,7 +11,7 @@ namespace vorotool::core::tessellation {
 
 // Steps of the lattice on which squared distances are sums of squares.
 struct Steps {
-  std::int32_t x, y;
+  std::int64_t x, y;
 };
 
 // Pixel (c, r) of the frame has its centre at (scale * (x + c), scale * (y + r)) in the coordinates of seeds, of which
@@ -19,7 +19,7 @@ struct Steps {
 struct FrameOnLattice {
   std::int64_t x, y;
   std::int32_t width, height;
-  std::int32_t scale;  // 1, 2, 4, ... 256
+  std::int64_t scale;  // 1, 2, 4, ...
   Steps unit;
 
   std::int32_t middle_column() const { return width / 2; }

@@ -155,5 +155,7 @@ template void Tessellation::squared_distances(std::int32_t, std::int32_t, std::u
                                               const Monitor&) const;
 template void Tessellation::squared_distances(std::int32_t, std::int32_t, std::uint64_t*, unsigned,
                                               const Monitor&) const;
+template void Tessellation::squared_distances(std::int32_t, std::int32_t, double*, unsigned,
+                                              const Monitor&) const;
 
 }  // namespace vorotool::core::tessellation

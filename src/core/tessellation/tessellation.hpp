@@ -33,7 +33,8 @@ class Tessellation {
   void labels(std::int32_t first, std::int32_t rows, Label* out, std::optional<numbers::uint128> most_squared,
               unsigned threads, const base::Monitor& monitor) const;
 
-  // Squared distances to the nearest seed in lattice steps. Square: uint32 or uint64, and large enough.
+  // Squared distances to the nearest seed in lattice steps. Square: uint32 or uint64, and large enough, or double, whose
+  // squares are the nearest ones.
   template <class Square>
   void squared_distances(std::int32_t first, std::int32_t rows, Square* out, unsigned threads,
                          const base::Monitor& monitor) const;

@@ -288,7 +288,8 @@ void BrickSweep<Voxel, product>::fill_with(const BrickSeeds::Brick& brick, const
   }
   const auto& plane = frame_.plane;
   BrickVoxels voxels{{brick.first[0], brick.first[1], brick.first[2]},
-                     {plane.pixel().x, plane.pixel().y, frame_.step_z()},
+                     {static_cast<std::int32_t>(plane.pixel().x), static_cast<std::int32_t>(plane.pixel().y),
+                      static_cast<std::int32_t>(frame_.step_z())},
                      0,
                      brick_side,
                      0,

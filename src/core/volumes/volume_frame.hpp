@@ -17,7 +17,7 @@ struct VolumeFrame {
 
   std::int32_t middle_slice() const { return depth / 2; }
   // The side of a voxel along z.
-  std::int32_t step_z() const { return plane.scale * unit_z; }
+  std::int64_t step_z() const { return plane.scale * unit_z; }
   // Lattice z of a slice, relative to the middle of the frame.
   std::int64_t slice_z(std::int64_t slice) const { return step_z() * (slice - middle_slice()); }
 };

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from vorotool.errors import InputError, option
 
 FARTHEST = 2**44
-"""No seed lies farther from the origin (in pixels); in steps of 1/256 pixel this is far from the end of 64 bits."""
+"""No seed lies farther from the origin (in pixels)."""
 
 
 @dataclass(frozen=True)

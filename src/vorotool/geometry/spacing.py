@@ -13,7 +13,7 @@ from vorotool.errors import UsageError
 from vorotool.geometry.numbers import real_number, shown_number
 
 MOST_STEPS = 2**21
-"""Steps that a side has at most: those of a seed between pixels are up to 256 times as many."""
+"""Steps that a side has at most: those of a seed between pixels are a multiple."""
 
 LARGEST_STEP = 10**140
 """A step, or one divided by it: squares of distances are doubles then."""

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from decimal import Decimal, localcontext
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, partial
 from math import inf
 from typing import TYPE_CHECKING, Any, BinaryIO
 
@@ -30,7 +30,7 @@ from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.table import Table
 from vorotool.jobs.animations import check_size, layer_pixels, parts_of_whole, write_frames
-from vorotool.jobs.inputs import JobInput, read_sites, window_of
+from vorotool.jobs.inputs import JobInput, frame_of, read_sites, window_of
 from vorotool.jobs.names import OF_ONE_SHAPE, PLOTS
 from vorotool.jobs.options import AlphaShapeOptions
 from vorotool.jobs.picture_style import styled_page
@@ -124,7 +124,7 @@ class ShapeProducts:
         if isinstance(points, SeedSet):
             seeds = points
         else:
-            seeds = seeds_from_points(points, strict=o.strict, check=lambda made: window_of(o, made))
+            seeds = seeds_from_points(points, strict=o.strict, frame=partial(frame_of, o))
         frame: Any = {"window": window_of(o, seeds), "strict": o.strict, "threads": o.threads}
         mesh: AnyTriangulation
         if o.method == "digital":

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import asdict, replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
 from vorotool.engines.digital.comparison import compare_digital
@@ -16,7 +16,7 @@ from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation
 from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.geometry.progress import Progress
-from vorotool.jobs.inputs import JobInput, window_of
+from vorotool.jobs.inputs import JobInput, frame_of, window_of
 from vorotool.jobs.options import TriangulationOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.triangulation import MeshProducts, ReadPoints
@@ -31,7 +31,9 @@ class DigitalProducts(MeshProducts):
         if isinstance(points, SeedSet):
             self.seeds = points
         else:
-            self.seeds = seeds_from_points(points, strict=options.strict, check=lambda seeds: window_of(options, seeds))
+            self.seeds = seeds_from_points(
+                points, strict=options.strict, frame=partial(frame_of, options), sides=sides_of(options)
+            )
         super().__init__(run, options, given, read)
         if "compare" in options.what:
             with run.phase("compare"):

@@ -56,7 +56,7 @@ def seeds_on_map(run: Run, o: TessellationOptions, value: PointSet | PolygonSet)
     o = replace(o, window=(frame.x, frame.y, frame.width, frame.height), size=None, pixel_size=o.pixel_size or AUTO)
     placed = replace(value, xy=in_cells(value.xy, grid))
     if isinstance(placed, PointSet):
-        seeds = seeds_from_points(placed, strict=o.strict)
+        seeds = seeds_from_points(placed, strict=o.strict, frame=frame)
     else:
         with run.phase("rasterize"):
             seeds = _seeds_of_features(o, placed, frame)

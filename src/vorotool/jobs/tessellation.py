@@ -102,7 +102,7 @@ def products(run: Run, o: TessellationOptions, given: JobInput) -> Products | St
 
 def _seeds_of(run: Run, o: TessellationOptions, value: PointSet | PolygonSet | Raster) -> ReadSeeds:
     if isinstance(value, PointSet):
-        seeds = seeds_from_points(value, strict=o.strict, check=lambda seeds: frame_of(o, seeds))
+        seeds = seeds_from_points(value, strict=o.strict, frame=partial(frame_of, o), sides=sides_of(o))
         return ReadSeeds(seeds, value.y_up)
     assert isinstance(value, Raster)  # what is asked for is points, or an image
     alone = {"columns": o.columns, "cell-size": o.cell_size, **o.of_frame()}
@@ -283,7 +283,8 @@ class Products:
     def _table(self) -> Table:
         image, measures = self.image, self.measures  # refuses a frame that is too large, before distances are taken
         has_distances = isinstance(self.rows, Tessellator) and len(self.rows.seeds)
-        squares = self._exact_rows().squared_distances() if has_distances else None
+        rows = self._exact_rows() if has_distances else None
+        squares = None if rows is None else rows.squared_distances(dtype=rows.measured_dtype)
         table = region_table(image, distance2=squares, measures=measures, threads=self.options.threads)
         properties = self.rows.seeds.properties
         return table_in_units(self.options.pixel_size, table, properties=properties, has_rows=True)
@@ -327,7 +328,7 @@ class Products:
     def _write_animation(self, out: BinaryIO, target: Target) -> None:
         """Cells that grow from their seeds until they fill the frame, or to the largest distance."""
         o, whole, rows = self.options, self._picture(target), self._exact_rows()
-        squares = rows.squared_distances()
+        squares = rows.squared_distances(dtype=rows.measured_dtype)
         farthest = (isqrt(int(squares.max(initial=0))) + 1) * rows.step
         last = farthest if o.max_distance is None else min(farthest, o.max_distance)
         widths = {"cells": 1.0 if whole.shows_borders else 0.0} | dict(whole.style.widths)
@@ -382,6 +383,5 @@ class Products:
             "threads": self.options.threads,
         }
         if isinstance(rows, Tessellator):
-            step = {} if self.options.spacing is None else {"distance2_step": str(rows.step)}
-            return {**counts, **step, "arithmetic": rows.arithmetic, "simd": rows.simd}
+            return {**counts, "distance2_step": str(rows.step), "arithmetic": rows.arithmetic, "simd": rows.simd}
         return {**counts, "passes": self.options.passes or 2, **rows.compare_with_exact()}

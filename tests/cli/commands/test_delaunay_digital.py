@@ -109,7 +109,7 @@ def test_centroids_between_the_lattice(run, folder):
     labels[15, 4], labels[8, 16] = 2, 3
     np.save(folder / "a.npy", labels)
     done = run("delaunay", "a.npy", "--method", "digital-valid", "--seeds", "centroids", "--what", "table")
-    assert "1 of 3 seeds moved to the nearest 1/256 pixel" in done.err
+    assert "1 of 3 seeds moved to the nearest 2^-" in done.err
     assert done.out == run("delaunay", "a.npy", "--what", "table").out
 
 
@@ -130,7 +130,7 @@ def test_seeds_that_cannot_be_repaired_are_inserted(run, folder):
     done = run("delaunay", "a.npy", "--window", "300,300,9,9", "--method", "digital-valid")
     assert done.code == 0
     assert len(pairs(done.out)) > 80
-    assert "1/256" in done.err
+    assert "moved to the nearest 2^-" in done.err
 
 
 def test_compare(run):

@@ -213,10 +213,10 @@ def test_default_frame_holds_the_points():
 
 
 def test_snapping_warns_or_is_refused():
-    with pytest.warns(VorotoolWarning, match="1 of 2 seeds moved to the nearest 1/256 pixel, by at most 0.00"):
+    with pytest.warns(VorotoolWarning, match=r"1 of 2 seeds moved to the nearest 2\^-38 pixel"):
         seeds = vorotool.seeds_from_points(vorotool.PointSet([[0.1, 0], [2, 1]]))
-    assert (seeds.snapped, seeds.scale) == (1, 128)
-    assert 0 < seeds.largest_move <= 1 / 512
+    assert (seeds.snapped, seeds.scale) == (1, 2**38)
+    assert 0 < seeds.largest_move <= 2.0**-39
     with pytest.raises(InputError, match=r"point 1 is \(0\.1, 0\.0\)"):
         vorotool.seeds_from_points(vorotool.PointSet([[0.1, 0], [2, 1]]), strict=True)
 

@@ -4,6 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from vorotool.engines.tessellation.seed_lattice import finest_scale
+from vorotool.geometry.pixel_frame import Frame
+from vorotool.geometry.spacing import PixelSides
+
 
 def uniform(rng, width, height, n, scale):
     return rng.integers(0, width * scale, n), rng.integers(0, height * scale, n)
@@ -89,6 +93,33 @@ def random_case(rng, largest_side=80):
         labels = rng.integers(1, 1 + max(1, len(x) // 3), len(x))
     fx, fy = (int(v) for v in rng.integers(-9, 10, 2)) if rng.random() < 0.3 else (0, 0)
     return name, x, y, labels.astype(np.uint32), scale, (fx, fy, width, height)
+
+
+def mirrored(rng, x, y, frame, scale):
+    """Seeds and some of their images in a pixel, which is then at the same distance from both."""
+    pixel = [
+        int(rng.integers(first, first + side)) * scale for first, side in ((frame[0], frame[2]), (frame[1], frame[3]))
+    ]
+    chosen = rng.integers(0, len(x), max(1, len(x) // 3))
+    way = rng.integers(0, 3, len(chosen))  # turned, or mirrored along one axis
+    image_x = np.where(way == 1, x[chosen], 2 * pixel[0] - x[chosen])
+    image_y = np.where(way == 2, y[chosen], 2 * pixel[1] - y[chosen])
+    return np.append(x, image_x), np.append(y, image_y)
+
+
+def fine_case(rng, largest_side=40):
+    """A configuration on the finest lattice of its frame: any doubles, near ties a step apart, and ties."""
+    name, x, y, _, scale, frame = random_case(rng, largest_side)
+    sides = PixelSides([(1, 1), (1, 1), (3, 2), (13, 40)][rng.integers(4)])
+    finest = finest_scale(np.stack([x, y], axis=1) / scale, Frame(*frame), sides) // 4  # images reach farther outside
+    if finest > scale:
+        x, y, scale = x * (finest // scale), y * (finest // scale), finest
+    reach = int((scale // 4, scale, 2, 1)[rng.integers(4)])
+    x, y = (k + rng.integers(-reach, reach + 1, len(k)) * (rng.random(len(k)) < 0.7) for k in (x, y))
+    if rng.random() < 0.5:
+        x, y = mirrored(rng, x, y, frame, scale)
+    labels = (rng.permutation(len(x)) + 1).astype(np.uint32)
+    return f"fine {name}", x, y, labels, scale, frame, sides
 
 
 def distinct_pixels(seed, side, count):

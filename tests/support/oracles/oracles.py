@@ -23,6 +23,27 @@ def nearest_labels(x, y, labels, frame, scale=1, most_squared=None):
     return out
 
 
+def nearest_labels_of_fine_seeds(x, y, labels, frame, scale, units=(1, 1)):
+    """The same for any lattice: in long doubles, and in whole numbers where those may hide which is nearest."""
+    order = np.argsort(labels, kind="stable")
+    x, y, labels = x[order], y[order], labels[order]
+    fx, fy, width, height = frame
+    steps = (((fx + np.arange(width)) * scale)[:, None] - x) * units[1]
+    across = steps.astype(np.longdouble) ** 2
+    out = np.empty((height, width), dtype=np.uint32)
+    for row in range(height):
+        rise = ((fy + row) * scale - y) * units[0]
+        squares = across + rise.astype(np.longdouble) ** 2
+        near = squares <= squares.min(axis=1, keepdims=True) * (1 + np.longdouble(2) ** -58)
+        first = near.argmax(axis=1)
+        for column in np.flatnonzero(near.sum(axis=1) > 1):
+            first[column] = min(
+                np.flatnonzero(near[column]), key=lambda i, c=column: int(steps[c, i]) ** 2 + int(rise[i]) ** 2
+            )
+        out[row] = labels[first]
+    return out
+
+
 def nearest_squares(x, y, frame, scale=1):
     """Squared lattice distance of every pixel to the nearest seed."""
     fx, fy, width, height = frame

@@ -72,15 +72,15 @@ def nearest_sites(
 
 def largest_by_label(
     labels: NDArray[Any], values: NDArray[Any], wanted: NDArray[np.uint32], threads: int, progress: Progress
-) -> NDArray[np.uint64]:
-    """The largest value in each region; 0 of labels that do not occur.
+) -> NDArray[np.uint64] | NDArray[np.float64]:
+    """Return the largest value in each region, 0 for labels that do not occur.
 
     Parameters
     ----------
     labels : array
         Of the pixels or voxels, as `label_array` gives it.
     values : array of the same shape
-        Integers, none of them negative.
+        Integers or float64, none of them negative.
     wanted : (n,) uint32 array
         Increasing.
 
@@ -90,11 +90,14 @@ def largest_by_label(
     >>> largest_by_label(labels, values, np.array([1, 7], np.uint32), 1, None).tolist()
     [8, 0]
     """
+    is_double = values.dtype == np.float64
+    if is_double:  # the bits of positive doubles are in the order of their values
+        values = np.ascontiguousarray(values).view(np.uint64)
     wide = np.uint64 if values.dtype.itemsize == 8 else np.uint32
     rows = np.ascontiguousarray(values).astype(wide, copy=False).reshape(-1, values.shape[-1])
     by_label: Any = _core.label_images.max_by_label  # of several types
     found: NDArray[np.uint64] = by_label(labels.reshape(rows.shape), rows, wanted, threads, progress)
-    return found
+    return found.view(np.float64) if is_double else found
 
 
 def in_unit(table: Table, sides: PixelSides) -> Table:

@@ -85,7 +85,8 @@ def compare_digital(
     >>> comparison.triangle_precision, comparison.table.rows
     (1.0, 0)
     """
-    seeds, frame = as_seeds(source, "source", image=image, max_pixels=max_pixels), asked_frame(shape, window)
+    frame = asked_frame(shape, window)
+    seeds = as_seeds(source, "source", image=image, max_pixels=max_pixels, frame=frame)
     one_seed_a_label(seeds)
     if not len(seeds):
         return DigitalComparison(1.0, 1.0, 1.0, 1.0, _table([], np.empty(0, np.int64)), {}, "")
@@ -93,7 +94,7 @@ def compare_digital(
     require_memory(frame, max_pixels)
     threads = checked_threads(threads)
     sweep = Tessellator(seeds, frame, threads=threads, strict=strict, progress=progress)
-    labelled = LabelImage(sweep.labels(), frame, seeds)
+    labelled = LabelImage(sweep.labels(), frame, sweep.seeds)
     measures = measure_regions(labelled, threads=threads, progress=progress)
     digital = digital_triangulation(labelled, threads=threads, progress=progress)
     components = np.zeros(len(digital.points), np.int64)

@@ -109,7 +109,8 @@ def digital_triangulation(
             raise UsageError(f"spacing is that of the label image, {source.sides.text()}: leave it out")
         sites = _sites_of_image(source, threads)
         return _in_unit(_read(source, sites, [label_array(source.labels)], threads, progress), source.sides)
-    seeds, frame = as_seeds(source, "source", image=image), asked_frame(shape, window)
+    frame = asked_frame(shape, window)
+    seeds = as_seeds(source, "source", image=image, frame=frame, sides=sides)
     sites = _sites_of_seeds(seeds, sides)
     if not len(seeds):
         return _read(seeds, sites, [], threads, None)
@@ -331,7 +332,8 @@ def repair_digital(
     (3, 'repaired', 1)
     """
     sides = pixel_sides(spacing)
-    seeds, frame = as_seeds(source, "source", image=image, max_pixels=max_pixels), asked_frame(shape, window)
+    frame = asked_frame(shape, window)
+    seeds = as_seeds(source, "source", image=image, max_pixels=max_pixels, frame=frame, sides=sides)
     order = one_seed_a_label(seeds)
     if not len(seeds):
         return delaunay(seeds), DigitalRepair("chain")

@@ -62,8 +62,9 @@ def verify_digital_triangulation(
     >>> verify_digital_triangulation(digital_triangulation(seeds), seeds)
     """
     check_value(found, "found", DigitalTriangulation)
-    seeds, frame = as_seeds(source, "source", image=image), asked_frame(shape, window)
+    frame = asked_frame(shape, window)
     sides = pixel_sides(spacing)
+    seeds = as_seeds(source, "source", image=image, frame=frame, sides=sides)
     edges, triangles = np.empty((0, 2), np.int64), np.empty((0, 3), np.int64)
     if len(seeds):
         frame = frame or default_frame(seeds)
@@ -72,7 +73,7 @@ def verify_digital_triangulation(
             lap = min(first, 1)
             labels = sweep.labels(first - lap, count + lap)
             band = Frame(frame.x, frame.y + first - lap, frame.width, count + lap)
-            verify_label_image(labels, seeds, band, sides=sides, threads=threads)
+            verify_label_image(labels, sweep.seeds, band, sides=sides, threads=threads)
             edges = np.concatenate([edges, _edges(labels)])
             triangles = np.concatenate([triangles, _triangles(labels)])
     for name, rows, right in (("edge", found.edges, edges), ("triangle", found.triangles, triangles)):

@@ -128,7 +128,7 @@ def region_table(
         With ``seeds``, every site has a row, also one without pixels (a duplicate, or a seed far outside the
         frame): its area is 0, and its bounding box, ``touches_frame`` and ``max_distance`` do not exist.
         Without ``seeds`` every label that occurs has a row, and the centroid of its region is its site.
-    distance2 : integer array of the same shape, optional
+    distance2 : array of integers or float64 of the same shape, optional
         Squared distance of each pixel to its site, in steps of the sides of the image over ``distance_scale``; without
         it ``max_distance`` does not exist.
     distance_scale : int, optional
@@ -485,7 +485,7 @@ def _max_distance(
     if distance2 is None:
         return np.zeros(len(labels))
     values = np.ascontiguousarray(as_array(distance2, "distance2"))
-    if values.shape != image.shape or values.dtype.kind not in "ui":
+    if values.shape != image.shape or (values.dtype.kind not in "ui" and values.dtype != np.float64):
         raise InputError(
             f"distance2 must be an integer array of shape {image.shape}, but is {values.dtype} of shape {values.shape}"
         )

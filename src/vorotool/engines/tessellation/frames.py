@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.common.label_arrays import described
-from vorotool.engines.tessellation.seeding import Check, seeds_from_points, seeds_from_raster
+from vorotool.engines.tessellation.seeding import FrameOf, seeds_from_points, seeds_from_raster
 from vorotool.errors import STRICT, InputError, LimitError, UsageError, option, warn
 from vorotool.geometry.arguments.images import as_raster, is_image
 from vorotool.geometry.arguments.points import as_points
@@ -25,7 +25,7 @@ from vorotool.geometry.pixel_frame import MAX_PIXELS, Frame
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.points.seed_set import SeedSet
-from vorotool.geometry.spacing import PixelSides, pixel_sides
+from vorotool.geometry.spacing import SQUARE, PixelSides, pixel_sides
 from vorotool.geometry.volumes.label_volume import LabelVolume
 from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
 from vorotool.geometry.volumes.voxel_frame import VoxelFrame
@@ -53,9 +53,10 @@ def as_seeds(
     *,
     image: bool | None = None,
     max_pixels: int = MAX_PIXELS,
-    check: Check = None,
+    frame: FrameOf = None,
+    sides: PixelSides = SQUARE,
 ) -> SeedSet:
-    """Give seeds from whatever `tessellate` accepts; `check` may refuse them before anyone is told that they moved."""
+    """Give seeds from whatever `tessellate` accepts, on a lattice for the frame."""
     if isinstance(source, SeedSet):
         seeds = source
     elif is_image(source, name, image):
@@ -63,9 +64,9 @@ def as_seeds(
         seeds = seeds_from_raster(raster, mode="labels" if isinstance(source, LabelImage) else None)
         seeds = _moved_to(seeds, source.frame) if isinstance(source, LabelImage) else seeds
     else:
-        return seeds_from_points(_points(source, name), check=check)
-    if check is not None:
-        check(seeds)
+        return seeds_from_points(_points(source, name), frame=frame, sides=sides)
+    if callable(frame):
+        frame(seeds)
     return seeds
 
 

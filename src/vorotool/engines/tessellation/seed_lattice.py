@@ -1,7 +1,9 @@
-"""Points on the lattice of seeds, whose step is a pixel or voxel, or down to 1/256 of it."""
+"""Points on the lattice of seeds, whose step is a pixel or voxel, or a part of it."""
 
 from __future__ import annotations
 
+from dataclasses import replace
+from math import ceil, floor
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -9,8 +11,11 @@ from numpy.typing import NDArray
 
 from vorotool.errors import NO_PROPERTIES, STRICT, InputError, warn
 from vorotool.geometry.curves.inverse_functions import hypotenuse
-from vorotool.geometry.points.seed_set import FINEST_SCALE
+from vorotool.geometry.pixel_frame import Frame
+from vorotool.geometry.points.seed_set import SCALES, SeedSet
 from vorotool.geometry.row_index import index_of_rows
+from vorotool.geometry.spacing import SQUARE, PixelSides
+from vorotool.geometry.volumes.volume_seeds import FINEST_SCALE
 
 if TYPE_CHECKING:
     from vorotool.geometry.points.point_set import PointSet
@@ -18,6 +23,12 @@ if TYPE_CHECKING:
 
 LARGEST_COORDINATE = float(2**44)
 """Coordinates up to here, times 256, are exact in a double."""
+
+_MOST_STEPS = 2**40
+"""The bound of the exact arithmetic: see `src/core/tessellation/sweep_arithmetic.hpp`."""
+
+_MOST_COUNTED = 2**61
+"""Coordinates in steps, seen from the origin, stay below: sums of them fit 64 bits."""
 
 _CELL = {2: "pixel", 3: "voxel"}
 
@@ -30,17 +41,20 @@ class SnappedPlaces(NamedTuple):
     steps : (n, axes) int64 array
         In steps of 1 / ``scale``.
     scale : int
-        A power of two from 1 to 256.
+        A power of two, at most `finest`.
     moved : (n,) bool array
         Which of them lay on none of these lattices.
     largest_move : float
         The largest of their moves, in pixels or voxels.
+    finest : int
+        The steps a pixel or voxel of the finest of these lattices.
     """
 
     steps: NDArray[np.int64]
     scale: int
     moved: NDArray[np.bool_]
     largest_move: float
+    finest: int
 
     @property
     def moves(self) -> int:
@@ -48,13 +62,101 @@ class SnappedPlaces(NamedTuple):
         return int(self.moved.sum())
 
 
-def snapped_places(places: NDArray[np.float64]) -> SnappedPlaces:
-    """Put places on the lattice; what is finer than 1/256 moves to the nearest multiple.
+def finest_scale(places: NDArray[np.float64], frame: Frame, sides: PixelSides = SQUARE) -> int:
+    """Give the steps a pixel of the finest lattice on which a tessellation is computed exactly.
+
+    Bands of the frame and the checker see the seeds from elsewhere than from the middle. So it is the extent of the
+    frame and the seeds together that is at most 2^40 steps.
+
+    Parameters
+    ----------
+    places : (n, 2) float64 array
+        Points in pixels, which may lie outside the frame. Those so far outside that they would make the lattice coarser
+        than 1/256 pixel do not count: they are refused later.
+    frame : Frame
+        The whole frame.
+    sides : PixelSides
+        Of a pixel.
+
+    Examples
+    --------
+    >>> [finest_scale(np.empty((0, 2)), Frame(0, 0, side, side)).bit_length() - 1 for side in (512, 8192)]
+    [31, 27]
+    """
+    low, high = (frame.x, frame.y), (frame.x + frame.width, frame.y + frame.height)
+    of_frame = _scale_within(low, high, sides)
+    if len(places):
+        low = tuple(min(a, floor(b)) for a, b in zip(low, places.min(axis=0).tolist(), strict=True))
+        high = tuple(max(a, ceil(b)) for a, b in zip(high, places.max(axis=0).tolist(), strict=True))
+    return max(_scale_within(low, high, sides), min(of_frame, FINEST_SCALE))
+
+
+def _scale_within(low: tuple[int, int], high: tuple[int, int], sides: PixelSides) -> int:
+    """Give the largest power of two of steps a pixel for a box of pixels."""
+    extent = max((b - a) * side for a, b, side in zip(low, high, (sides.x, sides.y), strict=True))
+    most: int = min(_MOST_STEPS // extent, _MOST_COUNTED // max(map(abs, low + high)))
+    return SCALES[max(most.bit_length() - 1, 0)]
+
+
+def least_frame(places: NDArray[np.float64]) -> Frame:
+    """Give the frame that is likely to be asked for later: the least at the origin that holds the points.
+
+    Examples
+    --------
+    >>> least_frame(np.array([[0.5, 2.0], [7.0, 5.0]])).shape
+    (6, 8)
+    """
+    low = [min(floor(least), 0) for least in places.min(axis=0, initial=0).tolist()]
+    high = [floor(most + 0.5) + 1 for most in places.max(axis=0, initial=0).tolist()]
+    return Frame(low[0], low[1], high[0] - low[0], high[1] - low[1])
+
+
+def on_coarser_lattice(seeds: SeedSet, frame: Frame, sides: PixelSides, *, strict: bool) -> SeedSet:
+    """Give seeds of a lattice that is too fine for a frame on the finest one that is not.
+
+    Raises
+    ------
+    InputError
+        If ``strict`` and a seed moves.
+
+    Warns
+    -----
+    VorotoolWarning
+        If seeds move.
+
+    Examples
+    --------
+    >>> seeds = SeedSet(np.array([0, 2**40]), np.array([0, 0]), np.array([1, 2]), scale=2**39)
+    >>> on_coarser_lattice(seeds, Frame(0, 0, 512, 512), SQUARE, strict=False).x.tolist()
+    [0, 4294967296]
+    """
+    if seeds.scale <= FINEST_SCALE or not len(seeds):
+        return seeds
+    places = np.stack([seeds.x, seeds.y], axis=1) / seeds.scale
+    finest = finest_scale(places, frame, sides)
+    if seeds.scale <= finest:
+        return seeds
+    snapped = snapped_places(places, finest)
+    report_snapped(places, snapped, strict=strict)
+    return replace(
+        seeds,
+        x=snapped.steps[:, 0],
+        y=snapped.steps[:, 1],
+        scale=snapped.scale,
+        snapped=max(seeds.snapped, snapped.moves),
+        largest_move=seeds.largest_move + snapped.largest_move,
+    )
+
+
+def snapped_places(places: NDArray[np.float64], finest: int = FINEST_SCALE) -> SnappedPlaces:
+    """Put places on the lattice; what is finer than its steps moves to the nearest multiple.
 
     Parameters
     ----------
     places : (n, 2) or (n, 3) float64 array
         Finite.
+    finest : int
+        Steps a pixel or voxel at most: a power of two.
 
     Raises
     ------
@@ -72,7 +174,7 @@ def snapped_places(places: NDArray[np.float64]) -> SnappedPlaces:
             f"point {far[0] + 1} is ({', '.join(f'{each:.17g}' for each in places[far[0]].tolist())}): "
             f"coordinates of seeds must be at most 2^44 {_CELL[places.shape[1]]}s; scale the points"
         )
-    fine = places * FINEST_SCALE
+    fine = places * finest
     steps = np.rint(fine)
     moved = (steps != fine).any(axis=1)
     largest_move = 0.0
@@ -80,11 +182,11 @@ def snapped_places(places: NDArray[np.float64]) -> SnappedPlaces:
         first, *others = (fine - steps).T
         for other in others:
             first = hypotenuse(first, other)
-        largest_move = float(first.max()) / FINEST_SCALE
+        largest_move = float(first.max()) / finest
     lattice = steps.astype(np.int64)
-    scale = _coarsest_scale(lattice)
-    lattice //= FINEST_SCALE // scale
-    return SnappedPlaces(lattice, scale, moved, largest_move)
+    scale = _coarsest_scale(lattice, finest)
+    lattice //= finest // scale
+    return SnappedPlaces(lattice, scale, moved, largest_move, finest)
 
 
 def sites_of_points(
@@ -132,21 +234,22 @@ def report_snapped(places: NDArray[np.float64], snapped: SnappedPlaces, *, stric
         With their number and the largest move.
     """
     count, cell = snapped.moves, _CELL[places.shape[1]]
+    step = f"1/{snapped.finest}" if snapped.finest <= FINEST_SCALE else f"2^-{snapped.finest.bit_length() - 1}"
     if not count:
         return
     if strict:
         row = int(np.flatnonzero(snapped.moved)[0])
         raise InputError(
-            f"point {row + 1} is ({', '.join(map(str, places[row].tolist()))}): seeds lie on multiples of 1/256 {cell} "
-            f"({count} such points); round them or leave out {STRICT}"
+            f"point {row + 1} is ({', '.join(map(str, places[row].tolist()))}): seeds lie on multiples of {step} "
+            f"{cell} ({count} such points); round them or leave out {STRICT}"
         )
     warn(
-        f"{count} of {len(places)} seeds moved to the nearest 1/256 {cell}, by at most {snapped.largest_move:.6f} "
+        f"{count} of {len(places)} seeds moved to the nearest {step} {cell}, by at most {snapped.largest_move:.2g} "
         f"{cell}s"
     )
 
 
-def _coarsest_scale(lattice: NDArray[np.int64]) -> int:
-    """The smallest power of two of steps a pixel for coordinates given in 1/256 pixel."""
-    used = int(np.bitwise_or.reduce(lattice, axis=None)) & (FINEST_SCALE - 1)
-    return FINEST_SCALE // (used & -used) if used else 1
+def _coarsest_scale(lattice: NDArray[np.int64], finest: int) -> int:
+    """Give the smallest power of two of steps a pixel for coordinates in the finest ones."""
+    used = int(np.bitwise_or.reduce(lattice, axis=None)) & (finest - 1)
+    return finest // (used & -used) if used else 1

@@ -19,7 +19,14 @@ from vorotool.engines.tessellation.raster_objects import (
     numbered_components,
     report_no_foreground,
 )
-from vorotool.engines.tessellation.seed_lattice import report_snapped, sites_of_points, snapped_places
+from vorotool.engines.tessellation.seed_lattice import (
+    SnappedPlaces,
+    finest_scale,
+    least_frame,
+    report_snapped,
+    sites_of_points,
+    snapped_places,
+)
 from vorotool.errors import LimitError, UsageError, option
 from vorotool.geometry.arguments.images import as_raster
 from vorotool.geometry.arguments.points import as_points
@@ -28,6 +35,8 @@ from vorotool.geometry.numbers import shown_number, whole_number
 from vorotool.geometry.pixel_frame import Frame
 from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.points.seed_set import SeedSet
+from vorotool.geometry.spacing import SQUARE, PixelSides
+from vorotool.geometry.volumes.volume_seeds import FINEST_SCALE
 
 if TYPE_CHECKING:
     from vorotool.typing import ImageLike, PointsLike
@@ -36,22 +45,27 @@ _CENTROIDS = option("--seeds centroids", 'mode="centroids"')
 
 SeedMode = Literal["pixels", "components", "labels", "centroids"]
 
-Check = Callable[[SeedSet], object] | None
-"""Raises an error for seeds that cannot be used: called before notes about them."""
+FrameOf = Frame | Callable[[SeedSet], Frame | None] | None
+"""The frame that seeds are for, or a function that returns it, or raises an error for seeds that cannot be used."""
 
 
-def seeds_from_points(points: PointsLike, *, strict: bool = False, check: Check = None) -> SeedSet:
+def seeds_from_points(
+    points: PointsLike, *, frame: FrameOf = None, sides: PixelSides = SQUARE, strict: bool = False
+) -> SeedSet:
     """Put points on the lattice of seeds.
 
     Parameters
     ----------
     points : PointSet, array, data frame, GeoSeries, …
-        As `delaunay` takes them; coordinates in pixels. Multiples of 1/256 are kept exactly; finer ones move to the
-        nearest multiple.
+        As `delaunay` takes them; coordinates in pixels. What is finer than the finest lattice of the frame, 2^-31 pixel
+        for 512 x 512 pixels, moves to the nearest multiple of its step.
+    frame : Frame or callable, optional
+        The whole image that is to be labelled, or what gives it for the seeds. By default the least frame at the origin
+        that holds the points.
+    sides : PixelSides
+        Sides of a pixel of the image.
     strict : bool
         Refuse points that would have to move.
-    check : callable, optional
-        Called with the seeds before that they moved is told of: raises an error where they need no telling.
 
     Returns
     -------
@@ -61,7 +75,7 @@ def seeds_from_points(points: PointsLike, *, strict: bool = False, check: Check 
     Raises
     ------
     InputError
-        If a coordinate is beyond 2^44, or ``strict`` and a point is finer than 1/256 pixel.
+        If a coordinate is beyond 2^44, or ``strict`` and a point is finer than the lattice.
 
     Warns
     -----
@@ -75,7 +89,25 @@ def seeds_from_points(points: PointsLike, *, strict: bool = False, check: Check 
     (2, [1, 14])
     """
     points = as_points(points)
-    snapped = snapped_places(points.xy)
+    seeds, snapped = _on_lattice(points, FINEST_SCALE)
+    whole, given = None, _frame_for(seeds, points, frame)
+    while given != whole:  # twice, where the coarse lattice moved a seed that decides on the frame
+        whole, finest = given, finest_scale(points.xy, given, sides)
+        if snapped.moves or seeds.scale > finest:
+            seeds, snapped = _on_lattice(points, finest)
+            given = _frame_for(seeds, points, frame)
+    report_snapped(points.xy, snapped, strict=strict)
+    return seeds
+
+
+def _frame_for(seeds: SeedSet, points: PointSet, frame: FrameOf) -> Frame:
+    given = frame(seeds) if callable(frame) else frame
+    return given or least_frame(points.xy)
+
+
+def _on_lattice(points: PointSet, finest: int) -> tuple[SeedSet, SnappedPlaces]:
+    """Put points on a lattice with at most so many steps a pixel."""
+    snapped = snapped_places(points.xy, finest)
     labels = points.label_array.astype(np.uint32)
     seeds = SeedSet(
         snapped.steps[:, 0],
@@ -86,10 +118,7 @@ def seeds_from_points(points: PointsLike, *, strict: bool = False, check: Check 
         largest_move=snapped.largest_move,
         **sites_of_points(snapped.steps / snapped.scale, labels, points),
     )
-    if check is not None:
-        check(seeds)
-    report_snapped(points.xy, snapped, strict=strict)
-    return seeds
+    return seeds, snapped
 
 
 def seeds_from_raster(
@@ -120,7 +149,7 @@ def seeds_from_raster(
     invert : bool
         Exchange foreground and background.
     strict : bool
-        Refuse an image without foreground, and centroids that would have to move to the lattice of 1/256 pixel.
+        Refuse an image without foreground, and centroids that would have to move to the lattice of seeds.
     max_sites : int
         More seeds, which are the foreground pixels unless centroids are taken, are refused before memory is
         taken for them.
@@ -217,5 +246,5 @@ def _seeds_of_objects(
         return SeedSet(x, y, labels, **known)
     if len(distinct) > max_sites:
         raise LimitError(f"the image has {len(distinct)} objects, more than {option(f'--max-sites {max_sites}')}")
-    seeds = seeds_from_points(PointSet(sites, distinct), strict=strict)
+    seeds = seeds_from_points(PointSet(sites, distinct), frame=frame, strict=strict)
     return replace(seeds, properties={}, index=None, **known)

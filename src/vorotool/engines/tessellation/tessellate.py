@@ -206,11 +206,14 @@ def tessellate(
     sides = sides_of(seeds, spacing)
     frame = asked_frame(shape, window)
 
-    def require_frame(made: SeedSet) -> None:
-        if len(made) or made.is_empty_image:
-            require_memory(frame or default_frame(made), max_pixels)
+    def checked_frame(made: SeedSet) -> Frame | None:
+        if not len(made) and not made.is_empty_image:
+            return frame
+        whole = frame or default_frame(made)
+        require_memory(whole, max_pixels)
+        return whole
 
-    seed_set = as_seeds(seeds, image=image, max_pixels=max_pixels, check=require_frame)
+    seed_set = as_seeds(seeds, image=image, max_pixels=max_pixels, frame=checked_frame, sides=sides)
     rows = labelled_rows(
         seed_set,
         frame,
@@ -222,7 +225,7 @@ def tessellate(
         max_pixels=max_pixels,
         progress=progress,
     )
-    return LabelImage(rows.labels(dtype=dtype, out=out), rows.frame, seed_set, sides=sides)
+    return LabelImage(rows.labels(dtype=dtype, out=out), rows.frame, rows.seeds, sides=sides)
 
 
 def labelled_rows(

@@ -22,6 +22,7 @@ from vorotool.engines.tessellation.frames import (
 )
 from vorotool.engines.tessellation.interior_seeds import needed_seeds, paint_seeds
 from vorotool.engines.tessellation.raster_objects import refuse_distances
+from vorotool.engines.tessellation.seed_lattice import on_coarser_lattice
 from vorotool.errors import InputError, LimitError, UsageError, option
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.numbers import shown_number
@@ -109,13 +110,13 @@ class Tessellator:
         progress: Progress = None,
     ) -> None:
         require_seeds(seeds)
-        self.seeds = seeds
         self.frame = frame or default_frame(seeds)
         if max(self.frame.shape) > MAX_SIDE:
             width, height = shown_number(self.frame.width), shown_number(self.frame.height)
             raise LimitError(f"the frame is {width} x {height}: a side has at most 2^30 pixels")
         self.simd = simd_level()
         self.sides = sides
+        self.seeds = seeds = on_coarser_lattice(seeds, self.frame, sides, strict=strict)
         self.most_squared = squared_limit(max_distance, seeds.scale / sides.step)
         self._threads = checked_threads(threads)
         self._progress = progress
@@ -219,7 +220,7 @@ class Tessellator:
         first, rows : int
             The first row and the number of rows; by default all.
         dtype : dtype, optional
-            uint32 or uint64, where it is known that they fit; by default `square_dtype`.
+            uint32 or uint64, where it is known that they fit, or float64, rounded; by default `square_dtype`.
 
         Returns
         -------
@@ -264,6 +265,14 @@ class Tessellator:
         dy = max(abs(int(self.seeds.y[0]) - scale * r) for r in (frame.y, frame.y + frame.height - 1))
         dx, dy = dx * self.sides.x, dy * self.sides.y
         return square_dtype(dx * dx + dy * dy)
+
+    @property
+    def measured_dtype(self) -> np.dtype[Any]:
+        """The type of squared distances that are measured only: doubles where they may not fit 64 bits."""
+        try:
+            return self.square_dtype
+        except LimitError:
+            return np.dtype(np.float64)
 
     def _output(self, first: int, rows: int | None, dtype: np.dtype[Any], out: NDArray[Any] | None) -> NDArray[Any]:
         rows = self.frame.height - first if rows is None else rows

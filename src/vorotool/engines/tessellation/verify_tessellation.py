@@ -16,6 +16,8 @@ from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.geometry.spacing import SQUARE, PixelSides
 
+_FARTHEST = 2**61
+
 
 def verify_label_image(
     labels: NDArray[Any],
@@ -65,12 +67,13 @@ def verify_label_image(
     """
     image = LabelImage(labels, frame)
     high, low = split_limit(max_distance2)
-    x, y = (on_lattice(*axis) for axis in ((seeds.x, sides.x), (seeds.y, sides.y)))
+    x = _from_origin(seeds.x, seeds.scale * frame.x, sides.x)
+    y = _from_origin(seeds.y, seeds.scale * frame.y, sides.y)
     try:
         wrong = _core.tessellation.verify_tessellation(
             label_array(image.labels),
-            frame.x,
-            frame.y,
+            0,
+            0,
             x,
             y,
             seeds.labels,
@@ -81,13 +84,20 @@ def verify_label_image(
             None,
         )
     except IndexError as error:
-        raise InputError(f"cannot verify: {error}; move the frame and the seeds nearer to the origin") from error
+        raise InputError(f"cannot verify: {error}; move the frame and the seeds nearer to each other") from error
     if wrong.count:
         raise VerificationError(
             f"{wrong.count} of {frame.pixels} pixels {'is' if wrong.count == 1 else 'are'} wrong: the first, (x, y) = "
             f"({frame.x + wrong.column}, {frame.y + wrong.row}), has label {image.labels[wrong.row, wrong.column]}, "
             f"not {wrong.right}"
         )
+
+
+def _from_origin(coordinates: NDArray[np.int64], origin: int, side: int) -> NDArray[np.int64]:
+    """Give coordinates seen from the first pixel of a frame, from where they are within the limit of the core."""
+    if abs(origin) > _FARTHEST:
+        raise InputError("cannot verify: the frame is too far from the origin for its lattice; move it nearer")
+    return on_lattice(coordinates.clip(-2 * _FARTHEST, 2 * _FARTHEST) - origin, side)
 
 
 def on_lattice(coordinates: NDArray[np.int64], side: int) -> NDArray[np.int64]:

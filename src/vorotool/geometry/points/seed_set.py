@@ -1,4 +1,4 @@
-"""Seeds: sites on the pixel lattice, or on a lattice up to 256 times finer."""
+"""Seeds: sites on the pixel lattice, or on a finer one."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from vorotool.geometry.pixel_grid import PixelGrid
 from vorotool.geometry.row_index import check_index
 from vorotool.geometry.values import Geometric, Pictured, Tabular, Value, counted
 
-FINEST_SCALE = 256
-"""Lattice steps a pixel at most: coordinates are kept to 1/256 of a pixel."""
+SCALES = tuple(2**k for k in range(41))
+"""Lattice steps a pixel: up to those of the smallest frame, see `finest_scale`."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -31,7 +31,7 @@ class SeedSet(Value, Tabular, Geometric, Pictured):
     labels : (n,) uint32 array
         Label of each seed, at least 1.
     scale : int
-        Lattice steps a pixel: a power of two from 1 to 256, the smallest that holds the input.
+        Lattice steps a pixel: a power of two from 1 to 2^40, the smallest that holds the input.
     frame : Frame, optional
         The frame that the input brings along (an image's); points have none.
     sites : (k, 2) float64 array
@@ -86,8 +86,8 @@ class SeedSet(Value, Tabular, Geometric, Pictured):
                 f"x, y and labels must be 1-D of one length, but have shapes {self.x.shape}, {self.y.shape}, "
                 f"{self.labels.shape}"
             )
-        if self.scale not in (1, 2, 4, 8, 16, 32, 64, 128, 256):
-            raise InputError(f"scale is {self.scale}: it must be a power of two from 1 to {FINEST_SCALE}")
+        if self.scale not in SCALES:
+            raise InputError(f"scale is {self.scale}: it must be a power of two from 1 to 2^40")
         if self.sites is None:
             order = np.argsort(self.labels, kind="stable")
             labels, first = np.unique(self.labels[order], return_index=True)

@@ -11,11 +11,13 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.geometry.checks import whole_numbers
-from vorotool.geometry.points.seed_set import FINEST_SCALE
 from vorotool.geometry.row_index import check_index
 from vorotool.geometry.values import Value, counted
 from vorotool.geometry.volumes.voxel_frame import VoxelFrame
 from vorotool.geometry.volumes.voxel_grid import VoxelGrid
+
+FINEST_SCALE = 256
+"""Lattice steps a voxel at most: coordinates are kept to 1/256 of a voxel."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)

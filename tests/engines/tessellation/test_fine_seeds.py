@@ -1,0 +1,80 @@
+"""Seeds between pixels: on the finest lattice of the whole frame, by exact brute force."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import vorotool
+from support.families.families import fine_case
+from support.oracles.oracles import nearest_labels_of_fine_seeds
+from vorotool.engines.tessellation.bands import SeedBand, SeedBands
+from vorotool.engines.tessellation.seed_lattice import finest_scale
+from vorotool.engines.tessellation.tessellator import Tessellator
+from vorotool.engines.tessellation.verify_tessellation import verify_label_image
+from vorotool.geometry.pixel_frame import Frame
+from vorotool.geometry.points.seed_set import SeedSet
+from vorotool.geometry.spacing import pixel_sides
+
+pytestmark = pytest.mark.filterwarnings("ignore:.*seeds (moved|lie)")
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_labels_of_fine_seeds_in_one_and_in_bands(seed):
+    rng = np.random.default_rng(seed)
+    _, x, y, labels, scale, where, sides = fine_case(rng)
+    seeds, frame = SeedSet(x, y, labels, scale=scale), Frame(*where)
+    right = nearest_labels_of_fine_seeds(x, y, labels, where, scale, sides.units)
+    sweep = Tessellator(seeds, frame, sides=sides, threads=int(rng.integers(1, 4)))
+    assert (sweep.labels() == right).all()
+    verify_label_image(right, sweep.seeds, frame, sides=sides)
+    bands, height = SeedBands(seeds, frame), max(1, frame.height // 3)
+    for first in range(0, frame.height, height):
+        rows = min(height, frame.height - first)
+        band = Frame(frame.x, frame.y + first, frame.width, rows)
+        apart = SeedBand(bands.seeds_of(first, rows), band, "labels", np.dtype(np.uint32), None, sides)
+        assert (apart.rows() == right[first : first + rows]).all()
+
+
+def test_two_seeds_a_thousandth_from_a_tie():
+    assert vorotool.tessellate([[0, 0], [1.999, 0]], shape=(1, 3)).labels.tolist() == [[1, 2, 2]]
+    assert vorotool.tessellate([[0, 0], [2.001, 0]], shape=(1, 3)).labels.tolist() == [[1, 1, 2]]
+    assert vorotool.tessellate([[0, 0], [2, 0]], shape=(1, 3)).labels.tolist() == [[1, 1, 2]]
+
+
+@pytest.mark.parametrize("side", [1, 3, 510, 511, 512, 513, 8192, 2**20])
+def test_the_finest_lattice_is_of_the_whole_frame(side):
+    scale = finest_scale(np.empty((0, 2)), Frame(0, 0, side, 1))
+    assert side * scale <= 2**40 < 2 * side * scale
+    assert finest_scale(np.array([[0.5, 0.25]]), Frame(0, 0, side, 1)) == scale
+    assert finest_scale(np.empty((0, 2)), Frame(0, 0, side, 1), pixel_sides((0.75, 0.5))) in (scale // 2, scale // 4)
+
+
+def test_seeds_get_the_lattice_of_the_frame_and_the_coarsest_that_holds_them():
+    step = 2.0**-31
+    points = np.array([[step, 1], [5, 6]])
+    assert vorotool.tessellate(points, shape=(512, 512)).seeds.scale == 2**31
+    assert vorotool.tessellate(points, shape=(1024, 1024)).seeds.scale == 1
+    assert vorotool.tessellate(points + 0.25, shape=(1024, 1024)).seeds.scale == 4
+    seeds = vorotool.seeds_from_points(vorotool.PointSet(points))
+    assert seeds.scale == 2**31
+    assert vorotool.tessellate(seeds, shape=(1024, 1024)).seeds.scale == 1
+
+
+@pytest.mark.parametrize("origin", [0, 2**20, -(2**30)])
+def test_distances_and_tables_of_fine_seeds(origin):
+    rng = np.random.default_rng(1)
+    points = rng.random((30, 2)) * 40 + origin
+    image = vorotool.tessellate(points, window=(origin, origin, 40, 30))
+    vorotool.verify_tessellation(image)
+    sweep = Tessellator(image.seeds, image.frame)
+    if origin >= 0:  # far from it doubles are coarser
+        with pytest.raises(vorotool.LimitError, match="distance"):
+            sweep.squared_distances()
+    rows, columns = np.mgrid[origin : origin + 30, origin : origin + 40]
+    nearest = image.seeds.sites[image.labels.astype(int) - 1]
+    right = np.hypot(nearest[..., 0] - columns, nearest[..., 1] - rows)
+    np.testing.assert_allclose(sweep.distances(), right, rtol=1e-6)
+    table = vorotool.region_table(image, distance2=sweep.squared_distances(dtype=sweep.measured_dtype))
+    farthest = [right[image.labels == label].max(initial=0) for label in table["label"]]
+    np.testing.assert_allclose(np.ma.filled(table["max_distance"], 0), farthest, rtol=1e-9)
