@@ -188,6 +188,6 @@ void ActiveColumns<Arithmetic>::compact() {
 }
 
 template class ActiveColumns<Narrow>;
-template class ActiveColumns<Wide>;
+template class ActiveColumns<Filtered>;
 
 }  // namespace vorotool::core::tessellation

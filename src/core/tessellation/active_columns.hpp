@@ -67,6 +67,6 @@ class ActiveColumns {
 };
 
 extern template class ActiveColumns<Narrow>;
-extern template class ActiveColumns<Wide>;
+extern template class ActiveColumns<Filtered>;
 
 }  // namespace vorotool::core::tessellation

@@ -25,26 +25,11 @@ inline std::int64_t floor_divide(double numerator, double denominator, bool& exa
   return quotient;
 }
 
-// The same for integers of 128 bits, whose own division takes ten times as long. Quotients beyond 2^40, which no
-// frame reaches, are given as that. Up to there the rounded quotient is off by less than one.
-inline std::int64_t floor_divide(numbers::int128 numerator, numbers::int128 denominator, bool& exact) {
-  constexpr double most = 0x1p40;
-  const double guess = static_cast<double>(numerator) / static_cast<double>(denominator);
-  if (guess > most || guess < -most) {
-    exact = false;
-    return static_cast<std::int64_t>(guess > 0 ? most : -most);
-  }
-  auto quotient = static_cast<std::int64_t>(__builtin_floor(guess));
-  numbers::int128 remainder = numerator - quotient * denominator;
-  if (remainder < 0) {
-    --quotient;
-    remainder += denominator;
-  } else if (remainder >= denominator) {
-    ++quotient;
-    remainder -= denominator;
-  }
+inline numbers::int128 floor_divide(numbers::int128 numerator, numbers::int128 denominator, bool& exact) {
+  const numbers::int128 quotient = numerator / denominator;
+  const numbers::int128 remainder = numerator % denominator;
   exact = remainder == 0;
-  return quotient;
+  return remainder < 0 ? quotient - 1 : quotient;
 }
 
 template <class ArithmeticOfLane>
@@ -67,6 +52,7 @@ struct ScalarLanes {
   static Value sub(Value a, Value b) { return a - b; }
   static Value mul(Value a, Value b) { return a * b; }
   static Value scale(Value a, std::int64_t factor) { return a * static_cast<Value>(factor); }
+  static Value times(Value a, double factor) { return a * static_cast<Value>(factor); }
   static Mask less(Value a, Value b) { return a < b; }
   static Mask equal(Value a, Value b) { return a == b; }
   static Value choose(Mask second, Value a, Value b) { return second ? b : a; }
@@ -89,6 +75,17 @@ struct ScalarLanes {
     const std::int32_t last = pixels.width - 1;
     *end = quotient < -1 ? -1 : quotient > last ? last : static_cast<std::int32_t>(quotient);
     return exact && quotient >= 0 && quotient <= last;
+  }
+
+  // For rounded values: the boundary where the error of the quotient cannot change it, else doubt.
+  static Mask bracket(Value rise, Value run, Value error, const PixelRow& pixels, std::int32_t* end) {
+    const auto pixel = [&](Value at) {
+      const Value p = __builtin_floor(at) + pixels.middle;
+      return static_cast<std::int32_t>(p < -1 ? -1 : p > pixels.width - 1 ? pixels.width - 1 : p);
+    };
+    const Value quotient = rise / run;
+    *end = pixel(quotient - error / run);
+    return *end != pixel(quotient + error / run);
   }
 
   static void stream(void* target, const void* source, std::size_t bytes) {

@@ -43,7 +43,7 @@ struct ListedSeeds {
 template <class Arithmetic>
 struct Candidates {
   typename Arithmetic::Value* x;
-  typename Arithmetic::Value* value;  // F = x^2 + dy^2
+  typename Arithmetic::Value* value;  // F = x^2 + dy^2; dy where F is rounded
   std::uint32_t* entry;               // of the live columns
 };
 
@@ -83,7 +83,7 @@ struct RowKernel {
   void (*prune)(const ActiveColumnArrays<Arithmetic>&, typename Arithmetic::Coordinate row, const PixelRow&,
                 Envelope<Arithmetic>&);
   // The same for a list: all candidates are taken from it, and what hides each dead one is told. `nearer_label` is the
-  // list's own.
+  // list's own. Null for Filtered: volumes are Narrow or Wide.
   void (*list)(const ListedSeeds<Arithmetic>&, typename Arithmetic::Coordinate row, const PixelRow&,
                Envelope<Arithmetic>&);
   // Fills end and ties of a pruned envelope.
@@ -98,13 +98,14 @@ struct RowKernel {
 };
 
 RowKernel<Narrow> narrow_kernel(Simd level);
+RowKernel<Filtered> filtered_kernel(Simd level);
 RowKernel<Wide> wide_kernel();
 
-// Calls body(kernel) with the kernel of the arithmetic that these sites need.
-template <class Body>
-void with_kernel(bool wide, Simd level, Body body) {
+// Calls body(kernel) with the narrow kernel or, where the sites need it, with the other one.
+template <class Wider, class Body>
+void with_kernel(bool wide, const RowKernel<Wider>& wider, Simd level, Body body) {
   if (wide) {
-    body(wide_kernel());
+    body(wider);
   } else {
     body(narrow_kernel(level));
   }
@@ -114,6 +115,8 @@ namespace kernels {  // one definition a file: row_kernel_<level>.cpp
 RowKernel<Narrow> portable();
 RowKernel<Narrow> avx2();
 RowKernel<Narrow> avx512();
+RowKernel<Filtered> filtered_portable();
+RowKernel<Filtered> filtered_avx2();
 }  // namespace kernels
 
 }  // namespace vorotool::core::tessellation

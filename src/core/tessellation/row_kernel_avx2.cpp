@@ -54,6 +54,7 @@ struct Avx2Lanes {
     _mm_storeu_si128(reinterpret_cast<__m128i*>(y), choose_index(which, coordinates(y), _mm_set1_epi32(v)));
   }
   static __m256d broadcast(std::int32_t v) { return _mm256_set1_pd(v); }
+  static __m256d times(__m256d a, double factor) { return _mm256_mul_pd(a, _mm256_set1_pd(factor)); }
   static __m256d add(__m256d a, __m256d b) { return _mm256_add_pd(a, b); }
   static __m256d sub(__m256d a, __m256d b) { return _mm256_sub_pd(a, b); }
   static __m256d mul(__m256d a, __m256d b) { return _mm256_mul_pd(a, b); }
@@ -64,9 +65,12 @@ struct Avx2Lanes {
   static Mask equal(__m256d a, __m256d b) { return bits(_mm256_cmp_pd(a, b, _CMP_EQ_OQ)); }
   static Mask bits(__m256d m) { return static_cast<Mask>(_mm256_movemask_pd(m)); }
   static __m256d choose(Mask second, __m256d a, __m256d b) {
+    return _mm256_blendv_pd(a, b, _mm256_castsi256_pd(spread(second)));
+  }
+  // All bits of the lanes of a mask.
+  static __m256i spread(Mask mask) {
     const __m256i lane = _mm256_setr_epi64x(1, 2, 4, 8);
-    const __m256i chosen = _mm256_cmpeq_epi64(_mm256_and_si256(_mm256_set1_epi64x(second), lane), lane);
-    return _mm256_blendv_pd(a, b, _mm256_castsi256_pd(chosen));
+    return _mm256_cmpeq_epi64(_mm256_and_si256(_mm256_set1_epi64x(mask), lane), lane);
   }
   static void compress(double* out, Mask keep, __m256d v) {
     const __m256i order = _mm256_load_si256(reinterpret_cast<const __m256i*>(tables.pair[keep]));
@@ -129,7 +133,47 @@ struct Avx2Lanes {
   static void fence() { _mm_sfence(); }
 };
 
+// The same lanes with coordinates of 64 bits.
+struct Avx2FilteredLanes : Avx2Lanes {
+  using Arithmetic = Filtered;
+
+  static __m256i coordinates(const std::int64_t* y) {
+    return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(y));
+  }
+  // Integers below 2^51 as doubles: added to the bits of 1.5 * 2^52 they are its last bits.
+  static __m256d doubles(__m256i v) {
+    const __m256d magic = _mm256_set1_pd(0x1.8p52);
+    return _mm256_sub_pd(_mm256_castsi256_pd(_mm256_add_epi64(v, _mm256_castpd_si256(magic))), magic);
+  }
+  static __m256d above(std::int64_t row, const std::int64_t* y) {
+    return doubles(_mm256_sub_epi64(_mm256_set1_epi64x(row), coordinates(y)));
+  }
+  static __m256d below(std::int64_t row, const std::int64_t* y) {
+    return doubles(_mm256_sub_epi64(coordinates(y), _mm256_set1_epi64x(row)));
+  }
+  static void set_coordinates(std::int64_t* y, Mask which, std::int64_t v) {
+    _mm256_maskstore_epi64(reinterpret_cast<long long*>(y), spread(which), _mm256_set1_epi64x(v));
+  }
+  static __m256d broadcast(std::int64_t v) { return _mm256_set1_pd(static_cast<double>(v)); }
+
+  // The boundary where the error of the quotient cannot change it, else doubt.
+  static Mask bracket(__m256d rise, __m256d run, __m256d error, const PixelRow& pixels, std::int32_t* end) {
+    const __m256d quotient = _mm256_div_pd(rise, run);
+    const __m256d margin = _mm256_div_pd(error, run);
+    const __m256d low = pixel(_mm256_sub_pd(quotient, margin), pixels);
+    const __m256d high = pixel(_mm256_add_pd(quotient, margin), pixels);
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(end), _mm256_cvttpd_epi32(low));
+    return bits(_mm256_cmp_pd(low, high, _CMP_NEQ_UQ));
+  }
+  static __m256d pixel(__m256d at, const PixelRow& pixels) {
+    const __m256d p = _mm256_add_pd(_mm256_floor_pd(at), _mm256_set1_pd(pixels.middle));
+    return _mm256_min_pd(_mm256_max_pd(p, _mm256_set1_pd(-1.0)), _mm256_set1_pd(pixels.width - 1));
+  }
+};
+
 }  // namespace
+
+RowKernel<Filtered> kernels::filtered_avx2() { return RowKernelOn<Avx2FilteredLanes>::table(); }
 
 RowKernel<Narrow> kernels::avx2() { return RowKernelOn<Avx2Lanes>::table(); }
 

@@ -43,14 +43,46 @@ struct RowKernelOn {
       if (hidden != 0) Lanes::set_coordinates(live.above_y + i, hidden, -Arithmetic::far);
       const auto x = Lanes::load(live.x + i);
       Lanes::compress(out.x + n, present, x);
-      Lanes::compress(out.value + n, present, Lanes::add(Lanes::mul(x, x), Lanes::mul(nearer, nearer)));
+      if constexpr (Arithmetic::filtered) {
+        Lanes::compress(out.value + n, present, nearer);
+      } else {
+        Lanes::compress(out.value + n, present, sum_of_squares(x, nearer));
+      }
       Lanes::compress_index(out.entry + n, present, Lanes::count_from(i));
       n += __builtin_popcount(present);
     }
     return n;
   }
 
+  template <class Lane>
+  static Lane sum_of_squares(Lane x, Lane dy) {
+    return Lanes::add(Lanes::mul(x, x), Lanes::mul(dy, dy));
+  }
+
   static Mask valid_lanes(std::int32_t left) { return left >= width ? all : (Mask{1} << left) - 1; }
+
+  // F of candidates, rounded where the arithmetic is filtered, and exact.
+  static auto values(const Candidates<Arithmetic> c, std::int32_t i) {
+    const auto value = Lanes::load(c.value + i);
+    if constexpr (Arithmetic::filtered) {
+      return sum_of_squares(Lanes::load(c.x + i), value);
+    } else {
+      return value;
+    }
+  }
+
+  static numbers::int128 exact_value(const Candidates<Arithmetic> c, std::int32_t i) {
+    if constexpr (Arithmetic::filtered) {
+      const auto dy = static_cast<std::int64_t>(c.value[i]);
+      return numbers::int128{exact_x(c, i)} * exact_x(c, i) + numbers::int128{dy} * dy;
+    } else {
+      return static_cast<numbers::int128>(c.value[i]);
+    }
+  }
+
+  static std::int64_t exact_x(const Candidates<Arithmetic> c, std::int32_t i) {
+    return static_cast<std::int64_t>(c.x[i]);
+  }
 
   // Pruning.
 
@@ -58,24 +90,39 @@ struct RowKernelOn {
   // nearest, when its boundary with b lies left of its boundary with a. A tie keeps it: its label may be the
   // smallest.
   static bool hidden_exactly(const Candidates<Arithmetic> c, std::int32_t a, std::int32_t i, std::int32_t b) {
-    const auto whole = [](Value v) { return static_cast<numbers::int128>(v); };
-    return (whole(c.value[b]) - whole(c.value[i])) * (whole(c.x[i]) - whole(c.x[a])) <
-           (whole(c.value[i]) - whole(c.value[a])) * (whole(c.x[b]) - whole(c.x[i]));
+    const numbers::int128 value = exact_value(c, i);
+    return (exact_value(c, b) - value) * (exact_x(c, i) - exact_x(c, a)) <
+           (value - exact_value(c, a)) * (exact_x(c, b) - exact_x(c, i));
   }
 
   static Mask hidden_lanes(const Candidates<Arithmetic> c, std::int32_t i, Mask valid, bool products_exact) {
     const auto x = Lanes::load(c.x + i);
-    const auto value = Lanes::load(c.value + i);
-    const auto left =
-        Lanes::mul(Lanes::sub(Lanes::load(c.value + i + 1), value), Lanes::sub(x, Lanes::load(c.x + i - 1)));
-    const auto right =
-        Lanes::mul(Lanes::sub(value, Lanes::load(c.value + i - 1)), Lanes::sub(Lanes::load(c.x + i + 1), x));
-    Mask hidden = Lanes::less(left, right) & valid;
-    if (!products_exact) {
-      for (Mask doubt = Lanes::equal(left, right) & valid; doubt != 0; doubt &= doubt - 1) {
-        const std::int32_t lane = __builtin_ctz(doubt);
-        if (hidden_exactly(c, i + lane - 1, i + lane, i + lane + 1)) hidden |= Mask{1} << lane;
-      }
+    const auto before = values(c, i - 1);
+    const auto value = values(c, i);
+    const auto after = values(c, i + 1);
+    const auto from = Lanes::sub(x, Lanes::load(c.x + i - 1));
+    const auto to = Lanes::sub(Lanes::load(c.x + i + 1), x);
+    const auto left = Lanes::mul(Lanes::sub(after, value), from);
+    const auto right = Lanes::mul(Lanes::sub(value, before), to);
+    const Mask hidden = Lanes::less(left, right) & valid;
+    if constexpr (Arithmetic::filtered) {
+      const auto sums =
+          Lanes::add(Lanes::mul(Lanes::add(after, value), from), Lanes::mul(Lanes::add(value, before), to));
+      const auto error = Lanes::times(sums, filter_error);
+      const Mask certain =
+          Lanes::less(error, Lanes::sub(left, right)) | Lanes::less(error, Lanes::sub(right, left));
+      return (hidden & certain) | hidden_in_doubt(c, i, valid & ~certain);
+    } else if (!products_exact) {
+      return hidden | hidden_in_doubt(c, i, Lanes::equal(left, right) & valid);
+    }
+    return hidden;
+  }
+
+  static Mask hidden_in_doubt(const Candidates<Arithmetic> c, std::int32_t i, Mask doubt) {
+    Mask hidden = 0;
+    for (; doubt != 0; doubt &= doubt - 1) {
+      const std::int32_t lane = __builtin_ctz(doubt);
+      if (hidden_exactly(c, i + lane - 1, i + lane, i + lane + 1)) hidden |= Mask{1} << lane;
     }
     return hidden;
   }
@@ -182,6 +229,40 @@ struct RowKernelOn {
 
   // Boundaries.
 
+  // Behind the last boundary a lane may hold anything; its result is overwritten or never read.
+  static Mask bound_lanes(const Candidates<Arithmetic> c, std::int32_t i, Mask valid, const PixelRow& pixels,
+                          std::int32_t* end) {
+    const auto value = values(c, i);
+    const auto after = values(c, i + 1);
+    const auto rise = Lanes::sub(after, value);
+    const auto run =
+        Lanes::scale(Lanes::sub(Lanes::load(c.x + i + 1), Lanes::load(c.x + i)), 2 * pixels.steps);
+    if constexpr (Arithmetic::filtered) {
+      Mask ties = 0;
+      const auto error = Lanes::times(Lanes::add(after, value), filter_error);
+      for (Mask doubt = Lanes::bracket(rise, run, error, pixels, end + i) & valid; doubt != 0;
+           doubt &= doubt - 1) {
+        const std::int32_t lane = __builtin_ctz(doubt);
+        if (bound_exactly(c, i + lane, pixels, end)) ties |= Mask{1} << lane;
+      }
+      return ties;
+    } else {
+      return Lanes::divide(rise, run, valid, pixels, end + i);
+    }
+  }
+
+  // Sets one boundary; tells whether it is a pixel.
+  static bool bound_exactly(const Candidates<Arithmetic> c, std::int32_t i, const PixelRow& pixels,
+                            std::int32_t* end) {
+    const numbers::int128 rise = exact_value(c, i + 1) - exact_value(c, i);
+    const numbers::int128 run = numbers::int128{2 * pixels.steps} * (exact_x(c, i + 1) - exact_x(c, i));
+    const numbers::int128 remainder = rise % run;
+    const numbers::int128 pixel = rise / run - (remainder < 0) + pixels.middle;
+    const std::int32_t last = pixels.width - 1;
+    end[i] = pixel < -1 ? -1 : pixel > last ? last : static_cast<std::int32_t>(pixel);
+    return remainder == 0 && pixel >= 0 && pixel <= last;
+  }
+
   static void bound(const PixelRow& pixels, Envelope<Arithmetic>& envelope) {
     const Candidates<Arithmetic> c = envelope.candidates;
     const std::int32_t n = envelope.count;
@@ -190,11 +271,7 @@ struct RowKernelOn {
     std::int32_t tie_count = 0;
     for (std::int32_t i = 0; i < n - 1; i += width) {
       const Mask valid = valid_lanes(n - 1 - i);
-      const auto rise = Lanes::sub(Lanes::load(c.value + i + 1), Lanes::load(c.value + i));
-      const auto run = Lanes::sub(Lanes::load(c.x + i + 1), Lanes::load(c.x + i));
-      // Behind the last boundary a lane may hold anything; its result is overwritten or never read.
-      const Mask ties =
-          Lanes::divide(rise, Lanes::scale(run, 2 * pixels.steps), valid, pixels, end + i) & valid;
+      const Mask ties = bound_lanes(c, i, valid, pixels, end) & valid;
       if (ties != 0) {
         Lanes::compress_index(reinterpret_cast<std::uint32_t*>(tied + tie_count), ties, Lanes::count_from(i));
         tie_count += __builtin_popcount(ties);
@@ -240,8 +317,11 @@ struct RowKernelOn {
   }
 
   static RowKernel<Arithmetic> table() {
-    return {prune,         list,        bound, fill<std::uint8_t>, fill<std::uint16_t>, fill<std::uint32_t>,
-            Lanes::stream, Lanes::fence};
+    RowKernel<Arithmetic> kernel{
+        prune,         nullptr,     bound, fill<std::uint8_t>, fill<std::uint16_t>, fill<std::uint32_t>,
+        Lanes::stream, Lanes::fence};
+    if constexpr (!Arithmetic::filtered) kernel.list = list;
+    return kernel;
   }
 };
 

@@ -6,6 +6,8 @@ namespace vorotool::core::tessellation {
 
 RowKernel<Narrow> kernels::portable() { return RowKernelOn<ScalarLanes<Narrow>>::table(); }
 
+RowKernel<Filtered> kernels::filtered_portable() { return RowKernelOn<ScalarLanes<Filtered>>::table(); }
+
 RowKernel<Wide> wide_kernel() { return RowKernelOn<ScalarLanes<Wide>>::table(); }
 
 RowKernel<Narrow> narrow_kernel(Simd level) {
@@ -15,6 +17,14 @@ RowKernel<Narrow> narrow_kernel(Simd level) {
 #endif
   (void)level;
   return kernels::portable();
+}
+
+RowKernel<Filtered> filtered_kernel(Simd level) {
+#if defined(__x86_64__)
+  if (level != Simd::portable) return kernels::filtered_avx2();
+#endif
+  (void)level;
+  return kernels::filtered_portable();
 }
 
 }  // namespace vorotool::core::tessellation

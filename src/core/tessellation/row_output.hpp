@@ -47,7 +47,8 @@ void for_each_span(const Envelope<Arithmetic>& envelope, Span span) {
     const std::int32_t end = envelope.end[i];
     if (end < start) continue;
     const auto x = static_cast<Integer>(envelope.candidates.x[i]);
-    span(start, end, x, static_cast<Integer>(envelope.candidates.value[i]) - x * x);
+    const auto value = static_cast<Integer>(envelope.candidates.value[i]);
+    span(start, end, x, Arithmetic::filtered ? value * value : value - x * x);
     start = end + 1;
   }
 }

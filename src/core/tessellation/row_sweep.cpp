@@ -158,6 +158,6 @@ const Envelope<Arithmetic>& Sweep<Arithmetic>::next_row() {
 }
 
 template class Sweep<Narrow>;
-template class Sweep<Wide>;
+template class Sweep<Filtered>;
 
 }  // namespace vorotool::core::tessellation

@@ -74,6 +74,6 @@ class Sweep {
 };
 
 extern template class Sweep<Narrow>;
-extern template class Sweep<Wide>;
+extern template class Sweep<Filtered>;
 
 }  // namespace vorotool::core::tessellation

@@ -109,40 +109,44 @@ template <class Label>
 void Tessellation::labels(std::int32_t first, std::int32_t rows, Label* out,
                           std::optional<uint128> most_squared, unsigned threads,
                           const Monitor& monitor) const {
-  with_kernel(is_wide(), level_, [&]<class Arithmetic>(const RowKernel<Arithmetic>& kernel) {
-    using Integer = typename Arithmetic::Integer;
-    const Integer limit = most_squared ? clamped<Integer>(*most_squared) : Integer{0};
-    write_rows(sites_, frame_, kernel, first, rows, out, threads, monitor,
-               [&](const Envelope<Arithmetic>& envelope, const PixelRow& pixels, Label* row) {
-                 fill_labels(kernel, envelope, row);
-                 settle_ties(envelope, row);
-                 if (most_squared) clear_beyond(envelope, pixels, limit, row);
-               });
-  });
+  with_kernel(is_wide(), filtered_kernel(level_), level_,
+              [&]<class Arithmetic>(const RowKernel<Arithmetic>& kernel) {
+                using Integer = typename Arithmetic::Integer;
+                const Integer limit = most_squared ? clamped<Integer>(*most_squared) : Integer{0};
+                write_rows(sites_, frame_, kernel, first, rows, out, threads, monitor,
+                           [&](const Envelope<Arithmetic>& envelope, const PixelRow& pixels, Label* row) {
+                             fill_labels(kernel, envelope, row);
+                             settle_ties(envelope, row);
+                             if (most_squared) clear_beyond(envelope, pixels, limit, row);
+                           });
+              });
 }
 
 template <class Square>
 void Tessellation::squared_distances(std::int32_t first, std::int32_t rows, Square* out, unsigned threads,
                                      const Monitor& monitor) const {
-  with_kernel(is_wide(), level_, [&]<class Arithmetic>(const RowKernel<Arithmetic>& kernel) {
-    write_rows(sites_, frame_, kernel, first, rows, out, threads, monitor,
-               [&](const Envelope<Arithmetic>& envelope, const PixelRow& pixels, Square* row) {
-                 for_each_square(envelope, pixels,
-                                 [&](std::int32_t p, auto square) { row[p] = static_cast<Square>(square); });
-               });
-  });
+  with_kernel(is_wide(), filtered_kernel(level_), level_,
+              [&]<class Arithmetic>(const RowKernel<Arithmetic>& kernel) {
+                write_rows(sites_, frame_, kernel, first, rows, out, threads, monitor,
+                           [&](const Envelope<Arithmetic>& envelope, const PixelRow& pixels, Square* row) {
+                             for_each_square(envelope, pixels, [&](std::int32_t p, auto square) {
+                               row[p] = static_cast<Square>(square);
+                             });
+                           });
+              });
 }
 
 void Tessellation::distances(std::int32_t first, std::int32_t rows, float* out, double square_of_step,
                              unsigned threads, const Monitor& monitor) const {
-  with_kernel(is_wide(), level_, [&]<class Arithmetic>(const RowKernel<Arithmetic>& kernel) {
-    write_rows(sites_, frame_, kernel, first, rows, out, threads, monitor,
-               [&](const Envelope<Arithmetic>& envelope, const PixelRow& pixels, float* row) {
-                 for_each_square(envelope, pixels, [&](std::int32_t p, auto square) {
-                   row[p] = static_cast<float>(std::sqrt(static_cast<double>(square) * square_of_step));
-                 });
-               });
-  });
+  with_kernel(
+      is_wide(), filtered_kernel(level_), level_, [&]<class Arithmetic>(const RowKernel<Arithmetic>& kernel) {
+        write_rows(sites_, frame_, kernel, first, rows, out, threads, monitor,
+                   [&](const Envelope<Arithmetic>& envelope, const PixelRow& pixels, float* row) {
+                     for_each_square(envelope, pixels, [&](std::int32_t p, auto square) {
+                       row[p] = static_cast<float>(std::sqrt(static_cast<double>(square) * square_of_step));
+                     });
+                   });
+      });
 }
 
 template void Tessellation::labels(std::int32_t, std::int32_t, std::uint8_t*, std::optional<uint128>,

@@ -131,16 +131,18 @@ void VolumeTessellation::labels(std::int32_t first, std::int32_t slices, Label* 
                                          monitor);
     return;
   }
-  tessellation::with_kernel(is_wide(), level_, [&]<class Arithmetic>(const RowKernel<Arithmetic>& kernel) {
-    using Integer = typename Arithmetic::Integer;
-    const Integer limit = most_squared ? tessellation::clamped<Integer>(*most_squared) : Integer{0};
-    write_slices(sites_, coverage(), frame_, kernel, first, slices, out, threads, monitor,
-                 [&](const auto& envelope, const PixelRow& pixels, Label* row) {
-                   fill_labels(kernel, envelope, row);
-                   settle_ties(envelope, row);
-                   if (most_squared) clear_beyond(envelope, pixels, limit, row);
-                 });
-  });
+  tessellation::with_kernel(
+      is_wide(), tessellation::wide_kernel(), level_,
+      [&]<class Arithmetic>(const RowKernel<Arithmetic>& kernel) {
+        using Integer = typename Arithmetic::Integer;
+        const Integer limit = most_squared ? tessellation::clamped<Integer>(*most_squared) : Integer{0};
+        write_slices(sites_, coverage(), frame_, kernel, first, slices, out, threads, monitor,
+                     [&](const auto& envelope, const PixelRow& pixels, Label* row) {
+                       fill_labels(kernel, envelope, row);
+                       settle_ties(envelope, row);
+                       if (most_squared) clear_beyond(envelope, pixels, limit, row);
+                     });
+      });
 }
 
 template <class Square>
@@ -150,14 +152,16 @@ void VolumeTessellation::squared_distances(std::int32_t first, std::int32_t slic
     write_bricks<Product::squares, Square>(*seeds, frame_, level_, {}, first, slices, out, threads, monitor);
     return;
   }
-  tessellation::with_kernel(is_wide(), level_, [&]<class Arithmetic>(const RowKernel<Arithmetic>& kernel) {
-    write_slices(sites_, coverage(), frame_, kernel, first, slices, out, threads, monitor,
-                 [&](const auto& envelope, const PixelRow& pixels, Square* row) {
-                   for_each_square(envelope, pixels, [&](std::int32_t p, auto square) {
-                     row[p] = static_cast<Square>(square);
-                   });
-                 });
-  });
+  tessellation::with_kernel(is_wide(), tessellation::wide_kernel(), level_,
+                            [&]<class Arithmetic>(const RowKernel<Arithmetic>& kernel) {
+                              write_slices(
+                                  sites_, coverage(), frame_, kernel, first, slices, out, threads, monitor,
+                                  [&](const auto& envelope, const PixelRow& pixels, Square* row) {
+                                    for_each_square(envelope, pixels, [&](std::int32_t p, auto square) {
+                                      row[p] = static_cast<Square>(square);
+                                    });
+                                  });
+                            });
 }
 
 void VolumeTessellation::distances(std::int32_t first, std::int32_t slices, float* out, double square_of_step,
@@ -171,14 +175,16 @@ void VolumeTessellation::distances(std::int32_t first, std::int32_t slices, floa
     write(*seeds, frame_, level_, measure, first, slices, out, threads, monitor);
     return;
   }
-  tessellation::with_kernel(is_wide(), level_, [&]<class Arithmetic>(const RowKernel<Arithmetic>& kernel) {
-    write_slices(sites_, coverage(), frame_, kernel, first, slices, out, threads, monitor,
-                 [&](const auto& envelope, const PixelRow& pixels, float* row) {
-                   for_each_square(envelope, pixels, [&](std::int32_t p, auto square) {
-                     row[p] = distance_of(static_cast<double>(square), square_of_step);
-                   });
-                 });
-  });
+  tessellation::with_kernel(is_wide(), tessellation::wide_kernel(), level_,
+                            [&]<class Arithmetic>(const RowKernel<Arithmetic>& kernel) {
+                              write_slices(
+                                  sites_, coverage(), frame_, kernel, first, slices, out, threads, monitor,
+                                  [&](const auto& envelope, const PixelRow& pixels, float* row) {
+                                    for_each_square(envelope, pixels, [&](std::int32_t p, auto square) {
+                                      row[p] = distance_of(static_cast<double>(square), square_of_step);
+                                    });
+                                  });
+                            });
 }
 
 template void VolumeTessellation::labels(std::int32_t, std::int32_t, std::uint8_t*, std::optional<uint128>,

@@ -185,18 +185,25 @@ def seeds_of_image(run: Run, o: SiteOptions, image: Raster, mode: SeedMode | Non
 def frame_of(o: SiteOptions, seeds: SeedSet) -> Frame | None:
     """Give the frame that is asked for, else the one that the seeds bring or need; None where there are no seeds."""
     from vorotool.engines.tessellation.frames import default_frame
-    from vorotool.geometry.pixel_frame import Frame
 
-    if o.window is not None:
-        return Frame(*o.window)
-    if o.size is not None:
-        return Frame(0, 0, *o.size)
+    asked = asked_frame(o)
+    if asked is not None:
+        return asked
     if not len(seeds) and not seeds.is_empty_image:
         return None
     instead = "delaunay --what cells"
     if isinstance(o, TessellationOptions):
         instead = f"--cell-size C, or {instead}"
     return default_frame(seeds, how="give one with --size WxH or --window X,Y,W,H", instead=instead)
+
+
+def asked_frame(o: SiteOptions) -> Frame | None:
+    """Give the frame of --window or --size, if there is one."""
+    from vorotool.geometry.pixel_frame import Frame
+
+    if o.window is not None:
+        return Frame(*o.window)
+    return None if o.size is None else Frame(0, 0, *o.size)
 
 
 def window_of(o: SiteOptions, seeds: SeedSet) -> tuple[int, int, int, int] | None:

@@ -38,7 +38,7 @@ from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.table import Table
 from vorotool.jobs import animations
-from vorotool.jobs.inputs import JobInput, frame_of, opened_input, read_opened, refuse, seeds_of_image
+from vorotool.jobs.inputs import JobInput, asked_frame, frame_of, opened_input, read_opened, refuse, seeds_of_image
 from vorotool.jobs.map_cells import seeds_on_map
 from vorotool.jobs.options import TessellationOptions
 from vorotool.jobs.picture_world import check_column, world_of
@@ -102,7 +102,9 @@ def products(run: Run, o: TessellationOptions, given: JobInput) -> Products | St
 
 def _seeds_of(run: Run, o: TessellationOptions, value: PointSet | PolygonSet | Raster) -> ReadSeeds:
     if isinstance(value, PointSet):
-        seeds = seeds_from_points(value, strict=o.strict, frame=partial(frame_of, o), sides=sides_of(o))
+        seeds = seeds_from_points(
+            value, strict=o.strict, frame=asked_frame(o) or partial(frame_of, o), sides=sides_of(o)
+        )
         return ReadSeeds(seeds, value.y_up)
     assert isinstance(value, Raster)  # what is asked for is points, or an image
     alone = {"columns": o.columns, "cell-size": o.cell_size, **o.of_frame()}

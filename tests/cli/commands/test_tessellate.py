@@ -152,7 +152,7 @@ def test_stats(run, folder):
     assert done.code == 0
     stats = json.loads(done.out)
     assert (stats["seeds"], stats["duplicates"], stats["snapped"], stats["frame"]) == (3, 1, 1, [0, 0, 5, 3])
-    assert stats["arithmetic"] == "float64"
+    assert stats["arithmetic"] == "filtered float64 with int128"
     assert {"read", "tessellate", "write labels"} <= set(stats["seconds"])
     assert len(stats["warnings"]) == 2
     assert all(line.startswith("warning: ") for line in done.err.splitlines() if not line.startswith("note"))

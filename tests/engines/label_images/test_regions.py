@@ -388,10 +388,10 @@ def test_options_out_of_range():
     image = LabelImage(np.array([[1]], dtype=np.uint8))
     with pytest.raises(UsageError, match="threads is -1"):
         regions.region_table(image, threads=-1)
-    with pytest.raises(InputError, match="distance2 must be an integer array of shape"):
+    with pytest.raises(InputError, match="distance2 must be an array of integers or float64 of shape"):
         regions.region_table(image, distance2=np.zeros((2, 2), dtype=np.uint32))
-    with pytest.raises(InputError, match="distance2 must be an integer array"):
-        regions.region_table(image, distance2=np.zeros((1, 1)))
+    with pytest.raises(InputError, match="distance2 must be an array of integers or float64"):
+        regions.region_table(image, distance2=np.zeros((1, 1), dtype=complex))
     with pytest.raises(InputError, match="label 4294967296"):
         regions.region_table(LabelImage(np.array([[2**32]])))
 

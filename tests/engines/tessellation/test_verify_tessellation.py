@@ -78,10 +78,10 @@ def test_far_seeds(reach):
     y = np.array([3, 3, -3, -3, reach, -reach])
     check_both_ways(SeedSet(x, y, np.array([6, 5, 4, 3, 2, 1])), Frame(-9, -9, 19, 18))
     corner = min(reach, 2**40 - 10)
-    seeds = SeedSet(np.array([corner, corner + 6, -corner]), np.array([0, 1, 5]), np.array([2, 1, 3]))
+    seeds = SeedSet(np.array([corner, corner + 6, corner + 20 - reach]), np.array([0, 1, 5]), np.array([2, 1, 3]))
     check_both_ways(seeds, Frame(corner, -3, 9, 9))
     check_both_ways(seeds, Frame(corner, -3, 9, 9), limit=20)
-    check_both_ways(SeedSet(-x[:1], y[:1], np.array([1])), Frame(-9, -9, 5, 5), limit=(reach + 7) ** 2)
+    check_both_ways(SeedSet(-x[:1] - 8, y[:1], np.array([1])), Frame(-9, -9, 5, 5), limit=(reach - 1) ** 2)
 
 
 @pytest.mark.parametrize("far", [(2**32, 0), (0, 2**32), (2**32, 2**32), (-(2**32), 2**32)])
@@ -120,7 +120,7 @@ def test_limits():
     with pytest.raises(InputError, match=r"cannot verify: a seed lies beyond 2\^40 lattice steps"):
         verify_label_image(np.ones((1, 1), dtype=np.uint8), seeds, Frame(0, 0, 1, 1))
     near = SeedSet(np.array([0]), np.array([0]), np.array([1]), 256)
-    with pytest.raises(InputError, match=r"the frame reaches beyond 2\^40"):
+    with pytest.raises(InputError, match=r"a seed lies beyond 2\^40"):
         verify_label_image(np.ones((1, 1), dtype=np.uint8), near, Frame(2**33, 0, 1, 1))
     with pytest.raises(UsageError, match="max_distance2 is -1"):
         verify_label_image(np.ones((1, 1), dtype=np.uint8), near, Frame(0, 0, 1, 1), max_distance2=-1)

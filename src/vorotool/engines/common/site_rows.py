@@ -72,7 +72,7 @@ def nearest_sites(
 
 def largest_by_label(
     labels: NDArray[Any], values: NDArray[Any], wanted: NDArray[np.uint32], threads: int, progress: Progress
-) -> NDArray[np.uint64] | NDArray[np.float64]:
+) -> NDArray[Any]:
     """Return the largest value in each region, 0 for labels that do not occur.
 
     Parameters

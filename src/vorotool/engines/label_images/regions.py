@@ -487,7 +487,8 @@ def _max_distance(
     values = np.ascontiguousarray(as_array(distance2, "distance2"))
     if values.shape != image.shape or (values.dtype.kind not in "ui" and values.dtype != np.float64):
         raise InputError(
-            f"distance2 must be an integer array of shape {image.shape}, but is {values.dtype} of shape {values.shape}"
+            f"distance2 must be an array of integers or float64 of shape {image.shape}, but is {values.dtype} of shape "
+            f"{values.shape}"
         )
     if scale is None:
         scale = image.seeds.scale if image.seeds is not None else 1

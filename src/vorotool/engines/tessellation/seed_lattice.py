@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import reduce
 from math import ceil, floor
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -86,8 +87,8 @@ def finest_scale(places: NDArray[np.float64], frame: Frame, sides: PixelSides = 
     low, high = (frame.x, frame.y), (frame.x + frame.width, frame.y + frame.height)
     of_frame = _scale_within(low, high, sides)
     if len(places):
-        low = tuple(min(a, floor(b)) for a, b in zip(low, places.min(axis=0).tolist(), strict=True))
-        high = tuple(max(a, ceil(b)) for a, b in zip(high, places.max(axis=0).tolist(), strict=True))
+        low = (min(low[0], floor(places[:, 0].min())), min(low[1], floor(places[:, 1].min())))
+        high = (max(high[0], ceil(places[:, 0].max())), max(high[1], ceil(places[:, 1].max())))
     return max(_scale_within(low, high, sides), min(of_frame, FINEST_SCALE))
 
 
@@ -95,7 +96,8 @@ def _scale_within(low: tuple[int, int], high: tuple[int, int], sides: PixelSides
     """Give the largest power of two of steps a pixel for a box of pixels."""
     extent = max((b - a) * side for a, b, side in zip(low, high, (sides.x, sides.y), strict=True))
     most: int = min(_MOST_STEPS // extent, _MOST_COUNTED // max(map(abs, low + high)))
-    return SCALES[max(most.bit_length() - 1, 0)]
+    scale: int = SCALES[max(most.bit_length() - 1, 0)]
+    return scale
 
 
 def least_frame(places: NDArray[np.float64]) -> Frame:
@@ -106,8 +108,8 @@ def least_frame(places: NDArray[np.float64]) -> Frame:
     >>> least_frame(np.array([[0.5, 2.0], [7.0, 5.0]])).shape
     (6, 8)
     """
-    low = [min(floor(least), 0) for least in places.min(axis=0, initial=0).tolist()]
-    high = [floor(most + 0.5) + 1 for most in places.max(axis=0, initial=0).tolist()]
+    low = [min(floor(column.min(initial=0)), 0) for column in places.T]
+    high = [floor(column.max(initial=0) + 0.5) + 1 for column in places.T]
     return Frame(low[0], low[1], high[0] - low[0], high[1] - low[1])
 
 
@@ -179,10 +181,9 @@ def snapped_places(places: NDArray[np.float64], finest: int = FINEST_SCALE) -> S
     moved = (steps != fine).any(axis=1)
     largest_move = 0.0
     if moved.any():
-        first, *others = (fine - steps).T
-        for other in others:
-            first = hypotenuse(first, other)
-        largest_move = float(first.max()) / finest
+        moves = fine - steps
+        largest = moves[int(np.argmax(sum(column * column for column in moves.T)))]
+        largest_move = float(reduce(hypotenuse, largest)) / finest
     lattice = steps.astype(np.int64)
     scale = _coarsest_scale(lattice, finest)
     lattice //= finest // scale

@@ -36,7 +36,6 @@ from vorotool.geometry.pixel_frame import Frame
 from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.geometry.spacing import SQUARE, PixelSides
-from vorotool.geometry.volumes.volume_seeds import FINEST_SCALE
 
 if TYPE_CHECKING:
     from vorotool.typing import ImageLike, PointsLike
@@ -89,13 +88,11 @@ def seeds_from_points(
     (2, [1, 14])
     """
     points = as_points(points)
-    seeds, snapped = _on_lattice(points, FINEST_SCALE)
-    whole, given = None, _frame_for(seeds, points, frame)
-    while given != whole:  # twice, where the coarse lattice moved a seed that decides on the frame
-        whole, finest = given, finest_scale(points.xy, given, sides)
-        if snapped.moves or seeds.scale > finest:
-            seeds, snapped = _on_lattice(points, finest)
-            given = _frame_for(seeds, points, frame)
+    whole, needed = None, frame if isinstance(frame, Frame) else least_frame(points.xy)
+    while needed != whole:  # again, where a seed that decides on the frame moved, or the frame is another one
+        whole = needed
+        seeds, snapped = _on_lattice(points, finest_scale(points.xy, whole, sides))
+        needed = _frame_for(seeds, points, frame)
     report_snapped(points.xy, snapped, strict=strict)
     return seeds
 

@@ -206,14 +206,16 @@ def tessellate(
     sides = sides_of(seeds, spacing)
     frame = asked_frame(shape, window)
 
-    def checked_frame(made: SeedSet) -> Frame | None:
+    def needed_frame(made: SeedSet) -> Frame | None:
         if not len(made) and not made.is_empty_image:
-            return frame
-        whole = frame or default_frame(made)
+            return None
+        whole = default_frame(made)
         require_memory(whole, max_pixels)
         return whole
 
-    seed_set = as_seeds(seeds, image=image, max_pixels=max_pixels, frame=checked_frame, sides=sides)
+    if frame is not None:
+        require_memory(frame, max_pixels)
+    seed_set = as_seeds(seeds, image=image, max_pixels=max_pixels, frame=frame or needed_frame, sides=sides)
     rows = labelled_rows(
         seed_set,
         frame,

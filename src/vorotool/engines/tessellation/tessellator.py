@@ -176,7 +176,7 @@ class Tessellator:
     def arithmetic(self) -> str:
         """The narrowest arithmetic that is exact for these seeds."""
         if self._core.is_wide:
-            return "int128"
+            return "filtered float64 with int128"
         return "float64" if self._core.products_exact else "float64 with int128"
 
     def labels(

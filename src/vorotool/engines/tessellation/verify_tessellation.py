@@ -67,13 +67,14 @@ def verify_label_image(
     """
     image = LabelImage(labels, frame)
     high, low = split_limit(max_distance2)
-    x = _from_origin(seeds.x, seeds.scale * frame.x, sides.x)
-    y = _from_origin(seeds.y, seeds.scale * frame.y, sides.y)
+    left, top = -(frame.width // 2), -(frame.height // 2)  # seen from the middle, as the engine has them
+    x = _from_origin(seeds.x, seeds.scale * (frame.x - left), sides.x)
+    y = _from_origin(seeds.y, seeds.scale * (frame.y - top), sides.y)
     try:
         wrong = _core.tessellation.verify_tessellation(
             label_array(image.labels),
-            0,
-            0,
+            left,
+            top,
             x,
             y,
             seeds.labels,
@@ -94,7 +95,7 @@ def verify_label_image(
 
 
 def _from_origin(coordinates: NDArray[np.int64], origin: int, side: int) -> NDArray[np.int64]:
-    """Give coordinates seen from the first pixel of a frame, from where they are within the limit of the core."""
+    """Return coordinates relative to an origin, from where they are within the limit of the core."""
     if abs(origin) > _FARTHEST:
         raise InputError("cannot verify: the frame is too far from the origin for its lattice; move it nearer")
     return on_lattice(coordinates.clip(-2 * _FARTHEST, 2 * _FARTHEST) - origin, side)
