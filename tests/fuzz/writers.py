@@ -57,7 +57,7 @@ VARYING = b'"seconds"'
 
 
 def write_inputs(folder, number):
-    """Inputs of all commands: some points, and a shape."""
+    """Inputs of all commands: some points, a shape, and a row of it."""
     chance = np.random.default_rng(number)
     folder.mkdir(parents=True, exist_ok=True)
     for name in ("points.csv", "points-2.csv"):
@@ -69,8 +69,9 @@ def write_inputs(folder, number):
     places = "\n".join(f"{x} {y} {z}" for x, y, z in chance.integers(0, 12, (60, 3)))
     (folder / "points.xyz").write_text(f"x y z\n{places}\n")
     np.save(folder / "image.npy", np.repeat(np.arange(60 * number, dtype=np.uint16)[:, None] % 97, 80, axis=1))
-    (folder / "r.csv").write_text("5\n")
     (folder / "shape.json").write_text(json.dumps([ring.tolist()]))
+    row = [{"shell": np.add(ring, [120 * k, 0]).tolist()} for k in range(4)]
+    (folder / "shapes.json").write_text(json.dumps({"polygons": row}))
 
 
 def run(folder, command, prepare=lambda: None, finish=lambda: None):
@@ -119,7 +120,7 @@ def result(command):
     from vorotool.cli.main import main
 
     try:
-        main([*command.split(), "-q"])
+        main([*command.split(), *["-q"] * (not command.startswith("sample"))])
     except SystemExit as end:
         return end.code
 
