@@ -113,7 +113,7 @@ def _on_lattice(points: PointSet, finest: int) -> tuple[SeedSet, SnappedPlaces]:
         scale=snapped.scale,
         snapped=snapped.moves,
         largest_move=snapped.largest_move,
-        **sites_of_points(snapped.steps / snapped.scale, labels, points),
+        **sites_of_points(points.xy, labels, points),
     )
     return seeds, snapped
 
