@@ -2,36 +2,31 @@
 
 The skeleton of a stroke ends where the disc touches its end, a radius before it, and forks to both corners from there.
 In outlines of pixels one of both may be left when small side branches are pruned: a *hook*, which leads up to a radius
-beside the axis. A hook leads into a corner, the angle of which hardly ever is less than 45 degrees: so all pieces go
-that do, as the paths of centerlines do not lead into these (`vorotool.engines.centerlines.edge_comparisons`).
+beside the axis. `vorotool.engines.centerlines.end_pieces` tells both from branches.
 """
 
 from __future__ import annotations
 
-from math import sqrt
-
 import numpy as np
 
+from vorotool.engines.centerlines.end_pieces import without_end_pieces
 from vorotool.engines.centerlines.leading_on import led_on, rounded
-from vorotool.engines.pruning.pruning import prune
 from vorotool.engines.skeleton.parts import with_arcs
 from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.extended import ExtendedSkeleton
 from vorotool.geometry.skeleton.skeleton import INTERIOR, Skeleton
 
-TIP = sqrt(4 + 2 * sqrt(2))
-"""1 over the sine of half of 45 degrees: the scale at which what leads into wider corners is pruned."""
-
 
 def extend_ends(skeleton: Skeleton, *, threads: int = 0, progress: Progress = None) -> ExtendedSkeleton:
     """Lead the ends of a skeleton on to the boundary, so that it reaches the ends of strokes.
 
-    First, what leads into corners of 45 degrees or more is left out, as ``prune(skeleton, scale=2.613)`` does it: forks
-    at the ends of strokes, and hooks that outlines of pixels make there. Then each leaf that is inside is led on along
-    a straight line: to the middle of the edge that its skeleton forked to, or straight on to the boundary from the
-    place of the branch one radius before. Leaves at corners, of less than 45 degrees, stay; and so do single places
-    that are left of round shapes.
+    First, the forks at the ends of strokes are left out, and the hooks that outlines of pixels make there: pieces whose
+    radii fall as fast as into a corner of 45 degrees or more. No branch is left out, not even of a stroke on a blob:
+    beyond each node of it the skeleton goes on for more than its own radius accounts for. Then each leaf that is inside
+    is led on along a straight line: to the middle of the edge that its skeleton forked to, or straight on to the
+    boundary from the place of the branch one radius before. Leaves at corners, of less than 45 degrees, stay; and so do
+    single places that are left of round shapes.
 
     Parameters
     ----------
@@ -56,7 +51,7 @@ def extend_ends(skeleton: Skeleton, *, threads: int = 0, progress: Progress = No
     """
     check_value(skeleton, "skeleton", Skeleton)
     inside = with_arcs(skeleton, skeleton.side == INTERIOR)
-    stems = prune(inside, scale=TIP, threads=threads, progress=progress)
+    stems = without_end_pieces(inside, threads=threads, progress=progress)
     count = int(stems.branch[-1]) + 1 if len(stems) else 0
     lines = ExtendedSkeleton(stems, np.full((count, 2, 2), np.nan))
     has_length = np.bincount(stems.branch, stems.length, count) > 0

@@ -2,25 +2,36 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
+
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 
+from vorotool.engines.centerlines.end_pieces import TIP
 from vorotool.engines.common.faults import fail, first_wrong
+from vorotool.engines.pruning.verify_pruning import check_counts
+from vorotool.engines.skeleton.parts import with_arcs
 from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.polygons.conversion import to_shapely
 from vorotool.geometry.skeleton.extended import ExtendedSkeleton
+from vorotool.geometry.skeleton.skeleton import INTERIOR, Skeleton
 
 PRECISION = 2.0**-40
 """Of the largest coordinate: how far rounded places may be from the boundary, or outside."""
 
 
-def verify_extended(extended: ExtendedSkeleton) -> None:
+def verify_extended(extended: ExtendedSkeleton, skeleton: Skeleton | None = None) -> None:
     """Check the straight lines that lead on: from leaves inside, within their polygon, to its boundary.
 
     Parameters
     ----------
     extended : ExtendedSkeleton
         As `vorotool.extend_ends` made it.
+    skeleton : Skeleton, optional
+        The skeleton it was made of: nothing of it may be missing but ends. From each node that
+        is missing, the skeleton beyond it ends within 3.62 radii of that node, as it does in corners of 45 degrees or
+        more; and no piece is missing at the side of a branch that is longer than the disc it hangs on is wide.
 
     Raises
     ------
@@ -39,6 +50,9 @@ def verify_extended(extended: ExtendedSkeleton) -> None:
     """
     check_value(extended, "extended", ExtendedSkeleton)
     path = extended.path
+    if skeleton is not None:
+        check_value(skeleton, "skeleton", Skeleton)
+        _check_branches(path, with_arcs(skeleton, skeleton.side == INTERIOR))
     branch, end = np.nonzero(~np.isnan(extended.ends[:, :, 0]))
     places, nodes = extended.ends[branch, end], extended.end_nodes[branch, end]
     at = first_wrong((path.degree[nodes] != 1) | ~(path.radius[nodes] > 0))
@@ -56,3 +70,33 @@ def verify_extended(extended: ExtendedSkeleton) -> None:
     at = first_wrong(shapely.length(shapely.difference(lines, shapely.buffer(shapes, off))) > 0)
     if at is not None:
         fail(f"what end {end[at]} of branch {branch[at]} is led on by leaves polygon {extended.polygon[branch[at]]}")
+
+
+def _check_branches(path: Skeleton, skeleton: Skeleton) -> None:
+    """Raise if a branch of a skeleton is missing."""
+    check_counts(path, skeleton, "extended")
+    kept, places = dict(zip(_named(path), path.degree.tolist(), strict=True)), _named(skeleton)
+    beside = defaultdict(list)
+    for (one, other), length in zip(skeleton.arcs.tolist(), skeleton.length.tolist(), strict=True):
+        beside[one].append((other, length))
+        beside[other].append((one, length))
+    order = [(node, -1, 0.0) for node in beside if places[node] in kept]
+    for node, before, _ in order:  # grows outwards
+        order += [(to, node, length) for to, length in beside[node] if to != before and places[to] not in kept]
+    beyond = [0.0] * len(places)
+    for node, before, length in reversed(order):
+        is_side = before >= 0 and kept.get(places[before], 1) > 1
+        is_long = is_side and beyond[node] + length > 2 * skeleton.radius[before]
+        if before >= 0 and (is_long or beyond[node] > (TIP + 1) * skeleton.radius[node]):
+            x, y = skeleton.vertices[node].tolist()
+            fail(f"a branch is missing: it goes on for {beyond[node]:g} from ({x:g}, {y:g})")
+        if before >= 0:
+            beyond[before] = max(beyond[before], beyond[node] + length)
+
+
+def _named(skeleton: Skeleton) -> list[tuple[float, ...]]:
+    """Return the polygon and the coordinates of each node."""
+    polygon = np.zeros(len(skeleton.vertices))
+    polygon[skeleton.arcs] = skeleton.polygon[:, None]
+    table: NDArray[np.float64] = np.column_stack([polygon, skeleton.vertices])
+    return list(map(tuple, table.tolist()))

@@ -41,6 +41,7 @@ class WrittenLines:
         centerlines: Callable[[], Centerlines],
     ) -> None:
         self.run, self.options = run, options
+        self._skeleton = skeleton
         self._makers: dict[str, Callable[[], Skeleton | LedOn]] = {"skeleton": skeleton, "centerline": centerlines}
         self._made: dict[str, Skeleton | LedOn | SmoothLines] = {}
         if options.ends == "middle":
@@ -82,7 +83,7 @@ class WrittenLines:
                 verify_smooth(value)
                 lines = value.lines
             if isinstance(lines, ExtendedSkeleton):
-                verify_extended(lines)
+                verify_extended(lines, self._skeleton())
 
     def stats(self) -> dict[str, Any]:
         """Counts of smooth lines."""

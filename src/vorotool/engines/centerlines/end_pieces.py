@@ -1,0 +1,213 @@
+"""The pieces of a skeleton that belong to its ends: forks, hooks, and others into corners of 45 degrees or more.
+
+A piece hangs on a node p if it is all that the skeleton has beyond p. It belongs to an end if its radii fall as fast as
+into a corner: no node q of it is farther from p, along the skeleton, than `TIP` times the difference of the radii of p
+and q. The stem of a disc with a handle passes this test, too, since the disc is so much larger. But the radius of a
+stem stays the same for a while. So a piece is a branch, and is kept, if from some place p' of it a node q beyond p' is
+farther than ``(TIP + 1) * r(p') - TIP * r(q)``: where the radius is constant, if it is longer than half its width.
+
+Both tests take the largest ``d(p, q) + TIP * r(q)`` beyond each node, which a walk from the leaves inwards finds in
+linear time. A tree is rooted at its largest disc.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.engines.pruning.pruning import prune
+from vorotool.engines.skeleton.parts import with_arcs
+from vorotool.geometry.progress import Progress
+from vorotool.geometry.skeleton.skeleton import EDGE, Skeleton
+from vorotool.geometry.skeleton.tables import connected_roots
+
+Floats = NDArray[np.float64]
+Numbers = NDArray[np.intp]
+Booleans = NDArray[np.bool_]
+
+TIP = sqrt(4 + 2 * sqrt(2))
+"""1 over the sine of half of 45 degrees: the way along the bisector of such a corner in which radii fall by 1."""
+
+
+def without_end_pieces(skeleton: Skeleton, *, threads: int = 0, progress: Progress = None) -> Skeleton:
+    """Leave out the pieces at the ends of branches.
+
+    A tree that is all one end keeps its largest disc, as an arc of length 0.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+        All of its arcs are inside polygons.
+    threads, progress
+        As of `vorotool.prune`.
+
+    Examples
+    --------
+    >>> from vorotool import skeleton_exact
+    >>> stems = without_end_pieces(skeleton_exact([[0, 0], [10, 0], [10, 4], [0, 4]]))
+    >>> stems.vertices[stems.arcs].tolist()
+    [[[2.0, 2.0], [8.0, 2.0]]]
+    """
+    pieces = end_pieces(skeleton, keeps_sides=True)
+    lone, roots = pieces.lone_arcs, pieces.lone_roots
+    kept, arcs = ~pieces.is_removed, skeleton.arcs.copy()
+    length, control = skeleton.length.copy(), skeleton.control.copy()
+    kept[lone], length[lone], control[lone] = True, 0, np.nan
+    arcs[lone] = np.stack([roots, len(skeleton.vertices) + np.arange(len(roots))], axis=1)
+    vertices = np.concatenate([skeleton.vertices, skeleton.vertices[roots]])
+    radius = np.concatenate([skeleton.radius, skeleton.radius[roots]])
+    made = replace(skeleton, vertices=vertices, radius=radius, arcs=arcs, length=length, control=control)
+    # removes nothing, but makes one branch of two that meet
+    return prune(with_arcs(made, kept), length=0, threads=threads, progress=progress)
+
+
+@dataclass(frozen=True, eq=False)
+class EndPieces:
+    """Which arcs belong to ends, and the trees of which nothing else is left.
+
+    Parameters
+    ----------
+    is_removed : (a,) bool array
+        Whether each arc belongs to an end.
+    lone_roots, lone_arcs : (k,) integer array
+        The largest disc of each tree that is all one end, and an arc there.
+    """
+
+    is_removed: Booleans
+    lone_roots: Numbers
+    lone_arcs: Numbers
+
+
+def end_pieces(skeleton: Skeleton, *, keeps_sides: bool) -> EndPieces:
+    """Find the arcs that belong to ends.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+        All of its arcs are inside polygons.
+    keeps_sides : bool
+        Whether a piece stays that hangs where the skeleton goes on in two directions or more, and is longer than the
+        disc there is wide, such as one into a corner of less than 60 degrees.
+
+    Examples
+    --------
+    >>> from vorotool import skeleton_exact
+    >>> skeleton = skeleton_exact([[0, 0], [10, 0], [10, 4], [0, 4]])
+    >>> end_pieces(skeleton, keeps_sides=True).is_removed.tolist()
+    [True, True, True, True, False]
+    """
+    count = len(skeleton.vertices)
+    component = connected_roots(skeleton.arcs, count)
+    roots = _roots(skeleton, component)
+    is_fixed = skeleton.touches_frame if skeleton.border == "open" else np.zeros(count, dtype=bool)
+    is_fixed[roots] = True
+    is_removed = _removed(skeleton, is_fixed, keeps_sides)
+    is_left = np.zeros(count, dtype=bool)
+    is_left[component[skeleton.arcs[~is_removed, 0]]] = True
+    lone = roots[~is_left[component[roots]]]
+    first = np.full(count, -1, dtype=np.intp)
+    first[skeleton.arcs.reshape(-1)[::-1]] = np.repeat(np.arange(len(skeleton)), 2)[::-1]
+    return EndPieces(is_removed, lone, first[lone])
+
+
+def _roots(skeleton: Skeleton, component: Numbers) -> Numbers:
+    """The largest disc of each tree, the first of several; trees with ends on an open border have none."""
+    count = len(component)
+    arcs = np.bincount(component[skeleton.arcs[:, 0]], minlength=count)
+    nodes = np.bincount(component, minlength=count)
+    is_tree = (arcs == nodes - 1) & (nodes > 1)
+    if skeleton.border == "open":
+        is_tree[component[skeleton.touches_frame]] = False
+    own = np.flatnonzero(is_tree[component])
+    own = own[np.lexsort((own, -skeleton.radius[own], component[own]))]
+    roots: Numbers = own[np.diff(component[own], prepend=-1) > 0]
+    return roots
+
+
+def _removed(skeleton: Skeleton, is_fixed: Booleans, keeps_sides: bool) -> Booleans:
+    """Find the arcs that belong to ends, by a walk from the leaves to nodes that are beyond no other."""
+    arcs, count = skeleton.arcs.astype(np.intp), len(skeleton.vertices)
+    degree = np.bincount(arcs.reshape(-1), minlength=count)
+    joined = np.zeros(count, dtype=np.intp)  # the sum of the numbers of the arcs at each node that are left
+    np.add.at(joined, arcs.reshape(-1), np.repeat(np.arange(len(arcs)), 2))
+    radius = TIP * skeleton.radius
+    order, is_end, is_long = _peeled(
+        np.flatnonzero((degree == 1) & ~is_fixed).tolist(),
+        (degree + 2 * is_fixed).tolist(),  # never 1
+        joined.tolist(),
+        arcs.sum(axis=1).tolist(),
+        skeleton.length.tolist(),
+        radius.tolist(),
+        (radius + skeleton.radius).tolist(),
+        _necks(skeleton),
+    )
+    arms = degree.tolist()  # how many arcs at each node are of no piece that hangs there
+    for (_, _, inner), is_piece in zip(order, is_end, strict=True):
+        arms[inner] -= is_piece
+    gone, whole, is_removed = bytearray(count), bytearray(count), np.zeros(len(arcs), dtype=bool)
+    for (arc, outer, inner), is_piece, is_side in zip(order[::-1], is_end[::-1], is_long[::-1], strict=True):
+        whole[outer] = whole[inner] or (keeps_sides and is_piece and is_side and arms[inner] > 1 and not gone[inner])
+        gone[outer] = is_removed[arc] = not whole[outer] and (is_piece or gone[inner])
+    return is_removed
+
+
+def _peeled(
+    leaves: list[int],
+    degree: list[int],
+    joined: list[int],
+    both: list[int],
+    length: list[float],
+    farthest: list[float],
+    most: list[float],
+    necks: dict[int, tuple[int, float, float]],
+) -> tuple[list[tuple[int, int, int]], list[bool], list[bool]]:
+    """Take leaves off, as long as there are any.
+
+    `farthest` begins as `TIP` times the radii, and becomes the largest ``d(p, q) + TIP * r(q)`` beyond each node.
+
+    Returns
+    -------
+    tuple of three lists
+        The arc of each leaf with its outer and its inner node; whether the piece that hangs there on the inner node
+        belongs to an end; and whether it is longer than the disc of that node is wide.
+    """
+    own, is_branch, longest = list(farthest), bytearray(len(farthest)), [0.0] * len(farthest)
+    order, is_end, is_long = [], [], []
+    while leaves:
+        outer = leaves.pop()
+        arc = joined[outer]
+        inner = both[arc] - outer
+        reach = farthest[outer] + length[arc]
+        if farthest[outer] > most[outer]:
+            is_branch[outer] = True
+        if arc in necks:
+            source, to_neck, most_there = necks[arc]
+            to_outer = to_neck if source == outer else length[arc] - to_neck
+            is_branch[outer] |= farthest[outer] + to_outer > most_there
+        order.append((arc, outer, inner))
+        is_end.append(not is_branch[outer] and reach <= own[inner])
+        path = longest[outer] + length[arc]
+        is_long.append(path > 2 * (most[inner] - own[inner]))
+        longest[inner] = max(longest[inner], path)
+        farthest[inner] = max(farthest[inner], reach)
+        is_branch[inner] |= is_branch[outer]
+        joined[inner] -= arc
+        degree[inner] -= 1
+        if degree[inner] == 1:
+            leaves.append(inner)
+    return order, is_end, is_long
+
+
+def _necks(skeleton: Skeleton) -> dict[int, tuple[int, float, float]]:
+    """Find the arcs whose radius is smallest inside: the source, the way from there, and that radius by ``TIP + 1``."""
+    maybe = np.flatnonzero((skeleton.site_table.kind[skeleton.sites] != EDGE).any(axis=1))
+    measures = skeleton.measures(maybe)
+    inside = np.flatnonzero((measures.slope0 < 0) & (measures.slope1 > 0))
+    measures, arcs = measures[inside], maybe[inside]
+    at = measures.slope0 / (measures.slope0 - measures.slope1)
+    ways = zip(skeleton.arcs[arcs, 0].tolist(), (at * measures.length).tolist(), strict=True)
+    most = ((TIP + 1) * measures.radius(at)).tolist()
+    return {arc: (*way, radius) for arc, way, radius in zip(arcs.tolist(), ways, most, strict=True)}
