@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, cast, overload
 from vorotool.geometry.pixel_frame import MAX_PIXELS
 
 if TYPE_CHECKING:
+    from vorotool.geometry.curves.flatten import Flatten
     from vorotool.geometry.points.point_set import PointSet
     from vorotool.geometry.points.raster import Raster
     from vorotool.geometry.polygons.polygon_set import PolygonSet
@@ -56,7 +57,7 @@ def read(
     crs: str | None = None,
     to_crs: str | None = None,
     layer: str | None = None,
-    flatten: float | None = None,
+    flatten: Flatten = None,
     join_tolerance: float | None = None,
 ) -> PointSet | PolygonSet | Raster | Skeleton | Offsets | VoronoiMap: ...
 
@@ -76,7 +77,7 @@ def read(
     crs: str | None = None,
     to_crs: str | None = None,
     layer: str | None = None,
-    flatten: float | None = None,
+    flatten: Flatten = None,
     join_tolerance: float | None = None,
 ) -> PointSet | PolygonSet | Raster | Skeleton | Offsets | VoronoiMap | Volume | VolumePoints:
     """Read points, polygons and lines, an image, or a skeleton, offset curves or a Voronoi map as JSON has them.
@@ -114,9 +115,9 @@ def read(
         The system in which the coordinates are wanted: those of an input in another one are transformed.
     layer : str, optional
         The layer of a map that has several.
-    flatten : float, optional
-        How far lines may be from the curves of an SVG or DXF drawing; by default 1/2000
-        of the diagonal of the box of each piece, and 0.01 mm where the unit is known.
+    flatten : float or "auto", optional
+        How far lines may be from the curves of a drawing or a map; by default, or with "auto", 1/2000 of the diagonal
+        of the box of each piece, and in a drawing 0.01 mm where the unit is known.
     join_tolerance : float, optional
         How far ends of the lines of a DXF drawing may be apart that are joined; by default 2^-20 of its extent.
 

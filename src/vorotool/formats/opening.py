@@ -14,6 +14,7 @@ from vorotool.formats.io.sources import Source, read_source, reading
 from vorotool.formats.parsing.reader_options import ReadOptions, no_note
 from vorotool.formats.recognition import read_recognised, recognised, refuse_for_images
 from vorotool.geometry.checks import checked_threads
+from vorotool.geometry.curves.flatten import Flatten, checked_flatten
 from vorotool.geometry.numbers import checked_tolerance
 from vorotool.products.inputs import NAMES_WITH, known_input_format
 
@@ -96,7 +97,7 @@ class Opened:
         note: Callable[[str], None] | None = None,
         crs: str | None = None,
         to_crs: str | None = None,
-        flatten: float | None = None,
+        flatten: Flatten = None,
         join_tolerance: float | None = None,
         told: Callable[[str], None] = no_note,
         **options: Any,
@@ -111,7 +112,7 @@ class Opened:
             note=note or no_note,
             crs=None if crs is None else _member(crs),
             to_crs=None if to_crs is None else _member(to_crs),
-            flatten=None if flatten is None else checked_tolerance(flatten),
+            flatten=checked_flatten(flatten),
             join_tolerance=None if join_tolerance is None else checked_tolerance(join_tolerance, allows_zero=True),
             **options,
         )

@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     import pandas
     from matplotlib.axes import Axes
 
+    from vorotool.geometry.curves.flatten import Flatten
+
 _FEATURES = "geometry.any.features"
 _FRAMES = "geometry.any.frames"
 _SHOWING = "jobs.showing"
@@ -190,13 +192,13 @@ class WithParts(_Places):
 class Curved(_Places):
     """A value of curves, which are flattened where there are none."""
 
-    def to_shapely(self, *, flatten: float | None = None) -> NDArray[Any]:
+    def to_shapely(self, *, flatten: Flatten = None) -> NDArray[Any]:
         """Give the geometry of each row, in order, with lines instead of curves.
 
         Parameters
         ----------
-        flatten : float, optional
-            How far lines may be from curves; by default as of `vorotool.to_geojson`.
+        flatten : float or "auto", optional
+            How far lines may be from curves; by default, or with "auto", as of `vorotool.to_geojson`.
 
         Returns
         -------
@@ -219,7 +221,7 @@ class Curved(_Places):
         made: NDArray[Any] = resolved(f"{_FEATURES}:features_of")(self, flatten=flatten).geometry
         return made
 
-    def to_geopandas(self, *, flatten: float | None = None) -> geopandas.GeoDataFrame:
+    def to_geopandas(self, *, flatten: Flatten = None) -> geopandas.GeoDataFrame:
         """Give the geometry and the columns that go with it, which needs geopandas.
 
         Parameters
@@ -252,15 +254,15 @@ class Curved(_Places):
 class Branched(_Places):
     """A value of arcs, which follow each other in branches."""
 
-    def to_shapely(self, *, by: Literal["arc", "branch"] = "arc", flatten: float | None = None) -> NDArray[Any]:
+    def to_shapely(self, *, by: Literal["arc", "branch"] = "arc", flatten: Flatten = None) -> NDArray[Any]:
         """Give each arc or branch as a line, in order.
 
         Parameters
         ----------
         by : {"arc", "branch"}
             What a line is.
-        flatten : float, optional
-            How far lines may be from parabolas; by default as of `vorotool.to_geojson`.
+        flatten : float or "auto", optional
+            How far lines may be from parabolas; by default, or with "auto", as of `vorotool.to_geojson`.
 
         Returns
         -------
@@ -283,9 +285,7 @@ class Branched(_Places):
         made: NDArray[Any] = resolved(f"{_FEATURES}:features_of")(self, by=by, flatten=flatten).geometry
         return made
 
-    def to_geopandas(
-        self, *, by: Literal["arc", "branch"] = "arc", flatten: float | None = None
-    ) -> geopandas.GeoDataFrame:
+    def to_geopandas(self, *, by: Literal["arc", "branch"] = "arc", flatten: Flatten = None) -> geopandas.GeoDataFrame:
         """Give each arc or branch as a line with its columns, which needs geopandas.
 
         Parameters
@@ -315,7 +315,7 @@ class Branched(_Places):
         return resolved(f"{_FRAMES}:to_geopandas")(self, by=by, flatten=flatten)
 
     def to_networkx(
-        self, *, by: Literal["branch", "arc"] = "branch", flatten: float | None = None
+        self, *, by: Literal["branch", "arc"] = "branch", flatten: Flatten = None
     ) -> networkx.MultiGraph[int]:
         """Give the graph as one of networkx, which has to be installed; see `vorotool.to_networkx`.
 
@@ -323,7 +323,7 @@ class Branched(_Places):
         ----------
         by : {"branch", "arc"}
             What an edge is.
-        flatten : float, optional
+        flatten : float or "auto", optional
             How far the geometry of edges may be from parabolas.
 
         Returns

@@ -22,6 +22,7 @@ from vorotool.products.writing import chosen_part, write_product
 
 if TYPE_CHECKING:
     from vorotool.geometry.alpha.persistence import RegionPersistence
+    from vorotool.geometry.curves.flatten import Flatten
     from vorotool.geometry.points.label_image import LabelImage
 
 
@@ -31,7 +32,7 @@ def write(
     *,
     fmt: str | None = None,
     what: str | None = None,
-    flatten: float | None = None,
+    flatten: Flatten = None,
     decimals: int | None = None,
     precision: int | None = None,
     layers: Sequence[str] | None = None,
@@ -63,8 +64,8 @@ def write(
         of an alpha shape ``edges``, ``polygons``, ``complex``, ``general``, ``points`` or ``table``, of a skeleton
         ``skeleton``, ``elements``, ``branches`` or ``table``, of points along one ``points`` or ``transects``, of a
         label image ``labels`` or ``colour``, its picture as PNG. By default what the format is for, else the first.
-    flatten : float, optional
-        Of a skeleton or offsets in formats without curves: how far lines may be from them.
+    flatten : float or "auto", optional
+        Of curves in formats without them: how far lines may be from them; by default, or with "auto", each by its size.
     decimals : int, optional
         Decimals of coordinates; polygons are valid with them. By default all that read back the same.
     precision : int, optional
@@ -110,8 +111,9 @@ def write(
     """
     from vorotool.geometry.checks import checked_flag, checked_threads
     from vorotool.geometry.coordinate_grid import coordinates_written
+    from vorotool.geometry.curves.flatten import checked_flatten
 
-    path = _checked_path(path)
+    path, flatten = _checked_path(path), checked_flatten(flatten)
     if not isinstance(fmt, str | None):
         raise UsageError(f"invalid fmt {shown_number(fmt)}: expected the name of a format, such as csv")
     legend, scale_bar = checked_flag(legend, "legend"), checked_flag(scale_bar, "scale_bar")
@@ -164,7 +166,7 @@ def _checked_path(path: Any) -> str:
     return name
 
 
-def to_geojson(value: Any, *, what: str | None = None, flatten: float | None = None) -> dict[str, Any]:
+def to_geojson(value: Any, *, what: str | None = None, flatten: Flatten = None) -> dict[str, Any]:
     """Give a value as GeoJSON, with ids and properties, if it has any.
 
     Parameters
@@ -195,8 +197,10 @@ def to_geojson(value: Any, *, what: str | None = None, flatten: float | None = N
 
     import orjson
 
-    out = io.BytesIO()
-    write_product(out, value, _part(value, "geojson", what, flatten), "geojson", flatten=flatten)
+    from vorotool.geometry.curves.flatten import checked_flatten
+
+    out, tolerance = io.BytesIO(), checked_flatten(flatten)
+    write_product(out, value, _part(value, "geojson", what, tolerance), "geojson", flatten=tolerance)
     made: dict[str, Any] = orjson.loads(out.getvalue())
     return made
 

@@ -216,6 +216,11 @@ def test_a_limit_of_distance(run, mixed, folder):
     near = shapely.union_all([shape.buffer(1.5, quad_segs=256) for shape in SHAPES if shape is not None])
     covered = shapely.union_all([shape for shape in shapes if shape is not None])
     assert covered.symmetric_difference(near).area < 1e-3 * near.area
+    assert run("voronoi", mixed, "-q", "--max-distance", "1.5", *frame, "-o", "b.geojson").code == 0
+    flatten = ("--flatten", "1e-4", "--flatten", "auto")  # the last holds
+    assert run("voronoi", mixed, "-q", "--max-distance", "1.5", *frame, *flatten, "-o", "c.geojson").code == 0
+    assert (folder / "b.geojson").read_bytes() == (folder / "c.geojson").read_bytes()
+    assert (folder / "b.geojson").read_bytes() != (folder / "a.geojson").read_bytes()
     assert run("voronoi", mixed, "-q", "--max-distance", "1.5", "-o", "a.json").code == 0
     assert vorotool.read(folder / "a.json").max_distance == 1.5
     assert {arc["kind"] for arc in json.loads((folder / "a.json").read_text())["arcs"]} >= {"circle", "line"}

@@ -74,3 +74,22 @@ def test_circles_of_drawings_keep_their_form(tmp_path):
     shapes = vorotool.read(tmp_path / "sheet.svg", geometry="polygons")
     area = min(shape.area for shape in shapes.to_shapely())
     assert area == pytest.approx(np.pi * 25, rel=2e-3)
+
+
+def test_the_default_has_a_name(tmp_path):
+    (tmp_path / "arc.wkt").write_text("CURVEPOLYGON (CIRCULARSTRING (0 0, 4 4, 8 0, 4 -4, 0 0))")
+    curved = vorotool.read(tmp_path / "arc.wkt", geometry="polygons", flatten="auto")
+    np.testing.assert_array_equal(curved.xy, vorotool.read(tmp_path / "arc.wkt", geometry="polygons").xy)
+    for value in (vorotool.skeleton_exact(HOUSES), vorotool.offset(HOUSES, 1), vorotool.voronoi(HOUSES), curved):
+        if value is not curved:
+            np.testing.assert_array_equal(value.to_shapely(flatten="auto"), value.to_shapely())
+        assert vorotool.to_geojson(value, flatten="auto") == vorotool.to_geojson(value)
+        vorotool.write(value, tmp_path / "a.wkt", flatten="auto")
+        vorotool.write(value, tmp_path / "b.wkt")
+        assert (tmp_path / "a.wkt").read_bytes() == (tmp_path / "b.wkt").read_bytes()
+    np.testing.assert_array_equal(
+        vorotool.rebuild(vorotool.skeleton_exact(HOUSES), flatten="auto").xy,
+        vorotool.rebuild(vorotool.skeleton_exact(HOUSES)).xy,
+    )
+    with pytest.raises(vorotool.UsageError, match="give a number"):
+        vorotool.to_geojson(curved, flatten="fine")

@@ -73,6 +73,19 @@ class Length(ParameterType[float]):
         return number if length is None else length
 
 
+class FlatteningTolerance(Length):
+    """A length above 0, or ``auto``, which is none: each curve by its size."""
+
+    name = "TOLERANCE|auto"
+
+    def __init__(self) -> None:
+        super().__init__(zero=False)
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Parse the number and its unit, unless it is the word."""
+        return None if value == "auto" else super().convert(value, param, ctx)
+
+
 class Distances(ParameterType[tuple[float, ...]]):
     """Different finite numbers other than 0, separated by commas, each with a unit or none."""
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from vorotool.cli.options.lengths import Length
+from vorotool.cli.options.lengths import FlatteningTolerance, Length
 from vorotool.cli.options.shared import Decorator, Rectangle, shared, together
 from vorotool.products.formats import FORMATS
 
@@ -31,11 +31,10 @@ def shape_options(*between: str, flattened: str = "") -> Decorator:
     return together(
         click.option(
             "--flatten",
-            type=Length(zero=False),
-            metavar="TOLERANCE",
+            type=FlatteningTolerance(),
             help=f"How far lines may be from curves where a format ({_FLATTENED}){flattened} has none, and from those "
-            "that are read. Default: arcs 1/2000 of their radius, others 1/2000 of their extent or 1/100 of their "
-            "clearance.",
+            "that are read. Default: auto, which is for arcs 1/2000 of their radius, for others 1/2000 of their extent "
+            "or 1/100 of their clearance.",
         ),
         click.option(
             "--join-tolerance",

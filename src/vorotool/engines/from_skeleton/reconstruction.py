@@ -16,7 +16,7 @@ from vorotool.engines.from_skeleton.simple_rings import cut_at_repetitions, repe
 from vorotool.errors import UsageError
 from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.curves.circular_arcs import chords_of, middles_of
-from vorotool.geometry.curves.flatten import checked_flatten, circle_tolerances
+from vorotool.geometry.curves.flatten import Flatten, checked_flatten, circle_tolerances
 from vorotool.geometry.curves.inverse_functions import hypotenuse
 from vorotool.geometry.polygons.polygon_set import HOLE, SHELL, PolygonSet
 from vorotool.geometry.ragged import owners, starts_of
@@ -30,7 +30,7 @@ _ULPS = 8
 """Of the largest coordinate: what two feet of one disc may differ by, times how much each is magnified."""
 
 
-def rebuild(skeleton: Skeleton, *, flatten: float | None = None) -> PolygonSet:
+def rebuild(skeleton: Skeleton, *, flatten: Flatten = None) -> PolygonSet:
     """Rebuild polygons from the arcs inside them: what the discs of all points of the skeleton cover.
 
     Edges are the common tangents of discs, vertices the common points of discs, both from places and radii of the
@@ -45,8 +45,8 @@ def rebuild(skeleton: Skeleton, *, flatten: float | None = None) -> PolygonSet:
     ----------
     skeleton : Skeleton
         Without a gap; pruned or not. Arcs outside make no difference.
-    flatten : float, optional
-        How far chords may be from circles, in input units; by default 1/2000 of the radius of each.
+    flatten : float or "auto", optional
+        How far chords may be from circles, in input units; by default, or with "auto", 1/2000 of the radius of each.
 
     Returns
     -------

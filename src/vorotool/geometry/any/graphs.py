@@ -9,6 +9,7 @@ import numpy as np
 
 from vorotool.errors import UsageError
 from vorotool.geometry.any.features import lines
+from vorotool.geometry.curves.flatten import Flatten, checked_flatten
 from vorotool.geometry.extras import needed
 from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation, DigitalTriangulation
 from vorotool.geometry.mesh.proximity import ProximityGraph
@@ -40,7 +41,7 @@ GraphLike = (
 
 
 def to_networkx(
-    value: GraphLike, *, by: str | None = None, flatten: float | None = None
+    value: GraphLike, *, by: str | None = None, flatten: Flatten = None
 ) -> networkx.Graph[int] | networkx.MultiGraph[int]:
     """Give a value as an undirected graph of networkx, which has to be installed.
 
@@ -62,9 +63,8 @@ def to_networkx(
         ``border_length`` and ``distance``.
     by : {"branch", "arc"}, optional
         What an edge of a skeleton is; by default a branch. A closed branch joins a node with itself.
-    flatten : float, optional
-        How far the geometry may be from parabolas; by default as of
-        `Skeleton.flattened`.
+    flatten : float or "auto", optional
+        How far the geometry may be from parabolas; by default, or with "auto", as of `Skeleton.flattened`.
 
     Returns
     -------
@@ -86,6 +86,7 @@ def to_networkx(
     >>> to_networkx(delaunay([[0, 0], [4, 0], [0, 3]])).edges[0, 1]["length"]
     4.0
     """
+    flatten = checked_flatten(flatten)
     if isinstance(value, Skeleton):
         return _of_skeleton(_library(), value, "branch" if by is None else by, flatten)
     makers: list[tuple[Any, Callable[[Any, Any], Any]]] = [
