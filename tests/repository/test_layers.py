@@ -56,7 +56,7 @@ geometry/distances -> geometry, geometry/polygons
 formats/results -> formats/images, formats/io, formats/parsing, formats/polygons, formats/text, formats/written,
     geometry, geometry/alpha, geometry/arguments, geometry/curves, geometry/distances, geometry/mesh, geometry/polygons,
     geometry/skeleton, geometry/voronoi, products
-geometry/any -> geometry, geometry/alpha, geometry/curves, geometry/distances, geometry/mesh, geometry/points,
+geometry/any -> geometry, geometry/alpha, geometry/distances, geometry/mesh, geometry/points,
     geometry/polygons, geometry/skeleton, geometry/volumes, geometry/voronoi, products
 engines/common -> geometry, geometry/any
 engines/tessellation -> engines/common, geometry, geometry/arguments, geometry/curves, geometry/points,

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, cast, overload
 from vorotool.geometry.pixel_frame import MAX_PIXELS
 
 if TYPE_CHECKING:
-    from vorotool.geometry.curves.flatten import Flatten
+    from vorotool.geometry.numbers import Flatten
     from vorotool.geometry.points.point_set import PointSet
     from vorotool.geometry.points.raster import Raster
     from vorotool.geometry.polygons.polygon_set import PolygonSet

@@ -14,8 +14,7 @@ from vorotool.formats.io.sources import Source, read_source, reading
 from vorotool.formats.parsing.reader_options import ReadOptions, no_note
 from vorotool.formats.recognition import read_recognised, recognised, refuse_for_images
 from vorotool.geometry.checks import checked_threads
-from vorotool.geometry.curves.flatten import Flatten, checked_flatten
-from vorotool.geometry.numbers import checked_tolerance
+from vorotool.geometry.numbers import Flatten, checked_flatten, checked_tolerance
 from vorotool.products.inputs import NAMES_WITH, known_input_format
 
 if TYPE_CHECKING:

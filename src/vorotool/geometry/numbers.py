@@ -7,7 +7,7 @@ from fractions import Fraction
 from math import inf, isfinite, isnan
 from numbers import Rational
 from operator import index
-from typing import Any
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
@@ -21,6 +21,9 @@ MOST_IN_A_ROW = 4
 
 MOST_SHOWN = 40
 """Characters of what stands in the place of a number."""
+
+Flatten: TypeAlias = float | Literal["auto"] | None
+"""How far lines may be from curves; None is "auto", each curve by its size."""
 
 
 def real_number(value: Any, name: str) -> float | Fraction:
@@ -189,3 +192,20 @@ def checked_tolerance(value: Any, *, allows_zero: bool = False) -> float:
         least = "0 or more" if allows_zero else "positive"
         raise UsageError(f"the tolerance is {shown_number(value)}: it must be {least}")
     return length
+
+
+def checked_flatten(tolerance: Flatten) -> float | None:
+    """Return a tolerance, None if each curve has its own.
+
+    Raises
+    ------
+    UsageError
+        If it is not a finite number, or not positive.
+
+    Examples
+    --------
+    >>> checked_flatten("auto") is None, checked_flatten(2)
+    (True, 2.0)
+    """
+    is_own = tolerance is None or (isinstance(tolerance, str) and tolerance == "auto")
+    return None if is_own else checked_tolerance(tolerance)

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     import pandas
     from matplotlib.axes import Axes
 
-    from vorotool.geometry.curves.flatten import Flatten
+    from vorotool.geometry.numbers import Flatten
 
 _FEATURES = "geometry.any.features"
 _FRAMES = "geometry.any.frames"

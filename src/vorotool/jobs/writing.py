@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from vorotool.errors import UsageError
 from vorotool.formats.io.descriptors import stream_kind
-from vorotool.geometry.numbers import shown_number, whole_number
+from vorotool.geometry.numbers import Flatten, checked_flatten, shown_number, whole_number
 from vorotool.geometry.pixel_frame import MAX_SIDE
 from vorotool.geometry.spacing import SQUARE
 from vorotool.jobs.picture_style import Looks, check_layers, looks_of, styled_page
@@ -22,7 +22,6 @@ from vorotool.products.writing import chosen_part, write_product
 
 if TYPE_CHECKING:
     from vorotool.geometry.alpha.persistence import RegionPersistence
-    from vorotool.geometry.curves.flatten import Flatten
     from vorotool.geometry.points.label_image import LabelImage
 
 
@@ -111,7 +110,6 @@ def write(
     """
     from vorotool.geometry.checks import checked_flag, checked_threads
     from vorotool.geometry.coordinate_grid import coordinates_written
-    from vorotool.geometry.curves.flatten import checked_flatten
 
     path, flatten = _checked_path(path), checked_flatten(flatten)
     if not isinstance(fmt, str | None):
@@ -196,8 +194,6 @@ def to_geojson(value: Any, *, what: str | None = None, flatten: Flatten = None) 
     import io
 
     import orjson
-
-    from vorotool.geometry.curves.flatten import checked_flatten
 
     out, tolerance = io.BytesIO(), checked_flatten(flatten)
     write_product(out, value, _part(value, "geojson", what, tolerance), "geojson", flatten=tolerance)

@@ -16,8 +16,9 @@ from vorotool.engines.from_skeleton.simple_rings import cut_at_repetitions, repe
 from vorotool.errors import UsageError
 from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.curves.circular_arcs import chords_of, middles_of
-from vorotool.geometry.curves.flatten import Flatten, checked_flatten, circle_tolerances
+from vorotool.geometry.curves.flatten import circle_tolerances
 from vorotool.geometry.curves.inverse_functions import hypotenuse
+from vorotool.geometry.numbers import Flatten, checked_flatten
 from vorotool.geometry.polygons.polygon_set import HOLE, SHELL, PolygonSet
 from vorotool.geometry.ragged import owners, starts_of
 from vorotool.geometry.row_index import index_of_rows

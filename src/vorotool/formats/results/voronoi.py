@@ -13,8 +13,8 @@ from vorotool.formats.results.voronoi_json import write_json
 from vorotool.formats.results.voronoi_npz import write_npz
 from vorotool.formats.text.feature_collection import collection_opening
 from vorotool.formats.text.tables import json_text, write_table
-from vorotool.geometry.curves.flatten import checked_flatten
 from vorotool.geometry.mesh.cells import Nesting
+from vorotool.geometry.numbers import checked_flatten
 from vorotool.geometry.ragged import owners, starts_of
 from vorotool.geometry.voronoi.shapes import cell_rings, flattened_arcs
 from vorotool.geometry.voronoi.tables import border_table, cell_table, neighbour_table

@@ -16,13 +16,13 @@ from vorotool.geometry.alpha.hull import AlphaHull
 from vorotool.geometry.alpha.shape import AlphaShape
 from vorotool.geometry.alpha.tables import described_polygons, family_table, shape_edge_table, shape_point_table
 from vorotool.geometry.any.scaling import AREAS, LENGTHS, scaled_table
-from vorotool.geometry.curves.flatten import checked_flatten
 from vorotool.geometry.distances.distances import Distances
 from vorotool.geometry.mesh.cells import CellSet
 from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation, DigitalTriangulation
 from vorotool.geometry.mesh.proximity import ProximityGraph
 from vorotool.geometry.mesh.tables import edge_table, point_table, triangle_table
 from vorotool.geometry.mesh.triangulation import Triangulation
+from vorotool.geometry.numbers import checked_flatten
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.points.seed_set import SeedSet

@@ -9,11 +9,11 @@ import numpy as np
 
 from vorotool.errors import UsageError
 from vorotool.geometry.any.features import lines
-from vorotool.geometry.curves.flatten import Flatten, checked_flatten
 from vorotool.geometry.extras import needed
 from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation, DigitalTriangulation
 from vorotool.geometry.mesh.proximity import ProximityGraph
 from vorotool.geometry.mesh.triangulation import Triangulation
+from vorotool.geometry.numbers import Flatten, checked_flatten
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.skeleton.graph import skeleton_graph

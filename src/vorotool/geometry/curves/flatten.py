@@ -2,21 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Literal, TypeAlias
-
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.geometry.coordinate_grid import finest_deviation, record_deviation
 from vorotool.geometry.curves.inverse_functions import hypotenuse
-from vorotool.geometry.numbers import checked_tolerance
 from vorotool.geometry.ragged import owners, starts_of, within
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
-
-Flatten: TypeAlias = float | Literal["auto"] | None
-"""How far lines may be from curves; None is "auto", each curve by its size."""
 
 CURVE_PART = 1 / 2000
 """How far lines may be from a curve: of the radius of a circular arc, of the extent of another curve."""
@@ -26,23 +20,6 @@ CLEARANCE_PART = 1 / 100
 
 MOST_PIECES = 1 << 12
 """Of a curve: 2^24 times nearer than its chord."""
-
-
-def checked_flatten(tolerance: Flatten) -> float | None:
-    """Return a tolerance, None if each curve has its own.
-
-    Raises
-    ------
-    UsageError
-        If it is not a finite number, or not positive.
-
-    Examples
-    --------
-    >>> checked_flatten("auto") is None, checked_flatten(2)
-    (True, 2.0)
-    """
-    is_own = tolerance is None or (isinstance(tolerance, str) and tolerance == "auto")
-    return None if is_own else checked_tolerance(tolerance)
 
 
 def circle_tolerances(center: Floats, radius: Floats, tolerance: float | None) -> float | Floats:

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from vorotool.geometry.checks import set_array
 from vorotool.geometry.curves.circular_arcs import chords_of
-from vorotool.geometry.curves.flatten import checked_flatten, circle_tolerances
+from vorotool.geometry.curves.flatten import circle_tolerances
+from vorotool.geometry.numbers import checked_flatten
 from vorotool.geometry.polygons.polygon_set import SHELL, PolygonSet
 from vorotool.geometry.ragged import within
 from vorotool.geometry.row_index import index_of_rows

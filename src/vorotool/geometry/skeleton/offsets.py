@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError
 from vorotool.geometry.checks import set_array
 from vorotool.geometry.curves.circular_arcs import chords_of
-from vorotool.geometry.curves.flatten import checked_flatten, circle_tolerances
+from vorotool.geometry.curves.flatten import circle_tolerances
 from vorotool.geometry.curves.inverse_functions import inverse_sine
+from vorotool.geometry.numbers import checked_flatten
 from vorotool.geometry.polygons.polygon_set import HOLE, SHELL, PolygonSet
 from vorotool.geometry.ragged import divides, owners
 from vorotool.geometry.row_index import index_of_rows

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.geometry.checks import set_array
-from vorotool.geometry.curves.flatten import checked_flatten, curve_tolerances, least_focal_distances, polylines
+from vorotool.geometry.curves.flatten import curve_tolerances, least_focal_distances, polylines
+from vorotool.geometry.numbers import checked_flatten
 from vorotool.geometry.parallel import in_chunks
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.skeleton.arc_measures import ArcMeasures

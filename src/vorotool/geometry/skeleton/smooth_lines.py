@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError
 from vorotool.geometry.checks import set_array
 from vorotool.geometry.curves.cubics import cubic_polylines
-from vorotool.geometry.curves.flatten import chained, checked_flatten, curve_tolerances
+from vorotool.geometry.curves.flatten import chained, curve_tolerances
+from vorotool.geometry.numbers import checked_flatten
 from vorotool.geometry.ragged import divides, owners
 from vorotool.geometry.skeleton.led_on import LedOn
 from vorotool.geometry.skeleton.skeleton import Skeleton
