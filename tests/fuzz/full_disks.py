@@ -38,7 +38,6 @@ SOURCES = {
 OPTIONS = {
     "alphashape hull": "-r 60",
     "skeleton-exact offset": "-d 1,2",
-    "skeleton-approx offset": "-d 1,2",
     "skeleton-exact points": "--every 1",
     "skeleton-approx points": "--every 1",
     "skeleton-exact transects": "--every 1",
@@ -49,16 +48,13 @@ OPTIONS = {
 PIXELS = {"skeleton-exact thickness": "image.npy --threshold 50"}
 """Sources of results of images."""
 
-REFUSED = {"skeleton-approx thickness"}
-"""Results that a command names only to say which other command has them."""
-
 
 def cases():
     """Names and commands of everything that is written; all outputs begin with ``out.``."""
     made = {}
     for command, products in PRODUCTS.items():
         for what, product in products.items():
-            for fmt in product.formats if f"{command} {what}" not in REFUSED else ():
+            for fmt in product.formats:
                 source = PIXELS.get(f"{command} {what}", SOURCES[command])
                 more = OPTIONS.get(f"{command} {what}", "")
                 chosen = f"--what {what}" if command != "draw" else ""

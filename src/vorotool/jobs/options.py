@@ -420,14 +420,8 @@ class SkeletonOptions(ShapeOptions):
     start: Place | None
     end: Place | None
     ends: Ends | None
-    distance: tuple[float, ...] | None
     every: float | None
-    count: int | None
-    local: bool
     smooth: float | None
-    animate: bool
-    frames: int | None
-    fps: float | None
 
     @property
     def wants_skeleton(self) -> bool:
@@ -440,6 +434,12 @@ class ExactSkeletonOptions(SkeletonOptions):
     """Of ``skeleton-exact``."""
 
     gap: float
+    distance: tuple[float, ...] | None
+    count: int | None
+    local: bool
+    animate: bool
+    frames: int | None
+    fps: float | None
     neck: float | None
     border: Literal["closed", "open"] | None
 

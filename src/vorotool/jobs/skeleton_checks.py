@@ -35,21 +35,19 @@ def check_options(o: SkeletonOptions, targets: list[Target]) -> None:
             "shape, or leave it out"
         )
     check_join_tolerance(o)
-    _check_measures(o)
-    _check_shapes(o)
-    _check_discs(o)
-    _check_thickness(o, targets)
-    _check_necks(o)
+    _check_measure(o, "--every", o.every, {"points", "transects"})
+    if "shape" in o.what and o.side == "exterior":
+        raise UsageError("shapes are rebuilt from inside: use --side interior or both")
+    if isinstance(o, ExactSkeletonOptions):
+        _check_exact(o, targets)
     if o.frame is not None and o.side == "interior" and "diagram" not in o.what:
         raise UsageError("--frame cuts what is outside: use --side exterior or both, or leave it out")
     if o.frame is not None:
         check_frame(o.frame)
     _check_centerline(o)
     _check_joining(o, formats)
-    _check_border(o)
     _check_lines(o, targets)
     pictures = sorted({picture_format(fmt) for fmt in formats} & set(PICTURES))
-    check_animation(o, targets)
     if o.layers is not None and not pictures:
         raise UsageError("--layers is for pictures: use -f svg or -f png, or leave it out")
     check_layers(o, products, targets)
@@ -60,6 +58,17 @@ def check_options(o: SkeletonOptions, targets: list[Target]) -> None:
         png_has_width=True,
         has_page="html" in formats,
     )
+
+
+def _check_exact(o: ExactSkeletonOptions, targets: list[Target]) -> None:
+    """Refuse what does not go together with results that only exact skeletons have."""
+    _check_measure(o, "-d", o.distance, {"offset"})
+    _check_shapes(o)
+    _check_discs(o)
+    _check_thickness(o, targets)
+    _check_necks(o)
+    _check_border(o)
+    check_animation(o, targets)
 
 
 def check_join_tolerance(o: ShapeOptions) -> None:
@@ -122,9 +131,9 @@ def _check_joining(o: SkeletonOptions, formats: set[str]) -> None:
         raise UsageError("--join-junctions does not show in a page of all prunings: use -f svg, or leave it out")
 
 
-def _check_border(o: SkeletonOptions) -> None:
+def _check_border(o: ExactSkeletonOptions) -> None:
     """With an open border there is what follows from the axis inside each object, and no closed outline."""
-    if not (isinstance(o, ExactSkeletonOptions) and o.has_open_border):
+    if not o.has_open_border:
         return
     given = {
         "--side": o.side != "interior",
@@ -155,34 +164,30 @@ def _check_lines(o: SkeletonOptions, targets: list[Target]) -> None:
         raise UsageError(f"{changed[0]} is for lines, and {graphs[0]} shows arcs: use -f svg, or leave it out")
 
 
-def _check_measures(o: SkeletonOptions) -> None:
-    """Distances and steps are there where they are needed, and only there."""
-    for name, value, users in (("-d", o.distance, {"offset"}), ("--every", o.every, {"points", "transects"})):
-        wanted = users & set(o.what)
-        if wanted and value is None:
-            raise UsageError(f"--what {','.join(sorted(wanted))} needs a length: use {name} D")
-        if not wanted and value is not None:
-            what = " or ".join(f"--what {user}" for user in sorted(users))
-            raise UsageError(f"{name} is for other results: use {what}, or leave it out")
+def _check_measure(o: SkeletonOptions, name: str, value: object, users: set[str]) -> None:
+    """Refuse results that lack their length, and a length that no result uses."""
+    wanted = users & set(o.what)
+    if wanted and value is None:
+        raise UsageError(f"--what {','.join(sorted(wanted))} needs a length: use {name} D")
+    if not wanted and value is not None:
+        what = " or ".join(f"--what {user}" for user in sorted(users))
+        raise UsageError(f"{name} is for other results: use {what}, or leave it out")
 
 
-def _check_discs(o: SkeletonOptions) -> None:
+def _check_discs(o: ExactSkeletonOptions) -> None:
     """How many discs are wanted matters to these alone; they are inside."""
     for name, is_given in (("--count", o.count is not None), ("--local", o.local)):
         if is_given and "discs" not in o.what:
             raise UsageError(f"{name} is for discs: use --what discs, or leave it out")
     if "discs" in o.what and o.side == "exterior":
         raise UsageError("discs are inside polygons: use --side interior or both")
-    has_gap = isinstance(o, ExactSkeletonOptions) and bool(o.gap)
-    for name, is_given in (("--prune", o.prune is not None), ("--gap", has_gap)):
+    for name, is_given in (("--prune", o.prune is not None), ("--gap", bool(o.gap))):
         if is_given and set(o.what) == {"discs"}:
             raise UsageError(f"{name} is for skeletons, but discs are of the shapes: leave it out")
 
 
-def _check_necks(o: SkeletonOptions) -> None:
+def _check_necks(o: ExactSkeletonOptions) -> None:
     """Necks are of the whole skeleton inside polygons."""
-    if not isinstance(o, ExactSkeletonOptions):
-        return
     wanted = [what for what in ("necks", "parts") if what in o.what]
     if o.neck is not None and "parts" not in wanted:
         raise UsageError("--neck is for other results: use --what parts, or leave it out")
@@ -194,27 +199,22 @@ def _check_necks(o: SkeletonOptions) -> None:
         raise UsageError("--prune is for skeletons, but necks are of the shapes: leave it out")
 
 
-def _check_shapes(o: SkeletonOptions) -> None:
-    """Shapes are rebuilt from what is inside them; offset curves are of the shapes, whatever the skeleton is."""
-    if "shape" in o.what and o.side == "exterior":
-        raise UsageError("shapes are rebuilt from inside: use --side interior or both")
-    has_gap = isinstance(o, ExactSkeletonOptions) and bool(o.gap)
-    if "shape" in o.what and has_gap:
+def _check_shapes(o: ExactSkeletonOptions) -> None:
+    """A skeleton with a gap rebuilds no shape; offset curves are of the shapes, whatever the skeleton is."""
+    if "shape" in o.what and o.gap:
         raise UsageError("a skeleton with a gap leaves the corners out: use --what shape without --gap")
-    given = {"--side": o.side != "interior", "--prune": o.prune is not None, "--gap": has_gap}
+    given = {"--side": o.side != "interior", "--prune": o.prune is not None, "--gap": bool(o.gap)}
     for name in (name for name, is_given in given.items() if is_given and set(o.what) == {"offset"}):
         raise UsageError(f"{name} is for skeletons, but offset curves are of the shapes: leave it out")
 
 
-def _check_thickness(o: SkeletonOptions, targets: list[Target]) -> None:
+def _check_thickness(o: ExactSkeletonOptions, targets: list[Target]) -> None:
     """Thickness is of what is inside, of the whole exact skeleton, and its picture has the pixels of the image."""
     if "thickness" not in o.what:
         return
-    if isinstance(o, ApproximateSkeletonOptions):
-        raise UsageError("thickness is measured by the exact skeleton: use skeleton-exact --what thickness")
     if o.side == "exterior":
         raise UsageError("thickness is measured inside objects: use --side interior or both")
-    if isinstance(o, ExactSkeletonOptions) and o.gap:
+    if o.gap:
         raise UsageError(
             "a skeleton with a gap has no discs that touch the outline: use --what thickness without --gap"
         )

@@ -221,7 +221,9 @@ _OF_WHOLE_AXIS = (
         "parts", "Parts", "geojson csv tsv npz json wkt poly", _PARTS, _pictures("parts skeleton cuts labels"), "parts"
     ),
 )
-"""Of exact skeletons only."""
+"""Only of exact skeletons."""
+_WITHOUT_SAMPLES = {"offset", "discs", "thickness"}
+"""Results of the shapes alone, which samples would not change."""
 
 
 # ---- voronoi -------------------------------------------------------------------------------------
@@ -279,7 +281,7 @@ _BY_COMMAND: dict[str, Sequence[Product]] = {
     "alphashape": _ALPHASHAPE,
     "voronoi": _VORONOI,
     "skeleton-exact": (*_SKELETONS, *_OF_WHOLE_AXIS),
-    "skeleton-approx": tuple(map(_beside_exact, _SKELETONS)),
+    "skeleton-approx": tuple(_beside_exact(each) for each in _SKELETONS if each.what not in _WITHOUT_SAMPLES),
     "distance": _DISTANCE,
     "draw": (_drawn(),),
 }

@@ -31,6 +31,14 @@ def test_what_is_refused(run, folder, arguments):
     assert run("skeleton-approx", SHAPES, *arguments).code == 2
 
 
+@pytest.mark.parametrize("what", ["offset", "discs", "thickness", "necks", "parts"])
+def test_what_samples_do_not_change_is_of_the_exact_skeleton(run, what):
+    done = run("skeleton-approx", SHAPES, "--step", "4", "--what", what)
+    assert done.code == 2
+    assert f"'{what}' is not one of skeleton, diagram" in done.err
+    assert "'-d'" in run("skeleton-approx", SHAPES, "--step", "4", "-d", "1").err
+
+
 def test_pruned_branches_and_a_centerline(run, folder):
     whole = run("skeleton-exact", SHAPES, "-f", "csv")
     pruned = run("skeleton-exact", SHAPES, "--prune", "angle=60", "-f", "csv")
@@ -42,7 +50,7 @@ def test_pruned_branches_and_a_centerline(run, folder):
     assert kinds == {"LineString"}
 
 
-@pytest.mark.parametrize("options", [[], ["--stats", "a.json"], ["--what", "table"], ["--what", "offset", "-d", "1"]])
+@pytest.mark.parametrize("options", [[], ["--stats", "a.json"], ["--what", "table"], ["--what", "elements"]])
 def test_the_comparison_is_said_with_and_without_statistics(run, options):
     done = run("skeleton-approx", SHAPES, "--step", "5", "--compare", *options, "-o", "a.npz")
     assert done.code == 0

@@ -100,7 +100,6 @@ def test_several_results_with_one_skeleton(run, folder):
     ("arguments", "said"),
     [
         (["skeleton-exact", SHAPES], "--what thickness is for images, but the input is polygons or lines"),
-        (["skeleton-approx", BLOBS, "--step", "1"], "use skeleton-exact --what thickness"),
         (["skeleton-exact", BLOBS, "--gap", "0.1"], "use --what thickness without --gap"),
         (["skeleton-exact", BLOBS, "--side", "exterior"], "use --side interior or both"),
         (["skeleton-exact", BLOBS, "--prune", "angle=90"], "thickness is of all discs: leave it out"),

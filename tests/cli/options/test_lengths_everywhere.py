@@ -41,7 +41,6 @@ WITH = {
     "skeleton-exact --prune": ["-o o.csv", "-o o.csv --what discs"],
     "skeleton-exact --flatten": ["-o o.wkt", "-o o.geojson --what centerline", "-o o.wkt --what shape"],
     "skeleton-exact --simplify": ["-o o.csv", "-o o.csv --outline contour", "-o o.csv --border open"],
-    "skeleton-approx -d": ["-o o.csv --what offset --step 1"],
     "skeleton-approx --every": ["-o o.csv --what points --step 1"],
     "skeleton-approx --flatten": ["-o o.wkt --what shape --step 1", "-o o.wkt --step 5um"],
     "skeleton-approx --step": ["-o o.csv", "-o o.csv --tolerance 5um"],

@@ -59,14 +59,6 @@ def test_count_and_local(run, shapes):
     assert [row["r"] for row in local] == ["1", "2"]
 
 
-def test_approximate_skeletons_have_the_same_discs(run, shapes):
-    exact, approximate = (
-        run(command, shapes, "-q", "--what", "discs", "--verify", *more).out
-        for command, more in (("skeleton-exact", ()), ("skeleton-approx", ("--step", "0.5")))
-    )
-    assert exact == approximate
-
-
 def test_formats(run, shapes, tmp_path):
     run("skeleton-exact", shapes, "-q", "--what", "discs", "--flatten", "0.01", "-o", tmp_path / "discs.geojson")
     made = json.loads((tmp_path / "discs.geojson").read_text())["features"]

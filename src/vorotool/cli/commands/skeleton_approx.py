@@ -11,7 +11,6 @@ from vorotool.cli.options.help_page import GroupedCommand
 from vorotool.cli.options.lengths import Length
 from vorotool.cli.options.skeleton import skeleton_options
 from vorotool.errors import UsageError
-from vorotool.jobs.animations import animated
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.job import Recipe
 from vorotool.jobs.options import ApproximateSkeletonOptions
@@ -23,7 +22,7 @@ if TYPE_CHECKING:
     from vorotool.jobs.skeletons.approximate import ApproximateProducts
 
 
-@click.command("skeleton-approx", cls=GroupedCommand, instead={"--offset": "give -d D with --what offset"})
+@click.command("skeleton-approx", cls=GroupedCommand)
 @skeleton_options(
     click.option("--step", type=Length(zero=False), metavar="H", help="Sample the edges at this distance."),
     click.option(
@@ -57,7 +56,7 @@ def command(**options: Any) -> None:
     left out, and those that the shapes cross. No point of an arc is farther from the exact skeleton than its
     error_bound.
     """
-    o = ApproximateSkeletonOptions(**animated(options))
+    o = ApproximateSkeletonOptions(**options)
     if (o.step is None) == (o.tolerance is None):
         raise UsageError("use either --step H or --tolerance E")
     if o.tolerance is not None and o.sampling == "paper":

@@ -72,18 +72,22 @@ _BEFORE: tuple[Decorator, ...] = (
 )
 _READING: tuple[Decorator, ...] = (
     click.option(
+        "--every",
+        type=Length(zero=False),
+        metavar="D",
+        help="Step along branches, of --what points and transects.",
+    ),
+    shape_options(flattened=" or --what shape"),
+)
+"""Options before a command's own, and after them."""
+_OF_EXACT: tuple[Decorator, ...] = (
+    click.option(
         "-d",
         "--distance",
         type=Distances(),
         multiple=True,
         callback=accumulated,
         help="Distances of --what offset, separated by commas: positive outwards, negative inwards.",
-    ),
-    click.option(
-        "--every",
-        type=Length(zero=False),
-        metavar="D",
-        help="Step along branches, of --what points and transects.",
     ),
     click.option(
         "--count",
@@ -93,16 +97,14 @@ _READING: tuple[Decorator, ...] = (
         "(default 1); with --local the largest so many.",
     ),
     click.option("--local", is_flag=True, help="Of --what discs all that are larger than those around them."),
-    shape_options(flattened=" or --what shape"),
+    animation_options("offset curves whose distances grow to those of -d"),
 )
-"""Options before a command's own, and after them."""
+"""Options of results that only skeleton-exact has."""
 
 
 def skeleton_options(*own: Decorator, command: str = "skeleton-exact") -> Decorator:
     """Add the options that skeletons have in common, and a command's own among them."""
     formats = formats_of(command)
     written = inputs_argument(NAMES_WITH["polygons"]), output_options(formats), what_option(tuple(formats))
-    animation = animation_options("offset curves whose distances grow to those of -d")
-    return together(
-        *written, *_BEFORE, *own, *_READING, spacing_option(), result_options(all_layers(command)), animation
-    )
+    also = _OF_EXACT if command == "skeleton-exact" else ()
+    return together(*written, *_BEFORE, *own, *also, *_READING, spacing_option(), result_options(all_layers(command)))

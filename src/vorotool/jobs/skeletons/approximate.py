@@ -9,7 +9,6 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.arrangement.planar_graph import graph_for_skeletons
 from vorotool.engines.features.batches import together
 from vorotool.engines.sampled_skeleton.approximate import (
     MOST_SEEDS,
@@ -55,17 +54,16 @@ class ApproximateProducts(SkeletonProducts[ApproximateSkeletonOptions]):
         # what is refused is refused here, where the input has its name
         if set(options.what) & ALL_TOGETHER:
             _ = self.shapes
-        _ = self.found if options.wants_skeleton else self.derived.value("offset")
+        _ = self.found
 
     @cached_property
     def graph(self) -> PlanarGraph:
         """The shapes as they were placed, all of them together."""
         o = self.options
-        if o.features == "together" and o.wants_skeleton:
+        if o.features == "together":
             return self.shapes.graph
-        graph_of = graph_for_skeletons if o.features == "together" else together
         with self.run.phase("place") as progress, self.telling_once():
-            return graph_of(self._polygons, strict=o.strict, threads=o.threads, progress=progress)
+            return together(self._polygons, strict=o.strict, threads=o.threads, progress=progress)
 
     @cached_property
     def shapes(self) -> SampledShapes:
@@ -121,7 +119,7 @@ class ApproximateProducts(SkeletonProducts[ApproximateSkeletonOptions]):
             verify_approximate(part, step=self.options.step, threads=self.options.threads, progress=progress)
 
     def _shape_stats(self) -> dict[str, Any]:
-        inside = self.found.inside if self.options.side == "interior" and self.options.wants_skeleton else None
+        inside = self.found.inside if self.options.side == "interior" else None
         return super()._shape_stats() if inside is None else inside.counts()
 
     def _diagram_stats(self) -> dict[str, Any]:

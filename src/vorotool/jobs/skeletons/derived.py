@@ -61,7 +61,7 @@ class Derived:
             page = self._drawing(target.what).page
             check_picture_size(page, self.options.max_pixels)
             if target.fmt in ANIMATIONS:
-                check_size(self.options, (page.height, page.width))
+                check_size(self.origin.exact_options, (page.height, page.width))
 
     def _drawing(self, what: str, value: Any = None, styled: Callable[[Page], Page] | None = None) -> Drawing:
         o = self.options
@@ -90,7 +90,7 @@ class Derived:
         """Offset curves whose distances grow from nothing, on the page of the last ones."""
         from vorotool.engines.offsets.offsets import offset
 
-        shapes, o, page = self.origin.shapes(), self.options, self._drawing("offset").page
+        shapes, o, page = self.origin.shapes(), self.origin.exact_options, self._drawing("offset").page
 
         def draw(part: Fraction) -> NDArray[np.uint8]:
             distances = [float(distance * part) for distance in map(Fraction, o.distance or ())]

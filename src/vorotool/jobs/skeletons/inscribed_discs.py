@@ -10,7 +10,6 @@ from vorotool.engines.skeleton.exact import ShapeDiagram
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.discs import Discs
 from vorotool.geometry.skeleton.skeleton import Skeleton
-from vorotool.jobs.options import ExactSkeletonOptions
 from vorotool.jobs.skeletons.result import Result
 
 
@@ -20,14 +19,13 @@ class InscribedDiscs(Result):
     value: Discs
 
     def _make(self) -> Discs:
-        o = self.options
-        axis = self._axis()
+        o, axis = self.origin.exact_options, self._axis()
         with self.run.phase("discs"):
             return discs_of_skeleton(axis, count=o.count, local=o.local, threads=o.threads)
 
     def _axis(self) -> Skeleton:
-        o = self.options
-        if isinstance(o, ExactSkeletonOptions) and not o.gap and o.side != "exterior":
+        o = self.origin.exact_options
+        if not o.gap and o.side != "exterior":
             return self.origin.whole()
         shapes = self.origin.shapes()
         with self.run.phase("skeleton") as progress:

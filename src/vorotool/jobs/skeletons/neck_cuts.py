@@ -9,7 +9,6 @@ from vorotool.engines.necks.parts import NARROWEST, parts
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.necks import Necks
 from vorotool.geometry.skeleton.parts import Parts
-from vorotool.jobs.options import ExactSkeletonOptions
 from vorotool.jobs.skeletons.result import Result
 
 
@@ -41,8 +40,8 @@ class CutParts(Result):
 
     @property
     def _neck(self) -> float:
-        o = self.options
-        return NARROWEST if not isinstance(o, ExactSkeletonOptions) or o.neck is None else o.neck
+        neck = self.origin.exact_options.neck
+        return NARROWEST if neck is None else neck
 
     def _make(self) -> Parts:
         skeleton = self.origin.whole()

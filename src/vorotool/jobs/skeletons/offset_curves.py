@@ -17,7 +17,7 @@ class OffsetCurves(Result):
     value: Offsets
 
     def _make(self) -> Offsets:
-        shapes, o = self.origin.shapes(), self.options
+        shapes, o = self.origin.shapes(), self.origin.exact_options
         distances = o.distance or ()
         with self.run.phase("offset") as progress:
             made = offset(shapes, distances, features=o.features, strict=o.strict, threads=o.threads, progress=progress)
@@ -30,11 +30,11 @@ class OffsetCurves(Result):
         """Check the curves."""
         from vorotool.engines.offsets.verify_offsets import verify_offsets
 
-        o = self.options
+        o = self.origin.exact_options
         verify_offsets(self.value, distances=o.distance or (), threads=o.threads, progress=progress)
 
     def stats(self) -> dict[str, Any]:
         """Count shapes, rings and pieces."""
         made = self.value
         counts = {"shapes": len(made), "rings": len(made.ring_kind), "pieces": len(made.site)}
-        return {"distances": list(self.options.distance or ()), **counts}
+        return {"distances": list(self.origin.exact_options.distance or ()), **counts}

@@ -9,7 +9,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 from vorotool.geometry.progress import Progress
-from vorotool.jobs.options import SkeletonOptions
+from vorotool.jobs.options import ExactSkeletonOptions, SkeletonOptions
 from vorotool.jobs.run_log import Run
 
 if TYPE_CHECKING:
@@ -51,6 +51,12 @@ class Origin:
     shapes: Callable[[], ShapeDiagram | PolygonSet]
     frame: Frame | None = None
     grid: PixelGrid | None = None
+
+    @property
+    def exact_options(self) -> ExactSkeletonOptions:
+        """Those of a result that only `skeleton-exact` has."""
+        assert isinstance(self.options, ExactSkeletonOptions)
+        return self.options
 
 
 class Result(ABC):
