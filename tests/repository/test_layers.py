@@ -103,11 +103,10 @@ cli/options -> engines/offsets, engines/pruning, geometry, jobs, products
 cli/batch -> batch, cli/options, formats/io, geometry, jobs, products
 jobs/volumes -> engines/label_images, engines/tessellation, engines/volumes, formats/io, formats/volumes, formats/zarr,
     geometry, geometry/points, geometry/volumes, jobs, products, render/canvas, render/pages
-jobs/skeletons -> engines, engines/arrangement, engines/centerlines, engines/features, engines/from_skeleton,
-    engines/junctions, engines/necks, engines/offsets, engines/pruning, engines/sampled_skeleton,
-    engines/segment_voronoi, engines/skeleton, engines/smoothing, formats/images, formats/io, geometry,
-    geometry/polygons, geometry/skeleton, jobs, products, render/canvas, render/label_images, render/layers,
-    render/pages
+jobs/skeletons -> engines, engines/centerlines, engines/features, engines/from_skeleton, engines/junctions,
+    engines/necks, engines/offsets, engines/pruning, engines/sampled_skeleton, engines/segment_voronoi,
+    engines/skeleton, engines/smoothing, formats/images, formats/io, geometry, geometry/polygons, geometry/skeleton,
+    jobs, products, render/canvas, render/label_images, render/layers, render/pages
 cli/commands -> cli/batch, cli/options, jobs, jobs/skeletons, jobs/volumes, products
 cli -> cli/commands, jobs
 """

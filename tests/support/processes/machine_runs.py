@@ -166,12 +166,14 @@ def whole() -> Iterator[str]:
             yield from _products(f"alphashape {source} {radius}", formats_of("alphashape"))
     yield from _products("delaunay points.csv --size 300x200", {"compare": formats_of("delaunay")["compare"]})
     for source in ("great-lakes.geojson", "two-shapes.json", "segments.wkt", "blobs.png", "cells.png"):
-        yield from _skeletons(source, formats_of("skeleton-exact"))
+        yield from _skeletons(source, formats_of("skeleton-exact"), formats_of("skeleton-approx"))
     for source in ("cells.png", "great-lakes.geojson", "segments.wkt"):
         yield from (f"draw {source} -f {fmt}" for fmt in ("svg", "png"))
 
 
-def _skeletons(source: str, formats: dict[str, tuple[str, ...]]) -> Iterator[str]:
+def _skeletons(
+    source: str, formats: dict[str, tuple[str, ...]], of_samples: dict[str, tuple[str, ...]]
+) -> Iterator[str]:
     extent = {"great-lakes.geojson": 15.0, "two-shapes.json": 200.0, "segments.wkt": 150.0}.get(source, 300.0)
     step, inner, outer = extent / 30, extent / 200, extent / 15
     more = {
@@ -185,7 +187,7 @@ def _skeletons(source: str, formats: dict[str, tuple[str, ...]]) -> Iterator[str
         pruned = {"skeleton": ("json",), "branches": ("csv",), "shape": ("wkt",)}
         yield from _products(f"skeleton-exact {source} --prune {criterion}", pruned)
     if source != "great-lakes.geojson":
-        some = _without(formats, "png", "html")
+        some = _without(of_samples, "png", "html")
         yield from _products(f"skeleton-approx {source} --step {step:g} --compare", some, more)
         yield from _products(f"skeleton-approx {source} --tolerance {inner:g}", {"skeleton": ("json",)})
     if source.endswith(".json"):
