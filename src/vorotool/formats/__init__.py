@@ -119,7 +119,8 @@ def read(
         How far lines may be from the curves of a drawing or a map; by default, or with "auto", 1/2000 of the diagonal
         of the box of each piece, and in a drawing 0.01 mm where the unit is known.
     join_tolerance : float, optional
-        How far ends of the lines of a DXF drawing may be apart that are joined; by default 2^-20 of its extent.
+        How far ends of the lines of a DXF drawing may be apart that are joined; by default 0.005 mm, or 1/100000 of its
+        extent where the unit is not known.
 
     Returns
     -------

@@ -1,6 +1,7 @@
 """Drawings in DXF, against shapely, what ezdxf flattens, and arcs by their angles."""
 
 import io
+import itertools
 import math
 import subprocess
 import sys
@@ -149,6 +150,52 @@ def test_lines_and_arcs_are_joined(drawing):
     assert to_shapely(shapes)[0].area == pytest.approx(100 + 12.5 * math.pi, rel=1e-4)
     assert read(drawing, join_tolerance=1e-9)[0].is_line.tolist() == [True, True]
     assert len(np.unique(shapes.ring(0), axis=0)) == len(shapes.ring(0))
+
+
+def with_gaps(drawing, units, *gaps, size=100.0):
+    """Squares in a row, each with a gap at one corner; the first with a hole."""
+    drawing.header["$INSUNITS"] = units
+    space = drawing.modelspace()
+    space.add_circle((size / 2, size / 2), size / 5, dxfattribs={"layer": "cut"})
+    for k, gap in enumerate(gaps):
+        x = 2 * size * k
+        places = [(x, 0), (x + size, 0), (x + size, size), (x, size), (x, gap)]
+        for a, b in itertools.pairwise(places):
+            space.add_line(a, b, dxfattribs={"layer": "cut"})
+
+
+@pytest.mark.parametrize(("units", "mm", "name"), [(4, 1, "mm"), (6, 1000, "m"), (1, 25.4, "in"), (5, 10, "cm")])
+def test_ends_nearer_than_some_micrometres_are_joined(drawing, units, mm, name):
+    with_gaps(drawing, units, 0.0049 / mm, 0.0001 / mm, 0, 0.0051 / mm, 0.049 / mm, 0.051 / mm, size=100 / mm)
+    shapes, notes = read(drawing, flatten=0.001 / mm)
+    assert shapes.is_line.tolist() == [False] * 3 + [True] * 3
+    assert to_shapely(shapes)[0].area * mm**2 == pytest.approx(10000 - math.pi * 400, rel=1e-4)
+    near, width = f"{0.005 / mm:.3g} {name}", f"{0.049 / mm:.3g} {name}"
+    x = f"{800 / mm:.9g}"
+    (note,) = (note for note in notes if "gap" in note)
+    assert note.typed == (
+        f"a.dxf: 2 gaps between ends of lines stay open, wider than the {near} that --join-tolerance allows: "
+        f"the widest is {width}, at ({x}, 0) on layer cut"
+    )
+
+
+def test_ends_are_joined_by_the_extent_where_no_unit_is_known(drawing):
+    with_gaps(drawing, 0, 0.005, 0.01, 0.0)
+    shapes, notes = read(drawing)
+    assert shapes.is_line.tolist() == [False, False, True]
+    assert [note.split(":")[1] for note in notes if "gap" in note] == [
+        " 1 gap between ends of lines stays open, wider than the 0.005 that join_tolerance allows"
+    ]
+    assert read(drawing, join_tolerance=0.02)[1] == []
+
+
+def test_no_gap_is_told_of_where_three_ends_meet(drawing):
+    drawing.header["$INSUNITS"] = 4
+    space = drawing.modelspace()
+    for end in ((10, 0), (0, 10), (-10, 0)):
+        space.add_line((0.001, 0) if end[0] else (0, 0), end)
+    shapes, notes = read(drawing)
+    assert (shapes.is_line.tolist(), notes) == ([True] * 3, [])
 
 
 def test_places_are_no_lines(drawing):

@@ -40,8 +40,8 @@ def shape_options(*between: str, flattened: str = "") -> Decorator:
             "--join-tolerance",
             type=Length(zero=True),
             metavar="D",
-            help="How far ends of lines of a DXF input may be apart that are joined; by default a millionth of the "
-            "extent.",
+            help="How far ends of lines of a DXF input may be apart that are joined; by default 0.005 mm, or 1/100000 "
+            "of the extent where the unit is not known.",
         ),
         click.option(
             "--simplify",

@@ -9,12 +9,12 @@ from dataclasses import dataclass, field
 from math import isfinite
 from typing import Any, NamedTuple
 
-from vorotool.errors import InputError, LimitError, VorotoolError
-from vorotool.formats.drawing.curves import Affine, Curve, extent_of
+from vorotool.errors import InputError, LimitError, Message, VorotoolError, option
+from vorotool.formats.drawing.curves import Affine, Curve
 from vorotool.formats.drawing.dxf_drawing import UNITS
 from vorotool.formats.drawing.dxf_entities import ENTITIES, curves_of, is_flat
 from vorotool.formats.drawing.ezdxf_library import ezdxf_module
-from vorotool.formats.drawing.joining import JOINED, joined
+from vorotool.formats.drawing.joining import Gap, default_tolerance, joined, open_gaps
 from vorotool.formats.drawing.polygons import NESTED, Shape, shapes_to_polygons
 from vorotool.formats.drawing.recognition import BINARY_DXF
 from vorotool.formats.io.sources import Source
@@ -68,17 +68,32 @@ def _polygons(name: str, blocks: _Blocks, options: ReadOptions, unit: str | None
         raise InputError(f"{name}, layer {beyond}: a place is beyond the largest number; correct or remove it")
     everything = [curve for curves in blocks.curves.values() for curve in curves]
     near = options.join_tolerance
-    near = JOINED * extent_of(everything) if near is None else near
+    near = default_tolerance(everything, unit) if near is None else near
     shapes: list[Shape] = []
     layers: list[str] = []
+    gaps: list[tuple[Gap, str]] = []
     for layer, curves in blocks.curves.items():
         chains = joined(curves, near)
+        gaps += [(gap, layer) for gap in open_gaps(chains, near)]
         closed = [chain for chain in chains if chain.is_closed]
         parts = [Shape(closed, NESTED, None, name)] if closed else []
         parts += [Shape([chain], None, None, name) for chain in chains if not chain.is_closed]
         shapes += parts
         layers += [layer] * len(parts)
+    if gaps:
+        options.note(Message(f"{name}: {_words_of_gaps(gaps, near, unit)}"))
     return shapes_to_polygons(name, shapes, options, unit=unit, y_up=True, properties={"layer": layers})
+
+
+def _words_of_gaps(gaps: list[tuple[Gap, str]], near: float, unit: str | None) -> str:
+    """Say how many there are, and where the widest is."""
+    (width, (x, y)), layer = max(gaps)
+    stay = "1 gap between ends of lines stays" if len(gaps) == 1 else f"{len(gaps)} gaps between ends of lines stay"
+    of = "" if unit is None else f" {unit}"
+    return (
+        f"{stay} open, wider than the {near:.3g}{of} that {option('--join-tolerance')} allows: the widest is "
+        f"{width:.3g}{of}, at ({x:.9g}, {y:.9g}) on layer {layer[:40]}"
+    )
 
 
 # ---- the file --------------------------------------------------------------------------------------

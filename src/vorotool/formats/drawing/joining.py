@@ -3,14 +3,69 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from fractions import Fraction
+from math import isfinite
+from typing import NamedTuple
 
 import numpy as np
 
-from vorotool.formats.drawing.curves import Arc, Bezier, Curve, Line, Piece, Point
+from vorotool.formats.drawing.curves import Arc, Bezier, Curve, Line, Piece, Point, extent_of
+from vorotool.geometry.length_units import ratio
 from vorotool.geometry.ragged import starts_of
 
-JOINED = 2.0**-20
-"""Of the extent: how far ends may be apart that are joined, if nothing else is asked for, as files round numbers."""
+JOINED = Fraction(5, 1000)
+"""In mm: how far ends may be apart that are joined, if nothing else is asked for, as files round numbers."""
+
+JOINED_PART = 1e-5
+"""The same as a part of the extent, where the unit is not known."""
+
+_NEAR = 10
+"""Times as wide a gap is told of."""
+
+
+class Gap(NamedTuple):
+    """Between two ends that stay open."""
+
+    width: float
+    place: Point
+    """Of one of them."""
+
+
+def default_tolerance(curves: Sequence[Curve], unit: str | None) -> float:
+    """Give how far ends of curves may be apart that are joined, by the unit of their coordinates.
+
+    Examples
+    --------
+    >>> line = [Curve((0.0, 0.0), [Line((400.0, 300.0))])]
+    >>> default_tolerance(line, "mm"), default_tolerance(line, "m"), round(default_tolerance(line, None), 6)
+    (0.005, 5e-06, 0.004)
+    """
+    length = None if unit is None else ratio(unit, "mm")
+    return JOINED_PART * extent_of(curves) if length is None else float(JOINED / length)
+
+
+def open_gaps(chains: Sequence[Curve], tolerance: float) -> list[Gap]:
+    """Give the gaps between ends of open curves that are wider than a tolerance, by up to ten times, widest last.
+
+    Examples
+    --------
+    >>> corner = [Curve((0.0, 0.0), [Line((4.0, 0.0))]), Curve((4.0, 0.5), [Line((4.0, 3.0))])]
+    >>> open_gaps(corner, 0.1), open_gaps(corner, 0.01)
+    ([Gap(width=0.5, place=(4.0, 0.0))], [])
+    """
+    import shapely
+
+    ends = np.array([end for chain in chains if not chain.is_closed for end in (chain.start, chain.end)])
+    if len(ends) < 2 or not tolerance > 0 or not isfinite(_NEAR * tolerance):
+        return []
+    places = ends[np.unique(_places(ends, tolerance), return_index=True)[1]]
+    points = shapely.points(places)
+    pairs, widths = shapely.STRtree(points).query_nearest(
+        points, max_distance=_NEAR * tolerance, return_distance=True, exclusive=True, all_matches=False
+    )
+    found = {(min(a, b), max(a, b)): width for (a, b), width in zip(pairs.T.tolist(), widths.tolist(), strict=True)}
+    gaps = [Gap(width, (float(places[a, 0]), float(places[a, 1]))) for (a, _), width in found.items()]
+    return sorted(gap for gap in gaps if tolerance < gap.width)
 
 
 def joined(curves: Sequence[Curve], tolerance: float) -> list[Curve]:
