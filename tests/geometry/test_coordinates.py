@@ -53,11 +53,14 @@ def test_coordinates_of_every_kind_are_taken(take, make):
     ("values", "words"),
     [
         (np.ma.array(PAIRS, mask=[[0, 0], [0, 1], [0, 0], [0, 0]]), "are masked in part"),
-        (np.array([[2**53 + 1, 0], [2**53, 0], [0, 1]]), "integers beyond 2^53 would be rounded"),
-        (np.array([[2**64 - 1, 0], [2**53, 0], [0, 1]], dtype=np.uint64), "integers beyond 2^53 would be rounded"),
-        ([[-(2**60) - 1, 0], [3, 1], [0, 1]], r"integers beyond 2\^53 would be rounded"),
-        ([[10**400, 0], [3, 1], [0, 1]], r"integers beyond 2\^53 would be rounded"),
+        (np.array([[2**53 + 1, 0], [2**53, 0], [0, 1]]), "a double would round it"),
+        (np.array([[2**64 - 1, 0], [2**53, 0], [0, 1]], dtype=np.uint64), "a double would round it"),
+        ([[-(2**60) - 1, 0], [3, 1], [0, 1]], "a double would round it"),
+        ([[10**400, 0], [3, 1], [0, 1]], "a double would round it"),
         ([[Fraction(10**400, 3), 0], [3, 1], [0, 1]], "must be finite"),
+        ([[3, 1], [Fraction(1, 3), 0], [0, 1]], r"2 is \(0.3333333333333333, 0\): a double would round it"),
+        (np.array([[0, 0], [1, np.longdouble(2) ** -60 + 1]]), "2 is .*: a double would round it"),
+        (np.array([[0, 0], [1, np.longdouble(2) ** -60 + 1]], dtype=object), "2 is .*: a double would round it"),
         (np.array(PAIRS, dtype=complex), "these have type complex128"),
         (np.array([["2020-01-01", "2020-01-02"]], dtype="M8[D]"), r"these have type datetime64"),
         ([["1", "2"], ["3", "4"]], "these have type <U1"),
@@ -71,7 +74,7 @@ def test_what_is_no_coordinate_is_refused(take, values, words):
 
 
 def test_an_integer_beyond_doubles_is_named():
-    with pytest.raises(InputError, match=r"^point 2 is \(9007199254740993, 7\): integers beyond"):
+    with pytest.raises(InputError, match=r"^point 2 is \(9007199254740993, 7\): a double would"):
         PointSet(np.array([[1, 2], [2**53 + 1, 7]]))
     assert PointSet(np.array([[2**53, -(2**53)]])).xy.tolist() == [[2.0**53, -(2.0**53)]]
 
@@ -87,7 +90,7 @@ def test_points_are_copied():
 def test_the_command_line_and_the_library_refuse_the_same_integers(tmp_path):
     values = np.array([[1, 2], [2**53 + 1, 7]])
     np.save(tmp_path / "a.npy", values)
-    with pytest.raises(InputError, match=r"a\.npy, row 2: \(9007199254740993, 7\): integers beyond 2\^53"):
+    with pytest.raises(InputError, match=r"a\.npy, row 2: \(9007199254740993, 7\): a double would"):
         vorotool.read(tmp_path / "a.npy", geometry="points", columns=None)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from decimal import Decimal
+from fractions import Fraction
 from numbers import Real
 from typing import Any
 
@@ -18,7 +19,7 @@ LARGEST_INTEGER = 2**53
 
 
 def coordinate_rows(values: Any, noun: str, axes: int = 2) -> NDArray[np.float64]:
-    """Copy (n, axes) coordinates; nothing is rounded but decimal fractions.
+    """Copy (n, axes) coordinates; only decimal fractions are rounded.
 
     Parameters
     ----------
@@ -37,7 +38,8 @@ def coordinate_rows(values: Any, noun: str, axes: int = 2) -> NDArray[np.float64
     Raises
     ------
     InputError
-        If these are no numbers, are masked, are integers beyond 2^53, or have another shape.
+        If these are no numbers, are masked, have another shape, or are integers beyond 2^53, fractions or long doubles
+        that doubles would round.
 
     Examples
     --------
@@ -67,7 +69,7 @@ def _wrong_shape(noun: str, shape: tuple[int, ...], axes: int) -> str:
 MOST_AXES = 4
 """Of points in some space: an array of points has a side that is no longer."""
 
-INEXACT = "integers beyond 2^53 would be rounded; subtract an offset from all of them, or give floating-point numbers"
+INEXACT = "a double would round it; subtract an offset from all coordinates, or convert them to float64"
 """Describe a coordinate that `first_inexact` finds."""
 
 
@@ -108,15 +110,21 @@ def number_array(values: Any, noun: str, expected: str | None = None, axes: int 
 
 
 def first_inexact(array: NDArray[Any]) -> int | None:
-    """Give the first row with an integer that doubles may round, None where there is none.
+    """Return the first row with a number that a double may round, None where there is none.
 
     Examples
     --------
     >>> first_inexact(np.array([[1, 2], [2**53 + 1, 0]])), first_inexact(np.array([[1e300, 0]]))
     (1, None)
+    >>> first_inexact(np.array([[Fraction(1, 2), Decimal("0.1")], [0, Fraction(1, 3)]]))
+    1
     """
     if array.dtype.kind == "O":
-        far = np.array([[isinstance(value, int) and abs(value) > LARGEST_INTEGER for value in row] for row in array])
+        far = np.array([[_is_rounded(value) for value in row] for row in array])
+    elif array.dtype.kind == "f" and array.dtype.itemsize > np.float64().itemsize:
+        with np.errstate(over="ignore"):
+            nearest = array.astype(np.float64)
+        far = np.isfinite(nearest) & (nearest != array)
     elif array.dtype.kind in "iu" and array.dtype.itemsize == 8 and array.size:
         if int(array.max()) <= LARGEST_INTEGER and int(array.min()) >= -LARGEST_INTEGER:
             return None
@@ -124,6 +132,15 @@ def first_inexact(array: NDArray[Any]) -> int | None:
     else:
         return None
     return int(far.any(axis=1).argmax()) if far.any() else None
+
+
+def _is_rounded(value: Any) -> bool:
+    """Whether a number that is no decimal fraction has digits that a double lacks; infinity is refused later."""
+    if isinstance(value, int | np.integer):
+        return abs(int(value)) > LARGEST_INTEGER
+    if isinstance(value, float | Decimal) or not np.isfinite(nearest := nearest_double(value)):
+        return False
+    return Fraction(*value.as_integer_ratio()) != Fraction(nearest)
 
 
 def plural(noun: str) -> str:

@@ -116,15 +116,12 @@ class ShapeProducts:
             return points
         from vorotool.engines.delaunay.delaunay import delaunay
         from vorotool.engines.digital.triangulation import digital_triangulation, repair_digital
-        from vorotool.engines.tessellation.seeding import seeds_from_points
+        from vorotool.engines.tessellation.seeding import seeds_in_frame
 
         o = self.options
         if o.method == "exact":
             return delaunay(points, strict=o.strict, threads=o.threads, progress=progress)
-        if isinstance(points, SeedSet):
-            seeds = points
-        else:
-            seeds = seeds_from_points(points, strict=o.strict, frame=partial(frame_of, o))
+        seeds = points if isinstance(points, SeedSet) else seeds_in_frame(points, partial(frame_of, o), strict=o.strict)
         frame: Any = {"window": window_of(o, seeds), "strict": o.strict, "threads": o.threads}
         mesh: AnyTriangulation
         if o.method == "digital":

@@ -9,7 +9,7 @@ from typing import Any
 from vorotool.engines.digital.comparison import compare_digital
 from vorotool.engines.digital.triangulation import DigitalRepair, digital_triangulation, repair_digital
 from vorotool.engines.digital.verify_digital import verify_digital_triangulation
-from vorotool.engines.tessellation.seeding import seeds_from_points
+from vorotool.engines.tessellation.seeding import seeds_in_frame
 from vorotool.errors import Message
 from vorotool.geometry.mesh.digital_comparison import DigitalComparison
 from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation
@@ -31,9 +31,8 @@ class DigitalProducts(MeshProducts):
         if isinstance(points, SeedSet):
             self.seeds = points
         else:
-            self.seeds = seeds_from_points(
-                points, strict=options.strict, frame=partial(frame_of, options), sides=sides_of(options)
-            )
+            frame = partial(frame_of, options)
+            self.seeds = seeds_in_frame(points, frame, sides=sides_of(options), strict=options.strict)
         super().__init__(run, options, given, read)
         if "compare" in options.what:
             with run.phase("compare"):

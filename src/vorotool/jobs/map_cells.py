@@ -44,7 +44,7 @@ def seeds_on_map(run: Run, o: TessellationOptions, value: PointSet | PolygonSet)
     InputError
         If there is nothing on the map, or no feature has a cell.
     """
-    from vorotool.engines.tessellation.seeding import seeds_from_points
+    from vorotool.engines.tessellation.seeding import seeds_in_frame
     from vorotool.geometry.box import bounds
     from vorotool.geometry.map_frame import in_cells, map_frame
     from vorotool.geometry.points.point_set import PointSet
@@ -56,7 +56,7 @@ def seeds_on_map(run: Run, o: TessellationOptions, value: PointSet | PolygonSet)
     o = replace(o, window=(frame.x, frame.y, frame.width, frame.height), size=None, pixel_size=o.pixel_size or AUTO)
     placed = replace(value, xy=in_cells(value.xy, grid))
     if isinstance(placed, PointSet):
-        seeds = seeds_from_points(placed, strict=o.strict, frame=frame)
+        seeds = seeds_in_frame(placed, frame, strict=o.strict)
     else:
         with run.phase("rasterize"):
             seeds = _seeds_of_features(o, placed, frame)

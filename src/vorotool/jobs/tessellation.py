@@ -24,7 +24,7 @@ from vorotool.engines.label_images.regions import (
 from vorotool.engines.tessellation.bands import Band, Quantity, SeedBand, SeedBands
 from vorotool.engines.tessellation.frames import label_dtype, require_memory, squared_limit
 from vorotool.engines.tessellation.propagation import PropagatedRows
-from vorotool.engines.tessellation.seeding import seeds_from_points
+from vorotool.engines.tessellation.seeding import seeds_in_frame
 from vorotool.engines.tessellation.tessellate import labelled_rows, verify_rows
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import LimitError
@@ -102,9 +102,8 @@ def products(run: Run, o: TessellationOptions, given: JobInput) -> Products | St
 
 def _seeds_of(run: Run, o: TessellationOptions, value: PointSet | PolygonSet | Raster) -> ReadSeeds:
     if isinstance(value, PointSet):
-        seeds = seeds_from_points(
-            value, strict=o.strict, frame=asked_frame(o) or partial(frame_of, o), sides=sides_of(o)
-        )
+        frame = asked_frame(o) or partial(frame_of, o)
+        seeds = seeds_in_frame(value, frame, sides=sides_of(o), strict=o.strict)
         return ReadSeeds(seeds, value.y_up)
     assert isinstance(value, Raster)  # what is asked for is points, or an image
     alone = {"columns": o.columns, "cell-size": o.cell_size, **o.of_frame()}

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.common.label_arrays import described
-from vorotool.engines.tessellation.seeding import FrameOf, seeds_from_points, seeds_from_raster
+from vorotool.engines.tessellation.seeding import FrameOf, seeds_from_raster, seeds_in_frame
 from vorotool.errors import STRICT, InputError, LimitError, UsageError, option, warn
 from vorotool.geometry.arguments.images import as_raster, is_image
 from vorotool.geometry.arguments.points import as_points
@@ -64,7 +64,7 @@ def as_seeds(
         seeds = seeds_from_raster(raster, mode="labels" if isinstance(source, LabelImage) else None)
         seeds = _moved_to(seeds, source.frame) if isinstance(source, LabelImage) else seeds
     else:
-        return seeds_from_points(_points(source, name), frame=frame, sides=sides)
+        return seeds_in_frame(_points(source, name), frame, sides=sides)
     if callable(frame):
         frame(seeds)
     return seeds

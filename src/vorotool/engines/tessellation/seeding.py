@@ -30,6 +30,7 @@ from vorotool.engines.tessellation.seed_lattice import (
 from vorotool.errors import LimitError, UsageError, option
 from vorotool.geometry.arguments.images import as_raster
 from vorotool.geometry.arguments.points import as_points
+from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.checks import is_choice
 from vorotool.geometry.numbers import shown_number, whole_number
 from vorotool.geometry.pixel_frame import Frame
@@ -48,9 +49,7 @@ FrameOf = Frame | Callable[[SeedSet], Frame | None] | None
 """The frame that seeds are for, or a function that returns it, or raises an error for seeds that cannot be used."""
 
 
-def seeds_from_points(
-    points: PointsLike, *, frame: FrameOf = None, sides: PixelSides = SQUARE, strict: bool = False
-) -> SeedSet:
+def seeds_from_points(points: PointsLike, *, frame: Frame | None = None, strict: bool = False) -> SeedSet:
     """Put points on the lattice of seeds.
 
     Parameters
@@ -58,11 +57,8 @@ def seeds_from_points(
     points : PointSet, array, data frame, GeoSeries, …
         As `delaunay` takes them; coordinates in pixels. What is finer than the finest lattice of the frame, 2^-31 pixel
         for 512 x 512 pixels, moves to the nearest multiple of its step.
-    frame : Frame or callable, optional
-        The whole image that is to be labelled, or what gives it for the seeds. By default the least frame at the origin
-        that holds the points.
-    sides : PixelSides
-        Sides of a pixel of the image.
+    frame : Frame, optional
+        The whole image that is to be labelled; by default the least one at the origin that holds the points.
     strict : bool
         Refuse points that would have to move.
 
@@ -87,7 +83,13 @@ def seeds_from_points(
     >>> seeds.scale, seeds.x.tolist()
     (2, [1, 14])
     """
-    points = as_points(points)
+    if frame is not None:
+        check_value(frame, "frame", Frame)
+    return seeds_in_frame(as_points(points), frame, strict=strict)
+
+
+def seeds_in_frame(points: PointSet, frame: FrameOf, *, sides: PixelSides = SQUARE, strict: bool = False) -> SeedSet:
+    """Put points on the lattice of the frame that they need: see `seeds_from_points`."""
     whole, needed = None, frame if isinstance(frame, Frame) else least_frame(points.xy)
     while needed != whole:  # again, where a seed that decides on the frame moved, or the frame is another one
         whole = needed
@@ -243,5 +245,5 @@ def _seeds_of_objects(
         return SeedSet(x, y, labels, **known)
     if len(distinct) > max_sites:
         raise LimitError(f"the image has {len(distinct)} objects, more than {option(f'--max-sites {max_sites}')}")
-    seeds = seeds_from_points(PointSet(sites, distinct), frame=frame, strict=strict)
+    seeds = seeds_in_frame(PointSet(sites, distinct), frame, strict=strict)
     return replace(seeds, properties={}, index=None, **known)

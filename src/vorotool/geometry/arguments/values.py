@@ -8,6 +8,7 @@ from vorotool.errors import InputError
 from vorotool.geometry.arguments.descriptions import described
 
 _MAKERS = {
+    "Frame": "Frame",
     "LabelImage": "tessellate",
     "Triangulation": "delaunay",
     "DigitalTriangulation": "digital_triangulation",
