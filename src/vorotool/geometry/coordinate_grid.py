@@ -134,16 +134,21 @@ def on_grid(points: Floats) -> Floats:
 
 
 def rounded(points: Floats, decimals: int | None) -> Floats:
-    """Round coordinates to decimals; those whose doubles are coarser stay.
+    """Round coordinates to decimals; those whose doubles are coarser stay, and so does what is no finite number.
 
     Examples
     --------
     >>> rounded(np.array([[0.126, 2.0], [-0.001, 1e300]]), 2).tolist()
     [[0.126, 2.0], [-0.001, 1e+300]]
-    >>> rounded(np.array([[0.126, 2.0], [-0.001, 7.0]]), 2).tolist()
-    [[0.13, 2.0], [0.0, 7.0]]
+    >>> rounded(np.array([[0.126, 2.0], [-0.001, np.nan]]), 2).tolist()
+    [[0.13, 2.0], [0.0, nan]]
     """
     if decimals is None:
         return points
+    is_number = np.isfinite(points)
+    if not is_number.all():
+        made = points.copy()
+        made[is_number] = rounded(points[is_number], decimals)
+        return made
     grid = Grid.of(points, decimals)
     return points if grid.decimals is None else grid.values(grid.steps(points))

@@ -67,7 +67,7 @@ def write_table(out: BinaryIO, table: Table, fmt: str, *, precision: int | None 
 
 
 _ENDS = ("", "0", "1", "_a", "_b", "_1", "_2", "_3")
-_PLACES = frozenset(["z", "cx", "cy", *(f"{axis}{end}" for axis in "xy" for end in _ENDS)])
+_PLACES = frozenset(["z", "cx", "cy", "bbox_x", "bbox_y", *(f"{axis}{end}" for axis in "xy" for end in _ENDS)])
 """Columns of coordinates."""
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.geometry.checks import set_array
+from vorotool.geometry.coordinate_grid import on_grid
 from vorotool.geometry.curves.circular_arcs import chords_of
 from vorotool.geometry.curves.flatten import circle_tolerances
 from vorotool.geometry.numbers import checked_flatten
@@ -200,7 +201,8 @@ class Discs(Value, Tabular, Curved, Pictured):
     def _described(self) -> dict[str, Any]:
         """Ids and properties of the discs."""
         polygons, of = self.polygons, self.polygon.tolist()
-        own: dict[str, NDArray[Any]] = {"rank": self.rank, "x": self.xy[:, 0], "y": self.xy[:, 1], "r": self.radius}
+        x, y = on_grid(self.xy).T
+        own: dict[str, NDArray[Any]] = {"rank": self.rank, "x": x, "y": y, "r": self.radius}
         own["feet"] = np.diff(self.foot_start)
         properties = {key: [values[p] if p >= 0 else None for p in of] for key, values in polygons.properties.items()}
         named = {f"voro_{key}" if key in properties else key: values.tolist() for key, values in own.items()}
