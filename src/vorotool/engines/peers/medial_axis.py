@@ -13,6 +13,8 @@ from vorotool.engines.peers.arguments import plane
 from vorotool.engines.peers.distance_transform import distance_transform
 from vorotool.engines.pruning.pruning import default_pruning_for_masks, prune
 from vorotool.engines.skeleton_api import skeleton_exact
+from vorotool.engines.tessellation.cleaned_masks import reaches_border
+from vorotool.engines.tessellation.raster_objects import numbered_components
 from vorotool.geometry.checks import checked_flag
 
 if TYPE_CHECKING:
@@ -34,7 +36,8 @@ def medial_axis(
     """Mark the pixels that the exact skeleton of a mask passes through.
 
     The skeleton is that of the outline of the pixels (`skeleton_exact` of `outlines`), pruned as that of a mask is by
-    default, so that no branch goes to each corner of a pixel. Every object has one 8-connected part of it. It is not
+    default, so that no branch goes to each corner of a pixel. Every object has one 8-connected part of it, with the
+    holes of the object and no others: pixels that branches enclose between them are marked, too. It is not
     `skimage.morphology.medial_axis`, which thins pixels in an order that chance decides in part: that axis is one pixel
     wide and has branches to corners of the outline, while this one may be two pixels wide, since it has all pixels
     that the skeleton passes through, and takes the border of the image for a part of the outline.
@@ -79,4 +82,13 @@ def medial_axis(
         x, y = np.floor(points_along(pruned, every=_STEP).xy + 0.5).astype(np.int64).T
         axis[y, x] = True
         axis &= foreground
+        axis |= _false_holes(axis, foreground)
     return (axis, distance_transform(foreground, threads=threads)) if return_distance else axis
+
+
+def _false_holes(axis: NDArray[np.bool_], foreground: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Return the pixels that an axis encloses without any background: two branches beside each other may."""
+    components = numbered_components(~axis, 4)
+    is_true = reaches_border(components)
+    is_true[components[~foreground]] = True
+    return ~(is_true[components] | axis)

@@ -88,8 +88,20 @@ def cleaned_mask(
 def _filled(mask: NDArray[np.bool_], connectivity: int) -> NDArray[np.bool_]:
     """The mask with what of its background does not reach the border."""
     background = numbered_components(~mask, connectivity)
-    reaches = np.zeros(int(background.max(initial=0)) + 1, dtype=bool)
-    for side in (background[0], background[-1], background[:, 0], background[:, -1]):
-        reaches[side] = True
+    reaches = reaches_border(background)
     reaches[0] = False
     return ~reaches[background]
+
+
+def reaches_border(components: NDArray[np.uint32]) -> NDArray[np.bool_]:
+    """Return for each number whether a pixel at the border of the image has it.
+
+    Examples
+    --------
+    >>> reaches_border(np.array([[1, 1, 1], [1, 2, 1], [1, 1, 1]], np.uint32)).tolist()
+    [False, True, False]
+    """
+    reaches = np.zeros(int(components.max(initial=0)) + 1, dtype=bool)
+    for side in (components[0], components[-1], components[:, 0], components[:, -1]):
+        reaches[side] = True
+    return reaches
