@@ -41,6 +41,10 @@ def test_measures_are_those_of_the_input(name, others, tmp_path):
         write(skeleton, tmp_path / "skeleton.json")
         again = read(tmp_path / "skeleton.json")
         np.testing.assert_array_equal(again.polygons.xy, skeleton.polygons.xy)
+        write(skeleton, tmp_path / "skeleton.npz")
+        of_arrays = read(tmp_path / "skeleton.npz")
+        np.testing.assert_array_equal(of_arrays.polygons.xy, skeleton.polygons.xy)
+        verify_skeleton(of_arrays)
         for each in (skeleton, again):
             verify_skeleton(each)
             table = polygon_table(each)
