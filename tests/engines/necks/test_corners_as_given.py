@@ -57,6 +57,12 @@ def test_of_parts_and_cuts(features, others, tmp_path):
     verify_parts(pieces)
     assert len(pieces) > len(polygons)
     assert_as_given(pieces.polygons.xy, polygons, 20)
+    if features == "separate":
+        whole = [
+            shapely.Polygon(*each.values()) if isinstance(each, dict) else shapely.Polygon(each) for each in polygons
+        ]
+        summed = np.bincount(pieces.source, pieces.area)
+        np.testing.assert_allclose(summed, shapely.area(whole), rtol=1e-13, atol=1e-13 * FAR[0][0] * bool(others))
     shapes = written(pieces, tmp_path / "parts.geojson")
     assert shapely.is_valid(shapes).all()
     np.testing.assert_array_equal(shapely.get_coordinates(pieces.to_shapely()), shapely.get_coordinates(shapes))

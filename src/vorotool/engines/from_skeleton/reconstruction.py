@@ -30,6 +30,9 @@ Indices = NDArray[np.int64]
 _ULPS = 8
 """Of the largest coordinate: what two feet of one disc may differ by, times how much each is magnified."""
 
+_MET = 4
+"""Times as far a vertex may be that a place is drawn to: its number is known, and tells which one it is."""
+
 
 def rebuild(skeleton: Skeleton, *, flatten: Flatten = None) -> PolygonSet:
     """Rebuild polygons from the arcs inside them: what the discs of all points of the skeleton cover.
@@ -239,7 +242,7 @@ def _in_order(pieces: list[_Places], contours: Contours, skeleton: Skeleton) -> 
     vertex, best, number = np.unique(point[known], return_index=True, return_inverse=True)
     found, (placed, given) = xy[known[best]], _vertices(skeleton, vertex)
     off = np.abs(found - placed).max(axis=1, initial=0)
-    is_vertex = off <= _noise(skeleton) * (1 + factor[known[best]])
+    is_vertex = off <= np.maximum(_MET * _noise(skeleton) * (1 + factor[known[best]]), skeleton.scale)
     xy[known] = np.where(is_vertex[:, None], given, found)[number]
     order = np.lexsort((rank, run))
     return xy[order], point[order], np.searchsorted(run[order], contours.start)

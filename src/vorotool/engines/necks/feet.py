@@ -58,8 +58,8 @@ def feet_of(skeleton: Skeleton, ways: Ways) -> Feet:
     tolerance = _SNAP * float(np.spacing(np.abs(skeleton.polygons.xy).max(initial=1.0)))
     for hand in (0, 1):
         alone = is_edge[:, hand] & ~both
-        xy[alone, hand] = _projected(ends[alone, hand], ends[alone, 1 - hand, 0])
-        xy[both, hand] = _at_ends(_projected(ends[both, hand], ways.middle[both]), ends[both, hand], tolerance)
+        xy[alone, hand] = projected(ends[alone, hand], ends[alone, 1 - hand, 0])
+        xy[both, hand] = _at_ends(projected(ends[both, hand], ways.middle[both]), ends[both, hand], tolerance)
     width, square = _widths(skeleton, ends, is_edge)
     return Feet(site, xy, width, square)
 
@@ -80,8 +80,14 @@ def _sites(skeleton: Skeleton, ways: Ways) -> Indices:
     return np.where(is_edge[first] & ~is_edge[second], second, first)
 
 
-def _projected(edge: Floats, place: Floats) -> Floats:
-    """The nearest place on each edge, which is an end of it exactly where nothing nearer is inside."""
+def projected(edge: Floats, place: Floats) -> Floats:
+    """Give the nearest place on each edge, which is an end of it exactly where nothing nearer is inside.
+
+    Examples
+    --------
+    >>> projected(np.array([[[0.0, 0.0], [4.0, 0.0]]] * 2), np.array([[1.0, 2.0], [9.0, 2.0]])).tolist()
+    [[1.0, 0.0], [4.0, 0.0]]
+    """
     a, b = edge[:, 0], edge[:, 1]
     way, from_a = b - a, place - a
     square = np.square(way).sum(axis=1)

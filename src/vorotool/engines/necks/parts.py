@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 
 from vorotool.engines.from_skeleton.simple_rings import cut_at_repetitions, repeats, twice_areas
 from vorotool.engines.necks.cut_axis import CutAxis, Outlines, cut_axis, outlines_of
+from vorotool.engines.necks.feet import Feet
+from vorotool.engines.necks.given_feet import moved_feet
 from vorotool.engines.necks.necks import FoundNecks, found_necks, whole_skeleton
 from vorotool.errors import UsageError, option
 from vorotool.geometry.numbers import finite_double, shown_number
@@ -101,14 +103,18 @@ def cut_parts(found: FoundNecks, neck: float) -> Parts:
     a, b = sides.part[sides.node].T
     chosen = chosen[a != b]
     axis = _cut(found, chosen)
-    return _parts_of(axis, _as_given(axis, outlines_of(axis, found.feet.taken(chosen))), found.necks.taken(chosen))
+    feet, necks = found.feet.taken(chosen), found.necks.taken(chosen)
+    return _parts_of(axis, _as_given(outlines_of(axis, feet), feet, necks), necks)
 
 
-def _as_given(axis: CutAxis, outlines: Outlines) -> Outlines:
-    """Outlines with corners where vertices were given."""
-    polygon, skeleton = np.repeat(outlines.polygon, np.diff(outlines.start)), axis.skeleton
+def _as_given(outlines: Outlines, feet: Feet, necks: Necks) -> Outlines:
+    """Outlines with corners where vertices were given, and feet on edges as these were."""
+    skeleton, polygon = necks.skeleton, np.repeat(outlines.polygon, np.diff(outlines.start))
+    given = moved_feet(skeleton, necks.polygon, feet.site, feet.xy)
+    others = np.repeat(necks.polygon, 2), feet.xy.reshape(-1, 2), given.reshape(-1, 2)
     together = skeleton.features == "together"
-    return replace(outlines, xy=places_as_given(outlines.xy, polygon, skeleton.polygons, together=together))
+    xy = places_as_given(outlines.xy, polygon, skeleton.polygons, together=together, others=others)
+    return replace(outlines, xy=xy)
 
 
 def _cut(found: FoundNecks, chosen: Indices) -> CutAxis:

@@ -12,6 +12,7 @@ from vorotool import _core
 from vorotool.engines.arrangement.planar_graph import planar_graph
 from vorotool.engines.common.faults import fail, first_wrong
 from vorotool.engines.features.batches import BatchShapes, in_batches
+from vorotool.engines.necks.given_feet import moved_feet
 from vorotool.engines.skeleton.site_distances import SitePlaces
 from vorotool.errors import VorotoolWarning
 from vorotool.geometry.arguments.values import check_value
@@ -130,21 +131,18 @@ def verify_parts(parts: Parts, *, threads: int = 0, progress: Progress = None) -
 
 # ---- where they were computed --------------------------------------------------------------------
 def _placed(necks: Necks) -> Necks:
-    """Necks whose feet at vertices are where their skeleton has these."""
-    feet = _on_lattice(necks.skeleton, necks.feet.reshape(-1, 2), np.repeat(necks.polygon, 2))
-    return replace(necks, feet=feet.reshape(-1, 2, 2))
+    """Necks whose feet are where their skeleton has the vertices and edges that these are on."""
+    return replace(necks, feet=moved_feet(necks.skeleton, necks.polygon, necks.sites, necks.feet, back=True))
 
 
 def _placed_parts(parts: Parts) -> Parts:
-    """Parts whose corners at vertices are where the skeleton has these."""
-    polygons = parts.polygons
+    """Parts whose corners are where the skeleton has the vertices and edges that these are on."""
+    polygons, necks, placed = parts.polygons, parts.necks, _placed(parts.necks)
     source = np.repeat(parts.source, np.diff(polygons.ring_start[polygons.polygon_start]))
-    xy = _on_lattice(parts.necks.skeleton, polygons.xy, source)
-    return replace(parts, polygons=replace(polygons, xy=xy), necks=_placed(parts.necks))
-
-
-def _on_lattice(skeleton: Skeleton, places: Floats, polygon: NDArray[np.integer]) -> Floats:
-    return places_as_given(places, polygon, skeleton.polygons, together=skeleton.features == "together", back=True)
+    others = np.repeat(necks.polygon, 2), necks.feet.reshape(-1, 2), placed.feet.reshape(-1, 2)
+    together = necks.skeleton.features == "together"
+    xy = places_as_given(polygons.xy, source, necks.skeleton.polygons, together=together, back=True, others=others)
+    return replace(parts, polygons=replace(polygons, xy=xy), necks=placed)
 
 
 # ---- distances -----------------------------------------------------------------------------------

@@ -12,7 +12,13 @@ Floats = NDArray[np.float64]
 
 
 def places_as_given(
-    places: Floats, polygon: NDArray[np.integer], polygons: PolygonSet, *, together: bool, back: bool = False
+    places: Floats,
+    polygon: NDArray[np.integer],
+    polygons: PolygonSet,
+    *,
+    together: bool,
+    back: bool = False,
+    others: tuple[NDArray[np.integer], Floats, Floats] | None = None,
 ) -> Floats:
     """Move places at vertices that an engine has moved to where these were given, of several the first, or back.
 
@@ -28,6 +34,8 @@ def places_as_given(
         Whether vertices of all features count, or those of the place's own.
     back : bool
         From where they were given to where the result was computed.
+    others : (k,) integer array and two (k, 2) float64 arrays, optional
+        The polygons of further places that are moved, where these are, and where to.
 
     Returns
     -------
@@ -46,6 +54,8 @@ def places_as_given(
         return places
     here, there = (given.xy, polygons.xy) if back else (polygons.xy, given.xy)
     own = polygons.ring_polygon[owners(np.diff(polygons.ring_start))]
+    if others is not None:
+        own, here, there = (np.concatenate(pair) for pair in zip((own, here, there), others, strict=True))
     group = np.zeros(len(polygons), dtype=np.int64) if together else np.asarray(polygons.feature, dtype=np.int64)
     keys = np.column_stack([np.concatenate([group[own], group[polygon]]), np.concatenate([here, places]) + 0.0])
     _, first, number = np.unique(keys, axis=0, return_index=True, return_inverse=True)

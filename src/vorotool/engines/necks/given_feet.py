@@ -1,0 +1,54 @@
+"""Feet of necks on polygons as they were given, and where a skeleton has these."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.engines.necks.feet import projected
+from vorotool.geometry.polygons.vertices_as_given import places_as_given
+from vorotool.geometry.skeleton.skeleton import Skeleton, ends_of_sites
+
+Floats = NDArray[np.float64]
+
+
+def moved_feet(
+    skeleton: Skeleton, polygon: NDArray[np.integer], site: NDArray[np.integer], feet: Floats, *, back: bool = False
+) -> Floats:
+    """Move feet to the vertices and edges that they are on, where these were given, or back; along edges none is moved.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+        Whose sites they are on.
+    polygon : (n,) integer array
+        Of each neck.
+    site : (n, 2) integer array
+        Of each foot.
+    feet : (n, 2, 2) float64 array
+        Their places.
+    back : bool
+        From where they were given to where the skeleton has them.
+
+    Examples
+    --------
+    >>> from vorotool import necks
+    >>> found = necks([[0.1, 0], [10.3, 0], [10.3, 4], [6, 2.1], [0.1, 4]])
+    >>> found.feet.tolist()
+    [[[6.0, 0.0], [6.0, 2.1]]]
+    """
+    polygons = skeleton.polygons
+    if polygons.as_given is polygons:
+        return feet
+    here, there = skeleton.site_ends[site], ends_of_sites(polygons.as_given, skeleton.site_table, site)
+    if back:
+        here, there = there, here
+    way = here[..., 1, :] - here[..., 0, :]
+    square = (way * way).sum(axis=-1)
+    t = np.divide(((feet - here[..., 0, :]) * way).sum(axis=-1), square, out=np.zeros(site.shape), where=square > 0)
+    together = skeleton.features == "together"
+    moved = places_as_given(feet.reshape(-1, 2), np.repeat(polygon, 2), polygons, together=together, back=back)
+    moved = moved.reshape(-1, 2, 2)
+    is_inner = (t > 0) & (t < 1)
+    moved[is_inner] = projected(there[is_inner], feet[is_inner])
+    return moved
