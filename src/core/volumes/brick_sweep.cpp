@@ -29,7 +29,7 @@ BrickSeeds::BrickSeeds(const SeedGrid& grid, const VolumeFrame& frame, const Bri
       frame_(frame),
       kernels_(kernels),
       size_{frame.plane.width, frame.plane.height, frame.depth},
-      step_{frame.plane.pixel().x, frame.plane.pixel().y, frame.step_z()} {}
+      step_(frame.sides()) {}
 
 // The places of the voxels of a cube that are in the frame.
 PlaceBox BrickSeeds::places(const Voxel& first, std::int32_t side) const {
@@ -286,10 +286,9 @@ void BrickSweep<Voxel, product>::fill_with(const BrickSeeds::Brick& brick, const
     std::iota(numbers_.begin(), numbers_.end(), 0U);
     part_.resize(numbers_.size());
   }
-  const auto& plane = frame_.plane;
+  const auto sides = frame_.sides();
   BrickVoxels voxels{{brick.first[0], brick.first[1], brick.first[2]},
-                     {static_cast<std::int32_t>(plane.pixel().x), static_cast<std::int32_t>(plane.pixel().y),
-                      static_cast<std::int32_t>(frame_.step_z())},
+                     {sides[0], sides[1], sides[2]},
                      0,
                      brick_side,
                      0,

@@ -1,6 +1,7 @@
 // The voxels of a volume on the lattice of its seeds.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "core/tessellation/sorted_seeds.hpp"
@@ -18,6 +19,11 @@ struct VolumeFrame {
   std::int32_t middle_slice() const { return depth / 2; }
   // The side of a voxel along z.
   std::int64_t step_z() const { return plane.scale * unit_z; }
+  // The sides of a voxel, which fit 32 bits: seeds of volumes lie on multiples of 1/256.
+  std::array<std::int32_t, 3> sides() const {
+    return {static_cast<std::int32_t>(plane.pixel().x), static_cast<std::int32_t>(plane.pixel().y),
+            static_cast<std::int32_t>(step_z())};
+  }
   // Lattice z of a slice, relative to the middle of the frame.
   std::int64_t slice_z(std::int64_t slice) const { return step_z() * (slice - middle_slice()); }
 };
