@@ -20,10 +20,10 @@ namespace {
 constexpr std::size_t seeds_a_piece = std::size_t{1} << 16;
 
 // A coordinate on the lattice, seen from the middle of the frame.
-std::int64_t relative(std::int64_t coordinate, std::int64_t middle, std::int32_t unit, std::size_t index) {
+std::int64_t relative(std::int64_t coordinate, std::int64_t middle, std::int64_t unit, std::size_t index) {
   std::int64_t difference = 0;
   if (__builtin_sub_overflow(coordinate, middle, &difference) ||
-      __builtin_mul_overflow(difference, std::int64_t{unit}, &difference) || difference > wide_bound ||
+      __builtin_mul_overflow(difference, unit, &difference) || difference > wide_bound ||
       difference < -wide_bound) {
     throw tessellation::SeedTooFar(index, wide_bound);
   }
@@ -115,7 +115,7 @@ class GivenSeeds {
  private:
   std::span<const std::int64_t> x_, y_, z_;
   std::span<const std::uint32_t> label_;
-  std::array<std::int32_t, 3> unit_;
+  std::array<std::int64_t, 3> unit_;
   std::array<std::int64_t, 3> middle_;
 };
 
