@@ -87,13 +87,14 @@ def killed(folder, fmt, number, chance, counts):
     environment = {"FAULTS_PIPE": str(pipe), "FAULTS_AT": str(chance.randrange(40)), "FAULTS_WAIT": "1"}
     victim = chance.choice(["batch", "worker", "both"]) if number == signal.SIGKILL else "batch"
     child = start(folder, fmt, "out", "--resume", "--keep-going", environment=environment)
-    worker = announced(descriptor, child)
-    if worker is None:
+    workers = announced(descriptor, child)
+    if not workers:
         os.close(descriptor)
         child.communicate()
         return []
     if victim != "batch":
-        os.kill(worker, signal.SIGKILL)
+        for worker in workers:
+            os.kill(worker, signal.SIGKILL)
     if victim != "worker":
         child.send_signal(number)
     wrong = finished(child, folder, number if victim != "worker" else None, descriptor)
@@ -106,13 +107,13 @@ def killed(folder, fmt, number, chance, counts):
 
 
 def announced(descriptor, child):
-    """The worker that waits inside a write, or None of a batch that ends without."""
+    """Workers that wait inside a write: several where they began together, none where the batch ends without."""
     while child.poll() is None:
         try:
-            return int(os.read(descriptor, 4096).split()[0])
+            return [int(line.split()[0]) for line in os.read(descriptor, 4096).splitlines()]
         except BlockingIOError:
             time.sleep(0.002)
-    return None
+    return []
 
 
 def finished(child, folder, number, descriptor):
