@@ -57,9 +57,14 @@ def places_as_given(
     if others is not None:
         own, here, there = (np.concatenate(pair) for pair in zip((own, here, there), others, strict=True))
     group = np.zeros(len(polygons), dtype=np.int64) if together else np.asarray(polygons.feature, dtype=np.int64)
-    keys = np.column_stack([np.concatenate([group[own], group[polygon]]), np.concatenate([here, places]) + 0.0])
-    _, first, number = np.unique(keys, axis=0, return_index=True, return_inverse=True)
-    vertex = first[number.reshape(-1)[len(here) :]]
+    x, y = np.concatenate([here, places]).T
+    keys = np.concatenate([group[own], group[polygon]]), x, y
+    order = np.lexsort(keys)  # stable: of equal places the first comes first
+    is_new = np.ones(len(order), dtype=bool)
+    is_new[1:] = np.any([key[order[1:]] != key[order[:-1]] for key in keys], axis=0)
+    vertex = np.empty_like(order)
+    vertex[order] = order[is_new][np.cumsum(is_new) - 1]
+    vertex = vertex[len(here) :]
     made = places.copy()
     known = np.flatnonzero(vertex < len(here))
     made[known] = there[vertex[known]]
