@@ -76,10 +76,10 @@ class Kind(Enum):
     """Longitude and latitude are treated as planar."""
     UNNAMED_CRS = auto()
     """Coordinates that may be longitude and latitude are taken for planar ones."""
-    NO_FOREGROUND = auto()
-    """An image holds nothing."""
+    EMPTY_INPUT = auto()
+    """An input holds nothing: no geometry, or an image without foreground."""
     EMPTY_RESULT = auto()
-    """A result holds nothing: of an image without foreground that goes without saying."""
+    """A result holds nothing, which an empty input implies."""
 
 
 class Message(str):

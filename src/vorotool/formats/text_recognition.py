@@ -27,6 +27,8 @@ _ALPHA = option("alphashape", "alpha_shape")
 
 _SUFFIXES = {f".{name}": each.name for each in INPUTS.values() for name in each.names if name not in ("json", "txt")}
 """Extensions that tell the format; JSON is of one of several kinds, and text of any."""
+_OF_ROWS = frozenset({"", ".csv", ".tsv", ".txt", ".wkt"})
+"""Extensions of texts that need nothing but rows; other formats are damaged without a document or a header."""
 _WKT = re.compile(
     rb"\s*(SRID\s*=\s*\d+\s*;\s*)?((MULTI)?(POINT|LINESTRING|POLYGON|CURVE|SURFACE)|GEOMETRYCOLLECTION|LINEARRING|"
     rb"CIRCULARSTRING|COMPOUNDCURVE|CURVEPOLYGON|POLYHEDRALSURFACE|TIN|TRIANGLE)\s*(Z|M|ZM)?\s*(\(|EMPTY)",
@@ -118,6 +120,17 @@ def _by_content(data: bytes) -> str:
     return "wkt" if _WKT.match(head) else "csv"
 
 
+def has_no_rows(source: Source) -> bool:
+    r"""Return whether a text of rows (CSV, WKT, or without an extension) has none, not even a header.
+
+    Examples
+    --------
+    >>> has_no_rows(Source("a.csv", b"\n")), has_no_rows(Source("a.json", b""))
+    (True, False)
+    """
+    return source.suffix in _OF_ROWS and not source.data.strip()
+
+
 def polygon_format(source: Source) -> str:
     """Tell the format of polygons by the extension, else by the content.
 
@@ -139,6 +152,8 @@ def polygon_format(source: Source) -> str:
     found = point_format(source)
     if found == "geojson" and source.suffix != ".geojson":  # an object: of either kind
         return "json"
+    if has_no_rows(source):
+        return "wkt"
     if not source.data.strip() and found == "csv":
         raise InputError(
             f"{source.name} is empty: polygons, lines or an image were expected; check what was to write it"

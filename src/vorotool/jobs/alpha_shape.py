@@ -93,7 +93,8 @@ class ShapeProducts:
         self.run, self.options, self.radius = run, options, radius
         self._has_told_regions = False
         self.backdrop = placed_backdrop(options.pixel_size, given.backdrop)
-        self._empty: dict[str, Any] = {"strict": options.strict, "allow_empty": isinstance(points, SeedSet)}
+        is_allowed = isinstance(points, SeedSet) or not len(points)
+        self._empty: dict[str, Any] = {"strict": options.strict, "allow_empty": is_allowed}
         with run.phase("triangulate") as progress:
             mesh = self._triangulation(points, progress)
             mesh = mesh if isinstance(mesh, SeedSet) else placed_mesh(options.pixel_size, mesh)
@@ -119,7 +120,7 @@ class ShapeProducts:
         from vorotool.engines.tessellation.seeding import seeds_in_frame
 
         o = self.options
-        if o.method == "exact":
+        if o.method == "exact" or not len(points):
             return delaunay(points, strict=o.strict, threads=o.threads, progress=progress)
         seeds = points if isinstance(points, SeedSet) else seeds_in_frame(points, partial(frame_of, o), strict=o.strict)
         frame: Any = {"window": window_of(o, seeds), "strict": o.strict, "threads": o.threads}

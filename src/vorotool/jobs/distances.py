@@ -18,7 +18,7 @@ from vorotool.geometry.arguments.sites import as_sites
 from vorotool.geometry.crs import crs_name, same_crs
 from vorotool.geometry.distances.distances import SMALLEST, Distances
 from vorotool.geometry.progress import Progress
-from vorotool.jobs.inputs import JobInput, naming, opened_input, read_opened
+from vorotool.jobs.inputs import JobInput, naming, opened_input, read_opened, report_no_geometry
 from vorotool.jobs.options import DistanceOptions
 from vorotool.jobs.picture_style import styled_page
 from vorotool.jobs.picture_world import world_of_polygons
@@ -74,7 +74,7 @@ class DistanceProducts:
             value = read_opened(self.run, self.options, given, source, columns=self.options.columns, properties=False)
         polygons = as_sites(value).polygons
         if not len(polygons):
-            raise InputError("it has no places, and nothing is far from it: give a file with points, lines or polygons")
+            report_no_geometry(self.run, self.options, given.name)
         return polygons
 
     def _in_one_system(
@@ -99,6 +99,8 @@ class DistanceProducts:
         o = self.options
         far, near = {"distances", "hausdorff"} & set(o.what), {"distances", "smallest"} & set(o.what)
         found = Distances(None, None, None, (a, b), o.boundary)
+        if not len(a) or not len(b):
+            return found
         if far:
             with self.run.phase("hausdorff") as progress:
                 found = hausdorff(a, b, boundary=o.boundary, threads=o.threads, progress=progress)
@@ -161,4 +163,6 @@ def _both(a: PolygonSet, b: PolygonSet) -> PolygonSet:
     from vorotool.geometry.polygons.polygon_set import LINE, PolygonSet
 
     xy = np.concatenate([a.xy, b.xy])
-    return PolygonSet(xy, [0, len(xy)], [LINE], [0], y_up=a.y_up, crs=a.crs, unit=a.unit)  # type: ignore[arg-type]
+    count = int(len(xy) > 0)
+    rings = (np.array([0, len(xy)][: count + 1]), np.full(count, LINE, np.int8), np.zeros(count, np.int32))
+    return PolygonSet(xy, *rings, y_up=a.y_up, crs=a.crs, unit=a.unit)

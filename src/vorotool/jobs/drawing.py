@@ -8,14 +8,16 @@ from functools import partial
 from typing import Any, BinaryIO
 
 from vorotool.errors import InputError, Kind, Message, UsageError
+from vorotool.formats.features.feature_table import Features
 from vorotool.formats.images.band_reader import open_zarr, read_rows
 from vorotool.formats.images.label_images import label_image_of
 from vorotool.formats.io.atomic_output import open_output
 from vorotool.formats.io.npy_arrays import MAGIC
-from vorotool.formats.io.sources import read_source, reading
+from vorotool.formats.io.sources import Source, read_source, reading
 from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.formats.points.tables import is_table
 from vorotool.formats.recognition import image_format, image_source, read_recognised, recognised
+from vorotool.formats.text_recognition import has_no_rows
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.raster import Raster
 from vorotool.geometry.polygons.polygon_set import PolygonSet
@@ -99,10 +101,12 @@ def _read(run: Run, o: DrawingOptions, given: JobInput) -> LabelImage | Lined:
         holds, source = "image", image_source(source, said)
     elif source.data.strip() or image_format(source, said):
         holds, source = recognised(source, said=said)
+    elif has_no_rows(source):
+        holds, source = "polygons", replace(source, format="wkt")
     else:
         raise InputError(f"{source.name} is empty: there is nothing to draw; check what was to write it")
     if holds == "points":
-        if not (_is_empty_collection(source.document) or is_table(source.document)):
+        if not (_is_empty_collection(source) or is_table(source.document)):
             raise InputError(
                 f"{source.name} is not drawn: give a label image, the JSON of a skeleton, of offset curves or of a "
                 "Voronoi map, or polygons and lines (GeoJSON, WKT, JSON, .poly, SVG, DXF); other results are drawn by "
@@ -116,9 +120,15 @@ def _read(run: Run, o: DrawingOptions, given: JobInput) -> LabelImage | Lined:
     return label_image_of(value, source.name) if isinstance(value, Raster) else value
 
 
-def _is_empty_collection(document: object) -> bool:
-    """Whether it is GeoJSON that does not tell what it is of, since there is nothing in it."""
-    return isinstance(document, dict) and document.get("features") == []
+def _is_empty_collection(source: Source) -> bool:
+    """Whether it is a list, GeoJSON or a layer that does not tell what it is of, since there is nothing in it."""
+    document = source.document
+    if document is None:  # a list that was not parsed
+        return b"".join(source.data.split()) == b"[]"
+    if isinstance(document, Features):
+        return not document.is_table and all(each is None or each.is_empty for each in document.geometry)
+    features = document.get("features") if isinstance(document, dict) else None
+    return isinstance(features, list) and not any(isinstance(each, dict) and each.get("geometry") for each in features)
 
 
 def _note(run: Run, message: str) -> None:

@@ -6,7 +6,7 @@ from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from vorotool.errors import InputError, UsageError
+from vorotool.errors import InputError, Kind, Message, UsageError
 from vorotool.formats.io.descriptors import input_identity
 from vorotool.jobs.masks import settled_foreground
 from vorotool.jobs.options import (
@@ -106,6 +106,19 @@ def read_opened(
     return value
 
 
+def report_no_geometry(run: Run, o: ComputingOptions, what: str = "the input") -> None:
+    """Warn of an input without geometry, or refuse it where `--strict` is given.
+
+    Raises
+    ------
+    InputError
+        If it is refused.
+    """
+    if o.strict:  # messages of errors begin with the name of the input
+        raise InputError("the input holds no geometry: leave out --strict for an empty result")
+    run.warn(Message(f"{what} holds no geometry: the result is empty", Kind.EMPTY_INPUT))
+
+
 def check_streams(named: Iterable[tuple[str, str]]) -> None:
     """Refuse two names of one stream: whoever reads it first leaves nothing for the other.
 
@@ -157,6 +170,8 @@ def read_sites(run: Run, o: SiteOptions, given: JobInput, *, properties: bool, i
     with opened_input(o, given, "points") as source:
         value = read_opened(run, o, given, source, columns=o.columns, properties=properties)
     if isinstance(value, PointSet):
+        if not len(value):
+            report_no_geometry(run, o)
         return value
     assert isinstance(value, Raster)  # what is asked for is points, or an image
     refuse({"columns": o.columns}, "is for lists of points, but the input is an image")
@@ -204,6 +219,33 @@ def asked_frame(o: SiteOptions) -> Frame | None:
     if o.window is not None:
         return Frame(*o.window)
     return None if o.size is None else Frame(0, 0, *o.size)
+
+
+def report_no_seeds(run: Run, o: TessellationOptions, frame: object) -> None:
+    """Report an input without seeds: the frame is all 0, and has to be given.
+
+    Raises
+    ------
+    InputError
+        If there is no frame, distances to the seeds are wanted, or `--strict` refuses.
+    """
+    if frame is None:
+        raise InputError("there are no seeds, and no frame: give at least one point, or --size or --window")
+    if {"distance", "distance2"} & set(o.what):
+        raise InputError("there are no seeds, so that there are no distances to them: give at least one point")
+    report_no_geometry(run, o)
+
+
+def no_seeds(run: Run, o: TessellationOptions) -> SeedSet:
+    """Return the seeds of an input without any, with the frame that is asked for."""
+    import numpy as np
+
+    from vorotool.geometry.points.seed_set import SeedSet
+
+    frame = asked_frame(o)
+    report_no_seeds(run, o, frame)
+    nothing = np.empty(0, np.int64)
+    return SeedSet(nothing, nothing, nothing.astype(np.uint32), frame=frame)
 
 
 def window_of(o: SiteOptions, seeds: SeedSet) -> tuple[int, int, int, int] | None:

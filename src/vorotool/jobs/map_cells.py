@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from vorotool.errors import InputError, Kind, Message, VorotoolWarning, warn
+from vorotool.jobs.inputs import no_seeds
 from vorotool.jobs.options import TessellationOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.units import AUTO
@@ -42,18 +43,24 @@ def seeds_on_map(run: Run, o: TessellationOptions, value: PointSet | PolygonSet)
     Raises
     ------
     InputError
-        If there is nothing on the map, or no feature has a cell.
+        If there is nothing on the map and no window, or no feature has a cell.
     """
+    import numpy as np
+
     from vorotool.engines.tessellation.seeding import seeds_in_frame
     from vorotool.geometry.box import bounds
     from vorotool.geometry.map_frame import in_cells, map_frame
     from vorotool.geometry.points.point_set import PointSet
 
-    if not len(value.xy):
-        raise InputError("there are no seeds, so nothing could be labelled: give at least one point")
+    is_empty = not len(value.xy)
+    if is_empty and o.window is None:
+        return o, no_seeds(run, o)
     assert o.cell_size is not None
-    frame, grid = map_frame(*bounds(value.xy), o.cell_size, window=o.window, crs=value.crs)
+    low, high = (np.zeros(2), np.zeros(2)) if is_empty else bounds(value.xy)
+    frame, grid = map_frame(low, high, o.cell_size, window=o.window, crs=value.crs)
     o = replace(o, window=(frame.x, frame.y, frame.width, frame.height), size=None, pixel_size=o.pixel_size or AUTO)
+    if is_empty:
+        return o, replace(no_seeds(run, o), grid=grid)
     placed = replace(value, xy=in_cells(value.xy, grid))
     if isinstance(placed, PointSet):
         seeds = seeds_in_frame(placed, frame, strict=o.strict)

@@ -388,7 +388,6 @@ class DistanceOptions(ComputingOptions):
     invert: bool = False
     min_area: int | None = None
     fill_holes: bool = False
-    strict: bool = False
     pixel_size: PixelSize | None = None
     table: str | None = None
     no_properties: bool = True

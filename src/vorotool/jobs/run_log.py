@@ -101,11 +101,11 @@ class Run:
     def warn(self, message: str) -> None:
         """Say what was repaired, snapped or guessed: on standard error and in the statistics, each once.
 
-        That results are empty is left out where the image has been told to be.
+        An empty result is not reported after an empty input.
         """
         said = Message.of(message).typed
         is_empty = said.kind is Kind.EMPTY_RESULT
-        if said in self.warnings or (is_empty and any(each.kind is Kind.NO_FOREGROUND for each in self.warnings)):
+        if said in self.warnings or (is_empty and any(each.kind is Kind.EMPTY_INPUT for each in self.warnings)):
             return
         self.warnings.append(said)
         if not self._quiet:

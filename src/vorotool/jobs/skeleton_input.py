@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
 
-from vorotool.jobs.inputs import JobInput, opened_input, read_opened, refuse
+from vorotool.jobs.inputs import JobInput, opened_input, read_opened, refuse, report_no_geometry
 from vorotool.jobs.masks import settled_foreground
 from vorotool.jobs.options import ExactSkeletonOptions, ShapeOptions
 from vorotool.jobs.pixel_sizes import placed_polygons, with_pixel_size
@@ -56,6 +56,8 @@ def read_polygons(run: Run, o: Options, given: JobInput) -> ReadPolygons[Options
         return outlined(run, o, given, value)
     assert isinstance(value, PolygonSet)  # what is asked for is polygons, or an image
     refuse(o.for_images(), "is for images, but the input is polygons or lines")
+    if not len(value):
+        report_no_geometry(run, o)
     return ReadPolygons(
         value if o.simplify is None else _simplified(run, o, value, o.simplify), is_mask=False, options=o
     )

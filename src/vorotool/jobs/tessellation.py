@@ -38,7 +38,16 @@ from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.table import Table
 from vorotool.jobs import animations
-from vorotool.jobs.inputs import JobInput, asked_frame, frame_of, opened_input, read_opened, refuse, seeds_of_image
+from vorotool.jobs.inputs import (
+    JobInput,
+    asked_frame,
+    frame_of,
+    no_seeds,
+    opened_input,
+    read_opened,
+    refuse,
+    seeds_of_image,
+)
 from vorotool.jobs.map_cells import seeds_on_map
 from vorotool.jobs.options import TessellationOptions
 from vorotool.jobs.picture_world import check_column, world_of
@@ -101,6 +110,8 @@ def products(run: Run, o: TessellationOptions, given: JobInput) -> Products | St
 
 
 def _seeds_of(run: Run, o: TessellationOptions, value: PointSet | PolygonSet | Raster) -> ReadSeeds:
+    if isinstance(value, PointSet) and not len(value):
+        return ReadSeeds(no_seeds(run, o), value.y_up)
     if isinstance(value, PointSet):
         frame = asked_frame(o) or partial(frame_of, o)
         seeds = seeds_in_frame(value, frame, sides=sides_of(o), strict=o.strict)

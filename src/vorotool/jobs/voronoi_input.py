@@ -12,7 +12,7 @@ from vorotool.formats.io.sources import reading
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.polygons.ring_arrays import RingArrays
 from vorotool.jobs.cuts import check_image_crs, in_one_crs, polygons_among, read_cut
-from vorotool.jobs.inputs import JobInput, opened_input, read_opened, refuse
+from vorotool.jobs.inputs import JobInput, opened_input, read_opened, refuse, report_no_geometry
 from vorotool.jobs.options import VoronoiOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.skeleton_input import outlined
@@ -54,7 +54,10 @@ def read_sites(run: Run, o: VoronoiOptions, given: JobInput) -> ReadSites:
         refuse(
             {**o.for_images(), "simplify": o.simplify}, "is for images, but the input holds points, lines or polygons"
         )
-        return ReadSites(as_sites(value), is_image=False, options=o)
+        sites = as_sites(value)
+        if not len(sites.polygons):
+            report_no_geometry(run, o)
+        return ReadSites(sites, is_image=False, options=o)
     refuse({"columns": o.columns}, "is for lists of points, but the input is an image")
     polygons, _, o, frame, _ = outlined(run, o, given, value)
     return ReadSites(as_sites(polygons), is_image=True, options=o, frame=frame)

@@ -237,7 +237,6 @@ def test_usage(run, arguments, words):
 @pytest.mark.parametrize(
     ("text", "arguments", "words"),
     [
-        ("x,y\n", ["-r", 1], "few.csv: there are 0 points: an alpha shape needs at least two distinct points"),
         ("x,y\n1,2\n", ["-r", 1], "few.csv: there is 1 point: an alpha shape needs at least two distinct points"),
         ("x,y\n1,2\n1,2\n", ["-r", 1], "few.csv: there are 2 points, all at one place"),
         ("x,y\n1,2\n3,4\n", [], "few.csv: two points span no triangle, so no r gives a region that holds them"),

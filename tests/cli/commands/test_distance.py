@@ -99,14 +99,11 @@ def test_points_and_images(run, folder):
         (["a.wkt", "."], 2, "B . stands for several files, but two are compared"),
         (["*.wkt", "b.wkt"], 2, "A *.wkt stands for several files"),
         (["a.wkt", "none.wkt"], 3, "none.wkt"),
-        (["empty.wkt", "b.wkt"], 3, "empty.wkt"),
-        (["a.wkt", "empty.wkt"], 3, "empty.wkt"),
         (["a.wkt", "b.wkt", "--layers", "first"], 2, "--layers is for pictures"),
         (["a.wkt", "b.wkt", "-o", "b.wkt"], 2, "b.wkt"),
     ],
 )
-def test_what_goes_wrong(run, two, folder, names, code, message):
-    (folder / "empty.wkt").write_text("POLYGON EMPTY\n")
+def test_what_goes_wrong(run, two, names, code, message):
     done = run("distance", *names)
     assert done.code == code, done.err
     assert message in done.err

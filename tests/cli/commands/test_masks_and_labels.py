@@ -119,13 +119,6 @@ def test_what_follows_from_an_image_without_foreground_is_empty(run, fields, arg
     assert "the image has no foreground" in done.err
 
 
-def test_an_empty_list_of_points_is_refused_as_before(run, folder):
-    (folder / "none.csv").write_text("x,y\n")
-    done = run("tessellate", "none.csv", "--size", "4x4", "-f", "text")
-    assert done.code == 3
-    assert "there are no seeds" in done.err
-
-
 @pytest.mark.parametrize(
     "arguments",
     [

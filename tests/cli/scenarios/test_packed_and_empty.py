@@ -4,7 +4,10 @@ import gzip
 import io
 import sys
 
+import geopandas
+import numpy as np
 import pytest
+import rasterio
 
 from vorotool.formats.io import sources
 
@@ -83,12 +86,117 @@ def test_damaged_packing_names_the_file(run, tmp_path, data):
     assert "a.csv.gz" in done.err
 
 
-def test_a_file_with_nothing_in_it_is_a_warning(run, tmp_path):
+EMPTY_FILES = {
+    "e.csv": b"",
+    "e.wkt": b"\n",
+    "e": b" \r\n",
+    "h.csv": b"x,y\n",
+    "e.json": b"[]",
+    "e.geojson": b'{"type":"FeatureCollection","features":[]}',
+    "null.geojson": b'{"type":"FeatureCollection","features":[{"type":"Feature","properties":{},"geometry":null}]}',
+}
+EMPTY_RESULTS = {
+    "tessellate --size 4x2 -f text": "0 0 0 0\n0 0 0 0\n",
+    "tessellate --window -1,-1,3,1 -f text --method propagation": "0 0 0\n",
+    "tessellate --cell-size 5 --window 0,0,15,5 -f text --max-distance 2": "0 0 0\n",
+    "tessellate --size 4x2 --what neighbours": "label_a,label_b,border_length,centroid_distance\n",
+    "delaunay -f geojson": '{"type":"FeatureCollection","features":[]}\n',
+    "delaunay --method digital": None,
+    "alphashape -f geojson --verify": '{"type":"FeatureCollection","features":[]}\n',
+    "alphashape --method digital -r 3": None,
+    "alphashape -r 3 --what general -f wkt": "",
+    "voronoi -f wkt": None,
+    "skeleton-exact --what shape -f wkt": "",
+    "skeleton-exact --side exterior --what branches": None,
+    "skeleton-approx --step 1 -f wkt": "",
+    "distance -f geojson other.wkt": None,
+    "distance --what smallest -f wkt other.wkt": "",
+}
+OF_POLYGONS = ("skeleton-exact", "skeleton-approx")
+
+
+@pytest.mark.parametrize("command", EMPTY_RESULTS)
+@pytest.mark.parametrize("name", EMPTY_FILES)
+def test_a_file_with_nothing_in_it_is_a_warning(run, tmp_path, command, name):
+    if name == "h.csv" and command.startswith(OF_POLYGONS):
+        return  # a header of coordinates announces points
+    (tmp_path / name).write_bytes(EMPTY_FILES[name])
+    (tmp_path / "other.wkt").write_bytes(LINES)
+    what = name if command.startswith("distance") else "the input"
+    before, *options = command.split()
+    done = run(before, name, *options)
+    lines = [line for line in done.err.splitlines() if not line.startswith("note: null.geojson: 1 features without")]
+    assert (done.code, lines) == (0, [f"warning: {what} holds no geometry: the result is empty"])
+    if EMPTY_RESULTS[command] is not None and "null" not in name:
+        assert done.out.replace('"crs":null,', "") == EMPTY_RESULTS[command]
+    done = run(before, name, *options, "--strict")
+    assert (done.code, done.out) == (3, "")
+    assert f"error: {name}: the input holds no geometry: leave out --strict for an empty result" in done.err
+
+
+@pytest.mark.parametrize("name", [name for name in EMPTY_FILES if name != "h.csv"])
+def test_the_picture_of_an_empty_file_is_empty(run, tmp_path, name):
+    (tmp_path / name).write_bytes(EMPTY_FILES[name])
+    done = run("draw", name, "-o", "a.svg")
+    assert (done.code, done.err.count("warning: the picture is empty")) == (0, 1)
+    assert b"<path" not in (tmp_path / "a.svg").read_bytes()
+    done = run("info", name, "--json")
+    assert done.code == 0
+
+
+@pytest.mark.parametrize("command", ["draw -o a.png", "delaunay", "skeleton-exact", "voronoi", "info"])
+def test_an_empty_layer_is_as_an_empty_file(run, tmp_path, command):
+    nothing = geopandas.GeoDataFrame({"n": []}, geometry=geopandas.GeoSeries([], crs=2056))
+    nothing.to_file(tmp_path / "a.gpkg", layer="none")
+    begin, *options = command.split()
+    done = run(begin, "a.gpkg", *options)
+    assert (done.code, done.err.count("warning: ")) == (0, command != "info")
+
+
+def test_a_tessellation_of_nothing_needs_a_frame(run, tmp_path):
     (tmp_path / "e.csv").write_bytes(b"")
-    for command in ("voronoi", "delaunay"):
-        done = run(command, "e.csv")
-        assert done.code == 0
-        assert done.err.startswith("warning: ")
+    for options in (["-o", "a.png"], ["--cell-size", "2", "-o", "a.png"], ["--volume", "-o", "a.npy"]):
+        done = run("tessellate", "e.csv", *options)
+        wanted = "error: e.csv: there are no seeds, and no frame: give at least one point, or --size or --window\n"
+        assert (done.code, done.err) == (3, wanted)
+    assert [path.name for path in tmp_path.iterdir()] == ["e.csv"]
+    done = run("tessellate", "e.csv", "--size", "2x3x4", "--volume", "-o", "a.npy", "--verify")
+    assert (done.code, done.err) == (0, "warning: the input holds no geometry: the result is empty\n")
+    labels = np.load(tmp_path / "a.npy")
+    assert (labels.shape, labels.any()) == ((4, 3, 2), False)
+    done = run("tessellate", "e.csv", "--size", "4x3", "--what", "distance", "-o", "d.npy")
+    assert (done.code, "error: e.csv: there are no seeds, so that there are no distances to them" in done.err) == (
+        3,
+        True,
+    )
+
+
+def test_a_map_of_nothing_lies_where_its_window_is(run, tmp_path):
+    (tmp_path / "e.csv").write_bytes(b"")
+    run(
+        "tessellate",
+        "e.csv",
+        "--cell-size",
+        "5",
+        "--window",
+        "100,200,15,10",
+        "--input-crs",
+        "EPSG:2056",
+        "-o",
+        "a.tif",
+    )
+    with rasterio.open(tmp_path / "a.tif") as file:
+        assert (file.shape, tuple(file.bounds), file.read().any()) == ((2, 3), (100, 200, 115, 210), False)
+
+
+def test_a_batch_goes_on_behind_an_empty_file(run, tmp_path):
+    (tmp_path / "e.csv").write_bytes(b"")
+    (tmp_path / "a.csv").write_bytes(POINTS)
+    done = run("alphashape", "e.csv", "a.csv", "--out-dir", "out", "-f", "wkt")
+    assert done.code == 0
+    assert "warning: e.csv: the input holds no geometry: the result is empty" in done.err.splitlines()
+    assert ((tmp_path / "out/e.wkt").read_bytes(), (tmp_path / "out/a.wkt").exists()) == (b"", True)
+    assert run("alphashape", "e.csv", "a.csv", "--out-dir", "o", "--strict", "--keep-going").code == 6
 
 
 @pytest.mark.parametrize("name", ["e.qgz", "e.qgs", "e.roi"])

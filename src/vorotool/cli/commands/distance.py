@@ -36,8 +36,8 @@ FORMATS = formats_of("distance")
 @shared("width", "y-up")
 @picture_style_options()
 @shared(
-    *("threads", "stats", "verify", "decimals", "precision", "max-pixels", "max-sites", "no-clobber", "overwrite"),
-    *("quiet", "verbose"),
+    *("threads", "stats", "verify", "strict", "decimals", "precision", "max-pixels", "max-sites", "no-clobber"),
+    *("overwrite", "quiet", "verbose"),
 )
 def command(a: str, b: str, **options: Any) -> None:
     """Measure how far two shapes are apart: the Hausdorff distance, both ways, and the smallest distance.

@@ -284,7 +284,7 @@ def report_no_foreground(*, strict: bool, what: str = "image") -> None:
     """
     if strict:
         raise InputError(f"the {what} has no foreground: use {_INVERT} or {_SOME_THRESHOLD}, or leave out {STRICT}")
-    message = Message(f"the {what} has no foreground: use {_INVERT} or {_SOME_THRESHOLD}", Kind.NO_FOREGROUND)
+    message = Message(f"the {what} has no foreground: use {_INVERT} or {_SOME_THRESHOLD}", Kind.EMPTY_INPUT)
     warn(VorotoolWarning(message))
 
 

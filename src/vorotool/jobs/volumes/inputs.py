@@ -22,7 +22,7 @@ from vorotool.geometry.spacing import PixelSides, pixel_sides
 from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
 from vorotool.geometry.volumes.voxel_frame import VoxelFrame
 from vorotool.geometry.volumes.voxel_grid import VoxelGrid
-from vorotool.jobs.inputs import JobInput, refuse
+from vorotool.jobs.inputs import JobInput, refuse, report_no_seeds
 from vorotool.jobs.options import TessellationOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.units import PixelSize, lengths_in_pixels, sides_of, unit_stats
@@ -116,8 +116,11 @@ def _read_points(run: Run, o: TessellationOptions, given: JobInput) -> tuple[Tes
             note=run.note,
         )
         seeds = seeds_from_xyz(points, strict=o.strict, check=lambda seeds: _frame_of(o, seeds))
-    sides = sides_of(o, 3)
-    return o, ReadVolume(seeds, _frame_of(o, seeds), sides, _written_grid(o.pixel_size, sides, None))
+    sides, frame = sides_of(o, 3), _frame_of(o, seeds)
+    if not len(seeds):
+        report_no_seeds(run, o, frame)
+        seeds = replace(seeds, frame=frame)
+    return o, ReadVolume(seeds, frame, sides, _written_grid(o.pixel_size, sides, None))
 
 
 _OF_VOLUMES = frozenset({"seeds", "connectivity", "threshold", "invert"})
