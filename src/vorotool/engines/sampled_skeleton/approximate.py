@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.engines.arrangement.lattice_rings import PlacedShapes, placed_shapes
 from vorotool.engines.arrangement.planar_graph import graph_for_skeletons
+from vorotool.engines.skeleton.contraction import without_equal_nodes
 from vorotool.engines.skeleton.exact import (
     Frame,
     check_skeleton_options,
@@ -323,4 +324,4 @@ def whole_sampled_diagram(shapes: SampledShapes, *, frame: Frame | None = None, 
     made["group"][:] = len(placed.polygons)
     whole = skeleton_of_arrays(made, graph, placed, clip)
     whole.side[:] = -1
-    return whole
+    return without_equal_nodes(whole)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 import warnings
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -29,6 +29,7 @@ from vorotool.engines.sampled_skeleton.approximate import (
 )
 from vorotool.engines.sampled_skeleton.refinement import refined_skeleton, refuse_unproved, skeleton_within
 from vorotool.engines.skeleton.both_sides import joined_sides
+from vorotool.engines.skeleton.contraction import contraction
 from vorotool.engines.skeleton.exact import Frame, warn_empty
 from vorotool.engines.skeleton.per_feature import joined_with_places
 from vorotool.errors import LimitError, VorotoolWarning
@@ -55,7 +56,7 @@ class FeatureApproximation:
     parts : list of ApproximateSkeleton
         Of batches of features, then of what is outside.
     arcs : list of int64 arrays
-        The number in `skeleton` of each arc of each part.
+        The number in `skeleton` of each arc of each part; where rounding leaves no length of it, of one at its node.
     inside : FeatureShapes, optional
         What features are; None of what is outside alone.
     """
@@ -143,10 +144,26 @@ def approximation(
     wanted: dict[str, Any] = {"complete": complete, "most": most, **common}
     if features == "together":
         graph = graph_for_skeletons(polygons, strict=strict, **common)
-        return of_one_part(_of_graph(graph, options, side=side, frame=frame, **wanted))
-    if side == "interior":
-        return feature_approximation(polygons, options, strict=strict, **wanted)
-    return approximation_of_sides(polygons, options, side=side, frame=frame, strict=strict, **wanted)
+        found = of_one_part(_of_graph(graph, options, side=side, frame=frame, **wanted))
+    elif side == "interior":
+        found = feature_approximation(polygons, options, strict=strict, **wanted)
+    else:
+        found = approximation_of_sides(polygons, options, side=side, frame=frame, strict=strict, **wanted)
+    return _contracted(found)
+
+
+def _contracted(found: FeatureApproximation) -> FeatureApproximation:
+    """Contract arcs whose two nodes have the same coordinates; the parts stay as they were made."""
+    less = contraction(found.skeleton)
+    if less is None:
+        return found
+    seeds = found.seeds[less.original]
+    return replace(
+        found,
+        skeleton=less.skeleton,
+        seeds=np.where(less.is_reversed[:, None], seeds[:, ::-1], seeds),
+        arcs=[less.number[arcs] for arcs in found.arcs],
+    )
 
 
 def feature_approximation(

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
 
 from vorotool.engines.arrangement.planar_graph import graph_for_skeletons
 from vorotool.engines.features.batches import together
 from vorotool.engines.skeleton.both_sides import sides_of
+from vorotool.engines.skeleton.contraction import without_equal_nodes
 from vorotool.engines.skeleton.exact import Frame, ShapeDiagram, diagram_of_graph, skeleton_of, whole_diagram
 from vorotool.engines.skeleton.feature_elements import feature_elements, sides_of_elements
 from vorotool.engines.skeleton.per_feature import FeatureSkeleton, Seen, feature_skeleton
@@ -56,11 +59,12 @@ def skeleton_inside(
     >>> len(skeleton_inside(square).skeleton), len(skeleton_inside(square, 1.0).skeleton)
     (4, 12)
     """
-    if not gap:
-        return feature_skeleton(polygons, look=look, border=border, strict=strict, threads=threads, progress=progress)
-    return feature_elements(
-        polygons, gap, complete=complete, look=look, strict=strict, threads=threads, progress=progress
-    )
+    common: dict[str, Any] = {"look": look, "strict": strict, "threads": threads, "progress": progress}
+    if gap:
+        found = feature_elements(polygons, gap, complete=complete, **common)
+    else:
+        found = feature_skeleton(polygons, border=border, **common)
+    return replace(found, skeleton=without_equal_nodes(found.skeleton))
 
 
 def diagram_of_all(
@@ -98,13 +102,15 @@ def skeleton_in(
     is_one = features == "together"
     if isinstance(diagram, ShapeDiagram):
         of_shapes = skeleton_of if is_one else sides_of
-        return of_shapes(diagram, side=side, frame=frame, threads=threads, progress=progress)
-    of_elements = skeleton_of_elements if is_one else sides_of_elements
-    return of_elements(diagram, side=side, complete=complete, frame=frame, threads=threads, progress=progress)
+        made = of_shapes(diagram, side=side, frame=frame, threads=threads, progress=progress)
+    else:
+        of_elements = skeleton_of_elements if is_one else sides_of_elements
+        made = of_elements(diagram, side=side, complete=complete, frame=frame, threads=threads, progress=progress)
+    return without_equal_nodes(made)
 
 
 def all_edges(diagram: AnyDiagram, *, frame: Frame | None = None, threads: int = 0) -> Skeleton:
     """Give all edges of a diagram as arcs, cut by a frame: what it is before anything is deleted."""
     if isinstance(diagram, ShapeDiagram):
-        return whole_diagram(diagram, frame=frame, threads=threads)
-    return whole_element_diagram(diagram, frame=frame, threads=threads)
+        return without_equal_nodes(whole_diagram(diagram, frame=frame, threads=threads))
+    return without_equal_nodes(whole_element_diagram(diagram, frame=frame, threads=threads))

@@ -11,7 +11,7 @@ from vorotool.engines.skeleton.site_distances import Floats, SitePlaces
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.skeleton.skeleton import EXTERIOR, INTERIOR, Skeleton
 from vorotool.geometry.skeleton.tables import connected_roots
-from vorotool.geometry.sorted_sets import distinct
+from vorotool.geometry.sorted_sets import distinct, is_among
 
 Indices = NDArray[np.int64]
 
@@ -148,7 +148,8 @@ def _uncut_faces(skeleton: Skeleton, graph: PlanarGraph) -> NDArray[np.bool_]:
 def _check_ends(regions: SkeletonRegions, wanted: NDArray[np.bool_]) -> None:
     """One arc ends in each corner under 180 degrees, and nowhere else but on the frame."""
     skeleton, sectors = regions.skeleton, regions.sectors
-    at = first_wrong((skeleton.degree == 1) & (skeleton.radius > 0) & ~skeleton.on_frame)
+    corner = _corners_of_nodes(regions)
+    at = first_wrong((skeleton.degree == 1) & (skeleton.radius > 0) & ~skeleton.on_frame & (corner < 0))
     if at is not None:
         fail(f"the skeleton ends at node {at}, {tuple(skeleton.vertices[at].tolist())}, which is no corner")
     times = np.bincount(regions.corner_sector, minlength=len(sectors.face))
@@ -158,10 +159,17 @@ def _check_ends(regions: SkeletonRegions, wanted: NDArray[np.bool_]) -> None:
         places = regions.graph.coordinates()[sectors.point]
         in_frame = ((places > [x, y]) & (places < [x + w, y + h])).all(axis=1)
         expected &= in_frame | regions.graph.is_inside[sectors.face]
+    expected &= ~is_among(sectors.point, corner[corner >= 0])
     at = first_wrong(expected & (times != 1) | (times > 1))
     if at is not None:
         place = tuple(regions.graph.coordinates()[sectors.point[at]].tolist())
         fail(f"{times[at]} arcs end in the corner at {place}, which should be one")
+
+
+def _corners_of_nodes(regions: SkeletonRegions) -> Indices:
+    """(v,) the point that each node inside is at, or -1: doubles may not tell it from a corner that an arc led to."""
+    found = _Rows(regions.graph.coordinates()).find(regions.skeleton.vertices)
+    return np.where(regions.skeleton.radius > 0, found, -1)
 
 
 def _check_sides(regions: SkeletonRegions, inside: NDArray[np.bool_]) -> None:

@@ -87,7 +87,7 @@ class Skeleton(Value, Tabular, Branched, Pictured):
     radius : (v,) float64 array
         Their radii: 0 at corners.
     arcs : (a, 2) int32 array
-        Source and target of each arc.
+        Source and target of each arc: two different places, unless a connected part is one place as a whole.
     control : (a, 2) float64 array
         Where the tangents at the ends of a parabola meet: the control point of the quadratic Bezier curve that it is.
         NaN on straight lines.
