@@ -64,6 +64,24 @@ def frame_sides(frame):
     return x, y, x + w, y + h
 
 
+@pytest.mark.parametrize(("least", "most"), [(0.1, 0.5), (0.1, 0.4), (0.2, 0.5), (-0.1, 0.5)])
+@pytest.mark.parametrize("lean", [0, 0.3, -0.3, 3.7])
+def test_walls_meet_the_frame_at_vertices_that_are_on_it(least, most, lean):
+    wall = [(0.7, 0.1), (0.7 + lean, 0.5)]
+    left, right = [(-5.1, 0.1), *wall, (-5.1, 0.5)], [wall[0], (9.3, 0.1), (9.3, 0.5), wall[1]]
+    cells = voronoi([shapely.Polygon(left), shapely.Polygon(right)], frame=(0.1, least, 7.3, most - least))
+    verify_voronoi(cells)
+    places = set(map(tuple, cells.vertices.tolist()))
+    side = cells.frame[1], cells.frame[1] + cells.frame[3]
+    on_frame = {place for place in wall if place[1] in side}
+    assert on_frame
+    assert on_frame <= places
+    shapes = list(cells.to_shapely())
+    assert shapely.is_valid(shapes).all()
+    assert shapely.coverage_is_valid(shapes)
+    assert all(shapely.get_num_coordinates(each) <= 6 for each in shapes)
+
+
 def test_sides_of_a_frame_stay_straight():
     x, y, w, h = frame = (0.1, 0.1, 60.7, 60.3)
     sites = [shapely.box(0.1 + 1e-6, 5.3, 7.7, 8.1), shapely.LineString([(20.3, 0.1 - 1e-6), (30.1, 9)]), FAR]

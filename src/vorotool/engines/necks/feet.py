@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.necks.axis import Ways
+from vorotool.geometry.skeleton.given_feet import projected
 from vorotool.geometry.skeleton.skeleton import EDGE, Skeleton
 
 Floats = NDArray[np.float64]
@@ -78,24 +79,6 @@ def _sites(skeleton: Skeleton, ways: Ways) -> Indices:
     sites = np.where(turned[:, :, None], sites[:, :, ::-1], sites)
     first, second = sites[:, 0], sites[:, 1]
     return np.where(is_edge[first] & ~is_edge[second], second, first)
-
-
-def projected(edge: Floats, place: Floats) -> Floats:
-    """Give the nearest place on each edge, which is an end of it exactly where nothing nearer is inside.
-
-    Examples
-    --------
-    >>> projected(np.array([[[0.0, 0.0], [4.0, 0.0]]] * 2), np.array([[1.0, 2.0], [9.0, 2.0]])).tolist()
-    [[1.0, 0.0], [4.0, 0.0]]
-    """
-    a, b = edge[:, 0], edge[:, 1]
-    way, from_a = b - a, place - a
-    square = np.square(way).sum(axis=1)
-    off = (way[:, 0] * from_a[:, 1] - way[:, 1] * from_a[:, 0]) / square
-    near = place - off[:, None] * np.stack([-way[:, 1], way[:, 0]], axis=1)
-    near = np.where(way == 0, a, near)
-    t = ((from_a * way).sum(axis=1) / square)[:, None]
-    return np.asarray(np.where(t <= 0, a, np.where(t >= 1, b, near)))
 
 
 def _at_ends(foot: Floats, edge: Floats, tolerance: float) -> Floats:

@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 from vorotool.engines.necks.axis import Ways, clearance_flow, ways_from_necks
 from vorotool.engines.necks.feet import Feet, by_width, feet_of
-from vorotool.engines.necks.given_feet import moved_feet
 from vorotool.engines.skeleton_api import skeleton_exact
 from vorotool.errors import UsageError
 from vorotool.geometry.progress import Progress
+from vorotool.geometry.skeleton.given_feet import moved_feet
 from vorotool.geometry.skeleton.necks import Necks
 from vorotool.geometry.skeleton.skeleton import INTERIOR, Skeleton
 
@@ -134,7 +134,7 @@ def found_necks(skeleton: Skeleton, *, threads: int = 0, progress: Progress = No
     np.maximum.at(clearance, flow.plateau, skeleton.radius)
     beside = largest_beside(ways.top, feet.square, clearance)
     # the foot with less x first
-    given = moved_feet(skeleton, skeleton.polygon[ways.arc[:, 0]], feet.site, feet.xy)
+    given = moved_feet(skeleton, feet.site, feet.xy)
     (a, b), rows = given.swapaxes(0, 1), np.arange(len(ways))
     first = ((b[:, 0] < a[:, 0]) | ((b[:, 0] == a[:, 0]) & (b[:, 1] < a[:, 1]))).astype(np.int64)
     both = np.stack([first, 1 - first], axis=1)

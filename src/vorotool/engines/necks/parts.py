@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from vorotool.engines.from_skeleton.simple_rings import cut_at_repetitions, repeats, twice_areas
 from vorotool.engines.necks.cut_axis import CutAxis, Outlines, cut_axis, outlines_of
 from vorotool.engines.necks.feet import Feet
-from vorotool.engines.necks.given_feet import moved_feet
 from vorotool.engines.necks.necks import FoundNecks, found_necks, whole_skeleton
 from vorotool.errors import UsageError, option
 from vorotool.geometry.numbers import finite_double, shown_number
@@ -21,6 +20,7 @@ from vorotool.geometry.polygons.ring_arrays import RingArrays
 from vorotool.geometry.polygons.vertices_as_given import places_as_given
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.ragged import ranges
+from vorotool.geometry.skeleton.given_feet import moved_feet
 from vorotool.geometry.skeleton.necks import Necks
 from vorotool.geometry.skeleton.parts import Parts
 from vorotool.geometry.skeleton.skeleton import Skeleton
@@ -110,7 +110,7 @@ def cut_parts(found: FoundNecks, neck: float) -> Parts:
 def _as_given(outlines: Outlines, feet: Feet, necks: Necks) -> Outlines:
     """Outlines with corners where vertices were given, and feet on edges as these were."""
     skeleton, polygon = necks.skeleton, np.repeat(outlines.polygon, np.diff(outlines.start))
-    given = moved_feet(skeleton, necks.polygon, feet.site, feet.xy)
+    given = moved_feet(skeleton, feet.site, feet.xy)
     others = np.repeat(necks.polygon, 2), feet.xy.reshape(-1, 2), given.reshape(-1, 2)
     together = skeleton.features == "together"
     xy = places_as_given(outlines.xy, polygon, skeleton.polygons, together=together, others=others)

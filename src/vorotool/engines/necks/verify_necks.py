@@ -12,7 +12,6 @@ from vorotool import _core
 from vorotool.engines.arrangement.planar_graph import planar_graph
 from vorotool.engines.common.faults import fail, first_wrong
 from vorotool.engines.features.batches import BatchShapes, in_batches
-from vorotool.engines.necks.given_feet import moved_feet
 from vorotool.engines.skeleton.site_distances import SitePlaces
 from vorotool.errors import VorotoolWarning
 from vorotool.geometry.arguments.values import check_value
@@ -22,6 +21,7 @@ from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.polygons.vertices_as_given import places_as_given
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.ragged import owners
+from vorotool.geometry.skeleton.given_feet import moved_feet
 from vorotool.geometry.skeleton.necks import Necks
 from vorotool.geometry.skeleton.parts import Parts
 from vorotool.geometry.skeleton.skeleton import Skeleton
@@ -132,7 +132,7 @@ def verify_parts(parts: Parts, *, threads: int = 0, progress: Progress = None) -
 # ---- where they were computed --------------------------------------------------------------------
 def _placed(necks: Necks) -> Necks:
     """Necks whose feet are where their skeleton has the vertices and edges that these are on."""
-    return replace(necks, feet=moved_feet(necks.skeleton, necks.polygon, necks.sites, necks.feet, back=True))
+    return replace(necks, feet=moved_feet(necks.skeleton, necks.sites, necks.feet, back=True))
 
 
 def _placed_parts(parts: Parts) -> Parts:

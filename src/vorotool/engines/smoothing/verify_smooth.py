@@ -13,7 +13,7 @@ from vorotool.geometry.curves.flatten import chained
 from vorotool.geometry.ragged import owners
 from vorotool.geometry.skeleton.led_on import LedOn
 from vorotool.geometry.skeleton.skeleton import Skeleton
-from vorotool.geometry.skeleton.smooth_lines import SmoothLines
+from vorotool.geometry.skeleton.smooth_lines import SmoothLines, ends_of_lines
 
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.integer]
@@ -60,7 +60,7 @@ def verify_smooth(smoothed: SmoothLines) -> None:
     if not len(first):
         return
     size = float(np.ptp(path.polygons.xy, axis=0).max(initial=0.0)) or 1.0
-    _check_ends(smoothed, lines, path, first)
+    _check_ends(smoothed)
     _check_tangents(smoothed, size)
     error = smoothed.error + ROUNDING * size
     fineness = float(error.max()) / FINENESS
@@ -79,12 +79,8 @@ def _flattened(path: Skeleton, lines: Skeleton | LedOn, fineness: float) -> tupl
     return chained(*path.flattened(fineness), first)
 
 
-def _check_ends(smoothed: SmoothLines, lines: Skeleton | LedOn, path: Skeleton, first: Numbers) -> None:
-    last = np.append(first[1:], len(path)) - 1
-    nodes = np.stack([path.arcs[first, 0], path.arcs[last, 1]], axis=1)
-    wanted = path.vertices[nodes]
-    if isinstance(lines, LedOn):
-        wanted = np.where(np.isnan(lines.ends), wanted, lines.ends)
+def _check_ends(smoothed: SmoothLines) -> None:
+    wanted = ends_of_lines(smoothed.lines)
     found = np.stack([smoothed.control[smoothed.start[:-1], 0], smoothed.control[smoothed.start[1:] - 1, 3]], axis=1)
     wrong = np.flatnonzero((wanted != found).any(axis=(1, 2)))
     if len(wrong):

@@ -150,19 +150,21 @@ def cut_borders(borders: Borders, graph: PlanarGraph, frame: tuple[float, float,
     places = graph.coordinates(borders.places).reshape(-1, 2)
     if np.isfinite(borders.level):
         box.attract(places, borders.radius == borders.level)
+    at = np.flatnonzero(borders.radius == 0)
+    given = graph.places_as_given(borders.places[at])
+    on_side = box.side_of(given) >= 0  # the lattice may have them beside it
+    places[at[on_side]] = given[on_side]
     side = box.side_of(places)
     control, center = graph.coordinates(controls_of(borders, graph)), graph.coordinates(borders.center)
     state = _states(borders, places, control, center, borders.level * graph.scale, box)
     kept, crossing = np.flatnonzero(state == _WITHIN), np.flatnonzero(state == _CROSSING)
     cutter = _Cutter(borders, graph, box, side, crossing)
     parts = [part for piece in crossing.tolist() for part in cutter.parts(piece)]
-    return cutter.put_together(places, kept, control, center, parts, _moves(borders, graph, places, box))
+    return cutter.put_together(places, kept, control, center, parts, _moves(at, given, places, box))
 
 
-def _moves(borders: Borders, graph: PlanarGraph, places: Floats, box: FrameBox) -> Moves:
+def _moves(at: Indices, given: Floats, places: Floats, box: FrameBox) -> Moves:
     """Of places at vertices of the input; what is not in the frame both ways stays."""
-    at = np.flatnonzero(borders.radius == 0)
-    given = graph.places_as_given(borders.places[at])
     is_moved = (given != places[at]).any(axis=1) & (box.side_of(places[at]) == -1) & (box.side_of(given) == -1)
     return Moves(at[is_moved], given[is_moved])
 

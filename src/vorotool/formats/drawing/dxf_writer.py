@@ -58,6 +58,8 @@ def write_dxf(out: BinaryIO, value: Any, *, what: str) -> None:
     """
     unit, y_up = _described(value)
     drawing = DxfDrawing(unit=unit, y_up=y_up)
+    if isinstance(value, Skeleton | LedOn | SmoothLines | SkeletonPoints):
+        value = value.as_given
     own: dict[type, Callable[[DxfDrawing, Any, str], None]] = {
         Skeleton: _add_skeleton,
         Centerlines: _add_led_on,

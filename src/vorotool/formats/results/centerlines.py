@@ -56,7 +56,7 @@ def write_centerlines(
     if fmt in TABLES:
         write_table(out, _table(lines), fmt, precision=precision, threads=threads)
         return
-    points, start = lines.flattened(flatten)
+    points, start = lines.as_given.flattened(flatten)
     own = {name: column.tolist() for name, column in _columns(lines).items()}
     wording = (
         wkt_wording(len(lines)) if fmt == "wkt" else geojson_wording(lines.path.polygons, lines.polygon.tolist(), own)

@@ -78,7 +78,7 @@ def write_graphml(
         out.write(f'<key id="e{number}" for="edge" attr.name={named} attr.type="{kind}"/>\n'.encode())
     out.write(b'<graph edgedefault="undirected">\n')
     if len(graph.nodes):
-        x, y = skeleton.vertices[graph.nodes].T.copy()
+        x, y = skeleton.as_given.vertices[graph.nodes].T.copy()
         own = (x, y, skeleton.radius[graph.nodes], skeleton.degree[graph.nodes])
         columns = [Column("", graph.nodes), *(Column("", values) for values in own)]
         first, *others = (f'<data key="n_{name}">' for name in _NODE_KEYS)

@@ -15,6 +15,7 @@ from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.npz_columns import npz_columns, npz_holds
 from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.formats.polygons.json import read_json
+from vorotool.formats.results.placed_polygons import LATTICE_STEP
 from vorotool.formats.results.skeleton_json import TYPE, VERSION
 from vorotool.formats.results.skeleton_json import read_skeleton as read_skeleton_json
 from vorotool.formats.results.voronoi_json import sites_of_map
@@ -84,6 +85,8 @@ def _skeleton(name: str, arrays: Arrays) -> dict[str, Any]:
     arcs = _lists(name, arrays, [f"arc_{each}" for each in (*_ARC, *_MEASURES)])
     sites = _lists(name, arrays, [f"site_{each}" for each in _SITE])
     frame, gap = (_lists(name, arrays, [each], "finite")[0] for each in ("frame", "gap"))
+    step = _lists(name, arrays, [LATTICE_STEP], "finite")[0] if LATTICE_STEP in arrays else []
+    single = {"gap": gap, LATTICE_STEP: step}
     return {
         "type": TYPE,
         "version": VERSION,
@@ -100,7 +103,7 @@ def _skeleton(name: str, arrays: Arrays) -> dict[str, Any]:
         ],
         "vertices": [{"x": x, "y": y, "r": r} for x, y, r in zip(*vertices, strict=True)],
         "arcs": [_arc(*values) for values in zip(*arcs, strict=True)],
-    } | ({"frame": frame} if frame else {}) | ({"gap": gap[0]} if gap else {})  # fmt: skip
+    } | ({"frame": frame} if frame else {}) | {name: each[0] for name, each in single.items() if each}  # fmt: skip
 
 
 def _arc(*values: Any) -> dict[str, Any]:

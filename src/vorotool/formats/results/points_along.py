@@ -50,8 +50,7 @@ def write_skeleton_points(
     >>> out.getvalue().splitlines()[-1]
     b'LINESTRING (3 2, 3 0)'
     """
-    if what == "transects":
-        points = points.transects()
+    points = (points.transects() if what == "transects" else points).as_given
     if fmt == "npy":
         write_array(out, points.xy)
         return

@@ -65,7 +65,7 @@ def write_json(out: BinaryIO, skeleton: Skeleton, *, precision: int | None = Non
     out.write(json_text(head).removesuffix("}").encode() + b",\n")
     write_items(out, polygons)
     write_sites(out, skeleton.site_table, threads=threads)
-    _write_vertices(out, skeleton, precision, threads)
+    _write_vertices(out, skeleton.as_given if step else skeleton, precision, threads)
     _write_arcs(out, skeleton, precision, threads)
     out.write(b"}\n")
 
@@ -130,7 +130,8 @@ def read_skeleton(source: Source, options: ReadOptions) -> Skeleton:
     sites = read_sites(rows, polygons)
     vertices = rows.list_of("vertices")
     x, y, radius = (rows.numbers("vertices", vertices, name) for name in ("x", "y", "r"))
-    return _read_arcs(rows, polygons, sites, np.stack([x, y], axis=1), radius)
+    skeleton = _read_arcs(rows, polygons.as_given, sites, np.stack([x, y], axis=1), radius)
+    return skeleton if polygons.as_given is polygons else skeleton.with_corners(polygons)
 
 
 def _read_arcs(

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from vorotool.formats.polygons.polylines import Wording, geojson_wording, wkt_wording, write_polylines
 from vorotool.formats.results.centerlines import write_centerlines
+from vorotool.formats.results.placed_polygons import LATTICE_STEP, as_written
 from vorotool.formats.results.skeleton_json import write_json
 from vorotool.formats.text.tables import write_arrays, write_table
 from vorotool.geometry.curves.flatten import chained
@@ -70,7 +71,7 @@ def write_skeleton(
         write_arrays(out, skeleton_arrays(skeleton), threads=threads)
     else:
         first_arcs = np.flatnonzero(np.diff(skeleton.branch, prepend=-1))
-        arcs = skeleton.flattened(flatten)
+        arcs = skeleton.as_given.flattened(flatten)
         points, start = chained(*arcs, first_arcs)
         wording = _wording(skeleton, fmt, first_arcs, threads)
         write_polylines(out, points, start[:-1], wording, precision=precision, threads=threads)
@@ -91,11 +92,12 @@ def skeleton_arrays(skeleton: Skeleton) -> dict[str, NDArray[Any]]:
     >>> skeleton_arrays(vorotool.skeleton_exact([[0, 0], [4, 0], [4, 4], [0, 4]]))["arc_target"].tolist()
     [1, 1, 1, 1]
     """
-    table, polygons = skeleton.site_table, skeleton.polygons
+    table, (polygons, step) = skeleton.site_table, as_written(skeleton.polygons)
+    vertices = (skeleton.as_given if step else skeleton).vertices
     frame = () if skeleton.frame is None else skeleton.frame
     return {
-        "vertex_x": skeleton.vertices[:, 0],
-        "vertex_y": skeleton.vertices[:, 1],
+        "vertex_x": vertices[:, 0],
+        "vertex_y": vertices[:, 1],
         "vertex_r": skeleton.radius,
         "arc_source": skeleton.arcs[:, 0],
         "arc_target": skeleton.arcs[:, 1],
@@ -112,6 +114,7 @@ def skeleton_arrays(skeleton: Skeleton) -> dict[str, NDArray[Any]]:
         **{name: getattr(polygons, name) for name in ("ring_start", "ring_kind", "ring_polygon")},
         "frame": np.array(frame, dtype=np.float64),
         "gap": np.array([skeleton.gap]),
+        **({LATTICE_STEP: np.array([step])} if step else {}),
     }
 
 

@@ -290,7 +290,7 @@ def _of_centerlines(paths: LedOn, flatten: float | None = None) -> Features:
     least, most = paths.width_range
     own = {"length": paths.length, "width_mean": paths.width_mean, "width_min": least, "width_max": most}
     columns = {"polygon": paths.polygon, "id": ids_of(polygons, paths.polygon), **own}
-    geometry = lines(*paths.flattened(flatten))
+    geometry = lines(*paths.as_given.flattened(flatten))
     return Features(geometry, _with_polygons(columns, polygons, paths.polygon), polygons, paths.polygon)
 
 
@@ -309,7 +309,7 @@ def _of_smooth(smoothed: SmoothLines, flatten: float | None = None) -> Features:
         "curves": np.diff(start),
         "error": smoothed.error,
     }
-    geometry = lines(*smoothed.flattened(flatten))
+    geometry = lines(*smoothed.as_given.flattened(flatten))
     return Features(geometry, _with_polygons(columns, polygons, polygon), polygons, polygon)
 
 
@@ -318,13 +318,13 @@ def _of_points_along(points: SkeletonPoints, what: str | None = None) -> Feature
 
 
 def _skeleton_points(points: SkeletonPoints) -> Features:
-    return _along(points, _points(points.xy), {"x", "y"})
+    return _along(points, _points(points.as_given.xy), {"x", "y"})
 
 
 def _transects(points: SkeletonPoints) -> Features:
     kept = points.transects()
     count = len(kept)
-    feet = lines(kept.feet.reshape(-1, 2), np.arange(0, 2 * count + 1, 2))
+    feet = lines(kept.as_given.feet.reshape(-1, 2), np.arange(0, 2 * count + 1, 2))
     return _along(kept, feet, {"x_a", "y_a", "x_b", "y_b"})
 
 

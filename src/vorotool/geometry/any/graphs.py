@@ -130,7 +130,7 @@ def _of_skeleton(library: Any, skeleton: Skeleton, by: str, flatten: float | Non
     parts = skeleton_graph(skeleton, by=by, flatten=flatten)
     polygons = skeleton.polygons
     graph = library.MultiGraph(**_named(polygons.crs))
-    x, y = skeleton.vertices[parts.nodes].T
+    x, y = skeleton.as_given.vertices[parts.nodes].T
     nodes = _rows({"x": x, "y": y, "r": skeleton.radius[parts.nodes], "degree": skeleton.degree[parts.nodes]})
     graph.add_nodes_from(zip(parts.nodes.tolist(), nodes, strict=True))
     geometry = lines(parts.points, parts.start)

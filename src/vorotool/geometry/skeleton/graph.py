@@ -76,7 +76,7 @@ def skeleton_graph(skeleton: Skeleton, *, by: str = "branch", flatten: float | N
     """
     if not is_choice(by, BY):
         raise UsageError(f"by is {shown_number(by)}: use {' or '.join(BY)}")
-    points, start = skeleton.flattened(flatten)
+    points, start = skeleton.as_given.flattened(flatten)
     first = np.flatnonzero(np.diff(skeleton.branch, prepend=-1))
     if by == "arc":
         first = np.arange(len(skeleton))

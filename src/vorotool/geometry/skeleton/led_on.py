@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError
 from vorotool.geometry.collinearity import is_straight
 from vorotool.geometry.curves.flatten import chained
+from vorotool.geometry.polygons.vertices_as_given import places_as_given
 from vorotool.geometry.ragged import owners
 from vorotool.geometry.skeleton.skeleton import KINDS, Skeleton
 from vorotool.geometry.skeleton.tables import ids_of
@@ -52,6 +54,16 @@ class LedOn(Value, Tabular, Curved, Pictured):
     def __len__(self) -> int:
         """Give the number of lines."""
         return len(self.arc_start) - 1
+
+    @cached_property
+    def as_given(self) -> Self:
+        """The same with the corners where the input has them: those of `path` are on a lattice."""
+        path, polygons = self.path.as_given, self.path.polygons
+        if path is self.path:
+            return self
+        polygon, together = np.repeat(self.polygon, 2), self.path.features == "together"
+        ends = places_as_given(self.ends.reshape(-1, 2), polygon, polygons, together=together)
+        return replace(self, path=path, ends=ends.reshape(-1, 2, 2))
 
     @cached_property
     def arc_start(self) -> NDArray[np.int64]:
@@ -140,7 +152,8 @@ def led_on_table(lines: LedOn, *, has_branches: bool) -> Table:
     >>> led_on_table(extended, has_branches=True)["kind"].tolist()
     ['extension', 'line', 'extension']
     """
-    path, nodes = lines.path, lines.end_nodes
+    given, nodes = lines.as_given, lines.end_nodes
+    path = given.path
     first, last = lines.extended
     line = owners(np.diff(lines.arc_start))
     line = np.concatenate([first, line, last])
@@ -150,8 +163,8 @@ def led_on_table(lines: LedOn, *, has_branches: bool) -> Table:
     source, target = path.vertices[path.arcs].swapaxes(0, 1)
     r0, r1 = path.radius[path.arcs].T
     start_node, end_node = nodes[first, 0], nodes[last, 1]
-    begin = np.concatenate([lines.ends[first, 0], source, path.vertices[end_node]])[order]
-    end = np.concatenate([path.vertices[start_node], target, lines.ends[last, 1]])[order]
+    begin = np.concatenate([given.ends[first, 0], source, path.vertices[end_node]])[order]
+    end = np.concatenate([path.vertices[start_node], target, given.ends[last, 1]])[order]
     blank = [np.full((len(some), 2), np.nan) for some in nothing]
     control = np.concatenate([blank[0], path.control, blank[1]])[order]
     kind = np.concatenate([np.full(len(first), 2), path.is_parabola, np.full(len(last), 2)])[order]

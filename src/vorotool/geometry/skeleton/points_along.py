@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.geometry.checks import set_array
+from vorotool.geometry.skeleton.given_feet import moved_feet
 from vorotool.geometry.skeleton.skeleton import SIDES, Skeleton
 from vorotool.geometry.skeleton.tables import ids_of
 from vorotool.geometry.table import Lookup, Table
@@ -77,6 +78,16 @@ class SkeletonPoints(Value, Tabular, WithParts, Pictured):
         """(n,) whether there is a segment between both feet: not in a corner."""
         return np.asarray((self.feet[:, 0] != self.feet[:, 1]).any(axis=1))
 
+    @cached_property
+    def as_given(self) -> SkeletonPoints:
+        """The same with corners and feet on the polygons of the input: those of `skeleton` are on a lattice."""
+        skeleton = self.skeleton.as_given
+        if skeleton is self.skeleton:
+            return self
+        feet = moved_feet(self.skeleton, self.skeleton.sites[self.arc], self.feet)
+        xy = np.where(self.radius[:, None] == 0, feet[:, 0], self.xy)
+        return replace(self, skeleton=skeleton, xy=xy, feet=feet)
+
     def table(self) -> Table:
         """Give one row a point.
 
@@ -86,7 +97,7 @@ class SkeletonPoints(Value, Tabular, WithParts, Pictured):
             ``polygon, id, branch, arc, side, along, x, y, r, width, x_a, y_a, x_b, y_b``: foot a is on the left of the
             arc. The width is twice the radius. Outside there is no polygon.
         """
-        skeleton, arc = self.skeleton, self.arc
+        skeleton, arc, given = self.skeleton, self.arc, self.as_given
         side = skeleton.side[arc]
         return Table(
             {
@@ -96,14 +107,14 @@ class SkeletonPoints(Value, Tabular, WithParts, Pictured):
                 "arc": arc,
                 "side": Lookup([*SIDES, None], np.where(side < 0, len(SIDES), side).astype(np.int32)),
                 "along": self.along,
-                "x": self.xy[:, 0].copy(),
-                "y": self.xy[:, 1].copy(),
+                "x": given.xy[:, 0].copy(),
+                "y": given.xy[:, 1].copy(),
                 "r": self.radius,
                 "width": 2 * self.radius,
-                "x_a": self.feet[:, 0, 0].copy(),
-                "y_a": self.feet[:, 0, 1].copy(),
-                "x_b": self.feet[:, 1, 0].copy(),
-                "y_b": self.feet[:, 1, 1].copy(),
+                "x_a": given.feet[:, 0, 0].copy(),
+                "y_a": given.feet[:, 0, 1].copy(),
+                "x_b": given.feet[:, 1, 0].copy(),
+                "y_b": given.feet[:, 1, 1].copy(),
             }
         )
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from typing import Any
 
@@ -222,6 +222,22 @@ class Skeleton(Value, Tabular, Branched, Pictured):
     def site_ends(self) -> NDArray[np.float64]:
         """(s, 2, 2) the ends of each site, with a gap those of the shortened edges; a vertex has one place twice."""
         return self.site_ends_on(1)
+
+    @cached_property
+    def as_given(self) -> Skeleton:
+        """The same with corners where the input has them: `polygons` and `vertices` are on a lattice."""
+        given = self.polygons.as_given
+        return self if given is self.polygons else self.with_corners(given)
+
+    def with_corners(self, polygons: PolygonSet) -> Skeleton:
+        """Move the nodes at corners to where other polygons, of the same rings, have these."""
+        arc, end = np.nonzero(self.radius[self.arcs] == 0)
+        node, site = self.arcs[arc, end], self.sites[arc, 0]  # both sites of an arc end at its corner
+        here, there = (ends_of_sites(each, self.site_table, site) for each in (self.polygons, polygons))
+        at, which = np.nonzero((here == self.vertices[node][:, None]).all(axis=2))
+        vertices = self.vertices.copy()
+        vertices[node[at][::-1]] = there[at, which][::-1]  # the first of several, written last
+        return replace(self, vertices=vertices, polygons=polygons)
 
     def site_ends_on(self, threads: int) -> NDArray[np.float64]:
         """Compute `site_ends` on several threads, if they are not there yet; 0 uses all."""

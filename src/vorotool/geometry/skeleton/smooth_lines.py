@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -77,6 +77,16 @@ class SmoothLines(Value, Tabular, Curved, Pictured):
         return self.lines if isinstance(self.lines, Skeleton) else self.lines.path
 
     @cached_property
+    def as_given(self) -> SmoothLines:
+        """The same with ends at corners where the input has them."""
+        lines = self.lines.as_given
+        if lines is self.lines:
+            return self
+        control, ends = self.control.copy(), ends_of_lines(lines)
+        control[self.start[:-1], 0], control[self.start[1:] - 1, 3] = ends[:, 0], ends[:, 1]
+        return replace(self, lines=lines, control=control)
+
+    @cached_property
     def polygon(self) -> NDArray[np.int32]:
         """(n,) the polygon of each line; -1 outside."""
         return self.path.polygon[np.flatnonzero(np.diff(self.path.branch, prepend=-1))]
@@ -118,7 +128,7 @@ class SmoothLines(Value, Tabular, Curved, Pictured):
             ``polygon, id, branch, curve, x0, y0, x1, y1, x2, y2, x3, y3, error``: the curves of each line are counted
             from 0, and have its error. Outside there is no polygon.
         """
-        line, control = self.line, self.control
+        line, control = self.line, self.as_given.control
         polygon = self.polygon[line]
         return Table(
             {
@@ -134,3 +144,12 @@ class SmoothLines(Value, Tabular, Curved, Pictured):
     def _summary(self) -> str:
         text = f"{counted(len(self.control), 'curve')} in {counted(len(self), 'line')}"
         return placed(text, self.path.polygons.crs, self.path.polygons.unit)
+
+
+def ends_of_lines(lines: Skeleton | LedOn) -> Floats:
+    """(n, 2, 2) where each branch begins and ends, with what leads on."""
+    path = lines if isinstance(lines, Skeleton) else lines.path
+    first = np.flatnonzero(np.diff(path.branch, prepend=-1))
+    last = np.append(first[1:], len(path))[: len(first)] - 1
+    ends: Floats = path.vertices[np.stack([path.arcs[first, 0], path.arcs[last, 1]], axis=1)]
+    return ends if isinstance(lines, Skeleton) else np.where(np.isnan(lines.ends), ends, lines.ends)

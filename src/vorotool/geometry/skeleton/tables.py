@@ -50,7 +50,7 @@ def arc_table(skeleton: Skeleton) -> Table:
     """
     check_value(skeleton, "skeleton", Skeleton)
     source, target = np.ascontiguousarray(skeleton.arcs.T)
-    x, y = np.ascontiguousarray(skeleton.vertices.T)
+    x, y = np.ascontiguousarray(skeleton.as_given.vertices.T)
     cx, cy = np.ascontiguousarray(skeleton.control.T)
     site_a, site_b = np.ascontiguousarray(skeleton.sites.T)
     return Table(
@@ -104,7 +104,7 @@ def element_table(skeleton: Skeleton) -> Table:
     check_value(skeleton, "skeleton", Skeleton)
     sites = skeleton.site_table
     is_edge = sites.kind == EDGE
-    ends = skeleton.site_ends
+    ends = skeleton.as_given.site_ends
     labels = site_labels(skeleton)
     return Table(
         {
