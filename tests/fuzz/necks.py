@@ -22,7 +22,7 @@ def failure(shape: object, random: np.random.Generator) -> str | None:
     """What is wrong with the necks and the parts of a shape, if anything."""
     skeleton = skeleton_exact(shape, features=("separate", "together")[int(random.integers(2))])
     try:
-        found = necks(skeleton)
+        found = necks(skeleton, neck=1)
         verify_necks(found)
         wrong = disagreement(found) if 0 < len(skeleton.polygons.xy) <= MOST_VERTICES else None
         if wrong:

@@ -189,8 +189,8 @@ def _check_discs(o: ExactSkeletonOptions) -> None:
 def _check_necks(o: ExactSkeletonOptions) -> None:
     """Necks are of the whole skeleton inside polygons."""
     wanted = [what for what in ("necks", "parts") if what in o.what]
-    if o.neck is not None and "parts" not in wanted:
-        raise UsageError("--neck is for other results: use --what parts, or leave it out")
+    if o.neck is not None and not wanted:
+        raise UsageError("--neck is for other results: use --what necks or parts, or leave it out")
     if wanted and o.side != "interior":
         raise UsageError("necks are inside polygons: use --side interior")
     if wanted and o.gap:

@@ -20,6 +20,15 @@ def test_necks_are_those_of_the_library(run):
     expected = vorotool.necks(vorotool.read(SHAPES))
     assert [float(row["width"]) for row in done.rows] == expected.width.tolist()
     assert [float(row["ratio"]) for row in done.rows] == expected.ratio.tolist()
+    assert [row["id"] for row in done.rows] == ["key"] * 4
+
+
+def test_necks_up_to_a_ratio_are_those_of_the_library(run):
+    for ratio in ("0", "0.6", "1"):
+        done = run("skeleton-exact", SHAPES, "--what", "necks", "--neck", ratio, "-f", "csv", "--verify")
+        expected = vorotool.necks(vorotool.read(SHAPES), neck=float(ratio))
+        assert (done.code, done.err) == (0, "")
+        assert [float(row["width"]) for row in done.rows] == expected.width.tolist()
     assert [row["id"] for row in done.rows] == ["branch", *["key"] * 5]
 
 
@@ -97,8 +106,7 @@ def test_pictures_have_colours_that_differ_along_cuts(run, folder):
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        (["--neck", "0.5"], "--neck is for other results: use --what parts, or leave it out"),
-        (["--what", "necks", "--neck", "0.5"], "--neck is for other results"),
+        (["--neck", "0.5"], "--neck is for other results: use --what necks or parts, or leave it out"),
         (["--what", "parts", "--side", "both"], "necks are inside polygons: use --side interior"),
         (["--what", "necks", "--gap", "1"], "use --what necks without --gap"),
         (["--what", "parts", "--prune", "chord=1"], "--prune is for skeletons, but necks are of the shapes"),

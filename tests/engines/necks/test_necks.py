@@ -4,9 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import shapely
 
 import vorotool
 from support.families.skeleton_shapes import crossing, holed, star, tiles, valid
+from support.oracles.clearance_profile import ratios_along
 from support.oracles.neck_oracle import disagreement
 from vorotool import UsageError, VerificationError, necks, skeleton_exact, verify_necks
 
@@ -52,8 +54,6 @@ def test_dumbbell_of_rectangles():
 
 @pytest.mark.parametrize("width", [1, 2, 3.5])
 def test_dumbbell_of_discs_of_many_sides(width):
-    import shapely
-
     count, radius = 240, 5.0
     shape = shapely.union_all(
         [*(shapely.Polygon(disc(count, radius, (x, 0))) for x in (0, 20)), shapely.box(0, -width / 2, 20, width / 2)]
@@ -116,7 +116,7 @@ def test_neck_between_two_vertices_and_between_vertex_and_edge():
 def test_random_shapes_are_as_brute_force_has_them(family, seed):
     random = np.random.default_rng([seed, 22])
     skeleton = skeleton_exact(family(random), features=("separate", "together")[seed % 2])
-    found = necks(skeleton)
+    found = necks(skeleton, neck=1)
     verify_necks(found)
     if len(skeleton.polygons.xy) <= 40:
         assert disagreement(found) is None
@@ -183,6 +183,54 @@ def test_where_pixels_hang_together_at_a_corner_there_is_no_neck():
     image = np.zeros((6, 6), dtype=np.uint8)
     image[:3, :3] = image[3:, 3:] = 1
     assert len(necks(vorotool.outlines(image, connectivity=8))) == 0
+
+
+def bend(radius, width, facets, *, rooms=False):
+    """A quarter of a ring of constant width, with or without a room at each end."""
+    turn = np.linspace(0, np.pi / 2, facets + 1)
+    way = np.stack([np.cos(turn), np.sin(turn)], axis=1)
+    ring = np.concatenate([way * (radius + width / 2), way[::-1] * (radius - width / 2)])
+    shape = shapely.Polygon(ring)
+    if rooms:
+        boxes = shapely.box(radius - 3, -6, radius + 3, 0.5), shapely.box(-7, radius - 4, 0.5, radius + 4)
+        shape = shapely.union_all([shape, *boxes])
+    return shape
+
+
+@pytest.mark.parametrize("facets", [5, 12, 40])
+def test_bends_of_constant_width_have_no_necks_but_rooms_at_their_ends_make_one(facets):
+    plain = bend(20.0, 2.0, facets)
+    everything = necks(plain, neck=1)
+    assert len(everything) >= facets - 2
+    assert everything.ratio.min() > 0.96
+    assert len(necks(plain)) == 0
+    between = necks(bend(20.0, 2.0, facets, rooms=True))
+    assert len(between) == 1
+    assert between.beside[0] == pytest.approx([3, 3.5], rel=0.2)
+
+
+@pytest.mark.parametrize("neck", [0.3, 0.95, 0.99])
+@pytest.mark.parametrize("seed", range(8))
+def test_listed_necks_are_those_of_the_profile_of_clearances(seed, neck):
+    line = np.random.default_rng([seed, 4]).uniform(0, 100, (6, 2))
+    shape = shapely.LineString(line).buffer(4, quad_segs=3)
+    shape = shape.union(shapely.MultiPoint(line[:3]).buffer(7.3)).difference(shapely.Point(line[3]).buffer(2.9))
+    shape = max(shapely.get_parts(shape), key=lambda part: part.area)
+    whole = necks(shape, neck=1)
+    ratios, widths = ratios_along(whole.skeleton, shape)
+    while (np.abs(ratios - neck) < 2e-3).any():  # too near for what places on arcs tell
+        neck -= 4e-3
+    found = necks(shape, neck=neck)
+    assert np.sort(found.width) == pytest.approx(np.sort(widths[ratios <= neck]), abs=2e-3)
+    assert np.sort(found.ratio) == pytest.approx(np.sort(ratios[ratios <= neck]), abs=2e-3)
+    assert found == whole.taken(whole.ratio <= neck)
+
+
+@pytest.mark.parametrize("neck", [-0.1, 1.5, np.nan, "wide"])
+def test_what_is_no_ratio_is_refused(neck):
+    for find in (necks, vorotool.parts):
+        with pytest.raises(UsageError, match="ratio"):
+            find(DUMBBELL, neck=neck)
 
 
 @pytest.mark.parametrize(

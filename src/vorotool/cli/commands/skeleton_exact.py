@@ -47,8 +47,8 @@ if TYPE_CHECKING:
         "--neck",
         type=click.FloatRange(0, 1),
         metavar="RATIO",
-        help="Of --what parts: cut where half the width is at most RATIO times the largest clearance on either side "
-        "(default 0.5).",
+        help="Necks of --what necks, and cuts of --what parts: where half the width is at most RATIO times the largest "
+        "clearance on either side (default 0.95 for necks, 0.5 for parts).",
     ),
 )
 def command(**options: Any) -> None:

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from vorotool.engines.necks.axis import Ways, clearance_flow, ways_from_necks
 from vorotool.engines.necks.feet import Feet, by_width, feet_of
 from vorotool.engines.skeleton_api import skeleton_exact
-from vorotool.errors import UsageError
+from vorotool.errors import UsageError, option
+from vorotool.geometry.numbers import finite_double, shown_number
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.given_feet import moved_feet
 from vorotool.geometry.skeleton.necks import Necks
@@ -23,10 +24,14 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
+NARROW = 0.95
+"""The ratio of `necks` by default: in bends of constant width each facet has a neck above 0.99."""
+
 
 def necks(
     polygons: PolygonsLike | Skeleton,
     *,
+    neck: float = NARROW,
     features: FeaturesChoice = "separate",
     strict: bool = False,
     threads: int = 0,
@@ -41,12 +46,15 @@ def necks(
 
     On either side of a neck the largest clearance is looked for, as far as no narrower neck has to be passed, or one
     that is as narrow and comes before it: small bumps in a corridor do not hide the rooms beyond. Around a hole both
-    ways may lead to the same place.
+    ways may lead to the same place. Necks that are hardly narrower than what is beside are left out, such as those at
+    each vertex of a bend of constant width.
 
     Parameters
     ----------
     polygons : PolygonSet, shapely geometry, GeoSeries, GeoJSON, (n, 2) array, …, a list of these, or Skeleton
         As of :func:`vorotool.skeleton_exact`, or what that has made of the inside, not pruned and without a gap.
+    neck : float
+        The largest ratio, of half the width to the smaller of both clearances beside, from 0 to 1: 1 gives all necks.
     features : {"separate", "together"}
         Take each feature by itself, or all of them as one drawing.
     strict, threads, progress : optional
@@ -62,7 +70,7 @@ def necks(
     InputError
         As of :func:`vorotool.skeleton_exact`.
     UsageError
-        If the skeleton is approximate, pruned, or has a gap.
+        If the ratio is not from 0 to 1, or the skeleton is approximate, pruned, or has a gap.
 
     Examples
     --------
@@ -70,9 +78,20 @@ def necks(
     >>> found = necks(dumbbell)
     >>> found.xy.tolist(), found.width.tolist(), found.ratio.tolist()
     ([[5.0, 2.0]], [2.0], [0.5])
+    >>> len(necks(dumbbell, neck=0.4))
+    0
     """
+    check_neck(neck)
     skeleton = whole_skeleton(polygons, features=features, strict=strict, threads=threads, progress=progress)
-    return found_necks(skeleton, threads=threads, progress=progress).necks
+    found = found_necks(skeleton, threads=threads, progress=progress).necks
+    return found.taken(found.ratio <= neck)
+
+
+def check_neck(neck: float) -> None:
+    """Raise UsageError unless a ratio of necks is from 0 to 1."""
+    ratio = finite_double(neck, "the ratio of necks")
+    if not 0 <= ratio <= 1:
+        raise UsageError(f"invalid {option('--neck', 'neck=')} {shown_number(neck)}: expected a ratio from 0 to 1")
 
 
 def whole_skeleton(

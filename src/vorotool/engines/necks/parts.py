@@ -12,9 +12,7 @@ from numpy.typing import NDArray
 from vorotool.engines.from_skeleton.simple_rings import cut_at_repetitions, repeats, twice_areas
 from vorotool.engines.necks.cut_axis import CutAxis, Outlines, cut_axis, outlines_of
 from vorotool.engines.necks.feet import Feet
-from vorotool.engines.necks.necks import FoundNecks, found_necks, whole_skeleton
-from vorotool.errors import UsageError, option
-from vorotool.geometry.numbers import finite_double, shown_number
+from vorotool.engines.necks.necks import FoundNecks, check_neck, found_necks, whole_skeleton
 from vorotool.geometry.polygons.polygon_set import HOLE, SHELL, PolygonSet
 from vorotool.geometry.polygons.ring_arrays import RingArrays
 from vorotool.geometry.polygons.vertices_as_given import places_as_given
@@ -87,13 +85,6 @@ def parts(
     check_neck(neck)
     skeleton = whole_skeleton(polygons, features=features, strict=strict, threads=threads, progress=progress)
     return cut_parts(found_necks(skeleton, threads=threads, progress=progress), neck)
-
-
-def check_neck(neck: float) -> None:
-    """Raise UsageError for what is no ratio."""
-    ratio = finite_double(neck, "the ratio of necks")
-    if not 0 <= ratio <= 1:
-        raise UsageError(f"invalid {option('--neck', 'neck=')} {shown_number(neck)}: expected a ratio from 0 to 1")
 
 
 def cut_parts(found: FoundNecks, neck: float) -> Parts:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from vorotool.engines.necks.necks import necks
+from vorotool.engines.necks.necks import NARROW, necks
 from vorotool.engines.necks.parts import NARROWEST, parts
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.necks import Necks
@@ -13,14 +13,19 @@ from vorotool.jobs.skeletons.result import Result
 
 
 class NeckCuts(Result):
-    """All necks."""
+    """Necks up to a ratio."""
 
     value: Necks
+
+    @property
+    def _neck(self) -> float:
+        neck = self.origin.exact_options.neck
+        return NARROW if neck is None else neck
 
     def _make(self) -> Necks:
         skeleton = self.origin.whole()
         with self.run.phase("necks") as progress:
-            return necks(skeleton, threads=self.options.threads, progress=progress)
+            return necks(skeleton, neck=self._neck, threads=self.options.threads, progress=progress)
 
     def verify(self, progress: Progress) -> None:
         """Check them."""
