@@ -184,7 +184,7 @@ def seeds_of_image(run: Run, o: SiteOptions, image: Raster, mode: SeedMode | Non
     """Find the seeds of an image, as the options say."""
     from vorotool.engines.tessellation.seeding import seeds_from_raster
 
-    image, threshold, invert = settled_foreground(run, o, image)
+    image, threshold, invert, _ = settled_foreground(run, o, image)
     return seeds_from_raster(
         image,
         mode=mode,

@@ -5,11 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
-from vorotool.errors import InputError, UsageError
 from vorotool.jobs.options import ComputingOptions, ShapeOptions, SiteOptions
 from vorotool.jobs.run_log import Run
+from vorotool.jobs.units import areas_of_image
 
 if TYPE_CHECKING:
+    from vorotool.engines.tessellation.cleaned_masks import Cleaning
     from vorotool.geometry.points.raster import Raster
 
 
@@ -24,11 +25,14 @@ class Foreground(NamedTuple):
         None where values tell.
     invert : bool
         Exchange foreground and background.
+    cleaning : Cleaning, optional
+        What is yet to be filled and left out.
     """
 
     image: Raster
     threshold: float | None
     invert: bool
+    cleaning: Cleaning | None = None
 
 
 def settled_foreground(run: Run, o: SiteOptions | ShapeOptions, image: Raster) -> Foreground:
@@ -71,27 +75,42 @@ def _cleaned(run: Run, o: SiteOptions | ShapeOptions, found: Foreground) -> Fore
     """Fill holes and leave out small objects, as the options say."""
     import numpy as np
 
-    from vorotool.engines.tessellation.cleaned_masks import cleaned_mask
-    from vorotool.engines.tessellation.raster_objects import default_objects, foreground_values
+    from vorotool.engines.tessellation.cleaned_masks import Cleaning, cleaned_values
+    from vorotool.engines.tessellation.raster_objects import foreground_values
 
-    names = o.cleans_masks
-    if isinstance(o, ShapeOptions) and o.outline == "contour" and found.threshold is not None:
-        raise UsageError(f"{names} is for outlines of pixels: leave out --outline contour, which follows grey values")
+    o = areas_of_image(o, found.image.grid)
+    cleaning = Cleaning.of(o.min_area, o.fill_holes)
     values = foreground_values(found.image, found.threshold, invert=found.invert)
-    if o.seeds == "labels" or (o.seeds is None and default_objects(values) == "labels"):
-        raise InputError(f"the image holds labels, but {names} is for masks: use --threshold T or --seeds components")
-    cleaned = cleaned_mask(
-        values != 0,
-        min_area=o.min_area or 0,
-        fill_holes=o.fill_holes,
-        connectivity=int(o.connectivity or 8),
-        missing=found.image.mask,
-    )
-    if o.fill_holes:
-        run.stats["filled_pixels"] = cleaned.filled
-    if o.min_area is not None:
-        run.stats["small_objects"] = cleaned.removed
-        if cleaned.removed:
-            run.note(f"{cleaned.removed} of {cleaned.objects} objects have fewer than {o.min_area} pixels: left out")
+    cleaned = cleaned_values(values, cleaning, o.seeds, connectivity=int(o.connectivity or 8), missing=found.image.mask)
+    report_cleaning(run, o, cleaned.filled, (cleaned.removed, cleaned.objects), "pixels")
+    if isinstance(o, ShapeOptions) and o.outline == "contour" and found.threshold is not None:
+        return found._replace(cleaning=cleaning)  # contours follow the grey values
     mask = cleaned.mask.view(np.uint8)
     return Foreground(replace(found.image, values=mask, mask=None, is_lossy=False), None, invert=False)
+
+
+def report_cleaning(run: Run, o: ComputingOptions, filled: int, removed: tuple[int, int], what: str) -> None:
+    """Put what was filled and left out into the statistics, and into a note.
+
+    Parameters
+    ----------
+    run : Run
+        Takes both.
+    o : ComputingOptions
+        With areas that are numbers of pixels or voxels.
+    filled : int
+        Pixels or voxels of holes that were filled.
+    removed : (int, int)
+        Objects that were left out, of how many.
+    what : str
+        Pixels or voxels.
+    """
+    from vorotool.geometry.numbers import shown_number
+
+    if o.fill_holes:
+        run.stats[f"filled_{what}"] = filled
+    if o.min_area is not None:
+        run.stats["small_objects"] = removed[0]
+        if removed[0]:
+            least = shown_number(o.min_area)
+            run.note(f"{removed[0]} of {removed[1]} objects have fewer than {least} {what}: left out")

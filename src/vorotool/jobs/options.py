@@ -162,8 +162,8 @@ class ComputingOptions(JobOptions):
     connectivity: Literal["8", "4", "26", "6"] | None
     threshold: float | Literal["otsu"] | None
     invert: bool
-    min_area: int | None
-    fill_holes: bool
+    min_area: Fraction | None
+    fill_holes: bool | Fraction
     strict: bool
     verify: bool
     decimals: int | None
@@ -386,8 +386,8 @@ class DistanceOptions(ComputingOptions):
     connectivity: Literal["8", "4", "26", "6"] | None = None
     threshold: float | Literal["otsu"] | None = None
     invert: bool = False
-    min_area: int | None = None
-    fill_holes: bool = False
+    min_area: Fraction | None = None
+    fill_holes: bool | Fraction = False
     pixel_size: PixelSize | None = None
     table: str | None = None
     no_properties: bool = True

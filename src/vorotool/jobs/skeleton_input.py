@@ -86,7 +86,7 @@ def outlined(run: Run, o: Options, given: JobInput, image: Raster) -> ReadPolygo
 def _outlines(run: Run, o: ShapeOptions, image: Raster) -> PolygonSet:
     from vorotool.engines.label_images.outlines import outlines
 
-    image, threshold, invert = settled_foreground(run, o, image)
+    image, threshold, invert, cleaning = settled_foreground(run, o, image)
     with run.phase("outline") as progress:
         return outlines(
             image,
@@ -96,6 +96,8 @@ def _outlines(run: Run, o: ShapeOptions, image: Raster) -> PolygonSet:
             connectivity=int(o.connectivity or 8),
             threshold=threshold,
             invert=invert,
+            min_area=None if cleaning is None else cleaning.min_area or None,
+            fill_holes=cleaning is not None and cleaning.fill_holes,
             simplify=o.simplify,
             strict=o.strict,
             max_sites=o.max_sites,

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from vorotool.engines.tessellation.bands import Quantity
 from vorotool.engines.tessellation.frames import label_dtype
 from vorotool.engines.tessellation.streamed_image import ObjectRows, StreamedImage
-from vorotool.errors import UsageError
+from vorotool.errors import LimitError, UsageError
 from vorotool.formats.images.band_reader import TiffRows, ZarrRows
 from vorotool.formats.opening import Opened
 from vorotool.geometry.progress import Progress
@@ -36,13 +36,26 @@ STREAMED = frozenset({"labels", "distance", "distance2"})
 
 
 def rows_of_large(o: TessellationOptions, source: Opened) -> ZarrRows | TiffRows | None:
-    """Give an image band by band, if it is large or its bands go to a cluster, and the options allow that."""
+    """Give an image band by band, if it is large or its bands go to a cluster, and the options allow that.
+
+    Raises
+    ------
+    LimitError
+        If its mask is to be cleaned, and it does not fit the memory.
+    """
     held = o.verify or o.seeds == "centroids" or o.threshold == "otsu" or o.method != "exact" or o.columns is not None
-    held = held or bool(o.cleans_masks)
     rows = None if held or not set(o.what) <= STREAMED else source.rows()
     if rows is None:
         return None
     height, width = rows.shape
+    if o.cleans_masks:
+        if height * width > max(o.max_pixels, LARGE):
+            raise LimitError(
+                f"{o.cleans_masks} holds the whole image, whose {width} x {height} pixels are more than --max-pixels "
+                f"{o.max_pixels}: raise that if there is memory for it, or leave {o.cleans_masks} out, and the image "
+                "is read in bands"
+            )
+        return None
     on_cluster = o.cluster is not None and o.out_dir is None
     return rows if on_cluster or height * width > LARGE else None
 

@@ -6,15 +6,17 @@ from collections.abc import Collection, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, fields, replace
 from fractions import Fraction
+from math import prod
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
-from vorotool.errors import UsageError
+from vorotool.errors import InputError, UsageError
 from vorotool.jobs.names import PLOTS
 from vorotool.jobs.pruning_choice import LENGTHS as PRUNED_LENGTHS
 from vorotool.jobs.pruning_choice import Pruning
 from vorotool.products.formats import FORMATS
 
 if TYPE_CHECKING:
+    from vorotool.geometry.pixel_grid import PixelGrid
     from vorotool.geometry.spacing import PixelSides
     from vorotool.geometry.table import Table
     from vorotool.jobs.options import ComputingOptions, JobOptions
@@ -67,6 +69,8 @@ AUTO = PixelSize(Fraction(1), None, is_auto=True)
 
 AUTO_SPACING = AUTO._replace(is_spacing=True)
 """What the file says of both sides."""
+
+_AREAS = ("min_area", "fill_holes")
 
 _IN_STEPS = (
     *("frame", "flatten", "simplify", "max_distance", "distance", "every", "smooth", "gap", "step", "tolerance"),
@@ -157,7 +161,7 @@ def shows_units(targets: Sequence[Target]) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class Measured:
-    """A length with a unit, as an option has it until the size of a pixel is known.
+    """A length, an area or a volume with a unit, as an option has it until the size of a pixel is known.
 
     Parameters
     ----------
@@ -169,12 +173,15 @@ class Measured:
         Its unit.
     is_exact : bool
         The option keeps numbers exactly: in pixels it is a fraction, and no float.
+    power : {1, 2, 3}
+        Of the unit: 2 for squares, 3 for cubes.
     """
 
     text: str
     number: Fraction
     unit: str
     is_exact: bool
+    power: int = 1
 
     def __bool__(self) -> bool:
         """Tell whether it is other than 0, as of a number: in every unit the answer is the same."""
@@ -184,6 +191,24 @@ class Measured:
 def known_length(length: Number | None) -> Number | None:
     """Give a length of an option; None while only an image that is yet to be read can say what its unit is."""
     return None if isinstance(length, Measured) else length
+
+
+def areas_of_image(o: Computing, grid: PixelGrid | None) -> Computing:
+    """Return options whose areas are numbers of pixels, where the file of the image has to say what a pixel is.
+
+    Raises
+    ------
+    InputError
+        If it does not.
+    """
+    names = [name for name in measured(o) if name in _AREAS]
+    if not names:
+        return o
+    if grid is None or not grid.is_size:
+        raise InputError("the image carries no pixel size: give a number and its unit, such as --pixel-size 0.325um")
+    size, pixel = PixelSize(Fraction(1), grid.unit), grid.width * grid.height
+    changed: dict[str, Any] = {name: _in_pixels(name, getattr(o, name), size) / pixel for name in names}
+    return replace(o, **changed)
 
 
 Options = TypeVar("Options", bound="JobOptions")
@@ -246,7 +271,12 @@ def _pixels(name: str, length: Measured, size: PixelSize | None) -> Fraction | f
     if found is None:
         its = "has none" if size.unit is None else f"is in {size.unit}, which is none that is known"
         raise UsageError(f"{option} {length.text} has a unit, but {size.option} {its}: give it one of {known}")
-    exact = length.number * found / size.factor
+    sides = (size.factor,) * 2 if size.sides is None else size.sides.lengths
+    if length.power not in (1, len(sides)):
+        what = "pixels have areas, such as 5um2" if len(sides) == 2 else "voxels have volumes, such as 5um3"
+        raise UsageError(f"invalid {option} {length.text!r}: {what}")
+    pixel = size.factor if length.power == 1 else prod(sides)
+    exact = length.number * prod([found] * length.power) / pixel
     rounded = _as_double(exact)
     if rounded is None:
         raise UsageError(f"invalid {option} {length.text!r}: expected a number of pixels that a float can hold")

@@ -53,6 +53,8 @@ COMMANDS = [
     "alphashape --seeds pixels -r 2 -f json",
     "skeleton-exact -f json",
     "skeleton-exact --outline contour -f json",
+    "voronoi -f json",
+    "voronoi --outline contour -f json",
     "skeleton-approx --step 1 -f json",
 ]
 
@@ -77,6 +79,15 @@ def test_what_is_left_out_is_told(run, scans):
     assert (done.code, "the image has no foreground" in done.err) == (0, True)
 
 
+def test_images_beyond_memory_are_refused_with_a_way_out(run, scans, monkeypatch):
+    import vorotool.jobs.streamed_tessellation as streamed
+
+    monkeypatch.setattr(streamed, "LARGE", 100)
+    done = run("tessellate", "specks.tif", "-o", "a.tif", "--fill-holes", "--max-pixels", "500")
+    assert (done.code, "--fill-holes holds the whole image" in done.err) == (5, True)
+    assert "leave --fill-holes out, and the image is read in bands" in done.err
+
+
 def test_large_images_are_held_for_it(run, scans, monkeypatch):
     import vorotool.jobs.streamed_tessellation as streamed
 
@@ -87,6 +98,59 @@ def test_large_images_are_held_for_it(run, scans, monkeypatch):
     assert (scans / "held.tif").read_bytes() == (scans / "rows.tif").read_bytes()
 
 
+@pytest.mark.parametrize("typed", ["--fill-holes 49", "--fill-holes=49", "--fill-holes 12.25um2 --pixel-size 0.5um"])
+@pytest.mark.parametrize(
+    "command", ["tessellate --what table", "delaunay", "skeleton-exact", "skeleton-approx --step 1"]
+)
+def test_holes_of_at_most_an_area(run, scans, command, typed):
+    options = ["specks.tif", "--stats", "s.json", "-q", "-o", "a.csv"]
+    for area, pixels in ((typed, 49), (typed.replace("49", "48").replace("12.25", "12.2"), 0)):
+        assert run(*command.split(), *area.split(), *options).code == 0
+        assert json.loads((scans / "s.json").read_text())["filled_pixels"] == pixels
+
+
+@pytest.mark.parametrize("command", ["tessellate --what table", "skeleton-exact --what branches", "alphashape -r 9"])
+def test_areas_in_the_unit_of_the_file(run, scans, command):
+    size = {"imagej": True, "resolution": (2, 4), "metadata": {"unit": "um"}}  # pixels of 1/2 x 1/4 um
+    square = {**size, "resolution": (2, 2)}
+    tifffile.imwrite(scans / "oblong.tif", SPECKS.astype(np.uint8) * 255, **size)
+    tifffile.imwrite(scans / "square.tif", SPECKS.astype(np.uint8) * 255, **square)
+    sizes = [("square.tif", "--pixel-size", "auto", "12.25um2"), ("square.tif", "--pixel-size", "0.5um", "12.25um^2")]
+    if not command.startswith("alphashape"):
+        sizes += [
+            ("oblong.tif", "--spacing", "auto", "6.125um2"),
+            ("oblong.tif", "--spacing", "0.5,0.25um", "6.125µm²"),
+        ]
+    for name, *size, area in sizes:
+        options = [name, *size, "--fill-holes", area, "--min-area", "0.25um2", "--stats", "s.json", "-q", "-o", "a.csv"]
+        assert run(*command.split(), *options).code == 0
+        stats = json.loads((scans / "s.json").read_text())
+        assert (stats["filled_pixels"], stats["small_objects"]) == (49, 2 if name == "oblong.tif" else 0)
+
+
+def test_a_batch_is_cleaned_as_each_alone(run, scans):
+    options = ["--fill-holes", "50", "--min-area", "5", "-q"]
+    assert (
+        run("skeleton-exact", "ink.tif", "specks.tif", *options, "--out-dir", "out", "-f", "json", "-j", "2").code == 0
+    )
+    for name in ("ink", "specks"):
+        assert run("skeleton-exact", f"{name}.tif", *options, "-o", "alone.json").code == 0
+        assert (scans / "out" / f"{name}.json").read_bytes() == (scans / "alone.json").read_bytes()
+
+
+def test_contours_of_grey_values_go_around_what_stays(run, scans):
+    options = ["skeleton-exact", "dark.png", "--threshold", "90", "--outline", "contour", "-f", "json"]
+    done = run(*options, "--min-area", "5", "--fill-holes", "--stats", "s.json", "-o", "a.json")
+    assert (done.code, "objects have fewer than 5 pixels: left out" in done.err) == (0, True)
+    stats = json.loads((scans / "s.json").read_text())
+    assert (stats["filled_pixels"], stats["small_objects"]) == (49, 2)
+    assert run(*options, "-o", "b.json").code == 0
+    before, after = (json.loads((scans / name).read_text()) for name in ("b.json", "a.json"))
+    shells = [{str(polygon["shell"]) for polygon in each["polygons"]} for each in (before, after)]
+    assert shells[1] < shells[0]
+    assert not any(polygon.get("holes") for polygon in after["polygons"])
+
+
 @pytest.mark.parametrize(
     ("command", "code", "words"),
     [
@@ -95,8 +159,13 @@ def test_large_images_are_held_for_it(run, scans, monkeypatch):
         ("tessellate dots.csv --size 9x9 --min-area 3 -o a.png", 2, "--min-area is for images"),
         ("delaunay dots.csv --fill-holes", 2, "--fill-holes is for images"),
         ("skeleton-exact line.wkt --min-area 3 -f json", 2, "--min-area is for images"),
-        ("tessellate ink.tif --min-area 0 -o a.png", 2, "0 is not in the range x>=1"),
-        ("skeleton-exact ink.tif --threshold 9 --outline contour --fill-holes -f json", 2, "--outline contour"),
+        ("tessellate ink.tif --min-area 0 -o a.png", 2, "'0': expected more than 0"),
+        ("tessellate ink.tif --fill-holes -5 -o a.png", 2, "'-5': expected more than 0"),
+        ("tessellate ink.tif --fill-holes 5um -o a.png", 2, "expected a number of pixels such as 50, or an area such"),
+        ("tessellate ink.tif --fill-holes=ten -o a.png", 2, "expected a number of pixels such as 50, or an area such"),
+        ("tessellate ink.tif --fill-holes 5um2 -o a.png", 2, "--fill-holes 5um2 has a unit, but that of the input is"),
+        ("tessellate ink.tif --min-area 5um3 --pixel-size 1um --what table", 2, "pixels have areas, such as 5um2"),
+        ("delaunay ink.tif --min-area 5um2 --pixel-size auto", 3, "the image carries no pixel size"),
     ],
 )  # fmt: skip
 def test_what_is_refused(run, scans, command, code, words):

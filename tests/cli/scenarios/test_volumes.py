@@ -6,6 +6,7 @@ import signal
 import numpy as np
 import pytest
 import tifffile
+from scipy import ndimage
 
 import vorotool
 from support.processes.leftovers import contents, wait_until
@@ -428,7 +429,13 @@ REFUSED = [
     ("stack.tif --volume --overlay stack.tif --what colour -o a.png", 2, "--overlay is for images: leave it out with"),
     ("stack.tif --volume --y-down --what colour -o a.png", 2, "--y-down is for images"),
     ("stack.tif --volume --cell-size 2 -o a.tif", 2, "--cell-size is for maps: leave it out with a volume"),
-    ("stack.tif --volume --min-area 2 -o a.tif", 2, "--min-area is for images"),
+    (
+        "stack.tif --volume --min-area 2um3 -o a.tif",
+        2,
+        "--min-area 2um3 has a unit, but that of the voxels is",
+    ),
+    ("stack.tif --volume --fill-holes 2um2 --spacing 1,1,2um -o a.tif", 2, "voxels have volumes, such as 5um3"),
+    ("points.csv --size 9x8x7 --fill-holes 3 -o a.tif", 2, "--fill-holes is for volumes, but the input is a list of"),
     ("stack.tif --volume --tiled -o a.tif", 2, "--tiled is for images"),
     ("stack.tif --volume --slice 1 -o a.tif", 2, "--slice is for pictures: use --what colour"),
     ("stack.tif --volume --slice 7 --what colour -o a.png", 2, "there is no --slice 7: the volume has slices 0 to 6"),
@@ -459,6 +466,30 @@ def test_what_is_refused(run, stack, points, words, code, said):
     done = run("tessellate", *words.split(), *([] if "-q" in words else ["-q"]))
     assert (done.code, said in done.err) == (code, True), done.err
     assert sorted(path.name for path in stack.iterdir()) == ["points.csv", "stack.npy", "stack.tif"]
+
+
+@pytest.mark.parametrize("area", ["2", "4um3", "4.5 um^3"])
+def test_volumes_are_cleaned_as_by_scipy(run, tmp_path, area):
+    noise = ndimage.gaussian_filter(np.random.default_rng(4).random((14, 40, 42)), 1)
+    mask = noise > np.quantile(noise, np.linspace(0.3, 0.9, 42))
+    mask[3:10, 8:16, 2:10] = True
+    mask[5:7, 10:13, 4:7] = False
+    tifffile.imwrite(tmp_path / "mask.tif", mask.astype(np.uint8) * 255)
+    numbers, _ = ndimage.label(~mask)
+    holes = ndimage.binary_fill_holes(mask) & ~mask & (np.bincount(numbers.ravel())[numbers] <= 2)
+    clean, _ = ndimage.label(mask | holes, np.ones((3, 3, 3)))
+    areas = np.bincount(clean.ravel())
+    assert 0 < holes.sum() < (ndimage.binary_fill_holes(mask) & ~mask).sum()
+    assert (areas[1:] < 40).any()
+    tifffile.imwrite(tmp_path / "clean.tif", ((clean > 0) & (areas[clean] >= 40)).astype(np.uint8) * 255)
+    spacing = ["--spacing", "1,1,2um", "-q"]
+    for what in ("labels", "distance"):
+        options = [*spacing, "--what", what, "-o", "made.npy", "--fill-holes", area, "--min-area", "40", "--verify"]
+        assert run("tessellate", "--volume", "mask.tif", *options, "--stats", "s.json").code == 0
+        assert run("tessellate", "--volume", "clean.tif", *spacing, "--what", what, "-o", "clean.npy").code == 0
+        assert (tmp_path / "made.npy").read_bytes() == (tmp_path / "clean.npy").read_bytes()
+        stats = json.loads((tmp_path / "s.json").read_text())
+        assert (stats["filled_voxels"], stats["small_objects"]) == (holes.sum(), (areas[1:] < 40).sum())
 
 
 # ---- as a microscopist ---------------------------------------------------------------------------

@@ -1,11 +1,17 @@
 """Masks without holes and small objects: by scikit-image and scipy, as far as they have the same rules."""
 
+from fractions import Fraction
+from math import inf, nan
+
 import numpy as np
 import pytest
 from scipy import ndimage
+from skimage.morphology import remove_small_holes
 
-from vorotool.engines.tessellation.cleaned_masks import cleaned_mask
+from vorotool import InputError, outlines, seeds_from_raster
+from vorotool.engines.tessellation.cleaned_masks import Cleaning, cleaned_mask
 from vorotool.errors import UsageError
+from vorotool.geometry.points.raster import Raster
 
 RNG = np.random.default_rng(3)
 CORNERS = {4: ndimage.generate_binary_structure(2, 1), 8: ndimage.generate_binary_structure(2, 2)}
@@ -16,20 +22,47 @@ MASKS = [
 MASKS += [np.zeros((3, 4), bool), np.ones((3, 4), bool), np.ones((1, 1), bool)]  # fmt: skip
 
 
+def filled(mask, connectivity, most):
+    """Fill holes of at most so many pixels: scikit-image takes what reaches the border for holes, too."""
+    background, count = ndimage.label(~mask, CORNERS[12 - connectivity])
+    framed = np.pad(background, 1)[[0, 1, -2, -1]], np.pad(background, 1)[:, [0, 1, -2, -1]]
+    at_border = set(framed[0].ravel()) | set(framed[1].ravel())
+    holes = [k for k in range(1, count + 1) if k not in at_border and (background == k).sum() <= most]
+    return mask | np.isin(background, holes)
+
+
 @pytest.mark.parametrize("connectivity", [4, 8])
 @pytest.mark.parametrize("mask", MASKS)
 def test_holes(mask, connectivity):
-    made = cleaned_mask(mask, fill_holes=True, connectivity=connectivity)
+    made = cleaned_mask(mask, Cleaning.of(None, True), connectivity=connectivity)
     expected = ndimage.binary_fill_holes(mask, CORNERS[12 - connectivity])
     assert (made.mask == expected).all()
     assert made.filled == expected.sum() - mask.sum()
 
 
 @pytest.mark.parametrize("connectivity", [4, 8])
+@pytest.mark.parametrize("most", [1, 2, 5, 1000])
+@pytest.mark.parametrize("mask", MASKS)
+def test_holes_of_at_most_an_area(mask, connectivity, most):
+    made = cleaned_mask(mask, Cleaning.of(None, most), connectivity=connectivity)
+    expected = filled(mask, connectivity, most)
+    assert (made.mask == expected).all()
+    assert made.filled == expected.sum() - mask.sum()
+
+
+@pytest.mark.parametrize("connectivity", [4, 8])
+def test_small_holes_inside_are_those_of_scikit_image(connectivity):
+    mask = np.pad(RNG.random((60, 80)) < 0.7, ((2, 2), (2, 2)), constant_values=True)
+    made = cleaned_mask(mask, Cleaning.of(None, 4), connectivity=connectivity)
+    expected = remove_small_holes(mask, max_size=4, connectivity=1 if connectivity == 8 else 2)
+    assert (made.mask == expected).all()
+
+
+@pytest.mark.parametrize("connectivity", [4, 8])
 @pytest.mark.parametrize("min_area", [1, 2, 5, 1000])
 @pytest.mark.parametrize("mask", MASKS)
 def test_small_objects(mask, connectivity, min_area):
-    made = cleaned_mask(mask, min_area=min_area, connectivity=connectivity)
+    made = cleaned_mask(mask, Cleaning.of(min_area, False), connectivity=connectivity)
     labels, count = ndimage.label(mask, CORNERS[connectivity])
     areas = np.bincount(labels.ravel(), minlength=count + 1)
     assert (made.mask == mask & (areas[labels] >= min_area)).all()
@@ -40,10 +73,84 @@ def test_holes_count_as_area_and_missing_pixels_stay():
     ring = np.zeros((7, 7), bool)
     ring[1:6, 1:6] = True
     ring[2:5, 2:5] = False
-    assert cleaned_mask(ring, min_area=25, fill_holes=True).mask.sum() == 25
-    assert cleaned_mask(ring, min_area=17).mask.sum() == 0
+    assert cleaned_mask(ring, Cleaning.of(25, True)).mask.sum() == 25
+    assert cleaned_mask(ring, Cleaning.of(25, 8)).mask.sum() == 0
+    assert cleaned_mask(ring, Cleaning.of(17, False)).mask.sum() == 0
     missing = np.zeros((7, 7), bool)
     missing[3, 3] = True
-    assert cleaned_mask(ring, fill_holes=True, missing=missing).mask.sum() == 24
+    assert cleaned_mask(ring, Cleaning.of(None, True), missing=missing).mask.sum() == 24
     with pytest.raises(UsageError, match="connectivity is 6"):
-        cleaned_mask(ring, connectivity=6)
+        cleaned_mask(ring, Cleaning(), connectivity=6)
+
+
+@pytest.mark.parametrize(
+    ("min_area", "fill_holes", "expected"),
+    [
+        (Fraction(5, 2), Fraction(5, 2), Cleaning(3, 2)),
+        (3, 1, Cleaning(3, 1)),
+        (10**30, 10**30, Cleaning(10**30, 10**30)),
+        (None, inf, Cleaning(0, True)),
+        (None, np.True_, Cleaning(0, True)),
+    ],
+)
+def test_areas_are_exact(min_area, fill_holes, expected):
+    made = Cleaning.of(min_area, fill_holes)
+    assert made == expected
+    assert type(made.fill_holes) is type(expected.fill_holes)
+    cleaned_mask(MASKS[0], made)
+
+
+@pytest.mark.parametrize("area", [0, -1, nan, "5", [5]])
+def test_what_is_no_area(area):
+    with pytest.raises(UsageError, match="fill_holes"):
+        Cleaning.of(None, area)
+    with pytest.raises(UsageError, match="min_area"):
+        Cleaning.of(area, False)
+
+
+@pytest.mark.filterwarnings("ignore:.* seeds moved")
+@pytest.mark.parametrize("mode", [None, "components", "pixels", "centroids"])
+@pytest.mark.parametrize("connectivity", [4, 8])
+def test_seeds_and_outlines_of_arrays(mode, connectivity):
+    grey = RNG.integers(0, 255, (40, 50)).astype(np.uint8)
+    clean = cleaned_mask(grey > 90, Cleaning(6, 3), connectivity=connectivity).mask
+    options = {"threshold": 90, "min_area": 6, "fill_holes": 3, "connectivity": connectivity}
+    made = seeds_from_raster(grey, mode=mode, **options)
+    assert made == seeds_from_raster(clean, mode=mode, connectivity=connectivity)
+    if mode in (None, "components"):
+        assert outlines(grey, **options) == outlines(clean, connectivity=connectivity)
+
+
+def test_labels_are_refused():
+    for function in (seeds_from_raster, outlines):
+        with pytest.raises(InputError, match=r"the image holds labels, but min_area is for masks: use threshold=T or "):
+            function(np.array([[1, 2, 2]]), min_area=2)
+        with pytest.raises(InputError, match="but fill_holes is for masks"):
+            function(np.array([[1, 0, 1]]), mode="labels", fill_holes=True)
+
+
+def rings_of(polygons):
+    """Rings of polygons as sets of vertices in their order, each from its least one on."""
+    made = []
+    for k in range(len(polygons.ring_start) - 1):
+        ring = polygons.ring(k)
+        made.append(np.roll(ring, -np.lexsort(ring.T)[0], axis=0).tobytes())
+    return made
+
+
+@pytest.mark.parametrize("invert", [False, True])
+@pytest.mark.parametrize("connectivity", [4, 8])
+@pytest.mark.parametrize("above", [0, 0.5])
+def test_contours_that_stay_are_as_they_were(above, connectivity, invert):
+    rough = ndimage.gaussian_filter(RNG.random((60, 70)), 1.2)
+    grey = np.round(240 * (rough - rough.min()) / np.ptp(rough)).astype(np.uint8)
+    threshold = int(np.quantile(grey, 0.35 if invert else 0.65)) + above
+    mask = (grey <= threshold) if invert else (grey > threshold)
+    options = {"outline": "contour", "threshold": threshold, "invert": invert, "connectivity": connectivity}
+    before, made = outlines(grey, **options), outlines(grey, **options, min_area=30, fill_holes=10)
+    assert set(rings_of(made)) < set(rings_of(before))
+    clean = cleaned_mask(mask, Cleaning(30, 10), connectivity=connectivity).mask
+    shells = ndimage.label(clean, CORNERS[connectivity])[1]
+    assert len(made) == shells < len(before)
+    around = outlines(Raster(clean), outline="contour", connectivity=connectivity)
+    assert len(rings_of(made)) == len(rings_of(around))

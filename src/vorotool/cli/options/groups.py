@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from vorotool.cli.options.areas import cleaning_options
 from vorotool.cli.options.picture_style import picture_style_options
 from vorotool.cli.options.pixel_size import pixel_size_option
 from vorotool.cli.options.shared import Decorator, batch_options, layers_option, shared, together
@@ -17,7 +18,8 @@ def site_options(layers: tuple[str, ...], *, has_scale: bool = True, has_volumes
         frame_options(has_volumes=has_volumes),
         shared("columns", "input-format", "input-layer", "input-crs", "crs", "page", "seeds"),
         connectivity_option(has_volumes=has_volumes),
-        shared("threshold", "invert", "min-area", "fill-holes"),
+        shared("threshold", "invert"),
+        cleaning_options(),
         result_options(layers, has_scale=has_scale),
     )
 

@@ -8,6 +8,7 @@ from typing import Any
 
 import click
 
+from vorotool.cli.options.areas import HoleArea, with_hole_areas
 from vorotool.cli.options.shared import Names
 from vorotool.jobs.terminal import print_text
 
@@ -64,6 +65,8 @@ class GroupedCommand(click.Command):
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Say what to do instead where an option is one of other commands."""
+        holes = [name for param in self.params if isinstance(param.type, HoleArea) for name in param.opts]
+        args = with_hole_areas(args, holes)
         typed = [*args]
         try:
             return super().parse_args(ctx, args)

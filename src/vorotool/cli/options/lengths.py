@@ -22,7 +22,7 @@ def measured(text: Any, *, is_exact: bool = False) -> Measured | None:
     Examples
     --------
     >>> measured("2.5 mm", is_exact=True)
-    Measured(text='2.5 mm', number=Fraction(5, 2), unit='mm', is_exact=True)
+    Measured(text='2.5 mm', number=Fraction(5, 2), unit='mm', is_exact=True, power=1)
     >>> measured("1e5") is None, measured("inf") is None
     (True, True)
     """

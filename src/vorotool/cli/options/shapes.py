@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import click
 
+from vorotool.cli.options.areas import cleaning_options
 from vorotool.cli.options.lengths import FlatteningTolerance, Length
 from vorotool.cli.options.shared import Decorator, Rectangle, shared, together
 from vorotool.products.formats import FORMATS
@@ -61,5 +62,6 @@ def shape_options(*between: str, flattened: str = "") -> Decorator:
             help="What an image's objects are; by default components of a mask (0, and 1 or 255 or all bits), else "
             "labels.",
         ),
-        shared("connectivity", "threshold", "invert", "min-area", "fill-holes"),
+        shared("connectivity", "threshold", "invert"),
+        cleaning_options(),
     )

@@ -367,10 +367,6 @@ OPTIONS: dict[str, Decorator] = {
     ),
     "threshold": click.option("--threshold", type=Threshold(), help="Foreground is what is brighter than this."),
     "invert": click.option("--invert", is_flag=True, help="Exchange foreground and background."),
-    "min-area": click.option(
-        "--min-area", type=click.IntRange(min=1), metavar="N", help="Leave out objects of a mask with fewer pixels."
-    ),
-    "fill-holes": click.option("--fill-holes", is_flag=True, help="Fill the holes of the objects of a mask first."),
     "size": click.option("--size", type=Size(), help="Frame of W x H pixels from pixel (0, 0)."),
     "window": click.option("--window", type=Window(), help="Frame whose first pixel is (X, Y)."),
     "width": click.option(

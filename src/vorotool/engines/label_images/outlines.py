@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.engines.label_images.marching_squares import grey_contours, grey_level, half_way_contours
 from vorotool.engines.label_images.simplification import simplified_polygons
+from vorotool.engines.tessellation.cleaned_masks import Cleaning, cleaned_values
 from vorotool.engines.tessellation.raster_objects import (
     Note,
     Objects,
@@ -32,7 +33,7 @@ from vorotool.geometry.progress import Progress
 from vorotool.geometry.ragged import following, owners, starts_of
 
 if TYPE_CHECKING:
-    from vorotool.typing import ImageLike, OutlineKind
+    from vorotool.typing import ImageLike, OutlineKind, RealLike
 
 Border = Literal["closed", "open"]
 
@@ -62,6 +63,8 @@ def outlines(
     connectivity: int = 8,
     threshold: Threshold = None,
     invert: bool = False,
+    min_area: RealLike | None = None,
+    fill_holes: bool | RealLike = False,
     simplify: float | None = None,
     strict: bool = False,
     max_sites: int = MOST_VERTICES,
@@ -102,6 +105,10 @@ def outlines(
         Foreground is what is larger.
     invert : bool
         Exchange foreground and background.
+    min_area : number, optional
+        Leave out objects of a mask with fewer pixels, their filled holes included.
+    fill_holes : bool or number
+        Whether to fill the holes of the objects of a mask first; a number fills those of at most so many pixels.
     simplify : float, optional
         Leave out vertices where outlines move by no more than this; borders in common stay in common.
     strict : bool
@@ -124,8 +131,8 @@ def outlines(
     Raises
     ------
     InputError
-        If the image has colours or looks like a photograph and there is no threshold, or a value is not finite; or
-        there is no foreground, and `strict`.
+        If the image has colours or looks like a photograph and there is no threshold, or a value is not finite; if it
+        holds labels, and a mask is to be cleaned; or there is no foreground, and `strict`.
     LimitError
         If there are more vertices than `max_sites`.
     UsageError
@@ -165,6 +172,8 @@ def outlines(
         threshold, invert = settled_threshold(raster, threshold, invert=invert)
         raster = Raster(grey_values(raster), mask=raster.mask)
     values = foreground_values(raster, threshold, invert=invert)
+    if cleaning := Cleaning.of(min_area, fill_holes):
+        values = cleaned_values(values, cleaning, mode, connectivity=connectivity, missing=raster.mask).mask
     by_label = (mode or default_objects(values, note=note)) == "labels"
     labels = label_values(values) if by_label or values.dtype == bool else values != 0
     is_open = outline == "contour" and border == "open"

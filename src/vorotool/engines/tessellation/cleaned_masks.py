@@ -2,15 +2,111 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from fractions import Fraction
+from math import ceil, floor, isinf
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.tessellation.raster_objects import numbered_components
-from vorotool.errors import UsageError
+from vorotool.engines.tessellation.raster_objects import default_objects, numbered_components
+from vorotool.errors import InputError, UsageError, option
 from vorotool.geometry.checks import is_choice
-from vorotool.geometry.numbers import shown_number
+from vorotool.geometry.numbers import real_number, shown_number
+
+if TYPE_CHECKING:
+    from vorotool.typing import RealLike
+
+_THRESHOLD = option("--threshold T", "threshold=T")
+_AS_COMPONENTS = option("--seeds components", 'mode="components"')
+
+
+class Cleaning(NamedTuple):
+    """Which holes of a mask are filled, and which of its objects are then left out.
+
+    Parameters
+    ----------
+    min_area : int
+        Pixels, or voxels, that an object has at least.
+    fill_holes : bool or int
+        Whether holes become foreground; a number is the most pixels, or voxels, of a hole that does.
+    """
+
+    min_area: int = 0
+    fill_holes: bool | int = False
+
+    def __bool__(self) -> bool:
+        """Tell whether a mask can change."""
+        return self.min_area > 1 or self.fill_holes is not False
+
+    @property
+    def option(self) -> str:
+        """What the user calls it."""
+        if self.fill_holes is not False:
+            return option("--fill-holes", "fill_holes")
+        return option("--min-area", "min_area")
+
+    @classmethod
+    def of(cls, min_area: RealLike | None, fill_holes: bool | RealLike) -> Cleaning:
+        """Return it for areas of any kind of number.
+
+        Raises
+        ------
+        UsageError
+            If an area is not a number above 0.
+
+        Examples
+        --------
+        >>> Cleaning.of(2.5, True), Cleaning.of(None, 2.5)
+        (Cleaning(min_area=3, fill_holes=True), Cleaning(min_area=0, fill_holes=2))
+        """
+        least = 0 if min_area is None else ceil(_area(min_area, "min_area"))
+        if isinstance(fill_holes, bool | np.bool_):
+            return cls(least, bool(fill_holes))
+        most = _area(fill_holes, "fill_holes")
+        return cls(least, True if isinf(most) else floor(most))
+
+    def require_mask(self, kind: str, what: str = "image") -> None:
+        """Refuse objects that are labels.
+
+        Raises
+        ------
+        InputError
+            If they are.
+        """
+        if kind == "labels":
+            raise InputError(
+                f"the {what} holds labels, but {self.option} is for masks: use {_THRESHOLD} or {_AS_COMPONENTS}"
+            )
+
+    def fills(self, areas: NDArray[np.int64], reaches: NDArray[np.bool_]) -> NDArray[np.bool_]:
+        """Return which components of the background are filled: number 0 is the foreground.
+
+        Parameters
+        ----------
+        areas : (n,) int64 array
+            Of the components.
+        reaches : (n,) bool array
+            Whether they reach the border of the image, so that they are no holes.
+        """
+        filled = ~reaches
+        if self.fill_holes is not True:
+            filled &= areas <= min(self.fill_holes, np.iinfo(np.int64).max)
+        filled[0] = False
+        return filled
+
+    def keeps(self, areas: NDArray[np.int64]) -> NDArray[np.bool_]:
+        """Return which components of the foreground stay: number 0 is the background."""
+        kept: NDArray[np.bool_] = areas >= min(self.min_area, np.iinfo(np.int64).max)
+        kept[0] = False
+        return kept
+
+
+def _area(value: Any, name: str) -> float | Fraction:
+    number = real_number(value, name)
+    if not number > 0 or (name == "min_area" and isinf(number)):
+        raise UsageError(f"{name} is {shown_number(value)}: give an area above 0")
+    return number
 
 
 class CleanedMask(NamedTuple):
@@ -34,9 +130,8 @@ class CleanedMask(NamedTuple):
 
 def cleaned_mask(
     mask: NDArray[np.bool_],
+    cleaning: Cleaning,
     *,
-    min_area: int = 0,
-    fill_holes: bool = False,
     connectivity: int = 8,
     missing: NDArray[np.bool_] | None = None,
 ) -> CleanedMask:
@@ -49,10 +144,8 @@ def cleaned_mask(
     ----------
     mask : (H, W) bool array
         The foreground.
-    min_area : int
-        Pixels that an object has at least, its filled holes included.
-    fill_holes : bool
-        Whether holes become foreground.
+    cleaning : Cleaning
+        Which holes and objects; the area of an object includes its filled holes.
     connectivity : {8, 4}
         Of the pixels of an object.
     missing : (H, W) bool array, optional
@@ -66,31 +159,59 @@ def cleaned_mask(
     Examples
     --------
     >>> ring = np.array([[1, 1, 1, 0, 1], [1, 0, 1, 0, 0], [1, 1, 1, 0, 0]], dtype=bool)
-    >>> made = cleaned_mask(ring, min_area=2, fill_holes=True)
+    >>> made = cleaned_mask(ring, Cleaning(min_area=2, fill_holes=True))
     >>> int(made.mask.sum()), made.filled, made.removed
     (9, 1, 1)
     """
     if not is_choice(connectivity, (4, 8)):
         raise UsageError(f"connectivity is {shown_number(connectivity)}: it must be 4 or 8")
-    made = _filled(mask, 12 - connectivity) if fill_holes else mask
+    made = mask
+    if cleaning.fill_holes is not False:
+        background = numbered_components(~mask, 12 - connectivity)
+        made = mask | cleaning.fills(np.bincount(background.ravel()), reaches_border(background))[background]
     if missing is not None:
         made = made & ~missing
     filled = int(np.count_nonzero(made)) - int(np.count_nonzero(mask))
-    if min_area <= 1:
+    if cleaning.min_area <= 1:
         return CleanedMask(made, filled, 0, 0)
     components = numbered_components(made, connectivity)
-    areas = np.bincount(components.ravel())
-    kept = areas >= min_area
-    kept[0] = False
-    return CleanedMask(kept[components], filled, len(areas) - 1 - int(np.count_nonzero(kept)), len(areas) - 1)
+    kept = cleaning.keeps(np.bincount(components.ravel()))
+    return CleanedMask(kept[components], filled, len(kept) - 1 - int(np.count_nonzero(kept)), len(kept) - 1)
 
 
-def _filled(mask: NDArray[np.bool_], connectivity: int) -> NDArray[np.bool_]:
-    """The mask with what of its background does not reach the border."""
-    background = numbered_components(~mask, connectivity)
-    reaches = reaches_border(background)
-    reaches[0] = False
-    return ~reaches[background]
+def cleaned_values(
+    values: NDArray[Any],
+    cleaning: Cleaning,
+    mode: str | None,
+    *,
+    connectivity: int = 8,
+    missing: NDArray[np.bool_] | None = None,
+) -> CleanedMask:
+    """Clean values of which the nonzero ones are foreground.
+
+    Parameters
+    ----------
+    values : (H, W) array
+        As of `foreground_values`.
+    cleaning : Cleaning
+        What to do.
+    mode : str, optional
+        What an object is; by default as in `default_objects`.
+    connectivity, missing
+        As of `cleaned_mask`.
+
+    Raises
+    ------
+    InputError
+        If the values are labels.
+
+    Examples
+    --------
+    >>> cleaned_values(np.array([[255, 0, 255, 255]], np.uint8), Cleaning(2), None).mask.tolist()
+    [[False, False, True, True]]
+    """
+    cleaning.require_mask(mode if mode not in (None, "centroids") else default_objects(values))
+    return cleaned_mask(values != 0, cleaning, connectivity=connectivity, missing=missing)
 
 
 def reaches_border(components: NDArray[np.uint32]) -> NDArray[np.bool_]:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.engines.tessellation.cleaned_masks import Cleaning, cleaned_values
 from vorotool.engines.tessellation.label_sums import numbered, sums
 from vorotool.engines.tessellation.raster_objects import (
     LARGEST_LABEL,
@@ -39,7 +40,7 @@ from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.geometry.spacing import SQUARE, PixelSides
 
 if TYPE_CHECKING:
-    from vorotool.typing import ImageLike, PointsLike
+    from vorotool.typing import ImageLike, PointsLike, RealLike
 
 _CENTROIDS = option("--seeds centroids", 'mode="centroids"')
 
@@ -127,6 +128,8 @@ def seeds_from_raster(
     connectivity: int = 8,
     threshold: float | Literal["otsu"] | None = None,
     invert: bool = False,
+    min_area: RealLike | None = None,
+    fill_holes: bool | RealLike = False,
     strict: bool = False,
     max_sites: int = LARGEST_LABEL,
     note: Note = None,
@@ -147,6 +150,10 @@ def seeds_from_raster(
         Foreground is what is larger.
     invert : bool
         Exchange foreground and background.
+    min_area : number, optional
+        Leave out objects of a mask with fewer pixels, their filled holes included.
+    fill_holes : bool or number
+        Whether to fill the holes of the objects of a mask first; a number fills those of at most so many pixels.
     strict : bool
         Refuse an image without foreground, and centroids that would have to move to the lattice of seeds.
     max_sites : int
@@ -163,7 +170,8 @@ def seeds_from_raster(
     Raises
     ------
     InputError
-        If the image looks like a photograph and no threshold is given; or there is no foreground, and `strict`.
+        If the image looks like a photograph and no threshold is given, or holds labels where a mask is to be cleaned;
+        or there is no foreground, and `strict`.
     LimitError
         If there are more seeds than `max_sites`.
     UsageError
@@ -188,6 +196,8 @@ def seeds_from_raster(
     if not is_choice(mode, (None, *get_args(SeedMode))):
         raise UsageError(f"mode is {mode!r}: it must be one of {', '.join(get_args(SeedMode))}")
     frame = Frame(0, 0, values.shape[1], values.shape[0])
+    if cleaning := Cleaning.of(min_area, fill_holes):
+        values = cleaned_values(values, cleaning, mode, connectivity=connectivity, missing=raster.mask).mask
     if not values.any():
         report_no_foreground(strict=strict)
         return replace(_no_seeds(frame, has_objects=mode != "pixels"), grid=raster.grid)

@@ -9,10 +9,12 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.engines.tessellation.cleaned_masks import Cleaning
 from vorotool.engines.tessellation.label_sums import numbered, parts, sums
 from vorotool.engines.tessellation.raster_objects import Note, report_no_foreground
 from vorotool.engines.tessellation.seed_lattice import report_snapped, sites_of_points, snapped_places
 from vorotool.engines.tessellation.seeding import SeedMode
+from vorotool.engines.volumes.cleaned_slices import CleanedSlices
 from vorotool.engines.volumes.inner_voxels import inner_runs
 from vorotool.engines.volumes.outer_seeds import OuterSeeds
 from vorotool.engines.volumes.volume_objects import HeldSlices, SlicesSource, VolumeObjects
@@ -27,13 +29,15 @@ from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
 from vorotool.geometry.volumes.voxel_frame import VoxelFrame
 
 if TYPE_CHECKING:
-    from vorotool.typing import VolumeLike, VolumePointsLike
+    from vorotool.typing import RealLike, VolumeLike, VolumePointsLike
 
 Check = Callable[[VolumeSeeds], object] | None
 """Raises an error for seeds that cannot be used: called before notes about them."""
 
 MOST_SEEDS = 2**31 - 1
 """Seeds that a sweep takes: they are numbered in 31 bits."""
+
+NO_CLEANING = Cleaning()
 
 _CONNECTIVITY = (26, 6)
 
@@ -99,6 +103,8 @@ def seeds_from_volume(
     connectivity: int = 26,
     threshold: float | Literal["otsu"] | None = None,
     invert: bool = False,
+    min_area: RealLike | None = None,
+    fill_holes: bool | RealLike = False,
     strict: bool = False,
     max_sites: int = MOST_SEEDS,
     note: Note = None,
@@ -119,6 +125,10 @@ def seeds_from_volume(
         Foreground is what is larger.
     invert : bool
         Exchange foreground and background.
+    min_area : number, optional
+        Leave out objects of a mask with fewer voxels, their filled holes included.
+    fill_holes : bool or number
+        Whether to fill the holes of the objects of a mask first; a number fills those of at most so many voxels.
     strict : bool
         Refuse a volume without foreground, and centroids that would have to move to the lattice of 1/256 voxel.
     max_sites : int
@@ -136,7 +146,8 @@ def seeds_from_volume(
     Raises
     ------
     InputError
-        If the volume looks like grey values and no threshold is given; or there is no foreground, and `strict`.
+        If the volume looks like grey values and no threshold is given, or holds labels where a mask is to be cleaned;
+        or there is no foreground, and `strict`.
     LimitError
         If there are more seeds than `max_sites`.
     UsageError
@@ -158,6 +169,7 @@ def seeds_from_volume(
         connectivity=connectivity,
         threshold=threshold,
         invert=invert,
+        cleaning=Cleaning.of(min_area, fill_holes),
         max_sites=max_sites,
         strict=strict,
         note=note,
@@ -171,11 +183,13 @@ def seeds_of_slabs(
     connectivity: int = 26,
     threshold: float | Literal["otsu"] | None = None,
     invert: bool = False,
+    cleaning: Cleaning = NO_CLEANING,
     max_sites: int = MOST_SEEDS,
     strict: bool = False,
     note: Note = None,
     progress: Progress = None,
     slices: int | None = None,
+    report: Callable[[CleanedSlices], None] | None = None,
 ) -> VolumeSeeds:
     """Take seeds from a volume that is read slab by slab, and never held; the rest is as of `seeds_from_volume`.
 
@@ -183,12 +197,17 @@ def seeds_of_slabs(
     ----------
     source : SlicesSource
         It is read once; before that, where `mode` is not given, up to the slab in which there is a second value, and
-        for "otsu" once more, where floating-point numbers are all held.
+        for "otsu" once more, where floating-point numbers are all held, and once each to fill holes and to leave out
+        small objects.
+    cleaning : Cleaning
+        Holes of a mask that are filled, and objects that are left out.
     progress : callable, optional
         Called with the fraction read.
     slices : int, optional
         Slices that are read at a time, best a multiple of those of a chunk of the file; by default 2^23 voxels, or one
         slice. The seeds do not depend on it.
+    report : callable, optional
+        Called with a mask that was cleaned.
 
     Notes
     -----
@@ -209,6 +228,12 @@ def seeds_of_slabs(
     frame = VoxelFrame(0, 0, 0, width, height, depth)
     objects = VolumeObjects.of(source, threshold, invert=invert, slices=slices)
     kind = objects.kind(note=note) if mode in (None, "centroids") else mode
+    if cleaning:
+        cleaning.require_mask(str(kind), "volume")
+        mask = CleanedSlices(objects, cleaning, connectivity)
+        objects = replace(objects, source=mask, threshold=None, invert=False)
+        if report is not None:
+            report(mask)
     most = min(whole_number(max_sites, "max_sites"), MOST_SEEDS)
     is_alone = mode == "centroids"
     outer = OuterSeeds(objects, kind, connectivity, None if is_alone else most)

@@ -60,11 +60,13 @@ def check_volume_units(o: TessellationOptions) -> None:
     """
     if o.pixel_size is not None:
         raise UsageError("--pixel-size is for images: use --spacing SX,SY,SZ for a volume, such as 0.325,0.325,1.5um")
-    if o.spacing is None and isinstance(o.max_distance, Measured):
-        raise UsageError(
-            f"--max-distance {o.max_distance.text} has a unit, but that of the voxels is not known: give --spacing, "
-            "such as 0.325,0.325,1.5um, or --spacing auto"
-        )
+    lengths = {"max-distance": o.max_distance, "min-area": o.min_area, "fill-holes": o.fill_holes}
+    for name, value in lengths.items():
+        if o.spacing is None and isinstance(value, Measured):
+            raise UsageError(
+                f"--{name} {value.text} has a unit, but that of the voxels is not known: give --spacing, such as "
+                "0.325,0.325,1.5um, or --spacing auto"
+            )
 
 
 def check_connectivity(o: TessellationOptions, *, is_volume: bool) -> None:
@@ -103,8 +105,6 @@ def _check_other_options(o: TessellationOptions) -> None:
         raise UsageError("--page chooses a page of a stack, and --volume takes them all: leave one of the two out")
     of_images = {
         "passes": o.passes,
-        "min-area": o.min_area,
-        "fill-holes": o.fill_holes,
         "tiled": o.tiled,
         "overlay": o.overlay,
         "y-down" if o.y_up is False else "y-up": o.y_up is not None,

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from pathlib import Path
 
+from vorotool.engines.tessellation.cleaned_masks import Cleaning
 from vorotool.engines.volumes.volume_frames import default_voxel_frame
 from vorotool.engines.volumes.volume_objects import SLAB_VOXELS, VolumeObjects
 from vorotool.engines.volumes.volume_seeding import seeds_from_xyz, seeds_of_slabs
@@ -23,6 +24,7 @@ from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
 from vorotool.geometry.volumes.voxel_frame import VoxelFrame
 from vorotool.geometry.volumes.voxel_grid import VoxelGrid
 from vorotool.jobs.inputs import JobInput, refuse, report_no_seeds
+from vorotool.jobs.masks import report_cleaning
 from vorotool.jobs.options import TessellationOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.units import PixelSize, lengths_in_pixels, sides_of, unit_stats
@@ -87,11 +89,13 @@ def read_volume_seeds(run: Run, o: TessellationOptions, given: JobInput) -> tupl
             connectivity=int(o.connectivity or 26),
             threshold=threshold,
             invert=invert,
+            cleaning=Cleaning.of(o.min_area, o.fill_holes),
             max_sites=o.max_sites,
             strict=o.strict,
             note=run.note,
             progress=run.progress("read"),
             slices=_slices_at_a_time(source),
+            report=lambda mask: report_cleaning(run, o, mask.filled, (mask.removed, mask.objects), "voxels"),
         )
     sides = sides_of(o, 3)
     return o, ReadVolume(seeds, seeds.frame, sides, _written_grid(o.pixel_size, sides, source.grid))
@@ -123,7 +127,7 @@ def _read_points(run: Run, o: TessellationOptions, given: JobInput) -> tuple[Tes
     return o, ReadVolume(seeds, frame, sides, _written_grid(o.pixel_size, sides, None))
 
 
-_OF_VOLUMES = frozenset({"seeds", "connectivity", "threshold", "invert"})
+_OF_VOLUMES = frozenset({"seeds", "connectivity", "threshold", "invert", "min-area", "fill-holes"})
 """Options that images and volumes have, and points have not."""
 
 
