@@ -9,6 +9,9 @@ import shapely
 import vorotool
 from support.oracles.centerline_oracle import expected
 from vorotool.engines.centerlines.boundary_rays import first_hits
+from vorotool.engines.centerlines.ends import unforked
+from vorotool.engines.centerlines.path_network import Network
+from vorotool.engines.centerlines.strip_ends import at_strip_ends
 from vorotool.errors import InputError, UsageError, VorotoolWarning
 
 RECTANGLE = [[0, 0], [10, 0], [10, 4], [0, 4]]
@@ -256,11 +259,18 @@ def random_skeletons(count):
             yield polygon, vorotool.skeleton_exact(polygon.tolist())
 
 
+def has_strip_ends(skeleton):
+    """Whether the centerline ends in the middle of an end of several edges: strips are tested with known axes."""
+    network = Network(unforked(skeleton), by_edge=True)
+    pieces = network.pieces(network.longest_paths(None))
+    return at_strip_ends(network.axis, pieces, len(skeleton), (True, True))[1].any()
+
+
 def test_brute_force_agrees():
     compared = 0
     for polygon, skeleton in random_skeletons(300):
         brute = expected(skeleton)
-        if brute is None:
+        if brute is None or has_strip_ends(skeleton):
             continue
         line = vorotool.centerline(skeleton)
         found = line.flattened(1e-3)[0][[0, -1]]
@@ -313,7 +323,8 @@ def test_no_coordinate_is_rounding_alone(count):
     turns = np.linspace(-np.pi / 2, np.pi / 2, count + 1)
     half = np.round(np.stack([2 * np.cos(turns), 2 * np.sin(turns)], axis=1), 3)
     slot = [*np.add(half, [10, 0]).tolist(), *(-half).tolist()]
-    assert sorted(places(slot)) == [[-2, 0], [12, 0]]
+    line = np.array(sorted(places(slot)))
+    assert (line[[0, -1]].tolist(), np.abs(line[:, 1]).max()) == ([[-2, 0], [12, 0]], 0)
     round_polygon = np.round(regular(count, 0) * [1.3, 1], 3)
     values = np.abs(places(round_polygon.tolist()))
     assert ((values == 0) | (values > 1e-6)).all()

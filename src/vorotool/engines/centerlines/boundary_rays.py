@@ -64,23 +64,57 @@ def _hits(
     polygons: PolygonSet, first: NDArray[np.int64], size: NDArray[np.int64], origin: Floats, way: Floats
 ) -> tuple[Floats, NDArray[np.intp]]:
     """Of rays with the edges of vertices from `first` on, which are not none."""
-    way = way / np.sqrt((way * way).sum(axis=1))[:, None]
     ray, vertex = owners(size), ranges(first, size)
-    (ax, ay), (bx, by) = ((polygons.xy[of] - origin[ray]).T for of in (vertex, polygons.following[vertex]))
+    a, b = (polygons.xy[of] - origin[ray] for of in (vertex, polygons.following[vertex]))
+    ahead, met = first_crossings(ray, a, b, way)
+    places, vertices = np.full((len(size), 2), np.nan), np.full(len(size), -1, dtype=np.intp)
+    found = np.flatnonzero(met >= 0)
+    vertices[found] = vertex[met[found]]
+    a, b = polygons.xy[vertices[found]], polygons.xy[polygons.following[vertices[found]]]
+    places[found] = np.where(a == b, a, origin[found] + ahead[found])  # exactly on edges along an axis
+    return places, vertices
+
+
+def first_crossings(ray: NDArray[np.integer], a: Floats, b: Floats, way: Floats) -> tuple[Floats, NDArray[np.intp]]:
+    """Find which of its edges each ray meets first.
+
+    Parameters
+    ----------
+    ray : (n,) integer array
+        The ray of each edge.
+    a, b : (n, 2) float64 array
+        The ends of edges, from where their ray begins.
+    way : (k, 2) float64 array
+        Where rays go.
+
+    Returns
+    -------
+    places : (k, 2) float64 array
+        From where the rays begin; NaN where a ray meets nothing.
+    edges : (k,) integer array
+        -1 for none.
+
+    Examples
+    --------
+    >>> ends = np.array([[2.0, -1.0], [3.0, 3.0]]), np.array([[2.0, 1.0], [3.0, 4.0]])
+    >>> places, edges = first_crossings(np.array([0, 0]), *ends, np.array([[4.0, 1.0]]))
+    >>> places.round(9).tolist(), edges.tolist()
+    ([[2.0, 0.5]], [0])
+    """
+    way = way / np.sqrt((way * way).sum(axis=1))[:, None]
+    (ax, ay), (bx, by) = a.T, b.T
     dx, dy = way[ray].T
     met = np.flatnonzero((dx * ay - dy * ax >= 0) != (dx * by - dy * bx >= 0))
     ax, ay, dx, dy = (values[met] for values in (ax, ay, dx, dy))
-    ex, ey = (polygons.xy[polygons.following[vertex[met]]] - polygons.xy[vertex[met]]).T
+    ex, ey = (b[met] - a[met]).T
     across = dx * ey - dy * ex
     distance = np.divide(ax * ey - ay * ex, across, out=np.full(len(met), np.inf), where=across != 0)
     distance[~(distance > 0)] = np.inf
-    order = np.lexsort((vertex[met], distance, ray[met]))
+    order = np.lexsort((met, distance, ray[met]))
     order = order[np.diff(ray[met][order], prepend=-1) > 0]
     order = order[np.isfinite(distance[order])]
-    places, vertices = np.full((len(size), 2), np.nan), np.full(len(size), -1, dtype=np.intp)
+    places, edges = np.full((len(way), 2), np.nan), np.full(len(way), -1, dtype=np.intp)
     found = ray[met][order]
-    vertices[found] = vertex[met][order]
-    a, b = polygons.xy[vertices[found]], polygons.xy[polygons.following[vertices[found]]]
-    place = origin[found] + distance[order][:, None] * way[found]
-    places[found] = np.where(a == b, a, place)  # exactly on edges along an axis
-    return places, vertices
+    edges[found] = met[order]
+    places[found] = distance[order][:, None] * way[found]
+    return places, edges

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import numpy as np
@@ -12,14 +12,15 @@ from numpy.typing import NDArray
 from vorotool.engines.centerlines.ends import Unforked, forked, unforked
 from vorotool.engines.centerlines.leading_on import led_on, rounded
 from vorotool.engines.centerlines.oblique_ends import led_to_oblique_ends
-from vorotool.engines.centerlines.path_network import Network, Paths, geometry_of
+from vorotool.engines.centerlines.path_network import Network, Paths, Pieces, geometry_of
+from vorotool.engines.centerlines.strip_ends import at_strip_ends
 from vorotool.errors import InputError, UsageError, warn
 from vorotool.geometry.arguments.points import as_place
 from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.checks import is_choice
 from vorotool.geometry.magnitude import check_lengths
 from vorotool.geometry.progress import Progress
-from vorotool.geometry.ragged import owners
+from vorotool.geometry.ragged import starts_of
 from vorotool.geometry.skeleton.centerline import Centerlines, without_centerline
 from vorotool.geometry.skeleton.skeleton import Skeleton
 
@@ -46,15 +47,17 @@ def centerline(
 ) -> Centerlines:
     """Find the centerline of each polygon: the longest of the shortest paths between ends of its skeleton.
 
-    An *end* is a leaf, or a fork of two arcs to both corners of one edge, as far as its longer arc reaches. The longest
-    path is decided first; of those as long but for a millionth that at the first edges of the polygon (where it has
-    cycles, of exactly as long ones). Then a fork is replaced by the straight line to the middle of its edge. Round
-    ends, where it forks to more corners that follow each other within half a radius, and leaves inside are led straight
-    on to the boundary, from the place of the path one radius before; a leaf between the edges on both sides of an edge
-    ahead is led to the middle of that edge, as the fork there would be. A path leads into a tip: a corner of less than
-    45 degrees, or sharper than the next one by more than 90; and into all other corners, but in outlines of pixels: see
-    `vorotool.engines.centerlines.oblique_ends`. Where a connected skeleton has no end, paths between its nodes are
-    compared; where it has one, paths from it.
+    An *end* is a leaf, or a fork of two arcs to both corners of one edge, as far as its longer arc reaches. The
+    longest path is decided first; of those as long but for a millionth that at the first edges of the polygon (where
+    it has cycles, of exactly as long ones). Then a fork is replaced by the straight line to the middle of its edge.
+    At the end of a strip, whose sides are about parallel for its width (`vorotool.engines.centerlines.strip_ends`),
+    the path stops at the last disc that touches both; from there, and from leaves inside, a straight line leads to
+    the middle of the end: the piece of outline between both sides, however many vertices it has
+    (`vorotool.engines.centerlines.end_middles`). Other round ends, where the skeleton forks to more corners that
+    follow each other within half a radius, are led straight on to the boundary, from the place of the path one radius
+    before. A path leads into a tip: a corner of less than 45 degrees, or sharper than the next one by more than 90;
+    and into all other corners, but in outlines of pixels: see `vorotool.engines.centerlines.oblique_ends`. Where a
+    connected skeleton has no end, paths between its nodes are compared; where it has one, paths from it.
 
     A triangle without tips has its end at the shortest edge, and a centerline from there to the corner opposite; a
     quadrilateral around a circle, such as a square, has two at opposite edges without tips; of equal ones the first.
@@ -75,7 +78,7 @@ def centerline(
         leads to the end that is farthest from there.
     ends : {"middle", "corner", "none"}
         As told above; or paths lead along the whole skeleton, and from leaves inside straight on; or they stop at
-        forks, round ends, and leaves inside.
+        forks, where ends of strips begin, at round ends, and at leaves inside.
     progress : callable, optional
         Called with the fraction done.
 
@@ -113,7 +116,7 @@ def centerline(
     is_whole = ends == "corner"
     network = Network(forked(skeleton) if is_whole else unforked(skeleton), by_edge=not is_whole)
     if start is None and end is None:
-        lines = _made(network, network.longest_paths(progress), ends, wanted=(True, True))
+        lines = _made(network, network.longest_paths(progress), skeleton, ends, wanted=(True, True))
         _warn_missing(lines)
         return lines
     return _path_between(network, skeleton, start, end, ends, progress)
@@ -135,38 +138,22 @@ def _path_between(
     path = network.path(last if is_reversed else first, -1 if is_reversed else last, progress)
     if path is None or not len(path.arcs):
         raise InputError(_no_path(skeleton, start, end, is_apart=path is None))
-    line = _made(network, path.reversed() if is_reversed else path, ends, wanted=(start is None, end is None))
+    path = path.reversed() if is_reversed else path
+    line = _made(network, path, skeleton, ends, wanted=(start is None, end is None))
     if not len(line):
         raise InputError(_no_path(skeleton, start, end, is_apart=False))
     return line
 
 
 # ---- paths as skeletons ---------------------------------------------------------------------------
-@dataclass(frozen=True, eq=False)
-class _Pieces:
-    """Parts of arcs along lines, each in the direction of its line."""
-
-    line: Indices
-    arc: Indices
-    first: Floats
-    last: Floats
-    is_turned: Booleans
-
-    def __getitem__(self, chosen: NDArray[np.generic]) -> _Pieces:
-        return _Pieces(*(values[chosen] for values in self.__dict__.values()))
-
-
-def _made(network: Network, paths: Paths, ends: Ends, *, wanted: tuple[bool, bool]) -> Centerlines:
+def _made(network: Network, paths: Paths, skeleton: Skeleton, ends: Ends, *, wanted: tuple[bool, bool]) -> Centerlines:
     """Put the arcs of paths together as skeletons, and lead them on."""
-    pieces = _Pieces(
-        owners(np.diff(paths.start), dtype=np.int32),
-        network.arc[paths.arcs],
-        network.first[paths.arcs],
-        network.last[paths.arcs],
-        network.ends[paths.arcs, 0] != paths.sources,
-    )
-    is_lead, is_round = _marked(network.axis, pieces, paths.start)
-    outer = paths.start[:-1], paths.start[1:] - 1
+    pieces, is_strip = network.pieces(paths), np.zeros((len(paths.start) - 1, 2), dtype=bool)
+    if ends != "corner":
+        pieces, is_strip = at_strip_ends(network.axis, pieces, len(skeleton), wanted)
+    start = starts_of(np.bincount(pieces.line))
+    is_lead, is_round = _marked(network.axis, pieces, start, is_strip)
+    outer = start[:-1], start[1:] - 1
     leads = np.stack([is_lead[places] for places in outer], axis=1)
     rounds = np.stack([is_round[places] for places in outer], axis=1)
     middles = _outer_places(network.skeleton, pieces, outer)
@@ -177,11 +164,12 @@ def _made(network: Network, paths: Paths, ends: Ends, *, wanted: tuple[bool, boo
         return _rounded(Centerlines(path, np.full((int(path.branch.max(initial=-1)) + 1, 2, 2), np.nan)))
     lines = Centerlines(_joined(network.skeleton, left), middles)
     asked = np.array(wanted) & ~_at_open_border(network.skeleton, lines)
-    is_open = ((paths.end_nodes < network.leaves) | rounds) & ~leads & asked
+    is_open = ((paths.end_nodes < network.leaves) | rounds | is_strip) & ~leads & asked
+    to_middles = (~rounds | is_strip) & (ends == "middle")
     if ends == "middle":
         lines = led_to_oblique_ends(lines, (is_open | leads) & ~rounds & asked)
     is_open &= np.isnan(lines.ends[:, :, 0])
-    return _rounded(replace(lines, ends=led_on(lines, is_open, to_middles=ends == "middle")))
+    return _rounded(replace(lines, ends=led_on(lines, is_open, to_middles=to_middles)))
 
 
 def _rounded(lines: Centerlines) -> Centerlines:
@@ -196,12 +184,15 @@ def _at_open_border(skeleton: Skeleton, lines: Centerlines) -> Booleans:
     return replace(lines.path, frame=skeleton.frame).touches_frame[lines.end_nodes]
 
 
-def _marked(axis: Unforked, pieces: _Pieces, start: NDArray[np.int64]) -> tuple[Booleans, Booleans]:
+def _marked(axis: Unforked, pieces: Pieces, start: NDArray[np.int64], is_strip: Booleans) -> tuple[Booleans, Booleans]:
     """Which pieces are taken off the ends of lines: whole leads, and round ends where there is more.
 
-    A lead stays that is all of its line.
+    A lead stays that is all of its line, and what is left where the end of a strip begins.
     """
     is_lead, is_round = axis.is_lead[pieces.arc], axis.is_round[pieces.arc]
+    plain = np.concatenate([[0], np.cumsum(~is_round)])
+    is_round &= ~is_strip[pieces.line, 0] | (plain[1:] > plain[start[:-1]][pieces.line])
+    is_round &= ~is_strip[pieces.line, 1] | (plain[:-1] < plain[start[1:]][pieces.line])
     is_lead &= (pieces.first == 0) & (pieces.last == 1)
     count = len(start) - 1
 
@@ -213,7 +204,7 @@ def _marked(axis: Unforked, pieces: _Pieces, start: NDArray[np.int64]) -> tuple[
     return is_lead, is_round
 
 
-def _outer_places(skeleton: Skeleton, pieces: _Pieces, outer: Sequence[NDArray[np.int64]]) -> Floats:
+def _outer_places(skeleton: Skeleton, pieces: Pieces, outer: Sequence[NDArray[np.int64]]) -> Floats:
     """(k, 2, 2) where lines begin and end."""
     places = np.empty((len(outer[0]), 2, 2))
     for end, chosen in enumerate(outer):
@@ -224,7 +215,7 @@ def _outer_places(skeleton: Skeleton, pieces: _Pieces, outer: Sequence[NDArray[n
     return places
 
 
-def _without(pieces: _Pieces, is_lead: Booleans, taken: Booleans) -> _Pieces:
+def _without(pieces: Pieces, is_lead: Booleans, taken: Booleans) -> Pieces:
     """The rest of lines; of two leads a single place, the fork."""
     left = np.bincount(pieces.line[~taken], minlength=int(pieces.line.max(initial=-1)) + 1) > 0
     single = ~left[pieces.line] & is_lead & (np.diff(pieces.line, prepend=-1) > 0)
@@ -233,14 +224,14 @@ def _without(pieces: _Pieces, is_lead: Booleans, taken: Booleans) -> _Pieces:
     return replace(made, last=np.where(single, made.first, made.last))
 
 
-def _with_length(pieces: _Pieces) -> _Pieces:
+def _with_length(pieces: Pieces) -> Pieces:
     """Lines that are more than a single place, numbered again."""
     long = np.flatnonzero(pieces.first != pieces.last)
     _, line = np.unique(pieces.line[long], return_inverse=True)
     return replace(pieces[long], line=line.reshape(-1).astype(np.int32))
 
 
-def _joined(skeleton: Skeleton, pieces: _Pieces) -> Skeleton:
+def _joined(skeleton: Skeleton, pieces: Pieces) -> Skeleton:
     """The pieces as a skeleton: one branch a line."""
     arc, line, is_turned = pieces.arc, pieces.line, pieces.is_turned
     parts = geometry_of(skeleton, arc, pieces.first, pieces.last)

@@ -4,7 +4,8 @@ A piece hangs on a node p if it is all that the skeleton has beyond p. It belong
 into a corner: no node q of it is farther from p, along the skeleton, than `TIP` times the difference of the radii of p
 and q. The stem of a disc with a handle passes this test, too, since the disc is so much larger. But the radius of a
 stem stays the same for a while. So a piece is a branch, and is kept, if from some place p' of it a node q beyond p' is
-farther than ``(TIP + 1) * r(p') - TIP * r(q)``: where the radius is constant, if it is longer than half its width.
+farther than ``(TIP + 1) * r(p') - TIP * r(q)``: where the radius is constant, if it is longer than half its width. It
+must be longer than a part of the radius of p, too, or it is a hair of the outline.
 
 Both tests take the largest ``d(p, q) + TIP * r(q)`` beyond each node, which a walk from the leaves inwards finds in
 linear time. A tree is rooted at its largest disc.
@@ -21,7 +22,7 @@ from numpy.typing import NDArray
 from vorotool.engines.pruning.pruning import prune
 from vorotool.engines.skeleton.parts import with_arcs
 from vorotool.geometry.progress import Progress
-from vorotool.geometry.skeleton.skeleton import EDGE, Skeleton
+from vorotool.geometry.skeleton.skeleton import EDGE, INTERIOR, Skeleton
 from vorotool.geometry.skeleton.tables import connected_roots
 
 Floats = NDArray[np.float64]
@@ -30,6 +31,9 @@ Booleans = NDArray[np.bool_]
 
 TIP = sqrt(4 + 2 * sqrt(2))
 """1 over the sine of half of 45 degrees: the way along the bisector of such a corner in which radii fall by 1."""
+
+HAIR = 2.0**-6
+"""In radii of the disc that a piece hangs on: branches that are shorter cannot be seen."""
 
 
 def without_end_pieces(skeleton: Skeleton, *, threads: int = 0, progress: Progress = None) -> Skeleton:
@@ -133,16 +137,12 @@ def _removed(skeleton: Skeleton, is_fixed: Booleans, keeps_sides: bool) -> Boole
     degree = np.bincount(arcs.reshape(-1), minlength=count)
     joined = np.zeros(count, dtype=np.intp)  # the sum of the numbers of the arcs at each node that are left
     np.add.at(joined, arcs.reshape(-1), np.repeat(np.arange(len(arcs)), 2))
-    radius = TIP * skeleton.radius
     order, is_end, is_long = _peeled(
         np.flatnonzero((degree == 1) & ~is_fixed).tolist(),
         (degree + 2 * is_fixed).tolist(),  # never 1
         joined.tolist(),
         arcs.sum(axis=1).tolist(),
-        skeleton.length.tolist(),
-        radius.tolist(),
-        (radius + skeleton.radius).tolist(),
-        _necks(skeleton),
+        Reaches(skeleton),
     )
     arms = degree.tolist()  # how many arcs at each node are of no piece that hangs there
     for (_, _, inner), is_piece in zip(order, is_end, strict=True):
@@ -155,18 +155,9 @@ def _removed(skeleton: Skeleton, is_fixed: Booleans, keeps_sides: bool) -> Boole
 
 
 def _peeled(
-    leaves: list[int],
-    degree: list[int],
-    joined: list[int],
-    both: list[int],
-    length: list[float],
-    farthest: list[float],
-    most: list[float],
-    necks: dict[int, tuple[int, float, float]],
+    leaves: list[int], degree: list[int], joined: list[int], both: list[int], reaches: Reaches
 ) -> tuple[list[tuple[int, int, int]], list[bool], list[bool]]:
     """Take leaves off, as long as there are any.
-
-    `farthest` begins as `TIP` times the radii, and becomes the largest ``d(p, q) + TIP * r(q)`` beyond each node.
 
     Returns
     -------
@@ -174,26 +165,21 @@ def _peeled(
         The arc of each leaf with its outer and its inner node; whether the piece that hangs there on the inner node
         belongs to an end; and whether it is longer than the disc of that node is wide.
     """
-    own, is_branch, longest = list(farthest), bytearray(len(farthest)), [0.0] * len(farthest)
+    own, radius, length = reaches.own, reaches.radius, reaches.length
+    farthest, branch, longest = list(own), [0.0] * len(own), [0.0] * len(own)
     order, is_end, is_long = [], [], []
     while leaves:
         outer = leaves.pop()
         arc = joined[outer]
         inner = both[arc] - outer
-        reach = farthest[outer] + length[arc]
-        if farthest[outer] > most[outer]:
-            is_branch[outer] = True
-        if arc in necks:
-            source, to_neck, most_there = necks[arc]
-            to_outer = to_neck if source == outer else length[arc] - to_neck
-            is_branch[outer] |= farthest[outer] + to_outer > most_there
+        reach, beyond = reaches.over(arc, outer, farthest[outer], branch[outer])
         order.append((arc, outer, inner))
-        is_end.append(not is_branch[outer] and reach <= own[inner])
+        is_end.append(beyond <= HAIR * radius[inner] and reach <= own[inner])
         path = longest[outer] + length[arc]
-        is_long.append(path > 2 * (most[inner] - own[inner]))
+        is_long.append(path > 2 * radius[inner])
         longest[inner] = max(longest[inner], path)
         farthest[inner] = max(farthest[inner], reach)
-        is_branch[inner] |= is_branch[outer]
+        branch[inner] = max(branch[inner], beyond)
         joined[inner] -= arc
         degree[inner] -= 1
         if degree[inner] == 1:
@@ -201,13 +187,61 @@ def _peeled(
     return order, is_end, is_long
 
 
+class Reaches:
+    """How far pieces go on, and for how long their branches, on walks from leaves inwards.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+        Its arcs inside polygons are gone along.
+
+    Attributes
+    ----------
+    radius, own, length : list of float
+        Radii of nodes, `TIP` times these, and lengths of arcs.
+
+    Examples
+    --------
+    >>> from vorotool import skeleton_exact
+    >>> reaches = Reaches(skeleton_exact([[0, 0], [10, 0], [10, 4], [0, 4]]))
+    >>> reaches.over(0, 2, 0.0, 0.0) == (reaches.length[0], 0.0)
+    True
+    """
+
+    def __init__(self, skeleton: Skeleton) -> None:
+        self.radius, self.length = skeleton.radius.tolist(), skeleton.length.tolist()
+        self.own = (TIP * skeleton.radius).tolist()
+        self.necks = _necks(skeleton)
+
+    def over(self, arc: int, outer: int, farthest: float, branch: float) -> tuple[float, float]:
+        """The largest ``d(p, q) + TIP * r(q)`` and the longest branch as far as the inner end of an arc.
+
+        Parameters
+        ----------
+        arc, outer : int
+            An arc and its outer end.
+        farthest, branch : float
+            Both as far as there.
+        """
+        own = self.own[outer]
+        if farthest > own + self.radius[outer] and farthest - own > branch:
+            branch = farthest - own
+        if arc in self.necks:
+            source, to_neck, radius = self.necks[arc]
+            at_neck = farthest + (to_neck if source == outer else self.length[arc] - to_neck)
+            if at_neck > (TIP + 1) * radius:
+                branch = max(branch, at_neck - TIP * radius)
+        return farthest + self.length[arc], branch
+
+
 def _necks(skeleton: Skeleton) -> dict[int, tuple[int, float, float]]:
-    """Find the arcs whose radius is smallest inside: the source, the way from there, and that radius by ``TIP + 1``."""
-    maybe = np.flatnonzero((skeleton.site_table.kind[skeleton.sites] != EDGE).any(axis=1))
+    """Find the arcs inside whose radius is smallest between their ends: the source, the way from there, that radius."""
+    is_curved = (skeleton.site_table.kind[skeleton.sites] != EDGE).any(axis=1)
+    maybe = np.flatnonzero(is_curved & (skeleton.side == INTERIOR))
     measures = skeleton.measures(maybe)
     inside = np.flatnonzero((measures.slope0 < 0) & (measures.slope1 > 0))
     measures, arcs = measures[inside], maybe[inside]
     at = measures.slope0 / (measures.slope0 - measures.slope1)
     ways = zip(skeleton.arcs[arcs, 0].tolist(), (at * measures.length).tolist(), strict=True)
-    most = ((TIP + 1) * measures.radius(at)).tolist()
-    return {arc: (*way, radius) for arc, way, radius in zip(arcs.tolist(), ways, most, strict=True)}
+    radii = measures.radius(at).tolist()
+    return {arc: (*way, radius) for arc, way, radius in zip(arcs.tolist(), ways, radii, strict=True)}

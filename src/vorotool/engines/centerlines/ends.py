@@ -16,14 +16,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.centerlines.boundary_rays import first_hits
 from vorotool.engines.centerlines.corner_twigs import Branches, Pairs, Twigs, branches_inside, corner_twigs, pairs_of
-from vorotool.engines.centerlines.edge_comparisons import TIE, is_blunt, shortest
+from vorotool.engines.centerlines.edge_comparisons import TIE, shortest
 from vorotool.engines.centerlines.passed_corners import are_passed
 from vorotool.engines.centerlines.pruned_twigs import with_pruned_twigs
 from vorotool.engines.centerlines.round_ends import MOST_WITH_ENDS, grown_runs
 from vorotool.engines.skeleton.parts import with_straight_arcs
-from vorotool.geometry.skeleton.skeleton import EDGE, INTERIOR, Skeleton, ends_of_sites
+from vorotool.geometry.skeleton.skeleton import INTERIOR, Skeleton, ends_of_sites
 from vorotool.geometry.skeleton.tables import connected_roots
 
 Floats = NDArray[np.float64]
@@ -203,51 +202,3 @@ def _longest_of_runs(twigs: Twigs, runs: Numbers, chosen: Numbers) -> Numbers:
     order = chosen[np.lexsort((chosen, -twigs.length[chosen], runs[chosen]))]
     longest: Numbers = order[np.diff(runs[order], prepend=-1) > 0]
     return longest
-
-
-# ---- where twigs were ------------------------------------------------------------------------------
-def middles_ahead(skeleton: Skeleton, arcs: Numbers, origin: Floats, way: Floats) -> Floats:
-    """The middles of edges ahead of ends that are between both edges beside them: where forks were pruned.
-
-    Parameters
-    ----------
-    skeleton : Skeleton
-        Of what.
-    arcs : (k,) integer array
-        Arcs inside polygons that the ends are of.
-    origin, way : (k, 2) float64 array
-        The ends, and where they look.
-
-    Returns
-    -------
-    (k, 2) float64 array
-        NaN where there is no such edge, one of its ends is a tip, or another edge is before its middle.
-
-    Examples
-    --------
-    >>> from vorotool import skeleton_exact
-    >>> skeleton = skeleton_exact([[0, 0], [10, 0], [10, 4], [0, 4]])
-    >>> middles_ahead(skeleton, np.array([4]), np.array([[8.0, 2.0]]), np.array([[1.0, 0.0]])).tolist()
-    [[10.0, 2.0]]
-    """
-    polygons, table = skeleton.polygons, skeleton.site_table
-    sites, polygon = skeleton.sites[arcs], skeleton.polygon[arcs]
-    own = ((table.kind[sites] == EDGE) & (table.polygon[sites] == polygon[:, None])).all(axis=1)
-    ring = polygons.polygon_start[table.polygon[sites]] + table.ring[sites]
-    own &= ring[:, 0] == ring[:, 1]
-    vertex = polygons.ring_start[ring] + table.index[sites]
-    found = np.full((len(arcs), 2), np.nan)
-    for before, behind in ((0, 1), (1, 0)):
-        start = polygons.following[vertex[:, before]]
-        end = polygons.following[start]
-        chosen = np.flatnonzero(own & (end == vertex[:, behind]))
-        start, end = start[chosen], end[chosen]
-        around = (vertex[chosen, before], start, end, polygons.following[end])
-        middle = polygons.xy[start] / 2 + polygons.xy[end] / 2
-        to_middle = middle - origin[chosen]
-        is_ahead = (to_middle * way[chosen]).sum(axis=1) > 0
-        is_ahead &= is_blunt(polygons.xy[np.stack(around, axis=1)])
-        chosen, start, middle, to_middle = (values[is_ahead] for values in (chosen, start, middle, to_middle))
-        _, met = first_hits(polygons, polygon[chosen], origin[chosen], to_middle)
-        found[chosen[met == start]] = middle[met == start]
-    return found

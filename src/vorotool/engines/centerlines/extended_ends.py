@@ -21,12 +21,12 @@ from vorotool.geometry.skeleton.skeleton import INTERIOR, Skeleton
 def extend_ends(skeleton: Skeleton, *, threads: int = 0, progress: Progress = None) -> ExtendedSkeleton:
     """Lead the ends of a skeleton on to the boundary, so that it reaches the ends of strokes.
 
-    First, the forks at the ends of strokes are left out, and the hooks that outlines of pixels make there: pieces whose
-    radii fall as fast as into a corner of 45 degrees or more. No branch is left out, not even of a stroke on a blob:
-    beyond each node of it the skeleton goes on for more than its own radius accounts for. Then each leaf that is inside
-    is led on along a straight line: to the middle of the edge that its skeleton forked to, or straight on to the
-    boundary from the place of the branch one radius before. Leaves at corners, of less than 45 degrees, stay; and so do
-    single places that are left of round shapes.
+    First, the forks at the ends of strokes are left out, and the hooks that outlines of pixels make there: pieces
+    whose radii fall as fast as into a corner of 45 degrees or more. No branch is left out, not even of a stroke on a
+    blob: beyond each node of it the skeleton goes on for more than its own radius accounts for. Then each leaf that
+    is inside is led on along a straight line to the middle of its end: the piece of outline between both sides of the
+    stroke (see `vorotool.engines.centerlines.end_middles`). Leaves at corners, of less than 45 degrees, stay; and so
+    do single places that are left of round shapes.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Straight on from ends that are inside to the boundary: to the middle of the edge ahead, or wherever it is met."""
+"""Straight on from ends that are inside to the boundary: to the middle of the end ahead, or wherever it is met."""
 
 from __future__ import annotations
 
@@ -6,14 +6,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.centerlines.boundary_rays import first_hits
-from vorotool.engines.centerlines.ends import middles_ahead
+from vorotool.engines.centerlines.end_middles import end_middles
 from vorotool.geometry.skeleton.led_on import LedOn
 
 Floats = NDArray[np.float64]
 
 
-def led_on(lines: LedOn, wanted: NDArray[np.bool_], *, to_middles: bool) -> Floats:
-    """Lead ends of lines that are inside to the middle of the edge ahead, or straight on.
+def led_on(lines: LedOn, wanted: NDArray[np.bool_], *, to_middles: bool | NDArray[np.bool_]) -> Floats:
+    """Lead ends of lines that are inside to the middle of the end ahead, or straight on.
 
     Parameters
     ----------
@@ -21,8 +21,8 @@ def led_on(lines: LedOn, wanted: NDArray[np.bool_], *, to_middles: bool) -> Floa
         Of which ends are led on.
     wanted : (k, 2) bool array
         Starts and ends that are.
-    to_middles : bool
-        Whether they are led to middles of edges, where there are such; see `middles_ahead`.
+    to_middles : bool or (k, 2) bool array
+        Whether they are led to the middles of ends; see `vorotool.engines.centerlines.end_middles`.
 
     Returns
     -------
@@ -41,11 +41,13 @@ def led_on(lines: LedOn, wanted: NDArray[np.bool_], *, to_middles: bool) -> Floa
     wanted = wanted & (path.radius[lines.end_nodes] > 0)
     if not wanted.any():
         return ends
-    way, origin = (origin - _places_before(lines))[wanted], origin[wanted]
-    arcs = np.stack([lines.arc_start[:-1], lines.arc_start[1:] - 1], axis=1)[wanted]
-    places = np.full_like(origin, np.nan) if not to_middles else middles_ahead(path, arcs, origin, way)
+    places = np.full((np.count_nonzero(wanted), 2), np.nan)
+    is_led = (wanted & to_middles)[wanted]
+    places[is_led] = end_middles(path, lines.end_nodes[wanted][is_led].astype(np.intp)).places
     rest = np.isnan(places[:, 0])
-    places[rest], _ = first_hits(path.polygons, path.polygon[arcs][rest], origin[rest], way[rest])
+    way, origin = (origin - _places_before(lines))[wanted], origin[wanted]
+    polygon = np.stack([lines.polygon] * 2, axis=1)[wanted]
+    places[rest], _ = first_hits(path.polygons, polygon[rest], origin[rest], way[rest])
     ends[wanted] = places
     return ends
 

@@ -42,11 +42,11 @@ def led_to_oblique_ends(lines: Centerlines, wanted: Booleans) -> Centerlines:
     >>> from vorotool import centerline, outlines, prune, skeleton_exact
     >>> mask = np.zeros((40, 60), dtype=bool)
     >>> for row in range(40):
-    ...     mask[row, 5 + row // 2 : 20 + row // 2] = True
+    ...     mask[row, 5 + row : 20 + row] = True
     >>> skeleton = prune(skeleton_exact(outlines(mask)), scale=1.5)
     >>> lines = centerline(skeleton, ends="none")
     >>> led_to_oblique_ends(lines, np.ones((1, 2), dtype=bool)).ends.tolist()
-    [[[12.0, -0.5], [31.0, 39.5]]]
+    [[[12.0, -0.5], [51.0, 39.5]]]
     """
     path, start = lines.path, lines.arc_start
     if path.polygons.connectivity is None:  # no outlines of pixels

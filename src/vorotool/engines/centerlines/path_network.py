@@ -57,6 +57,20 @@ class Paths:
         return np.stack([self.sources[self.start[:-1]], self.targets[self.start[1:] - 1]], axis=1)
 
 
+@dataclass(frozen=True, eq=False)
+class Pieces:
+    """Parts of arcs along lines, each in the direction of its line."""
+
+    line: Indices
+    arc: Indices
+    first: Floats
+    last: Floats
+    is_turned: Booleans
+
+    def __getitem__(self, chosen: NDArray[np.generic]) -> Pieces:
+        return Pieces(*(values[chosen] for values in self.__dict__.values()))
+
+
 class Network:
     """Arcs of a skeleton, or parts of them, as a graph; places inside arcs can be made nodes.
 
@@ -114,6 +128,16 @@ class Network:
         paths = self._with_sources(starts_of(sizes), arcs[kept], targets[kept])
         one, other = self.axis.first_leaf[self.node[paths.end_nodes]].T
         return paths.turned(one > other)
+
+    def pieces(self, paths: Paths) -> Pieces:
+        """What paths are of."""
+        return Pieces(
+            owners(np.diff(paths.start), dtype=np.int32),
+            self.arc[paths.arcs],
+            self.first[paths.arcs],
+            self.last[paths.arcs],
+            self.ends[paths.arcs, 0] != paths.sources,
+        )
 
     def path(self, first: int, last: int, progress: Progress) -> Paths | None:
         """The shortest path between two nodes; with last -1 the longest of those to leaves."""

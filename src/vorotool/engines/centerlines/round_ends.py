@@ -149,9 +149,10 @@ class _Growth:
         ends = []
         for k in np.flatnonzero(near).tolist():
             twigs = order[starts[k] : starts[k] + size[first[k]]]
-            edges, count = np.unique(self.twigs.edges[twigs][self.twigs.is_beside[twigs]], return_counts=True)
-            outer = set(edges[count == 1].tolist())
-            cosine = float(self.twigs.cosine[twigs].max())
+            outer: set[int] = set()
+            for edge in self.twigs.edges[twigs][self.twigs.is_beside[twigs]].tolist():
+                outer ^= {edge}  # those between two twigs are there twice
+            cosine = max(self.twigs.cosine[twigs].tolist())
             ends.append(_End(twigs.tolist(), [], outer, int(node[first[k]]), int(branch[k]), 0.0, cosine))
         return ends
 

@@ -8,7 +8,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from vorotool.engines.centerlines.end_pieces import TIP
+from vorotool.engines.centerlines.end_pieces import HAIR, TIP
 from vorotool.engines.common.faults import fail, first_wrong
 from vorotool.engines.pruning.verify_pruning import check_counts
 from vorotool.engines.skeleton.parts import with_arcs
@@ -80,18 +80,19 @@ def _check_branches(path: Skeleton, skeleton: Skeleton) -> None:
     for (one, other), length in zip(skeleton.arcs.tolist(), skeleton.length.tolist(), strict=True):
         beside[one].append((other, length))
         beside[other].append((one, length))
-    order = [(node, -1, 0.0) for node in beside if places[node] in kept]
-    for node, before, _ in order:  # grows outwards
-        order += [(to, node, length) for to, length in beside[node] if to != before and places[to] not in kept]
-    beyond = [0.0] * len(places)
-    for node, before, length in reversed(order):
-        is_side = before >= 0 and kept.get(places[before], 1) > 1
-        is_long = is_side and beyond[node] + length > 2 * skeleton.radius[before]
-        if before >= 0 and (is_long or beyond[node] > (TIP + 1) * skeleton.radius[node]):
+    order = [(node, -1, 0.0, node) for node in beside if places[node] in kept]
+    for node, before, _, stem in order:  # grows outwards
+        order += [(to, node, way, stem) for to, way in beside[node] if to != before and places[to] not in kept]
+    beyond, radius = [0.0] * len(places), skeleton.radius.tolist()
+    for node, before, length, stem in reversed(order):
+        if before < 0:
+            continue
+        is_side = before == stem and kept[places[stem]] > 1
+        most = TIP * radius[node] + max(radius[node], HAIR * radius[stem])
+        if beyond[node] > most or (is_side and beyond[node] + length > 2 * radius[stem]):
             x, y = skeleton.vertices[node].tolist()
             fail(f"a branch is missing: it goes on for {beyond[node]:g} from ({x:g}, {y:g})")
-        if before >= 0:
-            beyond[before] = max(beyond[before], beyond[node] + length)
+        beyond[before] = max(beyond[before], beyond[node] + length)
 
 
 def _named(skeleton: Skeleton) -> list[tuple[float, ...]]:

@@ -1,0 +1,50 @@
+"""Strips with known axes: lines end in the middles of their ends, whatever these and the sides look like."""
+
+import numpy as np
+import pytest
+import shapely
+
+import vorotool
+from support.families.strips import strip
+
+
+def skeletons(made):
+    """The skeleton of a strip, and a pruned one."""
+    whole = vorotool.skeleton_exact(made.ring)
+    return whole, vorotool.prune(whole, scale=1.3)
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_strips_end_in_the_middle_of_their_ends(seed):
+    made = strip(np.random.default_rng([2, seed]))
+    if made is None:
+        pytest.skip("the sides meet")
+    width, true = made.width, made.axis[[0, -1]]
+    for skeleton in skeletons(made):
+        line = vorotool.centerline(skeleton).flattened(width / 1000)[0]
+        assert max(np.hypot(*(line[[0, -1]] - end).T).min() for end in true) < 0.01 * width, made.kind
+        assert shapely.LineString(line).hausdorff_distance(shapely.LineString(made.axis)) < 0.15 * width, made.kind
+    extended = vorotool.extend_ends(skeleton)
+    vorotool.verify_extended(extended, skeleton)
+    ends = extended.ends[~np.isnan(extended.ends[:, :, 0])]
+    assert max(np.hypot(*(ends - end).T).min() for end in true) < 0.01 * width, made.kind
+
+
+@pytest.mark.parametrize("cap", ["flat", "round"])
+@pytest.mark.parametrize("count", [20, 100, 1000])
+def test_a_bent_road_ends_in_the_middle(cap, count):
+    turns = np.linspace(0, 2, count)
+    axis = 10 * np.stack([np.cos(turns), np.sin(turns)], axis=1)
+    road = shapely.LineString(axis).buffer(2, cap_style=cap)
+    out = np.stack([axis[0] - axis[1], axis[-1] - axis[-2]])
+    true = axis[[0, -1]] + (2 * out / np.hypot(*out.T)[:, None] if cap == "round" else 0)
+    found = vorotool.centerline(vorotool.skeleton_exact(road)).ends[0]
+    assert max(np.hypot(*(found - end).T).min() for end in true) < 0.04
+
+
+@pytest.mark.parametrize("stretch", [1.2, 2, 5])
+def test_an_ellipse_is_gone_through_along_its_axis(stretch):
+    turns = np.arange(2000) * (2 * np.pi / 2000)
+    ring = np.stack([stretch * np.cos(turns), np.sin(turns)], axis=1)
+    ends = vorotool.centerline(vorotool.skeleton_exact(ring)).flattened(0.001)[0][[0, -1]]
+    np.testing.assert_allclose(ends[np.argsort(ends[:, 0])], [[-stretch, 0], [stretch, 0]], atol=0.01)
