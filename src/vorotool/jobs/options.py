@@ -420,6 +420,7 @@ class SkeletonOptions(ShapeOptions):
     end: Place | None
     ends: Ends | None
     every: float | None
+    along: Literal["branches", "centerline"] | None
     smooth: float | None
 
     @property

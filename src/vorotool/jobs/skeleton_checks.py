@@ -36,6 +36,8 @@ def check_options(o: SkeletonOptions, targets: list[Target]) -> None:
         )
     check_join_tolerance(o)
     _check_measure(o, "--every", o.every, {"points", "transects"})
+    if o.along is not None and not {"points", "transects"} & set(o.what):
+        raise UsageError("--along is for points and transects: use --what points or transects, or leave it out")
     if "shape" in o.what and o.side == "exterior":
         raise UsageError("shapes are rebuilt from inside: use --side interior or both")
     if isinstance(o, ExactSkeletonOptions):
@@ -108,13 +110,14 @@ def check_layers(o: JobOptions, products: Mapping[str, Product], targets: list[T
 
 
 def _check_centerline(o: SkeletonOptions) -> None:
-    if "centerline" in o.what and o.side == "exterior":
+    has_centerline = "centerline" in o.what or o.along == "centerline"
+    if has_centerline and o.side == "exterior":
         raise UsageError("centerlines are inside polygons: use --side interior or both")
-    if o.ends is not None and not {"skeleton", "centerline", "table"} & set(o.what):
+    if o.ends is not None and not has_centerline and not {"skeleton", "table"} & set(o.what):
         raise UsageError(
             "--ends is for skeletons and centerlines: use --what skeleton, centerline or table, or leave it out"
         )
-    if (o.start is not None or o.end is not None) and "centerline" not in o.what:
+    if (o.start is not None or o.end is not None) and not has_centerline:
         raise UsageError("--from and --to are ends of centerlines: use --what centerline, or leave them out")
 
 

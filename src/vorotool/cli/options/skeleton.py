@@ -75,7 +75,13 @@ _READING: tuple[Decorator, ...] = (
         "--every",
         type=Length(zero=False),
         metavar="D",
-        help="Step along branches, of --what points and transects.",
+        help="Step along branches or the centerline, of --what points and transects.",
+    ),
+    click.option(
+        "--along",
+        type=click.Choice(["branches", "centerline"], case_sensitive=False),
+        help="What these are along: each branch of the skeleton (default), so that distances begin anew at junctions, "
+        "or the centerline of each polygon from end to end, with transects straight across it up to the outline.",
     ),
     shape_options(flattened=" or --what shape"),
 )

@@ -1,4 +1,4 @@
-"""Places at equal steps along the branches of a skeleton."""
+"""Places at equal steps along the branches of a skeleton, or along centerlines."""
 
 from __future__ import annotations
 
@@ -6,12 +6,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
+from vorotool.engines.from_skeleton.sections import sections_along
 from vorotool.engines.skeleton.core_skeleton import core_skeleton
 from vorotool.errors import LimitError, UsageError
 from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.numbers import finite_double
 from vorotool.geometry.progress import Progress
+from vorotool.geometry.skeleton.centerline import Centerlines
+from vorotool.geometry.skeleton.extended import ExtendedSkeleton
+from vorotool.geometry.skeleton.led_on import LedOn
 from vorotool.geometry.skeleton.points_along import SkeletonPoints
 from vorotool.geometry.skeleton.skeleton import Skeleton
 
@@ -19,13 +23,16 @@ MOST_POINTS = 1 << 27
 """Some 10 GB of arrays."""
 
 
-def points_along(skeleton: Skeleton, *, every: float, threads: int = 0, progress: Progress = None) -> SkeletonPoints:
-    """Give places along each branch: at its beginning, and on at equal steps of true arc length.
+def points_along(
+    skeleton: Skeleton | LedOn, *, every: float, threads: int = 0, progress: Progress = None
+) -> SkeletonPoints:
+    """Give places along each branch or centerline: at its beginning, and on at equal steps of true arc length.
 
     Parameters
     ----------
-    skeleton : Skeleton
-        Pruned or not.
+    skeleton : Skeleton, Centerlines or ExtendedSkeleton
+        Pruned or not. Along the latter two the way goes on through junctions and along what leads on to the outline,
+        and feet are where the straight line across meets the outline, or an island in it, first.
     every : float
         The step, in input units.
     threads : int
@@ -52,12 +59,14 @@ def points_along(skeleton: Skeleton, *, every: float, threads: int = 0, progress
     >>> points.xy[points.radius == 1].tolist(), points.along[points.radius == 1].tolist()
     ([[1.0, 1.0], [3.0, 1.0], [5.0, 1.0], [7.0, 1.0]], [0.0, 2.0, 4.0, 6.0])
     """
-    check_value(skeleton, "skeleton", Skeleton)
+    check_value(skeleton, "skeleton", Skeleton, Centerlines, ExtendedSkeleton)
     every = finite_double(every, "the step")
     check_step(every)
     threads = checked_threads(threads)
+    if isinstance(skeleton, LedOn):
+        return sections_along(skeleton, _counts(skeleton.length, every), every)
     start = np.flatnonzero(np.diff(skeleton.branch, prepend=-1))
-    counts = _counts(skeleton, start, every)
+    counts = _counts(np.add.reduceat(skeleton.length, start) if len(start) else np.zeros(0), every)
     core = core_skeleton(skeleton, threads=threads)
     made = _core.skeleton.steps_along(core, start, counts, every, threads, progress)
     return SkeletonPoints(skeleton, **made)
@@ -69,14 +78,12 @@ def check_step(every: float) -> None:
         raise UsageError(f"the step is {every}: use a length above 0")
 
 
-def _counts(skeleton: Skeleton, start: NDArray[np.int64], every: float) -> NDArray[np.int64]:
-    """Points on each branch."""
-    if not len(start):
-        return np.zeros(0, dtype=np.int64)
+def _counts(length: NDArray[np.float64], every: float) -> NDArray[np.int64]:
+    """Points on each line."""
     with np.errstate(over="ignore"):
-        counts = np.floor(np.add.reduceat(skeleton.length, start) / every) + 1
+        counts = np.floor(length / every) + 1
     if not counts.sum() <= MOST_POINTS:
         raise LimitError(
-            f"steps of {every:g} along {skeleton.length.sum():.6g} are more than {MOST_POINTS} points: use longer ones"
+            f"steps of {every:g} along {length.sum():.6g} are more than {MOST_POINTS} points: use longer ones"
         )
     return counts.astype(np.int64)

@@ -177,7 +177,11 @@ def _add_points(drawing: DxfDrawing, points: SkeletonPoints) -> None:
     order = np.argsort(points.arc, kind="stable")
     places = np.column_stack([points.xy, -points.radius])[order]
     first = np.searchsorted(points.arc[order], np.arange(len(skeleton) + 1))
-    for _, arcs in _branches(skeleton):
+    for number, arcs in _branches(skeleton):
+        if points.rings is not None:
+            along = points.skeleton.branch[points.arc] == number
+            drawing.line_in_space(DEPTH, np.column_stack([points.xy, -points.radius])[along])
+            continue
         path: list[Floats] = []
         for arc in arcs.tolist():
             path += [nodes[skeleton.arcs[arc, :1]], places[first[arc] : first[arc + 1]]]

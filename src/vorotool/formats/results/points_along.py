@@ -36,7 +36,7 @@ def write_skeleton_points(
         What to write, in its order.
     fmt : {"csv", "tsv", "json", "npz", "npy", "geojson", "wkt"}
         The first four are of tables, NPY has the places of points. GeoJSON has the id and the properties of the
-        polygon, and ``branch``, ``along``, ``r`` and ``width``.
+        polygon, and ``branch``, ``along``, ``r`` and ``width``; along centerlines ``ring_a`` and ``ring_b``, too.
     what : {"points", "transects"}
         What to write.
 
@@ -71,20 +71,23 @@ def _write_geojson(
 ) -> None:
     skeleton = points.skeleton
     polygons, side = skeleton.polygons, skeleton.side[points.arc]
-    own = {name: f"voro_{name}" if name in polygons.properties else name for name in _OWN}
+    rings = {} if points.rings is None else dict(zip(("ring_a", "ring_b"), points.rings.T, strict=True))
+    most = 1 + max((int(ring.max(initial=-1)) for ring in rings.values()), default=-1)
+    own = {name: f"voro_{name}" if name in polygons.properties else name for name in (*_OWN, *rings)}
     columns: list[Any] = [
         Lookup(_openings(polygons, own["polygon"]), points.polygon % (len(polygons) + 1)),
         skeleton.branch[points.arc].astype(np.int64),
         points.along,
         points.radius,
-        2 * points.radius,
+        points.width,
         Lookup([f'"{name}"' for name in SIDES] + ["null"], np.where(side < 0, len(SIDES), side).astype(np.int32)),
+        *(Lookup([*map(str, range(most)), "null"], ring % (most + 1)) for ring in rings.values()),
     ]
     between: tuple[str, ...] = (",",)
     kind, after = "Point", "]}}"
     if len(coordinates) > 2:
         kind, between, after = "LineString", (",", "],[", ","), "]]}}"
-    names = [f',"{own[name]}":' for name in _OWN[1:]]
+    names = [f',"{own[name]}":' for name in [*_OWN, *rings][1:]]
     opening = f'}},"geometry":{{"type":"{kind}","coordinates":{"[" * (len(coordinates) // 2)}'
     shape = RowShape(("", *names, opening, *between, after), ",\n", "null")
     rows = [*(Column("", values) for values in columns), *coordinates]

@@ -1,14 +1,16 @@
-"""Places along the branches of a skeleton, and the segments between their feet."""
+"""Places along skeletons and centerlines, and the segments between their feet."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.geometry.checks import set_array
+from vorotool.geometry.curves.inverse_functions import hypotenuse
 from vorotool.geometry.skeleton.given_feet import moved_feet
 from vorotool.geometry.skeleton.skeleton import SIDES, Skeleton
 from vorotool.geometry.skeleton.tables import ids_of
@@ -18,22 +20,26 @@ from vorotool.geometry.values import Pictured, Tabular, Value, WithParts, counte
 
 @dataclass(frozen=True, eq=False, repr=False)
 class SkeletonPoints(Value, Tabular, WithParts, Pictured):
-    """Centres of discs along the branches of a skeleton, in the order of these.
+    """Centers of discs along the branches of a skeleton, or places along centerlines, in the order of these.
 
     Parameters
     ----------
     skeleton : Skeleton
-        What they are on.
+        What they are on; of centerlines the arcs.
     arc : (n,) int64 array
-        Its arc that each is on.
+        Its arc that each is on; of what leads on from a centerline the arc at that end.
     along : (n,) float64 array
-        How far each is from the beginning of its branch, along the branch.
+        How far each is from the beginning of its branch, along the branch; of a centerline with what leads on.
     xy : (n, 2) float64 array
         Places.
     radius : (n,) float64 array
         Their clearance.
     feet : (n, 2, 2) float64 array
-        The nearest place on the site left of the arc, and on that to its right.
+        The nearest place on the site left of the arc, and on that to its right; of centerlines where the straight line
+        across meets the outline first.
+    rings : (n, 2) int32 array, optional
+        Of centerlines alone: the ring of the polygon that each foot is on, 0 for the shell, else the hole; -1 where the
+        place is on the outline itself.
 
     Raises
     ------
@@ -54,9 +60,12 @@ class SkeletonPoints(Value, Tabular, WithParts, Pictured):
     xy: NDArray[np.float64]
     radius: NDArray[np.float64]
     feet: NDArray[np.float64]
+    rings: NDArray[np.int32] | None = None
 
     def __post_init__(self) -> None:
         count = len(self.arc)
+        if self.rings is not None:
+            set_array(self, "rings", np.int32, (count, 2))
         for name, shape in (("along", (count,)), ("xy", (count, 2)), ("radius", (count,)), ("feet", (count, 2, 2))):
             set_array(self, name, np.float64, shape)
 
@@ -79,11 +88,18 @@ class SkeletonPoints(Value, Tabular, WithParts, Pictured):
         return np.asarray((self.feet[:, 0] != self.feet[:, 1]).any(axis=1))
 
     @cached_property
+    def width(self) -> NDArray[np.float64]:
+        """(n,) twice the radius; of centerlines the length of the section."""
+        return 2 * self.radius if self.rings is None else hypotenuse(*(self.feet[:, 1] - self.feet[:, 0]).T)
+
+    @cached_property
     def as_given(self) -> SkeletonPoints:
         """The same with corners and feet on the polygons of the input: those of `skeleton` are on a lattice."""
         skeleton = self.skeleton.as_given
         if skeleton is self.skeleton:
             return self
+        if self.rings is not None:
+            return replace(self, skeleton=skeleton)  # sections are those of the input from the beginning
         feet = moved_feet(self.skeleton, self.skeleton.sites[self.arc], self.feet)
         xy = np.where(self.radius[:, None] == 0, feet[:, 0], self.xy)
         return replace(self, skeleton=skeleton, xy=xy, feet=feet)
@@ -95,7 +111,8 @@ class SkeletonPoints(Value, Tabular, WithParts, Pictured):
         -------
         Table
             ``polygon, id, branch, arc, side, along, x, y, r, width, x_a, y_a, x_b, y_b``: foot a is on the left of the
-            arc. The width is twice the radius. Outside there is no polygon.
+            arc. The width is from foot to foot along centerlines, else twice the radius. Outside there is no polygon.
+            Centerlines have ``ring_a, ring_b``, too: numbers of holes, 0 for the shell.
         """
         skeleton, arc, given = self.skeleton, self.arc, self.as_given
         side = skeleton.side[arc]
@@ -110,20 +127,27 @@ class SkeletonPoints(Value, Tabular, WithParts, Pictured):
                 "x": given.xy[:, 0].copy(),
                 "y": given.xy[:, 1].copy(),
                 "r": self.radius,
-                "width": 2 * self.radius,
+                "width": self.width,
                 "x_a": given.feet[:, 0, 0].copy(),
                 "y_a": given.feet[:, 0, 1].copy(),
                 "x_b": given.feet[:, 1, 0].copy(),
                 "y_b": given.feet[:, 1, 1].copy(),
+                **self._ring_columns(),
             }
         )
+
+    def _ring_columns(self) -> dict[str, Any]:
+        if self.rings is None:
+            return {}
+        sides = zip(("ring_a", "ring_b"), self.rings.T, strict=True)
+        return {name: np.ma.array(ring, mask=ring < 0) for name, ring in sides}
 
     def transects(self) -> SkeletonPoints:
         """Give those with a segment from foot to foot."""
         kept = self.spans
-        return SkeletonPoints(
-            self.skeleton, self.arc[kept], self.along[kept], self.xy[kept], self.radius[kept], self.feet[kept]
-        )
+        rings = None if self.rings is None else self.rings[kept]
+        arrays = (each[kept] for each in (self.arc, self.along, self.xy, self.radius, self.feet))
+        return SkeletonPoints(self.skeleton, *arrays, rings)
 
     def _summary(self) -> str:
         polygons = self.skeleton.polygons

@@ -69,7 +69,8 @@ class SkeletonProducts(ABC, Generic[Options]):
         check_column(options.label_by, self._polygons.properties)
         world = world_of_polygons(run, options, self._polygons, frame=frame, size=options.pixel_size)
         self._styled = partial(styled_page, looks=options.looks, world=world)
-        origin = Origin(run, options, lambda: self.skeleton, lambda: self.whole, self._shapes, frame, grid)
+        made = (lambda: self.skeleton), (lambda: self.whole), (lambda: self.centerlines), self._shapes
+        origin = Origin(run, options, *made, frame, grid)
         self.lines = WrittenLines(run, options, lambda: self.joined, lambda: self.centerlines)
         self.derived = Derived(origin, self.backdrop, self._styled)
 

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from vorotool.geometry.pixel_frame import Frame
     from vorotool.geometry.pixel_grid import PixelGrid
     from vorotool.geometry.polygons.polygon_set import PolygonSet
+    from vorotool.geometry.skeleton.centerline import Centerlines
     from vorotool.geometry.skeleton.skeleton import Skeleton
     from vorotool.jobs.targets import Target
     from vorotool.render.canvas.layers import Page
@@ -36,6 +37,8 @@ class Origin:
         Gives the skeleton, pruned as the options say.
     whole : callable
         Gives it before it is pruned.
+    centerlines : callable
+        Gives the longest path in each polygon, or that between the places that are given.
     shapes : callable
         Gives the shapes, or their exact diagram.
     frame : Frame, optional
@@ -48,6 +51,7 @@ class Origin:
     options: SkeletonOptions
     skeleton: Callable[[], Skeleton]
     whole: Callable[[], Skeleton]
+    centerlines: Callable[[], Centerlines]
     shapes: Callable[[], ShapeDiagram | PolygonSet]
     frame: Frame | None = None
     grid: PixelGrid | None = None

@@ -1,0 +1,106 @@
+"""Straight across polygons, from inside to their outline on both sides."""
+
+from __future__ import annotations
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from vorotool.geometry.curves.inverse_functions import hypotenuse
+from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.ragged import owners
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+_GROWTH = 4
+"""By how much a ray is made longer that meets no edge yet."""
+
+
+def section_ends(
+    polygons: PolygonSet, own: NDArray[np.integer] | None, xy: Floats, way: Floats, radius: Floats
+) -> tuple[Floats, NDArray[np.int32]]:
+    """Find where straight lines across some ways meet the outline first, left and right.
+
+    Parameters
+    ----------
+    polygons : PolygonSet
+        Whose edges are met.
+    own : (n,) integer array, optional
+        The polygon of each place: edges of no other count. By default all count.
+    xy, way : (n, 2) float64 array
+        Places inside polygons, and the directions that sections are across.
+    radius : (n,) float64 array
+        Less than the distance of the edges but for rounding: more than 0.
+
+    Returns
+    -------
+    ends : (n, 2, 2) float64 array
+        The place itself where nothing is met.
+    rings : (n, 2) int32 array
+        Of their polygons: 0 is the shell. -1 where nothing is met.
+
+    Examples
+    --------
+    >>> from vorotool.geometry.polygons.polygon_set import SHELL, set_of_rings
+    >>> square = set_of_rings([[0, 0], [4, 0], [4, 4], [0, 4]], [4], [SHELL], [0])
+    >>> ends, rings = section_ends(square, None, np.array([[1.0, 1.0]]), np.array([[0.0, 2.0]]), np.array([1.0]))
+    >>> ends.tolist(), rings.tolist()
+    ([[[0.0, 1.0], [4.0, 1.0]]], [[0, 0]])
+    """
+    left = np.stack([-way[:, 1], way[:, 0]], axis=1)
+    across = np.stack([left, -left], axis=1).reshape(-1, 2)
+    polygon = None if own is None else np.repeat(own, 2)
+    places, vertices = _first_hits(polygons, polygon, np.repeat(xy, 2, axis=0), across, np.repeat(radius, 2))
+    ring = np.searchsorted(polygons.ring_start, vertices, side="right") - 1
+    rings = np.where(vertices < 0, -1, ring - polygons.polygon_start[polygons.ring_polygon[ring]])
+    return places.reshape(-1, 2, 2), rings.reshape(-1, 2).astype(np.int32)
+
+
+def _first_hits(
+    polygons: PolygonSet, polygon: NDArray[np.integer] | None, origin: Floats, way: Floats, reach: Floats
+) -> tuple[Floats, Indices]:
+    """Where each ray meets an edge first, and where that edge begins: edges near the ray are looked at first."""
+    way = way / hypotenuse(*way.T)[:, None]
+    edges = np.stack([polygons.xy, polygons.xy[polygons.following]], axis=1)
+    of_edge = polygons.ring_polygon[owners(np.diff(polygons.ring_start))]
+    tree = shapely.STRtree(shapely.linestrings(edges))
+    most = 2 * float(np.abs(polygons.xy - polygons.xy[:1]).sum(axis=1).max(initial=0.0))
+    places, vertices = origin.copy(), np.full(len(origin), -1, dtype=np.int64)
+    left, reach = np.arange(len(origin)), 2 * reach
+    while left.size:
+        ends = np.stack([origin[left], origin[left] + reach[left, None] * way[left]], axis=1)
+        ray, edge = tree.query(shapely.linestrings(ends))
+        if polygon is not None:
+            is_own = of_edge[edge] == polygon[left[ray]]
+            ray, edge = ray[is_own], edge[is_own]
+        ray, edge, distance = _nearest(ray, edge, *_crossings(origin[left[ray]], way[left[ray]], edges[edge]))
+        is_in = distance <= reach[left[ray]]  # what is farther may be behind an edge that was not looked at
+        ray, edge, distance = left[ray[is_in]], edge[is_in], distance[is_in]
+        vertices[ray] = edge
+        a, b = edges[edge].swapaxes(0, 1)
+        # exactly on edges along an axis
+        places[ray] = np.where(a == b, a, origin[ray] + distance[:, None] * way[ray])
+        left = left[(vertices[left] < 0) & (reach[left] <= most)]
+        reach[left] *= _GROWTH
+    return places, vertices
+
+
+def _crossings(origin: Floats, way: Floats, edge: Floats) -> tuple[NDArray[np.intp], Floats]:
+    """Which rays meet their edges, and how far ahead; ends of edges on a ray count as left of it."""
+    (ax, ay), (bx, by) = (edge[:, end].T - origin.T for end in (0, 1))
+    dx, dy = way.T
+    met = np.flatnonzero((dx * ay - dy * ax >= 0) != (dx * by - dy * bx >= 0))
+    (ax, ay, dx, dy), (ex, ey) = (each[met] for each in (ax, ay, dx, dy)), (edge[met, 1] - edge[met, 0]).T
+    across = dx * ey - dy * ex
+    ahead = np.divide(ax * ey - ay * ex, across, out=np.full(len(met), np.inf), where=across != 0)
+    is_ahead = (ahead > 0) & np.isfinite(ahead)
+    return met[is_ahead], ahead[is_ahead]
+
+
+def _nearest(ray: Indices, edge: Indices, met: NDArray[np.intp], ahead: Floats) -> tuple[Indices, Indices, Floats]:
+    """Of the edges that a ray meets the nearest, of equally near ones the first."""
+    ray, edge = ray[met], edge[met]
+    order = np.lexsort((edge, ahead, ray))
+    order = order[np.diff(ray[order], prepend=-1) > 0]
+    return ray[order], edge[order], ahead[order]
