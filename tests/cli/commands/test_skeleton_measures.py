@@ -92,6 +92,27 @@ def test_points_and_transects(run, command):
     assert spans == [row for row in rows if (row["x_a"], row["y_a"]) != (row["x_b"], row["y_b"])]
 
 
+@pytest.mark.parametrize("command", COMMANDS)
+def test_transects_along_centerlines(run, folder, command):
+    options = [*COMMANDS[command], "--prune", "scale=1.5", "--along", "centerline", "--every", "7", "--verify"]
+    done = run(command, SHAPES, "--what", "transects,centerline", *options, "-o", "a.geojson", "--stats", "-")
+    assert done.code == 0
+    assert json.loads(done.out)["along"] == "centerline"
+    read = [json.loads((folder / f"a.{what}.geojson").read_text())["features"] for what in ("transects", "centerline")]
+    transects, lines = ([shapely.geometry.shape(each["geometry"]) for each in features] for features in read)
+    for each, feature in zip(transects, read[0], strict=True):
+        own = feature["properties"]
+        assert own["along"] % 7 == 0
+        assert own["width"] == pytest.approx(each.length)
+        assert shapely.distance(each, lines[own["polygon"]]) < 1e-6
+        assert {own["ring_a"], own["ring_b"]} <= {0, 1}
+    for number, line in enumerate(lines):
+        along = [each["properties"]["along"] for each in read[0] if each["properties"]["polygon"] == number]
+        assert max(along) == pytest.approx(line.length, abs=7.1)
+    many = run(command, SHAPES, "--what", "points", *options, "-f", "csv").rows
+    assert {row["polygon"] for row in many} == {"0", "1"}
+
+
 def test_transects_are_lines(run):
     done = run("skeleton-exact", SHAPES, "--what", "transects", "--every", "9", "-f", "geojson")
     features = json.loads(done.out)["features"]
@@ -159,6 +180,8 @@ def test_pictures(run, folder):
         (["--what", "offset"], "--what offset needs a length: use -d D"),
         (["--what", "points,transects", "--out-dir", "x"], "--what points,transects needs a length: use --every D"),
         (["-d", "3"], "-d is for other results: use --what offset, or leave it out"),
+        (["--along", "centerline"], "--along is for points and transects"),
+        (["--what", "points", "--every", "3", "--along", "centerline", "--side", "exterior"], "centerlines are inside"),
         (["--every", "3"], "--every is for other results: use --what points or --what transects, or leave it out"),
         (["--what", "offset", "-d", "0"], "a distance is 0"),
         (["--what", "offset", "-d", "1,inf"], "a distance is inf"),

@@ -45,7 +45,7 @@ def sections_along(lines: LedOn, counts: Indices, every: float) -> SkeletonPoint
         xy[is_end] = np.where(is_led_on, led_on, given.path.vertices[nodes])
         radius[is_end] = np.where(is_led_on[:, 0], 0, lines.path.radius[nodes])
     polygons = given.path.polygons
-    inside = radius > _TOUCH * np.spacing(np.abs(polygons.xy).max(initial=0.0))
+    inside = (radius > _TOUCH * np.spacing(np.abs(polygons.xy).max(initial=0.0))) & way.any(axis=1)
     feet, rings = np.repeat(xy[:, None], 2, axis=1), np.full((len(xy), 2), -1, dtype=np.int32)
     own = None if lines.path.features == "together" else lines.polygon[line][inside]
     feet[inside], rings[inside] = section_ends(polygons, own, xy[inside], way[inside], radius[inside])

@@ -59,12 +59,25 @@ def verify_sections(points: SkeletonPoints, lines: LedOn, every: float) -> None:
         fail("a line has more or fewer points than steps")
     _refuse(points.along != every * (np.arange(len(line)) - starts_of(counts)[line]), "is not at its step")
     xy, start = lines.as_given.flattened(tolerance / 4)
-    paths, places = shapely.linestrings(xy, indices=owners(np.diff(start))), shapely.points(points.xy)
-    _refuse(shapely.distance(places, paths[line]) > tolerance, "is off its line")
-    short = points.along - shapely.line_locate_point(paths[line], places)
-    _refuse(np.abs(short) > tolerance + _LENGTHENED * points.along, "is elsewhere along its line")
+    paths = shapely.linestrings(xy, indices=owners(np.diff(start)))
+    shapely.prepare(paths)
+    _refuse(~shapely.dwithin(paths[line], shapely.points(points.xy), tolerance), "is off its line")
+    way = points.xy - _interpolated(xy, start, line, points.along)
+    _refuse(hypotenuse(*way.T) > tolerance + _LENGTHENED * points.along, "is elsewhere along its line")
     _check_across(points, lines, line, tolerance)
     _check_ends(points, line, to_shapely(polygons), tolerance)
+
+
+def _interpolated(xy: Floats, start: NDArray[np.int64], line: NDArray[np.int64], along: Floats) -> Floats:
+    """Places along polylines, which end where these do."""
+    steps = hypotenuse(*np.diff(xy, axis=0, append=xy[-1:]).T)
+    steps[start[1:] - 1] = 0
+    reached = np.concatenate([[0.0], np.cumsum(steps)])[:-1]
+    wanted = np.minimum(along + reached[start[:-1]][line], reached[start[1:] - 1][line])
+    at = np.clip(np.searchsorted(reached, wanted, side="right") - 1, start[line], start[line + 1] - 1)
+    part = np.divide(wanted - reached[at], steps[at], out=np.zeros(len(at)), where=steps[at] > 0)
+    places: Floats = xy[at] + part[:, None] * (xy[np.minimum(at + 1, len(xy) - 1)] - xy[at])
+    return places
 
 
 def _check_across(points: SkeletonPoints, lines: LedOn, line: NDArray[np.int64], tolerance: float) -> None:
@@ -101,12 +114,18 @@ def _check_ends(points: SkeletonPoints, line: NDArray[np.int64], shapes: NDArray
     outlines = shapely.boundary(shapes)
     if points.skeleton.features == "together":
         outlines = np.full(len(shapes), shapely.GeometryCollection(list(outlines)))
+    shapely.prepare(outlines)
+    shapely.prepare(shapes)
     for side in (0, 1):
-        far = shapely.distance(shapely.points(points.feet[:, side]), outlines[polygon]) > tolerance
+        far = ~shapely.dwithin(outlines[polygon], shapely.points(points.feet[:, side]), tolerance)
         _refuse(far & spans, "has a foot off the outline")
     a, b = (points.xy + (1 - _SHORTENED) * (points.feet[:, side] - points.xy) for side in (0, 1))
     whole = shapely.linestrings(np.stack([a, b], axis=1))
-    crossed = spans & shapely.crosses(whole, outlines[polygon]) & ~shapely.covers(shapes[polygon], whole)
+    met = np.flatnonzero(spans & shapely.intersects(outlines[polygon], whole))
+    crossed = np.zeros(len(points), dtype=bool)  # what is touched only is not left
+    crossed[met] = ~shapely.covers(shapes[polygon[met]], whole[met]) & shapely.crosses(
+        whole[met], outlines[polygon[met]]
+    )
     _refuse(crossed, "has a section that leaves its polygon")
 
 
