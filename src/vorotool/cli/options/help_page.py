@@ -17,7 +17,7 @@ _GROUPS = {
     "no_clobber overwrite",
     "Method": "method graph passes by max_distance r alpha auto regions rule hole_threshold region_threshold step "
     "tolerance sampling compare boundary side gap complete features prune join_junctions start end ends smooth "
-    "distance every count local neck",
+    "distance every along count local neck",
     "Input": "columns input_format input_layer input_crs crs page volume pixel_size spacing seeds connectivity "
     "threshold invert min_area fill_holes outline border simplify join_tolerance",
     "Frame": "size window cell_size frame clip enclosures",
