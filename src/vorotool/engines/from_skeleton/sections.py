@@ -35,7 +35,8 @@ def sections_along(lines: LedOn, counts: Indices, every: float) -> SkeletonPoint
         The step.
     """
     pieces = _pieces(lines)
-    line, along = owners(counts), every * within(counts)
+    line: Indices = owners(counts)
+    along: Floats = np.asarray(every * within(counts), dtype=np.float64)
     piece, reached = _found(pieces, line, along)
     xy, way = _places(lines, pieces, piece, reached)
     radius, given = _radii(lines, pieces, piece, reached, xy, line), lines.as_given
@@ -123,8 +124,7 @@ def _places(lines: LedOn, pieces: _Pieces, piece: Indices, reached: Floats) -> t
     before = piece - 1
     meets = np.flatnonzero((reached == 0) & (pieces.line[np.maximum(before, 0)] == pieces.line[piece]) & (before >= 0))
     both = way[meets] + _directions(lines, pieces, before[meets], np.ones(len(meets)))
-    turns_back = ~both.any(axis=1)
-    way[meets] = np.where(turns_back[:, None], way[meets], both)
+    way[meets] = np.where((both == 0).all(axis=1)[:, None], way[meets], both)  # a way that turns back has no middle
     return xy, way
 
 

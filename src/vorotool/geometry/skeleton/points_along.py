@@ -146,8 +146,8 @@ class SkeletonPoints(Value, Tabular, WithParts, Pictured):
         """Give those with a segment from foot to foot."""
         kept = self.spans
         rings = None if self.rings is None else self.rings[kept]
-        arrays = (each[kept] for each in (self.arc, self.along, self.xy, self.radius, self.feet))
-        return SkeletonPoints(self.skeleton, *arrays, rings)
+        places = self.along[kept], self.xy[kept], self.radius[kept], self.feet[kept]
+        return SkeletonPoints(self.skeleton, self.arc[kept], *places, rings)
 
     def _summary(self) -> str:
         polygons = self.skeleton.polygons
