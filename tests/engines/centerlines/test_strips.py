@@ -48,3 +48,13 @@ def test_an_ellipse_is_gone_through_along_its_axis(stretch):
     ring = np.stack([stretch * np.cos(turns), np.sin(turns)], axis=1)
     ends = vorotool.centerline(vorotool.skeleton_exact(ring)).flattened(0.001)[0][[0, -1]]
     np.testing.assert_allclose(ends[np.argsort(ends[:, 0])], [[-stretch, 0], [stretch, 0]], atol=0.01)
+
+
+@pytest.mark.parametrize("begin", [0.3, 1.2, 2.9, 4.4])
+def test_a_bent_stroke_of_pixels_ends_in_the_middle(begin):
+    y, x = np.mgrid[:200, :200] - 100.0
+    angle = (np.arctan2(y, x) - begin) % (2 * np.pi)
+    mask = (np.abs(np.hypot(x, y) - 70) < 8) & (angle < 3)
+    found = vorotool.centerline(vorotool.skeleton_exact(vorotool.outlines(mask))).flattened(0.1)[0][[0, -1]]
+    for end in (begin, begin + 3):
+        assert np.hypot(*(found - 100 - 70 * np.array([np.cos(end), np.sin(end)])).T).min() < 1.5

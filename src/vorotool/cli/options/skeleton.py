@@ -52,9 +52,9 @@ _BEFORE: tuple[Decorator, ...] = (
     click.option(
         "--ends",
         type=click.Choice(ENDS, case_sensitive=False),
-        help="Where centerlines end: in the middle of the edge that the skeleton forks to (default), in a corner, or "
-        "where it forks. With middle, skeletons are led on to the ends of strokes, too; else they are as pruning "
-        "leaves them.",
+        help="Where centerlines end: in the middle of the piece of outline between both sides (default), in a "
+        "corner, or where that piece begins. With middle, skeletons are led on to the ends of strokes, too; "
+        "else they are as pruning leaves them.",
     ),
     click.option(
         "--smooth",

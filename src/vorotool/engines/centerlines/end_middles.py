@@ -32,6 +32,9 @@ FLAT = 0.9
 """How far ahead the point half-way between shoulders is where an end is flat, as a part of the way to the outline. In a
 semicircle it is at 0.7."""
 
+SINGLE = 1.75
+"""In radii of the leaf: an edge of pixels that is longer is no step, but nearly as long as the strip is wide."""
+
 TIMES = 3
 """How often directions are taken."""
 
@@ -66,12 +69,15 @@ class _Outlines:
         The vertices that points are, or at first places those before.
     is_vertex : (n,) bool array
         Whether they are.
+    is_left : (k,) bool array
+        Whether each turns to the left at corners that the inside goes into.
     """
 
     start: Numbers
     points: Floats
     vertex: Numbers
     is_vertex: Booleans
+    is_left: Booleans
 
 
 def end_middles(skeleton: Skeleton, leaves: Numbers) -> EndMiddles:
@@ -103,6 +109,8 @@ def end_middles(skeleton: Skeleton, leaves: Numbers) -> EndMiddles:
     if len(chosen):
         outlines = _outlines(skeleton, sites[chosen], origin[chosen])
         to_middle, corners = _half_way(outlines, ways[chosen])
+        if skeleton.polygons.connectivity is not None:  # of pixels: shoulders are steps
+            _set_single_edges(outlines, skeleton.radius[leaves[chosen]], to_middle, corners)
         met, edges = _met(skeleton, outlines, origin[chosen], to_middle, corners)
         is_round = _square(to_middle) < FLAT * FLAT * _square(met - origin[chosen])
         axis, beyond = _met(skeleton, outlines, origin[chosen], ways[chosen], corners)
@@ -142,7 +150,7 @@ def _outlines(skeleton: Skeleton, sites: Numbers, origin: Floats) -> _Outlines:
     points[start[:-1]], points[start[1:] - 1] = touched[:, 0], touched[:, 1]
     is_vertex = np.ones(len(points), dtype=bool)
     is_vertex[start[:-1]] = is_vertex[start[1:] - 1] = False
-    return _Outlines(start, points, vertex, is_vertex)
+    return _Outlines(start, points, vertex, is_vertex, is_forward)
 
 
 def _areas(skeleton: Skeleton) -> Floats:
@@ -167,6 +175,20 @@ def _half_way(outlines: _Outlines, ways: Floats) -> tuple[Floats, Numbers]:
         normal = _unit(np.stack([across[:, 1], -across[:, 0]], axis=1))
         axis = _unit(axis + normal)
     return one / 2 + other / 2, np.stack([at_one, at_other], axis=1)
+
+
+def _set_single_edges(outlines: _Outlines, radius: Floats, to_middle: Floats, corners: Numbers) -> None:
+    """Take, where it is the only one, a long edge between corners that stick out."""
+    way = np.diff(outlines.points, axis=0)
+    turn = way[:-1, 0] * way[1:, 1] - way[:-1, 1] * way[1:, 0]
+    outline = owners(np.diff(outlines.start))
+    sticks_out = np.zeros(len(outlines.points), dtype=bool)
+    sticks_out[1:-1] = outlines.is_vertex[1:-1] & (np.where(outlines.is_left[outline[1:-1]], turn, -turn) > 0)
+    edge = np.flatnonzero(sticks_out[:-1] & sticks_out[1:])
+    edge = edge[_square(way[edge]) > (SINGLE * radius[outline[edge]]) ** 2]
+    edge = edge[np.bincount(outline[edge], minlength=len(radius))[outline[edge]] == 1]
+    to_middle[outline[edge]] = outlines.points[edge] / 2 + outlines.points[edge + 1] / 2
+    corners[outline[edge]] = np.stack([edge, edge + 1], axis=1)
 
 
 def _shoulder(outlines: _Outlines, axis: Floats, side: Floats) -> tuple[Floats, Numbers]:

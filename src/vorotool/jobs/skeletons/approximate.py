@@ -113,12 +113,10 @@ class ApproximateProducts(SkeletonProducts[ApproximateSkeletonOptions]):
 
     def _verify_whole(self, progress: Progress) -> None:
         """Check the samples and the skeleton, from their arrays alone."""
-        from vorotool.engines.sampled_skeleton.verify_approximate import verify_samples
-        from vorotool.engines.skeleton.verify_skeleton import verify_skeleton
+        from vorotool.engines.sampled_skeleton.verify_approximate import verify_approximate
 
         for part in self.found.parts:
-            verify_samples(part, step=self.options.step)
-        verify_skeleton(self.whole, threads=self.options.threads, progress=progress)
+            verify_approximate(part, step=self.options.step, threads=self.options.threads, progress=progress)
 
     def _shape_stats(self) -> dict[str, Any]:
         inside = self.found.inside if self.options.side == "interior" else None
