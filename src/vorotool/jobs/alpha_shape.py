@@ -222,8 +222,14 @@ class ShapeProducts:
         }.get(target.what)
         if empty is not None and len(self.family.spectrum) and not self.is_unjoined and empty():
             words = {"table": "regions", "hull": "arcs in the hull"}.get(target.what, target.what)
-            smallest = radius_text(float(self.family.spectrum[0]))
-            warn(f"there are no {words} at r = {radius_text(self.shape.r)}: shapes begin at r = {smallest}")
+            warn(f"there are no {words} at r = {radius_text(self.shape.r)}: {self._beginning(target.what, words)}")
+
+    def _beginning(self, what: str, words: str) -> str:
+        """Words for the radius at which there is something: regions begin with a triangle, shapes with an edge."""
+        family = self.family
+        if what in ("polygons", "table") and len(family.triangle_rank):
+            return f"{words} begin at r = {radius_text(family.radius_from(int(family.triangle_rank.min())))}"
+        return f"shapes begin at r = {radius_text(float(family.spectrum[0]))}"
 
     def _standing_regions(self) -> str:
         found = self.persistence

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from math import ceil
 from typing import TYPE_CHECKING, NamedTuple
 
 from vorotool.jobs.options import ComputingOptions, ShapeOptions, SiteOptions
@@ -105,12 +106,10 @@ def report_cleaning(run: Run, o: ComputingOptions, filled: int, removed: tuple[i
     what : str
         Pixels or voxels.
     """
-    from vorotool.geometry.numbers import shown_number
-
     if o.fill_holes:
         run.stats[f"filled_{what}"] = filled
     if o.min_area is not None:
         run.stats["small_objects"] = removed[0]
         if removed[0]:
-            least = shown_number(o.min_area)
+            least = ceil(o.min_area)
             run.note(f"{removed[0]} of {removed[1]} objects have fewer than {least} {what}: left out")

@@ -258,6 +258,17 @@ def test_an_empty_shape_is_said(run):
     assert len(done.out.splitlines()) == 1
 
 
+@pytest.mark.parametrize("what", ["polygons", "table"])
+@pytest.mark.parametrize("rule", ["corrected", "printed"])
+def test_the_radius_that_is_named_has_a_region(run, what, rule):
+    options = [DOTS, "--what", what, "--rule", rule, "-f", "wkt" if what == "polygons" else "csv"]
+    done = run("alphashape", *options, "-r", FAMILY.spectrum[0] * 1.001)
+    assert f"warning: there are no {'regions' if what == 'table' else what} at r = " in done.err
+    named = done.err.split()[-1]
+    done = run("alphashape", *options, "-r", named)
+    assert (done.err, len(done.out.splitlines()) > (what == "table")) == ("", True)
+
+
 def test_an_infinite_radius_is_in_the_statistics(run, folder):
     done = run("alphashape", "dots.csv", "-r", "inf", "-o", "shape.csv", "--stats", "-")
     assert (done.code, json.loads(done.out)["r"]) == (0, "inf")

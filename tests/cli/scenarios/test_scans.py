@@ -79,6 +79,11 @@ def test_what_is_left_out_is_told(run, scans):
     assert (done.code, "the image has no foreground" in done.err) == (0, True)
 
 
+def test_the_note_has_whole_pixels(run, scans):
+    done = run("skeleton-exact", "specks.tif", "--min-area", "0.3um2", "--pixel-size", "0.3um", "-o", "a.json")
+    assert done.err == "note: 3 of 5 objects have fewer than 4 pixels: left out\n"
+
+
 def test_images_beyond_memory_are_refused_with_a_way_out(run, scans, monkeypatch):
     import vorotool.jobs.streamed_tessellation as streamed
 
