@@ -106,10 +106,12 @@ def report_cleaning(run: Run, o: ComputingOptions, filled: int, removed: tuple[i
     what : str
         Pixels or voxels.
     """
+    from vorotool.geometry.numbers import shown_number
+
     if o.fill_holes:
         run.stats[f"filled_{what}"] = filled
     if o.min_area is not None:
         run.stats["small_objects"] = removed[0]
         if removed[0]:
-            least = ceil(o.min_area)
+            least = shown_number(ceil(o.min_area))
             run.note(f"{removed[0]} of {removed[1]} objects have fewer than {least} {what}: left out")

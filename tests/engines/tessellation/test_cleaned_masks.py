@@ -154,3 +154,22 @@ def test_contours_that_stay_are_as_they_were(above, connectivity, invert):
     assert len(made) == shells < len(before)
     around = outlines(Raster(clean), outline="contour", connectivity=connectivity)
     assert len(rings_of(made)) == len(rings_of(around))
+
+
+@pytest.mark.parametrize("fill_holes", [False, True, 4])
+def test_contours_beside_masked_pixels_go_half_way(fill_holes):
+    grey = RNG.integers(0, 9, (40, 50)).astype(np.uint8)
+    missing = RNG.random(grey.shape) < 0.1
+    options = {"connectivity": 4, "fill_holes": fill_holes}
+    made = outlines(Raster(grey, mask=missing), outline="contour", threshold=3.5, **options)
+    mask = (grey > 3.5) & ~missing
+    clean = cleaned_mask(mask, Cleaning.of(None, fill_holes), connectivity=4, missing=missing).mask
+    framed, values = np.pad(clean, 1), np.pad(grey.astype(float), 1, mode="edge")
+    expected = set()
+    for y, x in np.argwhere(framed):
+        for dy, dx in [(0, 1), (1, 0), (0, -1), (-1, 0)]:
+            if not framed[y + dy, x + dx]:
+                inside, outside = values[y, x], values[y + dy, x + dx]
+                share = (inside - 3.5) / (inside - outside) if (inside > 3.5) != (outside > 3.5) else 0.5
+                expected.add((round(x - 1 + share * dx, 9), round(y - 1 + share * dy, 9)))
+    assert {(round(x, 9), round(y, 9)) for x, y in made.xy.tolist()} == expected

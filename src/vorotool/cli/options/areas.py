@@ -16,7 +16,10 @@ from vorotool.jobs.units import Measured
 
 _NUMBER = r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
 _AREA = re.compile(rf"({_NUMBER})(?:\s*([^\W\d_]{{1,16}})\^?([23²³]))?")
-_LIKE_AREA = re.compile(rf"-?[0-9]*\.?[0-9]+(e[0-9]+)?\s*(({'|'.join(METRES)})(\^?[0-9²³])?)?")
+_LIKE_AREA = re.compile(
+    rf"-?[0-9]*\.?[0-9]+(e[-+]?[0-9]+)?\s*([^\W\d_]{{1,16}}\^?[0-9²³]|{'|'.join(METRES)}|px|pixels?|voxels?)?",
+    re.IGNORECASE,
+)
 """An argument that is an area, or was to be one; a file whose name has an extension is none."""
 _POWERS = {"2": 2, "²": 2, "3": 3, "³": 3}
 ALL_HOLES = "all"

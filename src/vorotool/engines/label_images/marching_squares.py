@@ -98,7 +98,8 @@ def half_way_contours(corners: Corners, start: NDArray[np.int64]) -> Rings:
 def grey_contours(corners: Corners, start: NDArray[np.int64], grey: GreyLevel) -> Rings:
     """Contours of grey values: a vertex where the line between two pixels' centres reaches the level.
 
-    On the border of the image it is on the border.
+    On the border of the image it is on the border; half-way where no line between the centres reaches the level, as
+    beside pixels that are masked.
 
     Parameters
     ----------
@@ -124,7 +125,8 @@ def grey_contours(corners: Corners, start: NDArray[np.int64], grey: GreyLevel) -
     is_inner = ((before >= 0) & (after < [width, height])).all(axis=1)
     share = np.full(len(here), 0.5)
     low, high = (grey.values[places[is_inner, 1], places[is_inner, 0]].astype(float) for places in (before, after))
-    share[is_inner] = (grey.level - low) / (high - low)
+    crosses = (low > grey.level) != (high > grey.level)
+    share[is_inner] = np.divide(grey.level - low, high - low, out=np.full(len(low), 0.5), where=crosses)
     return before + share[:, None] * across, starts_of(length)[start]
 
 
