@@ -101,7 +101,8 @@ def first_crossings(ray: NDArray[np.integer], a: Floats, b: Floats, way: Floats)
     >>> places.round(9).tolist(), edges.tolist()
     ([[2.0, 0.5]], [0])
     """
-    way = way / np.sqrt((way * way).sum(axis=1))[:, None]
+    length = np.sqrt((way * way).sum(axis=1))[:, None]
+    way = np.divide(way, length, out=np.zeros(way.shape), where=length > 0)  # a ray that goes nowhere meets nothing
     (ax, ay), (bx, by) = a.T, b.T
     dx, dy = way[ray].T
     met = np.flatnonzero((dx * ay - dy * ax >= 0) != (dx * by - dy * bx >= 0))

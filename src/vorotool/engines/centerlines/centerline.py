@@ -14,6 +14,7 @@ from vorotool.engines.centerlines.leading_on import led_on, rounded
 from vorotool.engines.centerlines.oblique_ends import led_to_oblique_ends
 from vorotool.engines.centerlines.path_network import Network, Paths, Pieces, geometry_of
 from vorotool.engines.centerlines.strip_ends import at_strip_ends
+from vorotool.engines.skeleton.parts import with_arcs
 from vorotool.errors import InputError, UsageError, warn
 from vorotool.geometry.arguments.points import as_place
 from vorotool.geometry.arguments.values import check_value
@@ -161,7 +162,8 @@ def _made(network: Network, paths: Paths, skeleton: Skeleton, ends: Ends, *, wan
     left = _without(pieces, is_lead, is_lead | is_round)
     if ends == "none":
         path = _joined(network.skeleton, _with_length(left))
-        return _rounded(Centerlines(path, np.full((int(path.branch.max(initial=-1)) + 1, 2, 2), np.nan)))
+        path = _without_places(_rounded(_without_ends(path)).path)
+        return _without_ends(path)
     lines = Centerlines(_joined(network.skeleton, left), middles)
     asked = np.array(wanted) & ~_at_open_border(network.skeleton, lines)
     is_open = ((paths.end_nodes < network.leaves) | rounds | is_strip) & ~leads & asked
@@ -170,6 +172,19 @@ def _made(network: Network, paths: Paths, skeleton: Skeleton, ends: Ends, *, wan
         lines = led_to_oblique_ends(lines, (is_open | leads) & ~rounds & asked)
     is_open &= np.isnan(lines.ends[:, :, 0])
     return _rounded(replace(lines, ends=led_on(lines, is_open, to_middles=to_middles)))
+
+
+def _without_ends(path: Skeleton) -> Centerlines:
+    """Lines that are led on nowhere."""
+    return Centerlines(path, np.full((int(path.branch.max(initial=-1)) + 1, 2, 2), np.nan))
+
+
+def _without_places(path: Skeleton) -> Skeleton:
+    """Leave out lines that go nowhere: pruning leaves single places of round shapes as arcs."""
+    source, target = path.vertices[path.arcs].swapaxes(0, 1)
+    goes_on = np.zeros(int(path.branch.max(initial=-1)) + 1, dtype=bool)
+    goes_on[path.branch[(source != target).any(axis=1)]] = True
+    return with_arcs(path, goes_on[path.branch])
 
 
 def _rounded(lines: Centerlines) -> Centerlines:

@@ -86,7 +86,7 @@ def at_strip_ends(
     made.arc[new], made.first[new], made.last[new] = arc, 0, 1
     made.is_turned[new] = (axis.skeleton.arcs[arc, 0] == outer) != is_head
     is_made = np.array([end != _End() for end in found], dtype=bool).reshape(2, -1).T
-    return replace(made, line=owners(np.array(sizes), dtype=np.int32)), is_made
+    return replace(made, line=owners(np.array(sizes, dtype=np.int64), dtype=np.int32)), is_made
 
 
 @dataclass(frozen=True)
@@ -169,7 +169,7 @@ class _Strips:
 
     def _strips(self, walks: list[_Walk]) -> list[list[int]]:
         """Where the discs one and two radii on, and three if it is long before, are about as large."""
-        sizes = np.array([len(walk.nodes) for walk in walks])
+        sizes = np.array([len(walk.nodes) for walk in walks], dtype=np.int64)
         start, walk = starts_of(sizes), owners(sizes)
         if not len(walk):
             return [[]] * len(walks)
