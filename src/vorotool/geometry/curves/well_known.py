@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from vorotool.geometry.curves.curve_geometry import CURVED, LEAVES, PARTS, Linearizer, Node
 
 _TOKENS = re.compile(r"\s*([A-Za-z]+|[(),]|[^\s(),A-Za-z][^\s(),]*)")
-_CURVED = re.compile("|".join(CURVED), re.IGNORECASE)
 _KINDS = re.compile(rf"({'|'.join((*LEAVES, *PARTS))})(Z|M|ZM)?", re.IGNORECASE)
 _CODES = dict(
     enumerate(
@@ -65,7 +64,9 @@ def geometry_of_texts(texts: Sequence[str | None], flatten: float | None = None)
     """
     import shapely
 
-    own = [k for k, text in enumerate(texts) if isinstance(text, str) and _CURVED.search(text)]
+    capitals = "\n".join(text for text in texts if isinstance(text, str)).upper()
+    kinds = [kind for kind in CURVED if kind in capitals]  # none, nearly always: no text is looked at twice
+    own = [k for k, text in enumerate(texts if kinds else []) if text and any(kind in text.upper() for kind in kinds)]
     plain = np.array([*texts, None], dtype=object)[:-1]
     plain[own] = None
     with np.errstate(all="ignore"):  # numbers beyond the largest double are found by whoever reads the vertices
