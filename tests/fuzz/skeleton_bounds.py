@@ -28,8 +28,9 @@ from vorotool.engines.sampled_skeleton.approximate import (
     approximate_skeleton,
     sampled_graph,
 )
-from vorotool.engines.sampled_skeleton.hausdorff import deviation, distances_to, exact_skeleton, places_on_arcs
+from vorotool.engines.sampled_skeleton.hausdorff import deviation, exact_skeleton
 from vorotool.engines.sampled_skeleton.refinement import skeleton_within
+from vorotool.engines.skeleton.distances_to_arcs import distances_to, places_on_arcs
 from vorotool.geometry.polygons.conversion import to_shapely
 
 DATA = Path(__file__).parents[2] / "data"

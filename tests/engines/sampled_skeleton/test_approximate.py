@@ -14,9 +14,9 @@ from support.readers.written import assert_same
 from vorotool.engines.arrangement.lattice_rings import placed_shapes
 from vorotool.engines.arrangement.planar_graph import planar_graph
 from vorotool.engines.sampled_skeleton.approximate import SamplingOptions, approximate_skeleton, sampled_graph
-from vorotool.engines.sampled_skeleton.hausdorff import distances_to, places_on_arcs
 from vorotool.engines.sampled_skeleton.refinement import skeleton_within
 from vorotool.engines.sampled_skeleton.verify_approximate import check_samples, verify_approximate
+from vorotool.engines.skeleton.distances_to_arcs import distances_to, places_on_arcs
 from vorotool.errors import LimitError, UsageError
 
 SHAPES = random_shapes(np.random.default_rng(1))

@@ -22,7 +22,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from vorotool import offset, prune, skeleton_exact
-from vorotool.engines.sampled_skeleton.hausdorff import distances_to, places_on_arcs
+from vorotool.engines.skeleton.distances_to_arcs import distances_to, places_on_arcs
 from vorotool.engines.skeleton.parts import with_polygons
 from vorotool.engines.skeleton.site_distances import SitePlaces
 

@@ -2,34 +2,24 @@
 
 from __future__ import annotations
 
-import warnings
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool import _core
 from vorotool.engines.common.faults import fail, first_wrong
 from vorotool.engines.sampled_skeleton.approximate import ApproximateSkeleton
-from vorotool.engines.sampled_skeleton.hausdorff import distances_to, exact_skeleton, places_on_arcs, widened
-from vorotool.engines.skeleton.verify_skeleton import check_arrays, check_branches
-from vorotool.errors import VorotoolWarning
-from vorotool.geometry.checks import checked_threads
+from vorotool.engines.skeleton.verify_bounds import place_error
+from vorotool.engines.skeleton.verify_skeleton import check_arrays, verify_skeleton
 from vorotool.geometry.curves.inverse_functions import hypotenuse
-from vorotool.geometry.polygons.conversion import to_shapely
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.ragged import owners
 from vorotool.geometry.skeleton.boundary_samples import BoundarySamples
-from vorotool.geometry.skeleton.skeleton import EXTERIOR, INTERIOR, Skeleton
 
 Floats = NDArray[np.float64]
 
 SEED_ERROR = 2.0**-20
 """Of a lattice step: how far seeds may be from their edges, and gaps from what they should be."""
-PLACE_ERROR = 2.0**-18
-"""Of a lattice step: how far distances of nodes may be wrong. They are rounded to input units, which may be coarser."""
-PER_ARC = 5
-"""Places on each arc whose distances from the exact skeleton are measured."""
 
 
 def verify_approximate(
@@ -38,10 +28,8 @@ def verify_approximate(
     """Check an approximate skeleton from its samples and arrays.
 
     Seeds are on their edges, in their order, and the gaps are what a step says. The ends of arcs are as far from both
-    of their seeds, and no seed is nearer; these have no label in common. No arc meets the shapes but in the corners
-    that it leads to, and each lies in its polygon, or outside all. Radii lie between the distances from the shapes and
-    from the seeds. Places on arcs are no farther from the exact skeleton, computed anew, than the bounds say. Branches
-    are chains that end where they should.
+    of their seeds, and no seed is nearer; these have no label in common. Radii are no larger than the distances from
+    the seeds. All else is as `verify_skeleton` has it.
 
     Parameters
     ----------
@@ -68,19 +56,18 @@ def verify_approximate(
         ...
     vorotool.errors.VerificationError: arc ... from the exact skeleton, beyond its bound of ...
     """
-    threads = checked_threads(threads)
-    samples = found.shapes.samples
-    check_samples(samples, step)
-    if not len(found.skeleton):
-        return
-    check_arrays(found.skeleton)
-    check_branches(found.skeleton)
-    _check_seeds(found)
-    _check_labels(found)
-    _check_crossings(found)
-    _check_sides(found.skeleton)
-    _check_radii(found, threads, progress)
-    _check_bounds(found, threads)
+    verify_samples(found, step=step)
+    verify_skeleton(found.skeleton, threads=threads, progress=progress)
+
+
+def verify_samples(found: ApproximateSkeleton, *, step: float | None = None) -> None:
+    """Check the samples and the seeds beside arcs as `verify_approximate` does, but nothing that needs no seeds."""
+    check_samples(found.shapes.samples, step)
+    if len(found.skeleton):
+        check_arrays(found.skeleton)
+        _check_seeds(found)
+        _check_labels(found)
+        _check_radii(found)
 
 
 def check_samples(samples: BoundarySamples, step: float | None = None) -> None:
@@ -118,17 +105,12 @@ def _check_gaps(samples: BoundarySamples, step: float) -> None:
         fail(f"a gap on edge {segment[at]} is {gaps[at]}, but the step is {step}")
 
 
-def _place_error(skeleton: Skeleton, samples: BoundarySamples) -> float:
-    largest = max(np.abs(skeleton.vertices).max(initial=0.0), np.abs(samples.polygons.xy).max(initial=0.0))
-    return PLACE_ERROR * samples.graph.scale + 4 * float(np.spacing(largest))
-
-
 def _check_seeds(found: ApproximateSkeleton) -> None:
     """Ends of arcs are equally far from both seeds, and none is nearer."""
     import shapely
 
     skeleton, samples = found.skeleton, found.shapes.samples
-    xy, error = samples.xy, _place_error(skeleton, samples)
+    xy, error = samples.xy, place_error(skeleton)
     sampled = np.flatnonzero((found.seeds >= 0).all(axis=1))
     tree = shapely.STRtree(shapely.points(xy))
     for end in (0, 1):
@@ -183,75 +165,12 @@ def _check_labels(found: ApproximateSkeleton) -> None:
         fail(f"arc {sampled[at]} is between seeds {found.seeds[sampled[at]].tolist()} of one edge")
 
 
-def _check_crossings(found: ApproximateSkeleton) -> None:
-    """No arc meets the shapes; lines from corners are looked at from their middle on."""
-    import shapely
-
-    skeleton, graph = found.skeleton, found.shapes.graph
-    ends = skeleton.vertices[skeleton.arcs]
-    leads = (found.seeds < 0).any(axis=1)
-    for end in (0, 1):
-        at_corner = leads & (skeleton.radius[skeleton.arcs[:, end]] == 0)
-        ends[at_corner, end] = ends[at_corner].mean(axis=1)
-    edges = shapely.linestrings(graph.coordinates()[graph.segments])
-    arc, edge = shapely.STRtree(edges).query(shapely.linestrings(ends), predicate="intersects")
-    if len(arc):
-        fail(f"arc {arc[0]} meets edge {edge[0]} of the shapes")
-
-
-def _check_sides(skeleton: Skeleton) -> None:
-    """Each arc in its polygon, or in none."""
-    import shapely
-
-    polygons = skeleton.polygons
-    area = np.flatnonzero(~polygons.is_line)
-    shapes = np.array(to_shapely(polygons), dtype=object)[area]
-    middle = shapely.points(skeleton.vertices[skeleton.arcs].mean(axis=1))
-    arc, shape = shapely.STRtree(shapes).query(middle, predicate="intersects")
-    inside = np.zeros(len(skeleton), dtype=bool)
-    inside[arc] = True
-    at = first_wrong(inside != (skeleton.side == INTERIOR))
-    if at is not None:
-        fail(f"arc {at} is {'inside' if inside[at] else 'outside'}, but said to be on the other side")
-    own = np.zeros(len(skeleton), dtype=bool)
-    own[arc[area[shape] == skeleton.polygon[arc]]] = True
-    at = first_wrong(~own & (skeleton.side != EXTERIOR))
-    if at is not None:
-        fail(f"arc {at} is not in polygon {skeleton.polygon[at]}")
-
-
-def _check_radii(found: ApproximateSkeleton, threads: int, progress: Progress) -> None:
-    skeleton, graph = found.skeleton, found.shapes.graph
-    error = _place_error(skeleton, found.shapes.samples)
-    lattice = np.ascontiguousarray((skeleton.vertices - graph.origin) / graph.scale)
-    reach = np.ascontiguousarray((skeleton.radius + error) / graph.scale)
-    least = graph.scale * _core.spatial.clearances(graph.points, graph.segments, lattice, reach, threads, progress)
-    at = first_wrong(~(skeleton.radius >= least - error))
-    if at is not None:
-        fail(f"node {at} is {least[at]} from the shapes, but its radius is {skeleton.radius[at]}")
-    node = skeleton.arcs[:, 0]
+def _check_radii(found: ApproximateSkeleton) -> None:
+    """Seeds are no nearer than the shapes."""
+    skeleton, node = found.skeleton, found.skeleton.arcs[:, 0]
+    error = place_error(skeleton)
     sampled = found.seeds[:, 0] >= 0
     far = hypotenuse(*(skeleton.vertices[node] - found.shapes.samples.xy[found.seeds[:, 0]]).T)
     at = first_wrong(sampled & ~(skeleton.radius[node] <= far + error))
     if at is not None:
         fail(f"node {node[at]} is {far[at]} from its seeds, but its radius is {skeleton.radius[node[at]]}")
-
-
-def _check_bounds(found: ApproximateSkeleton, threads: int) -> None:
-    skeleton = found.skeleton
-    sides = np.unique(skeleton.side).tolist()
-    side = "both" if len(sides) > 1 else ("interior" if sides == [INTERIOR] else "exterior")
-    frame = None if skeleton.frame is None else widened(skeleton.frame)
-    with warnings.catch_warnings(action="ignore", category=VorotoolWarning):
-        exact = exact_skeleton(found, side=side, frame=frame, threads=threads)
-    proved = np.flatnonzero(~np.isnan(skeleton.error_bound))
-    if not len(exact):
-        if len(proved):
-            fail(f"arc {proved[0]} has an error bound, but the exact skeleton has no arcs on this side")
-        return
-    places = places_on_arcs(skeleton, np.linspace(0, 1, PER_ARC))
-    distance = distances_to(exact, places.reshape(-1, 2)).reshape(len(skeleton), -1).max(axis=1)
-    error = 4 * float(np.spacing(np.abs(exact.vertices).max(initial=0.0)))
-    at = first_wrong(distance > skeleton.error_bound + error)
-    if at is not None:
-        fail(f"arc {at} is {distance[at]} from the exact skeleton, beyond its bound of {skeleton.error_bound[at]}")

@@ -203,6 +203,12 @@ def default_frame(polygons: PolygonSet) -> Frame:
     return (x, y, w, h)
 
 
+def widened(frame: Frame) -> Frame:
+    """Give a frame three times as large around the same middle."""
+    x, y, w, h = frame
+    return (x - w, y - h, 3 * w, 3 * h)
+
+
 def joined_groups(placed: PlacedShapes) -> tuple[int, int]:
     """First group of `face_groups` in which arcs that end in one corner are connected there, and the one after last."""
     outside = len(placed.polygons)

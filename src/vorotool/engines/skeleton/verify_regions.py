@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -108,6 +110,38 @@ class _Rows:
         wanted = self._packed(rows)
         rank = np.minimum(np.searchsorted(self._keys, wanted, sorter=self._order), len(self._keys) - 1)
         return np.where(self._keys[self._order[rank]] == wanted, self._order[rank], -1)
+
+
+def with_corners_apart(skeleton: Skeleton) -> Skeleton:
+    """Give each arc a node of its own at corners where arcs are joined, after a check that just these are."""
+    inside = {8: True, 4: False}.get(skeleton.polygons.connectivity or 0)
+    if inside is None:
+        return skeleton
+    on_side = (skeleton.polygon >= 0) == inside
+    arc, end = np.nonzero((skeleton.radius[skeleton.arcs] == 0) & on_side[:, None])
+    node = skeleton.arcs[arc, end]
+    keys = np.column_stack([skeleton.vertices[node], skeleton.polygon[arc]])
+    _, corner = np.unique(keys, axis=0, return_inverse=True)
+    corner = corner.reshape(-1)
+    first = np.full(corner.max(initial=-1) + 1, len(skeleton.vertices))
+    np.minimum.at(first, corner, node)
+    at = first_wrong(node != first[corner])
+    if at is not None:
+        fail(f"nodes {first[corner[at]]} and {node[at]} are at one corner, where pixels hang together, but not joined")
+    _, owner = np.unique(np.stack([node, corner]), axis=1, return_index=True)
+    at = first_wrong(np.bincount(node[owner], minlength=1) > 1)
+    if at is not None:
+        fail(f"node {at} is a corner that arcs in different polygons share")
+    arcs = skeleton.arcs.copy()
+    arcs[arc, end] = len(skeleton.vertices) + np.arange(len(arc))
+    used, numbers = np.unique(arcs, return_inverse=True)
+    origin = np.concatenate([np.arange(len(skeleton.vertices)), node])[used]
+    return replace(
+        skeleton,
+        arcs=numbers.reshape(-1, 2).astype(np.int32),
+        vertices=skeleton.vertices[origin],
+        radius=skeleton.radius[origin],
+    )
 
 
 def check_regions(regions: SkeletonRegions) -> None:

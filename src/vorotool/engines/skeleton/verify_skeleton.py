@@ -14,8 +14,14 @@ from vorotool.engines.skeleton.exact import ShapeDiagram, kept_edges
 from vorotool.engines.skeleton.parts import PER_ARC, outside_of, with_arcs, with_polygons
 from vorotool.engines.skeleton.site_distances import SitePlaces
 from vorotool.engines.skeleton.verify_border import check_cut_regions, without_border
+from vorotool.engines.skeleton.verify_bounds import check_approximation
 from vorotool.engines.skeleton.verify_distances import check_equal_distances, check_nothing_nearer
-from vorotool.engines.skeleton.verify_regions import SkeletonRegions, border_components, check_regions
+from vorotool.engines.skeleton.verify_regions import (
+    SkeletonRegions,
+    border_components,
+    check_regions,
+    with_corners_apart,
+)
 from vorotool.errors import VorotoolWarning
 from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.checks import checked_threads
@@ -39,6 +45,11 @@ def verify_skeleton(skeleton: Skeleton, *, threads: int = 0, progress: Progress 
     Branches are chains that end where they should. Where pixels hang together at corners (`PolygonSet.connectivity`),
     arcs of one polygon, or outside, share a node there; all else is as if they did not.
     Unless features are together (`Skeleton.features`), each is looked at as if there were no others.
+
+    An approximate skeleton, which has error bounds, is checked otherwise: places on its arcs are no farther from the
+    exact skeleton, computed anew, than the bounds; radii are distances from the boundary; no arc meets this but in a
+    corner, and each is in its polygon, or outside all; and there are no more cycles than parts of the boundary that
+    they may go around. It need not be connected, and its sites are not compared.
 
     Parameters
     ----------
@@ -68,6 +79,8 @@ def verify_skeleton(skeleton: Skeleton, *, threads: int = 0, progress: Progress 
     Traceback (most recent call last):
         ...
     vorotool.errors.VerificationError: node 0 at (0.0, 0.0) is 0.0 from site 7, but its radius is 1.0
+    >>> from vorotool import skeleton_approx
+    >>> verify_skeleton(skeleton_approx([[0, 0], [4, 0], [4, 2], [0, 2]], tolerance=0.1))
     """
     check_value(skeleton, "skeleton", Skeleton)
     threads = checked_threads(threads)
@@ -77,6 +90,10 @@ def verify_skeleton(skeleton: Skeleton, *, threads: int = 0, progress: Progress 
     check_branches(skeleton)
     if skeleton.gap:  # the lines that lead to the corners are no bisectors of the shortened edges
         skeleton = _without_portions(skeleton)
+    if skeleton.error_bound.any():
+        with warnings.catch_warnings(action="ignore", category=VorotoolWarning):
+            check_approximation(skeleton, threads, progress)
+        return
     check_equal_distances(skeleton, SitePlaces(skeleton))
     with warnings.catch_warnings(
         action="ignore", category=VorotoolWarning
@@ -138,7 +155,7 @@ def _check_in_graph(
         return
     check_nothing_nearer(skeleton, sites, _elements(skeleton, graph, threads), threads, progress)
     if not skeleton.gap:
-        check_regions(SkeletonRegions(_with_corners_apart(skeleton), graph, sites))
+        check_regions(SkeletonRegions(with_corners_apart(skeleton), graph, sites))
 
 
 def verify_exterior(shapes: ShapeDiagram, *, threads: int = 0) -> None:
@@ -190,38 +207,6 @@ def verify_exterior(shapes: ShapeDiagram, *, threads: int = 0) -> None:
 def _without_portions(skeleton: Skeleton) -> Skeleton:
     kept = (skeleton.radius[skeleton.arcs] > 0).all(axis=1)
     return replace(skeleton, **{name: getattr(skeleton, name)[kept] for name in PER_ARC})
-
-
-def _with_corners_apart(skeleton: Skeleton) -> Skeleton:
-    """Give each arc a node of its own at corners where arcs are joined, after a check that just these are."""
-    inside = {8: True, 4: False}.get(skeleton.polygons.connectivity or 0)
-    if inside is None:
-        return skeleton
-    on_side = (skeleton.polygon >= 0) == inside
-    arc, end = np.nonzero((skeleton.radius[skeleton.arcs] == 0) & on_side[:, None])
-    node = skeleton.arcs[arc, end]
-    keys = np.column_stack([skeleton.vertices[node], skeleton.polygon[arc]])
-    _, corner = np.unique(keys, axis=0, return_inverse=True)
-    corner = corner.reshape(-1)
-    first = np.full(corner.max(initial=-1) + 1, len(skeleton.vertices))
-    np.minimum.at(first, corner, node)
-    at = first_wrong(node != first[corner])
-    if at is not None:
-        fail(f"nodes {first[corner[at]]} and {node[at]} are at one corner, where pixels hang together, but not joined")
-    _, owner = np.unique(np.stack([node, corner]), axis=1, return_index=True)
-    at = first_wrong(np.bincount(node[owner], minlength=1) > 1)
-    if at is not None:
-        fail(f"node {at} is a corner that arcs in different polygons share")
-    arcs = skeleton.arcs.copy()
-    arcs[arc, end] = len(skeleton.vertices) + np.arange(len(arc))
-    used, numbers = np.unique(arcs, return_inverse=True)
-    origin = np.concatenate([np.arange(len(skeleton.vertices)), node])[used]
-    return replace(
-        skeleton,
-        arcs=numbers.reshape(-1, 2).astype(np.int32),
-        vertices=skeleton.vertices[origin],
-        radius=skeleton.radius[origin],
-    )
 
 
 def _elements(skeleton: Skeleton, graph: PlanarGraph, threads: int) -> PlanarGraph:

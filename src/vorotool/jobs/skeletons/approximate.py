@@ -113,10 +113,12 @@ class ApproximateProducts(SkeletonProducts[ApproximateSkeletonOptions]):
 
     def _verify_whole(self, progress: Progress) -> None:
         """Check the samples and the skeleton, from their arrays alone."""
-        from vorotool.engines.sampled_skeleton.verify_approximate import verify_approximate
+        from vorotool.engines.sampled_skeleton.verify_approximate import verify_samples
+        from vorotool.engines.skeleton.verify_skeleton import verify_skeleton
 
         for part in self.found.parts:
-            verify_approximate(part, step=self.options.step, threads=self.options.threads, progress=progress)
+            verify_samples(part, step=self.options.step)
+        verify_skeleton(self.whole, threads=self.options.threads, progress=progress)
 
     def _shape_stats(self) -> dict[str, Any]:
         inside = self.found.inside if self.options.side == "interior" else None

@@ -1,0 +1,165 @@
+"""Checks of approximate skeletons from their arrays: error bounds, clearances, sides and cycles."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool import _core
+from vorotool.engines.arrangement.planar_graph import planar_graph
+from vorotool.engines.common.faults import fail, first_wrong
+from vorotool.engines.features.batches import BatchShapes, in_batches
+from vorotool.engines.skeleton.distances_to_arcs import distances_to, places_on_arcs
+from vorotool.engines.skeleton.exact import diagram_of_graph, interior_skeleton, skeleton_of, widened
+from vorotool.engines.skeleton.parts import outside_of, with_arcs, with_polygons
+from vorotool.engines.skeleton.per_feature import batch_diagram
+from vorotool.engines.skeleton.verify_regions import border_components, with_corners_apart
+from vorotool.geometry.polygons.conversion import to_shapely
+from vorotool.geometry.polygons.planar_graph import PlanarGraph
+from vorotool.geometry.progress import Progress
+from vorotool.geometry.skeleton.skeleton import EXTERIOR, INTERIOR, Skeleton
+from vorotool.geometry.skeleton.tables import connected_roots
+
+PLACE_ERROR = 2.0**-18
+"""Of a lattice step: how far distances of nodes may be wrong. They are rounded to input units, which may be coarser."""
+PER_ARC = 5
+"""Places on each arc whose distances from the exact skeleton are measured."""
+
+
+def check_approximation(skeleton: Skeleton, threads: int, progress: Progress) -> None:
+    """Raise unless an approximate skeleton is where its bounds, radii and sides tell, feature by feature."""
+    at = first_wrong(skeleton.is_parabola)
+    if at is not None:
+        fail(f"arc {at} is a parabola, but arcs of approximate skeletons are straight")
+    _check_sides(skeleton)
+    error, is_inside = place_error(skeleton), skeleton.side == INTERIOR
+    if skeleton.features == "together" or not len(skeleton.polygons):
+        _check_in_all(skeleton, error, threads, progress)
+        return
+    if not is_inside.all():
+        _check_in_all(outside_of(skeleton), error, threads, progress)
+    own = with_arcs(skeleton, is_inside)
+
+    def check(shapes: BatchShapes, threads: int, poll: Progress) -> None:
+        of_batch = with_polygons(own, shapes.batch.polygons)
+        if len(of_batch):
+            exact = interior_skeleton(batch_diagram(shapes, threads=threads, progress=poll), threads=threads)
+            _check_in_graph(of_batch, shapes.graph, exact, error, threads, poll)
+
+    if is_inside.any():
+        in_batches(skeleton.polygons, check, drops=False, threads=threads, progress=progress)
+
+
+def place_error(skeleton: Skeleton) -> float:
+    """How far distances from nodes may be off."""
+    largest = max(np.abs(xy).max(initial=0.0) for xy in (skeleton.vertices, skeleton.polygons.xy))
+    return PLACE_ERROR * skeleton.scale + 4 * float(np.spacing(largest))
+
+
+def _check_in_all(skeleton: Skeleton, error: float, threads: int, progress: Progress) -> None:
+    """Check what is in one arrangement of all polygons."""
+    graph = planar_graph(skeleton.polygons, threads=threads, progress=progress)
+    sides = np.unique(skeleton.side).tolist()
+    side = "both" if len(sides) > 1 else ("interior" if sides == [INTERIOR] else "exterior")
+    frame = None if skeleton.frame is None else widened(skeleton.frame)
+    exact = skeleton_of(diagram_of_graph(graph, threads=threads), side=side, frame=frame, threads=threads)
+    _check_in_graph(skeleton, graph, exact, error, threads, progress)
+
+
+def _check_in_graph(
+    skeleton: Skeleton, graph: PlanarGraph, exact: Skeleton, error: float, threads: int, progress: Progress
+) -> None:
+    _check_crossings(skeleton, graph, error)
+    _check_clearances(skeleton, graph, error, threads, progress)
+    _check_bounds(skeleton, exact)
+    _check_cycles(skeleton, graph)
+
+
+def _check_crossings(skeleton: Skeleton, graph: PlanarGraph, error: float) -> None:
+    """Raise if an arc meets the shapes; those that lead to corners are looked at from their middle on."""
+    import shapely
+
+    ends = skeleton.vertices[skeleton.arcs]
+    middle = ends.mean(axis=1)
+    for end in (0, 1):
+        at_corner = skeleton.radius[skeleton.arcs[:, end]] <= error
+        ends[at_corner, end] = middle[at_corner]
+    edges = shapely.linestrings(graph.coordinates()[graph.segments])
+    arc, edge = shapely.STRtree(edges).query(shapely.linestrings(ends), predicate="intersects")
+    if len(arc):
+        fail(f"arc {arc[0]} meets edge {edge[0]} of the shapes")
+
+
+def _check_sides(skeleton: Skeleton) -> None:
+    """Raise unless each arc is in its polygon, or in none."""
+    import shapely
+
+    polygons = skeleton.polygons
+    area = np.flatnonzero(~polygons.is_line)
+    shapes = np.array(to_shapely(polygons), dtype=object)[area]
+    middle = shapely.points(skeleton.vertices[skeleton.arcs].mean(axis=1))
+    arc, shape = shapely.STRtree(shapes).query(middle, predicate="intersects")
+    inside = np.zeros(len(skeleton), dtype=bool)
+    inside[arc] = True
+    at = first_wrong(inside != (skeleton.side == INTERIOR))
+    if at is not None:
+        fail(f"arc {at} is {'inside' if inside[at] else 'outside'}, but said to be on the other side")
+    own = np.zeros(len(skeleton), dtype=bool)
+    own[arc[area[shape] == skeleton.polygon[arc]]] = True
+    at = first_wrong(~own & (skeleton.side != EXTERIOR))
+    if at is not None:
+        fail(f"arc {at} is not in polygon {skeleton.polygon[at]}")
+
+
+def _check_clearances(skeleton: Skeleton, graph: PlanarGraph, error: float, threads: int, progress: Progress) -> None:
+    """Raise unless the radius of each node is its distance from the shapes."""
+    lattice = np.ascontiguousarray((skeleton.vertices - graph.origin) / graph.scale)
+    reach = np.ascontiguousarray((skeleton.radius + 2 * error) / graph.scale)
+    least = graph.scale * _core.spatial.clearances(graph.points, graph.segments, lattice, reach, threads, progress)
+    at = first_wrong(~(np.abs(skeleton.radius - least) <= error))
+    if at is not None:
+        place = tuple(skeleton.vertices[at].tolist())
+        fail(f"node {at} at {place} is {least[at]} from the shapes, but its radius is {skeleton.radius[at]}")
+
+
+def _check_bounds(skeleton: Skeleton, exact: Skeleton) -> None:
+    """Raise if an arc is farther from the exact skeleton than its bound."""
+    proved = np.flatnonzero(~np.isnan(skeleton.error_bound))
+    if not len(exact):
+        if len(proved):
+            fail(f"arc {proved[0]} has an error bound, but the exact skeleton has no arcs on this side")
+        return
+    places = places_on_arcs(skeleton, np.linspace(0, 1, PER_ARC))
+    distance = distances_to(exact, places.reshape(-1, 2)).reshape(len(skeleton), -1).max(axis=1)
+    error = 4 * float(np.spacing(np.abs(exact.vertices).max(initial=0.0)))
+    at = first_wrong(distance > skeleton.error_bound + error)
+    if at is not None:
+        fail(f"arc {at} is {distance[at]} from the exact skeleton, beyond its bound of {skeleton.error_bound[at]}")
+
+
+def _check_cycles(skeleton: Skeleton, graph: PlanarGraph) -> None:
+    """Raise if there are more cycles in a polygon, or outside, than parts of the boundary that they may go around."""
+    skeleton = with_corners_apart(skeleton)
+    outside = len(skeleton.polygons)
+    group = np.where(skeleton.polygon < 0, outside, skeleton.polygon)
+    of_node = np.zeros(len(skeleton.vertices), dtype=np.int64)
+    of_node[skeleton.arcs] = group[:, None]
+    root = connected_roots(skeleton.arcs, len(skeleton.vertices))
+    of_part = of_node[root == np.arange(len(root))]
+    arcs, nodes, parts = (np.bincount(owner, minlength=outside + 1) for owner in (group, of_node, of_part))
+    cycles, most = arcs - nodes + parts, _most_cycles(graph, outside)
+    at = first_wrong(cycles > most)
+    if at is not None:
+        where = "outside" if at == outside else f"in polygon {at}"
+        fail(f"the skeleton {where} has {cycles[at]} independent cycles, but there is room for {most[at]}")
+
+
+def _most_cycles(graph: PlanarGraph, outside: int) -> NDArray[np.int64]:
+    """(p + 1,) the parts of the boundary of each face less one, summed over the faces of each polygon and outside."""
+    parts = border_components(graph) + np.bincount(graph.point_holes[:, 1], minlength=graph.faces)
+    polygon = np.full(graph.faces, outside)
+    inside = np.flatnonzero(graph.is_inside)
+    polygon[inside] = graph.face_polygon[graph.face_start[inside]]
+    most = np.zeros(outside + 1, dtype=np.int64)
+    np.add.at(most, polygon, np.maximum(parts - 1, 0))
+    return most
