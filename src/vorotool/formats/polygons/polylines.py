@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from vorotool.formats.text.feature_collection import collection_opening
 from vorotool.formats.text.row_writer import Column, RowShape, write_rows
 from vorotool.formats.text.tables import json_text
+from vorotool.geometry.curves.flatten import with_length
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.table import Lookup
 
@@ -27,6 +28,14 @@ class Wording(NamedTuple):
     closing: str
     """Of a polyline, with what parts it from the next one."""
     after: bytes
+    begin: str
+    """With what openings end."""
+    empty: str
+    """What stands for that and for the closing where all points of a line are one place."""
+
+
+GEOJSON_LINE = ',"geometry":{"type":"LineString","coordinates":[[', ',"geometry":null},\n'
+WKT_LINE = "LINESTRING (", "LINESTRING EMPTY\n"
 
 
 def geojson_wording(polygons: PolygonSet, polygon: Sequence[int], own: Mapping[str, Sequence[Any]]) -> Wording:
@@ -58,16 +67,13 @@ def geojson_wording(polygons: PolygonSet, polygon: Sequence[int], own: Mapping[s
                 name = f'"id":{json_text(polygons.ids[index])},'
             described[names["polygon"]] = index
         described |= {names[key]: values[row] for key, values in own.items()}
-        openings.append(
-            f'{{"type":"Feature",{name}"properties":{json_text(described)},'
-            '"geometry":{"type":"LineString","coordinates":[['
-        )
-    return Wording(collection_opening(polygons.crs) + b"\n", openings, "],[", ",", "]]}},\n", b"]}\n")
+        openings.append(f'{{"type":"Feature",{name}"properties":{json_text(described)}{GEOJSON_LINE[0]}')
+    return Wording(collection_opening(polygons.crs) + b"\n", openings, "],[", ",", "]]}},\n", b"]}\n", *GEOJSON_LINE)
 
 
 def wkt_wording(count: int) -> Wording:
     """One LINESTRING a line of text."""
-    return Wording(b"", ["LINESTRING ("] * count, ", ", " ", ")\n", b"")
+    return Wording(b"", ["LINESTRING ("] * count, ", ", " ", ")\n", b"", *WKT_LINE)
 
 
 def write_polylines(
@@ -79,7 +85,7 @@ def write_polylines(
     precision: int | None = None,
     threads: int = 0,
 ) -> None:
-    r"""Write polylines.
+    r"""Write polylines; one whose points all are one place has no geometry.
 
     Parameters
     ----------
@@ -102,12 +108,21 @@ def write_polylines(
     >>> out.getvalue()
     b'LINESTRING (0 0, 1 0.5)\n'
     """
-    texts = [wording.comma, *(wording.closing + text if k else text for k, text in enumerate(wording.openings))]
+    points, start, has_length = with_length(points, np.append(start, len(points)))
+    texts, waiting = [wording.comma], ""
+    for opening, is_line in zip(wording.openings, has_length.tolist(), strict=True):
+        if is_line:
+            texts.append((wording.closing if len(texts) > 1 else "") + waiting + opening)
+            waiting = ""
+        else:
+            waiting += opening.removesuffix(wording.begin) + wording.empty
     token = np.zeros(len(points), dtype=np.int32)  # what stands before each point
-    token[start] = np.arange(1, len(start) + 1)
+    token[start[:-1]] = np.arange(1, len(start))
     out.write(wording.before)
     if len(points):
         columns = [Column("", Lookup(texts, token)), *map(Column.of_places, points.T)]
         write_rows(out, columns, RowShape(("", "", wording.space, "")), precision=precision, threads=threads)
-        out.write(wording.closing.rstrip(",\n").encode() + b"\n")
+    last = (wording.closing if len(points) else "") + waiting
+    if last:
+        out.write(last.rstrip(",\n").encode() + b"\n")
     out.write(wording.after)

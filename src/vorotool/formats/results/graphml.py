@@ -85,7 +85,8 @@ def write_graphml(
         between = (f'">{first}', *(f"</data>{name}" for name in others))
         shape = RowShape(('<node id="', *between, "</data></node>\n"))
         write_rows(out, columns, shape, precision=precision, threads=threads)
-    wording = Wording(b"", edges.openings(by), ", ", " ", ")</data></edge>\n", b"</graph>\n</graphml>\n")
+    after, empty = "</data></edge>\n", "LINESTRING EMPTY</data></edge>\n"
+    wording = Wording(b"", edges.openings(by), ", ", " ", f"){after}", b"</graph>\n</graphml>\n", "LINESTRING (", empty)
     write_polylines(out, graph.points, graph.start[:-1], wording, precision=precision, threads=threads)
 
 

@@ -7,7 +7,7 @@ from typing import BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.formats.polygons.polylines import Wording, wkt_wording, write_polylines
+from vorotool.formats.polygons.polylines import GEOJSON_LINE, Wording, wkt_wording, write_polylines
 from vorotool.formats.results.cells import CellShapes, write_shapes, written_cells
 from vorotool.formats.results.voronoi_json import write_json
 from vorotool.formats.results.voronoi_npz import write_npz
@@ -109,4 +109,4 @@ def _border_wording(cells: VoronoiMap) -> Wording:
         '"geometry":{"type":"LineString","coordinates":[['
         for row in rows
     ]
-    return Wording(collection_opening(cells.crs) + b"\n", openings, "],[", ",", "]]}},\n", b"]}\n")
+    return Wording(collection_opening(cells.crs) + b"\n", openings, "],[", ",", "]]}},\n", b"]}\n", *GEOJSON_LINE)

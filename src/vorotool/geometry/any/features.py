@@ -16,6 +16,7 @@ from vorotool.geometry.alpha.hull import AlphaHull
 from vorotool.geometry.alpha.shape import AlphaShape
 from vorotool.geometry.alpha.tables import described_polygons, family_table, shape_edge_table, shape_point_table
 from vorotool.geometry.any.scaling import AREAS, LENGTHS, scaled_table
+from vorotool.geometry.curves.flatten import with_length
 from vorotool.geometry.distances.distances import Distances
 from vorotool.geometry.mesh.cells import CellSet
 from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation, DigitalTriangulation
@@ -110,7 +111,7 @@ def _chosen(value: Any, what: str | None, parts: Mapping[str, Callable[[Any], Fe
 
 # ---- geometry of arrays --------------------------------------------------------------------------
 def lines(points: NDArray[np.float64], start: Rows) -> NDArray[Any]:
-    """(n,) lines through places that follow one another.
+    """(n,) lines through places that follow one another; empty where these all are one place.
 
     Parameters
     ----------
@@ -124,6 +125,14 @@ def lines(points: NDArray[np.float64], start: Rows) -> NDArray[Any]:
     >>> lines(np.array([[0, 0], [1, 1], [2, 0.0], [5, 5], [6, 6]]), np.array([0, 3, 5]))[1].wkt
     'LINESTRING (5 5, 6 6)'
     """
+    points, start, has_length = with_length(points, start)
+    made: NDArray[Any] = np.full(len(has_length), shapely.LineString(), dtype=object)
+    made[has_length] = _joined(points, start)
+    return made
+
+
+def _joined(points: NDArray[np.float64], start: Rows) -> NDArray[Any]:
+    """(n,) lines, whether their places are different or not."""
     made: NDArray[Any] = shapely.from_ragged_array(
         shapely.GeometryType.LINESTRING, np.ascontiguousarray(points), (np.ascontiguousarray(start, dtype=np.int64),)
     )
@@ -331,7 +340,7 @@ def _transects(points: SkeletonPoints) -> Features:
 def _of_distances(found: Distances) -> Features:
     places = found.places
     columns = {name: column for name, column in found.table().stored().items() if name in ("what", "distance")}
-    return Features(lines(places.reshape(-1, 2), np.arange(0, 2 * len(places) + 1, 2)), Table(columns), found)
+    return Features(_joined(places.reshape(-1, 2), np.arange(0, 2 * len(places) + 1, 2)), Table(columns), found)
 
 
 def _along(points: SkeletonPoints, geometry: NDArray[Any], left_out: set[str]) -> Features:
