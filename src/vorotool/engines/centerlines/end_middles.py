@@ -185,7 +185,8 @@ def _set_single_edges(outlines: _Outlines, radius: Floats, to_middle: Floats, co
     sticks_out = np.zeros(len(outlines.points), dtype=bool)
     sticks_out[1:-1] = outlines.is_vertex[1:-1] & (np.where(outlines.is_left[outline[1:-1]], turn, -turn) > 0)
     edge = np.flatnonzero(sticks_out[:-1] & sticks_out[1:])
-    edge = edge[_square(way[edge]) > (SINGLE * radius[outline[edge]]) ** 2]
+    least = SINGLE * radius[outline[edge]]
+    edge = edge[_square(way[edge]) > least * least]
     edge = edge[np.bincount(outline[edge], minlength=len(radius))[outline[edge]] == 1]
     to_middle[outline[edge]] = outlines.points[edge] / 2 + outlines.points[edge + 1] / 2
     corners[outline[edge]] = np.stack([edge, edge + 1], axis=1)
