@@ -82,3 +82,23 @@ def following(starts: NDArray[Any]) -> Indices:
     after = np.arange(1, starts[-1] + 1, dtype=np.int64)
     after[starts[1:] - 1] = starts[:-1]
     return after
+
+
+def with_length(
+    points: NDArray[np.float64], start: NDArray[Any]
+) -> tuple[NDArray[np.float64], Indices, NDArray[np.bool_]]:
+    """Leave out polylines whose points all are one place: the other points, their starts, and which lines are left.
+
+    Examples
+    --------
+    >>> with_length(np.array([[1.0, 1], [1, 1], [1, 1], [2, 1]]), np.array([0, 2, 4]))[1:]
+    (array([0, 2]), array([False,  True]))
+    """
+    moves = np.zeros(len(points), dtype=bool)
+    moves[1:] = (points[1:] != points[:-1]).any(axis=1)
+    moves[start[:-1]] = False
+    sizes = np.diff(start)
+    has_length = np.add.reduceat(moves, start[:-1], dtype=np.int64) > 0 if len(sizes) else np.zeros(0, dtype=bool)
+    if has_length.all():
+        return points, start.astype(np.int64), has_length
+    return points[np.repeat(has_length, sizes)], starts_of(sizes[has_length]), has_length

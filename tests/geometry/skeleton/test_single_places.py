@@ -8,7 +8,7 @@ import pytest
 import shapely
 
 from vorotool import extend_ends, prune, read, skeleton_exact, smooth, write
-from vorotool.geometry.curves.flatten import with_length
+from vorotool.geometry.ragged import with_length
 
 ROUND, LONG = shapely.Point(3, 4).buffer(2, quad_segs=6), shapely.box(10, 0, 18, 2)
 SETS = {"first": [ROUND, LONG], "last": [LONG, ROUND], "between": [LONG, ROUND, LONG], "alone": [ROUND, ROUND]}

@@ -90,7 +90,7 @@ def verify_skeleton(skeleton: Skeleton, *, threads: int = 0, progress: Progress 
     check_branches(skeleton)
     if skeleton.gap:  # the lines that lead to the corners are no bisectors of the shortened edges
         skeleton = _without_portions(skeleton)
-    if skeleton.error_bound.any():
+    elif skeleton.error_bound.any():
         with warnings.catch_warnings(action="ignore", category=VorotoolWarning):
             check_approximation(skeleton, threads, progress)
         return

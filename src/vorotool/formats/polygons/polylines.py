@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from vorotool.formats.text.feature_collection import collection_opening
 from vorotool.formats.text.row_writer import Column, RowShape, write_rows
 from vorotool.formats.text.tables import json_text
-from vorotool.geometry.curves.flatten import with_length
 from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.ragged import with_length
 from vorotool.geometry.table import Lookup
 
 

@@ -16,7 +16,6 @@ from vorotool.geometry.alpha.hull import AlphaHull
 from vorotool.geometry.alpha.shape import AlphaShape
 from vorotool.geometry.alpha.tables import described_polygons, family_table, shape_edge_table, shape_point_table
 from vorotool.geometry.any.scaling import AREAS, LENGTHS, scaled_table
-from vorotool.geometry.curves.flatten import with_length
 from vorotool.geometry.distances.distances import Distances
 from vorotool.geometry.mesh.cells import CellSet
 from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation, DigitalTriangulation
@@ -30,6 +29,7 @@ from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.geometry.polygons.conversion import to_shapely
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.ragged import with_length
 from vorotool.geometry.skeleton.centerline import Centerlines
 from vorotool.geometry.skeleton.discs import Discs
 from vorotool.geometry.skeleton.extended import ExtendedSkeleton

@@ -152,21 +152,3 @@ def chained(points: Floats, start: Indices, first: NDArray[np.integer]) -> tuple
     kept[start[:-1]] = False
     kept[start[first]] = True
     return points[kept], starts_of(kept)[np.append(start[first], len(points))]
-
-
-def with_length(points: Floats, start: NDArray[np.integer]) -> tuple[Floats, Indices, NDArray[np.bool_]]:
-    """Leave out polylines whose points all are one place: the other points, their starts, and which lines are left.
-
-    Examples
-    --------
-    >>> with_length(np.array([[1.0, 1], [1, 1], [1, 1], [2, 1]]), np.array([0, 2, 4]))[1:]
-    (array([0, 2]), array([False,  True]))
-    """
-    moves = np.zeros(len(points), dtype=bool)
-    moves[1:] = (points[1:] != points[:-1]).any(axis=1)
-    moves[start[:-1]] = False
-    sizes = np.diff(start)
-    has_length = np.add.reduceat(moves, start[:-1], dtype=np.int64) > 0 if len(sizes) else np.zeros(0, dtype=bool)
-    if has_length.all():
-        return points, start.astype(np.int64), has_length
-    return points[np.repeat(has_length, sizes)], starts_of(sizes[has_length]), has_length
