@@ -73,7 +73,7 @@ def test_from_a_logo_to_the_way_of_a_bit(run, folder):
     places = np.array([point.dxf.location for point in drawing.modelspace().query("POINT")])
     shapes = vorotool.read("logo.svg")
     axis = vorotool.prune(vorotool.skeleton_exact(shapes), angle=40)
-    points = vorotool.points_along(axis, every=0.5)
+    points = vorotool.points_along(axis, every=0.5).as_given
     assert np.array_equal(places, np.column_stack([points.xy * [1, -1], -points.radius]))
     assert drawing.units == 4
     assert np.ptp(shapes.xy[:, 0]) < 90

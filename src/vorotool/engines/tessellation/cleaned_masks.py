@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from math import ceil, floor, isinf
+from math import ceil, floor, inf
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -64,7 +64,7 @@ class Cleaning(NamedTuple):
         if isinstance(fill_holes, bool | np.bool_):
             return cls(least, bool(fill_holes))
         most = _area(fill_holes, "fill_holes")
-        return cls(least, True if isinf(most) else floor(most))
+        return cls(least, True if most == inf else floor(most))
 
     def require_mask(self, kind: str, what: str = "image") -> None:
         """Refuse objects that are labels.
@@ -104,7 +104,7 @@ class Cleaning(NamedTuple):
 
 def _area(value: Any, name: str) -> float | Fraction:
     number = real_number(value, name)
-    if not number > 0 or (name == "min_area" and isinf(number)):
+    if not number > 0 or (name == "min_area" and number == inf):
         raise UsageError(f"{name} is {shown_number(value)}: give an area above 0")
     return number
 
