@@ -19,8 +19,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.centerlines.boundary_rays import first_crossings
 from vorotool.engines.centerlines.walks import Walks
+from vorotool.engines.from_skeleton.boundary_rays import first_crossings
 from vorotool.geometry.ragged import owners, starts_of, within
 from vorotool.geometry.skeleton.skeleton import EDGE, Skeleton
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.centerlines.boundary_rays import first_hits
 from vorotool.engines.centerlines.end_middles import end_middles
+from vorotool.engines.from_skeleton.boundary_rays import first_hits
 from vorotool.geometry.skeleton.led_on import LedOn
 
 Floats = NDArray[np.float64]

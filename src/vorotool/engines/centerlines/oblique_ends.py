@@ -8,7 +8,7 @@ from math import sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.centerlines.boundary_rays import first_hits
+from vorotool.engines.from_skeleton.boundary_rays import first_hits
 from vorotool.geometry.skeleton.centerline import Centerlines
 from vorotool.geometry.skeleton.skeleton import EDGE, Skeleton
 

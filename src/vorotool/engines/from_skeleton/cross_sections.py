@@ -6,6 +6,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from vorotool.engines.from_skeleton.boundary_rays import first_crossings
 from vorotool.geometry.curves.inverse_functions import hypotenuse
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.ragged import owners
@@ -74,33 +75,16 @@ def _first_hits(
         if polygon is not None:
             is_own = of_edge[edge] == polygon[left[ray]]
             ray, edge = ray[is_own], edge[is_own]
-        ray, edge, distance = _nearest(ray, edge, *_crossings(origin[left[ray]], way[left[ray]], edges[edge]))
-        is_in = distance <= reach[left[ray]]  # what is farther may be behind an edge that was not looked at
-        ray, edge, distance = left[ray[is_in]], edge[is_in], distance[is_in]
-        vertices[ray] = edge
-        a, b = edges[edge].swapaxes(0, 1)
-        # exactly on edges along an axis
-        places[ray] = np.where(a == b, a, origin[ray] + distance[:, None] * way[ray])
+        order = np.lexsort((edge, ray))  # of equally near ones the first is met
+        ray, edge = ray[order], edge[order]
+        begin, end = (edges[edge, side] - origin[left[ray]] for side in (0, 1))
+        ahead, met = first_crossings(ray, begin, end, way[left])
+        # what is farther may be behind an edge that was not looked at
+        found = np.flatnonzero((met >= 0) & (hypotenuse(*ahead.T) <= reach[left]))
+        of, hit = left[found], edge[met[found]]
+        vertices[of] = hit
+        a, b = edges[hit].swapaxes(0, 1)
+        places[of] = np.where(a == b, a, origin[of] + ahead[found])  # exactly on edges along an axis
         left = left[(vertices[left] < 0) & (reach[left] <= most)]
         reach[left] *= _GROWTH
     return places, vertices
-
-
-def _crossings(origin: Floats, way: Floats, edge: Floats) -> tuple[NDArray[np.intp], Floats]:
-    """Which rays meet their edges, and how far ahead; ends of edges on a ray count as left of it."""
-    (ax, ay), (bx, by) = (edge[:, end].T - origin.T for end in (0, 1))
-    dx, dy = way.T
-    met = np.flatnonzero((dx * ay - dy * ax >= 0) != (dx * by - dy * bx >= 0))
-    (ax, ay, dx, dy), (ex, ey) = (each[met] for each in (ax, ay, dx, dy)), (edge[met, 1] - edge[met, 0]).T
-    across = dx * ey - dy * ex
-    ahead = np.divide(ax * ey - ay * ex, across, out=np.full(len(met), np.inf), where=across != 0)
-    is_ahead = (ahead > 0) & np.isfinite(ahead)
-    return met[is_ahead], ahead[is_ahead]
-
-
-def _nearest(ray: Indices, edge: Indices, met: NDArray[np.intp], ahead: Floats) -> tuple[Indices, Indices, Floats]:
-    """Of the edges that a ray meets the nearest, of equally near ones the first."""
-    ray, edge = ray[met], edge[met]
-    order = np.lexsort((edge, ahead, ray))
-    order = order[np.diff(ray[order], prepend=-1) > 0]
-    return ray[order], edge[order], ahead[order]
