@@ -24,6 +24,11 @@ def test_the_citation_is_of_this_version():
     assert [author["family-names"] for author in article["authors"]] == ["Melkemi", "Vandorpe"]
 
 
+def test_the_changelog_has_an_entry_for_this_version():
+    entries = re.findall(r"^## (\S+)", (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"), re.MULTILINE)
+    assert vorotool.__version__ in entries
+
+
 def test_the_version_is_in_no_other_place():
     assert "version" in PROJECT["project"]["dynamic"]
     assert "version" not in PROJECT["project"]
