@@ -55,10 +55,13 @@ test-all: test ## make test, then the slow ones
 	$(RUN) -m pytest -n auto -m slow
 
 .PHONY: lint
-lint: build $(BUILD)/.tests ## ruff, mypy --strict, clang-format, codespell
+lint: build $(BUILD)/.tests ## ruff, mypy --strict, import-linter, clang-format, codespell
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
+	$(BIN)/lint-imports --no-cache
+	$(RUN) tools/public_names.py | diff $(STUBS)/__init__.pyi -
+	$(RUN) tools/check_core.py
 	$(BIN)/clang-format --dry-run --Werror $(CPP_FILES)
 	$(BIN)/codespell
 

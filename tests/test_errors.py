@@ -6,8 +6,10 @@ import pickle
 import warnings
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 
+import numpy as np
 import orjson
 import pytest
+import shapely
 
 import vorotool
 from vorotool import errors
@@ -118,3 +120,36 @@ def test_a_warning_names_the_line_that_called_the_library():
     with pytest.warns(VorotoolWarning) as said:
         vorotool.delaunay([[0, 0], [4, 0], [0, 3], [0, 0]])
     assert [each.filename for each in said] == [__file__]
+
+
+SQUARE = [[0, 0], [4, 0], [4, 4], [0, 4]]
+EMPTY = np.zeros((4, 4), np.uint8)
+
+
+@pytest.mark.parametrize(
+    ("misuse", "parameter"),
+    [
+        (lambda: vorotool.tessellate([[-1, 2], [3, 4]]), "window=(x, y, w, h)"),
+        (lambda: vorotool.seeds_from_raster(EMPTY), "invert=True"),
+        (lambda: vorotool.seeds_from_raster(EMPTY, strict=True), "strict=True"),
+        (lambda: vorotool.delaunay([[1, 1], [1, 1]], strict=True), "strict=True"),
+        (lambda: vorotool.alpha_shape(SQUARE, alpha=0.1), "r=10"),
+        (lambda: vorotool.skeleton_exact(shapely.LineString([(0, 0), (1, 1)])), 'side="exterior"'),
+        (lambda: vorotool.read("data/dots.csv", columns="x,z"), "columns"),
+        (lambda: vorotool.write(vorotool.tessellate([[1, 1]], shape=(1999, 999)), "build/v.svg"), 'fmt="png"'),
+    ],
+)
+@pytest.mark.filterwarnings("error::vorotool.errors.VorotoolWarning")
+def test_errors_of_the_library_name_parameters(misuse, parameter):
+    with pytest.raises((VorotoolError, VorotoolWarning)) as caught:
+        misuse()
+    assert parameter in str(caught.value)
+    assert " --" not in str(caught.value)
+
+
+def test_notes_of_the_library_name_parameters():
+    said = []
+    vorotool.seeds_from_raster(np.array([[0, 7]]), note=said.append)
+    vorotool.outlines(np.array([[0, 255]], np.uint16), note=said.append)
+    assert [word in line for word, line in zip(('mode="components"', 'mode="labels"'), said, strict=True)] == [True] * 2
+    assert not any(" --" in line for line in said)

@@ -1,6 +1,6 @@
 """Exact Voronoi diagrams of images, points and polygons: the types of all public names."""
 
-# Made of the table in __init__.py by tests/repository/test_types.py, which compares both.
+# Made of the table in __init__.py by tools/public_names.py; `make lint` compares both.
 
 from vorotool.engines.alpha.alpha_hull import (
     alpha_hull as alpha_hull,

@@ -69,7 +69,7 @@ def test_wheels_are_made_for_all_systems():
 
 def test_no_code_is_for_the_processor_that_compiles():
     files = [path for path in (ROOT / "src").rglob("*") if path.name == "CMakeLists.txt" or path.suffix == ".cmake"]
-    assert len(files) == 4
+    assert files
     assert not any("native" in path.read_text(encoding="utf-8") for path in files)
 
 
