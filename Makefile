@@ -176,7 +176,7 @@ sanitize: build $(BUILD)/.tests ## the suite on a build with address and undefin
 
 .PHONY: clean
 clean: ## remove what was built (.venv and build/)
-	rm -rf $(BUILD) $(VENV) .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf $(BUILD) $(VENV)
 
 .PHONY: help
 help: ## show this list

@@ -1,5 +1,6 @@
 """The scripts of `make fuzz`: in the shortest time each compares something, or says that it has not."""
 
+import re
 from pathlib import Path
 
 import pytest
@@ -8,6 +9,12 @@ from fuzz.runner import Cases, options
 from support.processes.ended import ended_python
 
 FUZZ = Path(__file__).parents[1] / "fuzz"
+
+
+def test_the_documents_list_every_script():
+    scripts = {path.name for path in FUZZ.glob("*.py") if "__main__" in path.read_text(encoding="utf-8")}
+    page = (FUZZ.parents[1] / "docs/tested.md").read_text(encoding="utf-8")
+    assert set(re.findall(r"`(\w+\.py)`", page)) == scripts - {"together.py"}
 
 
 def test_cases_that_were_not_run_have_not_passed(capsys):
