@@ -30,6 +30,8 @@ if(VOROTOOL_SANITIZE)
   add_link_options(-fsanitize=address,undefined)
 endif()
 
+option(VOROTOOL_TESTING "Build what only tests call: vorotool._core_testing, and the programs of tests/cpp" OFF)
+
 # Where it is worked on. A compiler to come may warn of more, which is to stop nobody who only installs.
 option(VOROTOOL_WERROR "Take warnings about our own C++ for errors" OFF)
 

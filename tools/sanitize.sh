@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Build the core, its tests in C++ and its bindings with address and undefined-behaviour sanitizers, and run both suites
+# Build the core, its tests in C++ and its bindings with address and undefined-behaviour sanitizers, and run the suite
 # on them; then, for MINUTES of the environment, damaged files (tests/fuzz/bytes.py).
 # Usage: [MINUTES=5] tools/sanitize.sh PYTHON [pytest arguments]
 set -euo pipefail
@@ -9,8 +9,6 @@ work=build/sanitize
 
 # What cannot run so, and why.
 left_out=(
-    # Run below, sanitized; the compiler that this one starts would be under the sanitizer's allocator.
-    --ignore tests/cpp
     # The sanitizer keeps memory that was freed, and more around what is not: peaks are its own.
     --deselect tests/cli/scenarios/test_zarr.py::test_memory_is_that_of_a_row_of_chunks
     # A browser does not start with the sanitizer's allocator, and shows pages without the core.
@@ -44,12 +42,6 @@ sanitized() {
 }
 
 if [ $# -eq 0 ]; then
-    (
-        PATH="$(cd "$(dirname "$python")" && pwd):$PATH"
-        cmake -S tests/cpp -B "$work/cpp" -G Ninja -DVOROTOOL_SANITIZE=ON > "$work/cpp.log" \
-            && cmake --build "$work/cpp" >> "$work/cpp.log" || { cat "$work/cpp.log"; exit 1; }
-        "$work/cpp/core_tests"
-    )
     set -- tests "${left_out[@]}"
     if "$work/venv/bin/python" -c 'import xdist' 2> /dev/null; then set -- -n "$(nproc)" "$@"; fi
 fi

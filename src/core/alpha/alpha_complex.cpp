@@ -1,13 +1,13 @@
 #include "core/alpha/alpha_complex.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 
 #include "core/alpha/critical_radius.hpp"
 #include "core/alpha/radius_ranks.hpp"
 #include "core/base/parallel.hpp"
 #include "core/kernel/predicates.hpp"
+#include "core/numbers/special_values.hpp"
 
 namespace vorotool::core::alpha {
 
@@ -16,12 +16,12 @@ using base::for_pieces;
 using base::LargeArray;
 using base::Monitor;
 using kernel::Point;
+using numbers::infinity;
 
 namespace {
 
-constexpr std::size_t piece_size = std::size_t{1} << 13;  // triangles or edges: about a millisecond of work
-constexpr std::size_t ahead = 16;                         // triangles or edges
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t simplices_a_piece = std::size_t{1} << 13;  // about a millisecond of work
+constexpr std::size_t ahead = 16;                                // triangles or edges
 
 // Calls visit(side number) for the sides of triangles first ... end - 1 at which an edge is written.
 template <class Visit>
@@ -79,7 +79,7 @@ class AlphaBuilder {
   }
 
   void measure_triangles() {
-    for_items(triangles_, piece_size, threads_, monitor_, [&](std::size_t t) {
+    for_items(triangles_, simplices_a_piece, threads_, monitor_, [&](std::size_t t) {
       call_for(in_.triangles, 3 * (t + ahead), 3);
       const Point &a = corner(t, 0), &b = corner(t, 1), &c = corner(t, 2);
       const TriangleMeasure found = measure_triangle(a, b, c);
@@ -104,7 +104,7 @@ class AlphaBuilder {
   }
 
   void measure_edges() {
-    for_items(edges_, piece_size, threads_, monitor_, [&](std::size_t e) {
+    for_items(edges_, simplices_a_piece, threads_, monitor_, [&](std::size_t e) {
       call_for(in_.edges, 2 * (e + ahead), 2);
       const std::size_t i = triangles_ + e;
       value_[i] = starts_at_half(e) ? critical_radius(support_of(static_cast<std::uint32_t>(i))) : left_out;
@@ -125,7 +125,7 @@ class AlphaBuilder {
 
   AlphaArrays write(RadiusRanks&& spectrum) const {
     AlphaArrays out(triangles_, edges_);
-    for_items(edges_, piece_size, threads_, monitor_, [&](std::size_t e) {
+    for_items(edges_, simplices_a_piece, threads_, monitor_, [&](std::size_t e) {
       Critical mid = circumradius(spectrum, e, 0), max = circumradius(spectrum, e, 1);
       if (max.rank < mid.rank) std::swap(mid, max);
       const double half = value_[triangles_ + e];
@@ -137,7 +137,7 @@ class AlphaBuilder {
       out.rank_mid[e] = mid.rank;
       out.rank_max[e] = max.rank;
     });
-    for_items(triangles_, piece_size, threads_, monitor_,
+    for_items(triangles_, simplices_a_piece, threads_, monitor_,
               [&](std::size_t t) { out.triangle_rank[t] = spectrum.rank[t]; });
     out.spectrum = std::move(spectrum.value);
     out.witness = std::move(spectrum.witness);
@@ -159,24 +159,26 @@ EdgeArrays edges_of_triangles(std::span<const std::int32_t> triangles,
                               std::span<const std::int32_t> neighbours, unsigned threads,
                               const Monitor& monitor) {
   const std::size_t count = triangles.size() / 3;
-  std::vector<std::size_t> start(base::piece_count(count, piece_size) + 1);
-  for_pieces(count, piece_size, threads, monitor, [&](std::size_t piece, std::size_t first, std::size_t end) {
-    visit_edges(neighbours, first, end, [&](std::size_t) { ++start[piece + 1]; });
-  });
+  std::vector<std::size_t> start(base::piece_count(count, simplices_a_piece) + 1);
+  for_pieces(count, simplices_a_piece, threads, monitor,
+             [&](std::size_t piece, std::size_t first, std::size_t end) {
+               visit_edges(neighbours, first, end, [&](std::size_t) { ++start[piece + 1]; });
+             });
   std::partial_sum(start.begin(), start.end(), start.begin());
   EdgeArrays out{LargeArray<std::int32_t>(2 * start.back()), LargeArray<std::int32_t>(2 * start.back())};
-  for_pieces(count, piece_size, threads, monitor, [&](std::size_t piece, std::size_t first, std::size_t end) {
-    std::size_t next = 2 * start[piece];
-    visit_edges(neighbours, first, end, [&](std::size_t k) {
-      const std::size_t t = k / 3;
-      const std::int32_t a = triangles[3 * t + (k + 1) % 3], b = triangles[3 * t + (k + 2) % 3];
-      out.ends[next] = std::min(a, b);
-      out.ends[next + 1] = std::max(a, b);
-      out.sides[next] = static_cast<std::int32_t>(t);
-      out.sides[next + 1] = neighbours[k];
-      next += 2;
-    });
-  });
+  for_pieces(count, simplices_a_piece, threads, monitor,
+             [&](std::size_t piece, std::size_t first, std::size_t end) {
+               std::size_t next = 2 * start[piece];
+               visit_edges(neighbours, first, end, [&](std::size_t k) {
+                 const std::size_t t = k / 3;
+                 const std::int32_t a = triangles[3 * t + (k + 1) % 3], b = triangles[3 * t + (k + 2) % 3];
+                 out.ends[next] = std::min(a, b);
+                 out.ends[next + 1] = std::max(a, b);
+                 out.sides[next] = static_cast<std::int32_t>(t);
+                 out.sides[next + 1] = neighbours[k];
+                 next += 2;
+               });
+             });
   return out;
 }
 

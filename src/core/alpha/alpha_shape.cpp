@@ -18,7 +18,7 @@ using kernel::Point;
 
 namespace {
 
-constexpr std::size_t piece_size = std::size_t{1} << 16;  // edges: some tenths of a millisecond of work
+constexpr std::size_t edges_a_piece = std::size_t{1} << 16;  // some tenths of a millisecond of work
 
 // Boundary edges by the region on their left and the vertex that they leave.
 class RingTracer {
@@ -112,7 +112,7 @@ ShapeEdges shape_edges(const EdgeRanks& ranks, std::int32_t reached, std::int32_
                        const Monitor& monitor) {
   const std::size_t size = ranks.min.size();
   ShapeEdges out{base::LargeArray<std::int32_t>(size), base::LargeArray<std::uint8_t>(size), 0};
-  std::vector<std::size_t> counts(base::piece_count(size, piece_size));
+  std::vector<std::size_t> counts(base::piece_count(size, edges_a_piece));
   const auto scan = [&](std::size_t piece, std::size_t begin, std::size_t end) {
     std::size_t next = begin;
     for (std::size_t e = begin; e < end; ++e) {
@@ -123,9 +123,9 @@ ShapeEdges shape_edges(const EdgeRanks& ranks, std::int32_t reached, std::int32_
     }
     counts[piece] = next - begin;
   };
-  base::for_pieces(size, piece_size, threads, monitor, scan);
+  base::for_pieces(size, edges_a_piece, threads, monitor, scan);
   for (std::size_t piece = 0; piece < counts.size(); ++piece) {
-    const std::size_t begin = piece * piece_size, end = begin + counts[piece];
+    const std::size_t begin = piece * edges_a_piece, end = begin + counts[piece];
     std::copy(out.edge.data() + begin, out.edge.data() + end, out.edge.data() + out.count);
     std::copy(out.kind.data() + begin, out.kind.data() + end, out.kind.data() + out.count);
     out.count += counts[piece];

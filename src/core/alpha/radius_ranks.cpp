@@ -18,7 +18,7 @@ using base::parallel_for;
 
 namespace {
 
-constexpr std::size_t piece_size = std::size_t{1} << 16;  // items: about a millisecond of work
+constexpr std::size_t ranks_a_piece = std::size_t{1} << 16;  // items: about a millisecond of work
 
 // Bits of a non-negative double increase with it. Less the bits of the smallest value they are cut to the
 // leading 33; the item's number goes below, in the other 31. Values that agree in these bits are rare, and
@@ -39,7 +39,7 @@ class Sorter {
         compare_(compare),
         threads_(threads),
         monitor_(monitor),
-        counts_(base::piece_count(values.size(), piece_size)),
+        counts_(base::piece_count(values.size(), ranks_a_piece)),
         distinct_(buckets) {}
 
   RadiusRanks run() {
@@ -58,8 +58,8 @@ class Sorter {
   // Calls visit(piece, item) for the items that take part.
   template <class Visit>
   void visit_items(std::size_t piece, Visit visit) const {
-    const std::size_t end = std::min(values_.size(), (piece + 1) * piece_size);
-    for (std::size_t i = piece * piece_size; i < end; ++i) {
+    const std::size_t end = std::min(values_.size(), (piece + 1) * ranks_a_piece);
+    for (std::size_t i = piece * ranks_a_piece; i < end; ++i) {
       if (!(values_[i] < 0)) visit(i);
     }
   }
@@ -216,7 +216,7 @@ class Sorter {
     for (std::size_t& distinct : distinct_) sum += std::exchange(distinct, sum);
     RadiusRanks out{LargeArray<double>(sum), LargeArray<std::int32_t>(sum),
                     LargeArray<std::int32_t>(values_.size())};
-    base::for_items(values_.size(), piece_size, threads_, monitor_, [&](std::size_t i) {
+    base::for_items(values_.size(), ranks_a_piece, threads_, monitor_, [&](std::size_t i) {
       if (values_[i] < 0) out.rank[i] = static_cast<std::int32_t>(sum);
     });
     const auto write_bucket = [&](std::size_t bucket) {

@@ -22,7 +22,7 @@ namespace {
 using Numbers = std::vector<std::int32_t>;
 
 // Items by their ranks, those that never come last.
-Groups<std::int32_t> by_rank(std::span<const std::int32_t> rank, std::size_t ranks) {
+Groups<std::int32_t> items_by_rank(std::span<const std::int32_t> rank, std::size_t ranks) {
   return {ranks + 1, [&](const auto& add) {
             for (std::size_t i = 0; i < rank.size(); ++i) add(rank[i], static_cast<std::int32_t>(i));
           }};
@@ -34,13 +34,13 @@ struct Part {
   numbers::LongSum area;
 };
 
-class Sweep {
+class RegionSweep {
  public:
-  Sweep(const RegionInput& input, const Monitor& monitor)
+  RegionSweep(const RegionInput& input, const Monitor& monitor)
       : in_(input),
         monitor_(monitor),
-        edges_(by_rank(input.rank_max, input.spectrum)),
-        triangles_(by_rank(input.triangle_rank, input.spectrum)),
+        edges_(items_by_rank(input.rank_max, input.spectrum)),
+        triangles_(items_by_rank(input.triangle_rank, input.spectrum)),
         parts_(input.triangle_rank.size()),
         sets_(input.triangle_rank.size()) {}
 
@@ -153,7 +153,7 @@ class Sweep {
 }  // namespace
 
 Regions region_persistence(const RegionInput& input, const Monitor& monitor) {
-  return Sweep(input, monitor).run();
+  return RegionSweep(input, monitor).run();
 }
 
 }  // namespace vorotool::core::alpha

@@ -24,9 +24,9 @@ std::string named(LatticePoint p) {
 
 // Sweeps a horizontal line upwards and keeps the segments that it cuts from left to right (Shamos and Hoey
 // 1976): if there is a fault, then two segments are neighbours below the lowest one.
-class Sweep {
+class CheckingSweep {
  public:
-  Sweep(const PlanarGraphView& graph, const Monitor& monitor)
+  CheckingSweep(const PlanarGraphView& graph, const Monitor& monitor)
       : graph_(graph), monitor_(monitor), cut_(IsLeft{this}), place_(graph.segments.size()) {}
 
   Fault run() {
@@ -53,7 +53,7 @@ class Sweep {
   // Left to right where both are cut: told where the higher one begins, or above where both do.
   struct IsLeft {
     using is_transparent = void;
-    const Sweep* sweep;
+    const CheckingSweep* sweep;
 
     bool operator()(std::size_t s, std::size_t t) const {
       if (s == t) return false;
@@ -198,7 +198,7 @@ Fault corner_fault(const PlanarGraphView& graph) {
 
 Fault find_fault(const PlanarGraphView& graph, const Monitor& monitor) {
   if (Fault fault = index_fault(graph)) return fault;
-  if (Fault fault = Sweep(graph, monitor).run()) return fault;
+  if (Fault fault = CheckingSweep(graph, monitor).run()) return fault;
   return graph.faces.empty() ? Fault{} : corner_fault(graph);
 }
 

@@ -11,6 +11,8 @@ namespace vorotool::core::base {
 
 using IndexPair = std::array<std::int32_t, 2>;
 
+inline constexpr std::int32_t no_index = -1;
+
 inline std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
 
 // Throws std::invalid_argument where an index is less than `least`, or not less than `end`. Looks at all of

@@ -13,7 +13,7 @@ using kernel::Point;
 
 namespace {
 
-constexpr std::size_t cells_a_piece = std::size_t{1} << 13;
+constexpr std::size_t measures_a_piece = std::size_t{1} << 13;
 
 // Twice the signed area, of coordinates times 2^scale relative to the first vertex: products do not overflow.
 double twice_area(std::span<const Point> ring, double factor) {
@@ -56,7 +56,7 @@ CellMeasures measure_cells(const CellOutlines& cells, const Box& frame, unsigned
       result.touches_frame[cell] |= on_frame(p);
     }
   };
-  base::for_items(cells.sites.size(), cells_a_piece, threads, monitor, [&](std::size_t cell) {
+  base::for_items(cells.sites.size(), measures_a_piece, threads, monitor, [&](std::size_t cell) {
     for (auto r = cells.cell_rings[cell]; r < cells.cell_rings[cell + 1]; ++r) {
       const auto ring = static_cast<std::size_t>(r);
       const auto begin = static_cast<std::size_t>(cells.rings[ring]);

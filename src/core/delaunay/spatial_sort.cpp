@@ -16,8 +16,8 @@ using spatial::MortonGrid;
 
 namespace {
 
-constexpr std::size_t piece_size = std::size_t{1} << 14;  // words of a piece of work
-constexpr std::size_t ahead = 32;                         // words: how early points are called for
+constexpr std::size_t words_a_piece = std::size_t{1} << 14;
+constexpr std::size_t ahead = 32;  // words: how early points are called for
 
 // A word holds the code of a point above its index.
 std::uint32_t code_of(std::uint64_t word) { return static_cast<std::uint32_t>(word >> 32); }
@@ -44,7 +44,7 @@ class Orderer {
     order_.index.resize(count);
     order_.code.resize(count);
     repeated_.resize(count);
-    crowds_.resize(base::piece_count(count, piece_size));
+    crowds_.resize(base::piece_count(count, words_a_piece));
     base::parallel_for(
         crowds_.size(), threads_, [&](std::size_t piece) { put_cells(words, piece); }, monitor_);
     put_crowds(words);
@@ -92,7 +92,7 @@ class Orderer {
   }
 
   void put_cells(std::vector<std::uint64_t>& words, std::size_t piece) {
-    const Range within{piece * piece_size, std::min(words.size(), (piece + 1) * piece_size)};
+    const Range within{piece * words_a_piece, std::min(words.size(), (piece + 1) * words_a_piece)};
     for_cells(words, within, [&](Range cell) {
       if (cell.begin + ahead < words.size())
         __builtin_prefetch(&points_[index_of(words[cell.begin + ahead])]);

@@ -9,7 +9,7 @@ using kernel::Point;
 
 namespace {
 
-constexpr std::size_t grain = 1 << 10;  // places a piece: some milliseconds
+constexpr std::size_t places_a_piece = 1 << 10;  // some milliseconds
 
 }  // namespace
 
@@ -64,7 +64,7 @@ Reached Shape::reach(const Point& p) const {
 std::vector<std::uint8_t> contained(const Shape& shape, std::span<const Point> places, unsigned threads,
                                     const base::Monitor& monitor) {
   std::vector<std::uint8_t> found(places.size());
-  base::for_items(places.size(), grain, threads, monitor,
+  base::for_items(places.size(), places_a_piece, threads, monitor,
                   [&](std::size_t i) { found[i] = shape.contains(places[i]); });
   return found;
 }
@@ -72,7 +72,7 @@ std::vector<std::uint8_t> contained(const Shape& shape, std::span<const Point> p
 std::vector<Reached> reached(const Shape& shape, std::span<const Point> places, unsigned threads,
                              const base::Monitor& monitor) {
   std::vector<Reached> found(places.size());
-  base::for_items(places.size(), grain, threads, monitor,
+  base::for_items(places.size(), places_a_piece, threads, monitor,
                   [&](std::size_t i) { found[i] = shape.reach(places[i]); });
   return found;
 }

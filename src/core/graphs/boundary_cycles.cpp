@@ -8,15 +8,14 @@
 namespace vorotool::core::graphs {
 
 using base::at;
+using base::no_index;
 
 namespace {
-
-constexpr std::int32_t none = -1;
 
 class Tracer {
  public:
   Tracer(std::span<const std::int32_t> next, std::span<const std::int32_t> tail, std::size_t vertices)
-      : next_(next), tail_(tail), is_done_(next.size()), place_(vertices, none) {
+      : next_(next), tail_(tail), is_done_(next.size()), place_(vertices, no_index) {
     cycles_.start.push_back(0);
     cycles_.half_edge.reserve(next.size());
   }
@@ -36,7 +35,7 @@ class Tracer {
       if (is_done_[at(h)] != 0) throw std::invalid_argument("the half-edges after others are no permutation");
       is_done_[at(h)] = 1;
       std::int32_t& place = place_[at(tail_[at(h)])];
-      if (place != none) cut_off(at(place));
+      if (place != no_index) cut_off(at(place));
       place = static_cast<std::int32_t>(path_.size());
       path_.push_back(h);
       h = next_[at(h)];
@@ -46,7 +45,7 @@ class Tracer {
 
   void cut_off(std::size_t from) {
     const auto begin = path_.begin() + static_cast<std::ptrdiff_t>(from);
-    for (auto each = begin; each != path_.end(); ++each) place_[at(tail_[at(*each)])] = none;
+    for (auto each = begin; each != path_.end(); ++each) place_[at(tail_[at(*each)])] = no_index;
     std::rotate(begin, std::min_element(begin, path_.end()), path_.end());
     cycles_.half_edge.insert(cycles_.half_edge.end(), begin, path_.end());
     cycles_.start.push_back(static_cast<std::int32_t>(cycles_.half_edge.size()));
@@ -73,7 +72,7 @@ class Tracer {
 
   std::span<const std::int32_t> next_, tail_;
   std::vector<std::uint8_t> is_done_;
-  std::vector<std::int32_t> place_;  // of each vertex on the path; none of others
+  std::vector<std::int32_t> place_;  // of each vertex on the path; no_index of others
   std::vector<std::int32_t> path_;
   BoundaryCycles cycles_;
 };

@@ -110,15 +110,15 @@ std::optional<Estimate> bisector_by_estimate(double x, const Point& a, const Poi
 // Coordinates of 64 limbs - 3 bits: their differences are below 2^(64 limbs - 2) in magnitude, and a
 // difference of twice one of them to the sum of two others below 2^(64 limbs - 1). Every result below has at
 // least two bits less than its limbs, one of them for the sign.
-constexpr int room = 3;
+constexpr int spare_bits_of_centres = 3;
 
 // Calls body(the number of limbs, a constant) with enough of them for integers of so many bits.
 template <class Body>
 auto with_limbs(int bits, Body body) {
-  if (bits + room <= 64) return body(std::integral_constant<std::size_t, 1>{});
-  if (bits + room <= 4 * 64) return body(std::integral_constant<std::size_t, 4>{});
-  if (bits + room <= 12 * 64) return body(std::integral_constant<std::size_t, 12>{});
-  static_assert(2098 + room <= 33 * 64);
+  if (bits + spare_bits_of_centres <= 64) return body(std::integral_constant<std::size_t, 1>{});
+  if (bits + spare_bits_of_centres <= 4 * 64) return body(std::integral_constant<std::size_t, 4>{});
+  if (bits + spare_bits_of_centres <= 12 * 64) return body(std::integral_constant<std::size_t, 12>{});
+  static_assert(2098 + spare_bits_of_centres <= 33 * 64);
   return body(std::integral_constant<std::size_t, 33>{});
 }
 

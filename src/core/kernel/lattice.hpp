@@ -23,6 +23,7 @@ struct LatticeSite {
   LatticePoint a, b;
 
   bool is_point() const { return a == b; }
+  bool is_end(const LatticePoint& p) const { return p == a || p == b; }
   friend bool operator==(const LatticeSite&, const LatticeSite&) = default;
 };
 

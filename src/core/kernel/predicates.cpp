@@ -89,7 +89,7 @@ int integer_sign(const CircleCall& call) {
 // Coordinates of 64 limbs - 3 bits have differences below 2^(64 limbs - 2). Their products are below
 // 2^(128 limbs - 4), lifts and minors below 2^(128 limbs - 3), products of these below 2^(256 limbs - 6), and
 // sums of three such leave room for the sign.
-constexpr int room = 3;
+constexpr int spare_bits_of_predicates = 3;
 
 // The first values less the last.
 template <std::size_t limbs, std::size_t n>
@@ -119,12 +119,12 @@ int sign_in_limbs(const CircleCall& call) {
 
 template <class Call>
 int wide_sign(const Call& call) {
-  const int bits = call.bits() + room;
+  const int bits = call.bits() + spare_bits_of_predicates;
   if (bits <= 2 * 64) return sign_in_limbs<2>(call);
   if (bits <= 4 * 64) return sign_in_limbs<4>(call);
   if (bits <= 8 * 64) return sign_in_limbs<8>(call);
   if (bits <= 16 * 64) return sign_in_limbs<16>(call);
-  static_assert(2098 + room <= 33 * 64);
+  static_assert(2098 + spare_bits_of_predicates <= 33 * 64);
   return sign_in_limbs<33>(call);
 }
 
@@ -198,7 +198,7 @@ constexpr int few_limbs = 4;
 template <class Call>
 int sign_beyond_filter(const Call& call) {
   if (call.bits() <= integer_bits) return integer_sign(call);
-  if (call.bits() + room <= few_limbs * 64) return wide_sign(call);
+  if (call.bits() + spare_bits_of_predicates <= few_limbs * 64) return wide_sign(call);
   const int sign = expansion_sign(call);
   return sign != undecided ? sign : wide_sign(call);
 }

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <utility>
 
+#include "core/numbers/special_values.hpp"
 #include "core/offsets/inner_components.hpp"
 #include "core/offsets/level_arcs.hpp"
 
@@ -13,11 +13,10 @@ namespace vorotool::core::offsets {
 
 using base::Monitor;
 using kernel::Point;
+using numbers::nan;
 using skeleton::LatticeToInput;
 
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // A ring of pieces, or the whole circle about a point.
 struct Ring {

@@ -23,7 +23,7 @@ using kernel::Point;
 
 namespace {
 
-constexpr std::size_t piece_size = std::size_t{1} << 13;  // edges: some milliseconds of work
+constexpr std::size_t edges_a_piece = std::size_t{1} << 13;  // edges: some milliseconds of work
 
 using Kept = std::vector<std::uint8_t>;  // [e] whether each edge is in the graph
 
@@ -52,7 +52,7 @@ Kept edges_by_rule(const TriangulationArrays& mesh, ProximityKind kind, unsigned
   const double scale = scale_of(mesh.points);
   Kept kept(sides.size());
   base::for_pieces(
-      sides.size(), piece_size, threads, monitor, [&](std::size_t, std::size_t first, std::size_t end) {
+      sides.size(), edges_a_piece, threads, monitor, [&](std::size_t, std::size_t first, std::size_t end) {
         EmptyLunes lunes(mesh, scale);
         for (std::size_t e = first; e < end; ++e) {
           const bool is_in = sides[e] < 0 || (kind == ProximityKind::gabriel ? is_gabriel(mesh, sides[e])
@@ -80,7 +80,7 @@ Kept spanning_tree(const TriangulationArrays& mesh, std::span<const std::int32_t
     return alpha::Support{a, mesh.points[at(mesh.edges[2 * at(edges[i]) + 1])], a, false};
   };
   base::LargeArray<double> half_length(edges.size());
-  base::for_items(edges.size(), piece_size, threads, monitor,
+  base::for_items(edges.size(), edges_a_piece, threads, monitor,
                   [&](std::size_t i) { half_length[i] = alpha::critical_radius(support_of(i)); });
   const auto compare = [&](std::uint32_t p, std::uint32_t q) {
     return alpha::compare_radii(support_of(p), support_of(q));

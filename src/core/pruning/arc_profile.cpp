@@ -2,18 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/numbers/double_double.hpp"
+#include "core/numbers/special_values.hpp"
 
 namespace vorotool::core::pruning {
 
 using kernel::Point;
+using numbers::infinity;
 using skeleton::ArcEnd;
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // (b - a) x (c - a). Of points on a lattice of 31 bits the products have 64: where they cancel to less than
 // 2^-20, two doubles hold the difference to 2^-80 of itself or more.

@@ -5,6 +5,7 @@
 
 #include "core/base/indices.hpp"
 #include "core/graphs/pendant_trees.hpp"
+#include "core/numbers/special_values.hpp"
 #include "core/pruning/arc_profile.hpp"
 #include "core/pruning/disc_enlargement.hpp"
 
@@ -13,11 +14,10 @@ namespace vorotool::core::pruning {
 using base::at;
 using base::Monitor;
 using graphs::HangingArc;
+using numbers::infinity;
 using skeleton::SkeletonView;
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // The part that all criteria share: the trees, and where the values go.
 class Pruner {

@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
+#include "core/numbers/special_values.hpp"
+
 namespace vorotool::core::pruning {
-namespace {
+using numbers::infinity;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-}  // namespace
+namespace {}  // namespace
 
 struct DiscEnlargement::Search {
   const Disc& disc;

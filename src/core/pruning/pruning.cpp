@@ -1,8 +1,8 @@
 #include "core/pruning/pruning.hpp"
 
 #include <algorithm>
-#include <limits>
 
+#include "core/numbers/special_values.hpp"
 #include "core/pruning/arc_profile.hpp"
 #include "core/skeleton/branches.hpp"
 
@@ -10,14 +10,13 @@ namespace vorotool::core::pruning {
 
 using base::at;
 using kernel::Point;
+using numbers::infinity;
+using numbers::nan;
 using skeleton::ArcEnd;
 using skeleton::GraphArc;
 using skeleton::SkeletonView;
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // Where an arc is cut that has less than the threshold at its source or its target, or at both.
 ArcPart cut(const SkeletonView& skeleton, const CriticalValues& values, Criterion criterion, double threshold,

@@ -2,15 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "core/numbers/special_values.hpp"
 
 namespace vorotool::core::sampled_skeleton {
 
 using kernel::Point;
+using numbers::infinity;
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Lengths are below 2^32 lattice steps, and computed with a few roundings of 2^-53 each of them; seeds are
 // within 2^-21 of their edges, and nodes within 2^-22 of where the seeds have them.

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/base/indices.hpp"
 #include "core/base/parallel.hpp"
+#include "core/numbers/special_values.hpp"
 
 namespace vorotool::core::sampled_skeleton {
 
@@ -14,11 +14,11 @@ using base::Monitor;
 using kernel::LatticeSite;
 using kernel::PlanarGraphView;
 using kernel::Point;
+using numbers::infinity;
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr std::size_t grain = 1 << 10;  // segments a piece of work
+constexpr std::size_t segments_a_piece = 1 << 10;
 
 double length_of(const LatticeSite& site) {
   return std::sqrt(static_cast<double>(kernel::norm2(site.b - site.a)));
@@ -59,7 +59,7 @@ BoundarySamples sample(const PlanarGraphView& graph, std::size_t most, unsigned 
     made.seeds[i] = {static_cast<double>(graph.points[i].x), static_cast<double>(graph.points[i].y)};
     made.segment[i] = -1;
   }
-  base::for_items(segments, grain, threads, monitor, [&](std::size_t j) {
+  base::for_items(segments, segments_a_piece, threads, monitor, [&](std::size_t j) {
     const std::size_t first = at(made.start[j]), size = at(made.start[j + 1]) - first;
     std::fill_n(made.segment.data() + first, size, static_cast<std::int32_t>(j));
     write(j, std::span(made.seeds.data() + first, size));

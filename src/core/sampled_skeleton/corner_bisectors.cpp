@@ -41,7 +41,7 @@ kernel::Point bisector_of(const LatticeVector& right, const LatticeVector& left)
 
 // A neighbour of the corner in its sector, and a side between both. All but the last have the next triangle
 // of the sector on the left of it.
-struct Spoke {
+struct CornerSpoke {
   std::int32_t seed;
   Side side;
 };
@@ -56,7 +56,7 @@ class Sector {
   // Whether the bisector meets the border of the corner's cell in a vertex or a kept edge, and no piece
   // before: the pieces on both sides leave the cell across their own edges, and no other piece is in between.
   bool meet() {
-    const auto is_crossed = [&](const Spoke& spoke) { return diagram_.is_crossed(spoke.side); };
+    const auto is_crossed = [&](const CornerSpoke& spoke) { return diagram_.is_crossed(spoke.side); };
     if (spokes_.empty() || std::any_of(spokes_.begin(), spokes_.end(), is_crossed)) return false;
     if (!diagram_.has_own_piece(spokes_.front().side) || !diagram_.has_own_piece(spokes_.back().side))
       return false;
@@ -74,7 +74,7 @@ class Sector {
     const std::int32_t first = labels.seed_beside(line_.corner, line_.right);
     const std::int32_t last = labels.seed_beside(line_.corner, line_.left);
     struct Fan {
-      Spoke spoke, after;
+      CornerSpoke spoke, after;
     };
     std::vector<Fan> ring;
     rings.visit(line_.corner, [&](Triangle t, std::int32_t next, std::int32_t after) {
@@ -132,7 +132,7 @@ class Sector {
   const SampleDiagram& diagram_;
   const SampleMesh& mesh_;
   CornerBisector& line_;
-  std::vector<Spoke> spokes_;
+  std::vector<CornerSpoke> spokes_;
 };
 
 std::vector<CornerBisector> corners_of(const SampleDiagram& diagram,

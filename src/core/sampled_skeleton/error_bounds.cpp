@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "core/base/atomic_ref.hpp"
 #include "core/base/indices.hpp"
 #include "core/base/parallel.hpp"
+#include "core/numbers/special_values.hpp"
 #include "core/sampled_skeleton/near_edges.hpp"
 #include "core/spatial/clearance.hpp"
 #include "core/spatial/obb_tree.hpp"
@@ -17,11 +17,11 @@ namespace vorotool::core::sampled_skeleton {
 
 using kernel::LatticeSite;
 using kernel::Point;
+using numbers::infinity;
 using spatial::ObbTree;
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double node_error = 0x1p-21;  // nodes are rounded to doubles below 2^31
 constexpr int most_halvings = 48;
 constexpr std::size_t few_edges = 12, many_edges = 64;  // near a disc: more is another case

@@ -2,25 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/base/indices.hpp"
 #include "core/base/parallel.hpp"
 #include "core/kernel/circumcentre.hpp"
+#include "core/numbers/special_values.hpp"
 
 namespace vorotool::core::sampled_skeleton {
 
 using base::at;
 using kernel::Point;
+using numbers::infinity;
 using skeleton::FrameSide;
 using skeleton::GraphArc;
 using skeleton::Line;
 
-namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-}  // namespace
+namespace {}  // namespace
 
 // A node that a line to a corner makes inside an arc.
 struct SampleArcs::Division {

@@ -20,7 +20,7 @@ using kernel::Point;
 
 namespace {
 
-constexpr std::size_t grain = 1 << 14;  // triangles a piece of work: about a millisecond
+constexpr std::size_t triangles_a_piece = 1 << 14;  // about a millisecond
 
 // Calls body(s) for the sides that are to be looked at once.
 template <class Body>
@@ -30,7 +30,7 @@ void for_each_side(const SampleMesh& mesh, unsigned threads, const Monitor& moni
       if (mesh.is_first(static_cast<Side>(s))) body(piece, static_cast<Side>(s));
     }
   };
-  base::for_pieces(mesh.size(), grain, threads, monitor, visit);
+  base::for_pieces(mesh.size(), triangles_a_piece, threads, monitor, visit);
 }
 
 // The seeds of each group, ascending.
@@ -53,7 +53,8 @@ struct GroupMeshes {
            const std::optional<spatial::Bounds>& within, unsigned threads, const Monitor& monitor) {
     std::vector<Point> places;
     for (const std::int32_t seed : members) places.push_back(seeds[at(seed)]);
-    const delaunay::DelaunayTriangulation mesh(places, places.size() < grain ? 1 : threads, monitor, within);
+    const delaunay::DelaunayTriangulation mesh(places, places.size() < triangles_a_piece ? 1 : threads,
+                                               monitor, within);
     for (std::size_t i = 0; i < members.size(); ++i) first[at(members[i])] = members[at(mesh.first()[i])];
     const std::size_t begin = triangles.size(), size = 3 * mesh.triangle_count();
     if (size == 0) return;
@@ -166,7 +167,7 @@ bool SampleDiagram::is_alone_on(Side s) const {
 }
 
 void SampleDiagram::join_centres(unsigned threads, const Monitor& monitor) {
-  std::vector<std::vector<Side>> found(base::piece_count(mesh_.size(), grain));
+  std::vector<std::vector<Side>> found(base::piece_count(mesh_.size(), triangles_a_piece));
   for_each_side(mesh_, threads, monitor, [&](std::size_t piece, Side s) {
     if (mesh_.across(s) < 0) return;
     const Point &p = mesh_.seed(mesh_.origin(s)), &q = mesh_.seed(mesh_.target(s));

@@ -6,6 +6,7 @@
 
 #include "core/base/atomic_ref.hpp"
 #include "core/base/parallel.hpp"
+#include "core/numbers/special_values.hpp"
 #include "core/sampled_skeleton/corner_bisectors.hpp"
 #include "core/sampled_skeleton/error_bounds.hpp"
 #include "core/sampled_skeleton/sample_arcs.hpp"
@@ -15,14 +16,13 @@ namespace vorotool::core::sampled_skeleton {
 
 using base::Monitor;
 using kernel::Point;
+using numbers::nan;
 using skeleton::GraphArc;
 using skeleton::LatticeToInput;
 using skeleton::OrderedArc;
 using skeleton::SkeletonArrays;
 
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // Several threads may do this at once.
 void lower(double& value, double other) {

@@ -3,15 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <numeric>
 #include <optional>
 
 #include "core/base/parallel.hpp"
 #include "core/numbers/sign.hpp"
+#include "core/numbers/special_values.hpp"
 #include "core/segment_voronoi/discs/exact_signs.hpp"
 
 namespace vorotool::core::skeleton {
+using numbers::nan;
+
 namespace {
 
 using base::at;
@@ -24,8 +26,7 @@ using kernel::left_of;
 using kernel::Point;
 using numbers::sign_of;
 
-constexpr std::size_t grain = 1 << 12;  // arcs a piece: a millisecond or so
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t courses_a_piece = 1 << 12;  // arcs a piece: a millisecond or so
 // Radii that differ by more of their sum differ: each has a relative error of 2^-49 at most
 // (core/segment_voronoi/build/refined_disc.cpp), and powers of two place it.
 constexpr double apart = 0x1p-47;
@@ -223,7 +224,7 @@ ClearanceCourse clearance_course(const PlacedSkeleton& skeleton, unsigned thread
   const std::size_t count = skeleton.arcs.size();
   ClearanceCourse out{std::vector<std::array<std::int8_t, 2>>(count), std::vector<double>(count, nan)};
   Courses courses(skeleton, out);
-  base::for_items(count, grain, threads, monitor, [&](std::size_t arc) { courses.write(arc); });
+  base::for_items(count, courses_a_piece, threads, monitor, [&](std::size_t arc) { courses.write(arc); });
   return out;
 }
 

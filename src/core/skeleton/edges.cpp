@@ -20,7 +20,7 @@ using segment_voronoi::build::DiagramView;
 namespace {
 
 constexpr std::int32_t unknown = -1, deleted = -2;
-constexpr std::size_t grain = 1 << 15;  // edges a piece: some 0.5 ms
+constexpr std::size_t edges_a_piece = 1 << 15;  // some 0.5 ms
 
 class FaceFinder {
  public:
@@ -91,7 +91,7 @@ SkeletonEdges skeleton_edges(const DiagramView& diagram, unsigned threads, const
   const std::size_t count = diagram.edges.size();
   const FaceFinder finder(diagram);
   base::LargeArray<std::int32_t> face(count);
-  base::for_items(count, grain, threads, monitor, [&](std::size_t e) { face[e] = finder.face(e); });
+  base::for_items(count, edges_a_piece, threads, monitor, [&](std::size_t e) { face[e] = finder.face(e); });
   spread_faces(diagram, face);
   SkeletonEdges kept;
   const auto size = count - static_cast<std::size_t>(std::count(face.data(), face.data() + count, deleted));

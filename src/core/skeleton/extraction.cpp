@@ -1,17 +1,18 @@
 #include "core/skeleton/extraction.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "core/base/parallel.hpp"
+#include "core/numbers/special_values.hpp"
 #include "core/skeleton/branches.hpp"
 #include "core/skeleton/graph.hpp"
 
 namespace vorotool::core::skeleton {
+using numbers::nan;
+
 namespace {
 
-constexpr std::size_t grain = 1 << 14;  // arcs a piece: a millisecond or so
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t arcs_a_piece = 1 << 14;  // a millisecond or so
 
 class ArrayWriter {
  public:
@@ -75,8 +76,10 @@ SkeletonArrays extract_skeleton(const segment_voronoi::build::DiagramView& diagr
   if (clipped) clip_to_frame(graph, clipped->group, clipped->frame, monitor);
   const SkeletonOrder order = order_by_branches(graph.arcs, graph.node_count(), monitor);
   ArrayWriter writer(graph, order, place);
-  base::for_items(order.nodes.size(), grain, threads, monitor, [&](std::size_t i) { writer.write_node(i); });
-  base::for_items(order.arcs.size(), grain, threads, monitor, [&](std::size_t i) { writer.write_arc(i); });
+  base::for_items(order.nodes.size(), arcs_a_piece, threads, monitor,
+                  [&](std::size_t i) { writer.write_node(i); });
+  base::for_items(order.arcs.size(), arcs_a_piece, threads, monitor,
+                  [&](std::size_t i) { writer.write_arc(i); });
   return writer.take();
 }
 

@@ -2,17 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "core/kernel/lattice.hpp"
+#include "core/numbers/special_values.hpp"
 
 namespace vorotool::core::skeleton {
 using kernel::Point;
+using numbers::infinity;
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 class Clipper {
  public:

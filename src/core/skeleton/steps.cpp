@@ -12,7 +12,7 @@ namespace {
 
 using kernel::Point;
 
-constexpr std::size_t grain = 4096;  // places, some milliseconds
+constexpr std::size_t steps_a_piece = 4096;  // places, some milliseconds
 
 // Operation by operation what SitePlaces.feet does.
 Point foot(const std::array<Point, 2>& site, const Point& place) {
@@ -102,7 +102,7 @@ Steps steps_along(const SkeletonView& skeleton, std::span<const std::int64_t> fi
   made.place.resize(count);
   made.radius.resize(count);
   made.feet.resize(count);
-  base::for_pieces(count, grain, threads, monitor,
+  base::for_pieces(count, steps_a_piece, threads, monitor,
                    [&](std::size_t, std::size_t begin, std::size_t end) { walk.fill(begin, end, made); });
   return made;
 }

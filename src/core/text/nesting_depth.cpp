@@ -3,8 +3,6 @@
 namespace vorotool::core::text {
 namespace {
 
-constexpr auto none = std::string_view::npos;
-
 // Offset of the quote that ends the JSON string opened at `open`, or the end of the text.
 std::size_t string_end(std::string_view text, std::size_t open) {
   std::size_t at = open + 1;
@@ -26,7 +24,7 @@ std::size_t find_too_deep(std::string_view text, std::size_t limit) {
       --depth;
     }
   }
-  return none;
+  return std::string_view::npos;
 }
 
 }  // namespace vorotool::core::text

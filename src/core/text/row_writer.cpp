@@ -83,13 +83,13 @@ std::size_t size_of(std::span<T> values) {
   return values.size();
 }
 
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
+bool is_blank_of_row(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 
 // Commas and semicolons would make a reader of comma-separated text take them for delimiters; beside tabs, which
 // are looked for first, they are texts like others.
 bool needs_quotes(std::string_view value, char delimiter) {
   if (value.empty()) return false;
-  return is_blank(value.front()) || is_blank(value.back()) || value.front() == '#' ||
+  return is_blank_of_row(value.front()) || is_blank_of_row(value.back()) || value.front() == '#' ||
          value.find_first_of(delimiter == '\t' ? "\t\"\r\n" : ",;\t\"\r\n") != std::string_view::npos;
 }
 

@@ -2,16 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "core/numbers/special_values.hpp"
 
 namespace vorotool::core::thickness {
 
 using kernel::Point;
+using numbers::infinity;
 using skeleton::ArcEnd;
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr Interval nothing{infinity, -infinity};
 
 bool is_point(const std::array<Point, 2>& site) { return site[0] == site[1]; }

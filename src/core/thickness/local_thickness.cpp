@@ -24,7 +24,7 @@ using skeleton::SkeletonView;
 namespace {
 
 constexpr std::size_t band_rows = 64;
-constexpr std::size_t grain = 1 << 12;
+constexpr std::size_t samples_a_piece = 1 << 12;
 constexpr double margin_in_pixels = 1e-6;
 
 // Pixels from first to before last.
@@ -136,9 +136,9 @@ std::vector<Item> Raster::summits() const {
 
 std::vector<Item> Raster::crescents(unsigned threads, const base::Monitor& monitor) const {
   const std::size_t count = skeleton_.arcs.size();
-  std::vector<std::vector<Item>> found(base::piece_count(count, grain));
+  std::vector<std::vector<Item>> found(base::piece_count(count, samples_a_piece));
   base::for_pieces(
-      count, grain, threads, monitor, [&](std::size_t piece, std::size_t begin, std::size_t end) {
+      count, samples_a_piece, threads, monitor, [&](std::size_t piece, std::size_t begin, std::size_t end) {
         for (std::size_t arc = begin; arc < end; ++arc) {
           const CoveringArc covering(skeleton_, arc, slack_);
           const Range rows = rows_of_crescent(covering.crescent(margin_));

@@ -15,7 +15,7 @@ using kernel::Point;
 
 namespace {
 
-constexpr std::size_t grain = 1 << 15;  // borders a piece
+constexpr std::size_t curves_a_piece = 1 << 15;  // borders a piece
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 // About a focus, by t along the directrix from below the focus, which is on the left of its way: the distance
@@ -60,7 +60,7 @@ base::LargeArray<double> control_points(const kernel::PlanarGraphView& graph,
                                         std::span<const double> radius, unsigned threads,
                                         const base::Monitor& monitor) {
   base::LargeArray<double> made(ends.size());
-  base::for_items(ends.size() / 2, grain, threads, monitor, [&](std::size_t b) {
+  base::for_items(ends.size() / 2, curves_a_piece, threads, monitor, [&](std::size_t b) {
     made[2 * b] = made[2 * b + 1] = not_a_number;
     const auto one = static_cast<std::int32_t>(elements[2 * b]),
                other = static_cast<std::int32_t>(elements[2 * b + 1]);

@@ -11,12 +11,12 @@
 namespace vorotool::core::voronoi {
 
 using base::at;
+using base::no_index;
 using segment_voronoi::build::DiagramView;
 
 namespace {
 
-constexpr std::int32_t none = -1;
-constexpr std::size_t grain = 1 << 15;  // borders a piece
+constexpr std::size_t borders_a_piece = 1 << 15;
 
 std::int64_t number_of(std::int64_t rank, bool is_wall) { return 2 * rank + (is_wall ? 0 : 1); }
 
@@ -31,7 +31,7 @@ struct BorderNodes::End {
 };
 
 BorderNodes::BorderNodes(const DiagramView& diagram, std::span<const std::uint8_t> is_needed)
-    : diagram_(diagram), is_needed_(is_needed), of_point_(diagram.points.size(), none) {
+    : diagram_(diagram), is_needed_(is_needed), of_point_(diagram.points.size(), no_index) {
   find_vertices_of_points();
   number_points();
 }
@@ -54,7 +54,7 @@ void BorderNodes::find_vertices_of_points() {
 
 void BorderNodes::number_points() {
   for (std::size_t p = 0; p < is_needed_.size(); ++p) {
-    if (is_needed_[p] != 0 && of_point_[p] == none) added_.push_back(static_cast<std::int32_t>(p));
+    if (is_needed_[p] != 0 && of_point_[p] == no_index) added_.push_back(static_cast<std::int32_t>(p));
   }
   std::ranges::sort(added_, {},
                     [&](std::int32_t p) { return std::pair(diagram_.point(p).x, diagram_.point(p).y); });
@@ -65,12 +65,12 @@ void BorderNodes::number_points() {
 // The smallest segment at each of the points that were added.
 std::vector<std::int32_t> BorderNodes::first_segments() const {
   const std::size_t vertices = diagram_.vertex_count();
-  std::vector<std::int32_t> first(added_.size(), none);
+  std::vector<std::int32_t> first(added_.size(), no_index);
   if (added_.empty()) return first;
   for (std::size_t j = 0; j < diagram_.segments.size(); ++j) {
     for (const std::int32_t point : diagram_.segments[j]) {
       const std::int32_t node = of_point_[at(point)];
-      if (node == none || at(node) < vertices || first[at(node) - vertices] != none) continue;
+      if (node == no_index || at(node) < vertices || first[at(node) - vertices] != no_index) continue;
       first[at(node) - vertices] = static_cast<std::int32_t>(diagram_.points.size() + j);
     }
   }
@@ -96,25 +96,26 @@ void BorderNodes::put_in_order(std::span<const std::int64_t> ends, std::span<con
   }
   for (const std::int32_t vertex : crowded) degree[at(vertex)] += 3;
   const std::vector<std::int32_t> first = first_segments();
-  std::vector<std::vector<End>> many(base::piece_count(borders, grain));
-  base::for_pieces(
-      borders, grain, threads, monitor, [&](std::size_t piece, std::size_t begin, std::size_t last) {
-        for (std::size_t k = 2 * begin; k < 2 * last; ++k) {
-          order[k] = 0;
-          const std::int64_t node = ends[k];
-          if (node < 0 || degree[static_cast<std::size_t>(node)] <= 2) continue;
-          const End end{k, node, static_cast<std::int32_t>(elements[k]),
-                        static_cast<std::int32_t>(elements[k ^ 1])};
-          if (static_cast<std::size_t>(node) >= vertices) {
-            order[k] = order_in_line(end, first);
-          } else if (diagram_.ring(static_cast<std::size_t>(node)).size() > few_sites) {
-            many[piece].push_back(end);
-          } else {
-            order[k] =
-                number_of(rank_of(diagram_.ring(static_cast<std::size_t>(node)), end.right), end.is_wall());
-          }
-        }
-      });
+  std::vector<std::vector<End>> many(base::piece_count(borders, borders_a_piece));
+  base::for_pieces(borders, borders_a_piece, threads, monitor,
+                   [&](std::size_t piece, std::size_t begin, std::size_t last) {
+                     for (std::size_t k = 2 * begin; k < 2 * last; ++k) {
+                       order[k] = 0;
+                       const std::int64_t node = ends[k];
+                       if (node < 0 || degree[static_cast<std::size_t>(node)] <= 2) continue;
+                       const End end{k, node, static_cast<std::int32_t>(elements[k]),
+                                     static_cast<std::int32_t>(elements[k ^ 1])};
+                       if (static_cast<std::size_t>(node) >= vertices) {
+                         order[k] = order_in_line(end, first);
+                       } else if (diagram_.ring(static_cast<std::size_t>(node)).size() > few_sites) {
+                         many[piece].push_back(end);
+                       } else {
+                         order[k] =
+                             number_of(rank_of(diagram_.ring(static_cast<std::size_t>(node)), end.right),
+                                       end.is_wall());
+                       }
+                     }
+                   });
   for (const std::vector<End>& ends_of_piece : many) {
     std::vector<std::int64_t> nodes, rights;
     for (const End& end : ends_of_piece) {

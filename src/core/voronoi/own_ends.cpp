@@ -11,18 +11,17 @@ namespace vorotool::core::voronoi {
 
 using base::at;
 using base::IndexPair;
+using base::no_index;
 using segment_voronoi::build::DiagramView;
 
 namespace {
-
-constexpr std::int32_t none = -1;
 
 class Finder {
  public:
   explicit Finder(const DiagramView& diagram)
       : diagram_(diagram),
         degree_(diagram.points.size()),
-        segment_(diagram.points.size(), none),
+        segment_(diagram.points.size(), no_index),
         alias_(diagram.points.size()) {
     for (const auto& [a, b] : diagram.segments) {
       ++degree_[at(a)];
@@ -48,7 +47,7 @@ class Finder {
       halves_[0].push_back({number, near_source, point, true});
       halves_[1].push_back({number, near_target, point, false});
     } else {
-      whole_.push_back({number, near_source, none, false});
+      whole_.push_back({number, near_source, no_index, false});
     }
     if (degree_[at(point)] > 1) note(point, segment);
   }
@@ -64,7 +63,7 @@ class Finder {
   // The cell of a point has at most two segments beside it that end there.
   void note(std::int32_t point, std::int32_t segment) {
     std::int32_t& known = segment_[at(point)];
-    if (known == none) {
+    if (known == no_index) {
       known = segment;
     } else if (known != segment &&
                cross(diagram_.way_from(point, known), diagram_.way_from(point, segment)) == 0) {

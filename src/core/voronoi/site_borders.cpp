@@ -15,12 +15,12 @@ namespace vorotool::core::voronoi {
 
 using base::at;
 using base::IndexPair;
+using base::no_index;
 using segment_voronoi::build::DiagramView;
 
 namespace {
 
-constexpr std::size_t grain = 1 << 15;  // edges a piece
-constexpr std::int32_t none = -1;
+constexpr std::size_t edges_a_piece = 1 << 15;
 
 // What is left and right of a piece or a segment.
 struct Sides {
@@ -69,14 +69,14 @@ class Chooser {
 
   Piece piece(std::size_t k) const {
     if (k >= kept_.edge.size()) return own_.pieces[k - kept_.edge.size()];
-    return {kept_.edge[k], kept_.face[k], none, false};
+    return {kept_.edge[k], kept_.face[k], no_index, false};
   }
 
   bool is_covered(std::int32_t face) const { return face_owner_[at(face)] >= 0; }
 
   // A half that ends at a point always is.
   bool is_near(const Piece& piece) const {
-    return !reach_ || piece.point != none || reach_->is_near[at(piece.edge)] != 0;
+    return !reach_ || piece.point != no_index || reach_->is_near[at(piece.edge)] != 0;
   }
 
   // In a face that no site covers.
@@ -117,9 +117,9 @@ class Chooser {
   // Chooses the borders among pieces and segments, and joins the parts beside the others.
   void choose() {
     const std::size_t count = piece_count();
-    std::vector<std::vector<std::int32_t>> chosen(base::piece_count(count, grain));
+    std::vector<std::vector<std::int32_t>> chosen(base::piece_count(count, edges_a_piece));
     std::vector<std::vector<IndexPair>> joined(chosen.size());
-    base::for_pieces(count, grain, threads_, monitor_,
+    base::for_pieces(count, edges_a_piece, threads_, monitor_,
                      [&](std::size_t some, std::size_t begin, std::size_t end) {
                        for (std::size_t k = begin; k < end; ++k) {
                          const Piece each = piece(k);
@@ -151,7 +151,7 @@ class Chooser {
     for (const std::int32_t k : pieces_) {
       if (at(k) < kept_.edge.size()) continue;
       const std::int32_t point = piece(at(k)).point;
-      if (point != none) is_needed[at(point)] = 1;
+      if (point != no_index) is_needed[at(point)] = 1;
     }
     for (const std::int32_t j : walls_) {
       for (const std::int32_t point : diagram_.segments[at(j)]) is_needed[at(point)] = 1;
@@ -160,13 +160,13 @@ class Chooser {
   }
 
   void write(SiteBorders& made, const BorderNodes& nodes) const {
-    base::for_items(made.size(), grain, threads_, monitor_, [&](std::size_t b) {
+    base::for_items(made.size(), edges_a_piece, threads_, monitor_, [&](std::size_t b) {
       IndexPair ends, elements;
       Sides beside;
       if (b < pieces_.size()) {
         const Piece each = piece(at(pieces_[b]));
         ends = diagram_.edges[at(each.edge)];
-        if (each.point != none) ends[each.is_first ? 1 : 0] = nodes.of_point(each.point);
+        if (each.point != no_index) ends[each.is_first ? 1 : 0] = nodes.of_point(each.point);
         elements = diagram_.edge_sites[at(each.edge)];
         beside = sides(each);
       } else {
@@ -221,8 +221,8 @@ EdgeFaces edge_faces(const DiagramView& diagram, unsigned threads, const base::M
   OwnEnds own = own_ends(diagram, kept);
   for (const Piece& each : own.pieces) {
     const std::size_t edge = at(each.edge);
-    if (each.point == none || each.is_first) made.faces[2 * edge] = each.face;
-    if (each.point == none || !each.is_first) made.faces[2 * edge + 1] = each.face;
+    if (each.point == no_index || each.is_first) made.faces[2 * edge] = each.face;
+    if (each.point == no_index || !each.is_first) made.faces[2 * edge + 1] = each.face;
   }
   made.alias = std::move(own.alias);
   return made;

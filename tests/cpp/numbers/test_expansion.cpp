@@ -12,7 +12,7 @@ namespace {
 int128 whole(double value) { return static_cast<int128>(value); }
 
 // An integer of at most 53 bits times a power of two.
-double drawn(Random& random, int most_bits) {
+double drawn_double(Random& random, int most_bits) {
   const auto mantissa = static_cast<double>(random.whole(-(std::int64_t{1} << 53), std::int64_t{1} << 53));
   return std::trunc(std::ldexp(mantissa, static_cast<int>(random.whole(-53, most_bits - 53))));
 }
@@ -29,12 +29,12 @@ int128 value_of(const Expansion<capacity>& e) {
 TEST(sums_and_products_keep_what_is_rounded) {
   Random random(1);
   for (int i = 0; i < 20000; ++i) {
-    const double a = drawn(random, 120), b = drawn(random, 120);
+    const double a = drawn_double(random, 120), b = drawn_double(random, 120);
     const TwoTerms sum = two_sum(a, b), difference = two_difference(a, b);
     equal(sum.head, a + b);
     CHECK(whole(sum.head) + whole(sum.tail) == whole(a) + whole(b));
     CHECK(whole(difference.head) + whole(difference.tail) == whole(a) - whole(b));
-    const double c = drawn(random, 62), d = drawn(random, 62);
+    const double c = drawn_double(random, 62), d = drawn_double(random, 62);
     const TwoTerms product = two_product(c, d, split(d));
     equal(product.head, c * d);
     CHECK(whole(product.head) + whole(product.tail) == whole(c) * whole(d));
@@ -44,7 +44,7 @@ TEST(sums_and_products_keep_what_is_rounded) {
 TEST(halves_have_26_bits) {
   Random random(2);
   for (int i = 0; i < 20000; ++i) {
-    const double a = drawn(random, 900);
+    const double a = drawn_double(random, 900);
     const TwoTerms halves = split(a);
     equal(halves.head + halves.tail, a);
     for (const double half : {halves.head, halves.tail}) {
@@ -58,7 +58,7 @@ TEST(halves_have_26_bits) {
 TEST(expansions_are_the_integers_that_they_stand_for) {
   Random random(3);
   for (int i = 0; i < 20000; ++i) {
-    const double a = drawn(random, 50), b = drawn(random, 50), c = drawn(random, 24);
+    const double a = drawn_double(random, 50), b = drawn_double(random, 50), c = drawn_double(random, 24);
     const Expansion<2> sum(two_sum(a, b)), difference(two_difference(a, b));
     CHECK(value_of(sum * difference) == (whole(a) + whole(b)) * (whole(a) - whole(b)));
     const auto all = (sum * c + difference) - -sum;

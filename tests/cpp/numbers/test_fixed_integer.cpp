@@ -18,7 +18,7 @@ FixedInteger<limbs> drawn(Random& random) {
   return value;
 }
 
-int sign(int128 value) { return (value > 0) - (value < 0); }
+int sign_of(int128 value) { return (value > 0) - (value < 0); }
 
 }  // namespace
 
@@ -30,7 +30,7 @@ TEST(two_limbs_are_integers_of_128_bits) {
     CHECK((one * other).limb == widen(int128{a} * b).limb);
     CHECK((widen(a) + widen(b)).limb == widen(int128{a} + b).limb);
     CHECK((widen(a) - widen(b)).limb == widen(int128{a} - b).limb);
-    equal((widen(a) - widen(b)).sign(), sign(int128{a} - b));
+    equal((widen(a) - widen(b)).sign(), sign_of(int128{a} - b));
     CHECK(resized<2>(one).limb == widen(a).limb);
   }
 }

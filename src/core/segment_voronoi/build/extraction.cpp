@@ -24,7 +24,7 @@ using discs::VoronoiRecord;
 
 namespace {
 
-constexpr std::size_t piece_size = std::size_t{1} << 13;  // items of a piece of work, some ms
+constexpr std::size_t items_a_piece = std::size_t{1} << 13;  // items of a piece of work, some ms
 
 // Vertices and what is around them.
 
@@ -82,7 +82,7 @@ void refine_discs(const SegmentSites& sites, VoronoiRecords& records, const Vert
           refine(record, contacts);
         });
   };
-  for_pieces(records.all.size(), piece_size, threads, monitor, refine_piece);
+  for_pieces(records.all.size(), items_a_piece, threads, monitor, refine_piece);
 }
 
 // Writes the centres, radii and rings of vertices, and where their edges lead. Sites have the numbers of the
@@ -108,7 +108,7 @@ class VertexWriter {
 // Records are read for the last time, those of the points and of the segments of a stretch of the curve
 // together: what is written, in the order of the vertices, is near in memory too.
 void VertexWriter::run(unsigned threads, const Monitor& monitor) {
-  const std::size_t pieces = piece_count(records_.all.size(), piece_size);
+  const std::size_t pieces = piece_count(records_.all.size(), items_a_piece);
   base::parallel_for(
       pieces, threads,
       [&](std::size_t piece) {
@@ -202,9 +202,9 @@ class EdgeWriter {
 
 void EdgeWriter::run(const std::vector<Edge>& without_vertex, unsigned threads, const Monitor& monitor) {
   const std::size_t vertices = out_.radius.size();
-  std::vector<std::size_t> first(piece_count(vertices, piece_size));
+  std::vector<std::size_t> first(piece_count(vertices, items_a_piece));
   for_pieces(
-      vertices, piece_size, threads, monitor,
+      vertices, items_a_piece, threads, monitor,
       [&](std::size_t piece, std::size_t begin, std::size_t end) { first[piece] = count(begin, end); });
   const std::size_t edges = std::accumulate(first.begin(), first.end(), without_vertex.size());
   std::exclusive_scan(first.begin(), first.end(), first.begin(), without_vertex.size());
@@ -215,7 +215,7 @@ void EdgeWriter::run(const std::vector<Edge>& without_vertex, unsigned threads, 
     write(begin, end, first[piece]);
     base::discard(targets_, start(begin), start(end));
   };
-  for_pieces(vertices, piece_size, threads, monitor, write_piece);
+  for_pieces(vertices, items_a_piece, threads, monitor, write_piece);
 }
 
 std::size_t EdgeWriter::count(std::size_t begin, std::size_t end) const {

@@ -11,10 +11,10 @@ using base::Monitor;
 
 namespace {
 
-constexpr std::size_t piece_size = 512;  // insertions of a piece of work, some ms
+constexpr std::size_t insertions_a_piece = 512;  // insertions of a piece of work, some ms
 // Shorter rounds are not worth sharing: threads would often be in each other's way.
 constexpr std::size_t pieces_to_share = 16;
-constexpr std::int32_t ahead = 3;  // insertions: how early memory is called for
+constexpr std::int32_t insertions_ahead = 3;  // insertions: how early memory is called for
 
 }  // namespace
 
@@ -29,7 +29,7 @@ ParallelInsertion::ParallelInsertion(const discs::SegmentSites& sites, VoronoiRe
 void ParallelInsertion::run(const Monitor& monitor) {
   for (std::size_t r = 0; r + 1 < order_.begin.size(); ++r) {
     const std::size_t begin = order_.begin[r], end = order_.begin[r + 1];
-    if (threads_ > 1 && end - begin >= pieces_to_share * piece_size) {
+    if (threads_ > 1 && end - begin >= pieces_to_share * insertions_a_piece) {
       insert_together(begin, end, monitor);
     } else {
       Places places(end - begin);
@@ -44,7 +44,7 @@ bool ParallelInsertion::insert(SegmentInsertion& worker, std::int32_t place) con
   const auto first_segment = static_cast<discs::SiteIndex>(sites_.point_count());
   const auto count = static_cast<std::int32_t>(order_.items.size());
   const auto item = [&](std::int32_t k) { return order_.items[static_cast<std::size_t>(k)]; };
-  if (place + ahead < count) worker.prefetch(first_segment + item(place + ahead));
+  if (place + insertions_ahead < count) worker.prefetch(first_segment + item(place + insertions_ahead));
   const std::int32_t number = 1 + place + (&worker == &alone_ ? count : 0);
   const auto fresh = static_cast<std::int32_t>(records_.of_points) + 2 * item(place);
   return worker.insert(first_segment + item(place), number, fresh);
@@ -53,18 +53,18 @@ bool ParallelInsertion::insert(SegmentInsertion& worker, std::int32_t place) con
 void ParallelInsertion::insert_alone(const Places& places, const Monitor& monitor) {
   for (std::size_t k = 0; k < places.size(); ++k) {
     const double done = static_cast<double>(places[k]) / static_cast<double>(order_.items.size());
-    if (k % (piece_size / 2) == 0) base::report(monitor, done);
+    if (k % (insertions_a_piece / 2) == 0) base::report(monitor, done);
     insert(alone_, places[k]);
   }
 }
 
 // A piece is a stretch of the curve. Segments that are in the way of another thread are left to the end.
 void ParallelInsertion::insert_together(std::size_t begin, std::size_t end, const Monitor& monitor) {
-  std::vector<Places> left(base::piece_count(end - begin, piece_size));
+  std::vector<Places> left(base::piece_count(end - begin, insertions_a_piece));
   const auto insert_piece = [&](std::size_t piece) {
     SegmentInsertion& worker = take_worker();
-    const std::size_t first = begin + piece * piece_size;
-    for (std::size_t k = first; k < std::min(end, first + piece_size); ++k) {
+    const std::size_t first = begin + piece * insertions_a_piece;
+    for (std::size_t k = first; k < std::min(end, first + insertions_a_piece); ++k) {
       const auto place = static_cast<std::int32_t>(k);
       if (!insert(worker, place)) left[piece].push_back(place);
     }

@@ -19,7 +19,7 @@ using discs::SegmentSites;
 
 namespace {
 
-constexpr std::size_t piece_size = std::size_t{1} << 13;  // points of a piece, some ms of work
+constexpr std::size_t points_a_piece = std::size_t{1} << 13;  // points of a piece, some ms of work
 // Longer rings than this are searched in a table: a ring may be searched once for each of its entries.
 constexpr std::size_t long_ring = 64;
 
@@ -69,7 +69,7 @@ class Dual {
 
   template <class Body>
   void for_vertices(unsigned threads, const Monitor& monitor, Body body) {
-    base::for_items(vertices_.size(), piece_size, threads, monitor,
+    base::for_items(vertices_.size(), points_a_piece, threads, monitor,
                     [&](std::size_t i) { body(static_cast<Vertex>(i)); });
   }
 

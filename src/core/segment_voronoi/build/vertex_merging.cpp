@@ -21,8 +21,8 @@ using discs::VoronoiRecord;
 
 namespace {
 
-constexpr std::size_t piece_size = std::size_t{1} << 13;  // items of a piece of work, some ms
-constexpr std::size_t ahead = 8;                          // items: how early others are called for
+constexpr std::size_t vertices_a_piece = std::size_t{1} << 13;  // items of a piece of work, some ms
+constexpr std::size_t items_ahead = 8;                          // items: how early others are called for
 
 std::uint32_t add(std::uint32_t& counter, std::uint32_t value) {
   return base::atomic_ref(counter).fetch_add(value, std::memory_order_relaxed);
@@ -40,12 +40,12 @@ VertexMerging::VertexMerging(const discs::SegmentSites& sites, const VoronoiReco
       code_(records.all.size()),
       is_merged_(records.all.size()),
       begin_(static_cast<std::size_t>(sites.infinite()) + 2) {
-  std::vector<Found> found(piece_count(code_.size(), piece_size));
+  std::vector<Found> found(piece_count(code_.size(), vertices_a_piece));
   const auto look = [&](std::size_t piece, std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v)
       look_at(sites, unwanted, static_cast<std::int32_t>(v), found[piece]);
   };
-  base::for_pieces(code_.size(), piece_size, threads, monitor, look);
+  base::for_pieces(code_.size(), vertices_a_piece, threads, monitor, look);
   for (const Found& some : found)
     infinite_.insert(infinite_.end(), some.infinite.begin(), some.infinite.end());
   merge(found);
@@ -74,8 +74,8 @@ bool VertexMerging::is_unwanted(const VoronoiRecord& v, std::span<const std::uin
 // unwanted while others at its place are: then it stays alone, outside.
 void VertexMerging::look_at(const discs::SegmentSites& sites, std::span<const std::uint8_t> unwanted,
                             std::int32_t u, Found& found) {
-  if (static_cast<std::size_t>(u) + ahead < code_.size()) {
-    prefetch_neighbours(records_, u + static_cast<std::int32_t>(ahead));
+  if (static_cast<std::size_t>(u) + items_ahead < code_.size()) {
+    prefetch_neighbours(records_, u + static_cast<std::int32_t>(items_ahead));
   }
   const VoronoiRecord& v = records_[u];
   if (v.is_infinite()) {
@@ -158,8 +158,8 @@ VertexMerging::Spoke VertexMerging::spoke_at(Corner corner) const {
 }
 
 std::span<const VertexMerging::Spoke> VertexMerging::merged_ring(std::size_t k) const {
-  const std::span<const Spoke> rings = rings_[k / piece_size];
-  const bool is_last = k + 1 == ring_begin_.size() || (k + 1) % piece_size == 0;
+  const std::span<const Spoke> rings = rings_[k / vertices_a_piece];
+  const bool is_last = k + 1 == ring_begin_.size() || (k + 1) % vertices_a_piece == 0;
   return rings.subspan(ring_begin_[k], (is_last ? rings.size() : ring_begin_[k + 1]) - ring_begin_[k]);
 }
 
@@ -177,18 +177,19 @@ void VertexMerging::choose_leads() {
 
 void VertexMerging::gather_rings(unsigned threads, const Monitor& monitor) {
   ring_begin_.resize(merged_leads_.size());
-  rings_.resize(piece_count(merged_leads_.size(), piece_size));
+  rings_.resize(piece_count(merged_leads_.size(), vertices_a_piece));
   const auto gather = [&](std::size_t piece, std::size_t begin, std::size_t end) {
     std::vector<Spoke> spokes;
     for (std::size_t k = begin; k < end; ++k) {
-      if (k + ahead < merged_leads_.size()) prefetch_neighbours(records_, merged_leads_[k + ahead]);
+      if (k + items_ahead < merged_leads_.size())
+        prefetch_neighbours(records_, merged_leads_[k + items_ahead]);
       ring_begin_[k] = static_cast<std::uint32_t>(spokes.size());
       gather_ring(merged_leads_[k], spokes);
       add(count_at(static_cast<SiteIndex>(spokes[ring_begin_[k]].site)), 1);
     }
     rings_[piece].assign(spokes.begin(), spokes.end());  // no more memory than it takes
   };
-  base::for_pieces(merged_leads_.size(), piece_size, threads, monitor, gather);
+  base::for_pieces(merged_leads_.size(), vertices_a_piece, threads, monitor, gather);
 }
 
 // By the first site in one go, and by the others among the few that share it. No two have the same three
@@ -199,18 +200,18 @@ void VertexMerging::sort_by_first_site(unsigned threads, const Monitor& monitor)
   const auto put = [&](std::int32_t name, SiteIndex first) {
     leads_[add(begin_[static_cast<std::size_t>(first) + 1], 1)] = name;
   };
-  base::for_items(code_.size(), piece_size, threads, monitor, [&](std::size_t i) {
+  base::for_items(code_.size(), vertices_a_piece, threads, monitor, [&](std::size_t i) {
     const auto v = static_cast<std::int32_t>(i);
     if (code(v) < 0 && ~code(v) < left_out) put(v, ~code(v));
   });
-  base::for_items(merged_leads_.size(), piece_size, threads, monitor, [&](std::size_t i) {
+  base::for_items(merged_leads_.size(), vertices_a_piece, threads, monitor, [&](std::size_t i) {
     const std::int32_t name = ~static_cast<std::int32_t>(i);
     put(name, key_of(name).first);
   });
   const auto sort = [&](std::size_t, std::size_t begin, std::size_t end) {
     sort_buckets(static_cast<SiteIndex>(begin), static_cast<SiteIndex>(end));
   };
-  base::for_pieces(begin_.size() - 2, piece_size, threads, monitor, sort);
+  base::for_pieces(begin_.size() - 2, vertices_a_piece, threads, monitor, sort);
   begin_ = std::vector<std::uint32_t>();
 }
 
@@ -235,7 +236,7 @@ void VertexMerging::sort_buckets(SiteIndex first, SiteIndex last) {
   const std::size_t all = begin_[static_cast<std::size_t>(last)];
   for (SiteIndex site = first; site < last; ++site) {
     const std::size_t begin = k, end = begin_[static_cast<std::size_t>(site) + 1];
-    for (; called < std::min(all, end + ahead); ++called) {
+    for (; called < std::min(all, end + items_ahead); ++called) {
       if (leads_[called] >= 0) records_.prefetch(leads_[called]);
     }
     keys.clear();
@@ -247,14 +248,15 @@ void VertexMerging::sort_buckets(SiteIndex first, SiteIndex last) {
 
 // First one record of each place, then the others.
 void VertexMerging::number(unsigned threads, const Monitor& monitor) {
-  base::for_items(leads_.size() - 1, piece_size, threads, monitor, [&](std::size_t k) {
+  base::for_items(leads_.size() - 1, vertices_a_piece, threads, monitor, [&](std::size_t k) {
     const std::int32_t lead = leads_[k];
     code(is_merged(lead) ? code(lead) : lead) = ~static_cast<std::int32_t>(k);
   });
-  base::for_items(merged_leads_.empty() ? 0 : code_.size(), piece_size, threads, monitor, [&](std::size_t i) {
-    const auto v = static_cast<std::int32_t>(i);
-    if (code(v) >= 0) code(v) = code(code(v));
-  });
+  base::for_items(merged_leads_.empty() ? 0 : code_.size(), vertices_a_piece, threads, monitor,
+                  [&](std::size_t i) {
+                    const auto v = static_cast<std::int32_t>(i);
+                    if (code(v) >= 0) code(v) = code(code(v));
+                  });
 }
 
 // Of three sites each, but for places with several records.

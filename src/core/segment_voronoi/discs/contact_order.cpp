@@ -12,8 +12,6 @@ using numbers::RootNumber;
 
 namespace {
 
-RootNumber big(std::int64_t value) { return RootNumber(value); }
-
 // The way from the centre to the contact, times some positive number; and at the end of a segment, whether it
 // goes on counter-clockwise (1) or clockwise (-1).
 struct Contact {
@@ -23,17 +21,17 @@ struct Contact {
 
 Contact contact_of(const ExactDisc& disc, const kernel::LatticeSite& site) {
   const LatticeVector shift = disc.origin - site.a;
-  const RootNumber x = disc.x + disc.w * big(shift.x), y = disc.y + disc.w * big(shift.y);
+  const RootNumber x = disc.x + disc.w * RootNumber(shift.x), y = disc.y + disc.w * RootNumber(shift.y);
   if (site.is_point()) return {-x, -y, 0};
   const LatticeVector u = site.b - site.a, n = kernel::left_of(u);
-  const RootNumber along = x * big(u.x) + y * big(u.y);
-  const int side = (x * big(n.x) + y * big(n.y)).sign();  // of the line, where the centre is
+  const RootNumber along = x * RootNumber(u.x) + y * RootNumber(u.y);
+  const int side = (x * RootNumber(n.x) + y * RootNumber(n.y)).sign();  // of the line, where the centre is
   const LatticeVector way = side > 0 ? -n : n;
   // the foot turns counter-clockwise along u if the centre is to the left
-  const int turn = along.sign() == 0                                      ? side
-                   : (along - disc.w * big(kernel::norm2(u))).sign() == 0 ? -side
-                                                                          : 0;
-  return {big(way.x), big(way.y), turn};
+  const int turn = along.sign() == 0                                             ? side
+                   : (along - disc.w * RootNumber(kernel::norm2(u))).sign() == 0 ? -side
+                                                                                 : 0;
+  return {RootNumber(way.x), RootNumber(way.y), turn};
 }
 
 int turn_sign(const Contact& a, const Contact& b) { return (a.x * b.y - a.y * b.x).sign(); }

@@ -28,8 +28,6 @@ namespace {
 using Found = std::optional<ExactDisc>;
 using Tower = std::shared_ptr<SqrtTower>;
 
-RootNumber big(std::int64_t value) { return RootNumber(value); }
-
 // A segment seen from one of its ends, or an oriented line.
 struct Ray {
   LatticePoint origin;
@@ -51,16 +49,14 @@ std::optional<Ray> oriented_towards(const LatticeSite& segment, const LatticePoi
   return height > 0 ? ray : ray.reversed();
 }
 
-bool is_end(const LatticePoint& p, const LatticeSite& site) { return p == site.a || p == site.b; }
-
 // The direction from its end p into the segment.
 LatticeVector direction_from(const LatticePoint& p, const LatticeSite& segment) {
   return p == segment.a ? segment.b - segment.a : segment.a - segment.b;
 }
 
 std::optional<LatticePoint> common_end(const LatticeSite& s, const LatticeSite& t) {
-  if (is_end(s.a, t)) return s.a;
-  if (is_end(s.b, t)) return s.b;
+  if (t.is_end(s.a)) return s.a;
+  if (t.is_end(s.b)) return s.b;
   return std::nullopt;
 }
 
@@ -77,10 +73,13 @@ ExactDisc point_disc(const LatticePoint& p) { return {std::make_shared<SqrtTower
 Found touching_at(const LatticePoint& p, const LatticeVector& normal, const LatticePoint& q) {
   const LatticeVector way = q - p;
   if (dot(normal, way) <= 0) return std::nullopt;
-  const RootNumber t = big(norm2(way));
-  return ExactDisc{
-      std::make_shared<SqrtTower>(), p, t * big(normal.x), t * big(normal.y), big(2) * big(dot(normal, way)),
-      big(norm2(normal)) * square(t)};
+  const RootNumber t = RootNumber(norm2(way));
+  return ExactDisc{std::make_shared<SqrtTower>(),
+                   p,
+                   t * RootNumber(normal.x),
+                   t * RootNumber(normal.y),
+                   RootNumber(2) * RootNumber(dot(normal, way)),
+                   RootNumber(norm2(normal)) * square(t)};
 }
 
 // The disc is on p's side of the segment's line: height(p) + t N n = |N| |n| t for the line's normal N.
@@ -90,14 +89,14 @@ Found touching_at(const LatticePoint& p, const LatticeVector& normal, const Latt
   const LatticeVector other = ray->normal();
   if (cross(other, normal) == 0 && dot(other, normal) > 0) return std::nullopt;
   const auto tower = std::make_shared<SqrtTower>();
-  const RootNumber lengths = tower->adjoin_root(big(norm2(normal)) * big(norm2(other)));
-  const RootNumber height = big(ray->height(p));
+  const RootNumber lengths = tower->adjoin_root(RootNumber(norm2(normal)) * RootNumber(norm2(other)));
+  const RootNumber height = RootNumber(ray->height(p));
   return ExactDisc{tower,
                    p,
-                   height * big(normal.x),
-                   height * big(normal.y),
-                   lengths - big(dot(other, normal)),
-                   big(norm2(normal)) * square(height)};
+                   height * RootNumber(normal.x),
+                   height * RootNumber(normal.y),
+                   lengths - RootNumber(dot(other, normal)),
+                   RootNumber(norm2(normal)) * square(height)};
 }
 
 Found touching_at_either(const LatticePoint& p, const LatticeVector& normal, const LatticeSite& third) {
@@ -120,9 +119,10 @@ Found end_before_its_segment(const LatticePoint& p, const LatticeSite& segment, 
 Found circle(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c) {
   const LatticeVector ab = b - a, ac = c - a;
   if (cross(ab, ac) <= 0) return std::nullopt;
-  const RootNumber ab2 = big(norm2(ab)), ac2 = big(norm2(ac));
-  const RootNumber x = ab2 * big(ac.y) - ac2 * big(ab.y), y = ac2 * big(ab.x) - ab2 * big(ac.x);
-  return ExactDisc{std::make_shared<SqrtTower>(), a, x, y, big(2) * big(cross(ab, ac)),
+  const RootNumber ab2 = RootNumber(norm2(ab)), ac2 = RootNumber(norm2(ac));
+  const RootNumber x = ab2 * RootNumber(ac.y) - ac2 * RootNumber(ab.y),
+                   y = ac2 * RootNumber(ab.x) - ab2 * RootNumber(ac.x);
+  return ExactDisc{std::make_shared<SqrtTower>(), a, x, y, RootNumber(2) * RootNumber(cross(ab, ac)),
                    square(x) + square(y)};
 }
 
@@ -138,9 +138,9 @@ Found circle(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c
 // Sizes: Hp Tq, S <= 2^126, R's numerator <= 2^191, x <= 2^31 (2 2^127 2^63 + 2^191 + 2 2^189) <= 2^224,
 // w = 2 L^2 (Hq - Hp)^2 <= 2^190.
 Found segment_and_points(const LatticeSite& segment, const LatticePoint& p, const LatticePoint& q) {
-  if (is_end(p, segment) && is_end(q, segment)) return std::nullopt;
-  if (is_end(p, segment)) return segment_before_its_end(segment, p, {q, q});
-  if (is_end(q, segment)) return end_before_its_segment(q, segment, {p, p});
+  if (segment.is_end(p) && segment.is_end(q)) return std::nullopt;
+  if (segment.is_end(p)) return segment_before_its_end(segment, p, {q, q});
+  if (segment.is_end(q)) return end_before_its_segment(q, segment, {p, p});
   const auto ray = oriented_towards(segment, p);
   if (!ray || ray->height(q) <= 0) return std::nullopt;
   const std::int64_t hp = ray->height(p), hq = ray->height(q), tq = dot(ray->along, q - p);
@@ -150,23 +150,24 @@ Found segment_and_points(const LatticeSite& segment, const LatticePoint& p, cons
   if (hp == hq) {
     if (tq >= 0) return std::nullopt;
     // with divisor 2 Hp, so that R is a fraction: T = Tq Hp / (2 Hp), R = (Tq^2 + 4 Hp^2) Hp / (2 (2 Hp)^2)
-    divisor = big(2) * big(hp);
-    t = big(tq) * big(hp);
-    r = (square(big(tq)) + square(divisor)) * big(hp);
+    divisor = RootNumber(2) * RootNumber(hp);
+    t = RootNumber(tq) * RootNumber(hp);
+    r = (square(RootNumber(tq)) + square(divisor)) * RootNumber(hp);
   } else {
-    divisor = big(hq - hp);
-    const RootNumber g = square(big(tq)) + square(divisor);
-    const RootNumber s = -tower->adjoin_root(big(hp) * big(hq) * g);
-    t = s - big(hp) * big(tq);
-    r = big(hp + hq) * g - big(2) * big(tq) * s;
+    divisor = RootNumber(hq - hp);
+    const RootNumber g = square(RootNumber(tq)) + square(divisor);
+    const RootNumber s = -tower->adjoin_root(RootNumber(hp) * RootNumber(hq) * g);
+    t = s - RootNumber(hp) * RootNumber(tq);
+    r = RootNumber(hp + hq) * g - RootNumber(2) * RootNumber(tq) * s;
   }
-  const RootNumber along = big(2) * t * divisor, across = r - big(2) * big(hp) * square(divisor);
+  const RootNumber along = RootNumber(2) * t * divisor,
+                   across = r - RootNumber(2) * RootNumber(hp) * square(divisor);
   return ExactDisc{tower,
                    p,
-                   along * big(u.x) + across * big(n.x),
-                   along * big(u.y) + across * big(n.y),
-                   big(2) * big(norm2(u)) * square(divisor),
-                   big(norm2(u)) * square(r)};
+                   along * RootNumber(u.x) + across * RootNumber(n.x),
+                   along * RootNumber(u.y) + across * RootNumber(n.y),
+                   RootNumber(2) * RootNumber(norm2(u)) * square(divisor),
+                   RootNumber(norm2(u)) * square(r)};
 }
 
 // A point and two segments.
@@ -193,28 +194,28 @@ Found point_and_lines(const LatticePoint& p, const Ray& first, const Ray& second
   const std::int64_t h1 = first.height(p), h2 = second.height(p), d = cross(n1, n2);
   if (d == 0 && dot(n1, n2) > 0) return std::nullopt;
   const auto tower = std::make_shared<SqrtTower>();
-  const RootNumber l1 = big(norm2(n1));  // squared
-  const RootNumber k = tower->adjoin_root(l1 * big(norm2(n2)));
-  const RootNumber m = k - big(dot(n1, n2));
-  const RootNumber q = -tower->adjoin_root(big(2) * big(h1) * big(h2) * l1 * m);
-  const RootNumber r = (l1 * big(h2) + k * big(h1)) * m + big(d) * q;
-  const RootNumber across = r - big(h1) * square(m), along = (big(h1) * big(d) + q) * m;
+  const RootNumber l1 = RootNumber(norm2(n1));  // squared
+  const RootNumber k = tower->adjoin_root(l1 * RootNumber(norm2(n2)));
+  const RootNumber m = k - RootNumber(dot(n1, n2));
+  const RootNumber q = -tower->adjoin_root(RootNumber(2) * RootNumber(h1) * RootNumber(h2) * l1 * m);
+  const RootNumber r = (l1 * RootNumber(h2) + k * RootNumber(h1)) * m + RootNumber(d) * q;
+  const RootNumber across = r - RootNumber(h1) * square(m), along = (RootNumber(h1) * RootNumber(d) + q) * m;
   const LatticeVector u = left_of(n1);
   return ExactDisc{tower,
                    p,
-                   across * big(n1.x) + along * big(u.x),
-                   across * big(n1.y) + along * big(u.y),
+                   across * RootNumber(n1.x) + along * RootNumber(u.x),
+                   across * RootNumber(n1.y) + along * RootNumber(u.y),
                    l1 * square(m),
                    l1 * square(r)};
 }
 
 Found point_and_segments(const LatticePoint& p, const LatticeSite& s, const LatticeSite& t) {
-  if (is_end(p, s) && is_end(p, t)) {
+  if (s.is_end(p) && t.is_end(p)) {
     if (on_one_line(s, t)) return std::nullopt;
     return point_disc(p);
   }
-  if (is_end(p, s)) return end_before_its_segment(p, s, t);
-  if (is_end(p, t)) return segment_before_its_end(t, p, s);
+  if (s.is_end(p)) return end_before_its_segment(p, s, t);
+  if (t.is_end(p)) return segment_before_its_end(t, p, s);
   if (on_one_line(s, t)) return collinear_pair(s, t, {p, p});
   const auto first = oriented_towards(s, p), second = oriented_towards(t, p);
   if (!first || !second) return std::nullopt;
@@ -243,18 +244,18 @@ Found disc_left_of(const Lines& lines) {
   for (std::size_t i = 0; i < 3; ++i) turn[i] = cross(n[(i + 1) % 3], n[(i + 2) % 3]);
   if ((turn[0] > 0) + (turn[1] > 0) + (turn[2] > 0) < 2) return std::nullopt;
   RootNumber r = 0;  // times W
-  for (std::size_t i = 0; i < 3; ++i) r = r + big(h[i]) * big(turn[i]);
+  for (std::size_t i = 0; i < 3; ++i) r = r + RootNumber(h[i]) * RootNumber(turn[i]);
   if (r.sign() <= 0) return std::nullopt;
   const auto tower = std::make_shared<SqrtTower>();
-  const RootNumber l1 = big(norm2(n[0]));  // squared
-  const std::array<RootNumber, 3> l{l1, tower->adjoin_root(l1 * big(norm2(n[1]))),
-                                    tower->adjoin_root(l1 * big(norm2(n[2])))};
+  const RootNumber l1 = RootNumber(norm2(n[0]));  // squared
+  const std::array<RootNumber, 3> l{l1, tower->adjoin_root(l1 * RootNumber(norm2(n[1]))),
+                                    tower->adjoin_root(l1 * RootNumber(norm2(n[2])))};
   RootNumber x = 0, y = 0, w = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-    x = x + l[i] * (big(h[k]) * big(n[j].y) - big(h[j]) * big(n[k].y));
-    y = y + l[i] * (big(h[j]) * big(n[k].x) - big(h[k]) * big(n[j].x));
-    w = w + l[i] * big(turn[i]);
+    x = x + l[i] * (RootNumber(h[k]) * RootNumber(n[j].y) - RootNumber(h[j]) * RootNumber(n[k].y));
+    y = y + l[i] * (RootNumber(h[j]) * RootNumber(n[k].x) - RootNumber(h[k]) * RootNumber(n[j].x));
+    w = w + l[i] * RootNumber(turn[i]);
   }
   return ExactDisc{tower, lines[0].origin, x, y, w, l1 * square(r)};
 }
@@ -299,7 +300,7 @@ Found segments(SiteTriple sites) {
 
 Found three_segments(SiteTriple sites) {
   for (const LatticePoint& p : {sites[0].a, sites[0].b}) {
-    if (is_end(p, sites[1]) && is_end(p, sites[2])) return point_disc(p);
+    if (sites[1].is_end(p) && sites[2].is_end(p)) return point_disc(p);
   }
   for (std::size_t i = 0; i < 3; ++i) {
     const LatticeSite &s = sites[i], &t = sites[(i + 1) % 3], &third = sites[(i + 2) % 3];
@@ -325,12 +326,13 @@ Found find_exact_disc(SiteTriple sites) {
 
 bool touches(const ExactDisc& disc, const LatticeSite& site) {
   const LatticeVector shift = disc.origin - site.a;  // the centre seen from a, times w
-  const RootNumber x = disc.x + disc.w * big(shift.x), y = disc.y + disc.w * big(shift.y);
+  const RootNumber x = disc.x + disc.w * RootNumber(shift.x), y = disc.y + disc.w * RootNumber(shift.y);
   if (site.is_point()) return (square(x) + square(y) - disc.z).sign() == 0;
   const LatticeVector u = site.b - site.a, n = left_of(u);
-  const RootNumber along = x * big(u.x) + y * big(u.y), across = x * big(n.x) + y * big(n.y);
-  return along.sign() >= 0 && (along - disc.w * big(norm2(u))).sign() <= 0 &&
-         (square(across) - disc.z * big(norm2(u))).sign() == 0;
+  const RootNumber along = x * RootNumber(u.x) + y * RootNumber(u.y),
+                   across = x * RootNumber(n.x) + y * RootNumber(n.y);
+  return along.sign() >= 0 && (along - disc.w * RootNumber(norm2(u))).sign() <= 0 &&
+         (square(across) - disc.z * RootNumber(norm2(u))).sign() == 0;
 }
 
 }  // namespace vorotool::core::segment_voronoi::discs

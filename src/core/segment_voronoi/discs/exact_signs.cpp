@@ -30,8 +30,6 @@ using numbers::square;
 
 namespace {
 
-RootNumber big(std::int64_t value) { return RootNumber(value); }
-
 ExactDisc disc_of(SiteTriple sites) {
   auto disc = find_exact_disc(sites);
   if (!disc) throw NoDisc();
@@ -43,8 +41,9 @@ struct CentreSeen {
   RootNumber x, y;
 
   CentreSeen(const ExactDisc& disc, const LatticePoint& from)
-      : x(disc.x + disc.w * big((disc.origin - from).x)), y(disc.y + disc.w * big((disc.origin - from).y)) {}
-  RootNumber along(const LatticeVector& u) const { return x * big(u.x) + y * big(u.y); }
+      : x(disc.x + disc.w * RootNumber((disc.origin - from).x)),
+        y(disc.y + disc.w * RootNumber((disc.origin - from).y)) {}
+  RootNumber along(const LatticeVector& u) const { return x * RootNumber(u.x) + y * RootNumber(u.y); }
   RootNumber length2() const { return square(x) + square(y); }
 };
 
@@ -81,7 +80,7 @@ int middle_of_points(const LatticePoint& p, const LatticePoint& q, const ExactDi
   if (turn == 0) return -1;  // the query is parallel to p q: g only grows along the edge
   auto side = [&](const ExactDisc& disc) {
     const RootNumber along = CentreSeen(disc, p).along(e) + CentreSeen(disc, q).along(e);
-    return (along * big(turn) - disc.w * big(norm2(e)) * big(dot(n, e))).sign();
+    return (along * RootNumber(turn) - disc.w * RootNumber(norm2(e)) * RootNumber(dot(n, e))).sign();
   };
   return between(side(first), side(second)) ? 1 : -1;
 }
@@ -104,9 +103,10 @@ int middle_of_parabola(const LatticePoint& p, const LatticeSite& segment, const 
   auto side = [&](const ExactDisc& disc) {
     numbers::SqrtTower tower;
     const std::vector<RootNumber> lifted = tower.adjoin_all(*disc.tower);
-    const RootNumber m = tower.adjoin_root(big(norm2(n1)) * big(norm2(n2))) - big(dot(n1, n2));
+    const RootNumber m =
+        tower.adjoin_root(RootNumber(norm2(n1)) * RootNumber(norm2(n2))) - RootNumber(dot(n1, n2));
     const RootNumber along = tower.lift(CentreSeen(disc, p).along(left_of(n1)), lifted);
-    return (m * along - big(h1) * big(cross(n1, n2)) * tower.lift(disc.w, lifted)).sign();
+    return (m * along - RootNumber(h1) * RootNumber(cross(n1, n2)) * tower.lift(disc.w, lifted)).sign();
   };
   return between(side(first), side(second)) ? 1 : -1;
 }
@@ -121,12 +121,12 @@ int middle_behind_end(const LatticePoint& p, const LatticeSite& segment, const E
   if (dot(n1, u) <= 0) return -1;
   auto side = [&](const ExactDisc& disc) {
     const RootNumber along = CentreSeen(disc, p).along(left_of(n1));
-    return (along * big(dot(n1, u)) + disc.w * big(dot(n1, p - segment.a)) * big(dot(left_of(n1), u))).sign();
+    return (along * RootNumber(dot(n1, u)) +
+            disc.w * RootNumber(dot(n1, p - segment.a)) * RootNumber(dot(left_of(n1), u)))
+        .sign();
   };
   return between(side(first), side(second)) ? 1 : -1;
 }
-
-bool is_end(const LatticePoint& p, const LatticeSite& site) { return p == site.a || p == site.b; }
 
 // The bisector of p and a segment from p is the line across it, on which r is the distance from p. On either
 // side of p the clearance is convex: largest at an end, or at p, where it is positive.
@@ -139,7 +139,7 @@ int middle_across_end(const LatticePoint& p, const LatticeSite& segment, const E
 
 int middle_of_point_and_segment(const LatticePoint& p, const LatticeSite& segment, const ExactDisc& first,
                                 const ExactDisc& second, const LatticeSite& query) {
-  const bool own_end = is_end(p, query), own_segment = is_end(p, segment);
+  const bool own_end = query.is_end(p), own_segment = segment.is_end(p);
   if (own_end && own_segment) return -1;  // (p - c) u is linear: largest at an end
   if (own_segment) return middle_across_end(p, segment, first, second);
   if (!own_end) return middle_of_parabola(p, segment, first, second, query);
@@ -159,8 +159,8 @@ int clearance_sign(const ExactDisc& disc, const LatticeSite& query) {
   const CentreSeen centre(disc, query.a);
   const RootNumber along = centre.along(u);
   if (query.is_point() || along.sign() <= 0) return clearance_sign(disc, query.a);
-  if ((along - disc.w * big(norm2(u))).sign() >= 0) return clearance_sign(disc, query.b);
-  return (square(centre.along(left_of(u))) - disc.z * big(norm2(u))).sign();
+  if ((along - disc.w * RootNumber(norm2(u))).sign() >= 0) return clearance_sign(disc, query.b);
+  return (square(centre.along(left_of(u))) - disc.z * RootNumber(norm2(u))).sign();
 }
 
 int side_of_centre(const ExactDisc& disc, const LatticePoint& point, const LatticeVector& direction) {
@@ -205,7 +205,7 @@ int exact_edge_clearance_sign(const LatticeSite& left, const LatticeSite& right,
                               SiteTriple second, const LatticeSite& query) {
   const ExactDisc a = disc_of(first), b = disc_of(second);
   if (left.is_point() && right.is_point()) {
-    if (is_end(left.a, query) || is_end(right.a, query)) return -1;  // (p - c) u is linear: largest at an end
+    if (query.is_end(left.a) || query.is_end(right.a)) return -1;  // (p - c) u is linear: largest at an end
     return middle_of_points(left.a, right.a, a, b, query);
   }
   if (left.is_point()) return middle_of_point_and_segment(left.a, right, a, b, query);

@@ -25,11 +25,11 @@ constexpr std::size_t count = 4;
 // circle around v of radius r has Ni v + Hi = Li r. Three such equations have one solution if no two Ni have
 // one direction; four have one if and only if the determinant of the rows (Ni, Hi, Li) is 0. That is a sum of
 // Ai Li with integers Ai.
-struct Rows {
+struct NormalRows {
   std::array<LatticeVector, count> normal;
   std::array<std::int64_t, count> height;
 
-  explicit Rows(const std::array<LatticeSite, count>& segments) {
+  explicit NormalRows(const std::array<LatticeSite, count>& segments) {
     for (std::size_t i = 0; i < count; ++i) {
       const LatticeVector along = segments[i].b - segments[i].a;
       normal[i] = left_of(along);
@@ -58,7 +58,7 @@ struct Rows {
 // (Besicovitch 1940). So the sum is 0 if and only if it is for each class of commensurable lengths, and Li
 // (Ai Li + Aj Lj + ...) = Ai Li Li + Aj Li Lj + ... is an integer.
 bool is_one_circle(const std::array<LatticeSite, 4>& segments) {
-  const Rows rows(segments);
+  const NormalRows rows(segments);
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t j = i + 1; j < count; ++j) {
       if (j - i != 3 && rows.are_along(i, j)) return false;
