@@ -37,8 +37,12 @@ build: $(BUILD)/.installed ## build the C++ core and install the package into .v
 include figures.mk
 
 .PHONY: test
-test: build lint $(BUILD)/.tests ## lint, then run all tests but the slow ones, on all cores
-	$(RUN) -m pytest -n auto -m "not slow"
+test: build lint $(BUILD)/.tests ## lint, then run all tests but the slow ones and those of the documents, on all cores
+	$(RUN) -m pytest -n auto -m "not slow" --ignore tests/documents
+
+.PHONY: test-docs
+test-docs: build $(BUILD)/.tests ## run the commands, examples and notebooks of README and docs, check pages, links, pictures
+	$(RUN) -m pytest -n auto tests/documents
 
 SITE := $(BUILD)/site
 .PHONY: docs
@@ -51,8 +55,8 @@ $(BUILD)/.docs: $(BUILD)/.venv
 	@touch $@
 
 .PHONY: test-all
-test-all: test ## make test, then the slow ones
-	$(RUN) -m pytest -n auto -m slow
+test-all: test test-docs ## make test, make test-docs, then the slow tests
+	$(RUN) -m pytest -n auto -m slow --ignore tests/documents
 
 .PHONY: lint
 lint: build $(BUILD)/.tests ## ruff, mypy --strict, import-linter, clang-format, codespell

@@ -12,10 +12,11 @@ GALLERY_PICTURES := letters-all.svg letters.svg letters-angle.svg vessels.png ve
                     strokes.svg strokes-dark.svg
 
 NAMES := figure-01 figure-02 figure-03a figure-03b figure-03c figure-03d figure-04a figure-04b figure-04c \
-         figure-05 figure-06 figure-07 figure-08 figure-09 figure-10 figure-11 figure-lakes table-1 error-vs-h gallery
+         figure-05 figure-06 figure-07 figure-08 figure-09 figure-10 figure-11 figure-lakes table-1 error-vs-h
 
-.PHONY: figures $(NAMES)
-figures: $(NAMES) ## draw the figures and tables of the paper, and the gallery, into build/figures
+.PHONY: figures paper gallery $(NAMES)
+paper: $(NAMES)
+figures: paper gallery ## draw the figures and tables of the paper, and the gallery, into build/figures
 	@echo "figures are in $(FIGURES):" && ls $(FIGURES)
 figure-01: $(FIGURES)/figure-01.svg
 figure-02: $(FIGURES)/figure-02.svg

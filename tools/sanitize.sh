@@ -16,7 +16,7 @@ left_out=(
     --deselect tests/render/pages/test_alpha_html.py::test_the_page_is_drawn
     --deselect tests/render/pages/test_alpha_html.py::test_the_buttons_and_the_slider_move_r
     # groff is C++ as well, and frees memory by another name than it was taken.
-    --deselect tests/repository/test_documents.py::test_the_manual_pages_are_read_without_warnings
+    --deselect tests/documents/test_blocks.py::test_the_manual_pages_are_read_without_warnings
 )
 
 # An environment of its own that sees the libraries of the first, but not its vorotool.

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
+from support.processes.drawn_figures import drawn_figures
 from support.processes.ended import ended
 
 ROOT = Path(__file__).parents[2]
@@ -36,8 +37,9 @@ def test_each_picture_follows_its_command():
     assert sorted(links) == sorted(set(drawn) - set(pictures))
 
 
-def test_the_pictures_are_drawn(figures):
-    made = {path.name: path for path in figures.glob("gallery-*")}
+def test_the_pictures_are_drawn(tmp_path_factory):
+    folder = drawn_figures("gallery", tmp_path_factory)
+    made = {path.name: path for path in folder.glob("gallery-*")}
     assert set(made) == {Path(command.split()[-1]).name for command in COMMANDS}
     for name, path in made.items():
         if name.endswith(".svg"):
