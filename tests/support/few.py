@@ -9,7 +9,7 @@ import pytest
 def few(values: Iterable[Any], count: int = 6) -> list[Any]:
     """Return the values for `parametrize`, those after the first `count` marked slow."""
     listed = list(values)
-    return listed[:count] + [slow(value) for value in listed[count:]]
+    return listed[:count] + [slow(*value) if isinstance(value, tuple) else slow(value) for value in listed[count:]]
 
 
 def slow(*values: Any) -> Any:

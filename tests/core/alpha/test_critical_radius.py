@@ -60,7 +60,7 @@ def compared(p, q):
     return int(np.sign(ranks[0] - ranks[1]))
 
 
-@settings(max_examples=400, deadline=None)
+@settings(max_examples=100, deadline=None)
 @given(supports, st.booleans())
 def test_correctly_rounded(support, is_edge):
     support = edge_of(support) if is_edge else support
@@ -86,7 +86,7 @@ def sign(value):
     return (value > 0) - (value < 0)
 
 
-@settings(max_examples=250, deadline=None)
+@settings(max_examples=60, deadline=None)
 @given(supports, supports, st.integers(0, 3), st.booleans())
 def test_compared_exactly(p, q, case, is_edge):
     if case == 1:  # the same triangle, mirrored

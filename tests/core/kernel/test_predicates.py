@@ -106,7 +106,7 @@ coordinates = st.floats(allow_nan=False, allow_infinity=False) | st.integers(-3,
 
 
 @sizes
-@settings(max_examples=500, deadline=None)
+@settings(max_examples=120, deadline=None)
 @given(data=st.data())
 def test_any_doubles(n, data):
     points = np.array(data.draw(st.lists(coordinates, min_size=2 * n, max_size=2 * n))).reshape(1, n, 2)

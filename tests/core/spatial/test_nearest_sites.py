@@ -17,7 +17,7 @@ def nearest_other(x, y, labels, threads=1):
     st.sampled_from([1.0, 0.25, 2.0**20]),
     st.randoms(use_true_random=False),
 )
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=40, deadline=None)
 def test_nearest_other_site_with_ties(points, unit, random):
     xy = np.array(points) * unit
     labels = list(range(1, len(points) + 1))

@@ -95,7 +95,7 @@ def test_nasty_numbers_are_rounded_as_python_does():
     assert bits(values[:, 0]) == bits(float(text) for text in NASTY)
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=50, deadline=None)
 @given(st.lists(st.floats(allow_nan=False, allow_infinity=False), min_size=1), st.integers(1, 17))
 def test_random_numbers_are_rounded_as_python_does(values, digits):
     texts = [repr(value) for value in values] + [f"{value:.{digits}g}" for value in values]
@@ -284,7 +284,7 @@ def test_shortest_text(value, text):
     assert format_text([np.array([value])]) == text + "\n"
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=50, deadline=None)
 @given(st.lists(st.floats(allow_nan=False, allow_infinity=False), min_size=1), st.integers(1, 17))
 def test_text_of_numbers(values, digits):
     array = np.array(values)

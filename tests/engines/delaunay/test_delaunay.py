@@ -73,7 +73,7 @@ def test_against_scipy():
 def test_threads_change_nothing(name):
     points = draw(name, 3000, 4)  # several parts of 1024 points
     one = quietly(points, threads=1)
-    for threads in (2, 3, 4, 5):
+    for threads in (2, 5):
         other = quietly(points, threads=threads)
         assert_same(ARRAYS, one, other)
 
@@ -125,19 +125,19 @@ tiny_steps = st.integers(0, 3).map(lambda k: 0.5 + k * 2.0**-53)
 near = st.lists(st.tuples(tiny_steps | st.integers(0, 2).map(float), tiny_steps | floats), max_size=9)
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=80, deadline=None)
 @given(lattice)
 def test_any_lattice_points(points):
     check_by_definition(points)
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=80, deadline=None)
 @given(near | st.lists(st.tuples(floats, floats), max_size=7))
 def test_any_doubles(points):
     check_by_definition(points)
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=30, deadline=None)
 @given(st.lists(st.tuples(st.integers(-3, 3), st.integers(-3, 3)), min_size=1, max_size=60))
 def test_duplicates_change_nothing_but_first(points):
     mesh = quietly(points)

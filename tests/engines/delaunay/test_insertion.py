@@ -138,7 +138,7 @@ lattice = st.lists(st.tuples(st.integers(-4, 4), st.integers(-4, 4)), max_size=1
 corners = [(-5, -5), (5, -5), (-5, 5), (5, 5)]
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=80, deadline=None)
 @given(lattice, lattice)
 def test_any_lattice_points(old, new):
     check(np.array([*corners, *old, *new], dtype=float), 4 + len(old))
@@ -147,7 +147,7 @@ def test_any_lattice_points(old, new):
 floats = st.floats(-1e100, 1e100)
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=50, deadline=None)
 @given(st.lists(st.tuples(floats, floats), min_size=4, max_size=9), st.integers(1, 8))
 def test_any_doubles(points, further):
     points = outermost_first(np.array(points))

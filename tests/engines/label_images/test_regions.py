@@ -105,7 +105,7 @@ def nearest_label_image(shape, count, seed):
 
 
 @given(label_images)
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=40, deadline=None)
 def test_measures_agree_with_plain_loops(labels):
     table = regions.region_table(LabelImage(labels), threads=2)
     expected = expected_measures(labels)
@@ -119,13 +119,13 @@ def test_measures_agree_with_plain_loops(labels):
 
 
 @given(label_images)
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=30, deadline=None)
 def test_borders_agree_with_plain_loops(labels):
     assert borders_of(labels) == expected_borders(labels)
 
 
 @given(label_images)
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=30, deadline=None)
 def test_diagram_agrees_with_the_definition(labels):
     np.testing.assert_array_equal(regions.voronoi_diagram(LabelImage(labels)), expected_diagram(labels))
 

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from scipy import ndimage
 
+from support.few import few
 from support.processes.heard_signals import stop
 from vorotool.engines.tessellation.seeding import seeds_from_raster
 from vorotool.engines.tessellation.streamed_image import ObjectRows, StreamedImage
@@ -78,7 +79,7 @@ def bands(request, monkeypatch):
     monkeypatch.setattr("vorotool.engines.tessellation.streamed_image.SWEEP_PIXELS", labelled)
 
 
-@pytest.mark.parametrize(("name", "mask"), IMAGES)
+@pytest.mark.parametrize(("name", "mask"), few(IMAGES, 10))
 @pytest.mark.parametrize(("mode", "connectivity"), [("components", 8), ("components", 4), ("pixels", 8)])
 def test_masks(name, mask, mode, connectivity, bands):
     values = mask.astype(np.uint8)

@@ -89,7 +89,7 @@ def test_frames_longer_than_two_to_the_seventeen(simd, frame):
     np.testing.assert_array_equal(sweep.labels(), nearest_labels(x, y, labels, frame))
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=40, deadline=None)
 @given(
     seeds=st.lists(st.tuples(st.integers(-3, 12), st.integers(-3, 12)), min_size=1, max_size=25),
     width=st.integers(1, 12),

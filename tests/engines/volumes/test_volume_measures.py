@@ -117,7 +117,7 @@ def nearest(shape, count, seed, units=(1, 1, 1)):
 
 
 @given(label_volumes)
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=40, deadline=None)
 def test_measures_agree_with_plain_loops(labels):
     check(labels, threads=2)
     np.testing.assert_array_equal(volume_diagram(labels), expected_diagram(labels))
@@ -300,7 +300,7 @@ def test_public_functions_take_volumes():
 
 
 @given(label_volumes)
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=15, deadline=None)
 def test_neighbours_never_share_a_colour(labels):
     colours = vorotool.colour_regions(labels)
     assert colours[0] == 0

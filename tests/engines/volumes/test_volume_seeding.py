@@ -83,7 +83,10 @@ def test_slabs_give_what_the_whole_gives(mode, connectivity):
 
 
 # ---- outer voxels are enough -----------------------------------------------------------------------
-@pytest.mark.parametrize("units", [(1, 1, 1), (5, 2, 3), (1, 7, 1)])
+@pytest.mark.parametrize(
+    "units",
+    [(1, 1, 1), pytest.param((5, 2, 3), marks=pytest.mark.slow), pytest.param((1, 7, 1), marks=pytest.mark.slow)],
+)
 @pytest.mark.parametrize("limit", [None, 0, 1, Fraction(7, 2)])
 @pytest.mark.parametrize("window", [None, (-3, 2, -2, 12, 30, 9), (6, 6, 4, 5, 5, 5), (40, 1, 2, 6, 7, 4)])
 def test_outer_voxels_give_what_all_voxels_give(window, limit, units):

@@ -8,6 +8,7 @@ from scipy import ndimage
 from skimage import segmentation
 
 import vorotool
+from support.few import few
 from vorotool import _core
 from vorotool.engines.peers.arguments import bare_seeds
 from vorotool.engines.volumes.inner_voxels import outer_voxels
@@ -60,7 +61,7 @@ def seeds_of(random, kind, count, shape):
 
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("level", LEVELS)
-@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("seed", few(range(8), 4))
 def test_every_voxel_has_the_smallest_label_of_its_nearest_seeds(kind, level, seed, monkeypatch):
     random = np.random.default_rng([seed, KINDS.index(kind)])
     shape = tuple(random.integers(1, (24, 40, 3)[seed % 3], 3).tolist())
@@ -101,7 +102,7 @@ def test_every_arithmetic_is_exact(units, arithmetic, kind):
 
 
 @pytest.mark.parametrize("way", WAYS)
-@pytest.mark.parametrize("spread", ["many at one place", "far apart", "farther than a word holds"])
+@pytest.mark.parametrize("spread", few(["farther than a word holds", "many at one place", "far apart"], 1))
 def test_seeds_are_sorted_alike_by_any_number_of_threads(way, spread):
     random = np.random.default_rng(12)
     shape = (24, 20, 28)
@@ -167,9 +168,9 @@ def test_many_slabs_give_what_one_gives():
     assert np.array_equal(whole[tuple(at.T)], labels[square.argmin(axis=1)])
 
 
-@pytest.mark.parametrize("density", [0.2, 0.003])
+@pytest.mark.parametrize("density", few([0.2, 0.003], 1))
 @pytest.mark.parametrize("units", [(1, 1, 1), (60, 13, 13)])
-@pytest.mark.parametrize("first_label", [1, 2**31])
+@pytest.mark.parametrize("first_label", few([2**31, 1], 1))
 def test_both_ways_agree_where_blocks_are_cut(density, units, first_label):
     random = np.random.default_rng(10)
     shape = (150, 20, 300)  # more slices, rows and columns than a block has, and not a multiple
@@ -217,7 +218,7 @@ def test_outputs_that_do_not_fit_are_refused():
 
 # ---- functions of users ----------------------------------------------------------------------------
 @pytest.mark.parametrize("spacing", [None, 2, (3, 1, 2), (1.5, 0.325, 0.325), (Fraction(1, 3), 1, Fraction(1, 7))])
-@pytest.mark.parametrize("part", [0.5, 0.02, 0.001])
+@pytest.mark.parametrize("part", few([0.02, 0.5, 0.001], 1))
 def test_distances_are_those_of_scipy(spacing, part):
     random = np.random.default_rng(3)
     mask = random.random((20, 31, 27)) > part

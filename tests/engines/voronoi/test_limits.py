@@ -8,6 +8,7 @@ import shapely
 from tests.support.families.site_families import mixed_sites, row_houses, squares
 from tests.support.oracles.voronoi_oracle import assert_is_within, quietly
 
+from support.few import few
 from vorotool import verify_voronoi, voronoi
 from vorotool.errors import InputError, UsageError, VerificationError
 from vorotool.geometry.voronoi.shapes import PART_OF_RADIUS, flattened_arcs
@@ -104,7 +105,7 @@ def test_lattices_of_squares(gap, factor):
     assert cells.components.tolist() == [1] * 9
 
 
-@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("seed", few(range(20), 6))
 def test_limits_just_at_vertices(seed):
     random = np.random.default_rng(seed)
     sites = mixed_sites(random, int(random.integers(2, 9)), grid=4)
@@ -113,7 +114,7 @@ def test_limits_just_at_vertices(seed):
     within(sites, float(random.choice(radius)) if len(radius) else 2.0)
 
 
-@pytest.mark.parametrize("seed", range(10))
+@pytest.mark.parametrize("seed", few(range(9), 3))
 def test_limits_a_rounding_away_from_vertices(seed):
     random = np.random.default_rng(seed)
     sites = mixed_sites(random, int(random.integers(2, 9)), grid=(None, 4, 0.3)[seed % 3])
@@ -123,7 +124,7 @@ def test_limits_a_rounding_away_from_vertices(seed):
         within(sites, float(limit))
 
 
-@pytest.mark.parametrize("part", [0, 2**-53, 2**-52, 2**-50, 2**-45, 2**-30])
+@pytest.mark.parametrize("part", few([2**-53, 0, 2**-45, 2**-52, 2**-50, 2**-30], 2))
 def test_holes_as_small_as_rounding(part):
     ring = shapely.box(0, 0, 10, 10).difference(shapely.box(1, 1, 6, 6))
     square = [shapely.Point(x, y) for x in (12, 16) for y in (12, 16)]
@@ -133,7 +134,7 @@ def test_holes_as_small_as_rounding(part):
 
 
 # ---- random ------------------------------------------------------------------------------------------
-@pytest.mark.parametrize("seed", range(40))
+@pytest.mark.parametrize("seed", few(range(24), 6))
 def test_random_sites(seed):
     random = np.random.default_rng(seed)
     sites = mixed_sites(random, int(random.integers(1, 12)), grid=(None, 4, 0.1)[seed % 3])
@@ -144,7 +145,7 @@ def test_random_sites(seed):
     within(sites, limit, frame)
 
 
-@pytest.mark.parametrize("limit", [0.5, 2, 3, 5, 6, 7.5])
+@pytest.mark.parametrize("limit", few([3, 5, 0.5, 2, 6, 7.5], 2))
 def test_houses_in_rows(limit):
     within(row_houses(3, 4), limit)
 
@@ -190,9 +191,9 @@ def test_a_limit_beyond_everything_changes_no_bit(seed, limit):
 SYMMETRIES = [np.array(rows) for rows in ([[1, 0], [0, 1]], [[0, -1], [1, 0]], [[-1, 0], [0, 1]], [[0, 1], [1, 0]])]
 
 
-@pytest.mark.parametrize("turn", [sign * each for each in SYMMETRIES for sign in (1, -1)])
+@pytest.mark.parametrize("turn", few([sign * each for each in SYMMETRIES for sign in (1, -1)], 2))
 def test_turned_and_mirrored(turn):
-    sites = mixed_sites(np.random.default_rng(4), 12, grid=4)
+    sites = mixed_sites(np.random.default_rng(4), 8, grid=4)
     moved = [shapely.transform(each, lambda xy: xy @ turn.T) for each in sites]
     for limit in (3, 4, 9.5):
         once, again = within(sites, limit), within(moved, limit)

@@ -8,6 +8,7 @@ import shapely
 from tests.support.families.site_families import mixed_sites, row_houses
 
 import vorotool
+from support.few import few
 from vorotool import voronoi
 from vorotool.engines.voronoi.measures import ties
 from vorotool.errors import RepairWarning
@@ -55,7 +56,7 @@ def test_mixed_sites(seed):
     assert_measured(sites, quietly(sites, frame=frame))
 
 
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", few(range(6), 2))
 @pytest.mark.parametrize("limit", [1.0, 5, 20])
 def test_limited_sites(seed, limit):
     random = np.random.default_rng(seed)
@@ -65,7 +66,7 @@ def test_limited_sites(seed, limit):
     assert_measured(sites, cells)
 
 
-@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("seed", few(range(12), 3))
 def test_cut_sites(seed):
     random = np.random.default_rng(seed)
     sites = mixed_sites(random, 6, [None, 4][seed % 2])

@@ -121,13 +121,13 @@ def reason_against(data, fmt):
     return "any points are good"
 
 
-@settings(deadline=None, max_examples=300)
+@settings(deadline=None, max_examples=80)
 @given(st.sampled_from(POINT_FORMATS), st.binary(max_size=60))
 def test_any_bytes_give_points_or_a_reason(fmt, data):
     assert reason_against(data, fmt).startswith("any")
 
 
-@settings(deadline=None, max_examples=300)
+@settings(deadline=None, max_examples=80)
 @given(st.sampled_from(["csv", "node", "wkt", "json"]), st.text('0123.,;-e \n"#()[]{}POINTMUL:x\t', max_size=60))
 def test_any_text_gives_points_or_a_reason(fmt, text):
     assert reason_against(text, fmt).startswith("any")
