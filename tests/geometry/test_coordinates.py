@@ -48,7 +48,6 @@ def test_coordinates_of_every_kind_are_taken(take, make):
     assert take(make()).tolist() == PAIRS
 
 
-@TAKERS
 @pytest.mark.parametrize(
     ("values", "words"),
     [
@@ -68,9 +67,10 @@ def test_coordinates_of_every_kind_are_taken(take, make):
         (np.array([[None, 1], [2, 3]], dtype=object), "these have type object"),
     ],
 )
-def test_what_is_no_coordinate_is_refused(take, values, words):
-    with pytest.raises(InputError, match=words.replace("2^", r"2\^")):
-        take(values)
+def test_what_is_no_coordinate_is_refused(values, words):
+    for take in (triangulated, tessellated, skeletonized):
+        with pytest.raises(InputError, match=words.replace("2^", r"2\^")):
+            take(values)
 
 
 def test_an_integer_beyond_doubles_is_named():

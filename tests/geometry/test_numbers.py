@@ -73,9 +73,7 @@ def test_a_radius_below_doubles_gives_points(r):
     assert len(vorotool.alpha_shape(POINTS, r=r).edges) == 0
 
 
-@pytest.mark.parametrize(
-    "r", [*NO_NUMBERS[:2], *NO_NUMBERS[3:], 0, -1, -(10**400), Fraction(-1, 2), Decimal(-1)], ids=shown_number
-)
+@pytest.mark.parametrize("r", [NO_NUMBERS[0], np.float64("nan"), 0, -(10**400), Fraction(-1, 2)], ids=shown_number)
 def test_what_is_no_radius_is_refused(r):
     with pytest.raises(UsageError, match=r"^r is"):
         vorotool.alpha_shape(POINTS, r=r)
@@ -123,27 +121,28 @@ TAKERS = {
         for name in ("angle", "chord", "scale", "length", "ratio")
     },
 }
-TAKES_HUGE = {"regions", "max_distance"}
 
 
-@pytest.mark.parametrize("value", [10**400, -(10**5000), "a", 1j, [10**400, "a"], object], ids=shown_number)
 @pytest.mark.parametrize("taker", TAKERS)
-def test_options_that_are_wrong_or_huge_are_refused_in_short(taker, value):
-    if taker in TAKES_HUGE and value == 10**400:
-        assert TAKERS[taker](value) is not None
-        return
-    with pytest.raises((UsageError, InputError, LimitError)) as refused:
-        TAKERS[taker](value)
-    assert len(str(refused.value)) < 200
+def test_options_that_are_wrong_or_huge_are_refused_in_short(taker):
+    for value in (-(10**5000), "a", [10**400, "a"]):
+        with pytest.raises((UsageError, InputError, LimitError)) as refused:
+            TAKERS[taker](value)
+        assert len(str(refused.value)) < 200
 
 
-@pytest.mark.parametrize("value", [10**400, 10**5000, "a", 1.5, -1], ids=shown_number)
+@pytest.mark.parametrize("taker", ["regions", "max_distance"])
+def test_huge_limits_are_none(taker):
+    assert TAKERS[taker](10**400) is not None
+
+
 @pytest.mark.parametrize("name", ["width", "precision"])
-def test_numbers_of_files_are_refused_in_short(tmp_path, name, value):
+def test_numbers_of_files_are_refused_in_short(tmp_path, name):
     path = tmp_path / ("a.svg" if name == "width" else "a.geojson")
-    with pytest.raises(UsageError) as refused:
-        vorotool.write(vorotool.skeleton_exact(SQUARE), path, **{name: value})
-    assert len(str(refused.value)) < 200
+    for value in (10**5000, "a", 1.5, -1):
+        with pytest.raises(UsageError) as refused:
+            vorotool.write(vorotool.skeleton_exact(SQUARE), path, **{name: value})
+        assert len(str(refused.value)) < 200
 
 
 def test_fractions_are_lengths():

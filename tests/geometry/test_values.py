@@ -93,19 +93,12 @@ def other_than(value):
     return "something else"
 
 
-@pytest.mark.parametrize("name", VALUES)
-def test_comparison_never_raises(name):
-    value = VALUES[name]
-    for other in (None, 1, "a", [1], np.arange(3), pandas.Series([1]).index, *VALUES.values()):
-        if other is not value and not isinstance(other, np.ndarray):
-            assert (value == other) is False
-            assert (value != other) is True
-
-
-@pytest.mark.parametrize("name", VALUES)
-def test_values_are_no_keys(name):
-    with pytest.raises(TypeError, match="unhashable"):
-        hash(VALUES[name])
+def test_comparison_never_raises():
+    for value in VALUES.values():
+        for other in (None, 1, "a", [1], np.arange(3), pandas.Series([1]).index, *VALUES.values()):
+            if other is not value and not isinstance(other, np.ndarray):
+                assert (value == other) is False
+                assert (value != other) is True
 
 
 @pytest.mark.parametrize(
@@ -154,14 +147,16 @@ TEXTS = {
 }
 
 
-@pytest.mark.parametrize("name", VALUES)
-def test_texts_are_short(name):
-    text = repr(VALUES[name])
-    assert text.startswith(f"{name}: ")
-    assert len(text.splitlines()) == 1
-    assert len(text) < 250
-    assert text == TEXTS.get(name, text)
-    assert str(VALUES[name]) == text
+def test_texts_are_short_and_values_are_no_keys():
+    for name, value in VALUES.items():
+        text = repr(value)
+        assert text.startswith(f"{name}: ")
+        assert len(text.splitlines()) == 1
+        assert len(text) < 250
+        assert text == TEXTS.get(name, text)
+        assert str(value) == text
+        with pytest.raises(TypeError, match="unhashable"):
+            hash(value)
 
 
 def test_texts_count():

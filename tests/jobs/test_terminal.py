@@ -7,12 +7,12 @@ import pytest
 from vorotool.jobs.terminal import escaped, print_text
 
 
-@pytest.mark.parametrize("code", [*range(0x20), *range(0x7F, 0xA0), 0x61C, 0x200E, 0x2028, 0x202E, 0x2066, 0x2069])
-def test_control_characters_and_changes_of_direction_are_escaped(code):
-    text = escaped(f"a{chr(code)}b")
-    assert text == f"a{chr(code)!r}b".replace("'", "")
-    assert text.isascii()
-    assert text.isprintable()
+def test_control_characters_and_changes_of_direction_are_escaped():
+    for code in (*range(0x20), *range(0x7F, 0xA0), 0x61C, 0x200E, 0x2028, 0x202E, 0x2066, 0x2069):
+        text = escaped(f"a{chr(code)}b")
+        assert text == f"a{chr(code)!r}b".replace("'", "")
+        assert text.isascii()
+        assert text.isprintable()
 
 
 def test_other_characters_stay():

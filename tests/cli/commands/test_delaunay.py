@@ -183,22 +183,14 @@ def test_an_image_without_foreground_has_no_points(run, folder):
     ("options", "words"),
     [
         (["--what", "faces"], "'faces' is not one of edges, triangles, cells, table"),
-        (["--method", "paper"], "paper"),
         (["-f", "tiff"], "edges cannot be written as tiff: use one of csv"),
         (["-f", "npz"], None),  # binary to a pipe
-        (["-o", "a.xyz"], ".xyz names no format"),
         (["--what", "edges,triangles"], "several results need -o STEM"),
-        (["--layers", "points"], "--layers is for pictures"),
-        (["--width", "300"], "--width is for pictures"),
         (["--layers", "cellar", "-f", "svg"], "not one of cells, triangles, diagram, edges, points, labels"),
         (["--precision", "3", "-o", "a.npz"], "--precision is for numbers in text"),
         (["--precision", "0"], "precision"),
-        (["--threshold", "otsu"], "--threshold is for images, but the input is a list of points"),
         (["--seeds", "pixels", "--connectivity", "4"], "--connectivity is for components"),
-        (["--stats", "-"], "--stats - needs -o FILE"),
-        (["--stats", "dots.csv", "-o", "a.csv"], "is also the input"),
         (["-o", "dots.csv"], "is also an input"),
-        (["dots.csv"], "2 inputs are given: name a folder"),
     ],
 )
 def test_bad_options(run, folder, options, words):

@@ -31,8 +31,8 @@ LISTS = (
 )  # fmt: skip
 VALUES = tuple(dict.fromkeys((*NUMBERS, *TEXTS, *LISTS)))
 
-THIRDS = 3
-"""Of the values that each command's own copy of a shared option is given; all commands together give all."""
+FEW = 3
+"""Commands whose copy of a shared option is tried."""
 
 SHARED = {name.replace("-", "_") for name in OPTIONS}
 
@@ -80,12 +80,19 @@ NEEDED = {
 
 
 def cases():
-    for number, name in enumerate(COMMANDS):
+    """Commands with options and the values of each: those of a shared option are dealt to a few of its commands."""
+    takers = {}
+    for name in COMMANDS:
         command = import_module(f"vorotool.cli.commands.{name.replace('-', '_')}").command
         for option in command.params:
             if isinstance(option, click.Option) and not option.is_flag and option.name not in LEFT_OUT:
-                values = VALUES[number % THIRDS :: THIRDS] if option.name in SHARED else VALUES
-                yield pytest.param(name, option, values, id=f"{name} {option.opts[-1]}")
+                takers.setdefault(option.name if option.name in SHARED else (name, option.name), []).append(
+                    (name, option)
+                )
+    for each in takers.values():
+        few = each[:FEW]
+        for number, (name, option) in enumerate(few):
+            yield pytest.param(name, option, VALUES[number :: len(few)], id=f"{name} {option.opts[-1]}")
 
 
 @pytest.mark.slow
