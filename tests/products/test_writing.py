@@ -68,7 +68,7 @@ def test_every_part_in_every_format(name, tmp_path):
                 assert not list(tmp_path.glob("*.shp"))
                 continue
             path = tmp_path / f"{what}.{fmt}"
-            vorotool.write(value, path, what=what)
+            vorotool.write(value, path, what=what, width=100 if fmt == "png" and name != "LabelImage" else None)
             assert path.stat().st_size > 0
             if fmt in streamed(product) and fmt != "zarr":
                 assert path.read_bytes() == written(value, fmt, what)

@@ -9,6 +9,7 @@ import shapely
 import vorotool
 from support.families.vector_files import frame, save
 from vorotool.errors import InputError, LimitError
+from vorotool.formats.features import geopackage
 
 ARCS = struct.pack("<BIIBII", 1, 10, 1, 1, 8, 5) + struct.pack("<10d", 0, 0, 4, 0, 4, 4, 0, 4, 0, 0)
 
@@ -108,7 +109,9 @@ def test_a_file_whose_journal_is_gone(tmp_path):
         "SELECT i, geom || zeroblob(600000) FROM n, a",
     ],
 )
-def test_views_without_an_end(tmp_path, query):
+def test_views_without_an_end(tmp_path, monkeypatch, query):
+    for name, smaller in (("_STEPS", 10**6), ("_STEPS_A_BYTE", 10), ("_BATCH", 64)):
+        monkeypatch.setattr(geopackage, name, smaller)
     with pytest.raises(LimitError, match=r"a\.gpkg"):
         vorotool.read(with_view(save(frame(), tmp_path / "a.gpkg"), query, "i", "geom"))
 

@@ -127,7 +127,8 @@ def test_decimals(fmt):
 
 @pytest.mark.parametrize("fmt", streamed(PRODUCTS["delaunay"]["cells"]))
 def test_threads_and_slices_change_nothing(fmt):
-    cells = voronoi_cells(draw("uniform", 40_000, 1))
+    by_library = fmt in ("gpkg", "fgb", "parquet", "dxf")  # on one thread
+    cells = voronoi_cells(draw("uniform", 300 if by_library else 40_000, 1))
     assert written(cells, fmt, threads=1) == written(cells, fmt, threads=3)
 
 
