@@ -23,33 +23,7 @@ MOST_UNDER_WAY = 2
 def write_bands(
     folder: Path, bands: Iterator[tuple[int, Band]], *, address: str, jobs: int | None = None
 ) -> Iterator[int]:
-    """Compute bands on a Dask cluster, whose workers write them into a store that all see by the same path.
-
-    Parameters
-    ----------
-    folder : Path
-        A Zarr array.
-    bands : iterator of (int, Band)
-        The first row of each, and what computes its rows, which are those of a row of chunks; of a volume the first
-        slice, and slices. A few are taken at a time.
-    address, jobs
-        As for `vorotool.batch.dask_cluster.cluster_results`.
-
-    Yields
-    ------
-    int
-        The first row of each band that has been written, in the order in which they are done. Those of a lost worker
-        are computed by another one.
-
-    Raises
-    ------
-    UsageError
-        If there is no cluster.
-    VorotoolError
-        If the cluster gives a band up, or a worker has another version.
-    OutputError
-        If a worker cannot write.
-    """
+    """Compute bands on a Dask cluster, whose workers write them into a store that all see by the same path."""
     given: dict[Any, int] = {}
     with ExitStack() as stack:
         client = stack.enter_context(connected(address, jobs))

@@ -34,30 +34,7 @@ ONE_AT_A_TIME = threading.Lock()
 def cluster_results(
     process: Process, tasks: Iterator[tuple[int, Task]], *, address: str, jobs: int | None = None
 ) -> Generator[tuple[int, Outcome], None, None]:
-    """Do tasks on a Dask cluster, whose workers see the same files by the same paths.
-
-    Parameters
-    ----------
-    process : callable
-        What is done with an input.
-    tasks : iterator of (int, Task)
-        Numbered; some more are taken than there are threads of workers, so that these do not wait.
-    address : str
-        Of the scheduler, or ``local``: a cluster is started on this machine, and ended with the batch.
-    jobs : int, optional
-        Workers of a cluster that is started; by default one a core.
-
-    Yields
-    ------
-    (int, Outcome)
-        In the order in which they are done. Tasks of a lost worker are done by others; one that several workers were
-        lost with is a failed one.
-
-    Raises
-    ------
-    UsageError
-        If dask.distributed is not installed, or there is no cluster at the address.
-    """
+    """Do tasks on a Dask cluster, whose workers see the same files by the same paths."""
     given: dict[Any, tuple[int, Task]] = {}
     with ExitStack() as stack:
         client = stack.enter_context(connected(address, jobs))
@@ -88,18 +65,7 @@ def cluster_results(
 
 @contextmanager
 def connected(address: str, jobs: int | None) -> Iterator[Any]:
-    """Give a client of a cluster that has at least one worker.
-
-    Parameters
-    ----------
-    address, jobs
-        As for `cluster_results`.
-
-    Raises
-    ------
-    UsageError
-        If dask.distributed is not installed, or there is no cluster at the address.
-    """
+    """Give a client of a cluster that has at least one worker."""
     try:
         import distributed
     except ImportError:

@@ -20,18 +20,7 @@ from vorotool.formats.io.temporaries import remove_tagged
 def executor_results(
     process: Process, tasks: Iterator[tuple[int, Task]], *, jobs: int
 ) -> Generator[tuple[int, Outcome], None, None]:
-    """Do tasks in processes of this machine.
-
-    Parameters
-    ----------
-    process, tasks, jobs
-        As of `vorotool.batch.process_pool.local_results`.
-
-    Yields
-    ------
-    (int, Outcome)
-        In the order in which they are done.
-    """
+    """Do tasks in processes of this machine."""
     pool = _new_pool(jobs)
     busy: dict[Future[Outcome], tuple[int, Task]] = {}
 

@@ -24,28 +24,14 @@ _NUMBER = re.compile(rb"(?<![\w.])[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?(?![\
 
 @dataclass(frozen=True)
 class Input:
-    """One input of a batch.
+    """One input of a batch."""
 
-    Parameters
-    ----------
-    source : str
-        Its path, beginning as the user wrote it.
-    name : str
-        What its outputs are named after: the path below the folder that was given, or the name of a file.
-    """
-
-    source: str
-    name: str
+    source: str  # its path, beginning as the user wrote it
+    name: str  # what its outputs are named after: the path below the folder that was given, or the name of a file
 
 
 def pages_of(inputs: Iterable[Input]) -> list[Input]:
-    """Give each page of the images among inputs as an input, whose outputs are named after it: ``stack-p003``.
-
-    Examples
-    --------
-    >>> pages_of([Input("data/blobs.png", "blobs.png"), Input("data/dots.csv", "dots.csv")])
-    [Input(source='data/blobs.png, page 0', name='blobs-p000.png'), Input(source='data/dots.csv', name='dots.csv')]
-    """
+    """Give each page of the images among inputs as an input, whose outputs are named after it: ``stack-p003``."""
     from vorotool.formats.pages import page_count
 
     found: list[Input] = []
@@ -63,15 +49,7 @@ def pages_of(inputs: Iterable[Input]) -> list[Input]:
 
 
 def is_several(name: str) -> bool:
-    """Whether a name given as an input stands for several: a folder, or a pattern that no file has for a name.
-
-    A Zarr store is a folder, but one input.
-
-    Examples
-    --------
-    >>> is_several("data"), is_several("data/*.csv"), is_several("data/dots.csv"), is_several("-")
-    (True, True, False, False)
-    """
+    """Whether a name given as an input stands for several: a folder, or a pattern that no file has for a name."""
     return name not in ("", STANDARD_INPUT) and (_is_pattern(name) or _is_folder(Path(name)))
 
 
@@ -83,36 +61,7 @@ def expand_inputs(
     follow: bool = False,
     note: Callable[[str], None] | None = None,
 ) -> list[Input]:
-    """Find the inputs that names stand for, in the order of the names, those of one name sorted.
-
-    Parameters
-    ----------
-    names : iterable of str
-        Files; folders, which are searched for files with the extensions, hidden ones and records of batches left out;
-        patterns with ``*``, ``?`` or ``[``, of which ``**`` matches any folders. Links to files are followed, and so
-        are links that are named; links to folders that are found are not, unless `follow` says so.
-    extensions : collection of str
-        Without their dots, in lower case.
-    without : path, optional
-        A folder that is not searched: that of the outputs.
-    follow : bool
-        Follow links to folders, each folder once.
-    note : callable, optional
-        Called with a line for each kind of what was left out: pipes, sockets and devices, links to folders, and files
-        in folders that are not in a format that is read.
-
-    Raises
-    ------
-    InputError
-        If there is nothing in a folder or for a pattern, or a folder cannot be read.
-    UsageError
-        If one is standard input, or anything else that is read once: inputs are read by other processes.
-
-    Examples
-    --------
-    >>> [each.name for each in expand_inputs(["data/*-seeds.csv", "data/dots.csv"], extensions=["csv"])]
-    ['six-seeds.csv', 'dots.csv']
-    """
+    """Find the inputs that names stand for, in the order of the names, those of one name sorted."""
     found: list[Input] = []
     excluded = None if without is None else os.path.realpath(without)
     search = Search(LeftOut(), follow, excluded)
@@ -141,20 +90,7 @@ def _check_file(name: str) -> None:
 
 
 def read_names(path: str, *, null: bool = False) -> list[str]:
-    """Read a list of names, one a line, or each ended by a NUL byte; empty ones are left out.
-
-    Parameters
-    ----------
-    path : str
-        Of the list; ``-`` is standard input.
-    null : bool
-        Names are ended by NUL bytes, so that they may hold ends of lines.
-
-    Raises
-    ------
-    InputError
-        If the list cannot be read.
-    """
+    """Read a list of names, one a line, or each ended by a NUL byte; empty ones are left out."""
     from vorotool.formats.io.sources import read_bytes
 
     try:

@@ -28,59 +28,28 @@ RECORD_ENDING = ".manifest.jsonl"
 
 
 def digest_of_values(values: Any) -> str:
-    """SHA-256 of what JSON can say; other values count by their text.
-
-    Examples
-    --------
-    >>> digest_of_values({"what": ["table"], "r": None})[:8]
-    'd830804b'
-    """
+    """SHA-256 of what JSON can say; other values count by their text."""
     return hashlib.sha256(json.dumps(values, sort_keys=True, default=str).encode()).hexdigest()
 
 
 @dataclass(frozen=True)
 class Done:
-    """A manifest's line of an input that was done: all of it is text that anybody may have written.
+    """A manifest's line of an input that was done: all of it is text that anybody may have written."""
 
-    Parameters
-    ----------
-    options, digest : str
-        Digests of the options and of the input.
-    outputs : dict of str to str
-        Digests of the outputs by their paths in the folder.
-    """
-
-    options: str
-    digest: str
-    outputs: dict[str, str]
+    options: str  # digests of the options and of the input
+    digest: str  # digests of the options and of the input
+    outputs: dict[str, str]  # digests of the outputs by their paths in the folder
 
 
 @dataclass(frozen=True)
 class History:
-    """Contents of manifests.
+    """Contents of manifests."""
 
-    Parameters
-    ----------
-    done : dict of str to Done
-        The last line of each input, if it says that it was done.
-    """
-
-    done: dict[str, Done] = field(default_factory=dict)
+    done: dict[str, Done] = field(default_factory=dict)  # the last line of each input, if it says that it was done
 
 
 def read_history(paths: Iterable[str | os.PathLike[str]]) -> History:
-    """Read manifests; a line that is torn or damaged says nothing, so that its input is done again.
-
-    Parameters
-    ----------
-    paths : iterable of paths
-        Those that do not exist are left out.
-
-    Raises
-    ------
-    OutputError
-        If one cannot be read.
-    """
+    """Read manifests; a line that is torn or damaged says nothing, so that its input is done again."""
     history = History()
     for path in map(Path, paths):
         try:
@@ -136,22 +105,7 @@ def _leaves(path: str) -> bool:
 
 
 class Manifest:
-    """The record of a batch while it runs: a line is handed to the system as soon as an input is done or failed.
-
-    Parameters
-    ----------
-    path : path
-        The file, which only grows.
-    options : str
-        Digest of the options that decide on the outputs.
-    folder : path
-        That of the outputs, to which their paths in the file are relative.
-
-    Raises
-    ------
-    OutputError
-        If it cannot be written.
-    """
+    """The record of a batch while it runs: a line is handed to the system as soon as an input is done or failed."""
 
     def __init__(self, path: str | os.PathLike[str], options: str, folder: str | os.PathLike[str]) -> None:
         self.path, self.options, self.folder = Path(path), options, Path(folder)

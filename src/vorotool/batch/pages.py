@@ -4,26 +4,10 @@ from __future__ import annotations
 
 
 class PageName(str):
-    """One page of a stack as an input: its words are those of messages and tables.
-
-    Parameters
-    ----------
-    text : str
-        The words.
-    path : str
-        The file.
-    page : int
-        Which page, from 0.
-
-    Examples
-    --------
-    >>> page = PageName.of("stack.tif", 3)
-    >>> page, page.path, page.page
-    ('stack.tif, page 3', 'stack.tif', 3)
-    """
+    """One page of a stack as an input: its words are those of messages and tables."""
 
     path: str
-    page: int
+    page: int  # which page, from 0
 
     def __new__(cls, text: str = "", path: str = "", page: int = 0) -> PageName:
         """Make the name."""
@@ -38,11 +22,5 @@ class PageName(str):
 
 
 def path_of(source: str) -> str:
-    """Give the file that an input is in.
-
-    Examples
-    --------
-    >>> path_of(PageName.of("stack.tif", 3)), path_of("a.tif")
-    ('stack.tif', 'a.tif')
-    """
+    """Give the file that an input is in."""
     return source.path if isinstance(source, PageName) else source

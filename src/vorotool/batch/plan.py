@@ -20,23 +20,7 @@ _NOWHERE = (-1, -1)
 
 
 def output_paths(name: str, endings: Sequence[str], folder: str | os.PathLike[str]) -> tuple[str, ...]:
-    """Paths of the outputs of an input.
-
-    Parameters
-    ----------
-    name : str
-        Path of the input below the folder that was given; its extension gives way to the endings. It is simplified,
-        so that two outputs are one file only where their paths are the same text.
-    endings : sequence of str
-        Such as ``.csv`` or ``.labels.png``, one an output.
-    folder : path
-        Of the outputs.
-
-    Examples
-    --------
-    >>> output_paths("day-1/a.json", [".table.csv", ".skeleton.svg"], "out")
-    ('out/day-1/a.table.csv', 'out/day-1/a.skeleton.svg')
-    """
+    """Paths of the outputs of an input."""
     stem = Path(folder) / PurePath(without_gz(os.path.normpath(name))).with_suffix("")
     return tuple(f"{stem}{ending}" for ending in endings)
 
@@ -48,34 +32,7 @@ def check_outputs(
     others: Mapping[str, str | None] | None = None,
     read: Mapping[str, str] | None = None,
 ) -> None:
-    """Refuse outputs that would replace an input or one another, or lie outside their folder.
-
-    Parameters
-    ----------
-    tasks : sequence of Task
-        The whole plan, with outputs as `output_paths` gives them.
-    folder : path
-        That outputs must not leave, whatever links are in it.
-    others : mapping of str to str or None
-        Further files that are written, by the option that names them.
-    read : mapping of str to str
-        Further files that are read, likewise.
-
-    Raises
-    ------
-    UsageError
-        If outputs are those of two inputs, or an input, or one of the further files.
-    OutputError
-        If one leaves the folder.
-
-    Examples
-    --------
-    >>> check_outputs([Task("a.csv", ("out/a.png",)), Task("a.json", ("out/a.png",))], "out")
-    Traceback (most recent call last):
-        ...
-    vorotool.errors.UsageError: a.csv and a.json would both be written to out/a.png: rename one, or name the folder \
-above both, whose folders are mirrored
-    """
+    """Refuse outputs that would replace an input or one another, or lie outside their folder."""
     written = {option: path for option, path in (others or {}).items() if path is not None and not _is_open(path)}
     _check_collisions(tasks, folder, written)
     _check_inputs(tasks, written, read or {})
@@ -144,17 +101,7 @@ def _identity(path: str) -> tuple[int, int]:
 
 
 def check_inside(paths: Iterable[str | os.PathLike[str]], folder: str | os.PathLike[str]) -> None:
-    """Refuse files that would be written outside a folder, through links in it.
-
-    Raises
-    ------
-    OutputError
-        If one leaves the folder.
-
-    Examples
-    --------
-    >>> check_inside(["out/a.png", "out/sub/b.png"], "out")
-    """
+    """Refuse files that would be written outside a folder, through links in it."""
     inside, known = Path(os.path.realpath(folder)), set[Path]()
     for path in map(Path, paths):
         place = path if path.is_symlink() else path.parent
@@ -164,14 +111,7 @@ def check_inside(paths: Iterable[str | os.PathLike[str]], folder: str | os.PathL
 
 
 def share(inputs: Iterable[Input], part: int, parts: int) -> list[Input]:
-    """Return one part of the inputs: every `parts`-th in the order of their names, beginning with number `part`.
-
-    Examples
-    --------
-    >>> inputs = [Input(f"masks/{name}.png", f"{name}.png") for name in "abcdefgh"]
-    >>> [[each.name[0] for each in share(inputs, part, 3)] for part in (1, 2, 3)]
-    [['a', 'd', 'g'], ['b', 'e', 'h'], ['c', 'f']]
-    """
+    """Return one part of the inputs: every `parts`-th in the order of their names, beginning with number `part`."""
     inputs = list(inputs)
     ranked = sorted(range(len(inputs)), key=lambda i: (PurePath(inputs[i].name).as_posix(), inputs[i].source))
     return [inputs[i] for i in sorted(ranked[part - 1 :: parts])]

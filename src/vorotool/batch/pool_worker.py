@@ -15,13 +15,7 @@ from vorotool.signals import insist_on_the_end
 
 
 def main(descriptor: int) -> None:
-    """Do tasks and send back what became of them.
-
-    Parameters
-    ----------
-    descriptor : int
-        Of the socket: the parent sends the function that does the work, then tasks.
-    """
+    """Do tasks and send back what became of them."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent decides
     signal.signal(signal.SIGTERM, _end)
     insist_on_the_end()

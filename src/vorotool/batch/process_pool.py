@@ -33,15 +33,7 @@ often, and an interrupt is over within 0.2 s."""
 
 
 class Worker:
-    """A process that does one task at a time.
-
-    It is a group of its own, so that a terminal interrupts the parent only, and it ends when the parent does.
-
-    Parameters
-    ----------
-    process : callable
-        What is done with an input.
-    """
+    """A process that does one task at a time."""
 
     def __init__(self, process: Process) -> None:
         ours, theirs = socket.socketpair()
@@ -106,22 +98,7 @@ class Worker:
 def local_results(
     process: Process, tasks: Iterator[tuple[int, Task]], *, jobs: int
 ) -> Generator[tuple[int, Outcome], None, None]:
-    """Do tasks in processes of this machine.
-
-    Parameters
-    ----------
-    process : callable
-        What is done with an input.
-    tasks : iterator of (int, Task)
-        Numbered; one is taken when a worker is free, and after a failure has been told.
-    jobs : int
-        Worker processes.
-
-    Yields
-    ------
-    (int, Outcome)
-        In the order in which they are done. A task whose worker dies is a failed one; another worker takes its place.
-    """
+    """Do tasks in processes of this machine."""
     if hasattr(select, "poll"):  # by which a worker sees that its parent has gone
         return _socket_results(process, tasks, jobs)
     from vorotool.batch.executor_pool import executor_results

@@ -21,31 +21,7 @@ Told = Callable[[Task, Outcome], None]
 def run_tasks(
     tasks: Sequence[Task], results: Results, *, keep_going: bool = False, told: Told | None = None
 ) -> list[Outcome | None]:
-    """Do tasks.
-
-    Parameters
-    ----------
-    tasks : sequence of Task
-        In any order.
-    results : callable
-        Does them: here, or on a cluster.
-    keep_going : bool
-        Go on when one failed; otherwise those that are being done are finished, and no more are started.
-    told : callable, optional
-        Called with each task and its outcome as soon as it is known.
-
-    Returns
-    -------
-    list of Outcome or None
-        One a task, in their order; None for those that were not started.
-
-    Examples
-    --------
-    >>> def results(tasks):
-    ...     yield from ((number, Outcome(code=3 * (task.source == "b"))) for number, task in tasks)
-    >>> [outcome and outcome.code for outcome in run_tasks([Task(name, ()) for name in "abc"], results)]
-    [0, 3, None]
-    """
+    """Do tasks."""
     outcomes: list[Outcome | None] = [None] * len(tasks)
     failed = False
 
@@ -73,20 +49,7 @@ def run_batch(
     keep_going: bool = False,
     told: Told | None = None,
 ) -> list[Outcome | None]:
-    """Do tasks, and record what becomes of them.
-
-    What dead runs have begun in the folders of the outputs is removed first, and at the end what was begun by the
-    workers of this one that were lost.
-
-    Parameters
-    ----------
-    command : str
-        Its name, for the record.
-    tasks, results, keep_going, told
-        As of `run_tasks`.
-    manifest : Manifest, optional
-        The record, which is opened here.
-    """
+    """Do tasks, and record what becomes of them."""
     run = secrets.token_hex(4)
     tasks = [replace(task, tag=f"{run}-{number}-") for number, task in enumerate(tasks)]
     if manifest is None:

@@ -20,30 +20,14 @@ MOST_NAMED = 10
 
 @dataclass
 class LeftOut:
-    """Names that a search found and left out.
+    """Names that a search found and left out."""
 
-    Parameters
-    ----------
-    streams : list of str
-        Pipes, sockets and devices, each with its kind.
-    links : list of str
-        Links to folders that were not followed.
-    unknown : list of str
-        Files in folders that are not in a format that is read.
-    """
-
-    streams: list[str] = field(default_factory=list)
-    links: list[str] = field(default_factory=list)
-    unknown: list[str] = field(default_factory=list)
+    streams: list[str] = field(default_factory=list)  # pipes, sockets and devices, each with its kind
+    links: list[str] = field(default_factory=list)  # links to folders that were not followed
+    unknown: list[str] = field(default_factory=list)  # files in folders that are not in a format that is read
 
     def notes(self) -> list[str]:
-        """Return a line for each kind, with a count and the first names.
-
-        Examples
-        --------
-        >>> LeftOut(links=["a/back"]).notes()
-        ['1 link to a folder not followed (use --follow): a/back']
-        """
+        """Return a line for each kind, with a count and the first names."""
         said = [f"{stream}: left out" for stream in self.streams]
         links = set(self.links)
         if count := len(links):
@@ -77,28 +61,14 @@ def _listed(names: Collection[str]) -> str:
 
 @dataclass(frozen=True)
 class Search:
-    """A search of folders.
+    """A search of folders."""
 
-    Parameters
-    ----------
-    left_out : LeftOut
-        Takes links that are not followed.
-    follow : bool
-        Follow links to folders.
-    excluded : str, optional
-        The real path of a folder that is not searched.
-    """
-
-    left_out: LeftOut
-    follow: bool = False
-    excluded: str | None = None
+    left_out: LeftOut  # takes links that are not followed
+    follow: bool = False  # follow links to folders
+    excluded: str | None = None  # the real path of a folder that is not searched
 
     def folders(self, root: Path) -> Iterator[tuple[Path, list[str]]]:
-        """Yield a folder and those below it, each with the names of its files and Zarr stores.
-
-        Hidden folders are left out. Each folder comes once, by its own path rather than by a link, whatever links
-        lead to it.
-        """
+        """Yield a folder and those below it, each with the names of its files and Zarr stores."""
 
         def fail(error: OSError) -> None:
             raise InputError(f"the folder {error.filename} cannot be read: {error.strerror}; check who owns it")
@@ -123,10 +93,7 @@ class Search:
                 yield place, [*files, *(path.name for path in stores)]
 
     def matches(self, pattern: str) -> Iterator[Path]:
-        """Yield the paths that match a pattern of ``*``, ``?``, ``[...]`` and ``**``, which stands for any folders.
-
-        What links to folders lead to twice comes once.
-        """
+        """Yield the paths that match a pattern of ``*``, ``?``, ``[...]`` and ``**``, which stands for any folders."""
         seen: set[tuple[str, str]] = set()
         for path in self._below(Path(), Path(pattern).parts):
             identity = os.path.realpath(path.parent), path.name

@@ -19,49 +19,14 @@ TABLE_FORMATS = ("csv", "tsv", "json")
 
 
 def part_path(folder: str | os.PathLike[str], source: str, fmt: str) -> str:
-    """Where the table of an input is kept until all are there.
-
-    Examples
-    --------
-    >>> part_path("parts", "masks/a.png", "csv")
-    'parts/a25a19930b8515062e0e5216a1a5cbe8.csv'
-    """
+    """Where the table of an input is kept until all are there."""
     return str(Path(folder) / f"{hashlib.sha256(os.fsencode(source)).hexdigest()[:32]}.{fmt}")
 
 
 def join_tables(
     out: BinaryIO, parts: Sequence[tuple[str, str]], fmt: str, *, is_safe: bool = False, has_unit: bool = False
 ) -> None:
-    r"""Write the rows of several tables as one, after a first column that names their input.
-
-    Parameters
-    ----------
-    out : binary file object
-        Need not be seekable.
-    parts : sequence of (str, str)
-        Name of each input and path of its table, in the order of the rows. Columns that a table does not have are
-        empty; all come in the order in which they are first met. One part is in memory at a time.
-    fmt : {"csv", "tsv", "json"}
-        Of the tables, and of what is written.
-    is_safe : bool
-        Names of inputs in CSV and TSV that look like formulas get an apostrophe, as the texts in the tables have it
-        already.
-    has_unit : bool
-        Tables have a column of their unit, which must be one.
-
-    Raises
-    ------
-    InputError
-        If tables are in different units; two of them are named.
-
-    Examples
-    --------
-    >>> import io
-    >>> out = io.BytesIO()
-    >>> join_tables(out, [("dots", "data/six-seeds.csv"), ("again", "data/six-seeds.csv")], "csv")
-    >>> out.getvalue()[:26]
-    b'input,x,y\ndots,4,2\ndots,12'
-    """
+    """Write the rows of several tables as one, after a first column that names their input."""
     if has_unit:
         _check_units(parts, fmt)
     if fmt == "json":

@@ -19,62 +19,29 @@ INPUT = ""
 
 @dataclass(frozen=True)
 class Task:
-    """The work for one input.
+    """The work for one input."""
 
-    Parameters
-    ----------
-    source : str
-        Path of the input.
-    outputs : tuple of str
-        Paths of its outputs.
-    tag : str
-        In the names of temporary files, so that those of a killed process can be told.
-    done : mapping of str to str, optional
-        Digests of the input (at `INPUT`) and of outputs when it was done before, with the same options.
-    """
-
-    source: str
-    outputs: tuple[str, ...]
-    tag: str = ""
+    source: str  # path of the input
+    outputs: tuple[str, ...]  # paths of its outputs
+    tag: str = ""  # in the names of temporary files, so that those of a killed process can be told
+    # digests of the input (at `INPUT`) and of outputs when it was done before, with the same options
     done: Mapping[str, str] | None = None
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """The outcome of one input.
+    """The outcome of one input."""
 
-    Parameters
-    ----------
-    code : int
-        The exit code that it would have alone; 0 is done.
-    message : str
-        What went wrong.
-    warnings, notes : tuple of str
-        What was said.
-    stats : dict
-        Counts and sizes.
-    seconds : dict of str to float
-        Seconds a phase.
-    digest : str
-        SHA-256 of the input.
-    outputs : dict of str to str
-        SHA-256 of the outputs, by their paths.
-    kept : bool
-        Nothing was done, as all was there.
-    version : str
-        Of the package that did it.
-    """
-
-    code: int = 0
-    message: str = ""
+    code: int = 0  # the exit code that it would have alone; 0 is done
+    message: str = ""  # what went wrong
     warnings: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
-    stats: Mapping[str, Any] = field(default_factory=dict)
-    seconds: Mapping[str, float] = field(default_factory=dict)
-    digest: str = ""
-    outputs: Mapping[str, str] = field(default_factory=dict)
-    kept: bool = False
-    version: str = __version__
+    stats: Mapping[str, Any] = field(default_factory=dict)  # counts and sizes
+    seconds: Mapping[str, float] = field(default_factory=dict)  # seconds a phase
+    digest: str = ""  # SHA-256 of the input
+    outputs: Mapping[str, str] = field(default_factory=dict)  # SHA-256 of the outputs, by their paths
+    kept: bool = False  # nothing was done, as all was there
+    version: str = __version__  # of the package that did it
 
 
 Process = Callable[[str, Sequence[str]], Outcome]
@@ -83,15 +50,7 @@ wrong it raises only what ends the whole program. It can be pickled."""
 
 
 def carry_out(process: Process, task: Task) -> Outcome:
-    """Do what is to be done with one input, unless it is done already, and take the digests of what is there then.
-
-    Parameters
-    ----------
-    process : callable
-        Reads the input and writes the outputs.
-    task : Task
-        The input.
-    """
+    """Do what is to be done with one input, unless it is done already, and take the digests of what is there then."""
     digest = digest_of(path_of(task.source))
     if task.done is not None and is_done(task, digest):
         return Outcome(digest=digest, outputs={path: task.done[path] for path in task.outputs}, kept=True)
@@ -102,13 +61,7 @@ def carry_out(process: Process, task: Task) -> Outcome:
 
 
 def is_done(task: Task, digest: str) -> bool:
-    """Whether an input with this digest was done before, and its outputs are still what they were then.
-
-    Examples
-    --------
-    >>> is_done(Task("a.csv", ("a.png",)), "e391362d")
-    False
-    """
+    """Whether an input with this digest was done before, and its outputs are still what they were then."""
     done = task.done
     if not digest or done is None or done[INPUT] != digest or not all(path in done for path in task.outputs):
         return False
@@ -116,15 +69,7 @@ def is_done(task: Task, digest: str) -> bool:
 
 
 def digest_of(path: str) -> str:
-    """SHA-256 of a file, or of the names and digests of those in a folder, as text; empty where nothing can be read.
-
-    Of what is neither a file nor a folder there is none: it could be read only once.
-
-    Examples
-    --------
-    >>> digest_of("data/six-seeds.csv")[:8], digest_of("data/no-such-file")
-    ('e391362d', '')
-    """
+    """SHA-256 of a file, or of the names and digests of those in a folder, as text; empty where nothing can be read."""
     try:
         if Path(path).is_dir():
             return _digest_of_folder(Path(path))

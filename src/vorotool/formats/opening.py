@@ -36,19 +36,7 @@ def opened(
     page: int | None,
     layer: str | None = None,
 ) -> Iterator[Opened]:
-    """Open an input: errors that arise while it is open carry its name.
-
-    Parameters
-    ----------
-    path, geometry, input_format, page, layer
-        As of `vorotool.read`; the geometry may be ``sites``, too, which are points, lines and polygons.
-
-    Examples
-    --------
-    >>> with opened("data/dots.csv", geometry="points", input_format=None, page=None) as source:
-    ...     print(len(source.read()), source.rows())
-    53 None
-    """
+    """Open an input: errors that arise while it is open carry its name."""
     said = known_input_format(input_format, NAMES_WITH[geometry])
     if not isinstance(path, str | PathLike):
         raise InputError(f"{path!r} is no path: give the name of a file; arrays need not be read")
@@ -59,27 +47,19 @@ def opened(
 
 @dataclass(frozen=True)
 class Opened:
-    """An input that is read once, whole or by its rows.
+    """An input that is read once, whole or by its rows."""
 
-    Parameters
-    ----------
-    name : str
-        The path as the user wrote it; ``-`` is standard input.
-    geometry, said, page, layer
-        What must be in it, its format, its page and its layer, as far as the caller says; as of `read`.
-    array : ZarrRows, optional
-        The rows of a Zarr array, which is no file.
-    content : Source, optional
-        What is in it, if it has been read; streams are read once.
-    """
-
-    name: str
+    name: str  # the path as the user wrote it; `-` is standard input
+    # what must be in it, its format, its page and its layer, as far as the caller says; as of `read`
     geometry: str | None
+    # what must be in it, its format, its page and its layer, as far as the caller says; as of `read`
     said: str | None
+    # what must be in it, its format, its page and its layer, as far as the caller says; as of `read`
     page: int | None
+    # what must be in it, its format, its page and its layer, as far as the caller says; as of `read`
     layer: str | None
-    array: ZarrRows | None
-    content: Source | None = None
+    array: ZarrRows | None  # the rows of a Zarr array, which is no file
+    content: Source | None = None  # what is in it, if it has been read; streams are read once
 
     def rows(self) -> ZarrRows | TiffRows | None:
         """Give an image that can be read band by band; None if it is none, or comes through a stream."""
@@ -101,10 +81,7 @@ class Opened:
         told: Callable[[str], None] = no_note,
         **options: Any,
     ) -> PointSet | PolygonSet | Sites | Raster | Skeleton | Offsets | VoronoiMap:
-        """Read all, with the options of `vorotool.read` that are not about opening it.
-
-        ``told`` is called with the format, before what is in it is read.
-        """
+        """Read all, with the options of `vorotool.read` that are not about opening it."""
         given = ReadOptions(
             page=self.page,
             threads=checked_threads(threads),

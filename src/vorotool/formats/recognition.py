@@ -37,36 +37,7 @@ _RESULTS: dict[bytes, Holds] = {
 def recognised(
     source: Source, geometry: str | None = None, said: str | None = None, columns: str | None = None
 ) -> tuple[Holds, Source]:
-    """Tell what a source holds, and give it with its format; what was parsed to tell comes with it.
-
-    Where geometry is not said, a plain JSON list of pairs is taken for points, and so is what cannot be told.
-
-    Parameters
-    ----------
-    source : Source
-        What was read.
-    geometry : {"points", "polygons", "sites"}, optional
-        What must be in it, if it is no image; sites are points, lines and polygons alike.
-    said : str, optional
-        The format, as the caller says.
-    columns : str, optional
-        Those of a list of points, which NPY files may hold as well as images.
-
-    Raises
-    ------
-    InputError
-        If it is in a format that is not read, or cannot be what it is said to be; the message says what to do.
-    UsageError
-        If columns are chosen in what has none.
-
-    Examples
-    --------
-    >>> recognised(Source("a.csv", b"1,2"))[0], recognised(Source("standard input", b"LINESTRING (1 2, 3 4)"))[0]
-    ('points', 'polygons')
-    >>> holds, source = recognised(Source("-", b"P5 1 1 255 x"))
-    >>> holds, source.format
-    ('image', 'pnm')
-    """
+    """Tell what a source holds, and give it with its format; what was parsed to tell comes with it."""
     result = _result(source.data) if geometry is None and said in (None, "json", "geojson") else None
     may_be_points = columns is not None and source.data.startswith(MAGIC)
     image = None if may_be_points or result else image_format(source, said)
@@ -80,18 +51,7 @@ def recognised(
 
 
 def read_recognised(holds: Holds, source: Source, options: ReadOptions) -> Any:
-    r"""Read what a source was recognised as: points, polygons, an image, a skeleton or offset curves.
-
-    Raises
-    ------
-    InputError, LimitError, UsageError
-        As `vorotool.read`.
-
-    Examples
-    --------
-    >>> read_recognised(*recognised(Source("seeds.csv", b"x,y,label\n2,1,7\n5.5,3,9\n")), ReadOptions()).labels
-    array([7, 9])
-    """
+    """Read what a source was recognised as: points, polygons, an image, a skeleton or offset curves."""
     if holds == "image":
         refuse_for_images(options, source.layer)
     readers = INPUTS[source.format].readers
@@ -118,13 +78,7 @@ def refuse_for_images(options: ReadOptions, layer: str | None) -> None:
 
 
 def image_source(source: Source, said: str | None = None) -> Source:
-    """Give a source, which must be an image, with its format; an NPY file of two columns is one, too.
-
-    Raises
-    ------
-    InputError
-        If it is none.
-    """
+    """Give a source, which must be an image, with its format; an NPY file of two columns is one, too."""
     said = "npy" if said is None and source.data.startswith(MAGIC) else said
     found = said if said == "npy" and source.data.startswith(MAGIC) else image_format(source, said)
     if found is None:
@@ -136,20 +90,7 @@ def image_source(source: Source, said: str | None = None) -> Source:
 
 
 def image_format(source: Source, said: str | None = None) -> str | None:
-    """Give the format of an image: what is said, else the extension, else the content; None if it is no image.
-
-    An NPY file of shape (n, 2) is a list of points, and no image.
-
-    Raises
-    ------
-    InputError
-        If what is said or the extension is an image, and the content plainly another.
-
-    Examples
-    --------
-    >>> image_format(Source("-", b"GIF89a")), image_format(Source("a.csv", b"1,2"))
-    ('gif', None)
-    """
+    """Give the format of an image: what is said, else the extension, else the content; None if it is no image."""
     if said is not None and "image" not in INPUTS[said].readers:
         return None
     found, by_name = _image_by_content(source.data), _IMAGE_SUFFIXES.get(source.suffix)

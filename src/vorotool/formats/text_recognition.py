@@ -47,23 +47,7 @@ _MARKUP = re.compile(rb"<(kml|gpx)[\s>]")
 def recognised_geometry(
     source: Source, geometry: str | None, said: str | None, columns: str | None
 ) -> tuple[Holds, Source]:
-    """Tell what a source holds that is no image, and give it with its format.
-
-    Parameters
-    ----------
-    source, geometry, said, columns
-        As of `vorotool.formats.recognition.recognised`.
-
-    Raises
-    ------
-    InputError, UsageError
-        As there.
-
-    Examples
-    --------
-    >>> recognised_geometry(Source("a.json", b"[[1, 2]]"), None, None, None)[0]
-    'points'
-    """
+    """Tell what a source holds that is no image, and give it with its format."""
     if geometry == "points" or (geometry in (None, "sites") and columns is not None):
         return "points", _points(source, _by_header(source, said or point_format(source), columns), columns)
     if geometry == "sites":
@@ -79,18 +63,7 @@ def recognised_geometry(
 
 
 def point_format(source: Source) -> str:
-    """Tell the format of points, if it is one, by the extension, else by the content.
-
-    Raises
-    ------
-    InputError
-        If it is a format that has to be converted first; the message gives the command.
-
-    Examples
-    --------
-    >>> point_format(Source("standard input", b"POINT (1 2)"))
-    'wkt'
-    """
+    """Tell the format of points, if it is one, by the extension, else by the content."""
     if source.suffix == ".zip" and holds_shapefile(source.data):
         return "shp"
     refuse_drawing(source)
@@ -121,29 +94,12 @@ def _by_content(data: bytes) -> str:
 
 
 def has_no_rows(source: Source) -> bool:
-    r"""Return whether a text of rows (CSV, WKT, or without an extension) has none, not even a header.
-
-    Examples
-    --------
-    >>> has_no_rows(Source("a.csv", b"\n")), has_no_rows(Source("a.json", b""))
-    (True, False)
-    """
+    """Return whether a text of rows (CSV, WKT, or without an extension) has none, not even a header."""
     return source.suffix in _OF_ROWS and not source.data.strip()
 
 
 def polygon_format(source: Source) -> str:
-    """Tell the format of polygons by the extension, else by the content.
-
-    Raises
-    ------
-    InputError
-        If it is a format that holds none, or has to be converted first; the message gives the command.
-
-    Examples
-    --------
-    >>> polygon_format(Source("standard input", b"LINESTRING (1 2, 3 4)"))
-    'wkt'
-    """
+    """Tell the format of polygons by the extension, else by the content."""
     if source.suffix in (".poly", ".json"):
         return source.suffix.removeprefix(".")
     drawn = drawing_format(source)

@@ -16,23 +16,7 @@ LARGEST = float(np.finfo(np.float64).max)
 
 
 def bounds(points: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
-    """Smallest and largest coordinates of points.
-
-    Parameters
-    ----------
-    points : (n, 2) array
-        At least one.
-
-    Returns
-    -------
-    tuple of (2,) arrays
-        Of the same type.
-
-    Examples
-    --------
-    >>> bounds(np.array([[1, 5], [3, 2]]))
-    (array([1, 2]), array([3, 5]))
-    """
+    """Smallest and largest coordinates of points."""
     columns = points.T  # NumPy goes down a column much faster than over many short rows
     return np.array([column.min() for column in columns]), np.array([column.max() for column in columns])
 

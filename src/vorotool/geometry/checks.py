@@ -18,18 +18,7 @@ MOST_THREADS = 1024
 
 
 def checked_threads(threads: int) -> int:
-    """Return a number of threads that the core takes; 0 stands for all.
-
-    Raises
-    ------
-    UsageError
-        If it is no integer, or negative.
-
-    Examples
-    --------
-    >>> checked_threads(5000)
-    1024
-    """
+    """Return a number of threads that the core takes; 0 stands for all."""
     try:
         count = index(threads)
     except TypeError:
@@ -40,18 +29,7 @@ def checked_threads(threads: int) -> int:
 
 
 def checked_flag(value: Any, name: str) -> bool:
-    """Return an argument that is true or false; an array, which has no single answer, is neither.
-
-    Raises
-    ------
-    UsageError
-        If it is neither.
-
-    Examples
-    --------
-    >>> checked_flag(np.True_, "local"), checked_flag(0, "local")
-    (True, False)
-    """
+    """Return an argument that is true or false; an array, which has no single answer, is neither."""
     try:
         return bool(value)
     except (TypeError, ValueError):
@@ -59,19 +37,7 @@ def checked_flag(value: Any, name: str) -> bool:
 
 
 def as_array(values: Any, name: str) -> NDArray[Any]:
-    """Return an array of what a caller holds.
-
-    Raises
-    ------
-    InputError
-        If NumPy makes none of it, as of rows of several lengths.
-
-    Examples
-    --------
-    >>> as_array([[1, 2], [3]], "distance2")
-    Traceback (most recent call last):
-    vorotool.errors.InputError: invalid distance2 […, …]: expected an array
-    """
+    """Return an array of what a caller holds."""
     try:
         return np.asarray(values)
     except (TypeError, ValueError):
@@ -86,32 +52,12 @@ def available_threads() -> int:
 
 
 def is_choice(value: object, choices: Iterable[object]) -> bool:
-    """Tell whether an argument is one of a few names or numbers; an array, which has no single answer, is not.
-
-    Examples
-    --------
-    >>> is_choice("both", ("inner", "both")), is_choice(np.array([4, 8]), (4, 8))
-    (True, False)
-    """
+    """Tell whether an argument is one of a few names or numbers; an array, which has no single answer, is not."""
     return isinstance(value, str | int | float | np.bool_ | np.number | None) and value in tuple(choices)
 
 
 def set_rows(value: object, name: str, dtype: DTypeLike, width: int = 0) -> None:
-    """Give an array of a frozen value its type, and rows of a width: (n, width), or (n,) for 0.
-
-    Raises
-    ------
-    InputError
-        If it has another shape.
-
-    Examples
-    --------
-    >>> from types import SimpleNamespace
-    >>> value = SimpleNamespace(edges=[])
-    >>> set_rows(value, "edges", np.int32, 2)
-    >>> value.edges.shape
-    (0, 2)
-    """
+    """Give an array of a frozen value its type, and rows of a width: (n, width), or (n,) for 0."""
     array = np.ascontiguousarray(getattr(value, name), dtype=dtype)
     if array.size == 0:
         array = array.reshape((0, width) if width else (0,))
@@ -121,20 +67,7 @@ def set_rows(value: object, name: str, dtype: DTypeLike, width: int = 0) -> None
 
 
 def set_array(value: object, name: str, dtype: DTypeLike, shape: tuple[int, ...]) -> None:
-    """Give an array of a frozen value its type; its shape is known.
-
-    Raises
-    ------
-    InputError
-        If it has another shape.
-
-    Examples
-    --------
-    >>> from types import SimpleNamespace
-    >>> set_array(SimpleNamespace(radius=[1, 2]), "radius", np.float64, (3,))
-    Traceback (most recent call last):
-    vorotool.errors.InputError: radius must have shape (3,), but has (2,)
-    """
+    """Give an array of a frozen value its type; its shape is known."""
     array = np.ascontiguousarray(getattr(value, name), dtype=dtype)
     if array.size == 0 and shape[0] == 0:
         array = array.reshape(shape)
@@ -144,54 +77,14 @@ def set_array(value: object, name: str, dtype: DTypeLike, shape: tuple[int, ...]
 
 
 def check_as_long(value: object, name: str, like: str) -> None:
-    """Refuse two arrays of a value that differ in length.
-
-    Raises
-    ------
-    InputError
-        With both lengths.
-
-    Examples
-    --------
-    >>> from types import SimpleNamespace
-    >>> check_as_long(SimpleNamespace(first=[0], points=[[0, 0], [1, 0]]), "first", "points")
-    Traceback (most recent call last):
-    vorotool.errors.InputError: first must be as long as points, but they have 1 and 2 rows
-    """
+    """Refuse two arrays of a value that differ in length."""
     own, other = len(getattr(value, name)), len(getattr(value, like))
     if own != other:
         raise InputError(f"{name} must be as long as {like}, but they have {own} and {other} rows")
 
 
 def whole_numbers(values: Any, name: str, dtype: DTypeLike, least: int | None = None) -> NDArray[Any]:
-    """Return integers in a type that holds them; nothing is rounded or wrapped.
-
-    Parameters
-    ----------
-    values : array-like
-        Integers, or floating-point numbers that are whole.
-    name : str
-        What the message calls a value.
-    dtype : dtype
-        The integer type wanted.
-    least : int, optional
-        The smallest value allowed; by default that of the type.
-
-    Returns
-    -------
-    C-contiguous array
-        Without a copy where possible.
-
-    Raises
-    ------
-    InputError
-        If a value is no integer, or out of range; it is named with its index from 1.
-
-    Examples
-    --------
-    >>> whole_numbers([1.0, 3.0], "label", np.uint32)
-    array([1, 3], dtype=uint32)
-    """
+    """Return integers in a type that holds them; nothing is rounded or wrapped."""
     kind = np.dtype(dtype)
     limits = np.iinfo(kind)
     low = limits.min if least is None else least

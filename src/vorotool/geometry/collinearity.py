@@ -11,19 +11,7 @@ Floats = NDArray[np.float64]
 
 
 def is_straight(a: Floats, b: Floats, c: Floats) -> NDArray[np.bool_]:
-    """Tell where b is certainly between a and c: the products compared are exact, where differences are.
-
-    Parameters
-    ----------
-    a, b, c : (k, 2) float64 array
-        Places.
-
-    Examples
-    --------
-    >>> a, b, c = np.array([[[0, 2], [0, 0]], [[2, 2], [1, 1]], [[8, 2], [3, 2]]], dtype=float)
-    >>> is_straight(a, b, c).tolist()
-    [True, False]
-    """
+    """Tell where b is certainly between a and c: the products compared are exact, where differences are."""
     (ux, uy), (ux_lost, uy_lost) = (part.T for part in difference(b, a))
     (vx, vy), (vx_lost, vy_lost) = (part.T for part in difference(c, b))
     one, lost = product(ux, vy)

@@ -45,25 +45,7 @@ def record_deviation(distances: Floats) -> None:
 
 @contextmanager
 def coordinates_written(decimals: int | None, *, is_verified: bool = False) -> Iterator[WrittenCurves]:
-    """Say how coordinates of files are written within.
-
-    Parameters
-    ----------
-    decimals : int or None
-        They are multiples of 10 to the power of minus this; with None the doubles themselves.
-    is_verified : bool
-        Polygons are checked as they are written.
-
-    Yields
-    ------
-    WrittenCurves
-        Known at the end.
-
-    Raises
-    ------
-    UsageError
-        If it is not from 0 to 17.
-    """
+    """Say how coordinates of files are written within."""
     name = option("--decimals")
     if decimals is not None and not 0 <= whole_number(decimals, name) <= MOST_DECIMALS:
         raise UsageError(f"{name} is {shown_number(decimals)}: use 0 to {MOST_DECIMALS}, or leave it out")
@@ -110,13 +92,7 @@ class Grid:
 
 
 def finest_deviation(places: Floats) -> Floats:
-    """(n,) how near to curves lines are never asked to be: a step of the grid, of doubles 16 of the largest coordinate.
-
-    Parameters
-    ----------
-    places : (n, ..., 2) float64 array
-        Of each curve.
-    """
+    """(n,) how near to curves lines are at best: a step of the grid, for doubles 16 ulps of the largest coordinate."""
     largest = np.abs(places).max(axis=tuple(range(1, places.ndim)), initial=0)
     steps: Floats = 16 * np.spacing(largest)
     decimals = _DECIMALS.get()
@@ -134,15 +110,7 @@ def on_grid(points: Floats) -> Floats:
 
 
 def rounded(points: Floats, decimals: int | None) -> Floats:
-    """Round coordinates to decimals; those whose doubles are coarser stay, and so does what is no finite number.
-
-    Examples
-    --------
-    >>> rounded(np.array([[0.126, 2.0], [-0.001, 1e300]]), 2).tolist()
-    [[0.126, 2.0], [-0.001, 1e+300]]
-    >>> rounded(np.array([[0.126, 2.0], [-0.001, np.nan]]), 2).tolist()
-    [[0.13, 2.0], [0.0, nan]]
-    """
+    """Round coordinates to decimals; those whose doubles are coarser stay, and so does what is no finite number."""
     if decimals is None:
         return points
     is_number = np.isfinite(points)

@@ -30,34 +30,12 @@ MAP_NAMES = (*LONGITUDE_LATITUDE_NAMES, ("easting", "northing"), ("e", "n"))
 
 
 def coordinate_columns(names: Sequence[str]) -> list[int] | None:
-    """Find the columns of a table that are its coordinates, and its label where it has no others.
-
-    Parameters
-    ----------
-    names : sequence of str
-        Of the columns, in any case.
-
-    Returns
-    -------
-    list of int, or None
-        The columns of x and y; then that of the label, if the names are x, y and label. None without such a pair.
-
-    Examples
-    --------
-    >>> coordinate_columns(["id", "Lat", "Lon"]), coordinate_columns(["label", "x", "y"])
-    ([2, 1], [1, 2, 0])
-    """
+    """Find the columns of a table that are its coordinates, and its label where it has no others."""
     return _known_columns(names, COORDINATE_NAMES)
 
 
 def space_columns(names: Sequence[str]) -> list[int] | None:
-    """Find the columns of a table that are coordinates of space; as `coordinate_columns` with a z.
-
-    Examples
-    --------
-    >>> space_columns(["Z", "Y", "X"]), space_columns(["label", "x", "y", "z"]), space_columns(["x", "y"])
-    ([2, 1, 0], [1, 2, 3, 0], None)
-    """
+    """Find the columns of a table that are coordinates of space; as `coordinate_columns` with a z."""
     return _known_columns(names, SPACE_NAMES)
 
 
@@ -71,35 +49,17 @@ def _known_columns(names: Sequence[str], known: Sequence[tuple[str, ...]]) -> li
 
 
 def plain_name(text: str) -> str:
-    """Give the name of a column without blanks around it, in lower case.
-
-    Examples
-    --------
-    >>> plain_name(" Lon")
-    'lon'
-    """
+    """Give the name of a column without blanks around it, in lower case."""
     return text.strip().lower().replace("\u03bc", "µ")
 
 
 def is_longitude_latitude(x: str, y: str) -> bool:
-    """Tell whether columns are longitude and latitude by their names.
-
-    Examples
-    --------
-    >>> is_longitude_latitude("Lon", "Lat"), is_longitude_latitude("x", "y")
-    (True, False)
-    """
+    """Tell whether columns are longitude and latitude by their names."""
     return plain_name(x) in _FIRST and plain_name(y) in _SECOND
 
 
 def is_map(x: str, y: str) -> bool:
-    """Tell whether columns are places on a map by their names, so that pictures have y upwards.
-
-    Examples
-    --------
-    >>> is_map("easting", "northing"), is_map("x", "y")
-    (True, False)
-    """
+    """Tell whether columns are places on a map by their names, so that pictures have y upwards."""
     return is_longitude_latitude(x, y) or (plain_name(x), plain_name(y)) in MAP_NAMES
 
 

@@ -19,33 +19,7 @@ LARGEST_INTEGER = 2**53
 
 
 def coordinate_rows(values: Any, noun: str, axes: int = 2) -> NDArray[np.float64]:
-    """Copy (n, axes) coordinates; only decimal fractions are rounded.
-
-    Parameters
-    ----------
-    values : (n, axes) array-like
-        Integers, floating-point numbers, or fractions and decimal numbers of Python; an iterator of rows.
-    noun : str
-        What a message calls one row.
-    axes : {2, 3}
-        Coordinates in a row.
-
-    Returns
-    -------
-    (n, axes) float64 array
-        Of its own memory; not checked for NaN and infinity.
-
-    Raises
-    ------
-    InputError
-        If these are no numbers, are masked, have another shape, or are integers beyond 2^53, fractions or long doubles
-        that doubles would round.
-
-    Examples
-    --------
-    >>> coordinate_rows(((x, x * x) for x in range(3)), "point").tolist()
-    [[0.0, 0.0], [1.0, 1.0], [2.0, 4.0]]
-    """
+    """Copy (n, axes) coordinates; only decimal fractions are rounded."""
     array = number_array(values, noun, axes=axes)
     if array.size == 0:
         array = array.reshape(0, axes)
@@ -74,19 +48,7 @@ INEXACT = "a double would round it; subtract an offset from all coordinates, or 
 
 
 def number_array(values: Any, noun: str, expected: str | None = None, axes: int = 2) -> NDArray[Any]:
-    """Give values as an array of integers or floating-point numbers, or of objects that are numbers; not a copy.
-
-    Raises
-    ------
-    InputError
-        If they are none, or some are masked.
-
-    Examples
-    --------
-    >>> number_array(["a"], "point")
-    Traceback (most recent call last):
-    vorotool.errors.InputError: points must be an (n, 2) array of numbers; these have type <U1
-    """
+    """Give values as an array of integers or floating-point numbers, or of objects that are numbers; not a copy."""
     said = expected or f"{plural(noun)} must be an (n, {axes}) array of numbers"
     if isinstance(values, np.ma.MaskedArray):
         if np.ma.is_masked(values):
@@ -110,15 +72,7 @@ def number_array(values: Any, noun: str, expected: str | None = None, axes: int 
 
 
 def first_inexact(array: NDArray[Any]) -> int | None:
-    """Return the first row with a number that a double may round, None where there is none.
-
-    Examples
-    --------
-    >>> first_inexact(np.array([[1, 2], [2**53 + 1, 0]])), first_inexact(np.array([[1e300, 0]]))
-    (1, None)
-    >>> first_inexact(np.array([[Fraction(1, 2), Decimal("0.1")], [0, Fraction(1, 3)]]))
-    1
-    """
+    """Return the first row with a number that a double may round, None where there is none."""
     if array.dtype.kind == "O":
         far = np.array([[_is_rounded(value) for value in row] for row in array])
     elif array.dtype.kind == "f" and array.dtype.itemsize > np.float64().itemsize:
@@ -144,11 +98,5 @@ def _is_rounded(value: Any) -> bool:
 
 
 def plural(noun: str) -> str:
-    """Several of what a message speaks of.
-
-    Examples
-    --------
-    >>> plural("vertex"), plural("point")
-    ('vertices', 'points')
-    """
+    """Several of what a message speaks of."""
     return "vertices" if noun == "vertex" else f"{noun}s"

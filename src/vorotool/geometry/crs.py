@@ -45,25 +45,7 @@ LONGITUDE_LATITUDE = "urn:ogc:def:crs:OGC:1.3:CRS84"
 
 
 def crs_name(crs: Any) -> str:
-    """Give the plain name of a coordinate reference system, for messages.
-
-    Parameters
-    ----------
-    crs : object
-        The ``crs`` member of GeoJSON, or a name in any of the usual forms.
-
-    Returns
-    -------
-    str
-        Authority and code; of a system that is spelled out, what it is called; of what is none of these, the text.
-
-    Examples
-    --------
-    >>> crs_name({"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::3857"}})
-    'EPSG:3857'
-    >>> crs_name("http://www.opengis.net/def/crs/OGC/1.3/CRS84")
-    'OGC:CRS84'
-    """
+    """Give the plain name of a coordinate reference system, for messages."""
     text = _text_of(crs)
     spelled = _WELL_KNOWN.match(text)
     if spelled is not None:
@@ -88,13 +70,7 @@ def _text_of(crs: Any) -> str:
 
 
 def same_crs(a: Any, b: Any) -> bool:
-    """Tell whether two names mean one system; EPSG:4326 has the longitude first in files, as OGC:CRS84 has.
-
-    Examples
-    --------
-    >>> same_crs("EPSG:4326", "urn:ogc:def:crs:OGC:1.3:CRS84"), same_crs("EPSG:4326", "EPSG:3857")
-    (True, False)
-    """
+    """Tell whether two names mean one system; EPSG:4326 has the longitude first in files, as OGC:CRS84 has."""
     if _WELL_KNOWN.match(_text_of(a)) or _WELL_KNOWN.match(_text_of(b)):
         return _text_of(a) == _text_of(b)  # one name may be that of several
     return _one_name(a) == _one_name(b)
@@ -106,13 +82,7 @@ def _one_name(crs: Any) -> str:
 
 
 def is_geographic(crs: Any) -> bool:
-    """Tell whether a system is known to be of longitude and latitude in degrees; None is not.
-
-    Examples
-    --------
-    >>> is_geographic("EPSG:4258"), is_geographic("EPSG:2056"), is_geographic(None)
-    (True, False, False)
-    """
+    """Tell whether a system is known to be of longitude and latitude in degrees; None is not."""
     if crs is None:
         return False
     spelled = _WELL_KNOWN.match(_text_of(crs))
@@ -124,15 +94,7 @@ def is_geographic(crs: Any) -> bool:
 
 
 def crs_member(name: str) -> dict[str, Any] | None:
-    """Give the ``crs`` member of GeoJSON for a name in any of the usual forms; None if it is in none.
-
-    Examples
-    --------
-    >>> crs_member("EPSG:3857")["properties"]["name"]
-    'urn:ogc:def:crs:EPSG::3857'
-    >>> crs_member("Lambert") is None
-    True
-    """
+    """Give the ``crs`` member of GeoJSON for a name in any of the usual forms; None if it is in none."""
     text = name.strip()
     if not any(form.fullmatch(text) for form in _FORMS):
         return None
@@ -144,28 +106,14 @@ def crs_member(name: str) -> dict[str, Any] | None:
 
 
 def member_of_text(text: str | None) -> dict[str, Any] | None:
-    """Give the ``crs`` member of GeoJSON for what a library says of a file: a name, or a system that is spelled out.
-
-    Examples
-    --------
-    >>> member_of_text("EPSG:2056")["properties"]["name"], member_of_text(None)
-    ('urn:ogc:def:crs:EPSG::2056', None)
-    """
+    """Give the ``crs`` member of GeoJSON for what a library says of a file: a name, or a system that is spelled out."""
     if not text:
         return None
     return crs_member(text) or {"type": "name", "properties": {"name": text}}
 
 
 def crs_text(crs: Any) -> str | None:
-    """Give what libraries of maps take for a ``crs`` member: authority and code, or the system spelled out.
-
-    Longitude and latitude are EPSG:4326, which all of them know; x is the longitude in all files that are written.
-
-    Examples
-    --------
-    >>> crs_text({"type": "name", "properties": {"name": LONGITUDE_LATITUDE}}), crs_text(None)
-    ('EPSG:4326', None)
-    """
+    """Give what libraries of maps take for a ``crs`` member: authority and code, or the system spelled out."""
     if crs is None:
         return None
     text = _text_of(crs)
@@ -177,12 +125,6 @@ def crs_text(crs: Any) -> str | None:
 
 
 def without_number(text: str) -> tuple[str, int]:
-    """Take the number (SRID) of its reference system off extended well-known text; 0 where it has none.
-
-    Examples
-    --------
-    >>> without_number("SRID=2056;POINT (1 2)")
-    ('POINT (1 2)', 2056)
-    """
+    """Take the number (SRID) of its reference system off extended well-known text; 0 where it has none."""
     srid = _SRID.match(text)
     return (text, 0) if srid is None else (text[srid.end() :], int(srid[1]))

@@ -12,27 +12,7 @@ from numpy.typing import NDArray
 
 
 def is_equal(a: Any, b: Any) -> bool:
-    """Tell whether two parts of values are equal.
-
-    Parameters
-    ----------
-    a, b : object
-        Arrays and sequences are equal if their shapes and their elements are, whatever their types: a list equals an
-        array, integers equal floats. Masked elements equal each other, whatever lies beneath. Mappings may differ in
-        the order of their keys. Dataclasses are equal if their fields are.
-
-    Returns
-    -------
-    bool
-        False, too, where the comparison of two elements fails, or is no truth value.
-
-    Examples
-    --------
-    >>> is_equal({"r": np.array([1.0, np.nan])}, {"r": [1, float("nan")]})
-    True
-    >>> is_equal(np.zeros((2, 1)), np.zeros((1, 2)))
-    False
-    """
+    """Tell whether two parts of values are equal."""
     if a is b:
         return True
     if isinstance(a, Mapping) and isinstance(b, Mapping):

@@ -9,36 +9,7 @@ from vorotool.errors import UsageError
 
 
 def needed(module: str, extra: str, purpose: str) -> Any:
-    """Import a library of one of the extras of the package.
-
-    Parameters
-    ----------
-    module : str
-        What is imported: the library, or a module of it.
-    extra : str
-        The extra that has it.
-    purpose : str
-        What needs it, in the plural.
-
-    Returns
-    -------
-    module
-        As `importlib.import_module` gives it.
-
-    Raises
-    ------
-    UsageError
-        If it is not installed; the command that installs it is given.
-
-    Examples
-    --------
-    >>> needed("json", "gis", "GeoPackages").dumps([1])
-    '[1]'
-    >>> needed("no_such_library.part", "gis", "GeoPackages")
-    Traceback (most recent call last):
-        ...
-    vorotool.errors.UsageError: GeoPackages need the package no_such_library: pip install 'vorotool[gis]'
-    """
+    """Import a library of one of the extras of the package."""
     try:
         return import_module(module)
     except ImportError:

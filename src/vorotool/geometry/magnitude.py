@@ -15,24 +15,7 @@ LARGEST = 1e70
 
 
 def check_magnitude(xy: NDArray[np.float64]) -> None:
-    """Refuse vertices so far away, or so near each other, that products of distances are no numbers.
-
-    Parameters
-    ----------
-    xy : (n, 2) array
-        Finite.
-
-    Raises
-    ------
-    InputError
-        If a coordinate is beyond 1e70, or the extent below 1e-70 and not 0.
-
-    Examples
-    --------
-    >>> check_magnitude(np.array([[0, 0], [1e300, 0]]))
-    Traceback (most recent call last):
-    vorotool.errors.InputError: a coordinate is 1e+300, too large to compute with: scale them to 1e+70 at most
-    """
+    """Refuse vertices so far away, or so near each other, that products of distances are no numbers."""
     if not len(xy):
         return
     low, high = bounds(xy)
@@ -45,19 +28,7 @@ def check_magnitude(xy: NDArray[np.float64]) -> None:
 
 
 def check_lengths(values: Iterable[float], noun: str) -> None:
-    """Refuse lengths and coordinates of options that are beyond those of shapes.
-
-    Raises
-    ------
-    UsageError
-        With the first such value.
-
-    Examples
-    --------
-    >>> check_lengths((2.0, -1e90), "distance")
-    Traceback (most recent call last):
-    vorotool.errors.UsageError: a distance of -1e+90 is too large to compute with: use at most 1e+70
-    """
+    """Refuse lengths and coordinates of options that are beyond those of shapes."""
     for value in values:
         if not abs(value) <= LARGEST:
             raise UsageError(f"a {noun} of {value:g} is too large to compute with: use at most {LARGEST:g}")

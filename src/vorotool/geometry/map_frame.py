@@ -22,36 +22,7 @@ MOST_UNASKED = 2**28
 def map_frame(
     low: NDArray[np.float64], high: NDArray[np.float64], side: Fraction, *, window: MapWindow | None, crs: Any = None
 ) -> tuple[Frame, PixelGrid]:
-    """Lay cells over what lies between two corners, or over a window; the first row is the northernmost.
-
-    Without a window the sides of cells are at multiples of their length, so that frames of one length fit together.
-
-    Parameters
-    ----------
-    low, high : (2,) float64 arrays
-        The corners.
-    side : Fraction
-        Of a cell.
-    window : (x, y, width, height), optional
-        Its lower left corner, and its size: whole numbers of cells.
-    crs : object, optional
-        The coordinate reference system of the map.
-
-    Raises
-    ------
-    InputError
-        If the map is farther from its origin than cells are counted.
-    LimitError
-        If there is no window, and there are more than 2^28 cells.
-    UsageError
-        If the window is no whole number of cells wide or high.
-
-    Examples
-    --------
-    >>> frame, grid = map_frame(np.array([12.0, 5.0]), np.array([31.0, 20.0]), Fraction(10), window=None)
-    >>> frame.shape, grid.transform
-    ((2, 3), (10.0, 0.0, 10.0, 0.0, -10.0, 20.0))
-    """
+    """Lay cells over what lies between two corners, or over a window; the first row is the northernmost."""
     if window is not None:
         left, bottom = window[:2]
         columns, rows = window[2] / side, window[3] / side
@@ -84,14 +55,7 @@ def map_frame(
 
 
 def in_cells(xy: NDArray[np.float64], grid: PixelGrid) -> NDArray[np.float64]:
-    """Coordinates in cells: (0, 0) is the centre of the first one, y goes down.
-
-    Examples
-    --------
-    >>> grid = map_grid((10.0, 0.0, 10.0, 0.0, -10.0, 20.0))
-    >>> in_cells(np.array([[15.0, 15.0], [10.0, 0.0]]), grid).tolist()
-    [[0.0, 0.0], [-0.5, 1.5]]
-    """
+    """Coordinates in cells: (0, 0) is the centre of the first one, y goes down."""
     assert grid.transform is not None
     a, _, c, _, e, f = grid.transform
     return (xy - (c, f)) / (a, e) - 0.5

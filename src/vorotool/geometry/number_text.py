@@ -9,13 +9,7 @@ _COLUMN = re.compile(r"(?:(?:-?(?:0|[1-9]\d*)(?:\.\d+)?(?:[eE][+-]?\d+)?)?\n)*",
 
 
 class NumberText(str):
-    """A number as it is written, which is a number in JSON, too: no digit of it changes on its way.
-
-    Examples
-    --------
-    >>> NumberText("3.50"), NumberText("3.50").number, NumberText("7").number
-    ('3.50', 3.5, 7)
-    """
+    """A number as it is written, which is a number in JSON, too: no digit of it changes on its way."""
 
     __slots__ = ()
 
@@ -26,17 +20,7 @@ class NumberText(str):
 
 
 def typed_texts(values: list[str]) -> list[Any]:
-    """Give the texts of a column as numbers if all are, but for empty ones, which are None then.
-
-    Codes with leading zeros are no numbers, and neither is any other of their column.
-
-    Examples
-    --------
-    >>> typed_texts(["1.50", ""]), [type(each).__name__ for each in typed_texts(["1.50", ""])]
-    (['1.50', None], ['NumberText', 'NoneType'])
-    >>> typed_texts(["010", "7"]), type(typed_texts(["010", "7"])[1]).__name__
-    (['010', '7'], 'str')
-    """
+    """Give the texts of a column as numbers if all are, but for empty ones, which are None then."""
     text = "\n".join(values)
     if text.count("\n") + 1 != len(values) or not any(values) or not _COLUMN.fullmatch(text + "\n"):
         return values

@@ -27,25 +27,7 @@ Flatten: TypeAlias = float | Literal["auto"] | None
 
 
 def real_number(value: Any, name: str) -> float | Fraction:
-    """Return a number exactly: as a double where that is what it is or where it equals one, else as a fraction.
-
-    Parameters
-    ----------
-    value : number
-        Of Python or NumPy: an integer of any size, a fraction, a decimal number; infinity.
-    name : str
-        What the message calls it.
-
-    Raises
-    ------
-    UsageError
-        If it is no real number, or NaN.
-
-    Examples
-    --------
-    >>> real_number(2, "r"), real_number(Fraction(1, 3), "r"), real_number(Decimal("0.1"), "r")
-    (2.0, Fraction(1, 3), Fraction(1, 10))
-    """
+    """Return a number exactly: as a double where that is what it is or where it equals one, else as a fraction."""
     if isinstance(value, np.ndarray) and value.ndim == 0:
         value = value[()]
     if isinstance(value, np.generic):
@@ -71,13 +53,7 @@ def _simplest(exact: Fraction) -> float | Fraction:
 
 
 def nearest_double(value: float | Fraction) -> float:
-    """Return the double nearest to a number; infinity for what is beyond all.
-
-    Examples
-    --------
-    >>> nearest_double(Fraction(1, 4)), nearest_double(Fraction(-(10**400)))
-    (0.25, -inf)
-    """
+    """Return the double nearest to a number; infinity for what is beyond all."""
     try:
         return float(value)
     except OverflowError:
@@ -85,19 +61,7 @@ def nearest_double(value: float | Fraction) -> float:
 
 
 def finite_double(value: Any, name: str) -> float:
-    """Return a number as a double.
-
-    Raises
-    ------
-    UsageError
-        If it is none, not finite, or beyond the largest double.
-
-    Examples
-    --------
-    >>> finite_double(10**400, "step")
-    Traceback (most recent call last):
-    vorotool.errors.UsageError: step is 1.0e+400: give a finite number
-    """
+    """Return a number as a double."""
     number = nearest_double(real_number(value, name))
     if not isfinite(number):
         raise UsageError(f"{name} is {shown_number(value)}: give a finite number")
@@ -105,18 +69,7 @@ def finite_double(value: Any, name: str) -> float:
 
 
 def whole_number(value: Any, name: str) -> int:
-    """Return an integer of Python or NumPy as one of Python.
-
-    Raises
-    ------
-    UsageError
-        If it is none: a floating-point number is none, even a whole one.
-
-    Examples
-    --------
-    >>> whole_number(np.uint8(7), "width")
-    7
-    """
+    """Return an integer of Python or NumPy as one of Python."""
     try:
         return index(value)
     except TypeError:
@@ -124,18 +77,7 @@ def whole_number(value: Any, name: str) -> int:
 
 
 def pair_of_doubles(values: Any, name: str) -> tuple[float, float]:
-    """Return two numbers as doubles; infinity for what is beyond all.
-
-    Raises
-    ------
-    UsageError
-        If they are not two, or one is no number.
-
-    Examples
-    --------
-    >>> pair_of_doubles([Fraction(1, 2), 10**400], "start")
-    (0.5, inf)
-    """
+    """Return two numbers as doubles; infinity for what is beyond all."""
     try:
         x, y = values
     except (TypeError, ValueError):
@@ -144,15 +86,7 @@ def pair_of_doubles(values: Any, name: str) -> tuple[float, float]:
 
 
 def shown_number(value: Any) -> str:
-    """Give what was given as a number, or in the place of one, as a message shows it: short, however long it is.
-
-    Examples
-    --------
-    >>> shown_number((0, 10**400))
-    '(0, 1.0e+400)'
-    >>> shown_number(2.5), shown_number(10**5000), shown_number("9" * 50)
-    ('2.5', '1.0e+5000', "'99999999999999999999999999999999999999…")
-    """
+    """Give what was given as a number, or in the place of one, as a message shows it: short, however long it is."""
     if isinstance(value, float):
         return repr(float(value)).removesuffix(".0")
     if isinstance(value, int) and abs(value) < 2**64:
@@ -173,20 +107,7 @@ def shown_number(value: Any) -> str:
 
 
 def checked_tolerance(value: Any, *, allows_zero: bool = False) -> float:
-    """Give a tolerance, such as how far lines may be from curves.
-
-    Raises
-    ------
-    UsageError
-        If it is no finite number, or not positive.
-
-    Examples
-    --------
-    >>> checked_tolerance("0.5")
-    Traceback (most recent call last):
-        ...
-    vorotool.errors.UsageError: the tolerance is '0.5': give a number
-    """
+    """Give a tolerance, such as how far lines may be from curves."""
     length = finite_double(value, "the tolerance")
     if not (length > 0 or (allows_zero and length == 0)):
         least = "0 or more" if allows_zero else "positive"
@@ -195,17 +116,6 @@ def checked_tolerance(value: Any, *, allows_zero: bool = False) -> float:
 
 
 def checked_flatten(tolerance: Flatten) -> float | None:
-    """Return a tolerance, None if each curve has its own.
-
-    Raises
-    ------
-    UsageError
-        If it is not a finite number, or not positive.
-
-    Examples
-    --------
-    >>> checked_flatten("auto") is None, checked_flatten(2)
-    (True, 2.0)
-    """
+    """Return a tolerance, None if each curve has its own."""
     is_own = tolerance is None or (isinstance(tolerance, str) and tolerance == "auto")
     return None if is_own else checked_tolerance(tolerance)

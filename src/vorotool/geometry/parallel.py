@@ -21,22 +21,7 @@ POLL_INTERVAL = 0.1
 
 
 def in_order(function: Callable[[Item], Result], items: Iterable[Item], threads: int) -> Iterator[Result]:
-    """Map in parallel, in order, with only a few items under way, whatever their number.
-
-    Parameters
-    ----------
-    function : callable
-        Called in several threads at once.
-    items : iterable
-        Taken in this thread, as results are.
-    threads : int
-        0 for as many as there are processors for this process.
-
-    Examples
-    --------
-    >>> list(in_order(abs, [-1, 2, -3], threads=2))
-    [1, 2, 3]
-    """
+    """Map in parallel, in order, with only a few items under way, whatever their number."""
     count = threads or available_threads()
     if count == 1:
         yield from map(function, items)
@@ -56,26 +41,7 @@ def in_order(function: Callable[[Item], Result], items: Iterable[Item], threads:
 
 
 def in_chunks(count: int, fill: Callable[[slice], None], *, threads: int = 1) -> None:
-    """Call a function for chunks of rows: what it makes of one must not depend on the others.
-
-    Parameters
-    ----------
-    count : int
-        Of rows.
-    fill : callable
-        Called with each chunk.
-    threads : int
-        0 uses all.
-
-    Examples
-    --------
-    >>> squares = [0, 1, 2, 3]
-    >>> def square(rows):
-    ...     squares[rows] = [k * k for k in squares[rows]]
-    >>> in_chunks(4, square)
-    >>> squares
-    [0, 1, 4, 9]
-    """
+    """Call a function for chunks of rows: what it makes of one must not depend on the others."""
     chunks = [slice(begin, begin + CHUNK) for begin in range(0, count, CHUNK)]
     threads = min(checked_threads(threads) or available_threads(), max(len(chunks), 1))
     for _ in in_order(fill, chunks, threads):
@@ -83,22 +49,7 @@ def in_chunks(count: int, fill: Callable[[slice], None], *, threads: int = 1) ->
 
 
 def in_threads(tasks: Sequence[Callable[[Progress], Result]], threads: int, progress: Progress) -> list[Result]:
-    """Do tasks, and give their results in order.
-
-    Parameters
-    ----------
-    tasks : sequence of callables
-        Called with what they are to call as their progress: it raises when the others have stopped.
-    threads : int
-        At least 1.
-    progress : callable, optional
-        Called with the fraction done.
-
-    Examples
-    --------
-    >>> in_threads([lambda _: 1, lambda _: 2], 2, None)
-    [1, 2]
-    """
+    """Do tasks, and give their results in order."""
     if len(tasks) == 1:
         return [tasks[0](progress)]
     stop = threading.Event()
@@ -134,15 +85,7 @@ def in_threads(tasks: Sequence[Callable[[Progress], Result]], threads: int, prog
 
 
 def start(work: Callable[[], Result], future: Future[Result]) -> None:
-    """Begin some work in a thread that does not keep the process from ending; its outcome goes to a future.
-
-    Examples
-    --------
-    >>> future = Future()
-    >>> start(lambda: 6 * 7, future)
-    >>> future.result()
-    42
-    """
+    """Begin some work in a thread that does not keep the process from ending; its outcome goes to a future."""
 
     def run() -> None:
         if future.set_running_or_notify_cancel():

@@ -20,21 +20,11 @@ ALIKE = Fraction(1, 10**7)
 
 @dataclass(frozen=True)
 class GeoKeys:
-    """The keys of a GeoTIFF, as they are stored: they go from an input to what is made of it.
+    """The keys of a GeoTIFF, as they are stored: they go from an input to what is made of it."""
 
-    Parameters
-    ----------
-    directory : tuple of int
-        ``GeoKeyDirectory``.
-    doubles : tuple of float
-        ``GeoDoubleParams``.
-    text : str
-        ``GeoAsciiParams``.
-    """
-
-    directory: tuple[int, ...]
-    doubles: tuple[float, ...] = ()
-    text: str = ""
+    directory: tuple[int, ...]  # `GeoKeyDirectory`
+    doubles: tuple[float, ...] = ()  # `GeoDoubleParams`
+    text: str = ""  # `GeoAsciiParams`
 
 
 @dataclass(frozen=True)
@@ -130,16 +120,7 @@ class PixelGrid:
 
 
 def sides_of_grid(grid: PixelGrid) -> PixelSides | None:
-    """Give the sides of the pixels of a grid for exact distances, if they have a common step that is coarse enough.
-
-    Sides that are alike are one. Where those of the file have no such step, each is the shortest decimal number that is
-    as near as files round them.
-
-    Examples
-    --------
-    >>> sides_of_grid(PixelGrid(Fraction(1000000, 3076923), Fraction(3, 2), "um"))
-    PixelSides(units=(60, 13), step=Fraction(1, 40))
-    """
+    """Give the sides of the pixels of a grid for exact distances, if they have a common step that is coarse enough."""
     height = grid.width if grid.is_square else grid.height
     for sides in ((height, grid.width), (rounded_side(height), rounded_side(grid.width))):
         try:
@@ -150,13 +131,7 @@ def sides_of_grid(grid: PixelGrid) -> PixelSides | None:
 
 
 def rounded_side(side: Fraction) -> Fraction:
-    """Give the shortest decimal number that is alike.
-
-    Examples
-    --------
-    >>> rounded_side(Fraction(1000000, 3076923))
-    Fraction(13, 40)
-    """
+    """Give the shortest decimal number that is alike."""
     numbers = (Fraction(f"{float(side):.{digits}g}") for digits in range(1, 18))
     return next(number for number in numbers if abs(number - side) <= ALIKE * side)
 
@@ -168,13 +143,7 @@ def map_grid(
     crs: Any = None,
     keys: GeoKeys | None = None,
 ) -> PixelGrid:
-    """Give the grid of a map; sides are the lengths of what one column and one row go on.
-
-    Examples
-    --------
-    >>> map_grid((0, -2, 10, 2, 0, 10)).size_text()
-    '2'
-    """
+    """Give the grid of a map; sides are the lengths of what one column and one row go on."""
     a, b, _, d, e, _ = transform
     width, height = (Fraction(abs(p) if q == 0 else sqrt(p * p + q * q)) for p, q in ((a, d), (e, b)))
     return PixelGrid(width, height, unit, "map", transform, crs, keys)

@@ -13,72 +13,36 @@ Lengths = NDArray[Any] | Sequence[int]
 
 
 def starts_of(lengths: Lengths) -> Indices:
-    """Where each row begins, and the end of the last.
-
-    Examples
-    --------
-    >>> starts_of([2, 0, 3]).tolist()
-    [0, 2, 2, 5]
-    """
+    """Where each row begins, and the end of the last."""
     starts = np.zeros(np.size(lengths) + 1, dtype=np.int64)
     np.cumsum(lengths, dtype=np.int64, out=starts[1:])
     return starts
 
 
 def divides(starts: NDArray[Any], count: int, least: int = 0) -> bool:
-    """Whether these are the starts of rows of so many items in all, of at least some each.
-
-    Examples
-    --------
-    >>> divides(np.array([0, 2, 2, 5]), 5), divides(np.array([0, 2, 2, 5]), 5, least=1)
-    (True, False)
-    """
+    """Whether these are the starts of rows of so many items in all, of at least some each."""
     return bool(len(starts) and starts[0] == 0 and starts[-1] == count and (np.diff(starts) >= least).all())
 
 
 def owners(lengths: Lengths, dtype: DTypeLike = np.int64) -> NDArray[Any]:
-    """The row of each item.
-
-    Examples
-    --------
-    >>> owners([2, 0, 3]).tolist()
-    [0, 0, 2, 2, 2]
-    """
+    """The row of each item."""
     return np.repeat(np.arange(np.size(lengths), dtype=dtype), lengths)
 
 
 def within(lengths: Lengths) -> Indices:
-    """The place of each item in its row.
-
-    Examples
-    --------
-    >>> within([2, 0, 3]).tolist()
-    [0, 1, 0, 1, 2]
-    """
+    """The place of each item in its row."""
     return ranges(np.zeros(np.size(lengths), dtype=np.int64), lengths)
 
 
 def ranges(first: NDArray[Any], lengths: Lengths) -> Indices:
-    """Indices of the items of chosen rows, row after row: first, first + 1, … of each.
-
-    Examples
-    --------
-    >>> ranges(np.array([5, 0]), [2, 3]).tolist()
-    [5, 6, 0, 1, 2]
-    """
+    """Indices of the items of chosen rows, row after row: first, first + 1, … of each."""
     starts = starts_of(lengths)
     made: Indices = np.arange(starts[-1]) + np.repeat(first - starts[:-1], lengths)
     return made
 
 
 def following(starts: NDArray[Any]) -> Indices:
-    """The item after each one in its row, which is a ring: after the last comes the first. Rows have items.
-
-    Examples
-    --------
-    >>> following(np.array([0, 3, 4])).tolist()
-    [1, 2, 0, 3]
-    """
+    """The item after each one in its row, which is a ring: after the last comes the first. Rows have items."""
     after = np.arange(1, starts[-1] + 1, dtype=np.int64)
     after[starts[1:] - 1] = starts[:-1]
     return after
@@ -87,13 +51,7 @@ def following(starts: NDArray[Any]) -> Indices:
 def with_length(
     points: NDArray[np.float64], start: NDArray[Any]
 ) -> tuple[NDArray[np.float64], Indices, NDArray[np.bool_]]:
-    """Leave out polylines whose points all are one place: the other points, their starts, and which lines are left.
-
-    Examples
-    --------
-    >>> with_length(np.array([[1.0, 1], [1, 1], [1, 1], [2, 1]]), np.array([0, 2, 4]))[1:]
-    (array([0, 2]), array([False,  True]))
-    """
+    """Leave out polylines whose points all are one place: the other points, their starts, and which lines are left."""
     moves = np.zeros(len(points), dtype=bool)
     moves[1:] = (points[1:] != points[:-1]).any(axis=1)
     moves[start[:-1]] = False

@@ -11,45 +11,13 @@ from vorotool.errors import InputError
 
 
 def check_index(index: Any, count: int, noun: str) -> None:
-    """Refuse an index that has not one entry for each of some objects; None is no index.
-
-    Raises
-    ------
-    InputError
-        With both numbers.
-
-    Examples
-    --------
-    >>> check_index([7, 9], 3, "point")
-    Traceback (most recent call last):
-    vorotool.errors.InputError: index must hold one entry a point, 3, but holds 2
-    """
+    """Refuse an index that has not one entry for each of some objects; None is no index."""
     if index is not None and len(index) != count:
         raise InputError(f"index must hold one entry a {noun}, {count}, but holds {len(index)}")
 
 
 def index_of_rows(index: Any, rows: NDArray[Any]) -> Any:
-    """Give the entries of chosen rows: an index of pandas stays one, with its type and its name.
-
-    Parameters
-    ----------
-    index : pandas Index, array or sequence, or None
-        Of all rows.
-    rows : (m,) int array
-        Those chosen; -1 for an object that comes from no row, whose entry is None.
-
-    Returns
-    -------
-    pandas Index, array, or None
-        With m entries; None without an index.
-
-    Examples
-    --------
-    >>> index_of_rows(np.array([7, 9]), np.array([1, 1, 0])).tolist()
-    [9, 9, 7]
-    >>> index_of_rows(["a", "b"], np.array([1, -1])).tolist()
-    ['b', None]
-    """
+    """Give the entries of chosen rows: an index of pandas stays one, with its type and its name."""
     if index is None:
         return None
     rows = np.asarray(rows, dtype=np.intp)
@@ -61,20 +29,7 @@ def index_of_rows(index: Any, rows: NDArray[Any]) -> Any:
 
 
 def joined_index(first: Any, count: int, second: Any, more: int) -> Any:
-    """Give the index of objects that follow others; the entries of those without one are None.
-
-    Parameters
-    ----------
-    first, second : pandas Index, array or sequence, or None
-        Of both.
-    count, more : int
-        Their numbers of objects.
-
-    Examples
-    --------
-    >>> joined_index([7, 9], 2, None, 1).tolist(), joined_index(None, 2, None, 1) is None
-    ([7, 9, None], True)
-    """
+    """Give the index of objects that follow others; the entries of those without one are None."""
     if first is None and second is None:
         return None
     if all(hasattr(index, "append") and hasattr(index, "take") for index in (first, second)):  # both of pandas

@@ -23,23 +23,11 @@ _ORDER = {2: "(height, width)", 3: "(depth, height, width)"}
 
 @dataclass(frozen=True)
 class PixelSides:
-    """The sides of a pixel or a voxel.
+    """The sides of a pixel or a voxel."""
 
-    Parameters
-    ----------
-    units : tuple of int
-        In steps, without a common divisor: (height, width) or (depth, height, width), as arrays are ordered.
-    step : Fraction
-        The length of a step.
-
-    Examples
-    --------
-    >>> PixelSides((3, 2), Fraction(1, 4)).x
-    2
-    """
-
+    # in steps, without a common divisor: (height, width) or (depth, height, width), as arrays are ordered
     units: tuple[int, ...] = (1, 1)
-    step: Fraction = Fraction(1)
+    step: Fraction = Fraction(1)  # the length of a step
 
     @property
     def x(self) -> int:
@@ -57,13 +45,7 @@ class PixelSides:
         return tuple(units * self.step for units in self.units)
 
     def text(self) -> str:
-        """Words for the lengths, as arrays are ordered.
-
-        Examples
-        --------
-        >>> PixelSides((3, 2), Fraction(1, 4)).text()
-        '(0.75, 0.5)'
-        """
+        """Words for the lengths, as arrays are ordered."""
         return f"({', '.join(f'{float(side):.10g}' for side in self.lengths)})"
 
 
@@ -72,20 +54,7 @@ SQUARE = PixelSides()
 
 
 def pixel_sides(spacing: Any, axes: int = 2) -> PixelSides:
-    """Give the sides of a pixel from one number for all of them, or from one for each axis, as arrays are ordered.
-
-    A float stands for the shortest decimal number that it is written as: 0.1 is a tenth.
-
-    Raises
-    ------
-    UsageError
-        If it is neither, or the sides have no common step that is coarse enough for exact arithmetic.
-
-    Examples
-    --------
-    >>> pixel_sides((1.5, 0.325))
-    PixelSides(units=(60, 13), step=Fraction(1, 40))
-    """
+    """Give the sides of a pixel from one number for all of them, or from one for each axis, as arrays are ordered."""
     if spacing is None:
         return PixelSides((1,) * axes)
     is_one = not isinstance(spacing, list | tuple) and np.ndim(spacing) == 0
@@ -111,23 +80,11 @@ def pixel_sides(spacing: Any, axes: int = 2) -> PixelSides:
 
 
 def distance_as_written(distance: Any, sides: PixelSides) -> Any:
-    """Give a distance in the unit of a spacing as the decimal number that it is written as, as the spacing is.
-
-    Examples
-    --------
-    >>> distance_as_written(0.1, pixel_sides(0.5)), distance_as_written(0.1, SQUARE)
-    (Fraction(1, 10), 0.1)
-    """
+    """Give a distance in the unit of a spacing as the decimal number that it is written as, as the spacing is."""
     is_one = set(sides.units) == {1} and sides.step == 1
     return as_decimal(distance) if isinstance(distance, float) and isfinite(distance) and not is_one else distance
 
 
 def as_decimal(number: float | Fraction) -> Fraction:
-    """Give the shortest decimal number that a float is written as, exactly; a fraction as it is.
-
-    Examples
-    --------
-    >>> as_decimal(0.1)
-    Fraction(1, 10)
-    """
+    """Give the shortest decimal number that a float is written as, exactly; a fraction as it is."""
     return number if isinstance(number, Fraction) else Fraction(repr(float(number)))

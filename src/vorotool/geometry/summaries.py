@@ -13,27 +13,7 @@ _QUANTILES = {"min": 0.0, "lower_quartile": 0.25, "median": 0.5, "upper_quartile
 
 
 def summary_table(measures: Mapping[str, NDArray[np.float64]]) -> Table:
-    """Give one row a measure.
-
-    Parameters
-    ----------
-    measures : mapping of str to float64 array
-        Values of each; they may differ in length.
-
-    Returns
-    -------
-    Table
-        ``measure, count, mean, sd, cv, min, lower_quartile, median, upper_quartile, max, homogeneity, disorder``. The
-        standard deviation ``sd`` is that of all values, not of a sample of them; ``cv`` is that over the mean,
-        ``homogeneity`` 1 / (1 + cv), and ``disorder`` 1 - homogeneity. Quantiles are interpolated. What does not exist
-        is missing: all of no values, and what divides by a mean of 0.
-
-    Examples
-    --------
-    >>> table = summary_table({"area": np.array([1.0, 3.0])})
-    >>> table["mean"].tolist(), table["sd"].tolist(), table["homogeneity"].round(3).tolist()
-    ([2.0], [1.0], [0.667])
-    """
+    """Give one row a measure."""
     rows = [_row(np.asarray(values, dtype=np.float64)) for values in measures.values()]
     names = ("mean", "sd", "cv", *_QUANTILES, "homogeneity", "disorder")
     columns = np.array(rows).reshape(len(rows), len(names)).T

@@ -17,25 +17,11 @@ from vorotool.products.formats import resolved
 
 @dataclass(frozen=True, eq=False)
 class Lookup:
-    """A column that shows the values of other objects: row i holds ``values[index[i]]``.
+    """A column that shows the values of other objects: row i holds ``values[index[i]]``."""
 
-    Nothing is gathered until the rows are asked for, and a writer turns each value into text once.
-
-    Parameters
-    ----------
-    values : (m,) int64 or float64 array, or list
-        Contiguous; finite. Of a list, None shows that there is no value.
-    index : (n,) int32 array
-        0-based; it may be a column of a matrix.
-
-    Examples
-    --------
-    >>> Lookup(np.array([1.5, 2.5]), np.array([1, 0, 1], dtype=np.int32))[1:].tolist()
-    [1.5, 2.5]
-    """
-
+    # (m,) int64 or float64 array, or list: contiguous; finite. Of a list, None shows that there is no value
     values: NDArray[Any] | list[Any]
-    index: NDArray[np.int32]
+    index: NDArray[np.int32]  # (n,) int32 array: 0-based; it may be a column of a matrix
 
     def __len__(self) -> int:
         return len(self.index)
@@ -54,24 +40,12 @@ def _object_array(values: list[Any]) -> NDArray[Any]:
 
 @dataclass(frozen=True, eq=False)
 class Computed:
-    """A column of numbers that are computed when its rows are asked for.
+    """A column of numbers that are computed when its rows are asked for."""
 
-    Parameters
-    ----------
-    function : callable
-        ``function(rows)`` gives the float64 values of a slice; called in several threads at once. What is not finite
-        is written empty in text, and as it is in NPZ.
-    size : int
-        Number of rows.
-
-    Examples
-    --------
-    >>> Computed(lambda rows: np.sqrt(np.arange(10.0)[rows]), 10)[4:5].tolist()
-    [2.0]
-    """
-
+    # `function(rows)` gives the float64 values of a slice; called in several threads at once. What is not finite is
+    # written empty in text, and as it is in NPZ
     function: Callable[[slice], NDArray[np.float64]]
-    size: int
+    size: int  # number of rows
 
     def __len__(self) -> int:
         return self.size
@@ -151,10 +125,7 @@ class Table(dict[str, Any], Tabular):
         return {**other, **self}
 
     def _refused(self, *_: Any, **__: Any) -> Any:
-        """Refuse a change.
-
-        :meta private:
-        """
+        """Refuse a change."""
         raise TypeError("a Table does not change: make another one, as Table({**table, name: column})")
 
     __setitem__ = __delitem__ = __ior__ = clear = pop = popitem = setdefault = update = _refused

@@ -444,22 +444,10 @@ class Pixels(Pictured, Elements):
 
 
 def counted(number: int, noun: str, several: str | None = None) -> str:
-    """Give a number with its noun.
-
-    Examples
-    --------
-    >>> counted(1, "point"), counted(2, "point"), counted(0, "vertex", "vertices")
-    ('1 point', '2 points', '0 vertices')
-    """
+    """Give a number with its noun."""
     return f"{number} {noun if number == 1 else several or noun + 's'}"
 
 
 def placed(text: str, crs: object = None, unit: str | None = None) -> str:
-    """Give a summary with the coordinate reference system and the unit, if they are known.
-
-    Examples
-    --------
-    >>> placed("1 point", "EPSG:2056"), placed("1 polygon", unit="mm")
-    ('1 point, EPSG:2056', '1 polygon, mm')
-    """
+    """Give a summary with the coordinate reference system and the unit, if they are known."""
     return ", ".join([text, *([crs_name(crs)] if crs is not None else []), *([unit] if unit else [])])

@@ -66,21 +66,7 @@ def products(run: Run, o: AlphaShapeOptions, given: JobInput) -> ShapeProducts:
 
 
 class ShapeProducts:
-    """Results of the alpha shapes of one list of points.
-
-    Parameters
-    ----------
-    run : Run
-        Takes notes and seconds.
-    options : AlphaShapeOptions
-        Of the command line.
-    given : JobInput
-        With the image that pictures are drawn over.
-    points : PointSet or SeedSet
-        The points.
-    radius : float or Fraction, optional
-        The one asked for.
-    """
+    """Results of the alpha shapes of one list of points."""
 
     def __init__(
         self,
@@ -367,13 +353,7 @@ class ShapeProducts:
 
 
 def radius_text(r: Radius) -> str:
-    """Write a radius with which the same shape is found again: a double's shortest digits, a fraction's all.
-
-    Examples
-    --------
-    >>> radius_text(2.5), radius_text(Fraction(1, 8)), radius_text(10.0)
-    ('2.5', '0.125', '10')
-    """
+    """Write a radius with which the same shape is found again: a double's shortest digits, a fraction's all."""
     if not isinstance(r, Fraction):
         return repr(float(r)).removesuffix(".0")
     with localcontext() as context:

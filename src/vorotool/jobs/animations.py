@@ -42,13 +42,7 @@ class Animated(Protocol):
 
 
 def animated(options: dict[str, Any]) -> dict[str, Any]:
-    """Give the options of a command with the format that ``--animate`` stands for, where no other is chosen.
-
-    Examples
-    --------
-    >>> animated({"animate": True, "format": None, "output": "growing.png"})["format"]
-    'apng'
-    """
+    """Give the options of a command with the format that ``--animate`` stands for, where no other is chosen."""
     if not options["animate"] or options["format"] is not None:
         return options
     ending = PurePath(options["output"] or "").suffix.lower()
@@ -57,13 +51,7 @@ def animated(options: dict[str, Any]) -> dict[str, Any]:
 
 
 def check_animation(o: Animated, targets: Sequence[Target]) -> None:
-    """Refuse what no animation would show.
-
-    Raises
-    ------
-    UsageError
-        If an output is none, or no output is one.
-    """
+    """Refuse what no animation would show."""
     moving = [target for target in targets if target.fmt in ANIMATIONS]
     if o.animate and len(moving) < len(targets):
         raise UsageError("--animate is for GIF, APNG and WebP: use -f gif, -f apng or -f webp, or leave it out")
@@ -73,14 +61,7 @@ def check_animation(o: Animated, targets: Sequence[Target]) -> None:
 
 
 def parts_of_whole(o: Animated, *, has_nothing: bool = False) -> list[Fraction]:
-    """Give how far a result has grown in each frame, up to 1; from 0 where nothing can be shown.
-
-    Examples
-    --------
-    >>> from types import SimpleNamespace
-    >>> [str(part) for part in parts_of_whole(SimpleNamespace(frames=4))]
-    ['1/4', '1/2', '3/4', '1']
-    """
+    """Give how far a result has grown in each frame, up to 1; from 0 where nothing can be shown."""
     count = o.frames or FRAMES
     if has_nothing:
         return [Fraction(k, max(count - 1, 1)) for k in range(count)]
@@ -88,13 +69,7 @@ def parts_of_whole(o: Animated, *, has_nothing: bool = False) -> list[Fraction]:
 
 
 def check_size(o: Animated, shape: tuple[int, int]) -> None:
-    """Refuse more pixels than can be shown.
-
-    Raises
-    ------
-    LimitError
-        If there are.
-    """
+    """Refuse more pixels than can be shown."""
     count = o.frames or FRAMES
     if count * shape[0] * shape[1] > MOST_PIXELS:
         raise LimitError(
@@ -111,23 +86,7 @@ def write_frames(
     values: Sequence[Fraction],
     draw: Callable[[Fraction], NDArray[np.uint8]],
 ) -> None:
-    """Draw each frame and write them.
-
-    Parameters
-    ----------
-    out : binary file
-        Where to write.
-    run : Run
-        Shows how far it is.
-    o : options
-        With the frames a second.
-    fmt : str
-        Format of the animation.
-    values : sequence of Fraction
-        How far the result has grown in each frame.
-    draw : callable
-        Gives the (H, W, 3) pixels of a frame.
-    """
+    """Draw each frame and write them."""
     from vorotool.formats.images.animation_writer import write_animation
 
     progress = run.progress("animate")

@@ -22,22 +22,7 @@ Data = TypeVar("Data", "PointSet", "PolygonSet")
 def read_clip(
     run: Run, o: TriangulationOptions, path: str, points: PointSet | SeedSet, given: JobInput
 ) -> tuple[PointSet | SeedSet, Sequence[Any]]:
-    """Read the polygons of ``--clip``, as shapely geometry; lines are left out with a note.
-
-    Of polygons and points that name no coordinate reference system, the ones are taken to be in that of the others.
-
-    Returns
-    -------
-    points : PointSet or SeedSet
-        The points, in a system if the polygons are in one.
-    polygons : sequence of shapely geometry
-        To clip to.
-
-    Raises
-    ------
-    InputError
-        If there are no polygons, or they are in another system than the points.
-    """
+    """Read the polygons of ``--clip``, as shapely geometry; lines are left out with a note."""
     from vorotool.geometry.points.point_set import PointSet
     from vorotool.geometry.polygons.conversion import to_shapely
 
@@ -50,13 +35,7 @@ def read_clip(
 
 
 def read_cut(run: Run, o: ComputingOptions, option: str, path: str) -> PolygonSet:
-    """Read the polygons and lines of an option, brought into the system of ``--crs`` if they are in another.
-
-    Raises
-    ------
-    InputError
-        If they are none; the option is named.
-    """
+    """Read the polygons and lines of an option, brought into the system of ``--crs`` if they are in another."""
     from vorotool.formats import read
     from vorotool.formats.parsing.reader_options import ReadOptions
     from vorotool.formats.parsing.reference_systems import with_crs
@@ -72,18 +51,7 @@ def read_cut(run: Run, o: ComputingOptions, option: str, path: str) -> PolygonSe
 
 
 def polygons_among(run: Run, path: str, value: PolygonSet) -> Any:
-    """Tell which are polygons: lines are left out of ``--clip``, with a note.
-
-    Returns
-    -------
-    (p,) bool array
-        True of polygons.
-
-    Raises
-    ------
-    InputError
-        If there are none.
-    """
+    """Tell which are polygons: lines are left out of ``--clip``, with a note."""
     lines = int(value.is_line.sum())
     if lines:
         run.note(f"{path}: {lines} open lines are left out of --clip")
@@ -99,13 +67,7 @@ def _note_of_cut(run: Run, message: str) -> None:
 
 
 def check_image_crs(cut: tuple[str, PolygonSet], source: str, crs: Any) -> None:
-    """Check that polygons are in the coordinate reference system of an image, as far as both name any.
-
-    Raises
-    ------
-    InputError
-        If they are in another.
-    """
+    """Check that polygons are in the coordinate reference system of an image, as far as both name any."""
     path, polygons = cut
     if crs is not None and polygons.crs is not None:
         warp = "bring the polygons into that of the image: ogr2ogr -t_srs {} clip.gpkg {}"
@@ -113,18 +75,7 @@ def check_image_crs(cut: tuple[str, PolygonSet], source: str, crs: Any) -> None:
 
 
 def in_one_crs(run: Run, cut: tuple[str, PolygonSet], data: tuple[str, Data]) -> Data:
-    """Check that polygons and data are in one coordinate reference system, as far as they name any.
-
-    Returns
-    -------
-    PointSet or PolygonSet
-        The data, in a system if the polygons are in one.
-
-    Raises
-    ------
-    InputError
-        If they are in two, or the ones that name none lie elsewhere.
-    """
+    """Check that polygons and data are in one coordinate reference system, as far as they name any."""
     from vorotool.formats.parsing.reference_systems import declared_in, note_degrees
     from vorotool.geometry.crs import crs_name
 

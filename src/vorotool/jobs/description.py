@@ -50,15 +50,7 @@ _TYPES = {bool: "truth", int: "integer", float: "number", str: "text"}
 
 
 def describe_inputs(options: ReadingOptions) -> None:
-    """Print how each input is read; of several, one that cannot be read ends nothing.
-
-    Raises
-    ------
-    BatchError
-        If one of several cannot be read; what is wrong with it has been said.
-    InputError, LimitError, UsageError
-        As `described`, of a single one.
-    """
+    """Print how each input is read; of several, one that cannot be read ends nothing."""
     names = _named_by(options)
     if not names:
         raise UsageError("0 inputs are given: name files, a folder, or - for standard input")
@@ -94,26 +86,7 @@ def _named_by(options: ReadingOptions) -> list[str]:
 
 
 def described(path: str, options: ReadingOptions) -> Description:
-    """Read an input, and tell how.
-
-    Parameters
-    ----------
-    path : str
-        ``-`` is standard input.
-    options : ReadingOptions
-        Of the command line.
-
-    Raises
-    ------
-    InputError, LimitError, UsageError
-        As `vorotool.read`.
-
-    Examples
-    --------
-    >>> told = described("data/six-seeds.csv", ReadingOptions(inputs=("data/six-seeds.csv",)))
-    >>> told["format"], told["kind"], told["points"], told["bounds"]
-    ('csv', 'points', 6, [2.0, 2.0, 13.0, 14.0])
-    """
+    """Read an input, and tell how."""
     volume = _of_volume(path, options)
     if volume is not None:
         return volume
@@ -375,26 +348,12 @@ def _type_in_json(value: Any) -> str:
 
 
 def as_json(told: Description) -> bytes:
-    r"""Give it as an object of JSON on one line.
-
-    Examples
-    --------
-    >>> as_json({"input": "a.csv", "points": 3, "crs": None})
-    b'{"input":"a.csv","points":3,"crs":null}\n'
-    """
+    """Give it as an object of JSON on one line."""
     return json.dumps(told, separators=(",", ":")).encode() + b"\n"
 
 
 def as_text(told: Description) -> bytes:
-    r"""Give it as lines for people: what a file does not say is left out.
-
-    Examples
-    --------
-    >>> print(as_text({"input": "a.csv", "points": 3, "crs": None, "bounds": [0.0, 1.0, 2.5, 9.0]}).decode(), end="")
-    a.csv
-      points     3
-      bounds     x 0 to 2.5, y 1 to 9
-    """
+    """Give it as lines for people: what a file does not say is left out."""
     shown = {name: _words(name, value, told) for name, value in told.items() if name not in ("input", "unit", "notes")}
     lines = [f"  {_TITLES.get(name, name):10} {text}" for name, text in shown.items() if text]
     lines += [f"  {'note':10} {text}" for text in told.get("notes", ())]

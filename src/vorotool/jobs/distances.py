@@ -45,17 +45,7 @@ def check_options(o: DistanceOptions, targets: list[Target]) -> None:
 
 
 class DistanceProducts:
-    """Results of one comparison.
-
-    Parameters
-    ----------
-    run : Run
-        Takes notes and seconds.
-    options : DistanceOptions
-        Of the command line.
-    given : JobInput
-        The first input.
-    """
+    """Results of one comparison."""
 
     def __init__(self, run: Run, options: DistanceOptions, given: JobInput) -> None:
         self.run, self.options = run, options

@@ -51,17 +51,7 @@ Drawing = tuple[Callable[[BinaryIO], None], dict[str, Any]]
 
 
 class Picture:
-    """The picture of one input.
-
-    Parameters
-    ----------
-    run : Run
-        Takes notes and seconds.
-    options : DrawingOptions
-        Of the command line.
-    given : JobInput
-        The input, and the image that it is drawn over.
-    """
+    """The picture of one input."""
 
     def __init__(self, run: Run, options: DrawingOptions, given: JobInput) -> None:
         self._run, self._options, self._given = run, options, given

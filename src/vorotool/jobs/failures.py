@@ -8,13 +8,7 @@ from vorotool.errors import LimitError, Message, VorotoolError
 
 
 def explained(error: Exception) -> tuple[Message, int]:
-    """Give the message and the exit code of an error; of a defect of ours the lines that help to mend it are printed.
-
-    Examples
-    --------
-    >>> explained(LimitError("too large"))
-    ('too large', 5)
-    """
+    """Return the message and the exit code of an error; print the traceback of an internal error."""
     if isinstance(error, VorotoolError):
         return error.typed, error.exit_code
     if isinstance(error, MemoryError):

@@ -30,24 +30,12 @@ if TYPE_CHECKING:
 
 
 class JobInput(NamedTuple):
-    """What one job is about.
+    """What one job is about."""
 
-    Parameters
-    ----------
-    path : str
-        The input; ``-`` is standard input.
-    backdrop : Backdrop, optional
-        The image that pictures of it are drawn over.
-    has_units : bool
-        An output has lengths.
-    has_page : bool
-        An output is a page of HTML, which shows columns of the input.
-    """
-
-    path: str
-    backdrop: Backdrop | None = None
-    has_units: bool = False
-    has_page: bool = False
+    path: str  # the input; `-` is standard input
+    backdrop: Backdrop | None = None  # the image that pictures of it are drawn over
+    has_units: bool = False  # an output has lengths
+    has_page: bool = False  # an output is a page of HTML, which shows columns of the input
 
     @property
     def name(self) -> str:
@@ -107,31 +95,14 @@ def read_opened(
 
 
 def report_no_geometry(run: Run, o: ComputingOptions, what: str = "the input") -> None:
-    """Warn of an input without geometry, or refuse it where `--strict` is given.
-
-    Raises
-    ------
-    InputError
-        If it is refused.
-    """
+    """Warn of an input without geometry, or refuse it where `--strict` is given."""
     if o.strict:  # messages of errors begin with the name of the input
         raise InputError("the input holds no geometry: leave out --strict for an empty result")
     run.warn(Message(f"{what} holds no geometry: the result is empty", Kind.EMPTY_INPUT))
 
 
 def check_streams(named: Iterable[tuple[str, str]]) -> None:
-    """Refuse two names of one stream: whoever reads it first leaves nothing for the other.
-
-    Parameters
-    ----------
-    named : iterable of (str, str)
-        What reads, as the user knows it, and the name that it reads.
-
-    Raises
-    ------
-    UsageError
-        Naming both.
-    """
+    """Refuse two names of one stream: whoever reads it first leaves nothing for the other."""
     readers: dict[Hashable, str] = {}
     for reader, name in named:
         identity = input_identity(name)
@@ -222,13 +193,7 @@ def asked_frame(o: SiteOptions) -> Frame | None:
 
 
 def report_no_seeds(run: Run, o: TessellationOptions, frame: object) -> None:
-    """Report an input without seeds: the frame is all 0, and has to be given.
-
-    Raises
-    ------
-    InputError
-        If there is no frame, distances to the seeds are wanted, or `--strict` refuses.
-    """
+    """Report an input without seeds: the frame is all 0, and has to be given."""
     if frame is None:
         raise InputError("there are no seeds, and no frame: give at least one point, or --size or --window")
     if {"distance", "distance2"} & set(o.what):

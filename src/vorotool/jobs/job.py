@@ -36,47 +36,19 @@ class Products(Protocol):
 
 @dataclass(frozen=True)
 class Recipe(Generic[Options]):
-    """A command, as far as it is about one input.
+    """A command, as far as it is about one input."""
 
-    Parameters
-    ----------
-    name : str
-        Of the command.
-    formats : mapping of str to sequence of str
-        Formats of each result; the first is its default.
-    check_options : callable
-        ``check_options(options, targets)`` refuses options that do not go together, or that no output would show.
-    make : callable
-        ``make(run, options, given)`` reads an input and gives its products.
-    geometry : {"points", "polygons"}, optional
-        What it reads beside images.
-
-    The callables are functions of a module, so that a recipe can be sent to another process.
-    """
-
-    name: str
-    formats: Mapping[str, Sequence[str]]
+    name: str  # of the command
+    formats: Mapping[str, Sequence[str]]  # formats of each result; the first is its default
+    # `check_options(options, targets)` refuses options that do not go together, or that no output would show
     check_options: Callable[[Options, list[Target]], None]
+    # `make(run, options, given)` reads an input and gives its products
     make: Callable[[Run, Options, JobInput], Products]
-    geometry: str | None = None
+    geometry: str | None = None  # what it reads beside images
 
 
 def process_input(recipe: Recipe[Options], run: Run, options: Options, path: str, targets: Sequence[Target]) -> None:
-    """Read one input, compute, check and write its results, which take their places together.
-
-    Parameters
-    ----------
-    recipe : Recipe
-        Of the command.
-    run : Run
-        Takes notes, warnings, seconds and statistics.
-    options : JobOptions
-        Of the command line.
-    path : str
-        The input; ``-`` is standard input.
-    targets : sequence of Target
-        The outputs.
-    """
+    """Read one input, compute, check and write its results, which take their places together."""
     from vorotool.formats.io.atomic_output import make_folder
     from vorotool.formats.io.commit import committed_together
     from vorotool.formats.text.tables import safe_texts, unit_column

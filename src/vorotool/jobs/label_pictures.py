@@ -31,50 +31,23 @@ LEAST_SPACING = 6.0
 
 @dataclass(frozen=True, eq=False)
 class LabelPicture:
-    """A label image, and how it is drawn.
+    """A label image, and how it is drawn."""
 
-    Parameters
-    ----------
-    image : LabelImage
-        With seeds, if these are drawn.
-    colours : pair of (k,) integer arrays
-        The labels that occur, increasing, and the colour class of each: what `region_colours` gives.
-    layers : sequence of str
-        Of cells, diagram (PNG), objects, seeds and labels.
-    style : PictureStyle
-        Ground, colours and widths of lines.
-    width : int
-        Pixels across an SVG.
-    y_up : bool
-        Draw the last row on top.
-    backdrop : Backdrop, optional
-        The image, whose size the picture has.
-    texts : mapping of int to str, optional
-        Written on regions instead of their labels; on those that are not in it nothing is.
-    threads : int
-        0 uses all.
-    """
-
-    image: LabelImage
+    image: LabelImage  # with seeds, if these are drawn
+    # pair of (k,) integer arrays: the labels that occur, increasing, and the colour class of each: what
+    # `region_colours` gives
     colours: tuple[NDArray[Any], NDArray[Any]]
-    layers: Sequence[str]
-    style: PictureStyle
-    width: int = 1000
-    y_up: bool = False
-    backdrop: Backdrop | None = None
+    layers: Sequence[str]  # of cells, diagram (PNG), objects, seeds and labels
+    style: PictureStyle  # ground, colours and widths of lines
+    width: int = 1000  # pixels across an SVG
+    y_up: bool = False  # draw the last row on top
+    backdrop: Backdrop | None = None  # the image, whose size the picture has
+    # written on regions instead of their labels; on those that are not in it nothing is
     texts: Mapping[int, str] | None = None
     threads: int = 0
 
     def write(self, out: BinaryIO, fmt: str) -> None:
-        """Draw it as SVG, or as a palette PNG of its own size, or over an image.
-
-        Parameters
-        ----------
-        out : binary file
-            Where to write.
-        fmt : {"png", "svg"}
-            Kind of picture.
-        """
+        """Draw it as SVG, or as a palette PNG of its own size, or over an image."""
         picture = replace(self, image=self.image.flipped()) if self.y_up else self
         if fmt == "svg":
             _write_svg(out, picture)
@@ -102,23 +75,7 @@ def write_label_page(
     *,
     y_up: bool,
 ) -> None:
-    """Write a page that names the region that is pointed at, with its row of a table.
-
-    Parameters
-    ----------
-    out : binary file
-        Receives UTF-8.
-    image : LabelImage
-        0 is no label.
-    colours : pair of (k,) integer arrays
-        The labels that occur, increasing, and the colour class of each.
-    table : Table
-        A row a label, by its column ``label``.
-    more : mapping of str to sequence, optional
-        Further columns, in the order of the colours.
-    y_up : bool
-        The last row is on top.
-    """
+    """Write a page that names the region that is pointed at, with its row of a table."""
     from vorotool.render.pages.cells_html import shapes_of_labels, write_cells_html
 
     rows = {int(label): row for row, label in enumerate(table["label"])}
@@ -137,15 +94,7 @@ def default_layers(image: LabelImage, layers: Sequence[str]) -> tuple[str, ...]:
 
 
 def site_texts(seeds: SeedSet | VolumeSeeds, column: str) -> dict[int, str]:
-    """Give what a column of the sites writes on the region of each label.
-
-    Examples
-    --------
-    >>> from vorotool.geometry.points.seed_set import SeedSet
-    >>> seeds = SeedSet(np.array([0, 5]), np.array([0, 1]), np.array([1, 2]), properties={"town": ["Ulm", None]})
-    >>> site_texts(seeds, "town")
-    {1: 'Ulm', 2: ''}
-    """
+    """Give what a column of the sites writes on the region of each label."""
     from vorotool.render.canvas.names import column_texts
 
     assert seeds.site_labels is not None  # SeedSet has filled it in
@@ -288,13 +237,7 @@ def _pixels(picture: LabelPicture, marks: _Marks) -> NDArray[np.uint8]:
 
 
 class _Marks:
-    """What is drawn over the cells of a PNG, pixel by pixel, and in which colours.
-
-    Parameters
-    ----------
-    picture : LabelPicture
-        With everything that is chosen.
-    """
+    """What is drawn over the cells of a PNG, pixel by pixel, and in which colours."""
 
     def __init__(self, picture: LabelPicture) -> None:
         from vorotool.engines.label_images.label_places import outermost_pixels

@@ -22,29 +22,7 @@ MOST_NAMED = 5
 
 
 def seeds_on_map(run: Run, o: TessellationOptions, value: PointSet | PolygonSet) -> tuple[TessellationOptions, SeedSet]:
-    """Lay cells over a map, and find the seeds in them: points, or the cells of lines and polygons.
-
-    Parameters
-    ----------
-    run : Run
-        Takes seconds.
-    o : TessellationOptions
-        Of the command line.
-    value : PointSet or PolygonSet
-        In the units of the map.
-
-    Returns
-    -------
-    options : TessellationOptions
-        With the frame in cells, and the map as the unit of tables.
-    seeds : SeedSet
-        With the grid of the cells.
-
-    Raises
-    ------
-    InputError
-        If there is nothing on the map and no window, or no feature has a cell.
-    """
+    """Lay cells over a map, and find the seeds in them: points, or the cells of lines and polygons."""
     import numpy as np
 
     from vorotool.engines.tessellation.seeding import seeds_in_frame

@@ -16,24 +16,12 @@ if TYPE_CHECKING:
 
 
 class Foreground(NamedTuple):
-    """What of an image is foreground: what is larger than the threshold, or else what is not.
+    """What of an image is foreground: what is larger than the threshold, or else what is not."""
 
-    Parameters
-    ----------
-    image : Raster
-        With its values, or a mask that was cleaned.
-    threshold : float, optional
-        None where values tell.
-    invert : bool
-        Exchange foreground and background.
-    cleaning : Cleaning, optional
-        What is yet to be filled and left out.
-    """
-
-    image: Raster
-    threshold: float | None
-    invert: bool
-    cleaning: Cleaning | None = None
+    image: Raster  # with its values, or a mask that was cleaned
+    threshold: float | None  # none where values tell
+    invert: bool  # exchange foreground and background
+    cleaning: Cleaning | None = None  # what is yet to be filled and left out
 
 
 def settled_foreground(run: Run, o: SiteOptions | ShapeOptions, image: Raster) -> Foreground:
@@ -91,21 +79,7 @@ def _cleaned(run: Run, o: SiteOptions | ShapeOptions, found: Foreground) -> Fore
 
 
 def report_cleaning(run: Run, o: ComputingOptions, filled: int, removed: tuple[int, int], what: str) -> None:
-    """Put what was filled and left out into the statistics, and into a note.
-
-    Parameters
-    ----------
-    run : Run
-        Takes both.
-    o : ComputingOptions
-        With areas that are numbers of pixels or voxels.
-    filled : int
-        Pixels or voxels of holes that were filled.
-    removed : (int, int)
-        Objects that were left out, of how many.
-    what : str
-        Pixels or voxels.
-    """
+    """Put what was filled and left out into the statistics, and into a note."""
     from vorotool.geometry.numbers import shown_number
 
     if o.fill_holes:

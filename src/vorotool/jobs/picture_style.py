@@ -44,38 +44,18 @@ OPTIONS = ("scale", "unit", "background", "color", "line-width", "label-by", "le
 
 
 class Looks(NamedTuple):
-    """What is chosen of the looks of pictures.
-
-    Parameters
-    ----------
-    scale : Scale, optional
-        Of SVG.
-    drawing_unit : str, optional
-        Of the input, if it names none.
-    background : str, optional
-        ``#rrggbb`` or ``none``.
-    colours, line_widths : tuple of pairs
-        By layers.
-    label_by : str, optional
-        Column that names objects.
-    has_legend, has_scale_bar : bool
-        They are drawn.
-    aspect : float, optional
-        Px of a unit of y for each of a unit of x.
-    extent : {"image", "data"}, optional
-        What the page of an image's result shows.
-    """
+    """What is chosen of the looks of pictures."""
 
     scale: Scale | None = None
-    drawing_unit: str | None = None
-    background: str | None = None
+    drawing_unit: str | None = None  # of the input, if it names none
+    background: str | None = None  # `#rrggbb` or `none`
     colours: tuple[tuple[str, str], ...] = ()
     line_widths: tuple[tuple[str, float], ...] = ()
-    label_by: str | None = None
-    has_legend: bool = False
-    has_scale_bar: bool = False
-    aspect: float | None = None
-    extent: str | None = None
+    label_by: str | None = None  # column that names objects
+    has_legend: bool = False  # they are drawn
+    has_scale_bar: bool = False  # they are drawn
+    aspect: float | None = None  # px of a unit of y for each of a unit of x
+    extent: str | None = None  # what the page of an image's result shows
 
     def style(self, scale_bar: ScaleBar | None = None) -> PictureStyle:
         """What is chosen, as what draws takes it, with the lengths that a scale bar may have."""
@@ -100,24 +80,7 @@ class Looks(NamedTuple):
 def check_style(
     o: JobOptions, pictures: Sequence[str], layers: Mapping[str, Sequence[str]], *, is_of_lines: bool
 ) -> None:
-    """Refuse what no picture would show.
-
-    Parameters
-    ----------
-    o : JobOptions
-        Of the command line.
-    pictures : sequence of str
-        Their formats.
-    layers : mapping of str to sequence of str
-        Layers of each format.
-    is_of_lines : bool
-        They are made of layers, not of the pixels of an image.
-
-    Raises
-    ------
-    UsageError
-        If an option is not for them.
-    """
+    """Refuse what no picture would show."""
     looks = o.looks
     given = looks.given()
     if given and not pictures:
@@ -149,18 +112,7 @@ def check_style(
 def looks_of(
     *, color: Mapping[str, str] | None, line_width: Mapping[str, float] | None, background: str | None
 ) -> Looks:
-    """Give the looks that the library is asked for; see `vorotool.write`.
-
-    Raises
-    ------
-    UsageError
-        If a colour is none, or a width no number from 0 on.
-
-    Examples
-    --------
-    >>> looks_of(color={"seeds": "red"}, line_width=None, background=None).colours
-    (('seeds', '#ff0000'),)
-    """
+    """Give the looks that the library is asked for; see `vorotool.write`."""
     from vorotool.geometry.numbers import finite_double
 
     ground = (
@@ -199,13 +151,7 @@ def _colour(text: object, what: str) -> str:
 
 
 def check_layers(looks: Looks, drawn: Sequence[str]) -> None:
-    """Refuse colours and widths of layers that a picture has not.
-
-    Raises
-    ------
-    UsageError
-        If there are some; the layers of the picture are named.
-    """
+    """Refuse colours and widths of layers that a picture has not."""
     from vorotool.render.canvas.styles import DRAWN_AS
 
     known = [*dict.fromkeys([*drawn, *(DRAWN_AS[layer] for layer in drawn if layer in DRAWN_AS)])]
@@ -216,43 +162,16 @@ def check_layers(looks: Looks, drawn: Sequence[str]) -> None:
 
 
 class World(NamedTuple):
-    """Where what is drawn lies.
+    """Where what is drawn lies."""
 
-    Parameters
-    ----------
-    scale_bar : ScaleBar, optional
-        What lengths are written in.
-    millimetre_unit : str, optional
-        Unit of the data, for pictures to scale.
-    aspect : float
-        Px of a unit of y for each of a unit of x.
-    frame : (x, y, x, y), optional
-        Of the image that the data come from.
-    """
-
-    scale_bar: ScaleBar | None = None
-    millimetre_unit: str | None = None
-    aspect: float = 1.0
-    frame: tuple[float, float, float, float] | None = None
+    scale_bar: ScaleBar | None = None  # what lengths are written in
+    millimetre_unit: str | None = None  # unit of the data, for pictures to scale
+    aspect: float = 1.0  # px of a unit of y for each of a unit of x
+    frame: tuple[float, float, float, float] | None = None  # of the image that the data come from
 
 
 def styled_page(page: Page, looks: Looks, world: World) -> Page:
-    """Give the page of a picture as the options say.
-
-    Parameters
-    ----------
-    page : Page
-        As it is if they say nothing.
-    looks : Looks
-        What is chosen.
-    world : World
-        Of the data.
-
-    Raises
-    ------
-    UsageError
-        If a ratio has no unit to go by.
-    """
+    """Give the page of a picture as the options say."""
     from vorotool.render.canvas.layers import MARGIN, Page
     from vorotool.render.canvas.scaled_page import ScaledPage
 
@@ -271,13 +190,7 @@ def styled_page(page: Page, looks: Looks, world: World) -> Page:
 
 
 def colour_code(text: str) -> str | None:
-    """Give a colour, ``#rrggbb`` or a name as in CSS, as ``#rrggbb``; None if it is none.
-
-    Examples
-    --------
-    >>> colour_code("navy"), colour_code("#fff"), colour_code("#12345678")
-    ('#000080', '#ffffff', None)
-    """
+    """Give a colour, ``#rrggbb`` or a name as in CSS, as ``#rrggbb``; None if it is none."""
     from PIL import ImageColor
 
     try:

@@ -39,25 +39,7 @@ def world_of(
     frame: Frame | None = None,
     size: PixelSize | None = None,
 ) -> World:
-    """Tell where what is drawn lies.
-
-    Parameters
-    ----------
-    run : Run, optional
-        Takes a note why there is no scale bar.
-    looks : Looks
-        What is chosen of pictures.
-    crs : object, optional
-        The coordinate reference system of points or polygons.
-    unit : str, optional
-        That the input names.
-    bounds : (x, y, x, y), optional
-        The least and the largest coordinates.
-    frame : Frame, optional
-        Of the image that the data come from, whose pixels their coordinates are.
-    size : PixelSize, optional
-        The side of a pixel, or of a unit of the input.
-    """
+    """Tell where what is drawn lies."""
     is_angular = is_geographic(crs) and frame is None
     aspect = aspect_at((bounds[1] + bounds[3]) / 2) if is_angular and bounds is not None else 1.0
     bar = None
@@ -71,19 +53,7 @@ def world_of(
 
 
 def world_of_sites(run: Run, o: SiteOptions, mesh: AnyTriangulation, sites: PointSet | SeedSet) -> World:
-    """Tell where sites lie that are points, or objects of an image.
-
-    Parameters
-    ----------
-    run : Run
-        Takes notes.
-    o : SiteOptions
-        With the size of pixels.
-    mesh : triangulation
-        Of the sites.
-    sites : PointSet or SeedSet
-        What was read.
-    """
+    """Tell where sites lie that are points, or objects of an image."""
     from vorotool.geometry.points.seed_set import SeedSet
 
     frame = sites.frame if isinstance(sites, SeedSet) else None
@@ -99,15 +69,7 @@ def world_of_polygons(
 
 
 def world_of_value(value: Any, looks: Looks) -> World:
-    """Tell where a value of the library lies, and refuse a column that it has not.
-
-    Parameters
-    ----------
-    value : value of the library
-        Other than a label image.
-    looks : Looks
-        What is chosen of pictures.
-    """
+    """Tell where a value of the library lies, and refuse a column that it has not."""
     from vorotool.geometry.mesh.cells import CellSet
     from vorotool.geometry.polygons.polygon_set import PolygonSet
     from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
@@ -162,13 +124,7 @@ def _bounds_of(points: NDArray[np.float64]) -> tuple[float, float, float, float]
 
 
 def aspect_at(latitude: float) -> float:
-    """Give how much longer a degree of latitude is than one of longitude, on a sphere.
-
-    Examples
-    --------
-    >>> aspect_at(0.0), round(aspect_at(60.0), 12), aspect_at(90) == aspect_at(-89)
-    (1.0, 2.0, True)
-    """
+    """Give how much longer a degree of latitude is than one of longitude, on a sphere."""
     from math import pi
 
     from vorotool.geometry.curves.inverse_functions import cosine_and_sine
@@ -209,17 +165,7 @@ def _sides(frame: Frame, size: PixelSize | None) -> tuple[float, float, float, f
 
 
 def check_column(label_by: str | None, columns: Iterable[str], option: str = "--label-by") -> None:
-    """Refuse a column that the input has not.
-
-    Raises
-    ------
-    UsageError
-        If it is none; those that there are are named.
-
-    Examples
-    --------
-    >>> check_column("name", ["name"])
-    """
+    """Refuse a column that the input has not."""
     known = list(columns)
     if label_by is None or label_by in known:
         return

@@ -18,21 +18,7 @@ if TYPE_CHECKING:
 
 
 def write_layers(out: BinaryIO, layers: Sequence[Layer], page: Page, *, fmt: str, threads: int = 0) -> None:
-    """Draw layers as SVG or PNG.
-
-    Parameters
-    ----------
-    out : binary file
-        Where to write.
-    layers : sequence of Layer
-        What to draw, from below; over an image lines have a light edge, so that they show on dark ground, too.
-    page : Page
-        Where it lies.
-    fmt : {"svg", "png"}
-        Kind of picture.
-    threads : int
-        0 uses all.
-    """
+    """Draw layers as SVG or PNG."""
     made = _finished(layers, page)
     if fmt == "svg":
         from vorotool.render.canvas.svg import write_layers_svg
@@ -89,37 +75,7 @@ def drawing_of(
     backdrop: Backdrop | None = None,
     styled: Callable[[Page], Page] | None = None,
 ) -> Drawing:
-    """Make the layers of the picture of a value other than a label image.
-
-    Parameters
-    ----------
-    value : value of the library
-        A triangulation, cells, an alpha shape or hull, polygons, a skeleton, points along one, discs, necks, parts,
-        offset curves, or a Voronoi map.
-    what : str, optional
-        Which part, by its name in the registry of products; by default the first that is drawn.
-    layers : sequence of str, optional
-        Which; by default the usual ones of the part, over an image without the polygons.
-    width : int
-        Of the page, in px.
-    y_up : bool, optional
-        Draw y upwards; by default as the input is drawn.
-    backdrop : Backdrop, optional
-        An image to draw over, whose size the page then has.
-    styled : callable, optional
-        Gives the page that is drawn on for the one that it would be else.
-
-    Raises
-    ------
-    UsageError
-        If there is no picture of it, or no such layer.
-
-    Examples
-    --------
-    >>> from vorotool import delaunay
-    >>> [layer.name for layer in drawing_of(delaunay([[0, 0], [4, 0], [0, 3]])).layers]
-    ['edges', 'points']
-    """
+    """Make the layers of the picture of a value other than a label image."""
     from vorotool.render.canvas.layers import ImagePage
 
     drawn = {name: each for name, each in parts_of(value).items() if each.usual_layers}

@@ -34,27 +34,7 @@ Sites = TypeVar("Sites", "PointSet", "SeedSet", "PointSet | SeedSet")
 
 
 def with_pixel_size(run: Run, o: Options, given: JobInput, grid: PixelGrid | None) -> Options:
-    """Give options with the size of the pixels of an image: as the user says, else what the file says of a map.
-
-    Places among the options, which are in pixels, are mirrored where rows go down on the map.
-
-    Parameters
-    ----------
-    run : Run
-        Takes notes and statistics.
-    o : ComputingOptions
-        Of the command line.
-    given : JobInput
-        The image.
-    grid : PixelGrid, optional
-        What its file says of its pixels.
-
-    Raises
-    ------
-    InputError
-        If the size is to be that of the file, and it has none, or for ``--pixel-size`` pixels that are no squares; or
-        if its pixels are turned on the map.
-    """
+    """Give options with the size of the pixels of an image: as the user says, else what the file says of a map."""
     asked = o.pixel_size
     if asked is not None and not asked.is_auto:
         return o
@@ -208,10 +188,7 @@ def in_steps(o: ComputingOptions, points: Sites) -> Sites:
 
 
 def written_grid(size: PixelSize | None, grid: PixelGrid | None) -> PixelGrid | None:
-    """Give what images that are written say of their pixels: the sides of ``--spacing``, else what the input says.
-
-    A map keeps its place, and sides without a unit are no size.
-    """
+    """Give what images that are written say of their pixels: the sides of ``--spacing``, else what the input says."""
     if size is None or size.sides is None or size.unit is None or (grid is not None and grid.transform is not None):
         return grid
     from vorotool.geometry.pixel_grid import PixelGrid
@@ -229,13 +206,7 @@ def placed_mesh(size: PixelSize | None, mesh: Placed) -> Placed:
 
 
 def placed_backdrop(size: PixelSize | None, backdrop: Backdrop | None) -> Backdrop | None:
-    """Give the image of ``--overlay`` as what is drawn over it lies.
-
-    Raises
-    ------
-    UsageError
-        If that has rectangular pixels.
-    """
+    """Give the image of ``--overlay`` as what is drawn over it lies."""
     if backdrop is not None and size is not None and size.sides is not None:
         raise UsageError("--overlay shows pixels as squares: leave it out with --spacing")
     if backdrop is None or size is None or not size.y_up:

@@ -25,30 +25,7 @@ MakeBar = Callable[[str], AbstractContextManager[Report]]
 
 
 class Run:
-    """What a command says besides its result.
-
-    Parameters
-    ----------
-    command : str
-        Its name.
-    quiet, verbose : bool
-        Say nothing but errors, whatever else is asked for; say what takes how long.
-    stats : str, optional
-        File for the statistics, ``-`` for standard output.
-    no_clobber : bool
-        Refuse to replace that file.
-    bar : callable, optional
-        Makes progress bars, which are shown on a terminal only.
-
-    Attributes
-    ----------
-    stats : dict
-        Statistics, beside seconds and warnings.
-    seconds : dict of str to float
-        By phases.
-    warnings, notes : list of Message
-        What was said, or would have been.
-    """
+    """What a command says besides its result."""
 
     def __init__(
         self,
@@ -99,10 +76,7 @@ class Run:
             tell(f"note: {said}")
 
     def warn(self, message: str) -> None:
-        """Say what was repaired, snapped or guessed: on standard error and in the statistics, each once.
-
-        An empty result is not reported after an empty input.
-        """
+        """Say what was repaired, snapped or guessed: on standard error and in the statistics, each once."""
         said = Message.of(message).typed
         is_empty = said.kind is Kind.EMPTY_RESULT
         if said in self.warnings or (is_empty and any(each.kind is Kind.EMPTY_INPUT for each in self.warnings)):

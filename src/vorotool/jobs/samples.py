@@ -12,27 +12,7 @@ from vorotool.products.samples import SAMPLES
 
 
 def write_sample(name: str, output: str | None) -> None:
-    """Write a sample; the bytes are those of the package.
-
-    Parameters
-    ----------
-    name : str
-        One of `vorotool.products.samples.SAMPLES`, with or without its extension.
-    output : str, optional
-        Where to write; by default standard output, for text.
-
-    Raises
-    ------
-    UsageError
-        If there is no such sample, or it is binary and `output` is missing.
-
-    Examples
-    --------
-    >>> write_sample("dot", None)
-    Traceback (most recent call last):
-        ...
-    vorotool.errors.UsageError: there is no sample 'dot': did you mean dots.csv?
-    """
+    """Write a sample; the bytes are those of the package."""
     from vorotool.formats.io.atomic_output import open_output
 
     path = sample(name)
@@ -44,28 +24,7 @@ def write_sample(name: str, output: str | None) -> None:
 
 
 def write_all_samples(folder: str) -> None:
-    """Write every sample into a folder, which is made if it is missing; never replace a file with other content.
-
-    Parameters
-    ----------
-    folder : str
-        Where to write.
-
-    Raises
-    ------
-    UsageError
-        If the folder is standard output.
-    OutputError
-        If one of the files exists with other content, before any is written, or if one cannot be written.
-
-    Examples
-    --------
-    >>> import tempfile
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     write_all_samples(folder)
-    ...     "dots.csv" in os.listdir(folder)
-    True
-    """
+    """Write every sample into a folder, which is made if it is missing; never replace a file with other content."""
     from vorotool.formats.io.atomic_output import make_folder
     from vorotool.formats.io.commit import committed_together
     from vorotool.formats.io.descriptors import STANDARD

@@ -47,14 +47,7 @@ ROWS = 10
 
 # ---- features ------------------------------------------------------------------------------------
 def feature_collection(value: Any) -> dict[str, Any]:
-    """Give a value as a feature collection of GeoJSON: as `to_geojson` does, of triangulations the triangles.
-
-    Examples
-    --------
-    >>> from vorotool import PointSet
-    >>> feature_collection(PointSet([[2, 1]]))["features"][0]["geometry"]
-    {'type': 'Point', 'coordinates': [2.0, 1.0]}
-    """
+    """Give a value as a feature collection of GeoJSON: as `to_geojson` does, of triangulations the triangles."""
     if any("geojson" in each.written for each in parts_of(value).values()):
         return to_geojson(value, what="triangles" if isinstance(value, Triangulation | DigitalTriangulation) else None)
     return _features(value)
@@ -121,14 +114,7 @@ def _elements(layers: Sequence[Layer]) -> int:
 
 
 def svg_of(value: Any) -> str | None:
-    """Give the picture of a value as SVG; None of images, and of what has too many elements.
-
-    Examples
-    --------
-    >>> from vorotool import delaunay
-    >>> svg_of(delaunay([[0, 0], [4, 0], [0, 3]])).count("<circle")
-    3
-    """
+    """Give the picture of a value as SVG; None of images, and of what has too many elements."""
     if isinstance(value, LabelImage | Raster):
         return None
     drawing = _drawn(value, None, None, WIDTH)
@@ -138,14 +124,7 @@ def svg_of(value: Any) -> str | None:
 
 
 def html_of(value: Any) -> str | None:
-    """Give a value as a small picture of pixels, with one line below; None of what `svg_of` gives.
-
-    Examples
-    --------
-    >>> from vorotool import LabelImage
-    >>> html_of(LabelImage(np.array([[1, 1, 2]], dtype=np.uint8)))[-48:]
-    '<br>LabelImage: 3 x 1, 2 labels, uint8</figure>\\n'
-    """
+    """Give a value as a small picture of pixels, with one line below; None of what `svg_of` gives."""
     if isinstance(value, LabelImage):
         png = _labels_png(value)
     elif isinstance(value, Raster):
@@ -226,15 +205,7 @@ def _crs_of(value: Any) -> Any:
 
 
 def plotted(value: Any, ax: Axes | None = None, **style: Any) -> Axes:
-    """Draw a value on axes of matplotlib; see `vorotool.geometry.values.Pictured`.
-
-    Examples
-    --------
-    >>> from matplotlib.figure import Figure
-    >>> from vorotool import PointSet
-    >>> len(plotted(PointSet([[2, 1]]), Figure().add_subplot()).collections)
-    1
-    """
+    """Draw a value on axes of matplotlib; see `vorotool.geometry.values.Pictured`."""
     needed("matplotlib", "plot", "plots")
     from vorotool.render.canvas.axes import draw_on_axes, settle_axes
 
@@ -288,13 +259,7 @@ def _coloured(image: LabelImage) -> NDArray[np.uint8]:
 
 # ---- tables --------------------------------------------------------------------------------------
 def table_html(table: Table) -> str:
-    """Give the first rows of a table as HTML, and how many it has.
-
-    Examples
-    --------
-    >>> table_html(Table({"label": [1], "name": ["a<b"]})).splitlines()[2]
-    '<tr><td>1</td><td>a&lt;b</td></tr>'
-    """
+    """Give the first rows of a table as HTML, and how many it has."""
     shown = [_first(column) for column in table.stored().values()]
     head = "".join(f"<th>{escape(name)}</th>" for name in table)
     rows = ["".join(f"<td>{escape(text)}</td>" for text in row) for row in zip(*shown, strict=True)]

@@ -22,27 +22,13 @@ Options = TypeVar("Options", bound=ShapeOptions)
 
 
 class ReadPolygons(NamedTuple, Generic[Options]):
-    """What skeletons are made of.
+    """What skeletons are made of."""
 
-    Parameters
-    ----------
-    polygons : PolygonSet
-        Those of the input, or outlines.
-    is_mask : bool
-        Whether they are the outlines of an image.
-    options : ShapeOptions
-        With the size of pixels, and places, as the image has them.
-    frame : Frame, optional
-        Of the image, in the coordinates of the outlines.
-    grid : PixelGrid, optional
-        What the image says of its pixels.
-    """
-
-    polygons: PolygonSet
-    is_mask: bool
-    options: Options
-    frame: Frame | None = None
-    grid: PixelGrid | None = None
+    polygons: PolygonSet  # those of the input, or outlines
+    is_mask: bool  # whether they are the outlines of an image
+    options: Options  # with the size of pixels, and places, as the image has them
+    frame: Frame | None = None  # of the image, in the coordinates of the outlines
+    grid: PixelGrid | None = None  # what the image says of its pixels
 
 
 def read_polygons(run: Run, o: Options, given: JobInput) -> ReadPolygons[Options]:

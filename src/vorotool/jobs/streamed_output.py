@@ -28,30 +28,14 @@ SAMPLES = 3
 
 @dataclass(frozen=True)
 class Stream:
-    """An image that need not be in memory.
-
-    Parameters
-    ----------
-    frame : Frame
-        Its pixels.
-    rows_of : callable
-        Gives any rows.
-    dtype : dtype
-        Of the pixels.
-    largest : int
-        The largest value there can be.
-    band : callable
-        Gives any rows as what computes them anywhere.
-    kind : mapping
-        Further options of `write_label_image`.
-    """
+    """An image that need not be in memory."""
 
     frame: Frame
-    rows_of: RowsOf
+    rows_of: RowsOf  # gives any rows
     dtype: np.dtype[Any]
-    largest: int
-    band: Callable[[int, int], Band]
-    kind: Mapping[str, Any]
+    largest: int  # the largest value there can be
+    band: Callable[[int, int], Band]  # gives any rows as what computes them anywhere
+    kind: Mapping[str, Any]  # further options of `write_label_image`
 
     def bands(self) -> Iterator[NDArray[Any]]:
         """Give all rows, band by band."""
@@ -74,15 +58,7 @@ class Stream:
 
 
 def check_chunks(o: TessellationOptions, frame: Frame, dtype: np.dtype[Any]) -> tuple[int, int]:
-    """Choose rows and columns of the chunks of a store.
-
-    Raises
-    ------
-    LimitError
-        If a row of chunks is too large to be held.
-    UsageError
-        If zarr is not installed.
-    """
+    """Choose rows and columns of the chunks of a store."""
     from vorotool.formats.zarr.arrays import chunks_of, zarr_module
 
     zarr_module()
@@ -148,21 +124,7 @@ def write_on_cluster(
     address: str,
     jobs: int | None,
 ) -> None:
-    """Let a cluster compute the bands of an image, or the slabs of a volume, and write them into a store.
-
-    Parameters
-    ----------
-    run : Run
-        Shows how far it is.
-    folder : Path
-        A Zarr array.
-    band_of : callable
-        ``band_of(first, count)`` gives what computes some rows or slices anywhere.
-    limits : sequence of (int, int)
-        The first one of each band, and their number.
-    address, jobs
-        As of `vorotool.batch.dask_bands.write_bands`.
-    """
+    """Let a cluster compute the bands of an image, or the slabs of a volume, and write them into a store."""
     from vorotool.batch.dask_bands import write_bands
 
     show = run.progress("tessellate")
@@ -177,22 +139,7 @@ def _expected(stream: Stream, rows: int, size_of: Callable[[NDArray[Any]], int])
 
 
 def expected_bytes(height: int, rows: int, rows_of: RowsOf, size_of: Callable[[NDArray[Any]], int]) -> int:
-    """Estimate the bytes of an image, or a volume, from those of some bands, in which its parts differ.
-
-    Parameters
-    ----------
-    height : int
-        Its rows, or slices.
-    rows : int
-        Those of a band.
-    rows_of, size_of : callable
-        Give any band, and the bytes of one.
-
-    Examples
-    --------
-    >>> expected_bytes(100, 10, lambda first, rows: np.zeros((rows, 4)), lambda rows: rows.nbytes)
-    3200
-    """
+    """Estimate the bytes of an image, or a volume, from those of some bands, in which its parts differ."""
     bands = -(-height // rows)
     chosen = {bands * (2 * k + 1) // (2 * SAMPLES) for k in range(SAMPLES)}
     seen = size = 0

@@ -36,13 +36,7 @@ STREAMED = frozenset({"labels", "distance", "distance2"})
 
 
 def rows_of_large(o: TessellationOptions, source: Opened) -> ZarrRows | TiffRows | None:
-    """Give an image band by band, if it is large or its bands go to a cluster, and the options allow that.
-
-    Raises
-    ------
-    LimitError
-        If its mask is to be cleaned, and it does not fit the memory.
-    """
+    """Give an image band by band, if it is large or its bands go to a cluster, and the options allow that."""
     held = o.verify or o.seeds == "centroids" or o.threshold == "otsu" or o.method != "exact" or o.columns is not None
     rows = None if held or not set(o.what) <= STREAMED else source.rows()
     if rows is None:
@@ -61,17 +55,7 @@ def rows_of_large(o: TessellationOptions, source: Opened) -> ZarrRows | TiffRows
 
 
 class StreamedProducts:
-    """Results of one image that is not held.
-
-    Parameters
-    ----------
-    run : Run
-        Takes seconds.
-    options : TessellationOptions
-        Of the command line.
-    image : ZarrRows or TiffRows
-        The input.
-    """
+    """Results of one image that is not held."""
 
     def __init__(self, run: Run, options: TessellationOptions, image: ZarrRows | TiffRows) -> None:
         refuse(

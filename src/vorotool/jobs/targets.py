@@ -42,24 +42,7 @@ def plan_targets(
     out_dir: str | None,
     source: str,
 ) -> list[Target]:
-    """Lay out the outputs of one input.
-
-    Parameters
-    ----------
-    formats : mapping of str to sequence of str
-        Formats of each kind of result; the first is its default.
-    what : sequence of str
-        The results wanted.
-    output, fmt, out_dir : str, optional
-        As given on the command line.
-    source : str
-        The input, which names outputs in ``out_dir``.
-
-    Raises
-    ------
-    UsageError
-        If a result cannot be written in a format, or would go unnamed.
-    """
+    """Lay out the outputs of one input."""
     if output is not None and out_dir is not None:
         raise UsageError("give -o or --out-dir, not both")
     fmt = _known_format(fmt, formats)
@@ -88,22 +71,7 @@ def plan_targets(
 
 
 def check_stats(options: JobOptions, targets: Sequence[Target], source: str) -> None:
-    """Refuse statistics that would go where the input, another file that is read, or a result is.
-
-    Parameters
-    ----------
-    options : JobOptions
-        Which name the statistics and further files.
-    targets : sequence of Target
-        The results.
-    source : str
-        The input.
-
-    Raises
-    ------
-    UsageError
-        If they would.
-    """
+    """Refuse statistics that would go where the input, another file that is read, or a result is."""
     stats = options.stats
     if stats is None:
         return
@@ -127,26 +95,7 @@ def check_picture_options(
     png_has_width: bool = False,
     has_page: bool = False,
 ) -> None:
-    """Refuse layers, a width, a direction and an image beneath that no picture would show.
-
-    Parameters
-    ----------
-    options : JobOptions
-        Of the command line.
-    pictures : sequence of str
-        Formats of the pictures that are to be written.
-    layers : mapping of str to sequence of str
-        Layers of each format.
-    png_has_width : bool
-        PNG pictures are of no image, so that they are as wide as is asked for.
-    has_page : bool
-        A page of HTML is written, too, in which y can go upwards.
-
-    Raises
-    ------
-    UsageError
-        If a layer is none of a picture's format, or the width is for SVG only.
-    """
+    """Refuse layers, a width, a direction and an image beneath that no picture would show."""
     check_style(options, pictures, layers, is_of_lines=png_has_width)
     if options.overlay is not None:
         _check_overlay(options, pictures)
@@ -165,22 +114,7 @@ def check_picture_options(
 
 
 def check_precision(options: ComputingOptions, formats: Mapping[str, Sequence[str]], targets: Sequence[Target]) -> None:
-    """Refuse numbers of digits or decimals that no output would show.
-
-    Parameters
-    ----------
-    options : ComputingOptions
-        Of the command line.
-    formats : mapping of str to sequence of str
-        Formats of each result.
-    targets : sequence of Target
-        The outputs.
-
-    Raises
-    ------
-    UsageError
-        If one is given, and no format has numbers in text, or geometry.
-    """
+    """Refuse numbers of digits or decimals that no output would show."""
     written = [FORMATS[target.fmt] for target in targets if target.fmt in FORMATS]
     if options.decimals is not None and not any(each.has_digits or each.made_from for each in written):
         raise UsageError("--decimals is for coordinates in tables and vectors: leave it out")
@@ -204,17 +138,7 @@ def _check_overlay(options: JobOptions, pictures: Sequence[str]) -> None:
 
 
 def check_targets(options: JobOptions, targets: Sequence[Target], source: str) -> None:
-    """Find out before any work whether the outputs and the statistics can be written.
-
-    Parameters
-    ----------
-    options : JobOptions
-        Of the command line.
-    targets : sequence of Target
-        The outputs.
-    source : str
-        The input, which is never replaced; neither are further files that are read.
-    """
+    """Find out before any work whether the outputs and the statistics can be written."""
     from vorotool.formats.io.atomic_output import Rules, check_output
     from vorotool.formats.zarr.store import check_store
 

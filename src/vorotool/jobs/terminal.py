@@ -11,18 +11,7 @@ _UNPRINTABLE = re.compile("[\x00-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2
 
 
 def escaped(text: str) -> str:
-    r"""Write characters that a terminal acts upon as escapes.
-
-    Parameters
-    ----------
-    text : str
-        One line.
-
-    Examples
-    --------
-    >>> print(escaped("a\x1b[2J\nb.csv: é"))
-    a\x1b[2J\nb.csv: é
-    """
+    """Write characters that a terminal acts upon as escapes."""
     return _UNPRINTABLE.sub(lambda match: repr(match[0])[1:-1], text)
 
 
@@ -32,15 +21,7 @@ def tell(line: str) -> None:
 
 
 def print_text(text: str, stream: TextIO | None = None) -> None:
-    """Print text on standard output or another stream; characters that its encoding lacks become escapes.
-
-    Parameters
-    ----------
-    text : str
-        With its ends of lines.
-    stream : text stream, optional
-        By default standard output.
-    """
+    """Print text on standard output or another stream; characters that its encoding lacks become escapes."""
     stream = sys.stdout if stream is None else stream
     encoding = stream.encoding or "utf-8"
     stream.write(text.encode(encoding, "backslashreplace").decode(encoding))

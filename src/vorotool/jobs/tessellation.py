@@ -70,21 +70,11 @@ DARK_LABELS = 1024
 
 
 class ReadSeeds(NamedTuple):
-    """Seeds, and what else an input says.
-
-    Parameters
-    ----------
-    seeds : SeedSet
-        Of the input.
-    y_up : bool
-        Whether y of its points goes upwards.
-    grid : PixelGrid, optional
-        Sides and places of the pixels of the image.
-    """
+    """Seeds, and what else an input says."""
 
     seeds: SeedSet
-    y_up: bool = False
-    grid: PixelGrid | None = None
+    y_up: bool = False  # whether y of its points goes upwards
+    grid: PixelGrid | None = None  # sides and places of the pixels of the image
 
 
 def products(run: Run, o: TessellationOptions, given: JobInput) -> Products | StreamedProducts:
@@ -143,21 +133,7 @@ def _rows_of(run: Run, o: TessellationOptions, seeds: SeedSet) -> Tessellator | 
 
 
 class Products:
-    """Results of one tessellation.
-
-    Parameters
-    ----------
-    run : Run
-        Takes notes and seconds.
-    options : TessellationOptions
-        Of the command line.
-    given : JobInput
-        With the image that pictures are drawn over.
-    read : ReadSeeds
-        What was read of it.
-    rows : Tessellator or PropagatedRows
-        Gives any rows of labels.
-    """
+    """Results of one tessellation."""
 
     def __init__(
         self,

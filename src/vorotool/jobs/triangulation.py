@@ -41,18 +41,10 @@ if TYPE_CHECKING:
 
 
 class ReadPoints(NamedTuple):
-    """What is triangulated, and what its cells are clipped to.
-
-    Parameters
-    ----------
-    points : PointSet or SeedSet
-        Of the input.
-    clip : sequence of shapely geometry, optional
-        The polygons of ``--clip``.
-    """
+    """What is triangulated, and what its cells are clipped to."""
 
     points: PointSet | SeedSet
-    clip: Sequence[Any] | None
+    clip: Sequence[Any] | None  # the polygons of `--clip`
 
 
 def products(run: Run, o: TriangulationOptions, given: JobInput) -> MeshProducts:
@@ -74,19 +66,7 @@ def products(run: Run, o: TriangulationOptions, given: JobInput) -> MeshProducts
 
 
 class MeshProducts:
-    """Results of one triangulation.
-
-    Parameters
-    ----------
-    run : Run
-        Takes notes and seconds.
-    options : TriangulationOptions
-        Of the command line.
-    given : JobInput
-        With the image that pictures are drawn over.
-    read : ReadPoints
-        What was read of it.
-    """
+    """Results of one triangulation."""
 
     def __init__(self, run: Run, options: TriangulationOptions, given: JobInput, read: ReadPoints) -> None:
         self.run, self.options = run, options

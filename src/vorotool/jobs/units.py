@@ -27,36 +27,16 @@ Number = TypeVar("Number", bound="float | Fraction")
 
 
 class PixelSize(NamedTuple):
-    """The side of a pixel, and where pixels are on a map; or its sides, where distances are in their unit.
+    """The side of a pixel, and where pixels are on a map; or its sides, where distances are in their unit."""
 
-    Parameters
-    ----------
-    factor : Fraction
-        The side; with `sides` 1, as results are in their unit already.
-    unit : str, optional
-        Its unit.
-    is_auto : bool
-        It is yet to be read from the file.
-    origin : (float, float), optional
-        Where on the map the centre of the first pixel is.
-    y_up : bool
-        Rows go down on the map: what is made of the image is made with y upwards.
-    crs : object, optional
-        The coordinate reference system of the map.
-    is_spacing : bool
-        It is that of ``--spacing``.
-    sides : PixelSides, optional
-        Of ``--spacing``: what it says, or the file.
-    """
-
-    factor: Fraction
+    factor: Fraction  # the side; with `sides` 1, as results are in their unit already
     unit: str | None
-    is_auto: bool = False
-    origin: tuple[float, float] | None = None
-    y_up: bool = False
-    crs: Any = None
-    is_spacing: bool = False
-    sides: PixelSides | None = None
+    is_auto: bool = False  # it is yet to be read from the file
+    origin: tuple[float, float] | None = None  # (float, float): where on the map the centre of the first pixel is
+    y_up: bool = False  # rows go down on the map: what is made of the image is made with y upwards
+    crs: Any = None  # the coordinate reference system of the map
+    is_spacing: bool = False  # it is that of `--spacing`
+    sides: PixelSides | None = None  # of `--spacing`: what it says, or the file
 
     @property
     def option(self) -> str:
@@ -82,13 +62,7 @@ _NUMBERS = {2: "two numbers, SX,SY", 3: "three numbers, SX,SY,SZ"}
 
 
 def with_spacing(o: Options) -> Options:
-    """Give options in which ``--spacing`` is the size of pixels.
-
-    Raises
-    ------
-    UsageError
-        If there is a size of pixels, too.
-    """
+    """Give options in which ``--spacing`` is the size of pixels."""
     spacing: PixelSize | None = next((getattr(o, field.name) for field in fields(o) if field.name == "spacing"), None)
     if spacing is None:
         return o
@@ -107,13 +81,7 @@ def takes_spacing(o: JobOptions) -> bool:
 
 
 def sides_of(o: ComputingOptions, axes: int = 2) -> PixelSides:
-    """Give the sides of a pixel, or of a voxel, in whose unit distances are: 1 without ``--spacing``.
-
-    Raises
-    ------
-    UsageError
-        If they are not as many as the input has axes.
-    """
+    """Give the sides of a pixel, or of a voxel, in whose unit distances are: 1 without ``--spacing``."""
     from vorotool.geometry.spacing import pixel_sides
 
     sides = None if o.pixel_size is None else o.pixel_size.sides
@@ -126,11 +94,7 @@ def sides_of(o: ComputingOptions, axes: int = 2) -> PixelSides:
 
 
 def lengths_in_steps(o: Computing) -> Computing:
-    """Give options for shapes whose coordinates are counted in steps of ``--spacing``: lengths are in steps as well.
-
-    So coordinates are integers, or halves of these: what is decided with them is exact. Results are then scaled by the
-    step, once.
-    """
+    """Give options for shapes whose coordinates are counted in steps of ``--spacing``: lengths are in steps as well."""
     size = o.pixel_size
     if size is None or size.sides is None:
         return o
@@ -161,27 +125,13 @@ def shows_units(targets: Sequence[Target]) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class Measured:
-    """A length, an area or a volume with a unit, as an option has it until the size of a pixel is known.
+    """A length, an area or a volume with a unit, as an option has it until the size of a pixel is known."""
 
-    Parameters
-    ----------
-    text : str
-        As it was written.
-    number : Fraction
-        Of units.
-    unit : str
-        Its unit.
-    is_exact : bool
-        The option keeps numbers exactly: in pixels it is a fraction, and no float.
-    power : {1, 2, 3}
-        Of the unit: 2 for squares, 3 for cubes.
-    """
-
-    text: str
+    text: str  # as it was written
     number: Fraction
     unit: str
-    is_exact: bool
-    power: int = 1
+    is_exact: bool  # the option keeps numbers exactly: in pixels it is a fraction, and no float
+    power: int = 1  # of the unit: 2 for squares, 3 for cubes
 
     def __bool__(self) -> bool:
         """Tell whether it is other than 0, as of a number: in every unit the answer is the same."""
@@ -194,13 +144,7 @@ def known_length(length: Number | None) -> Number | None:
 
 
 def areas_of_image(o: Computing, grid: PixelGrid | None) -> Computing:
-    """Return options whose areas are numbers of pixels, where the file of the image has to say what a pixel is.
-
-    Raises
-    ------
-    InputError
-        If it does not.
-    """
+    """Return options whose areas are numbers of pixels, where the file of the image has to say what a pixel is."""
     names = [name for name in measured(o) if name in _AREAS]
     if not names:
         return o
@@ -216,20 +160,7 @@ Computing = TypeVar("Computing", bound="ComputingOptions")
 
 
 def lengths_in_pixels(o: Options, size: PixelSize | None) -> Options:
-    """Give options whose lengths are numbers of pixels: those that were given with a unit are converted exactly.
-
-    Parameters
-    ----------
-    o : JobOptions
-        Of the command line.
-    size : PixelSize, optional
-        The side of a pixel.
-
-    Raises
-    ------
-    UsageError
-        If a unit is not known, or what a pixel is in it. What the file is yet to say is asked for later.
-    """
+    """Give options whose lengths are numbers of pixels: those that were given with a unit are converted exactly."""
     if size is not None and size.is_auto:
         return o
     changed = {name: _in_pixels(name, getattr(o, name), size) for name in measured(o)}
@@ -297,13 +228,7 @@ _OPTIONS = {"r": "-r", "distance": "-d"}
 
 
 def check_units(o: JobOptions, targets: Sequence[Target]) -> None:
-    """Refuse a size of pixels that nothing shows, and no length is measured by.
-
-    Raises
-    ------
-    UsageError
-        If there are no lengths in any output.
-    """
+    """Refuse a size of pixels that nothing shows, and no length is measured by."""
     if o.unit is None or o.unit.is_spacing or measured(o):
         return
     if not shows_units(targets) and not o.scale_bar:
@@ -340,19 +265,7 @@ def unit_text(size: PixelSize | None) -> str:
 def table_in_units(
     size: PixelSize | None, table: Table, *, properties: Collection[str] = (), has_rows: bool = False
 ) -> Table:
-    """Give a table in the units of the pixel size, if there is one; the input's own columns stay as they are.
-
-    Parameters
-    ----------
-    size : PixelSize, optional
-        The unit, and the map.
-    table : Table
-        In pixels.
-    properties : collection of str
-        The input's own columns.
-    has_rows : bool
-        Its y counts rows downwards, whatever the map.
-    """
+    """Give a table in the units of the pixel size, if there is one; the input's own columns stay as they are."""
     if size is None:
         return table
     from vorotool.geometry.any.scaling import scaled_table

@@ -17,33 +17,7 @@ _FORMATS = ("tiff", "npy", "zarr")
 def write_volume_value(
     value: LabelVolume | Volume, path: str, fmt: str, options: Mapping[str, object], threads: int
 ) -> None:
-    """Write a volume that is held.
-
-    Parameters
-    ----------
-    value : LabelVolume or Volume
-        What to write; the sides of its voxels go into TIFF and OME-Zarr.
-    path : str
-        Where.
-    fmt : str
-        One of tiff, npy and zarr.
-    options : mapping
-        Further options of `vorotool.write`, of which volumes have none.
-    threads : int
-        0 uses all.
-
-    Raises
-    ------
-    OutputError
-        If the file cannot be written; an older one is untouched.
-    UsageError
-        If volumes are not written in this format, or an option is given.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> write_volume_value(Volume(np.zeros((2, 3, 4), np.uint8)), "build/volume.tif", "tiff", {}, 1)
-    """
+    """Write a volume that is held."""
     name = type(value).__name__
     if fmt not in _FORMATS:
         raise UsageError(f"a {name} cannot be written as {fmt!r}: use one of {', '.join(_FORMATS)}")

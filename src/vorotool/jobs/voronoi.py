@@ -34,17 +34,7 @@ from vorotool.products.writing import write_product
 
 
 class VoronoiProducts:
-    """Results of one Voronoi map.
-
-    Parameters
-    ----------
-    run : Run
-        Takes notes and seconds.
-    options : VoronoiOptions
-        Of the command line.
-    given : JobInput
-        With the image that pictures are drawn over.
-    """
+    """Results of one Voronoi map."""
 
     def __init__(self, run: Run, options: VoronoiOptions, given: JobInput) -> None:
         self.run = run

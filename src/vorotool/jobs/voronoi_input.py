@@ -23,24 +23,12 @@ if TYPE_CHECKING:
 
 
 class ReadSites(NamedTuple):
-    """What a map is made of.
+    """What a map is made of."""
 
-    Parameters
-    ----------
-    sites : Sites
-        Of the input; not yet joined.
-    is_image : bool
-        Whether they are the objects of an image.
-    options : VoronoiOptions
-        With the size of pixels, and lengths and places, as the image has them.
-    frame : Frame, optional
-        Of the image, in the coordinates of the outlines.
-    """
-
-    sites: Sites
-    is_image: bool
-    options: VoronoiOptions
-    frame: Frame | None = None
+    sites: Sites  # of the input; not yet joined
+    is_image: bool  # whether they are the objects of an image
+    options: VoronoiOptions  # with the size of pixels, and lengths and places, as the image has them
+    frame: Frame | None = None  # of the image, in the coordinates of the outlines
 
 
 def read_sites(run: Run, o: VoronoiOptions, given: JobInput) -> ReadSites:
@@ -64,22 +52,7 @@ def read_sites(run: Run, o: VoronoiOptions, given: JobInput) -> ReadSites:
 
 
 def read_cuts(run: Run, read: ReadSites, given: JobInput) -> tuple[ReadSites, dict[str, PolygonSet]]:
-    """Read the files of ``--clip`` and ``--enclosures``, in the coordinates of the sites.
-
-    Of sites and files that name no coordinate reference system, the ones are taken to be in that of the others.
-
-    Returns
-    -------
-    read : ReadSites
-        With sites in a system, if a file is in one.
-    cuts : dict of str to PolygonSet
-        By the parameters of `vorotool.voronoi`.
-
-    Raises
-    ------
-    InputError
-        If there is nothing in a file, or it is in another system than the sites.
-    """
+    """Read the files of ``--clip`` and ``--enclosures``, in the coordinates of the sites."""
     o, cuts = read.options, {}
     for name, path in (("clip", o.clip), ("enclosures", o.enclosures)):
         if path is None:

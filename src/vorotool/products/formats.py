@@ -21,51 +21,24 @@ class Writer(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Format:
-    """A format of outputs.
+    """A format of outputs."""
 
-    Parameters
-    ----------
-    name : str
-        As ``-f`` and ``fmt`` have it.
-    title : str
-        As documents have it.
-    extensions : tuple of str
-        Without dots, the one that files are given first; by default the name.
-    is_text : bool
-        It may go to a terminal.
-    has_digits : bool
-        It has floating-point numbers in text, so that ``--precision`` acts on it.
-    is_image : bool
-        It holds pixels, or shows a result: coordinates have no units in it.
-    flattens : bool
-        It has no curves: lines stand for them.
-    family : str
-        Formats of one family are written together, each result in its own.
-    writers : mapping of str to Writer
-        What writes results, by their names, beside those formats that a product lists itself.
-    beside : str
-        Only results that have this format, too, are written so.
-    made_from : tuple of str
-        It is made from the text of the first of these formats that a product has, by ``maker``.
-    maker : str
-        ``module:name`` of ``maker(out, what, path)``: a context in which there is a file that takes that text.
-    parts : tuple of str
-        Extensions of further files that each consists of.
-    """
-
-    name: str
-    title: str
-    extensions: tuple[str, ...] = ()
-    is_text: bool = True
-    has_digits: bool = False
-    is_image: bool = False
-    flattens: bool = False
-    family: str = ""
+    name: str  # as `-f` and `fmt` have it
+    title: str  # as documents have it
+    extensions: tuple[str, ...] = ()  # without dots, the one that files are given first; by default the name
+    is_text: bool = True  # it may go to a terminal
+    has_digits: bool = False  # it has floating-point numbers in text, so that `--precision` acts on it
+    is_image: bool = False  # it holds pixels, or shows a result: coordinates have no units in it
+    flattens: bool = False  # it has no curves: lines stand for them
+    family: str = ""  # formats of one family are written together, each result in its own
+    # what writes results, by their names, beside those formats that a product lists itself
     writers: Mapping[str, Writer] = field(default_factory=dict)
-    beside: str = ""
+    beside: str = ""  # only results that have this format, too, are written so
+    # it is made from the text of the first of these formats that a product has, by `maker`
     made_from: tuple[str, ...] = ()
+    # `module:name` of `maker(out, what, path)`: a context in which there is a file that takes that text
     maker: str = ""
-    parts: tuple[str, ...] = ()
+    parts: tuple[str, ...] = ()  # extensions of further files that each consists of
 
     @property
     def endings(self) -> tuple[str, ...]:
@@ -140,47 +113,23 @@ ANIMATIONS = ("gif", "apng", "webp")
 
 
 def format_named(name: str) -> str | None:
-    """Give the format that a name or an extension stands for, in any case; None if there is no such.
-
-    Examples
-    --------
-    >>> format_named("TIF"), format_named(".txt"), format_named("doc")
-    ('tiff', 'text', None)
-    """
+    """Give the format that a name or an extension stands for, in any case; None if there is no such."""
     lower = name.lower().removeprefix(".")
     return lower if lower in FORMATS else EXTENSIONS.get(f".{lower}")
 
 
 def picture_format(name: str) -> str:
-    """Give the format of a picture that a frame of an animation is like; of all else its own.
-
-    Examples
-    --------
-    >>> picture_format("gif"), picture_format("svg")
-    ('png', 'svg')
-    """
+    """Give the format of a picture that a frame of an animation is like; of all else its own."""
     return "png" if name in ANIMATIONS else name
 
 
 def with_digits(possible: Iterable[str]) -> list[str]:
-    """Give the formats that have numbers in text.
-
-    Examples
-    --------
-    >>> with_digits(["csv", "npz", "wkt", "svg"])
-    ['csv', 'wkt']
-    """
+    """Give the formats that have numbers in text."""
     return [name for name in possible if FORMATS[name].has_digits]
 
 
 def resolved(function: str) -> Callable[..., Any]:
-    """Give the function that ``module:name`` stands for.
-
-    Examples
-    --------
-    >>> resolved("formats.results.cells:write_cells").__name__
-    'write_cells'
-    """
+    """Give the function that ``module:name`` stands for."""
     module, name = function.split(":")
     found: Callable[..., Any] = getattr(import_module(f"vorotool.{module}"), name)
     return found

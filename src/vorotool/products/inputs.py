@@ -14,26 +14,15 @@ Holds = Literal["points", "polygons", "sites", "image", "skeleton", "offsets", "
 
 @dataclass(frozen=True, slots=True)
 class InputFormat:
-    """A format of inputs.
+    """A format of inputs."""
 
-    Parameters
-    ----------
-    name : str
-        What it is called within the package.
-    names : tuple of str
-        What ``--input-format`` accepts for it, which are the extensions of its files, too.
-    readers : mapping of str to str
-        What it may hold, and ``module:function`` of ``function(source, options)`` that reads it.
-    has : frozenset of str
-        ``bytes``: it is no text. ``layers``: it may hold several. ``curves``: which become lines where it is read.
-    features : str
-        ``module:function`` of ``function(source)`` that reads the features of a map, which tell what it holds.
-    """
-
-    name: str
-    names: tuple[str, ...]
+    name: str  # what it is called within the package
+    names: tuple[str, ...]  # what `--input-format` accepts for it, which are the extensions of its files, too
+    # what it may hold, and `module:function` of `function(source, options)` that reads it
     readers: Mapping[Holds, str]
+    # `bytes`: it is no text. `layers`: it may hold several. `curves`: which become lines where it is read
     has: frozenset[str] = frozenset()
+    # `module:function` of `function(source)` that reads the features of a map, which tell what it holds
     features: str = ""
 
 
@@ -135,13 +124,7 @@ SPACE_READERS = {
 
 
 def names_of(*held: Holds) -> dict[str, str]:
-    """Give the names of all formats that may hold one of some things, and the format that each name stands for.
-
-    Examples
-    --------
-    >>> names_of("polygons")["ndjson"]
-    'jsonl'
-    """
+    """Give the names of all formats that may hold one of some things, and the format that each name stands for."""
     return {name: each.name for each in _ALL if each.readers.keys() & set(held) for name in each.names}
 
 
@@ -186,18 +169,7 @@ DRAWINGS = tuple(name for each in _ALL if "curves" in each.has for name in each.
 
 
 def known_input_format(name: str | None, names: Mapping[str, str] = NAMES_WITH[None]) -> str | None:
-    """Return the format that a name stands for, in any case; None stays None.
-
-    Raises
-    ------
-    UsageError
-        If it stands for none; the names are listed.
-
-    Examples
-    --------
-    >>> known_input_format("TIF"), known_input_format("tsv")
-    ('tiff', 'csv')
-    """
+    """Return the format that a name stands for, in any case; None stays None."""
     if name is None:
         return None
     if not isinstance(name, str) or name.lower() not in names:

@@ -11,41 +11,20 @@ from vorotool.products.formats import ANIMATIONS, FORMATS, PICTURES, TABLE_WRITE
 
 @dataclass(frozen=True, slots=True)
 class Product:
-    """A result that can be written, as ``what`` has it.
-
-    Parameters
-    ----------
-    what : str
-        Its name.
-    types : tuple of str
-        Public types of the values that it is written from; those of them that are not the whole value are its parts.
-    data : tuple of str
-        Formats that ``writer`` writes, the default first.
-    writer : Writer
-        Of all these but tables, which have one of their own.
-    layers : mapping of str to sequence of str
-        Layers of its pictures, from below, by the format of the picture.
-    usual_layers : tuple of str
-        Those that a picture has where none are chosen.
-    has_page : bool
-        The command line writes it as a page of HTML, too.
-    moves : bool
-        The command line writes it as an animation, too.
-    is_curved : bool
-        It has curves.
-    usual_for : tuple of str
-        Formats for which it is taken where ``what`` is not given; else the first product that has the format is.
-    """
+    """A result that can be written, as ``what`` has it."""
 
     what: str
+    # public types of the values that it is written from; those of them that are not the whole value are its parts
     types: tuple[str, ...] = ()
-    data: tuple[str, ...] = ()
-    writer: Writer | None = None
+    data: tuple[str, ...] = ()  # formats that `writer` writes, the default first
+    writer: Writer | None = None  # of all these but tables, which have one of their own
+    # layers of its pictures, from below, by the format of the picture
     layers: Mapping[str, Sequence[str]] = field(default_factory=dict)
-    usual_layers: tuple[str, ...] = ()
-    has_page: bool = False
-    moves: bool = False
+    usual_layers: tuple[str, ...] = ()  # those that a picture has where none are chosen
+    has_page: bool = False  # the command line writes it as a page of HTML, too
+    moves: bool = False  # the command line writes it as an animation, too
     is_curved: bool = False
+    # formats for which it is taken where `what` is not given; else the first product that has the format is
     usual_for: tuple[str, ...] = ()
 
     @property
@@ -292,61 +271,29 @@ VOLUME_PRODUCTS = {each.what: each for each in _VOLUMES}
 
 
 def formats_of(command: str) -> dict[str, tuple[str, ...]]:
-    """Give the formats of each product of a command, the default first.
-
-    Examples
-    --------
-    >>> formats_of("tessellate")["distance"]
-    ('tiff', 'npy', 'zarr')
-    """
+    """Give the formats of each product of a command, the default first."""
     return {what: product.formats for what, product in PRODUCTS[command].items()}
 
 
 def layers_of(command: str) -> dict[str, tuple[str, ...]]:
-    """Give the layers of all pictures of a command, by their format.
-
-    Examples
-    --------
-    >>> layers_of("tessellate")["svg"]
-    ('cells', 'labels', 'objects', 'seeds')
-    """
+    """Give the layers of all pictures of a command, by their format."""
     own = PRODUCTS[command].values()
     return {fmt: tuple(dict.fromkeys(name for each in own for name in each.layers.get(fmt, ()))) for fmt in PICTURES}
 
 
 def all_layers(command: str) -> tuple[str, ...]:
-    """Give the layers that a picture of a command can have, whatever its format.
-
-    Examples
-    --------
-    >>> all_layers("tessellate")
-    ('cells', 'diagram', 'objects', 'seeds', 'labels')
-    """
+    """Give the layers that a picture of a command can have, whatever its format."""
     by_format = layers_of(command)
     return tuple(dict.fromkeys([*by_format["png"], *by_format["svg"]]))
 
 
 def is_of(value: object, *types: str) -> bool:
-    """Whether a value is of one of the public types; none of them is imported to tell.
-
-    Examples
-    --------
-    >>> from vorotool import Table
-    >>> is_of(Table({"a": [1]}), "Table"), is_of([1], "Table")
-    (True, False)
-    """
+    """Whether a value is of one of the public types; none of them is imported to tell."""
     return any(base.__name__ in types and base.__module__.startswith("vorotool.") for base in type(value).__mro__)
 
 
 def parts_of(value: object) -> dict[str, Product]:
-    """Give the products that a value is written as, the usual first.
-
-    Examples
-    --------
-    >>> from vorotool import delaunay
-    >>> list(parts_of(delaunay([[0, 0], [4, 0], [0, 3]])))
-    ['edges', 'triangles', 'table']
-    """
+    """Give the products that a value is written as, the usual first."""
     found: dict[str, Product] = {}
     for product in (each for own in PRODUCTS.values() for each in own.values() if is_of(value, *each.types)):
         found.setdefault(product.what, product)
@@ -354,11 +301,5 @@ def parts_of(value: object) -> dict[str, Product]:
 
 
 def public_types() -> list[str]:
-    """Give the names of all types that can be written.
-
-    Examples
-    --------
-    >>> public_types()[:4]
-    ['LabelImage', 'Table', 'Triangulation', 'DigitalTriangulation']
-    """
+    """Give the names of all types that can be written."""
     return list(dict.fromkeys(name for own in PRODUCTS.values() for each in own.values() for name in each.types))

@@ -20,32 +20,7 @@ def write_product(
     threads: int = 0,
     path: str = "-",
 ) -> None:
-    r"""Write a result in one of its formats; pictures and pages are none of these.
-
-    Parameters
-    ----------
-    out : binary file object
-        Need not be seekable.
-    value : value of the library
-        What the product is written from, or its `Table`.
-    product : Product
-        Which.
-    fmt : str
-        One of ``product.written``.
-    flatten, precision, threads : optional
-        As of `vorotool.write`.
-    path : str
-        Of the output, for formats that have further files beside it.
-
-    Examples
-    --------
-    >>> import io, vorotool
-    >>> out = io.BytesIO()
-    >>> mesh = vorotool.delaunay([[0, 0], [4, 0], [0, 3]])
-    >>> write_product(out, mesh, parts_of(mesh)["triangles"], "ele")
-    >>> out.getvalue()
-    b'1 3 0\n1 1 2 3\n'
-    """
+    """Write a result in one of its formats; pictures and pages are none of these."""
     chosen = FORMATS[fmt]
     options: dict[str, Any] = {"flatten": flatten, "precision": precision, "threads": threads}
     writer = chosen.writers.get(product.what)
@@ -61,28 +36,7 @@ def write_product(
 
 
 def chosen_part(value: Any, fmt: str, what: str | None) -> Product:
-    """Choose what of a value is written.
-
-    Parameters
-    ----------
-    value : value of the library
-        Of any type.
-    fmt : str
-        The format, which may be one that nothing of it has.
-    what : str, optional
-        Which part; by default what the format is for, else the first one.
-
-    Raises
-    ------
-    UsageError
-        If there is nothing to write of it, no such part, or no place for it in the format.
-
-    Examples
-    --------
-    >>> from vorotool import delaunay
-    >>> chosen_part(delaunay([[0, 0], [4, 0], [0, 3]]), "ele", None).what
-    'triangles'
-    """
+    """Choose what of a value is written."""
     parts, name = parts_of(value), type(value).__name__
     if not parts:
         *others, last = public_types()

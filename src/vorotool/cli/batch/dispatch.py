@@ -22,20 +22,7 @@ from vorotool.jobs.units import check_units, lengths_in_pixels, with_spacing
 
 
 def run_command(recipe: Recipe[Options], o: Options) -> None:
-    """Do what a command line asks for.
-
-    Parameters
-    ----------
-    recipe : Recipe
-        Of the command.
-    o : JobOptions
-        Of the command line, ``inputs`` among them.
-
-    Raises
-    ------
-    UsageError
-        If there is no input, or options do not go together.
-    """
+    """Do what a command line asks for."""
     check_streams([*(("the input", name) for name in o.inputs), *o.files_read().items()])
     o = with_spacing(_without_environment(o))
     if _is_batch(o):
@@ -82,18 +69,7 @@ def _without_environment(o: Options) -> Options:
 
 
 def refuse_several(named: Mapping[str, str]) -> None:
-    """Refuse folders and patterns where one file each is compared with another: that makes no batch.
-
-    Parameters
-    ----------
-    named : mapping of str to str
-        Inputs by their names in the usage.
-
-    Raises
-    ------
-    UsageError
-        Naming the first.
-    """
+    """Refuse folders and patterns where one file each is compared with another: that makes no batch."""
     for name, path in named.items():
         if is_several(path):
             raise UsageError(f"{name} {path} stands for several files, but two are compared: name one file each")

@@ -25,20 +25,7 @@ from vorotool.jobs.units import check_units, lengths_in_pixels
 
 
 def run_one(recipe: Recipe[Options], o: Options) -> None:
-    """Process one input as a batch would, in this process; its outputs may be files that `-o` names.
-
-    Parameters
-    ----------
-    recipe : Recipe
-        Of the command.
-    o : JobOptions
-        Of the command line.
-
-    Raises
-    ------
-    UsageError
-        If an option needs several inputs, or a folder for outputs.
-    """
+    """Process one input as a batch would, in this process; its outputs may be files that `-o` names."""
     (source,) = o.inputs
     if o.null:
         raise UsageError("-0 is about the list of --files-from: leave it out")

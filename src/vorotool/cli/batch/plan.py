@@ -38,69 +38,29 @@ WITHOUT_EFFECT = frozenset(
 
 @dataclass(frozen=True)
 class JointTable:
-    """The table of all inputs.
+    """The table of all inputs."""
 
-    Parameters
-    ----------
-    path, fmt : str
-        Where it is written, and how.
-    is_safe : bool
-        Texts are no formulas.
-    has_unit : bool
-        Tables have a column of their unit.
-    """
-
-    path: str
-    fmt: str
-    is_safe: bool
-    has_unit: bool
+    path: str  # where it is written, and how
+    fmt: str  # where it is written, and how
+    is_safe: bool  # texts are no formulas
+    has_unit: bool  # tables have a column of their unit
 
 
 @dataclass(frozen=True)
 class Plan(Generic[Options]):
-    """What is to be done.
+    """What is to be done."""
 
-    Parameters
-    ----------
-    options : JobOptions
-        Of the command line, but ``what`` tells what is computed, and files of one part of the inputs have its name.
-    tasks : list of Task
-        One an input.
-    targets : list of Target
-        What each gives, in which format; the paths are those of no input.
-    table : JointTable, optional
-        Of all inputs.
-    manifest : Manifest, optional
-        Where it is recorded what was done.
-    notes : list of str
-        What is said before the work begins.
-    """
-
+    # of the command line, but `what` tells what is computed, and files of one part of the inputs have its name
     options: Options
     tasks: list[Task]
-    targets: list[Target]
+    targets: list[Target]  # what each gives, in which format; the paths are those of no input
     table: JointTable | None
-    manifest: Manifest | None
-    notes: list[str]
+    manifest: Manifest | None  # where it is recorded what was done
+    notes: list[str]  # what is said before the work begins
 
 
 def plan_batch(recipe: Recipe[Options], o: Options) -> Plan[Options]:
-    """Lay out a batch; nothing is written.
-
-    Parameters
-    ----------
-    recipe : Recipe
-        Of the command.
-    o : JobOptions
-        Of the command line.
-
-    Raises
-    ------
-    UsageError
-        If options do not go together.
-    VorotoolError
-        If there are no inputs, or outputs would replace something that they must not.
-    """
+    """Lay out a batch; nothing is written."""
     _check_options(o)
     o, notes = named_for_shard(o)
     table = joint_table(o)
@@ -158,20 +118,7 @@ def _several(o: JobOptions) -> str:
 
 
 def named_for_shard(o: Options) -> tuple[Options, list[str]]:
-    """Give the table and the statistics of a part names of their own: parts would replace those of each other.
-
-    Parameters
-    ----------
-    o : JobOptions
-        Of the command line.
-
-    Returns
-    -------
-    options : JobOptions
-        With the names.
-    notes : list of str
-        The names, for the user.
-    """
+    """Give the table and the statistics of a part names of their own: parts would replace those of each other."""
     if o.shard is None:
         return o, []
     own: dict[str, Any] = {}
@@ -183,13 +130,7 @@ def named_for_shard(o: Options) -> tuple[Options, list[str]]:
 
 
 def name_of_part(path: str, part: int, parts: int) -> str:
-    """Name the file of one of several parts, as its manifest is named; streams and names that tell the part stay.
-
-    Examples
-    --------
-    >>> name_of_part("out/all.csv", 2, 8), name_of_part("all.2-of-8.csv", 2, 8), name_of_part("-", 2, 8)
-    ('out/all.2-of-8.csv', 'all.2-of-8.csv', '-')
-    """
+    """Name the file of one of several parts, as its manifest is named; streams and names that tell the part stay."""
     name, mark = Path(path), f"{part}-of-{parts}"
     if parts == 1 or not name.name or stream_kind(path) is not None or mark in re.split("[._]", name.name):
         return path
@@ -197,36 +138,14 @@ def name_of_part(path: str, part: int, parts: int) -> str:
 
 
 def check_table_only(o: JobOptions) -> None:
-    """Refuse other results where the table is the only output.
-
-    Parameters
-    ----------
-    o : JobOptions
-        Of the command line.
-
-    Raises
-    ------
-    UsageError
-        If ``--what`` names others.
-    """
+    """Refuse other results where the table is the only output."""
     source = click.get_current_context().get_parameter_source("what")
     if source != ParameterSource.DEFAULT and o.what != ("table",):
         raise UsageError(f"--what {','.join(o.what)} needs -o FILE or --out-dir DIR: --table collects tables only")
 
 
 def joint_table(o: JobOptions) -> JointTable | None:
-    """Return the table of all inputs; its format is what its name says, unless there is no other output for -f.
-
-    Parameters
-    ----------
-    o : JobOptions
-        Of the command line.
-
-    Raises
-    ------
-    UsageError
-        If the name is of another format.
-    """
+    """Return the table of all inputs; its format is what its name says, unless there is no other output for -f."""
     if not isinstance(o, ComputingOptions) or o.table is None:
         return None
     path = o.table
@@ -240,24 +159,7 @@ def joint_table(o: JobOptions) -> JointTable | None:
 
 
 def folder_of_parts(command: str, o: JobOptions, table: JointTable, stack: ExitStack) -> str:
-    """Return the folder for the tables of inputs: beside the record of what was done, else one until the end.
-
-    Parameters
-    ----------
-    command : str
-        Its name.
-    o : JobOptions
-        Of the command line.
-    table : JointTable
-        Made of the tables.
-    stack : ExitStack
-        Removes the folder.
-
-    Raises
-    ------
-    OutputError
-        If no folder can be made.
-    """
+    """Return the folder for the tables of inputs: beside the record of what was done, else one until the end."""
     if o.out_dir is not None:
         return str(Path(o.out_dir) / f".{command}.tables")
     is_beside = stream_kind(table.path) is None

@@ -21,17 +21,7 @@ NO_COUNTS = frozenset({"threads", "passes", "steps_per_pixel", "largest_label"})
 
 
 class Report:
-    """Tells what becomes of each input: a bar on a terminal, else a line an input, unless the run is quiet.
-
-    Parameters
-    ----------
-    run : Run
-        Takes warnings, seconds and statistics.
-    total : int
-        Number of inputs.
-    quiet : bool
-        Tell failures only.
-    """
+    """Tells what becomes of each input: a bar on a terminal, else a line an input, unless the run is quiet."""
 
     def __init__(self, run: Run, total: int, *, quiet: bool) -> None:
         self._run, self._total, self._quiet = run, total, quiet

@@ -35,21 +35,7 @@ from vorotool.signals import end_by_exceptions
 def process_one(
     recipe: Recipe[Options], options: Options, kinds: Sequence[tuple[str, str]], source: str, outputs: Sequence[str]
 ) -> Outcome:
-    """Process one input, and say nothing but in the outcome.
-
-    Parameters
-    ----------
-    recipe : Recipe
-        Of the command.
-    options : JobOptions
-        Of the command line.
-    kinds : sequence of (str, str)
-        What is written, and in which format.
-    source : str
-        The input.
-    outputs : sequence of str
-        Their paths.
-    """
+    """Process one input, and say nothing but in the outcome."""
     targets = [Target(what, path, fmt) for (what, fmt), path in zip(kinds, outputs, strict=True)]
     if options.page == ALL_PAGES:
         options = replace(options, page=source.page if isinstance(source, PageName) else None)
@@ -64,20 +50,7 @@ def process_one(
 
 
 def run_many(recipe: Recipe[Options], o: Options) -> None:
-    """Process many inputs.
-
-    Parameters
-    ----------
-    recipe : Recipe
-        Of the command.
-    o : JobOptions
-        Of the command line.
-
-    Raises
-    ------
-    BatchError
-        If some inputs failed.
-    """
+    """Process many inputs."""
     plan = plan_batch(recipe, o)
     o = plan.options
     if o.dry_run:

@@ -58,20 +58,7 @@ class HoleArea(Area):
 
 
 def with_hole_areas(arguments: list[str], names: Collection[str]) -> list[str]:
-    """Return arguments in which the options of a hole's area have a value: the next argument, if it is an area.
-
-    Parameters
-    ----------
-    arguments : list of str
-        Of the command line.
-    names : collection of str
-        The options.
-
-    Examples
-    --------
-    >>> with_hole_areas(["--fill-holes", "50.tif", "--fill-holes", "5um2"], ["--fill-holes"])
-    ['--fill-holes=all', '50.tif', '--fill-holes=5um2']
-    """
+    """Return arguments in which the options of a hole's area have a value: the next argument, if it is an area."""
     made: list[str] = []
     for at, argument in enumerate(arguments):
         if made and made[-1] in names:

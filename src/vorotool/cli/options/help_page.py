@@ -41,13 +41,7 @@ CLOSE = 0.75
 
 
 class GroupedCommand(click.Command):
-    """A command whose ``--help`` has groups, and whose ``-h`` is a short page.
-
-    Parameters
-    ----------
-    instead : dict of str to str, optional
-        Options of other commands that are looked for here, and what does the same.
-    """
+    """A command whose ``--help`` has groups, and whose ``-h`` is a short page."""
 
     def __init__(self, *arguments: Any, instead: dict[str, str] | None = None, **options: Any) -> None:
         super().__init__(*arguments, **options)

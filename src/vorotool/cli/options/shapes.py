@@ -20,15 +20,7 @@ def frame_option(what: str) -> Decorator:
 
 
 def shape_options(*between: str, flattened: str = "") -> Decorator:
-    """Add the options of reading shapes and outlines.
-
-    Parameters
-    ----------
-    *between : str
-        Shared options beside those of formats and systems.
-    flattened : str
-        Words for results that have no curves, beside formats.
-    """
+    """Add the options of reading shapes and outlines."""
     return together(
         click.option(
             "--flatten",

@@ -57,13 +57,7 @@ def formats_of(formats: Mapping[str, Sequence[str]]) -> Candidates:
 
 
 def listed(choices: Sequence[str], begun: str) -> list[CompletionItem[str]]:
-    """Offer what is not yet in a list that commas separate.
-
-    Examples
-    --------
-    >>> [item.value for item in listed(("labels", "table", "tiles"), "labels,t")]
-    ['labels,table', 'labels,tiles']
-    """
+    """Offer what is not yet in a list that commas separate."""
     before, comma, last = begun.rpartition(",")
     given = before.split(",")
     return [_item(f"{before}{comma}{name}") for name in choices if name.startswith(last) and name not in given]

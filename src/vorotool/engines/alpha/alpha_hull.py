@@ -120,10 +120,7 @@ def _scale(shape: AlphaShape) -> int:
 
 
 class _Pieces:
-    """Parts of arcs that bound the hull: their arc, both ends, and numbers that tell equal ends.
-
-    A point has its index for a number, a crossing a negative one.
-    """
+    """Parts of arcs that bound the hull: their arc, both ends, and numbers that tell equal ends."""
 
     def __init__(self, arc: list[int], place: list[Any], nodes: list[tuple[int, int]]) -> None:
         self.arc = np.array(arc, dtype=np.int64)

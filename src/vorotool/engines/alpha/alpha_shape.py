@@ -177,27 +177,7 @@ CONVEX_HULL = f"for the convex hull use {option('-r inf', 'r=inf')}"
 
 
 def chosen_radius(r: Any, alpha: Any, automatic: bool = False) -> Radius | None:
-    """Give the radius that was asked for; None for the automatic one.
-
-    Parameters
-    ----------
-    r : number, optional
-        The radius itself.
-    alpha : number, optional
-        The paper's α = -1/r, negative. For a float r is the double nearest to -1/α, for an exact number exact.
-    automatic : bool
-        Whether the smallest radius that holds all points was asked for by name.
-
-    Raises
-    ------
-    UsageError
-        If two of the three are given, r is not positive, or alpha is not negative.
-
-    Examples
-    --------
-    >>> chosen_radius(None, -0.1)
-    10.0
-    """
+    """Give the radius that was asked for; None for the automatic one."""
     given = {"r": r is not None, "alpha": alpha is not None, "auto": automatic}
     named = [name for name, is_given in given.items() if is_given]
     if len(named) > 1:
@@ -363,23 +343,7 @@ def _polygons(family: AlphaComplex, region: NDArray[np.int32], progress: Progres
 
 
 def automatic_rank(family: AlphaComplex, *, regions: int = 1, progress: Progress = None) -> int:
-    """Give the first rank whose shape has at most so many regions, which contain every point.
-
-    The number of regions is not monotone: all ranks are looked at, by one sweep.
-
-    Raises
-    ------
-    InputError
-        If there is no triangle, or one point is on none.
-    UsageError
-        If ``regions`` is less than 1.
-
-    Examples
-    --------
-    >>> family = alpha_complex([[0, 0], [4, 0], [0, 3]])
-    >>> automatic_rank(family)
-    2
-    """
+    """Give the first rank whose shape has at most so many regions, which contain every point."""
     if whole_number(regions, "regions") < 1:
         raise UsageError(f"regions is {shown_number(regions)}: at least 1")
     if (reason := unjoined(family)) is not None:

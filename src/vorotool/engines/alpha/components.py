@@ -22,26 +22,7 @@ def fill_and_drop(
     region_threshold: Fraction | None,
     progress: Progress = None,
 ) -> NDArray[np.bool_]:
-    """Fill holes of at most one area, then drop regions of at most another.
-
-    Parameters
-    ----------
-    family : AlphaComplex
-        Whose triangles these are.
-    inside : (t,) bool array
-        Triangles of the shape.
-    component : (t,) int32 array
-        Region of each triangle inside, hole of each outside, from 0; -1 outside of all.
-    hole_threshold, region_threshold : Fraction, optional
-        Areas; compared exactly.
-    progress : callable, optional
-        Called with the fraction done.
-
-    Returns
-    -------
-    (t,) bool array
-        The triangles of the shape then.
-    """
+    """Fill holes of at most one area, then drop regions of at most another."""
     mesh = family.mesh
     if hole_threshold is not None:
         holes = np.where(inside, np.int32(-1), component)

@@ -12,30 +12,7 @@ from vorotool.geometry.points.point_set import known_of_points
 
 
 def linked_digital(found: DigitalTriangulation) -> tuple[Triangulation, NDArray[np.int32], NDArray[np.int32]]:
-    """Link edges of a digital triangulation, those of its triangles too, with the triangles on their two sides.
-
-    Of several triangles on one side of an edge, as corners of four labels give, that one counts whose circle holds none
-    of the others' corners. Flat triangles count for nothing.
-
-    Parameters
-    ----------
-    found : DigitalTriangulation
-        What the paper's rule found.
-
-    Returns
-    -------
-    mesh : Triangulation
-        The triangles, in no order and without neighbours: it need be no triangulation.
-    edges, sides : (e, 2) int32 arrays
-        Ends, and triangles or -1.
-
-    Examples
-    --------
-    >>> from vorotool import digital_triangulation
-    >>> mesh, edges, sides = linked_digital(digital_triangulation([[1, 1], [6, 1], [2, 6]], shape=(8, 8)))
-    >>> edges.tolist(), sides.tolist()
-    ([[0, 1], [0, 2], [1, 2]], [[0, -1], [-1, 0], [0, -1]])
-    """
+    """Link edges of a digital triangulation, those of its triangles too, with the triangles on their two sides."""
     points = found.points
     turn = _core.kernel.orient2d(np.ascontiguousarray(points[found.triangles]))
     triangles = np.ascontiguousarray(found.triangles[turn > 0])

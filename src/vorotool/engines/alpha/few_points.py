@@ -16,25 +16,13 @@ GIVE_R = f": give r itself{option(' (-r)', '')}"
 
 
 def allows_empty(points: Any, allow_empty: bool | None) -> bool:
-    """Tell whether too few points are no error: as the caller says, else those of an image, one of many perhaps.
-
-    Examples
-    --------
-    >>> allows_empty([[0, 0]], None), allows_empty([[0, 0]], True)
-    (False, True)
-    """
+    """Tell whether too few points are no error: as the caller says, else those of an image, one of many perhaps."""
     is_image = isinstance(points, SeedSet) and points.frame is not None
     return is_image if allow_empty is None else allow_empty
 
 
 def report_too_few(count: int, *, allow_empty: bool, strict: bool) -> None:
-    """Refuse points that no edge can join, or warn of them; of an image without any it has been told.
-
-    Raises
-    ------
-    InputError
-        If they are refused.
-    """
+    """Refuse points that no edge can join, or warn of them; of an image without any it has been told."""
     if not count and allow_empty:
         return
     held = "is 1 point" if count == 1 else f"are {count} points"
@@ -44,13 +32,7 @@ def report_too_few(count: int, *, allow_empty: bool, strict: bool) -> None:
 
 
 def refuse_or_warn(reason: str, advice: str, *, allow_empty: bool, strict: bool) -> None:
-    """Raise or warn for a reason why there is no shape.
-
-    Raises
-    ------
-    InputError
-        If empty shapes are not allowed, or `strict`.
-    """
+    """Raise or warn for a reason why there is no shape."""
     if not allow_empty:
         raise InputError(f"{reason}{advice}")
     if strict:
@@ -64,14 +46,7 @@ def radius_below_all(family: AlphaComplex) -> float:
 
 
 def unjoined(family: AlphaComplex) -> str | None:
-    """Say why no radius gives a region that holds every point; None where one does.
-
-    Examples
-    --------
-    >>> from vorotool import alpha_complex
-    >>> unjoined(alpha_complex([[0, 0], [4, 0]]))
-    'two points span no triangle, so no r gives a region that holds them'
-    """
+    """Say why no radius gives a region that holds every point; None where one does."""
     mesh = family.mesh
     if len(mesh.points) and least_ranks(family).max() < len(family.spectrum):
         return None

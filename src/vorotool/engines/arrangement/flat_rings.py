@@ -13,34 +13,12 @@ from vorotool.geometry.ragged import owners
 
 
 def flat_holes(polygons: PolygonSet, places: NDArray[Any] | None = None) -> NDArray[np.bool_]:
-    """(r,) whether a ring is a hole with vertices at one or two places.
-
-    Parameters
-    ----------
-    polygons : PolygonSet
-        With any rings.
-    places : (n, 2) array, optional
-        Where the vertices are taken to be, such as on a lattice, where more of them may coincide; otherwise where
-        their coordinates are.
-
-    Examples
-    --------
-    >>> from vorotool.geometry.arguments.polygons import as_polygons
-    >>> flat_holes(as_polygons([{"shell": [[0, 0], [9, 0], [0, 9]], "holes": [[[1, 1], [2, 1]]]}])).tolist()
-    [False, True]
-    """
+    """(r,) whether a ring is a hole with vertices at one or two places."""
     return np.equal(polygons.ring_kind, HOLE) & _are_flat(polygons, polygons.xy if places is None else places)
 
 
 def with_flat_shells_as_lines(polygons: PolygonSet) -> PolygonSet:
-    """Take polygons that are a point or a segment for lines: they are sites, and have no inside.
-
-    Examples
-    --------
-    >>> from vorotool.geometry.arguments.polygons import as_polygons
-    >>> with_flat_shells_as_lines(as_polygons([[[0, 0], [9, 0], [0, 9]], [[5, 5]]])).is_line.tolist()
-    [False, True]
-    """
+    """Take polygons that are a point or a segment for lines: they are sites, and have no inside."""
     shell = polygons.polygon_start[:-1]
     is_alone = np.diff(polygons.polygon_start) == 1
     flat = shell[is_alone & np.equal(polygons.ring_kind[shell], SHELL)]

@@ -19,51 +19,19 @@ from vorotool.geometry.skeleton.skeleton import EDGE, VERTEX, SiteTable
 
 @dataclass(frozen=True, eq=False)
 class PlacedShapes:
-    """Polygons as they are used.
+    """Polygons as they are used."""
 
-    Parameters
-    ----------
-    polygons : PolygonSet
-        Placed rings; where there were repairs, the borders of each connected part of a polygon.
-    sites : SiteTable
-        Points of the graph, then segments.
-    face_polygon : (f,) int32 array
-        The first of `polygons` that each face lies in; -1 outside.
-    source : (p,) int64 array
-        The polygon of the input that each of `polygons` is, or is a part of.
-    """
-
-    polygons: PolygonSet
-    sites: SiteTable
-    face_polygon: NDArray[np.int32]
+    polygons: PolygonSet  # placed rings; where there were repairs, the borders of each connected part of a polygon
+    sites: SiteTable  # points of the graph, then segments
+    face_polygon: NDArray[np.int32]  # (f,) int32 array: the first of `polygons` that each face lies in; -1 outside
+    # (p,) int64 array: the polygon of the input that each of `polygons` is, or is a part of
     source: NDArray[np.int64]
 
 
 def placed_shapes(
     graph: PlanarGraph, *, is_repaired: NDArray[np.bool_] | None = None, threads: int = 0
 ) -> PlacedShapes:
-    """Give the rings as they were used.
-
-    Polygons that needed no repair keep their rings, with vertices on the lattice. If any did, all rings are what bounds
-    the polygons in the graph: a polygon that falls apart gives several, with the same id and properties.
-
-    Parameters
-    ----------
-    graph : PlanarGraph
-        Of polygons.
-    is_repaired : (p,) bool array, optional
-        Only the rings of these polygons are what bounds them, where any did. No other one may have a site with them in
-        common.
-    threads : int
-        0 uses all.
-
-    Examples
-    --------
-    >>> from vorotool.engines.arrangement.planar_graph import planar_graph
-    >>> placed = placed_shapes(planar_graph([[0, 0], [4, 0], [4, 4]]))
-    >>> placed.polygons.xy.tolist(), placed.sites.index.tolist(), placed.face_polygon.tolist()
-    ([[0.0, 0.0], [4.0, 0.0], [4.0, 4.0]], [0, 1, 2, 0, 1, 2], [-1, 0])
-    """
+    """Give the rings as they were used."""
     given = graph.polygons
     assert given is not None
     assert graph.vertices is not None

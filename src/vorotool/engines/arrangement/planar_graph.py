@@ -96,19 +96,7 @@ def planar_graph(
 def graph_for_skeletons(
     polygons: Any, *, strict: bool = False, threads: int = 0, progress: Progress = None
 ) -> PlanarGraph:
-    """Make the planar graph that a skeleton is computed of; arguments, errors and warnings as of `planar_graph`.
-
-    Raises
-    ------
-    InputError
-        As well if a coordinate is beyond 1e70, or the extent below 1e-70 and not 0: radii need products of lengths.
-
-    Examples
-    --------
-    >>> graph_for_skeletons([[0, 0], [1e99, 0], [0, 1]])
-    Traceback (most recent call last):
-    vorotool.errors.InputError: a coordinate is 1e+99, too large to compute with: scale them to 1e+70 at most
-    """
+    """Make the planar graph that a skeleton is computed of; arguments, errors and warnings as of `planar_graph`."""
     given = with_flat_shells_as_lines(as_polygons(polygons))
     check_magnitude(given.xy)
     return planar_graph(given, strict=strict, threads=threads, progress=progress)
@@ -116,24 +104,12 @@ def graph_for_skeletons(
 
 @dataclass(frozen=True, eq=False)
 class Placement:
-    """Vertices of polygons on the lattice.
+    """Vertices of polygons on the lattice."""
 
-    Parameters
-    ----------
-    vertices : (n, 2) int32 array
-        Lattice place (x, y) stands for ``origin + scale * (x, y)``.
-    origin : (float, float)
-        In input units.
-    exponent : int
-        The scale is this power of two.
-    largest_move : float
-        Of a vertex, in input units.
-    """
-
-    vertices: NDArray[np.int32]
-    origin: tuple[float, float]
-    exponent: int
-    largest_move: float
+    vertices: NDArray[np.int32]  # (n, 2) int32 array: lattice place (x, y) stands for `origin + scale * (x, y)`
+    origin: tuple[float, float]  # (float, float): in input units
+    exponent: int  # the scale is this power of two
+    largest_move: float  # of a vertex, in input units
 
 
 def placed_vertices(
@@ -153,21 +129,12 @@ def placed_vertices(
 
 @dataclass(frozen=True, eq=False)
 class Arrangement:
-    """The planar graph of polygons, and what was repaired for it, before anybody is told.
+    """The planar graph of polygons, and what was repaired for it, before anybody is told."""
 
-    Parameters
-    ----------
-    graph : PlanarGraph
-        Of the polygons.
-    found : dict
-        Of each kind of repair how often, and where first: an edge, and the vertex or edge that meets it, or -1.
-    is_repaired : (p,) bool array
-        Whether an edge of a polygon is named by any repair.
-    """
-
-    graph: PlanarGraph
+    graph: PlanarGraph  # of the polygons
+    # of each kind of repair how often, and where first: an edge, and the vertex or edge that meets it, or -1
     found: dict[str, tuple[int, int, int]]
-    is_repaired: NDArray[np.bool_]
+    is_repaired: NDArray[np.bool_]  # (p,) bool array: whether an edge of a polygon is named by any repair
 
 
 def arranged(given: PolygonSet, placement: Placement, *, progress: Progress = None) -> Arrangement:

@@ -30,26 +30,7 @@ class _Rings:
 
 
 def repaired_polygons(graph: PlanarGraph) -> RepairedPolygons:
-    """Polygons as their planar graph has them: what a skeleton is made of, and refers to.
-
-    Parameters
-    ----------
-    graph : PlanarGraph
-        As :func:`vorotool.engines.arrangement.planar_graph.planar_graph` makes it, of its polygons.
-
-    Returns
-    -------
-    RepairedPolygons
-        In the order of the input.
-
-    Examples
-    --------
-    >>> from vorotool import planar_graph
-    >>> clockwise = planar_graph([[[0, 0], [0, 4], [4, 4], [4, 0]]])
-    >>> used = repaired_polygons(clockwise)
-    >>> used.polygons.xy.tolist(), used.point.tolist(), used.segment.tolist()
-    ([[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]], [0, 3, 2, 1], [3, 2, 1, 0])
-    """
+    """Polygons as their planar graph has them: what a skeleton is made of, and refers to."""
     assert graph.polygons is not None
     assert graph.vertices is not None
     given = graph.polygons

@@ -29,21 +29,7 @@ NAMED = 10
 def report_repairs(
     given: PolygonSet, found: Found, is_repaired: NDArray[np.bool_], step: float, *, strict: bool
 ) -> None:
-    """Warn of repairs, if there are any; raise InputError instead if `strict`.
-
-    Parameters
-    ----------
-    given : PolygonSet
-        The input.
-    found : dict
-        For each kind of repair how often, and where first; see `Arrangement`.
-    is_repaired : (p,) bool array
-        The polygons whose features are named.
-    step : float
-        The step of the lattice.
-    strict : bool
-        Refuse.
-    """
+    """Warn of repairs, if there are any; raise InputError instead if `strict`."""
     repairs = {name: count for name, (count, _, _) in found.items()}
     if not any(repairs.values()):
         return
@@ -54,17 +40,7 @@ def report_repairs(
 
 
 def report_small(given: PolygonSet, placement: Placement, *, strict: bool) -> None:
-    """Warn of polygons and lines for which the lattice is coarse; raise InputError instead if `strict`.
-
-    Parameters
-    ----------
-    given : PolygonSet
-        The input.
-    placement : Placement
-        Of its vertices. What the lattice has as it was given is not coarse, however small.
-    strict : bool
-        Refuse.
-    """
+    """Warn of polygons and lines for which the lattice is coarse; raise InputError instead if `strict`."""
     step = math.ldexp(1.0, placement.exponent)
     if not placement.largest_move or not len(given):
         return

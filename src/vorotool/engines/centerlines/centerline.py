@@ -200,10 +200,7 @@ def _at_open_border(skeleton: Skeleton, lines: Centerlines) -> Booleans:
 
 
 def _marked(axis: Unforked, pieces: Pieces, start: NDArray[np.int64], is_strip: Booleans) -> tuple[Booleans, Booleans]:
-    """Which pieces are taken off the ends of lines: whole leads, and round ends where there is more.
-
-    A lead stays that is all of its line, and what is left where the end of a strip begins.
-    """
+    """Which pieces are taken off the ends of lines: whole leads, and round ends where there is more."""
     is_lead, is_round = axis.is_lead[pieces.arc], axis.is_round[pieces.arc]
     plain = np.concatenate([[0], np.cumsum(~is_round)])
     is_round &= ~is_strip[pieces.line, 0] | (plain[1:] > plain[start[:-1]][pieces.line])

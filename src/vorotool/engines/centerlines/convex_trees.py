@@ -24,66 +24,33 @@ Line = tuple[float, float, float]
 
 @dataclass(frozen=True, eq=False)
 class Chains:
-    """Chains of edges, counterclockwise around what is inside.
+    """Chains of edges, counterclockwise around what is inside."""
 
-    Parameters
-    ----------
-    start : (k + 1,) integer array
-        Chain k has the edges ``start[k]`` to ``start[k + 1] - 1``: two or more.
-    source, target : (n, 2) float64 array
-        Where edges begin and end; the corner between two is where the first one ends.
-    """
-
-    start: Numbers
+    start: Numbers  # (k + 1,) integer array: chain k has the edges `start[k]` to `start[k + 1] - 1`: two or more
+    # (n, 2) float64 array: where edges begin and end; the corner between two is where the first one ends
     source: Floats
+    # (n, 2) float64 array: where edges begin and end; the corner between two is where the first one ends
     target: Floats
 
 
 @dataclass(frozen=True, eq=False)
 class Trees:
-    """Nodes and arcs inside chains.
+    """Nodes and arcs inside chains."""
 
-    Parameters
-    ----------
-    chain : (u,) integer array
-        Of each node.
-    places : (u, 2) float64 array
-        Of each node; the origin of its chain where doubles give none.
-    radius : (u,) float64 array
-        Distances from the edges.
-    root : (k,) integer array
-        The node of each chain that its last edges meet at: the last one made; -1 in chains of two edges.
-    arcs : (a, 2) integer array
-        From the node nearer to the root, to another: the number of a node, or ``-1 - e`` for the corner behind edge e.
-    edges : (a, 2) integer array
-        Left and right of each arc.
-    """
-
-    chain: Numbers
-    places: Floats
-    radius: Floats
+    chain: Numbers  # (u,) integer array: of each node
+    places: Floats  # (u, 2) float64 array: of each node; the origin of its chain where doubles give none
+    radius: Floats  # (u,) float64 array: distances from the edges
+    # (k,) integer array: the node of each chain that its last edges meet at: the last one made; -1 in chains of two
+    # edges
     root: Numbers
+    # (a, 2) integer array: from the node nearer to the root, to another: the number of a node, or `-1 - e` for the
+    # corner behind edge e
     arcs: Numbers
-    edges: Numbers
+    edges: Numbers  # (a, 2) integer array: left and right of each arc
 
 
 def convex_trees(chains: Chains, origins: Floats) -> Trees:
-    """Find the trees of chains, in time O(n log n).
-
-    Parameters
-    ----------
-    chains : Chains
-        Each corner turns to the left.
-    origins : (k, 2) float64 array
-        Places near each chain, from which coordinates are taken.
-
-    Examples
-    --------
-    >>> around = np.array([[4.0, 0], [0, 0], [0, 2], [4, 2]])[::-1]
-    >>> trees = convex_trees(Chains(np.array([0, 3]), around[:-1], around[1:]), np.array([[2.0, 1]]))
-    >>> trees.places.tolist(), trees.radius.tolist(), trees.arcs.tolist(), trees.edges.tolist()
-    ([[1.0, 1.0]], [1.0], [[0, -1], [0, -2]], [[1, 0], [2, 1]])
-    """
+    """Find the trees of chains, in time O(n log n)."""
     sizes = np.diff(chains.start)
     way = chains.target - chains.source
     length = np.sqrt((way * way).sum(axis=1))
@@ -127,10 +94,7 @@ def _collapse(
 
 
 def _meeting(a: Line, b: Line, c: Line) -> Line:
-    """How far three lines are from the place that is equally far from all, and that place; infinite if there is none.
-
-    None behind the lines is asked for, so that there is a single one.
-    """
+    """Return how far three lines are from the point that is equally far from all, and that point; else infinity."""
     ux, uy, u = a[0] - b[0], a[1] - b[1], a[2] - b[2]
     vx, vy, v = c[0] - b[0], c[1] - b[1], c[2] - b[2]
     whole = ux * vy - uy * vx

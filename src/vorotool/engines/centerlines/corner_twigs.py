@@ -18,25 +18,13 @@ Booleans = NDArray[np.bool_]
 
 @dataclass(frozen=True, eq=False)
 class Branches:
-    """Branches inside polygons.
+    """Branches inside polygons."""
 
-    Parameters
-    ----------
-    first, last : (b,) integer array
-        Of the arcs of each, which follow one another.
-    ends : (b, 2) integer array
-        Nodes.
-    length : (b,) float64 array
-        Of all its arcs.
-    degree : (v,) integer array
-        Number of arcs inside polygons at each node.
-    """
-
-    first: Numbers
-    last: Numbers
-    ends: Numbers
-    length: Floats
-    degree: Numbers
+    first: Numbers  # (b,) integer array: of the arcs of each, which follow one another
+    last: Numbers  # (b,) integer array: of the arcs of each, which follow one another
+    ends: Numbers  # (b, 2) integer array: nodes
+    length: Floats  # (b,) float64 array: of all its arcs
+    degree: Numbers  # (v,) integer array: number of arcs inside polygons at each node
 
     def arcs(self, chosen: Numbers) -> Numbers:
         """All arcs of some branches."""
@@ -44,14 +32,7 @@ class Branches:
 
 
 def branches_inside(skeleton: Skeleton) -> Branches:
-    """Find the branches inside polygons.
-
-    Examples
-    --------
-    >>> from vorotool import skeleton_exact
-    >>> branches_inside(skeleton_exact([[0, 0], [10, 0], [10, 4], [0, 4]])).ends.tolist()
-    [[0, 1], [2, 1], [3, 4], [5, 4], [1, 4]]
-    """
+    """Find the branches inside polygons."""
     inside = np.flatnonzero(skeleton.side == INTERIOR)
     begins = np.flatnonzero(np.diff(skeleton.branch[inside], prepend=-1))
     first, last = inside[begins], inside[np.append(begins, len(inside))[1:] - 1]
@@ -63,31 +44,18 @@ def branches_inside(skeleton: Skeleton) -> Branches:
 
 @dataclass(frozen=True, eq=False)
 class Twigs:
-    """Branches from a leaf between two edges with a corner in common to a junction, along one of these or both.
+    """Branches from a leaf between two edges with a corner in common to a junction, along one of these or both."""
 
-    Parameters
-    ----------
-    branch, arc : (t,) integer array
-        Which, and its first arc.
-    leaf, node : (t,) integer array
-        The leaf, and the junction.
-    edges : (t, 2) integer array
-        The sites on both sides of the leaf, the one with the smaller number first.
-    is_beside : (t, 2) bool array
-        Whether each is a site of all arcs: where a wall has a corner that turns outwards, it is not.
-    length : (t,) float64 array
-        Of the branches.
-    cosine : (t,) float64 array
-        Of the angle that the boundary turns by at the corner: from -1 at a tip that is all but closed, to 1.
-    """
-
-    branch: Numbers
-    arc: Numbers
-    leaf: Numbers
-    node: Numbers
-    edges: Numbers
+    branch: Numbers  # (t,) integer array: which, and its first arc
+    arc: Numbers  # (t,) integer array: which, and its first arc
+    leaf: Numbers  # (t,) integer array: the leaf, and the junction
+    node: Numbers  # (t,) integer array: the leaf, and the junction
+    edges: Numbers  # (t, 2) integer array: the sites on both sides of the leaf, the one with the smaller number first
+    # (t, 2) bool array: whether each is a site of all arcs: where a wall has a corner that turns outwards, it is not
     is_beside: Booleans
-    length: Floats
+    length: Floats  # (t,) float64 array: of the branches
+    # (t,) float64 array: of the angle that the boundary turns by at the corner: from -1 at a tip that is all but
+    # closed, to 1
     cosine: Floats
 
     def __len__(self) -> int:
@@ -95,16 +63,7 @@ class Twigs:
 
 
 def corner_twigs(skeleton: Skeleton, branches: Branches) -> Twigs:
-    """Find the twigs among some branches.
-
-    Examples
-    --------
-    >>> from vorotool import skeleton_exact
-    >>> skeleton = skeleton_exact([[0, 0], [10, 0], [10, 4], [0, 4]])
-    >>> twigs = corner_twigs(skeleton, branches_inside(skeleton))
-    >>> twigs.node.tolist(), twigs.cosine.tolist()
-    ([1, 1, 4, 4], [0.0, 0.0, 0.0, 0.0])
-    """
+    """Find the twigs among some branches."""
     is_leaf = branches.degree[branches.ends] == 1
     maybe = np.flatnonzero(is_leaf[:, 0] != is_leaf[:, 1])
     outer = np.where(is_leaf[maybe, 0], branches.first[maybe], branches.last[maybe])
@@ -147,21 +106,12 @@ def _cosine(ends: Floats, meets: Booleans) -> Floats:
 
 @dataclass(frozen=True, eq=False)
 class Pairs:
-    """Twigs at both corners of an edge.
+    """Twigs at both corners of an edge."""
 
-    Parameters
-    ----------
-    one, other : (p,) integer array
-        The twigs, the smaller number first.
-    edge : (p,) integer array
-        The site.
-    is_blunt : (p,) bool array
-        Whether the angles at both corners differ by no more than a right angle: neither is a tip.
-    """
-
-    one: Numbers
-    other: Numbers
-    edge: Numbers
+    one: Numbers  # (p,) integer array: the twigs, the smaller number first
+    other: Numbers  # (p,) integer array: the twigs, the smaller number first
+    edge: Numbers  # (p,) integer array: the site
+    # (p,) bool array: whether the angles at both corners differ by no more than a right angle: neither is a tip
     is_blunt: Booleans
 
     def __getitem__(self, chosen: NDArray[np.generic]) -> Pairs:
@@ -174,16 +124,7 @@ class Pairs:
 
 
 def pairs_of(skeleton: Skeleton, twigs: Twigs) -> Pairs:
-    """Find the pairs of twigs, by the numbers of their edges.
-
-    Examples
-    --------
-    >>> from vorotool import skeleton_exact
-    >>> skeleton = skeleton_exact([[0, 0], [10, 0], [10, 4], [0, 4]])
-    >>> pairs = pairs_of(skeleton, corner_twigs(skeleton, branches_inside(skeleton)))
-    >>> pairs.one.tolist(), pairs.other.tolist(), pairs.edge.tolist()
-    ([0, 2, 1, 0], [2, 3, 3, 1], [4, 5, 6, 7])
-    """
+    """Find the pairs of twigs, by the numbers of their edges."""
     twig, edge = np.repeat(np.arange(len(twigs)), 2)[twigs.is_beside.reshape(-1)], twigs.edges[twigs.is_beside]
     order = np.lexsort((twig, edge))
     follows = np.flatnonzero(np.diff(edge[order]) == 0)

@@ -19,23 +19,7 @@ UNCERTAIN = 2.0**-48
 
 
 def is_blunt(points: Floats) -> NDArray[np.bool_]:
-    """Tell of edges whether neither end is a tip.
-
-    A tip is a corner of less than half a right angle, or sharper than the other one by more than a right angle. Where
-    doubles cannot tell, fractions do.
-
-    Parameters
-    ----------
-    points : (k, 4, 2) float64 array
-        The vertex before each edge, its ends, and the vertex behind it.
-
-    Examples
-    --------
-    >>> is_blunt(np.array([[[0, 9], [0, 0], [4, 4], [4, 9]], [[0, 9], [0, 0], [4, 3], [4, 9]]])).tolist()
-    [True, True]
-    >>> is_blunt(np.array([[[0, 9], [0, 0], [4, 5], [4, 9]], [[4, 1], [0, 0], [4, 0], [4, 9]]])).tolist()
-    [False, False]
-    """
+    """Tell of edges whether neither end is a tip."""
     values, magnitudes = _comparisons(*((points[:, k] - points[:, m]).T for k, m in ((0, 1), (2, 1), (3, 2))))
     blunt: NDArray[np.bool_] = (values >= 0).all(axis=0)
     for k in np.flatnonzero((np.abs(values) <= UNCERTAIN * magnitudes).any(axis=0)).tolist():
@@ -46,10 +30,7 @@ def is_blunt(points: Floats) -> NDArray[np.bool_]:
 
 
 def _comparisons(u: Any, v: Any, w: Any) -> tuple[Any, Any]:
-    """A number that is not negative where an edge v between u and w is blunt, and the magnitudes of its terms.
-
-    Each angle has a sine of at least its cosine; and the cosine of their difference is not negative.
-    """
+    """A number that is not negative where an edge v between u and w is blunt, and the magnitudes of its terms."""
     dots = u[0] * v[0] + u[1] * v[1], -(v[0] * w[0] + v[1] * w[1])
     sines = abs(u[0] * v[1] - u[1] * v[0]), abs(v[0] * w[1] - v[1] * w[0])
     sizes = [abs(a[0] * b[0]) + abs(a[1] * b[1]) + abs(a[0] * b[1]) + abs(a[1] * b[0]) for a, b in ((u, v), (v, w))]
@@ -62,23 +43,7 @@ def _columns(values: list[Any]) -> Any:
 
 
 def shortest(edges: Floats) -> NDArray[np.intp]:
-    """Tell which of some edges is the shortest, the first of equal ones.
-
-    Parameters
-    ----------
-    edges : (t, k, 2, 2) float64 array
-        Their ends.
-
-    Returns
-    -------
-    (t,) integer array
-        From 0 to k - 1.
-
-    Examples
-    --------
-    >>> shortest(np.array([[[[0, 0], [3, 4]], [[0, 0], [4, 3]], [[0, 0], [9, 9]]]], dtype=float)).tolist()
-    [0]
-    """
+    """Tell which of some edges is the shortest, the first of equal ones."""
     way, way_lost = difference(edges[..., 1, :], edges[..., 0, :])
     squares, squares_lost = product(way, way)
     square, lost = difference(squares[..., 0], -squares[..., 1])

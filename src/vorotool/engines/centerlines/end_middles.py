@@ -41,63 +41,25 @@ TIMES = 3
 
 @dataclass(frozen=True, eq=False)
 class EndMiddles:
-    """Middles of ends.
+    """Middles of ends."""
 
-    Parameters
-    ----------
-    places : (k, 2) float64 array
-        NaN where there is none.
-    vertices : (k,) integer array
-        Where the edges begin that they are on; -1 for none.
-    """
-
-    places: Floats
-    vertices: Numbers
+    places: Floats  # (k, 2) float64 array: NaN where there is none
+    vertices: Numbers  # (k,) integer array: where the edges begin that they are on; -1 for none
 
 
 @dataclass(frozen=True, eq=False)
 class _Outlines:
-    """The outline of each end: a place on a side, vertices of the polygon, a place on the other side.
+    """The outline of each end: a place on a side, vertices of the polygon, a place on the other side."""
 
-    Parameters
-    ----------
-    start : (k + 1,) integer array
-        Where the points of each begin.
-    points : (n, 2) float64 array
-        From the leaf.
-    vertex : (n,) integer array
-        The vertices that points are, or at first places those before.
-    is_vertex : (n,) bool array
-        Whether they are.
-    is_left : (k,) bool array
-        Whether each turns to the left at corners that the inside goes into.
-    """
-
-    start: Numbers
-    points: Floats
-    vertex: Numbers
-    is_vertex: Booleans
-    is_left: Booleans
+    start: Numbers  # (k + 1,) integer array: where the points of each begin
+    points: Floats  # (n, 2) float64 array: from the leaf
+    vertex: Numbers  # (n,) integer array: the vertices that points are, or at first places those before
+    is_vertex: Booleans  # (n,) bool array: whether they are
+    is_left: Booleans  # (k,) bool array: whether each turns to the left at corners that the inside goes into
 
 
 def end_middles(skeleton: Skeleton, leaves: Numbers) -> EndMiddles:
-    """Find the middles of the ends of strips beyond leaves inside.
-
-    Parameters
-    ----------
-    skeleton : Skeleton
-        A part of one from which trees were removed that hung on these leaves; all of its arcs are inside polygons.
-    leaves : (k,) integer array
-        Nodes of a single arc.
-
-    Examples
-    --------
-    >>> from vorotool import skeleton_exact
-    >>> from vorotool.engines.centerlines.end_pieces import without_end_pieces
-    >>> stems = without_end_pieces(skeleton_exact([[0, 0], [10, 0], [10, 4], [9, 4], [0, 4]]))
-    >>> end_middles(stems, np.flatnonzero(stems.degree == 1)).places.tolist()
-    [[0.0, 2.0], [10.0, 2.0]]
-    """
+    """Find the middles of the ends of strips beyond leaves inside."""
     walks = Walks(skeleton, leaves)
     origin, arcs, at_target = skeleton.vertices[leaves], walks.arcs, walks.at_target
     sites = np.where(at_target[:, None], skeleton.sites[arcs], skeleton.sites[arcs][:, ::-1]).astype(np.intp)

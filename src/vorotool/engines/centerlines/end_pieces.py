@@ -37,24 +37,7 @@ HAIR = 2.0**-6
 
 
 def without_end_pieces(skeleton: Skeleton, *, threads: int = 0, progress: Progress = None) -> Skeleton:
-    """Leave out the pieces at the ends of branches.
-
-    A tree that is all one end keeps its largest disc, as an arc of length 0.
-
-    Parameters
-    ----------
-    skeleton : Skeleton
-        All of its arcs are inside polygons.
-    threads, progress
-        As of `vorotool.prune`.
-
-    Examples
-    --------
-    >>> from vorotool import skeleton_exact
-    >>> stems = without_end_pieces(skeleton_exact([[0, 0], [10, 0], [10, 4], [0, 4]]))
-    >>> stems.vertices[stems.arcs].tolist()
-    [[[2.0, 2.0], [8.0, 2.0]]]
-    """
+    """Leave out the pieces at the ends of branches."""
     pieces = end_pieces(skeleton, keeps_sides=True)
     lone, roots = pieces.lone_arcs, pieces.lone_roots
     kept, arcs = ~pieces.is_removed, skeleton.arcs.copy()
@@ -70,39 +53,15 @@ def without_end_pieces(skeleton: Skeleton, *, threads: int = 0, progress: Progre
 
 @dataclass(frozen=True, eq=False)
 class EndPieces:
-    """Which arcs belong to ends, and the trees of which nothing else is left.
+    """Which arcs belong to ends, and the trees of which nothing else is left."""
 
-    Parameters
-    ----------
-    is_removed : (a,) bool array
-        Whether each arc belongs to an end.
-    lone_roots, lone_arcs : (k,) integer array
-        The largest disc of each tree that is all one end, and an arc there.
-    """
-
-    is_removed: Booleans
-    lone_roots: Numbers
-    lone_arcs: Numbers
+    is_removed: Booleans  # (a,) bool array: whether each arc belongs to an end
+    lone_roots: Numbers  # (k,) integer array: the largest disc of each tree that is all one end, and an arc there
+    lone_arcs: Numbers  # (k,) integer array: the largest disc of each tree that is all one end, and an arc there
 
 
 def end_pieces(skeleton: Skeleton, *, keeps_sides: bool) -> EndPieces:
-    """Find the arcs that belong to ends.
-
-    Parameters
-    ----------
-    skeleton : Skeleton
-        All of its arcs are inside polygons.
-    keeps_sides : bool
-        Whether a piece stays that hangs where the skeleton goes on in two directions or more, and is longer than the
-        disc there is wide, such as one into a corner of less than 60 degrees.
-
-    Examples
-    --------
-    >>> from vorotool import skeleton_exact
-    >>> skeleton = skeleton_exact([[0, 0], [10, 0], [10, 4], [0, 4]])
-    >>> end_pieces(skeleton, keeps_sides=True).is_removed.tolist()
-    [True, True, True, True, False]
-    """
+    """Find the arcs that belong to ends."""
     count = len(skeleton.vertices)
     component = connected_roots(skeleton.arcs, count)
     roots = _roots(skeleton, component)
@@ -157,14 +116,7 @@ def _removed(skeleton: Skeleton, is_fixed: Booleans, keeps_sides: bool) -> Boole
 def _peeled(
     leaves: list[int], degree: list[int], joined: list[int], both: list[int], reaches: Reaches
 ) -> tuple[list[tuple[int, int, int]], list[bool], list[bool]]:
-    """Take leaves off, as long as there are any.
-
-    Returns
-    -------
-    tuple of three lists
-        The arc of each leaf with its outer and its inner node; whether the piece that hangs there on the inner node
-        belongs to an end; and whether it is longer than the disc of that node is wide.
-    """
+    """Take leaves off, as long as there are any."""
     own, radius, length = reaches.own, reaches.radius, reaches.length
     farthest, branch, longest = list(own), [0.0] * len(own), [0.0] * len(own)
     order, is_end, is_long = [], [], []
@@ -188,25 +140,7 @@ def _peeled(
 
 
 class Reaches:
-    """How far pieces go on, and for how long their branches, on walks from leaves inwards.
-
-    Parameters
-    ----------
-    skeleton : Skeleton
-        Its arcs inside polygons are gone along.
-
-    Attributes
-    ----------
-    radius, own, length : list of float
-        Radii of nodes, `TIP` times these, and lengths of arcs.
-
-    Examples
-    --------
-    >>> from vorotool import skeleton_exact
-    >>> reaches = Reaches(skeleton_exact([[0, 0], [10, 0], [10, 4], [0, 4]]))
-    >>> reaches.over(0, 2, 0.0, 0.0) == (reaches.length[0], 0.0)
-    True
-    """
+    """How far pieces go on, and for how long their branches, on walks from leaves inwards."""
 
     def __init__(self, skeleton: Skeleton) -> None:
         self.radius, self.length = skeleton.radius.tolist(), skeleton.length.tolist()
@@ -214,15 +148,7 @@ class Reaches:
         self.necks = _necks(skeleton)
 
     def over(self, arc: int, outer: int, farthest: float, branch: float) -> tuple[float, float]:
-        """The largest ``d(p, q) + TIP * r(q)`` and the longest branch as far as the inner end of an arc.
-
-        Parameters
-        ----------
-        arc, outer : int
-            An arc and its outer end.
-        farthest, branch : float
-            Both as far as there.
-        """
+        """The largest ``d(p, q) + TIP * r(q)`` and the longest branch as far as the inner end of an arc."""
         own = self.own[outer]
         if farthest > own + self.radius[outer] and farthest - own > branch:
             branch = farthest - own

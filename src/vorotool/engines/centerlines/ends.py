@@ -31,64 +31,32 @@ Numbers = NDArray[np.intp]
 
 @dataclass(frozen=True, eq=False)
 class Unforked:
-    """A skeleton whose forks are led to the middles of their edges.
+    """A skeleton whose forks are led to the middles of their edges."""
 
-    Parameters
-    ----------
-    skeleton : Skeleton
-        That which is given, and behind its arcs *leads*: straight lines from forks to the middles of their edges.
-    arcs : (k,) integer array
-        Its arcs inside polygons, without the twigs of forks and all but the longest twig of round ends, and the leads.
-    is_lead, is_round : (a,) bool array
-        Whether each arc of the skeleton is a lead, or the twig that is left of a round end.
-    reach : (a,) float64 array
-        Lengths; of leads those of the longer twig of the fork, by which paths are compared.
-    first_leaf : (v,) integer array
-        The nodes themselves; of the middle of an edge the smaller one of the leaves at its corners.
-    """
-
+    # that which is given, and behind its arcs *leads*: straight lines from forks to the middles of their edges
     skeleton: Skeleton
+    # (k,) integer array: its arcs inside polygons, without the twigs of forks and all but the longest twig of round
+    # ends, and the leads
     arcs: Numbers
+    # (a,) bool array: whether each arc of the skeleton is a lead, or the twig that is left of a round end
     is_lead: NDArray[np.bool_]
+    # (a,) bool array: whether each arc of the skeleton is a lead, or the twig that is left of a round end
     is_round: NDArray[np.bool_]
+    # (a,) float64 array: lengths; of leads those of the longer twig of the fork, by which paths are compared
     reach: Floats
+    # (v,) integer array: the nodes themselves; of the middle of an edge the smaller one of the leaves at its corners
     first_leaf: Numbers
 
 
 def forked(skeleton: Skeleton) -> Unforked:
-    """A skeleton as it is, without leads.
-
-    Parameters
-    ----------
-    skeleton : Skeleton
-        Its arcs inside polygons are used.
-
-    Examples
-    --------
-    >>> from vorotool import skeleton_exact
-    >>> forked(skeleton_exact([[0, 0], [10, 0], [10, 4], [0, 4]])).arcs.tolist()
-    [0, 1, 2, 3, 4]
-    """
+    """A skeleton as it is, without leads."""
     nothing = np.zeros(len(skeleton), dtype=bool)
     nodes = np.arange(len(skeleton.vertices))
     return Unforked(skeleton, np.flatnonzero(skeleton.side == INTERIOR), nothing, nothing, skeleton.length, nodes)
 
 
 def unforked(skeleton: Skeleton) -> Unforked:
-    """Lead the forks of a skeleton to the middles of their edges.
-
-    Parameters
-    ----------
-    skeleton : Skeleton
-        Its arcs inside polygons are used.
-
-    Examples
-    --------
-    >>> from vorotool import skeleton_exact
-    >>> made = unforked(skeleton_exact([[0, 0], [10, 0], [10, 4], [0, 4]]))
-    >>> made.skeleton.vertices[made.skeleton.arcs[made.arcs]].tolist()
-    [[[2.0, 2.0], [8.0, 2.0]], [[8.0, 2.0], [10.0, 2.0]], [[2.0, 2.0], [0.0, 2.0]]]
-    """
+    """Lead the forks of a skeleton to the middles of their edges."""
     known, nodes = len(skeleton), len(skeleton.vertices)
     skeleton = with_pruned_twigs(skeleton)
     branches = branches_inside(skeleton)
@@ -121,10 +89,7 @@ def unforked(skeleton: Skeleton) -> Unforked:
 
 # ---- polygons around a circle ---------------------------------------------------------------------
 def _farthest_around(skeleton: Skeleton, twigs: Twigs, around: Numbers) -> Numbers:
-    """Of twigs with the same number that is not -1, that to the corner farthest from the middle.
-
-    The middle is the node with the largest disc. Of corners as far but for a part `TIE` that at the first edges counts.
-    """
+    """Of twigs with the same number that is not -1, that to the corner farthest from the middle."""
     chosen = np.flatnonzero(around >= 0)
     chosen = chosen[np.lexsort((-skeleton.radius[twigs.node[chosen]], around[chosen]))]
     starts = np.flatnonzero(np.diff(around[chosen], prepend=-1))
@@ -141,12 +106,7 @@ def _farthest_around(skeleton: Skeleton, twigs: Twigs, around: Numbers) -> Numbe
 def _forks_of_stars(
     skeleton: Skeleton, branches: Branches, twigs: Twigs, pairs: Pairs
 ) -> tuple[Pairs, NDArray[np.bool_]]:
-    """Which pairs are forks where all arcs of a skeleton are twigs of one node; and the nodes that this settles.
-
-    A triangle without tips has one, at its shortest edge: from there the centerline leads to the corner opposite. A
-    quadrilateral has two, at opposite edges without tips. Of equal ones those of the first edge count. Polygons with
-    more edges have none, if they have no tips: see `_farthest_around`.
-    """
+    """Which pairs are forks where all arcs of a skeleton are twigs of one node; and the nodes that this settles."""
     degree = branches.degree
     is_star = (np.bincount(twigs.node, minlength=len(degree)) == degree) & (degree > 0)
     node = twigs.node[pairs.one]

@@ -13,29 +13,7 @@ Floats = NDArray[np.float64]
 
 
 def led_on(lines: LedOn, wanted: NDArray[np.bool_], *, to_middles: bool | NDArray[np.bool_]) -> Floats:
-    """Lead ends of lines that are inside to the middle of the end ahead, or straight on.
-
-    Parameters
-    ----------
-    lines : Centerlines or ExtendedSkeleton
-        Of which ends are led on.
-    wanted : (k, 2) bool array
-        Starts and ends that are.
-    to_middles : bool or (k, 2) bool array
-        Whether they are led to the middles of ends; see `vorotool.engines.centerlines.end_middles`.
-
-    Returns
-    -------
-    (k, 2, 2) float64 array
-        The `ends` of the lines with these.
-
-    Examples
-    --------
-    >>> from vorotool import centerline, skeleton_exact
-    >>> lines = centerline(skeleton_exact([[0, 0], [10, 0], [10, 4], [0, 4]]), ends="none")
-    >>> led_on(lines, np.array([[True, False]]), to_middles=True).tolist()
-    [[[0.0, 2.0], [nan, nan]]]
-    """
+    """Lead ends of lines that are inside to the middle of the end ahead, or straight on."""
     path, ends = lines.path, lines.ends.copy()
     origin = path.vertices[lines.end_nodes]
     wanted = wanted & (path.radius[lines.end_nodes] > 0)
@@ -66,10 +44,7 @@ def _places_before(lines: LedOn) -> Floats:
 
 
 def rounded(lines: LedOn) -> tuple[Floats, Floats]:
-    """Give nodes and ends to as many binary places as doubles have at the largest coordinate of their polygon.
-
-    A place is a difference of such numbers: what it has beyond is rounding, such as 1e-32 for what is 0.
-    """
+    """Give nodes and ends to as many binary places as doubles have at the largest coordinate of their polygon."""
     polygons, path = lines.path.polygons, lines.path
     if not len(lines):
         return path.vertices, lines.ends

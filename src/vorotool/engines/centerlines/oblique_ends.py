@@ -24,30 +24,7 @@ STEEP = (1 - sqrt(0.5)) / 2
 
 
 def led_to_oblique_ends(lines: Centerlines, wanted: Booleans) -> Centerlines:
-    """Cut off what leads along one edge into its corner, and lead on to the middle of that edge.
-
-    In outlines of pixels this is for an edge between two corners, no longer than `WIDTH` radii, beside all arcs from
-    some place of the path to its end, where the radius is half as large at most, or falls on the way as into a corner
-    of 45 degrees or more; of two such edges the longer one.
-
-    Parameters
-    ----------
-    lines : Centerlines
-        In which ends that are wanted are led on to the middle of an edge, such as a step, or not at all.
-    wanted : (k, 2) bool array
-        Ends that may be.
-
-    Examples
-    --------
-    >>> from vorotool import centerline, outlines, prune, skeleton_exact
-    >>> mask = np.zeros((40, 60), dtype=bool)
-    >>> for row in range(40):
-    ...     mask[row, 5 + row : 20 + row] = True
-    >>> skeleton = prune(skeleton_exact(outlines(mask)), scale=1.5)
-    >>> lines = centerline(skeleton, ends="none")
-    >>> led_to_oblique_ends(lines, np.ones((1, 2), dtype=bool)).ends.tolist()
-    [[[12.0, -0.5], [51.0, 39.5]]]
-    """
+    """Cut off what leads along one edge into its corner, and lead on to the middle of that edge."""
     path, start = lines.path, lines.arc_start
     if path.polygons.connectivity is None:  # no outlines of pixels
         return lines

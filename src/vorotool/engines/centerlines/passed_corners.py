@@ -14,21 +14,7 @@ Booleans = NDArray[np.bool_]
 
 
 def are_passed(skeleton: Skeleton, branches: Branches, twigs: Twigs) -> Booleans:
-    """Tell which twigs hang on a cycle, or between two, and lead into a corner much like both beside it.
-
-    All three corners are convex, and neither edge between them has a tip
-    (`vorotool.engines.centerlines.edge_comparisons.is_blunt`).
-
-    Examples
-    --------
-    >>> from vorotool import skeleton_exact
-    >>> from vorotool.engines.centerlines.corner_twigs import branches_inside, corner_twigs
-    >>> hole = [[3, 3], [3, 5], [5, 5], [5, 3]]
-    >>> skeleton = skeleton_exact([{"shell": [[0, 0], [8, 0], [8, 8], [0, 8]], "holes": [hole]}])
-    >>> branches = branches_inside(skeleton)
-    >>> are_passed(skeleton, branches, corner_twigs(skeleton, branches)).tolist()
-    [True, True, True, True]
-    """
+    """Tell which twigs hang on a cycle, or between two, and lead into a corner much like both beside it."""
     polygons, table = skeleton.polygons, skeleton.site_table
     has_holes = np.diff(polygons.polygon_start) > 1
     own = np.flatnonzero(has_holes[skeleton.polygon[branches.first]])

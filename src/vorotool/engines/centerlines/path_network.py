@@ -72,12 +72,7 @@ class Pieces:
 
 
 class Network:
-    """Arcs of a skeleton, or parts of them, as a graph; places inside arcs can be made nodes.
-
-    Leaves have the first numbers: with `by_edge` in the order of the edges of polygons that they are at. Of equally
-    long paths the core takes that whose ends have the smallest ones; with `by_edge` those are equally long that are as
-    long as the longest but for a part `TIE`.
-    """
+    """Arcs of a skeleton, or parts of them, as a graph; places inside arcs can be made nodes."""
 
     def __init__(self, axis: Unforked, *, by_edge: bool) -> None:
         self.axis, self.skeleton, self.by_edge = axis, axis.skeleton, by_edge

@@ -31,18 +31,12 @@ Booleans = NDArray[np.bool_]
 
 @dataclass(frozen=True, eq=False)
 class _Sides:
-    """Edges on one side of arcs around nodes that are on the other side of no arc there.
+    """Edges on one side of arcs around nodes that are on the other side of no arc there."""
 
-    Parameters
-    ----------
-    node, arc, site, vertex : (k,) integer array
-        The node, the arc, the edge, and the vertex where that begins.
-    """
-
-    node: Numbers
-    arc: Numbers
-    site: Numbers
-    vertex: Numbers
+    node: Numbers  # (k,) integer array: the node, the arc, the edge, and the vertex where that begins
+    arc: Numbers  # (k,) integer array: the node, the arc, the edge, and the vertex where that begins
+    site: Numbers  # (k,) integer array: the node, the arc, the edge, and the vertex where that begins
+    vertex: Numbers  # (k,) integer array: the node, the arc, the edge, and the vertex where that begins
 
     def __getitem__(self, chosen: NDArray[np.generic]) -> _Sides:
         return _Sides(*(values[chosen] for values in self.__dict__.values()))
@@ -50,48 +44,26 @@ class _Sides:
 
 @dataclass(frozen=True, eq=False)
 class _Order:
-    """Edges around rings, by the vertices where they begin: one way round or the other.
+    """Edges around rings, by the vertices where they begin: one way round or the other."""
 
-    Parameters
-    ----------
-    place : (n,) integer array
-        Of each edge in this order, ring by ring; and the edge at each place.
-    first, size : (n,) integer array
-        The first place of its ring, and the number of these.
-    bends : (n + 1,) integer array
-        How many corners before each place do not turn to the left; a corner has the place of the edge before it.
-    """
-
-    place: Numbers
-    first: Numbers
-    size: Numbers
+    place: Numbers  # (n,) integer array: of each edge in this order, ring by ring; and the edge at each place
+    first: Numbers  # (n,) integer array: the first place of its ring, and the number of these
+    size: Numbers  # (n,) integer array: the first place of its ring, and the number of these
+    # (n + 1,) integer array: how many corners before each place do not turn to the left; a corner has the place of
+    # the edge before it
     bends: Numbers
 
 
 @dataclass(frozen=True, eq=False)
 class _Gaps:
-    """Where twigs were pruned.
+    """Where twigs were pruned."""
 
-    Parameters
-    ----------
-    node, arc : (g,) integer array
-        Where from, and an arc there.
-    is_leaf : (g,) bool array
-        Whether no other arc is there.
-    start : (g + 1,) integer array
-        Gap k has the edges ``start[k]`` to ``start[k + 1] - 1``.
-    site : (n,) integer array
-        Edges in the order around the node.
-    ends : (n, 2) integer array
-        The vertices where they begin and end in this order.
-    """
-
-    node: Numbers
-    arc: Numbers
-    is_leaf: Booleans
-    start: Numbers
-    site: Numbers
-    ends: Numbers
+    node: Numbers  # (g,) integer array: where from, and an arc there
+    arc: Numbers  # (g,) integer array: where from, and an arc there
+    is_leaf: Booleans  # (g,) bool array: whether no other arc is there
+    start: Numbers  # (g + 1,) integer array: gap k has the edges `start[k]` to `start[k + 1] - 1`
+    site: Numbers  # (n,) integer array: edges in the order around the node
+    ends: Numbers  # (n, 2) integer array: the vertices where they begin and end in this order
 
     def __add__(self, more: _Gaps) -> _Gaps:
         start = np.concatenate([self.start, self.start[-1] + more.start[1:]])
@@ -101,21 +73,7 @@ class _Gaps:
 
 
 def with_pruned_twigs(skeleton: Skeleton) -> Skeleton:
-    """Add what was pruned between edges with convex corners, behind all arcs; branches end where it begins.
-
-    Parameters
-    ----------
-    skeleton : Skeleton
-        Its arcs inside polygons are looked at. One that was not pruned is given back as it is.
-
-    Examples
-    --------
-    >>> from vorotool import prune, skeleton_exact
-    >>> skeleton = prune(skeleton_exact([[0, 0], [20, 0], [21, 4], [1, 4]]), scale=1.3)
-    >>> made = with_pruned_twigs(skeleton)
-    >>> len(skeleton), sorted(made.vertices[made.arcs[len(skeleton) :, 1]].tolist())
-    (3, [[1.0, 4.0], [20.0, 0.0]])
-    """
+    """Add what was pruned between edges with convex corners, behind all arcs; branches end where it begins."""
     if not len(skeleton):
         return skeleton
     gaps = _gaps(skeleton)

@@ -45,50 +45,17 @@ class _End:
 
 @dataclass(frozen=True, eq=False)
 class RoundEnds:
-    """Twigs in runs: those beside each other; and the branches between the twigs of one run.
+    """Twigs in runs: those beside each other; and the branches between the twigs of one run."""
 
-    Parameters
-    ----------
-    run : (t,) integer array
-        Twigs of one run have the same number.
-    grown : (g,) integer array
-        Those runs that are over several junctions.
-    closed : (c,) integer array
-        Those of these that go all around a polygon.
-    inner, around : (k,) integer array
-        Branches between the twigs of those that do not, and of those that do.
-    """
-
-    run: Numbers
-    grown: Numbers
-    closed: Numbers
-    inner: Numbers
-    around: Numbers
+    run: Numbers  # (t,) integer array: twigs of one run have the same number
+    grown: Numbers  # (g,) integer array: those runs that are over several junctions
+    closed: Numbers  # (c,) integer array: those of these that go all around a polygon
+    inner: Numbers  # (k,) integer array: branches between the twigs of those that do not, and of those that do
+    around: Numbers  # (k,) integer array: branches between the twigs of those that do not, and of those that do
 
 
 def grown_runs(branches: Branches, radius: NDArray[np.float64], twigs: Twigs, pairs: Pairs) -> RoundEnds:
-    """Join twigs beside each other, at one junction, or at several that are near each other.
-
-    Parameters
-    ----------
-    branches : Branches
-        Inside polygons.
-    radius : (v,) float64 array
-        Of nodes.
-    twigs, pairs : Twigs, Pairs
-        Of these branches, but for polygons around a circle.
-
-    Examples
-    --------
-    >>> from vorotool import skeleton_exact
-    >>> from vorotool.engines.centerlines.corner_twigs import branches_inside, corner_twigs, pairs_of
-    >>> skeleton = skeleton_exact([[0, 0], [10, 0], [10, 4], [0, 4], [-0.1, 1.5]])  # two edges at the left end
-    >>> branches = branches_inside(skeleton)
-    >>> twigs = corner_twigs(skeleton, branches)
-    >>> ends = grown_runs(branches, skeleton.radius, twigs, pairs_of(skeleton, twigs))
-    >>> np.bincount(ends.run).tolist(), len(ends.inner)
-    ([3, 0, 0, 2], 1)
-    """
+    """Join twigs beside each other, at one junction, or at several that are near each other."""
     joins = pairs[pairs.is_blunt & (twigs.node[pairs.one] == twigs.node[pairs.other])]
     run = connected_roots(np.stack([joins.one, joins.other], axis=1), len(twigs))
     growth = _Growth(branches, radius, twigs, pairs)

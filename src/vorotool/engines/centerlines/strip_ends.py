@@ -35,36 +35,7 @@ SAME = 0.125
 def at_strip_ends(
     axis: Unforked, pieces: Pieces, known: int, wanted: tuple[bool, bool]
 ) -> tuple[Pieces, NDArray[np.bool_]]:
-    """Let lines end where the ends of strips begin.
-
-    Parameters
-    ----------
-    axis : Unforked
-        A skeleton with leads.
-    pieces : Pieces
-        Lines along it.
-    known : int
-        How many arcs of it are its own: neither pruned twigs nor leads.
-    wanted : (bool, bool)
-        Whether starts, and ends, are asked for.
-
-    Returns
-    -------
-    Pieces and (k, 2) bool array
-        Whether lines end there now.
-
-    Examples
-    --------
-    >>> from vorotool import skeleton_exact
-    >>> from vorotool.engines.centerlines.ends import unforked
-    >>> from vorotool.engines.centerlines.path_network import Network
-    >>> skeleton = skeleton_exact([[0, 0], [10, 0], [10, 3], [9, 4], [0, 4]])
-    >>> network = Network(unforked(skeleton), by_edge=True)
-    >>> pieces = network.pieces(network.longest_paths(None))
-    >>> made, is_made = at_strip_ends(network.axis, pieces, len(skeleton), (True, True))
-    >>> len(pieces.arc), len(made.arc), is_made.tolist()
-    (3, 2, [[False, True]])
-    """
+    """Let lines end where the ends of strips begin."""
     strips = _Strips(axis, known)
     ends = axis.skeleton.arcs[pieces.arc].astype(np.intp)
     ends[np.stack([pieces.first != 0, pieces.last != 1], axis=1)] = -1  # no node where an arc is parted
@@ -91,25 +62,14 @@ def at_strip_ends(
 
 @dataclass(frozen=True)
 class _Walk:
-    """Nodes and arcs from an end of a line inwards: what the line loses, and what is there instead, is left out.
+    """Nodes and arcs from an end of a line inwards: what the line loses, and what is there instead, is left out."""
 
-    Parameters
-    ----------
-    nodes, arcs : list of int
-        One node more than arcs; or none.
-    dropped : int
-        How many arcs at the end of the line are of no walk.
-    added : list
-        The arcs that are there instead, with their outer nodes.
-    is_lead : bool
-        Whether a lead was at the end.
-    """
-
-    nodes: list[int]
-    arcs: list[int]
-    dropped: int = 0
+    nodes: list[int]  # one node more than arcs; or none
+    arcs: list[int]  # one node more than arcs; or none
+    dropped: int = 0  # how many arcs at the end of the line are of no walk
+    # the arcs that are there instead, with their outer nodes
     added: list[tuple[int, int]] = field(default_factory=list)
-    is_lead: bool = False
+    is_lead: bool = False  # whether a lead was at the end
 
 
 @dataclass(frozen=True)

@@ -16,32 +16,7 @@ BACK = (0.0625, 0.125, 0.1875, 1.0)
 
 
 class Walks:
-    """Walks from leaves to the first node that is no end of two arcs, or one radius far.
-
-    Parameters
-    ----------
-    skeleton : Skeleton
-        Its branches may be in several pieces.
-    leaves : (k,) integer array
-        Nodes of a single arc.
-
-    Attributes
-    ----------
-    arcs : (k,) integer array
-        The arc of each leaf.
-    at_target : (k,) bool array
-        Whether the leaf is its target.
-    back : (4, k, 2) float64 array
-        Places 1, 2, 3 and 16 sixteenths of a radius back; or the node where the walk ends before.
-
-    Examples
-    --------
-    >>> from vorotool import skeleton_exact
-    >>> skeleton = skeleton_exact([[0, 0], [10, 0], [10, 4], [0, 4]])
-    >>> walks = Walks(skeleton, np.array([0]))
-    >>> walks.back[:, 0].tolist(), walks.directions(is_smooth=True).tolist()
-    ([[0.0, 0.0], [0.0, 0.0], [0.0, 0.0], [0.0, 0.0]], [[0.0, 0.0]])
-    """
+    """Walks from leaves to the first node that is no end of two arcs, or one radius far."""
 
     def __init__(self, skeleton: Skeleton, leaves: Numbers) -> None:
         self.skeleton, self.leaves = skeleton, leaves
@@ -72,14 +47,7 @@ class Walks:
         return np.array(found, dtype=np.float64).reshape(-1, 3)
 
     def directions(self, *, is_smooth: bool) -> Floats:
-        """(k, 2) where branches look at leaves, of any length.
-
-        Parameters
-        ----------
-        is_smooth : bool
-            Whether the bend of a branch goes on at its end; else, as along outlines of pixels, all look away from the
-            place one radius back.
-        """
+        """(k, 2) where branches look at leaves, of any length."""
         straight = self.skeleton.vertices[self.leaves] - self.back[-1]
         if not is_smooth:
             return np.asarray(straight)

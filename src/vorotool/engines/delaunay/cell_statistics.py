@@ -94,25 +94,7 @@ def cell_statistics(
 def statistics_of(
     mesh: Triangulation, cells: CellSet, *, has_region: bool, threads: int = 0, progress: Progress = None
 ) -> CellStatistics:
-    """Measure cells that are there already.
-
-    Parameters
-    ----------
-    mesh : Triangulation
-        Of the points.
-    cells : CellSet
-        Their cells.
-    has_region : bool
-        Whether the region of the points is what the cells fill; else it is their convex hull.
-    threads, progress : optional
-        As for `cell_statistics`.
-
-    Examples
-    --------
-    >>> mesh = delaunay([[0, 0], [4, 0], [0, 3]])
-    >>> statistics_of(mesh, voronoi_cells(mesh), has_region=False).area
-    6.0
-    """
+    """Measure cells that are there already."""
     table = site_table(mesh, cells, properties=False, threads=threads, progress=progress)
     area = np.ma.filled(table["area"], 0.0)
     touches, on_hull = (np.ma.filled(table[name], True).astype(bool) for name in ("touches_frame", "on_hull"))

@@ -12,27 +12,7 @@ from vorotool.geometry.mesh.triangulation import Triangulation
 
 
 class CocircularTies:
-    """The polygons of cocircular points, which may be triangulated in any way.
-
-    Parameters
-    ----------
-    mesh : Triangulation
-        One of the triangulations.
-
-    Attributes
-    ----------
-    unique_edges : (e,) bool array
-        Edges that every Delaunay triangulation has: those that are no diagonal of a cocircular polygon.
-    unique_triangles : (t,) bool array
-        Triangles that every one has: those that are no part of a larger cocircular polygon.
-
-    Examples
-    --------
-    >>> from vorotool.engines.delaunay.delaunay import delaunay
-    >>> ties = CocircularTies(delaunay([[0, 0], [1, 0], [1, 1], [0, 1]]))
-    >>> ties.unique_edges.sum(), ties.has_edge((1, 3)), ties.has_triangle((0, 1, 3))
-    (np.int64(4), True, True)
-    """
+    """The polygons of cocircular points, which may be triangulated in any way."""
 
     def __init__(self, mesh: Triangulation) -> None:
         one, corner = np.nonzero(mesh.neighbours > np.arange(len(mesh))[:, None])

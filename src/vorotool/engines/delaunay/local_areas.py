@@ -20,26 +20,7 @@ MARGIN = 0.25
 
 
 def cut_out(shapes: NDArray[Any], area: Any) -> NDArray[Any]:
-    """Give the intersections of shapes with an area, as `shapely.intersection` gives them.
-
-    Shapes are halved by their places again and again. Before each half the rings of the area lose the vertices that
-    are beyond the same side of the bounds of the half as both of their neighbours: edges that reach into the bounds
-    stay, and what is inside stays inside. So each shape meets rings that are about as long as what it cuts. Coordinates
-    have the same bits, but where GEOS, with all rings, would have moved places to be able to go on.
-
-    Parameters
-    ----------
-    shapes : (n,) array of shapely polygons
-        What is cut out.
-    area : shapely polygon
-        Of what, of one part or several; valid.
-
-    Examples
-    --------
-    >>> import shapely
-    >>> cut_out(shapely.box([0, 2], 0, [1, 4], 1), shapely.box(0, 0, 3, 0.5))[1].area
-    0.5
-    """
+    """Give the intersections of shapes with an area, as `shapely.intersection` gives them."""
     import shapely
 
     made = np.empty(len(shapes), dtype=object)
@@ -75,21 +56,11 @@ def _cut_out_of(shapes: NDArray[Any], near: Any, whole: Any) -> NDArray[Any]:
 
 @dataclass(frozen=True)
 class Rings:
-    """The rings of an area.
+    """The rings of an area."""
 
-    Parameters
-    ----------
-    xy : (k, 2) float64 array
-        Vertices, ring by ring, the first not repeated.
-    start : (r + 1,) int64 array
-        Where rings begin.
-    part : (r,) int64 array
-        The polygon of each; its shell comes first.
-    """
-
-    xy: Floats
-    start: NDArray[np.int64]
-    part: NDArray[np.int64]
+    xy: Floats  # (k, 2) float64 array: vertices, ring by ring, the first not repeated
+    start: NDArray[np.int64]  # (r + 1,) int64 array: where rings begin
+    part: NDArray[np.int64]  # (r,) int64 array: the polygon of each; its shell comes first
 
     @classmethod
     def of(cls, area: Any) -> Rings:

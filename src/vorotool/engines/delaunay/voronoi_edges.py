@@ -12,32 +12,7 @@ from vorotool.geometry.mesh.triangulation import Triangulation
 def voronoi_lengths(
     mesh: Triangulation, centres: NDArray[np.float64], low: NDArray[np.float64], high: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Length of the Voronoi edge of every edge of a triangulation, and of its part inside a rectangle.
-
-    Parameters
-    ----------
-    mesh : Triangulation
-        With a triangle, or without edges.
-    centres : (t, 2) float64 array
-        Its circumcentres.
-    low, high : (2,) float64 array
-        Corners of the rectangle.
-
-    Returns
-    -------
-    whole : (e,) float64 array
-        Infinite on the hull.
-    inside : (e,) float64 array
-        As exact as floating point: the lengths are for people to read.
-
-    Examples
-    --------
-    >>> from vorotool.engines.delaunay.delaunay import delaunay
-    >>> mesh = delaunay([[0, 0], [4, 0], [2, 6]])
-    >>> whole, inside = voronoi_lengths(mesh, mesh.circumcentres(), np.zeros(2), np.array([4.0, 6.0]))
-    >>> inside.round(2).tolist()
-    [2.11, 2.67, 2.11]
-    """
+    """Length of the Voronoi edge of every edge of a triangulation, and of its part inside a rectangle."""
     triangle, corner = np.nonzero(mesh.neighbours < np.arange(len(mesh))[:, None])  # each edge once
     other = mesh.neighbours[triangle, corner]
     a, b = (mesh.triangles[triangle, (corner + k) % 3] for k in (1, 2))

@@ -36,17 +36,7 @@ def sides_of(triangle: Members) -> tuple[tuple[int, int], ...]:
 
 
 class Causes:
-    """Explains single differences.
-
-    Parameters
-    ----------
-    digital, exact
-        Triangulations of the same sites.
-    frame : Frame
-        Of the digital one.
-    has_region, split : (n,) bool arrays
-        Sites that are nearest to some pixel; whose region is not 4-connected.
-    """
+    """Explains single differences."""
 
     def __init__(
         self,
@@ -96,10 +86,7 @@ class Causes:
         return ("short_edge" if length is not None and length < SHORT else "other"), length
 
     def _gap(self, edge: Members) -> float:
-        """Distance between the nearest vertices of two Voronoi cells that do not touch.
-
-        One Voronoi edge, or several one after the other, lead from the one to the other.
-        """
+        """Distance between the nearest vertices of two Voronoi cells that do not touch."""
         one, other = (self._vertices(v) for v in edge)
         return float(hypotenuse(*(one[:, None] - other[None]).T).min(initial=np.inf))
 

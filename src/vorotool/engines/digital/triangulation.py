@@ -201,41 +201,20 @@ def _counter_clockwise(points: NDArray[np.float64], triangles: NDArray[np.int32]
 
 @dataclass(frozen=True)
 class DigitalRepair:
-    """Counts of the steps of `repair_digital`.
+    """Counts of the steps of `repair_digital`."""
 
-    Parameters
-    ----------
-    route : {"repaired", "rebuilt", "chain"}
-        "rebuilt" if all sites had to be inserted one by one; "chain" for fewer than three or collinear sites.
-    split_regions, moved_pixels : int
-        Regions that were not 4-connected; pixels that went to a neighbouring region.
-    three_label_corners, four_label_corners : int
-        Corners that gave one triangle, and two.
-    twins : int
-        Sites taken out because only two neighbours were left to them.
-    straightened : int
-        Triangles of collinear sites.
-    filled : int
-        Triangles that closed the hull beyond the frame.
-    flipped : int
-        Sides that were not locally Delaunay.
-    inserted : int
-        Sites inserted where they lie, those taken out among them.
-    fault : str, optional
-        What the certificate found wrong, if anything ever: then all sites were inserted.
-    """
-
+    # "rebuilt" if all sites had to be inserted one by one; "chain" for fewer than three or collinear sites
     route: str
-    split_regions: int = 0
-    moved_pixels: int = 0
-    three_label_corners: int = 0
-    four_label_corners: int = 0
-    twins: int = 0
-    straightened: int = 0
-    filled: int = 0
-    flipped: int = 0
-    inserted: int = 0
-    fault: str | None = None
+    split_regions: int = 0  # regions that were not 4-connected; pixels that went to a neighbouring region
+    moved_pixels: int = 0  # regions that were not 4-connected; pixels that went to a neighbouring region
+    three_label_corners: int = 0  # corners that gave one triangle, and two
+    four_label_corners: int = 0  # corners that gave one triangle, and two
+    twins: int = 0  # sites taken out because only two neighbours were left to them
+    straightened: int = 0  # triangles of collinear sites
+    filled: int = 0  # triangles that closed the hull beyond the frame
+    flipped: int = 0  # sides that were not locally Delaunay
+    inserted: int = 0  # sites inserted where they lie, those taken out among them
+    fault: str | None = None  # what the certificate found wrong, if anything ever: then all sites were inserted
 
 
 def digital_delaunay(source: SeedsLike, **options: Any) -> Triangulation:
@@ -364,20 +343,7 @@ def repair_digital(
 
 
 def one_seed_a_label(seeds: SeedSet) -> NDArray[np.intp]:
-    """Order of the seeds by label; labels with several seeds are refused.
-
-    Raises
-    ------
-    InputError
-        Naming the first such label.
-    LimitError
-        If there are more seeds than a triangulation takes.
-
-    Examples
-    --------
-    >>> one_seed_a_label(SeedSet(np.array([5, 0]), np.array([1, 0]), np.array([2, 1]))).tolist()
-    [1, 0]
-    """
+    """Order of the seeds by label; labels with several seeds are refused."""
     if len(seeds) > MOST_POINTS:
         raise LimitError(f"there are {len(seeds)} seeds, more than {MOST_POINTS}: triangulate them in parts")
     order = np.argsort(seeds.labels, kind="stable")

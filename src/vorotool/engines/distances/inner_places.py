@@ -30,26 +30,7 @@ MOST_SITES = 6
 
 
 def farthest_inner_place(of: MeasuredShape, other: MeasuredShape, least: float, threads: int) -> PlacePair | None:
-    """Find the place inside the polygons of a shape that is farthest from another shape.
-
-    Where the distance from a shape has a maximum inside a region, three of the nearest places or more lie all around:
-    it is a vertex of the Voronoi diagram of the shape. These are known on the lattice, and are computed anew from the
-    edges as they were given.
-
-    Parameters
-    ----------
-    of, other : MeasuredShape
-        The first one with polygons.
-    least : float
-        The largest distance on its edges.
-    threads : int
-        0 uses all.
-
-    Returns
-    -------
-    PlacePair, optional
-        The place, and the nearest one of the other shape; None where none is farther than `least`.
-    """
+    """Find the place inside the polygons of a shape that is farthest from another shape."""
     if not _core.distances.may_go_farther_inside(of.core, other.core, least, None):
         return None
     with warnings.catch_warnings(action="ignore", category=RepairWarning):

@@ -21,22 +21,11 @@ from vorotool.geometry.progress import Progress
 
 @dataclass(frozen=True, eq=False)
 class MeasuredShape:
-    """A shape, and the same in the core.
+    """A shape, and the same in the core."""
 
-    Parameters
-    ----------
-    polygons : PolygonSet
-        What it consists of; points are lines of one vertex.
-    elements : (n, 2, 2) float64 array
-        Both ends of each edge; of a point, twice the same.
-    ring_of : (n,) int32 array
-        The ring of a polygon that each bounds what is inside of; -1 for none.
-    core : Shape
-        Of these.
-    """
-
-    polygons: PolygonSet
-    elements: NDArray[np.float64]
+    polygons: PolygonSet  # what it consists of; points are lines of one vertex
+    elements: NDArray[np.float64]  # (n, 2, 2) float64 array: both ends of each edge; of a point, twice the same
+    # (n,) int32 array: the ring of a polygon that each bounds what is inside of; -1 for none
     ring_of: NDArray[np.int32]
     core: _core.distances.Shape
 
@@ -49,19 +38,7 @@ class MeasuredShape:
 def measured_shapes(
     a: Any, b: Any, *, boundary: bool = False, progress: Progress = None
 ) -> tuple[MeasuredShape, MeasuredShape]:
-    """Give two shapes as they are measured; arguments as of `vorotool.hausdorff`.
-
-    Raises
-    ------
-    InputError
-        If one has no place, they are in different coordinate reference systems, or coordinates are out of range.
-
-    Examples
-    --------
-    >>> first, second = measured_shapes([[0, 0], [4, 3]], ["POLYGON ((0 0, 4 0, 0 3, 0 0))"])
-    >>> len(first.elements), first.is_filled, len(second.elements), second.is_filled
-    (2, False, 3, True)
-    """
+    """Give two shapes as they are measured; arguments as of `vorotool.hausdorff`."""
     boundary = checked_flag(boundary, "boundary")
     given = [as_sites(source, name=name).polygons for source, name in ((a, "a"), (b, "b"))]
     for name, polygons in zip("ab", given, strict=True):
@@ -94,14 +71,7 @@ def _measured(polygons: PolygonSet, boundary: bool, progress: Progress) -> Measu
 
 
 def edges_of(polygons: PolygonSet) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """The vertices at which edges start, and where each ends: of lines all but the last, of lone vertices themselves.
-
-    Examples
-    --------
-    >>> shapes = PolygonSet([[0, 0], [4, 0], [0, 3], [5, 5], [6, 6], [9, 9]], [0, 3, 5, 6], [0, 2, 2], [0, 1, 2])
-    >>> [each.tolist() for each in edges_of(shapes)]
-    [[0, 1, 2, 3, 5], [1, 2, 0, 4, 5]]
-    """
+    """The first and last vertices of edges: of lines all but the last start one, a lone vertex ends at itself."""
     ends_line = np.zeros(len(polygons.xy), dtype=bool)
     is_open = (polygons.ring_kind == LINE) & (np.diff(polygons.ring_start) > 1)
     ends_line[polygons.ring_start[1:][is_open] - 1] = True

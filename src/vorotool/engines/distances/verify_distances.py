@@ -65,15 +65,7 @@ def verify_distances(found: Distances) -> None:
 
 
 class _Checked:
-    """A shape as shapely has it.
-
-    Parameters
-    ----------
-    polygons : PolygonSet
-        What it consists of.
-    is_boundary : bool
-        Polygons are their outlines.
-    """
+    """A shape as shapely has it."""
 
     def __init__(self, polygons: PolygonSet, is_boundary: bool) -> None:
         import shapely

@@ -41,49 +41,27 @@ Result = TypeVar("Result")
 
 @dataclass(frozen=True, eq=False)
 class FeatureBatch:
-    """Some features of a set that is placed, as if there were no others.
+    """Some features of a set that is placed, as if there were no others."""
 
-    Parameters
-    ----------
-    polygons, rings, vertices : int64 arrays
-        Their numbers in the set.
-    part : PolygonSet
-        These polygons alone.
-    placement : Placement
-        Of their vertices, on the lattice of all.
-    beyond : (k, 2) int32 array
-        Corners of the bounds of all that are no vertices of these: as further sites they put the sites into the order
-        of all, and with them what is numbered or rounded along them. They are outside of everything.
-    share : float
-        Of all vertices.
-    """
-
-    polygons: Indices
-    rings: Indices
-    vertices: Indices
-    part: PolygonSet
-    placement: Placement
+    polygons: Indices  # int64 arrays: their numbers in the set
+    rings: Indices  # int64 arrays: their numbers in the set
+    vertices: Indices  # int64 arrays: their numbers in the set
+    part: PolygonSet  # these polygons alone
+    placement: Placement  # of their vertices, on the lattice of all
+    # (k, 2) int32 array: corners of the bounds of all that are no vertices of these: as further sites they put the
+    # sites into the order of all, and with them what is numbered or rounded along them. They are outside of
+    # everything
     beyond: NDArray[np.int32]
-    share: float
+    share: float  # of all vertices
 
 
 @dataclass(frozen=True, eq=False)
 class BatchShapes:
-    """A batch as a planar graph.
-
-    Parameters
-    ----------
-    batch : FeatureBatch
-        Of what.
-    arrangement : Arrangement
-        The graph, and what was repaired.
-    placed : PlacedShapes
-        The rings as the graph has them: of features that were repaired what bounds them.
-    """
+    """A batch as a planar graph."""
 
     batch: FeatureBatch
-    arrangement: Arrangement
-    placed: PlacedShapes
+    arrangement: Arrangement  # the graph, and what was repaired
+    placed: PlacedShapes  # the rings as the graph has them: of features that were repaired what bounds them
 
     @property
     def graph(self) -> PlanarGraph:
@@ -101,37 +79,18 @@ class BatchShapes:
 
 @dataclass(frozen=True, eq=False)
 class FeatureShapes:
-    """Totals of features, each by itself, when all batches are done.
-
-    Parameters
-    ----------
-    given : PolygonSet
-        The input.
-    used : PolygonSet
-        What the batches are parts of: the input without vertices that objects of an image have from their neighbours.
-    corners : OwnCorners, optional
-        The vertices that are left of the input; None if all are.
-    placement : Placement
-        Of `used`.
-    largest_move : float
-        As of a planar graph, as are
-    repairs : dict
-        the repairs of all features together,
-    points, segments : int
-        and the sites.
-    polygon_count : int
-        How many polygons have any inside.
-    """
+    """Totals of features, each by itself, when all batches are done."""
 
     given: PolygonSet
+    # what the batches are parts of: the input without vertices that objects of an image have from their neighbours
     used: PolygonSet
-    corners: OwnCorners | None
+    corners: OwnCorners | None  # the vertices that are left of the input; None if all are
     placement: Placement
-    largest_move: float
-    repairs: dict[str, int]
+    largest_move: float  # as of a planar graph, as are
+    repairs: dict[str, int]  # the repairs of all features together,
     points: int
     segments: int
-    polygon_count: int
+    polygon_count: int  # how many polygons have any inside
 
     @property
     def scale(self) -> float:
@@ -167,49 +126,7 @@ def in_batches(
     threads: int = 0,
     progress: Progress = None,
 ) -> tuple[FeatureShapes, list[tuple[BatchShapes, Result]]]:
-    """Do some work for batches of features, each as if it were alone, on the lattice of all.
-
-    Parameters
-    ----------
-    polygons : PolygonSet
-        What `PolygonSet.feature` is the same of is one feature.
-    work : callable
-        Called with the shapes of a batch, a number of threads, and a progress.
-    reach : callable, optional
-        Gives for polygons and the step of their lattice by how many steps features of a batch must be farther apart.
-    alone : bool
-        One feature a batch: what is done depends on others however far they are.
-    around : (k, 2) array, optional
-        Further places that the lattice has room for.
-    drops : bool
-        Leave out vertices in which outlines of pixels go straight on. A checker takes them as it finds them.
-    strict : bool
-        Refuse features that would be repaired.
-    threads : int
-        0 uses all.
-    progress : callable, optional
-        Called with the fraction done.
-
-    Returns
-    -------
-    FeatureShapes
-        Of all.
-    list
-        The shapes of each batch, and what became of them.
-
-    Raises
-    ------
-    InputError
-        If coordinates are too large or too small to compute with, or `strict` and something would be repaired: the
-        first place along the input is named.
-    LimitError
-        If there are too many vertices.
-
-    Warns
-    -----
-    VorotoolWarning
-        If something was repaired: what, and how often.
-    """
+    """Do some work for batches of features, each as if it were alone, on the lattice of all."""
     _check_size(polygons)
     given, polygons = polygons, with_flat_shells_as_lines(polygons)
     if polygons is not given:
@@ -239,10 +156,7 @@ def in_batches(
 
 
 def together(polygons: PolygonSet, *, strict: bool = False, threads: int = 0, progress: Progress = None) -> PlanarGraph:
-    """Make the planar graph of all features; what is told is repairs of single ones: others may lie over them.
-
-    Arguments, errors and warnings are as of `in_batches`.
-    """
+    """Make the planar graph of all features; what is told is repairs of single ones: others may lie over them."""
     _check_size(polygons)
     polygons = with_flat_shells_as_lines(polygons)
     placement = placed_vertices(polygons, threads=threads, progress=progress)

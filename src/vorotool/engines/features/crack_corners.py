@@ -15,33 +15,14 @@ Indices = NDArray[np.int64]
 
 @dataclass(frozen=True, eq=False)
 class OwnCorners:
-    """Polygons without vertices in which they go straight on.
+    """Polygons without vertices in which they go straight on."""
 
-    Parameters
-    ----------
-    polygons : PolygonSet
-        With the same rings.
-    vertex : (n,) int64 array
-        The number of each vertex among those that were given.
-    """
-
-    polygons: PolygonSet
-    vertex: Indices
+    polygons: PolygonSet  # with the same rings
+    vertex: Indices  # (n,) int64 array: the number of each vertex among those that were given
 
 
 def own_corners(polygons: PolygonSet) -> OwnCorners | None:
-    """Leave out vertices in which rings go straight on; None if there are none.
-
-    Where three objects of a label image meet, each outline has a vertex, so that those of neighbours have all vertices
-    in common; the outline of one object alone goes on there. What lies inside does not change.
-
-    Examples
-    --------
-    >>> from vorotool import outlines
-    >>> pixels = outlines(np.array([[1, 1], [2, 3]]), mode="labels")
-    >>> len(pixels.ring(0)), len(own_corners(pixels).polygons.ring(0))
-    (5, 4)
-    """
+    """Leave out vertices in which rings go straight on; None if there are none."""
     if not len(polygons.xy):
         return None
     candidates = _between_likes(polygons)

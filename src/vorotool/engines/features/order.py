@@ -20,25 +20,13 @@ Indices = NDArray[np.int64]
 
 @dataclass(frozen=True, eq=False)
 class Places:
-    """Where the items of all batches, one batch after the other, come in the end.
+    """Where the items of all batches, one batch after the other, come in the end."""
 
-    Parameters
-    ----------
-    place : (n,) int64 array, optional
-        Of each item; None where they stay.
-    """
-
-    place: Indices | None
+    place: Indices | None  # (n,) int64 array: of each item; None where they stay
 
     @classmethod
     def by(cls, keys: NDArray[Any]) -> Places:
-        """Sort by keys: equal ones follow each other already, and keep their order.
-
-        Examples
-        --------
-        >>> Places.by(np.array([0, 2, 2, 1])).place.tolist()
-        [0, 2, 3, 1]
-        """
+        """Sort by keys: equal ones follow each other already, and keep their order."""
         if (keys[1:] >= keys[:-1]).all():
             return cls(None)
         counts = np.bincount(keys)
@@ -64,21 +52,16 @@ class Places:
 
 @dataclass(frozen=True, eq=False)
 class InputOrder:
-    """How what batches have comes in the order of the input.
+    """How what batches have comes in the order of the input."""
 
-    Parameters
-    ----------
-    polygons : PolygonSet
-        As they were used, of all batches.
-    site_table : SiteTable
-        Of all: points in the order of the vertices, then crossings; then segments in the order of the edges.
-    polygon_numbers, site_numbers : list of arrays
-        Of each batch: the number in `polygons` of each of its polygons, in `site_table` of each of its sites.
-    """
-
-    polygons: PolygonSet
+    polygons: PolygonSet  # as they were used, of all batches
+    # of all: points in the order of the vertices, then crossings; then segments in the order of the edges
     site_table: SiteTable
+    # list of arrays: of each batch: the number in `polygons` of each of its polygons, in `site_table` of each of its
+    # sites
     polygon_numbers: list[NDArray[np.int32]]
+    # list of arrays: of each batch: the number in `polygons` of each of its polygons, in `site_table` of each of its
+    # sites
     site_numbers: list[NDArray[np.int32]]
 
     @classmethod

@@ -23,29 +23,14 @@ APART = 1
 
 @dataclass(frozen=True, eq=False)
 class Features:
-    """The features of polygons, numbered without gaps.
+    """The features of polygons, numbered without gaps."""
 
-    Parameters
-    ----------
-    polygon_start : (f + 1,) int64 array
-        The first polygon of each, and the number of polygons.
-    vertex_start : (f + 1,) int64 array
-        The first vertex of each, and the number of vertices.
-    """
-
-    polygon_start: Indices
-    vertex_start: Indices
+    polygon_start: Indices  # (f + 1,) int64 array: the first polygon of each, and the number of polygons
+    vertex_start: Indices  # (f + 1,) int64 array: the first vertex of each, and the number of vertices
 
     @classmethod
     def of(cls, polygons: PolygonSet) -> Features:
-        """Find them.
-
-        Examples
-        --------
-        >>> from vorotool.geometry.arguments.polygons import as_polygons
-        >>> Features.of(as_polygons([[[0, 0], [1, 0], [0, 1]], [[5, 5], [6, 5], [5, 6]]])).vertex_start.tolist()
-        [0, 3, 6]
-        """
+        """Find them."""
         assert polygons.feature is not None
         first = np.flatnonzero(np.diff(polygons.feature, prepend=-1))
         start = np.append(first, len(polygons))
@@ -71,26 +56,7 @@ def sheets_of_boxes(
     reach: NDArray[np.int64] | None = None,
     progress: Progress = None,
 ) -> NDArray[np.int32]:
-    """(f,) sheets of features: on the lattice the bounds of those of one sheet have a gap between them.
-
-    Parameters
-    ----------
-    features : Features
-        Of polygons.
-    vertices : (n, 2) int32 array
-        Of the polygons, on the lattice.
-    reach : (f,) int64 array, optional
-        In lattice steps: the bounds of each are widened by so much more.
-    progress : callable, optional
-        Called with the fraction done.
-
-    Examples
-    --------
-    >>> from vorotool.geometry.arguments.polygons import as_polygons
-    >>> nested = as_polygons([[[0, 0], [9, 0], [0, 9]], [[1, 1], [2, 1], [1, 2]], [[20, 0], [29, 0], [20, 9]]])
-    >>> sheets_of_boxes(Features.of(nested), nested.xy.astype(np.int32)).tolist()
-    [0, 1, 0]
-    """
+    """(f,) sheets of features: on the lattice the bounds of those of one sheet have a gap between them."""
     if len(features) < 2:
         return np.zeros(len(features), dtype=np.int32)
     first = features.vertex_start[:-1]
@@ -102,19 +68,7 @@ def sheets_of_boxes(
 def sheets_of_cracks(
     features: Features, vertices: NDArray[np.int32], *, progress: Progress = None
 ) -> NDArray[np.int32]:
-    """(f,) sheets of features that are outlines of pixels: those of one sheet have no vertex in common.
-
-    The outlines of different objects do not cross, and their insides are disjoint: what is nearest to a place inside
-    one is its own border, so that objects without a common vertex are independent.
-
-    Examples
-    --------
-    >>> from vorotool import outlines
-    >>> pixels = outlines(np.array([[1, 2, 0], [0, 0, 3]]), mode="labels")
-    >>> sheets = sheets_of_cracks(Features.of(pixels), (2 * pixels.xy).astype(np.int32))
-    >>> bool(sheets[0] != sheets[1] and sheets[1] != sheets[2])
-    True
-    """
+    """(f,) sheets of features that are outlines of pixels: those of one sheet have no vertex in common."""
     sheet = np.zeros(len(features), dtype=np.int32)
     pairs = touching_features(features, vertices, progress=progress)
     if len(pairs):
@@ -125,10 +79,7 @@ def sheets_of_cracks(
 
 
 def touching_features(features: Features, vertices: NDArray[np.int32], *, progress: Progress = None) -> Indices:
-    """(k, 2) pairs of features that have a vertex in common, each once: the smaller number first.
-
-    Of several at one place each is in a pair with every other.
-    """
+    """(k, 2) pairs of features that have a vertex in common, each once: the smaller number first."""
     first = _core.arrangement.first_at_place(vertices, progress)
     again = np.flatnonzero(first != np.arange(len(first)))
     if not again.size:
@@ -148,14 +99,7 @@ def touching_features(features: Features, vertices: NDArray[np.int32], *, progre
 
 
 def batches_of(features: Features, sheet: NDArray[np.int32]) -> list[Indices]:
-    """Features of each batch: of one sheet, ascending, and about `BATCH` vertices or more.
-
-    Examples
-    --------
-    >>> features = Features(np.arange(4), np.array([0, 4, 8, 12]))
-    >>> [batch.tolist() for batch in batches_of(features, np.array([0, 1, 0]))]
-    [[0, 2], [1]]
-    """
+    """Features of each batch: of one sheet, ascending, and about `BATCH` vertices or more."""
     if not len(features):
         return []
     order = np.argsort(sheet, kind="stable")

@@ -17,35 +17,7 @@ PART = 1 << 18
 def first_hits(
     polygons: PolygonSet, polygon: NDArray[np.integer], origin: Floats, way: Floats
 ) -> tuple[Floats, NDArray[np.intp]]:
-    """Find where each ray meets an edge of its own polygon first, in time linear in the edges of these.
-
-    An edge is met if its ends are on different sides of the ray, those on it counted as left: of two edges at a corner
-    a ray that passes through it meets one, and no ray gets through between them.
-
-    Parameters
-    ----------
-    polygons : PolygonSet
-        Edges of no other polygon are looked at.
-    polygon : (k,) integer array
-        Of each ray.
-    origin, way : (k, 2) float64 array
-        Where each ray begins, and where it goes.
-
-    Returns
-    -------
-    places : (k, 2) float64 array
-        NaN where a ray meets nothing.
-    vertices : (k,) integer array
-        Where the edges begin; -1 for none.
-
-    Examples
-    --------
-    >>> from vorotool.geometry.polygons.polygon_set import SHELL, set_of_rings
-    >>> square = set_of_rings([[0, 0], [4, 0], [4, 4], [0, 4]], [4], [SHELL], [0])
-    >>> places, vertices = first_hits(square, np.array([0]), np.array([[1.0, 1.0]]), np.array([[0.0, 2.0]]))
-    >>> places.tolist(), vertices.tolist()
-    ([[1.0, 4.0]], [2])
-    """
+    """Find where each ray meets an edge of its own polygon first, in time linear in the edges of these."""
     first = polygons.ring_start[polygons.polygon_start]
     size = np.diff(first)[polygon]
     places, vertices = np.full((len(polygon), 2), np.nan), np.full(len(polygon), -1, dtype=np.intp)
@@ -76,31 +48,7 @@ def _hits(
 
 
 def first_crossings(ray: NDArray[np.integer], a: Floats, b: Floats, way: Floats) -> tuple[Floats, NDArray[np.intp]]:
-    """Find which of its edges each ray meets first.
-
-    Parameters
-    ----------
-    ray : (n,) integer array
-        The ray of each edge.
-    a, b : (n, 2) float64 array
-        The ends of edges, from where their ray begins.
-    way : (k, 2) float64 array
-        Where rays go.
-
-    Returns
-    -------
-    places : (k, 2) float64 array
-        From where the rays begin; NaN where a ray meets nothing.
-    edges : (k,) integer array
-        -1 for none.
-
-    Examples
-    --------
-    >>> ends = np.array([[2.0, -1.0], [3.0, 3.0]]), np.array([[2.0, 1.0], [3.0, 4.0]])
-    >>> places, edges = first_crossings(np.array([0, 0]), *ends, np.array([[4.0, 1.0]]))
-    >>> places.round(9).tolist(), edges.tolist()
-    ([[2.0, 0.5]], [0])
-    """
+    """Find which of its edges each ray meets first."""
     length = np.sqrt((way * way).sum(axis=1))[:, None]
     way = np.divide(way, length, out=np.zeros(way.shape), where=length > 0)  # a ray that goes nowhere meets nothing
     (ax, ay), (bx, by) = a.T, b.T

@@ -18,37 +18,22 @@ Indices = NDArray[np.int64]
 
 @dataclass(frozen=True, eq=False)
 class Contours:
-    """Closed walks with the arcs on their left, as runs: arcs in a row that have one site on the right.
+    """Closed walks with the arcs on their left, as runs: arcs in a row that have one site on the right."""
 
-    Parameters
-    ----------
-    start : (c + 1,) int64 array
-        The first run of each contour.
-    site : (n,) int32 array
-        Of each run.
-    first_node, middle_node, last_node : (n,) int64 array
-        Where each run begins, a place about its middle, and where it ends.
-    is_joined : (n,) bool array
-        Whether the site of the next run is a vertex at the end of this one's, or the other way round: then the border
-        goes on from one to the other without a gap.
-    point : (n,) int64 array
-        A number for the place of a vertex; equal places have the same. -1 for an edge.
-    shared_point : (n,) int64 array
-        The number of the end that the site has in common with that of the next run, if both are edges; else -1.
-    polygon, part : (c,) int64 array
-        The polygon of each contour, and the connected part of the skeleton.
-    """
-
-    start: Indices
-    site: NDArray[np.int32]
-    first_node: Indices
-    middle_node: Indices
-    last_node: Indices
+    start: Indices  # (c + 1,) int64 array: the first run of each contour
+    site: NDArray[np.int32]  # (n,) int32 array: of each run
+    first_node: Indices  # (n,) int64 array: where each run begins, a place about its middle, and where it ends
+    middle_node: Indices  # (n,) int64 array: where each run begins, a place about its middle, and where it ends
+    last_node: Indices  # (n,) int64 array: where each run begins, a place about its middle, and where it ends
+    # (n,) bool array: whether the site of the next run is a vertex at the end of this one's, or the other way round:
+    # then the border goes on from one to the other without a gap
     is_joined: NDArray[np.bool_]
-    point: Indices
+    point: Indices  # (n,) int64 array: a number for the place of a vertex; equal places have the same. -1 for an edge
+    # (n,) int64 array: the number of the end that the site has in common with that of the next run, if both are
+    # edges; else -1
     shared_point: Indices
-    polygon: Indices
-    part: Indices
+    polygon: Indices  # (c,) int64 array: the polygon of each contour, and the connected part of the skeleton
+    part: Indices  # (c,) int64 array: the polygon of each contour, and the connected part of the skeleton
 
     @property
     def after(self) -> Indices:
@@ -64,15 +49,7 @@ class Contours:
 
 
 def contours_of(skeleton: Skeleton, arcs: Indices) -> Contours:
-    """Walk around some arcs of a skeleton; arcs that end in a corner (radius 0) end there, whatever they share.
-
-    Examples
-    --------
-    >>> from vorotool import skeleton_exact
-    >>> triangle = skeleton_exact([[0, 0], [4, 0], [0, 3]])
-    >>> contours_of(triangle, np.arange(3)).site.tolist()
-    [3, 4, 5]
-    """
+    """Walk around some arcs of a skeleton; arcs that end in a corner (radius 0) end there, whatever they share."""
     walk = _HalfEdges(skeleton, arcs)
     order, begin = _cycles(walk)
     site = walk.site[order]
@@ -120,10 +97,7 @@ class _HalfEdges:
         self.part = connected_roots(np.stack([tail, head], axis=1), len(skeleton.vertices) + len(own))[tail]
 
     def following(self) -> Indices:
-        """The half-edge after each: around its head to the first one counter-clockwise, which has the same site.
-
-        At a vertex between an edge and its end they change; where a part was cut off any two may meet.
-        """
+        """The half-edge after each: around its head to the first one counter-clockwise, which has the same site."""
         twin = np.arange(len(self.tail)) ^ 1
         lone = self.is_corner[self.head] | (np.bincount(self.head, minlength=len(self.is_corner))[self.head] == 1)
         following = np.where(lone, twin, -1)
@@ -140,10 +114,7 @@ class _HalfEdges:
         return following
 
     def _match(self, following: Indices, into: NDArray[np.integer], out: NDArray[np.integer]) -> None:
-        """Join half-edges that have no follower with others that follow none, where they meet and have a key in common.
-
-        Keys are the columns of a row each; -1 is none.
-        """
+        """Join half-edges that have no follower with others that follow none, where they meet with a common key."""
         free, open_ = _unmatched(following)
         wanted, half_edge = _keyed(self.head, into, free)
         offered, partner = _keyed(self.tail, out, open_)
@@ -158,10 +129,7 @@ class _HalfEdges:
         following[half_edge[first]] = partner[first]
 
     def _match_by_angle(self, following: Indices) -> None:
-        """Join what is left around each node: from the way back counter-clockwise to the next way out.
-
-        So do two edges that go on straight, where the disc touches the vertex between them: there is no arc to that.
-        """
+        """Join what is left around each node: from the way back counter-clockwise to the next way out."""
         free, open_ = _unmatched(following)
         if not free.size:
             return
@@ -238,10 +206,7 @@ def _shared_points(a: Indices, b: Indices) -> Indices:
 
 
 def site_points(skeleton: Skeleton) -> Indices:
-    """(s, 2) numbers of the places of both ends of each site; those of a vertex are equal.
-
-    Features that are taken by themselves have places of their own.
-    """
+    """(s, 2) numbers of the places of both ends of each site; those of a vertex are equal."""
     places = skeleton.site_ends.reshape(-1, 2) + 0.0  # no -0
     if skeleton.features == "separate":
         feature = skeleton.polygons.feature

@@ -21,34 +21,7 @@ _GROWTH = 4
 def section_ends(
     polygons: PolygonSet, own: NDArray[np.integer] | None, xy: Floats, way: Floats, radius: Floats
 ) -> tuple[Floats, NDArray[np.int32]]:
-    """Find where straight lines across some ways meet the outline first, left and right.
-
-    Parameters
-    ----------
-    polygons : PolygonSet
-        Whose edges are met.
-    own : (n,) integer array, optional
-        The polygon of each place: edges of no other count. By default all count.
-    xy, way : (n, 2) float64 array
-        Places inside polygons, and the directions that sections are across.
-    radius : (n,) float64 array
-        Less than the distance of the edges but for rounding: more than 0.
-
-    Returns
-    -------
-    ends : (n, 2, 2) float64 array
-        The place itself where nothing is met.
-    rings : (n, 2) int32 array
-        Of their polygons: 0 is the shell. -1 where nothing is met.
-
-    Examples
-    --------
-    >>> from vorotool.geometry.polygons.polygon_set import SHELL, set_of_rings
-    >>> square = set_of_rings([[0, 0], [4, 0], [4, 4], [0, 4]], [4], [SHELL], [0])
-    >>> ends, rings = section_ends(square, None, np.array([[1.0, 1.0]]), np.array([[0.0, 2.0]]), np.array([1.0]))
-    >>> ends.tolist(), rings.tolist()
-    ([[[0.0, 1.0], [4.0, 1.0]]], [[0, 0]])
-    """
+    """Find where straight lines across some ways meet the outline first, left and right."""
     left = np.stack([-way[:, 1], way[:, 0]], axis=1)
     across = np.stack([left, -left], axis=1).reshape(-1, 2)
     polygon = None if own is None else np.repeat(own, 2)

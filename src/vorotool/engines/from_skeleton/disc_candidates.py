@@ -18,23 +18,13 @@ TIE = 2.0**-48
 
 @dataclass(frozen=True, eq=False)
 class Candidates:
-    """Places with the discs around them.
+    """Places with the discs around them."""
 
-    Parameters
-    ----------
-    xy, radius
-        (n, 2) and (n,) float64 array: the discs.
-    feature : (n,) int array
-        Whose they are.
-    arc, node : (n,) int array
-        The arc that each is on; the node that it is, or -1.
-    """
-
-    xy: Floats
-    radius: Floats
-    feature: Numbers
-    arc: Numbers
-    node: Numbers
+    xy: Floats  # (n, 2) and (n,) float64 array: the discs
+    radius: Floats  # (n, 2) and (n,) float64 array: the discs
+    feature: Numbers  # (n,) int array: whose they are
+    arc: Numbers  # (n,) int array: the arc that each is on; the node that it is, or -1
+    node: Numbers  # (n,) int array: the arc that each is on; the node that it is, or -1
 
     def __len__(self) -> int:
         return len(self.radius)
@@ -72,21 +62,11 @@ def _least(order: Numbers, feature: Numbers, values: Floats, slack: Floats) -> N
 
 @dataclass(frozen=True, eq=False)
 class Plateaus:
-    """Segments on which the clearance is the same everywhere, and nodes, which are segments without length.
+    """Segments on which the clearance is the same everywhere, and nodes, which are segments without length."""
 
-    Arcs on which it is the same are between parallel edges, and those that meet lie on one line.
-
-    Parameters
-    ----------
-    number : (v,) int32 array
-        The plateau of each node.
-    first, last : (p,) int array
-        Its ends: the nodes with the smallest and the largest x, of several y.
-    """
-
-    number: NDArray[np.int32]
-    first: Numbers
-    last: Numbers
+    number: NDArray[np.int32]  # (v,) int32 array: the plateau of each node
+    first: Numbers  # (p,) int array: its ends: the nodes with the smallest and the largest x, of several y
+    last: Numbers  # (p,) int array: its ends: the nodes with the smallest and the largest x, of several y
 
     @classmethod
     def of(cls, skeleton: Skeleton, number: NDArray[np.int32]) -> Plateaus:
@@ -96,17 +76,7 @@ class Plateaus:
         return cls(number, order[start], order[np.append(start[1:], len(order)) - 1] if len(start) else start)
 
     def middles(self, skeleton: Skeleton, course_slope: NDArray[np.int8], of_node: Candidates) -> Candidates:
-        """(p,) give the middle of each; of a node by itself that node.
-
-        Parameters
-        ----------
-        skeleton : Skeleton
-            Of what.
-        course_slope : (a, 2) int8 array
-            Of its arcs.
-        of_node : (v,) Candidates
-            Its nodes.
-        """
+        """(p,) give the middle of each; of a node by itself that node."""
         made = of_node[self.first]
         ends = skeleton.vertices[np.stack([self.first, self.last])]
         long = self.first != self.last
@@ -126,15 +96,7 @@ class Plateaus:
 
 
 def node_candidates(skeleton: Skeleton, feature: Numbers) -> Candidates:
-    """(v,) all nodes.
-
-    Parameters
-    ----------
-    skeleton : Skeleton
-        Of what.
-    feature : (a,) int array
-        Of each arc; -1 for none.
-    """
+    """(v,) all nodes."""
     count = len(skeleton.vertices)
     arc = np.zeros(count, dtype=np.intp)
     for k in (1, 0):

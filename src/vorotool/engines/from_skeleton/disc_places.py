@@ -18,20 +18,7 @@ _STEPS = 3
 
 
 class DiscPlaces:
-    """Where discs on some arcs of a skeleton touch others.
-
-    With the radius r at c, and a disc of radius s around d, that is where |c - d| = r + s. By the parameter u of an
-    arc, between two lines both sides squared are quadratic in u. Seen from a vertex p among its sites r is |c - p|, and
-    s r + (c - p) (d - p) = (|d - p|^2 - s^2) / 2: quadratic on a parabola, where r is; between two vertices r^2 is,
-    and the rest is linear. So there are two places at most, between which discs overlap.
-
-    Parameters
-    ----------
-    skeleton : Skeleton
-        Of what.
-    arcs : (k,) int array
-        Which.
-    """
+    """Where discs on some arcs of a skeleton touch others."""
 
     def __init__(self, skeleton: Skeleton, arcs: NDArray[np.intp]) -> None:
         self.arcs, self.measures = arcs, skeleton.measures(arcs)
@@ -47,24 +34,7 @@ class DiscPlaces:
     def touching(
         self, rows: NDArray[np.intp], centre: Floats, radius: Floats
     ) -> tuple[NDArray[np.intp], NDArray[np.intp], Floats]:
-        """Tell where discs on arcs touch given ones.
-
-        Parameters
-        ----------
-        rows : (j,) int array
-            Of `arcs`.
-        centre, radius : (j, 2) and (j,) float64 array
-            The disc that is given for each row.
-
-        Returns
-        -------
-        covered : (l,) int array
-            Places of those rows on which every disc overlaps the given one, but on arcs between vertices.
-        at : (i,) int array
-            Places of those on which some begin to.
-        u : (i,) float64 array
-            Parameters where they do, between 0 and 1.
-        """
+        """Tell where discs on arcs touch given ones."""
         coefficients, rest = self._polynomial(rows, centre, radius)
         least, most = coefficients.min(axis=0), coefficients.max(axis=0)
         covered = np.flatnonzero((least > 0) & ~self.is_parting[rows])

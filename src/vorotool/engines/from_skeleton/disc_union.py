@@ -26,33 +26,7 @@ class Ring(NamedTuple):
 
 
 def covered_rings(skeleton: Skeleton, arcs: Indices, tolerance: float | None) -> list[Ring]:
-    """Rings around the discs along some arcs, polygon by polygon.
-
-    Where an arc is between two points of the border, all its discs are in those at its ends. Where it leads to a corner
-    it may be a bisector of edges: there the two have their common tangents around them.
-
-    Parameters
-    ----------
-    skeleton : Skeleton
-        What the arcs are of.
-    arcs : (k,) int64 array
-        Straight ones.
-    tolerance : float
-        How far chords may be from circles.
-
-    Returns
-    -------
-    list of Ring
-        Outer ones counter-clockwise (y upwards), holes clockwise; parts are numbered from -1 downwards.
-
-    Examples
-    --------
-    >>> from vorotool import skeleton_approx
-    >>> skeleton = skeleton_approx([[0, 0], [8, 0], [8, 2], [0, 2]], step=0.5)
-    >>> (ring,) = covered_rings(skeleton, np.arange(len(skeleton)), 0.01)
-    >>> ring.xy.min(axis=0).round(1).tolist(), ring.xy.max(axis=0).round(1).tolist()
-    ([0.0, 0.0], [8.0, 2.0])
-    """
+    """Rings around the discs along some arcs, polygon by polygon."""
     import shapely
 
     if not len(arcs):

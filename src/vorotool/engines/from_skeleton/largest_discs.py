@@ -99,13 +99,7 @@ def check_count(count: int | None) -> None:
 
 
 def discs_of_skeleton(skeleton: Skeleton, *, count: int | None = None, local: bool = False, threads: int = 0) -> Discs:
-    """Give the largest discs whose centres are on a skeleton inside polygons; arguments as of `largest_discs`.
-
-    Examples
-    --------
-    >>> discs_of_skeleton(skeleton_exact([[0, 0], [4, 0], [4, 4], [0, 4]])).radius.tolist()
-    [2.0]
-    """
+    """Give the largest discs whose centres are on a skeleton inside polygons; arguments as of `largest_discs`."""
     own = skeleton.polygons.feature
     assert own is not None
     is_inside = skeleton.side == INTERIOR
@@ -120,17 +114,7 @@ def discs_of_skeleton(skeleton: Skeleton, *, count: int | None = None, local: bo
 
 
 class Axis:
-    """The skeleton inside features, with the places that may be centres.
-
-    Parameters
-    ----------
-    skeleton : Skeleton
-        Of what.
-    feature : (a,) int array
-        Whose each arc is; -1 of arcs that are left out.
-    threads : int
-        0 uses all.
-    """
+    """The skeleton inside features, with the places that may be centres."""
 
     def __init__(self, skeleton: Skeleton, feature: Numbers, threads: int) -> None:
         self.skeleton, self.feature = skeleton, feature

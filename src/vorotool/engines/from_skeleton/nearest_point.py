@@ -16,31 +16,7 @@ _FINENESS = 2.0**-12
 
 
 def nearest_place(skeleton: Skeleton, place: tuple[float, float], arcs: NDArray[np.intp]) -> tuple[int, float]:
-    """Find the nearest place on some arcs of a skeleton.
-
-    Parameters
-    ----------
-    skeleton : Skeleton
-        With arcs.
-    place : (x, y)
-        In input units.
-    arcs : (k,) integer array
-        Where to look; not empty.
-
-    Returns
-    -------
-    arc : int
-        Of equally near ones the first.
-    parameter : float
-        Where on the arc, from 0 at its source to 1 at its target, by the parameter of the Bezier curve.
-
-    Examples
-    --------
-    >>> from vorotool import skeleton_exact
-    >>> skeleton = skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]])
-    >>> nearest_place(skeleton, (2.5, 1.25), np.arange(5))
-    (4, 0.75)
-    """
+    """Find the nearest place on some arcs of a skeleton."""
     p = np.array(place)
     fineness = _FINENESS * (float(np.ptp(skeleton.vertices, axis=0).max()) or 1.0)
     points, start = skeleton.flattened(fineness)

@@ -164,10 +164,7 @@ def _noise(skeleton: Skeleton) -> float:
 
 # ---- outlines ------------------------------------------------------------------------------------
 def _outline(skeleton: Skeleton, contours: Contours, tolerance: float | None) -> tuple[Floats, Indices, Indices]:
-    """Vertices of each contour, the point of the polygons that each is, -1 for none, and where contours begin.
-
-    A point has one place, the best of all, in all contours that go through it: what touches does not overlap.
-    """
+    """Vertices of each contour, the point of the polygons that each is, -1 for none, and where contours begin."""
     feet = _feet(skeleton, contours)
     is_edge = skeleton.site_table.kind[contours.site] == EDGE
     node, after = contours.last_node, contours.after

@@ -23,17 +23,7 @@ _TOUCH = 8
 
 
 def sections_along(lines: LedOn, counts: Indices, every: float) -> SkeletonPoints:
-    """Give places at 0, 1, 2, … steps from where each line begins, and the ends of the section across it there.
-
-    Parameters
-    ----------
-    lines : Centerlines or ExtendedSkeleton
-        With what leads on from their ends, which counts.
-    counts : (n,) int64 array
-        How many places there are on each.
-    every : float
-        The step.
-    """
+    """Give places at 0, 1, 2, … steps from where each line begins, and the ends of the section across it there."""
     pieces = _pieces(lines)
     line: Indices = owners(counts)
     along: Floats = np.asarray(every * within(counts), dtype=np.float64)
@@ -56,26 +46,14 @@ def sections_along(lines: LedOn, counts: Indices, every: float) -> SkeletonPoint
 
 @dataclass(frozen=True, eq=False)
 class _Pieces:
-    """Arcs of lines and the straight lines that lead on, line by line.
+    """Arcs of lines and the straight lines that lead on, line by line."""
 
-    Parameters
-    ----------
-    arc, nearest_arc : (p,) int64 array
-        -1 for what leads on; the first or the last arc of its line.
-    ends : (p, 2, 2) float64 array
-        Where each begins and ends.
-    length, begin : (p,) float64 array
-        And how far from the beginning of its line it begins.
-    line : (p,) int64 array
-        Not decreasing.
-    """
-
-    arc: Indices
-    nearest_arc: Indices
-    ends: Floats
-    length: Floats
-    begin: Floats
-    line: Indices
+    arc: Indices  # (p,) int64 array: -1 for what leads on; the first or the last arc of its line
+    nearest_arc: Indices  # (p,) int64 array: -1 for what leads on; the first or the last arc of its line
+    ends: Floats  # (p, 2, 2) float64 array: where each begins and ends
+    length: Floats  # (p,) float64 array: and how far from the beginning of its line it begins
+    begin: Floats  # (p,) float64 array: and how far from the beginning of its line it begins
+    line: Indices  # (p,) int64 array: not decreasing
 
 
 def _pieces(lines: LedOn) -> _Pieces:

@@ -12,20 +12,7 @@ Indices = NDArray[np.int64]
 
 
 def repeats(point: Indices, start: Indices) -> NDArray[np.bool_]:
-    """(c,) whether each contour visits a point twice.
-
-    Parameters
-    ----------
-    point : (n,) int64 array
-        Numbers of places; -1 is none that is known.
-    start : (c + 1,) int64 array
-        Where each contour begins.
-
-    Examples
-    --------
-    >>> repeats(np.array([4, 5, 4, 5, 6, -1, -1]), np.array([0, 3, 7])).tolist()
-    [True, False]
-    """
+    """(c,) whether each contour visits a point twice."""
     contour = owners(np.diff(start))
     known = np.flatnonzero(point >= 0)
     known = known[np.lexsort((point[known], contour[known]))]
@@ -36,13 +23,7 @@ def repeats(point: Indices, start: Indices) -> NDArray[np.bool_]:
 
 
 def cut_at_repetitions(names: list[int]) -> list[list[int]]:
-    """Indices of each part of a closed walk between two visits of one name; -1 is no name.
-
-    Examples
-    --------
-    >>> cut_at_repetitions([7, 5, 6, 5, -1])
-    [[1, 2], [0, 3, 4]]
-    """
+    """Indices of each part of a closed walk between two visits of one name; -1 is no name."""
     parts: list[list[int]] = []
     path: list[int] = []
     at: dict[int, int] = {}
@@ -60,13 +41,7 @@ def cut_at_repetitions(names: list[int]) -> list[list[int]]:
 
 
 def twice_areas(xy: Floats, start: Indices) -> Floats:
-    """(r,) of rings, positive counter-clockwise.
-
-    Examples
-    --------
-    >>> twice_areas(np.array([[0, 0], [4, 0], [0, 3], [0, 0], [0, 1], [1, 0.0]]), np.array([0, 3, 6])).tolist()
-    [12.0, -1.0]
-    """
+    """(r,) of rings, positive counter-clockwise."""
     first = np.repeat(xy[start[:-1]], np.diff(start), axis=0)
     (x, y), (u, v) = (xy - first).T, (xy[following(start)] - first).T
     areas: Floats = np.add.reduceat(x * v - y * u, start[:-1]) if len(xy) else np.zeros(0)

@@ -29,28 +29,7 @@ _SHORTENED = 2.0**-10
 
 
 def verify_sections(points: SkeletonPoints, lines: LedOn, every: float) -> None:
-    """Check that places are at equal steps on their lines, and sections straight across from outline to outline.
-
-    Parameters
-    ----------
-    points : SkeletonPoints
-        Of the lines.
-    lines : Centerlines or ExtendedSkeleton
-        What they are along.
-    every : float
-        The step.
-
-    Raises
-    ------
-    VerificationError
-        If a place or a section is wrong.
-
-    Examples
-    --------
-    >>> from vorotool import centerline, points_along, skeleton_exact
-    >>> lines = centerline(skeleton_exact([[0, 0], [8, 0], [8, 2], [0, 2]]))
-    >>> verify_sections(points_along(lines, every=1), lines, 1)
-    """
+    """Check that places are at equal steps on their lines, and sections straight across from outline to outline."""
     polygons = lines.path.polygons.as_given
     tolerance = _ROUNDING * float(np.ptp(polygons.xy, axis=0).max(initial=0.0) or 1.0)
     line = points.skeleton.branch[points.arc].astype(np.int64)

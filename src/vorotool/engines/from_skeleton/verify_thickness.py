@@ -125,12 +125,7 @@ def _spread(thickness: Floats, samples: int) -> NDArray[np.int64]:
 
 
 class _Discs:
-    """The discs of a skeleton inside polygons, and their outlines.
-
-    With u from 0 to 1 along an arc, |p - c|^2 - r^2 is a polynomial of degree 2 in u at most: between two edges centre
-    c and radius r are linear, and else r = |c - f|, where f is a vertex that the disc touches, so that it is
-    |p - f|^2 - 2 (c - f) (p - f), where c is a Bezier curve.
-    """
+    """The discs of a skeleton inside polygons, and their outlines."""
 
     def __init__(self, skeleton: Skeleton) -> None:
         inside = skeleton.side == INTERIOR

@@ -67,22 +67,12 @@ def join_junctions(skeleton: Skeleton) -> Skeleton:
 
 @dataclass(frozen=True, eq=False)
 class Branches:
-    """Where branches begin and end.
+    """Where branches begin and end."""
 
-    Parameters
-    ----------
-    first, last : (b,) int64 array
-        Their arcs.
-    ends : (2, b) int64 array
-        Their nodes.
-    length : (b,) float64 array
-        Of them.
-    """
-
-    first: Indices
-    last: Indices
-    ends: Indices
-    length: Floats
+    first: Indices  # (b,) int64 array: their arcs
+    last: Indices  # (b,) int64 array: their arcs
+    ends: Indices  # (2, b) int64 array: their nodes
+    length: Floats  # (b,) float64 array: of them
 
     @classmethod
     def of(cls, skeleton: Skeleton) -> Branches:
@@ -144,25 +134,13 @@ def _taken(centre: int, radius: float, beside: list[list[tuple[float, int, int]]
 # ---- how branches are led to their new ends -------------------------------------------------------
 @dataclass(frozen=True, eq=False)
 class _Cuts:
-    """Where branches that are moved at one end are left for a straight arc.
+    """Where branches that are moved at one end are left for a straight arc."""
 
-    Parameters
-    ----------
-    end : int
-        0: the beginnings of branches; 1: their ends.
-    branch, arc : (k,) int64 array
-        Which, and the arc that is the first, or the last, that is left.
-    parameter : (k,) float64 array
-        Where on it.
-    junction : (k,) int64 array
-        The new end.
-    """
-
-    end: int
-    branch: Indices
-    arc: Indices
-    parameter: Floats
-    junction: Indices
+    end: int  # 0: the beginnings of branches; 1: their ends
+    branch: Indices  # (k,) int64 array: which, and the arc that is the first, or the last, that is left
+    arc: Indices  # (k,) int64 array: which, and the arc that is the first, or the last, that is left
+    parameter: Floats  # (k,) float64 array: where on it
+    junction: Indices  # (k,) int64 array: the new end
 
     @classmethod
     def at(cls, end: int, skeleton: Skeleton, branches: Branches, place: Indices, vanishes: NDArray[np.bool_]) -> _Cuts:

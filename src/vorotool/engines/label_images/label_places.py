@@ -17,32 +17,7 @@ from vorotool.geometry.points.seed_set import SeedSet
 def label_places(
     image: LabelImage, *, threads: int = 0
 ) -> tuple[NDArray[np.uint32], NDArray[np.int64], NDArray[np.float64]]:
-    """Find a pixel of each region that is as far as can be from its outermost pixels.
-
-    Of several such pixels the one nearest to their mean is taken, ties by raster order.
-
-    Parameters
-    ----------
-    image : LabelImage
-        Label 0 is no region.
-    threads : int
-        0 uses all.
-
-    Returns
-    -------
-    labels : (k,) uint32 array
-        Those that occur, increasing.
-    places : (k, 2) int64 array
-        Column and row of the pixel of each.
-    radius : (k,) float64 array
-        How far it is from them, in pixels.
-
-    Examples
-    --------
-    >>> labels, places, radius = label_places(LabelImage(np.array([[0, 5, 5, 5, 3], [0, 5, 5, 5, 3], [0, 5, 5, 5, 3]])))
-    >>> labels.tolist(), places.tolist(), radius.tolist()
-    ([3, 5], [[4, 1], [2, 1]], [0.0, 1.0])
-    """
+    """Find a pixel of each region that is as far as can be from its outermost pixels."""
     array = label_array(image.labels)
     known = np.unique(array)
     known = known[known > 0].astype(np.uint32)
@@ -63,28 +38,7 @@ def label_places(
 
 
 def name_places(image: LabelImage, *, threads: int = 0) -> tuple[NDArray[np.uint32], NDArray[np.int64]]:
-    """Find where each region is named: deep inside its object where there are some, else inside itself.
-
-    Parameters
-    ----------
-    image : LabelImage
-        Its seeds are objects if they come from an image.
-    threads : int
-        0 uses all.
-
-    Returns
-    -------
-    labels : (k,) uint32 array
-        Those that occur, increasing.
-    places : (k, 2) int64 array
-        Column and row of the pixel of each.
-
-    Examples
-    --------
-    >>> pixels = SeedSet(np.array([0, 4]), np.array([0, 0]), np.array([1, 2]), frame=Frame(0, 0, 5, 1))
-    >>> name_places(LabelImage(np.array([[1, 1, 1, 2, 2]]), seeds=pixels))[1].tolist()
-    [[0, 0], [4, 0]]
-    """
+    """Find where each region is named: deep inside its object where there are some, else inside itself."""
     labels, places, _ = label_places(image, threads=threads)
     if image.seeds is None or image.seeds.frame is None or not len(labels):
         return labels, places
@@ -97,24 +51,7 @@ def name_places(image: LabelImage, *, threads: int = 0) -> tuple[NDArray[np.uint
 
 
 def seed_objects(image: LabelImage) -> LabelImage | None:
-    """Give the pixels of the objects whose tessellation an image is; of several in one the smallest label has it.
-
-    Parameters
-    ----------
-    image : LabelImage
-        With the seeds that it was made of.
-
-    Returns
-    -------
-    LabelImage or None
-        None if the seeds are points, or objects of a pixel each.
-
-    Examples
-    --------
-    >>> pixels = SeedSet(np.array([0, 1, 4]), np.zeros(3), np.array([1, 1, 2]), frame=Frame(0, 0, 5, 1))
-    >>> seed_objects(LabelImage(np.array([[1, 1, 1, 2, 2]]), seeds=pixels)).labels.tolist()
-    [[1, 1, 0, 0, 2]]
-    """
+    """Give the pixels of the objects whose tessellation an image is; of several in one the smallest label has it."""
     seeds = image.seeds
     if seeds is None or seeds.frame is None or seeds.site_labels is None or len(seeds) <= len(seeds.site_labels):
         return None
@@ -122,13 +59,7 @@ def seed_objects(image: LabelImage) -> LabelImage | None:
 
 
 def outermost_pixels(image: LabelImage) -> NDArray[np.bool_]:
-    """Find the pixels of regions that lie beside another label, or on a side of the image.
-
-    Examples
-    --------
-    >>> outermost_pixels(LabelImage(np.ones((3, 4), int))).sum()
-    np.int64(10)
-    """
+    """Find the pixels of regions that lie beside another label, or on a side of the image."""
     labels = label_array(image.labels)
     outermost: NDArray[np.bool_] = (labels != 0) & ~surrounded_pixels(labels)
     return outermost

@@ -24,33 +24,14 @@ Rings = tuple[NDArray[np.float64], NDArray[np.int64]]
 
 @dataclass(frozen=True, eq=False)
 class GreyLevel:
-    """Grey values, of which those above a level are inside; none is at the level.
+    """Grey values, of which those above a level are inside; none is at the level."""
 
-    Parameters
-    ----------
-    values : (H, W) array
-        Finite.
-    level : float
-        Between two values.
-    """
-
-    values: NDArray[Any]
-    level: float
+    values: NDArray[Any]  # (H, W) array: finite
+    level: float  # between two values
 
 
 def grey_level(grey: NDArray[Any], threshold: float) -> GreyLevel:
-    """Give the level of a threshold: where pixels have just this value, half-way to the next larger one.
-
-    Raises
-    ------
-    InputError
-        If a value is not finite.
-
-    Examples
-    --------
-    >>> grey_level(np.array([[1, 2, 5]]), 2).level, grey_level(np.array([[1, 2, 5]]), 1.5).level
-    (3.5, 1.5)
-    """
+    """Give the level of a threshold: where pixels have just this value, half-way to the next larger one."""
     if grey.dtype.kind == "f" and not np.isfinite(grey).all():
         raise InputError("the image holds NaN or infinite values: contours need numbers; use " + _CRACKS)
     above = grey > threshold
@@ -60,27 +41,7 @@ def grey_level(grey: NDArray[Any], threshold: float) -> GreyLevel:
 
 
 def half_way_contours(corners: Corners, start: NDArray[np.int64]) -> Rings:
-    """Contours of a mask or of labels: through the middles of the cracks between pixels.
-
-    Parameters
-    ----------
-    corners : (n, 2) int32 array
-        Corners of pixels along crack outlines, as the core traces them.
-    start : (r + 1,) int64 array
-        Where each ring begins.
-
-    Returns
-    -------
-    Rings
-        Vertices with pixel centres at integers. One that the contours go straight through is left out, unless one of
-        two that have it turns there.
-
-    Examples
-    --------
-    >>> pixel = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], dtype=np.int32)
-    >>> half_way_contours(pixel, np.array([0, 4]))[0].tolist()
-    [[0.0, -0.5], [0.5, 0.0], [0.0, 0.5], [-0.5, 0.0]]
-    """
+    """Contours of a mask or of labels: through the middles of the cracks between pixels."""
     a, b = corners.astype(np.int64), corners[following(start)].astype(np.int64)
     way = np.sign(b - a)
     is_long = np.abs(b - a).sum(axis=1) > 1
@@ -96,24 +57,7 @@ def half_way_contours(corners: Corners, start: NDArray[np.int64]) -> Rings:
 
 
 def grey_contours(corners: Corners, start: NDArray[np.int64], grey: GreyLevel) -> Rings:
-    """Contours of grey values: a vertex where the line between two pixels' centres reaches the level.
-
-    On the border of the image it is on the border; half-way where no line between the centres reaches the level, as
-    beside pixels that are masked.
-
-    Parameters
-    ----------
-    corners, start
-        As of `half_way_contours`: the crack outlines of what is above the level, or of what is not.
-    grey : GreyLevel
-        The image.
-
-    Examples
-    --------
-    >>> pixel = np.array([[1, 0], [2, 0], [2, 1], [1, 1]], dtype=np.int32)
-    >>> grey_contours(pixel, np.array([0, 4]), GreyLevel(np.array([[0, 8, 0]]), 2.0))[0].tolist()
-    [[1.0, -0.5], [1.75, 0.0], [1.0, 0.5], [0.25, 0.0]]
-    """
+    """Contours of grey values: a vertex where the line between two pixels' centres reaches the level."""
     a, b = corners.astype(np.int64), corners[following(start)].astype(np.int64)
     length = np.abs(b - a).sum(axis=1)
     way = np.repeat(np.sign(b - a), length, axis=0)

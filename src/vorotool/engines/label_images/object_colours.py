@@ -15,28 +15,7 @@ from vorotool.geometry.points.seed_set import SeedSet
 
 
 def object_colours(image: LabelImage, *, threads: int = 0) -> tuple[NDArray[np.uint32], NDArray[np.uint32]]:
-    """Colour the labels of an image so that neighbours differ, also those with background between them.
-
-    Neighbours are labels whose regions of influence share a pixel side; where there is no background these are the
-    labels themselves, and the colours those of `region_colours`.
-
-    Parameters
-    ----------
-    image : LabelImage
-        Label 0 is background.
-    threads : int
-        0 uses all; the result is the same for any number.
-
-    Returns
-    -------
-    labels, colours : (k,) uint32 arrays
-        The labels that occur, increasing, and the colour class of each, from 1.
-
-    Examples
-    --------
-    >>> object_colours(LabelImage(np.array([[1, 0, 0, 2]])))[1].tolist()
-    [2, 1]
-    """
+    """Colour the labels of an image so that neighbours differ, also those with background between them."""
     labels = label_array(image.labels)
     if labels.all() or not labels.any():
         return region_colours(image, threads=threads)

@@ -46,61 +46,21 @@ class Bordered(Protocol):
 
 @dataclass(frozen=True)
 class RegionMeasures:
-    """Measures of the regions of a label image; what `measure_regions` gives.
+    """Measures of the regions of a label image; what `measure_regions` gives."""
 
-    Parameters
-    ----------
-    labels : (k,) uint32 array
-        The labels that occur, increasing, without 0.
-    columns : dict of str to (k,) int64 array
-        ``area``, ``perimeter``, ``vertical_sides``, ``components``, ``sum_x``, ``sum_y``, and the pixels ``left``,
-        ``right``, ``top`` and ``bottom`` of the bounding box, both ends inside, counted from the corner of the image.
-        A perimeter counts sides of pixels, and ``vertical_sides`` those of them that are left or right of a pixel.
-    borders : (b, 2) uint32 array
-        Indices of two regions that share a pixel side, the smaller first, in lexicographic order.
-    border_length : (b,) int64 array
-        Pixel sides that the two share.
-    border_vertical : (b,) int64 array
-        Of these, the vertical ones.
-    """
-
-    labels: NDArray[np.uint32]
+    labels: NDArray[np.uint32]  # (k,) uint32 array: the labels that occur, increasing, without 0
+    # dict of str to (k,) int64 array: `area`, `perimeter`, `vertical_sides`, `components`, `sum_x`, `sum_y`, and the
+    # pixels `left`, `right`, `top` and `bottom` of the bounding box, both ends inside, counted from the corner of the
+    # image. A perimeter counts sides of pixels, and `vertical_sides` those of them that are left or right of a pixel
     columns: dict[str, NDArray[np.int64]]
+    # (b, 2) uint32 array: indices of two regions that share a pixel side, the smaller first, in lexicographic order
     borders: NDArray[np.uint32]
-    border_length: NDArray[np.int64]
-    border_vertical: NDArray[np.int64]
+    border_length: NDArray[np.int64]  # (b,) int64 array: pixel sides that the two share
+    border_vertical: NDArray[np.int64]  # (b,) int64 array: of these, the vertical ones
 
 
 def measure_regions(image: Any, *, threads: int = 0, progress: Progress = None) -> RegionMeasures:
-    """Measure all regions of a label image in one pass.
-
-    The tables and the colouring take the result as ``measures``, so that several of them cost one pass.
-
-    Parameters
-    ----------
-    image : LabelImage, or (H, W) array of integers or truth values
-        Label 0 is background and no region.
-    threads : int
-        0 for all; the result is the same for any number.
-    progress : callable, optional
-        Called with the fraction done.
-
-    Returns
-    -------
-    RegionMeasures
-
-    Raises
-    ------
-    InputError
-        If a label is negative or above 4294967295.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> measures = measure_regions(LabelImage(np.array([[1, 1, 2], [1, 2, 2]], dtype=np.uint16)))
-    >>> measures.columns["area"].tolist(), measures.border_length.tolist()
-    ([3, 3], [3])
-    """
+    """Measure all regions of a label image in one pass."""
     image = _labelled(image)
     found = _core.label_images.measure_regions(label_array(image.labels), checked_threads(threads), progress)
     labels = found.pop("labels")
@@ -323,33 +283,7 @@ def region_colours(
     threads: int = 0,
     progress: Progress = None,
 ) -> tuple[NDArray[np.uint32], NDArray[np.uint32]]:
-    """Colour the regions so that neighbours never share a colour.
-
-    Parameters
-    ----------
-    image : LabelImage, LabelVolume, or (H, W) or (D, H, W) array of integers or truth values
-        Label 0 is no region.
-    measures : RegionMeasures or VolumeMeasures, optional
-        The result of `measure_regions` for this image, or of `measure_volume`.
-    threads : int
-        0 for all; the result is the same for any number.
-    progress : callable, optional
-        Called with the fraction done.
-
-    Returns
-    -------
-    labels : (k,) uint32 array
-        The labels that occur, increasing.
-    colours : (k,) uint32 array
-        Colours 1, 2, … of about equal frequency: at most 6 where every region of an image is connected (the graph is
-        then planar); of a volume as many as its neighbours make necessary.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> region_colours(LabelImage(np.array([[1, 7, 9]], dtype=np.uint16)))
-    (array([1, 7, 9], dtype=uint32), array([2, 1, 2], dtype=uint32))
-    """
+    """Colour the regions so that neighbours never share a colour."""
     if measures is None and is_of_space(image):
         measures = _in_space("measures:measure_volume", image, threads, progress)
     measures = _checked_measures(measures) or measure_regions(image, threads=threads, progress=progress)

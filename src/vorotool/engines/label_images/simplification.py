@@ -21,44 +21,7 @@ Indices = NDArray[np.int64]
 
 
 def simplified_polygons(polygons: PolygonSet, tolerance: float) -> PolygonSet:
-    """Leave out vertices of polygons and lines that touch each other in vertices and along whole edges only.
-
-    Their edges are divided into chains, at the vertices where more than two of them meet, and where lines end. Each
-    chain keeps its ends and is simplified once, however many rings it is a part of, so that polygons that share a
-    border still do: by the Douglas-Peucker rule, which moves it by no more than the tolerance, and only as far as no
-    two chains come to cross (shapely's `simplify` with ``preserve_topology``). Where four edges or more meet, these
-    stay.
-
-    Parameters
-    ----------
-    polygons : PolygonSet
-        Whose rings cross nowhere and pass through no vertex of another one: outlines, or what
-        :func:`vorotool.engines.arrangement.lattice_rings.placed_shapes` gives.
-    tolerance : float
-        In input units.
-
-    Returns
-    -------
-    PolygonSet
-        The same polygons with fewer vertices.
-
-    Raises
-    ------
-    UsageError
-        If the tolerance is negative or not finite.
-
-    References
-    ----------
-    Douglas and Peucker, "Algorithms for the reduction of the number of points required to represent a digitized line or
-    its caricature", 1973.
-
-    Examples
-    --------
-    >>> from vorotool import outlines
-    >>> stairs = outlines(np.tri(8, dtype=bool))
-    >>> len(stairs.xy), len(simplified_polygons(stairs, 0.75).xy)
-    (18, 4)
-    """
+    """Leave out vertices of polygons and lines that touch each other in vertices and along whole edges only."""
     tolerance = finite_double(tolerance, "the tolerance of a simplification")
     if tolerance < 0:
         raise UsageError(
@@ -160,10 +123,7 @@ def _simplified_chains(chains: _Chains, tolerance: float) -> tuple[NDArray[np.fl
 
 
 def _along_rings(polygons: PolygonSet, chains: _Chains, start: Indices) -> tuple[Indices, Indices]:
-    """The places along each ring, as numbers of the simplified ones, and how many each ring has.
-
-    The last vertices of lines follow the simplified places.
-    """
+    """The places along each ring, as numbers of the simplified ones, and how many each ring has."""
     steps = np.diff(start)[chains.used] - 1
     back = np.repeat(chains.is_back, steps)
     along = within(steps)

@@ -17,24 +17,16 @@ Indices = NDArray[np.int64]
 
 @dataclass(frozen=True, eq=False)
 class Ways:
-    """The two ways that lead on from each neck.
+    """The two ways that lead on from each neck."""
 
-    Parameters
-    ----------
-    arc : (n, 2) int64 array
-        The arc that each way begins with: the same twice where the neck is inside an arc.
-    end : (n, 2) int64 array
-        Which end of it, or of the half of it that the way takes, is at the neck: 0 the source, 1 the target.
-    middle : (n, 2) float64 array
-        The place half-way along a plateau of several nodes; NaN of other necks.
-    top : (n, 2) int64 array
-        The plateau up to which the clearance grows along each way.
-    """
-
+    # (n, 2) int64 array: the arc that each way begins with: the same twice where the neck is inside an arc
     arc: Indices
+    # (n, 2) int64 array: which end of it, or of the half of it that the way takes, is at the neck: 0 the source, 1
+    # the target
     end: Indices
+    # (n, 2) float64 array: the place half-way along a plateau of several nodes; NaN of other necks
     middle: NDArray[np.float64]
-    top: Indices
+    top: Indices  # (n, 2) int64 array: the plateau up to which the clearance grows along each way
 
     def __len__(self) -> int:
         return len(self.arc)
@@ -51,30 +43,15 @@ class Ways:
 
 @dataclass(frozen=True, eq=False)
 class Flow:
-    """How the clearance grows from plateau to plateau, most of which are single nodes.
-
-    Parameters
-    ----------
-    course : ClearanceCourse
-        Of the arcs.
-    plateau : (v,) int32 array
-        That of each node.
-    top : (p,) int64 array
-        The local maximum that the clearance grows to from each plateau.
-    """
+    """How the clearance grows from plateau to plateau, most of which are single nodes."""
 
     course: ClearanceCourse
-    plateau: NDArray[np.int32]
-    top: Indices
+    plateau: NDArray[np.int32]  # (v,) int32 array: that of each node
+    top: Indices  # (p,) int64 array: the local maximum that the clearance grows to from each plateau
 
 
 def clearance_flow(skeleton: Skeleton, *, threads: int = 0, progress: Progress = None) -> Flow:
-    """Follow the clearance upwards from everywhere.
-
-    A disc that touches the boundary within half a turn of itself grows along one arc only: that between the first and
-    the last of these places. One that touches it all around grows nowhere. So but for necks, where it touches two
-    opposite places, there is one way up, or none.
-    """
+    """Follow the clearance upwards from everywhere."""
     course = clearance_course(skeleton, threads=threads, progress=progress)
     plateau = plateaus(skeleton, course)
     top = np.arange(int(plateau.max(initial=-1)) + 1)
@@ -90,10 +67,7 @@ def clearance_flow(skeleton: Skeleton, *, threads: int = 0, progress: Progress =
 
 
 def ways_from_necks(skeleton: Skeleton, flow: Flow) -> Ways:
-    """Find the necks: places inside arcs, and plateaus from which the clearance grows both ways.
-
-    Where the boundary touches itself, and the clearance is 0, nothing inside can be cut: there is no neck.
-    """
+    """Find the necks: places inside arcs, and plateaus from which the clearance grows both ways."""
     inside = np.flatnonzero(_has(flow.course, (-1, -1)))
     between, between_end = _rising_pairs(skeleton, flow)
     arc = np.concatenate([np.stack([inside, inside], axis=1), between])

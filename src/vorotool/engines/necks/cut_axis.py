@@ -20,37 +20,15 @@ Indices = NDArray[np.int64]
 
 @dataclass(frozen=True, eq=False)
 class CutAxis:
-    """A skeleton in which each cut has two nodes of its own, one for each way.
+    """A skeleton in which each cut has two nodes of its own, one for each way."""
 
-    Parameters
-    ----------
-    skeleton : Skeleton
-        Arcs that a cut is inside of are two, of which only ends and sites mean anything.
-    node : (c, 2) int64 array
-        Those of each cut.
-    part : (v,) int64 array
-        The connected part of each node; the boundary parts what meets in corners.
-    """
-
-    skeleton: Skeleton
-    node: Indices
-    part: Indices
+    skeleton: Skeleton  # arcs that a cut is inside of are two, of which only ends and sites mean anything
+    node: Indices  # (c, 2) int64 array: those of each cut
+    part: Indices  # (v,) int64 array: the connected part of each node; the boundary parts what meets in corners
 
 
 def cut_axis(skeleton: Skeleton, ways: Ways, xy: Floats, width: Floats) -> CutAxis:
-    """Cut a skeleton at some necks.
-
-    Parameters
-    ----------
-    skeleton : Skeleton
-        The whole one.
-    ways : Ways
-        From these necks.
-    xy : (c, 2) float64 array
-        Where they are.
-    width : (c,) float64 array
-        Of each.
-    """
+    """Cut a skeleton at some necks."""
     old, count = len(skeleton.vertices), len(ways)
     node = old + np.arange(2 * count).reshape(-1, 2)
     arcs = skeleton.arcs.astype(np.int64)
@@ -85,42 +63,19 @@ def _parts(skeleton: Skeleton) -> Indices:
 
 @dataclass(frozen=True, eq=False)
 class Outlines:
-    """Vertices around the parts of a cut skeleton, contour after contour.
+    """Vertices around the parts of a cut skeleton, contour after contour."""
 
-    Parameters
-    ----------
-    xy : (n, 2) float64 array
-        Their places.
-    point : (n,) int64 array
-        Equal places of vertices of the polygons have the same number; feet on edges have -1.
-    edge : (n,) int64 array
-        The edge along which the contour goes on from each; -1 along a cut.
-    start : (k + 1,) int64 array
-        Where each contour begins.
-    part : (k,) int64 array
-        The connected part that it goes around.
-    polygon : (k,) int64 array
-        The polygon of this.
-    """
-
-    xy: Floats
+    xy: Floats  # (n, 2) float64 array: their places
+    # (n,) int64 array: equal places of vertices of the polygons have the same number; feet on edges have -1
     point: Indices
-    edge: Indices
-    start: Indices
-    part: Indices
-    polygon: Indices
+    edge: Indices  # (n,) int64 array: the edge along which the contour goes on from each; -1 along a cut
+    start: Indices  # (k + 1,) int64 array: where each contour begins
+    part: Indices  # (k,) int64 array: the connected part that it goes around
+    polygon: Indices  # (k,) int64 array: the polygon of this
 
 
 def outlines_of(axis: CutAxis, feet: Feet) -> Outlines:
-    """Walk around the parts of a skeleton, along the boundary and across the cuts.
-
-    Parameters
-    ----------
-    axis : CutAxis
-        The skeleton.
-    feet : Feet
-        Of the cuts.
-    """
+    """Walk around the parts of a skeleton, along the boundary and across the cuts."""
     skeleton = axis.skeleton
     walk = contours_of(skeleton, np.arange(len(skeleton)))
     ends, points = skeleton.site_ends, site_points(skeleton)

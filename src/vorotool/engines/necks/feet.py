@@ -24,25 +24,14 @@ _SNAP = 4
 
 @dataclass(frozen=True, eq=False)
 class Feet:
-    """Feet of necks: left and right of the way from the first of their ways to the second.
+    """Feet of necks: left and right of the way from the first of their ways to the second."""
 
-    Parameters
-    ----------
-    site : (n, 2) int64 array
-        What each foot is on.
-    xy : (n, 2, 2) float64 array
-        Where they are.
-    width : (n,) float64 array
-        Between them.
-    square : (n, 2) int64 array
-        The exact square of the width in steps of the lattice. Between two vertices it is the first number, the second
-        is 0. Else one is on an edge: it is the square of the first number over the second, the square of the length of
-        that edge.
-    """
-
-    site: Indices
-    xy: Floats
-    width: Floats
+    site: Indices  # (n, 2) int64 array: what each foot is on
+    xy: Floats  # (n, 2, 2) float64 array: where they are
+    width: Floats  # (n,) float64 array: between them
+    # (n, 2) int64 array: the exact square of the width in steps of the lattice. Between two vertices it is the first
+    # number, the second is 0. Else one is on an edge: it is the square of the first number over the second, the
+    # square of the length of that edge
     square: Indices
 
     def taken(self, chosen: NDArray[np.bool_] | Indices) -> Feet:
@@ -107,15 +96,7 @@ def _widths(skeleton: Skeleton, ends: Floats, is_edge: NDArray[np.bool_]) -> tup
 
 
 def by_width(square: Indices) -> Indices:
-    """Give the numbers of necks from the widest to the narrowest, of equal ones the last first.
-
-    Squares are compared as fractions where doubles are too near to each other.
-
-    Examples
-    --------
-    >>> by_width(np.array([[9, 0], [6, 4], [30, 100], [16, 0]])).tolist()
-    [3, 2, 1, 0]
-    """
+    """Give the numbers of necks from the widest to the narrowest, of equal ones the last first."""
     kinds, of = np.unique(square, axis=0, return_inverse=True)
     rank = _ranks(kinds)[of.reshape(-1)]
     return np.lexsort((np.arange(len(rank)), rank))[::-1]

@@ -102,13 +102,7 @@ def whole_skeleton(
     threads: int,
     progress: Progress,
 ) -> Skeleton:
-    """Give the skeleton inside polygons, which may be given themselves.
-
-    Raises
-    ------
-    UsageError
-        If what is given is approximate, pruned, or has a gap.
-    """
+    """Give the skeleton inside polygons, which may be given themselves."""
     if not isinstance(polygons, Skeleton):
         return skeleton_exact(polygons, features=features, strict=strict, threads=threads, progress=progress)
     is_inside = polygons.side == INTERIOR
@@ -124,21 +118,11 @@ def whole_skeleton(
 
 @dataclass(frozen=True, eq=False)
 class FoundNecks:
-    """Necks, and where the skeleton is to be cut for each.
+    """Necks, and where the skeleton is to be cut for each."""
 
-    Parameters
-    ----------
-    necks : Necks
-        In their order.
-    ways : Ways
-        From each.
-    feet : Feet
-        Of each, left and right of its ways.
-    """
-
-    necks: Necks
+    necks: Necks  # in their order
     ways: Ways
-    feet: Feet
+    feet: Feet  # of each, left and right of its ways
 
 
 def found_necks(skeleton: Skeleton, *, threads: int = 0, progress: Progress = None) -> FoundNecks:
@@ -170,26 +154,7 @@ def found_necks(skeleton: Skeleton, *, threads: int = 0, progress: Progress = No
 
 
 def largest_beside(top: Indices, square: Indices, clearance: Floats) -> Floats:
-    """(n, 2) the largest clearance on both sides of necks as far as no narrower one has to be passed, smaller first.
-
-    Necks are opened from the widest to the narrowest, and maxima that they join are one from then on: what is beside a
-    neck is what is joined before it is opened.
-
-    Parameters
-    ----------
-    top : (n, 2) int64 array
-        The maxima next to each neck.
-    square : (n, 2) int64 array
-        As of `Feet`: by which they are compared.
-    clearance : (p,) float64 array
-        Of the maxima.
-
-    Examples
-    --------
-    >>> chain, squares = np.array([[0, 1], [1, 2]]), np.array([[4, 0], [9, 0]])
-    >>> largest_beside(chain, squares, np.array([5.0, 4.0, 6.0])).tolist()
-    [[5.0, 6.0], [4.0, 6.0]]
-    """
+    """(n, 2) the largest clearance on both sides of necks as far as no narrower one has to be passed, smaller first."""
     root, largest = list(range(len(clearance))), clearance.tolist()
     beside = np.empty((len(top), 2))
     pairs = top.tolist()

@@ -176,10 +176,7 @@ def _parts_of(axis: CutAxis, outlines: Outlines, necks: Necks) -> Parts:
 
 
 def _largest_discs(axis: CutAxis) -> tuple[Floats, Floats]:
-    """Radius and centre of the largest disc of each part, by the node that the part is named after.
-
-    It is at a node of the whole skeleton: between necks there is a maximum, however near by.
-    """
+    """Radius and centre of the largest disc of each part, by the node that the part is named after."""
     skeleton, part = axis.skeleton, axis.part
     radius, centre = np.zeros(len(part)), np.full((len(part), 2), np.nan)
     inner = np.flatnonzero(skeleton.radius[: len(part) - axis.node.size] > 0)

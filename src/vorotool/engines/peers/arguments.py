@@ -18,20 +18,7 @@ if TYPE_CHECKING:
 
 
 def volume(values: Any, name: str, max_pixels: int) -> NDArray[Any]:
-    """Give a volume as a 3-D array of booleans or numbers.
-
-    Raises
-    ------
-    InputError
-        If its values are no numbers, or some are masked.
-    LimitError
-        If it has more than `max_pixels` voxels.
-
-    Examples
-    --------
-    >>> volume([[[0, 1]]], "mask", 9).shape
-    (1, 1, 2)
-    """
+    """Give a volume as a 3-D array of booleans or numbers."""
     if np.ma.isMaskedArray(values) and np.ma.getmaskarray(values).any():
         raise InputError(f"invalid {name}: expected a value in each voxel, but some are masked; fill them first")
     array = np.asarray(values)
@@ -44,22 +31,7 @@ def volume(values: Any, name: str, max_pixels: int) -> NDArray[Any]:
 
 
 def bare_seeds(places: NDArray[np.int64], labels: NDArray[np.uint32], shape: tuple[int, ...]) -> VolumeSeeds:
-    """Give voxels as seeds of a volume of which no sites are wanted, which take time to find.
-
-    Parameters
-    ----------
-    places : (n, 3) int64 array
-        Slice, row and column of each.
-    labels : (n,) uint32 array
-        From 1.
-    shape : (D, H, W)
-        Of the volume.
-
-    Examples
-    --------
-    >>> bare_seeds(np.array([[1, 2, 3]]), np.array([7], dtype=np.uint32), (4, 4, 4)).places.tolist()
-    [[3, 2, 1]]
-    """
+    """Give voxels as seeds of a volume of which no sites are wanted, which take time to find."""
     depth, height, width = shape
     frame = VoxelFrame(0, 0, 0, width, height, depth)
     places = np.asfortranarray(places[:, ::-1])
@@ -67,18 +39,7 @@ def bare_seeds(places: NDArray[np.int64], labels: NDArray[np.uint32], shape: tup
 
 
 def plane(values: ImageLike, name: str) -> NDArray[Any]:
-    """Give an image as a 2-D array of booleans or numbers.
-
-    Raises
-    ------
-    InputError
-        If it is none, or some pixels are masked.
-
-    Examples
-    --------
-    >>> plane([[0, 1]], "mask").shape
-    (1, 2)
-    """
+    """Give an image as a 2-D array of booleans or numbers."""
     shape = getattr(values, "shape", None)
     if isinstance(shape, tuple) and len(shape) == 2 and 0 in shape:
         return np.asarray(values)

@@ -136,22 +136,7 @@ def prune(
 
 
 def independent_parts(skeleton: Skeleton, group: NDArray[np.int32]) -> list[tuple[slice, slice]]:
-    """Arcs and nodes of parts of a skeleton that have nothing in common; one if its groups are in no such order.
-
-    Parameters
-    ----------
-    skeleton : Skeleton
-        Of what.
-    group : (a,) array
-        Of the arcs: each is in one part as a whole.
-
-    Examples
-    --------
-    >>> from vorotool import skeleton_exact
-    >>> skeleton = skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]])
-    >>> independent_parts(skeleton, skeleton.polygon)
-    [(slice(0, 5, None), slice(0, 6, None))]
-    """
+    """Arcs and nodes of parts of a skeleton that have nothing in common; one if its groups are in no such order."""
     step = np.diff(group)
     starts = np.flatnonzero(step != 0) + 1
     wanted = np.searchsorted(starts, np.arange(PART, len(group), PART))
@@ -252,29 +237,12 @@ def arc_profiles(skeleton: Skeleton) -> ArcProfiles:
 
 
 def default_pruning_for_masks() -> tuple[str, float]:
-    """Name the criterion and the threshold that outlines of pixels are pruned by where nothing else is asked for.
-
-    Every corner of a pixel gives the skeleton a leaf. The discs of what leads there are nearly those that it hangs on:
-    in proportion to the size of the shape there, which is what `scale` compares.
-
-    Examples
-    --------
-    >>> default_pruning_for_masks()
-    ('scale', 1.5)
-    """
+    """Name the criterion and the threshold that outlines of pixels are pruned by where nothing else is asked for."""
     return MASK_PRUNING
 
 
 def check_threshold(criterion: str, threshold: float) -> None:
-    """Raise UsageError for what is no threshold of a criterion.
-
-    Examples
-    --------
-    >>> check_threshold("scale", 0.5)
-    Traceback (most recent call last):
-        ...
-    vorotool.errors.UsageError: scale is 0.5: use a number from 1
-    """
+    """Raise UsageError for what is no threshold of a criterion."""
     least, most = {"angle": (0.0, 180.0), "scale": (1.0, np.inf)}.get(criterion, (0.0, np.inf))
     if not (least <= threshold <= most and np.isfinite(threshold)):
         limits = f"from {least:g} to {most:g}" if np.isfinite(most) else f"from {least:g}"
@@ -285,13 +253,7 @@ _PI = Decimal("3.14159265358979323846264338327950288419716939937510582097494")
 
 
 def half_tangent(degrees: float) -> float:
-    """Tangent of half an angle of at most 180 degrees, rounded once: libraries of functions differ in the last bit.
-
-    Examples
-    --------
-    >>> half_tangent(90), half_tangent(180)
-    (1.0, inf)
-    """
+    """Tangent of half an angle of at most 180 degrees, rounded once: libraries of functions differ in the last bit."""
     if degrees == 180:
         return np.inf
     with localcontext() as context:

@@ -41,13 +41,7 @@ ROUNDING_ULPS = 2
 
 @dataclass(frozen=True)
 class SamplingOptions:
-    """A step or a tolerance, and how edges are sampled.
-
-    Raises
-    ------
-    UsageError
-        If these are none, or do not go together.
-    """
+    """A step or a tolerance, and how edges are sampled."""
 
     step: float | None = None
     tolerance: float | None = None
@@ -76,18 +70,12 @@ class SamplingOptions:
 
 @dataclass(frozen=True, eq=False)
 class SampleGroups:
-    """Which seeds have a diagram together, and in which bounds its parts are put into order.
+    """Which seeds have a diagram together, and in which bounds its parts are put into order."""
 
-    Parameters
-    ----------
-    of_point : (n,) int32 array
-        The group of each point of a graph, from 0; none if all have one diagram. Segments and their ends are in one.
-    within : (least x, most x, least y, most y), optional
-        On the lattice: hold all seeds. By default their bounds.
-    """
-
+    # (n,) int32 array: the group of each point of a graph, from 0; none if all have one diagram. Segments and their
+    # ends are in one
     of_point: NDArray[np.int32] = field(default_factory=lambda: np.empty(0, dtype=np.int32))
-    within: tuple[float, float, float, float] | None = None
+    within: tuple[float, float, float, float] | None = None  # on the lattice: hold all seeds. By default their bounds
 
     def of_samples(self, samples: BoundarySamples) -> NDArray[np.int32] | None:
         """(s,) groups; None if all are one."""
@@ -99,51 +87,25 @@ class SampleGroups:
 
 @dataclass(frozen=True, eq=False)
 class SampledShapes:
-    """Polygons made a planar graph, seeds on it, and their Voronoi diagram.
+    """Polygons made a planar graph, seeds on it, and their Voronoi diagram."""
 
-    Parameters
-    ----------
-    graph : PlanarGraph
-        Of the polygons.
-    placed : PlacedShapes
-        The rings as the graph has them, and what the sites are there.
-    samples : BoundarySamples
-        The seeds.
-    diagram : compiled object
-        Their Voronoi diagram, with what is to be deleted.
-    groups : SampleGroups
-        Which of them have a diagram together.
-    """
-
-    graph: PlanarGraph
-    placed: PlacedShapes
+    graph: PlanarGraph  # of the polygons
+    placed: PlacedShapes  # the rings as the graph has them, and what the sites are there
     samples: BoundarySamples
-    diagram: Any
-    groups: SampleGroups
+    diagram: Any  # their Voronoi diagram, with what is to be deleted
+    groups: SampleGroups  # which of them have a diagram together
 
 
 @dataclass(frozen=True, eq=False)
 class ApproximateSkeleton:
-    """A skeleton and what it was made of.
+    """A skeleton and what it was made of."""
 
-    Parameters
-    ----------
-    skeleton : Skeleton
-        Of straight arcs.
-    seeds : (a, 2) int32 array
-        The seeds left and right of each arc; -1 of lines that lead to corners.
-    shapes : SampledShapes
-        Of which it is.
-    open_corners : int
-        Corners under 180 degrees that could not be joined.
-    parts : (p,) int32 array
-        Into how many parts each piece of an edge should be divided for a tolerance.
-    """
-
-    skeleton: Skeleton
+    skeleton: Skeleton  # of straight arcs
+    # (a, 2) int32 array: the seeds left and right of each arc; -1 of lines that lead to corners
     seeds: NDArray[np.int32]
-    shapes: SampledShapes
-    open_corners: int
+    shapes: SampledShapes  # of which it is
+    open_corners: int  # corners under 180 degrees that could not be joined
+    # (p,) int32 array: into how many parts each piece of an edge should be divided for a tolerance
     parts: NDArray[np.int32]
 
 
@@ -157,13 +119,7 @@ def sampled_shapes(
     threads: int = 0,
     progress: Progress = None,
 ) -> SampledShapes:
-    """Place polygons, sample them, and compute the Voronoi diagram; arguments and errors as of `skeleton_approx`.
-
-    Examples
-    --------
-    >>> len(sampled_shapes([[0, 0], [4, 0], [4, 4], [0, 4]], step=1).samples)
-    16
-    """
+    """Place polygons, sample them, and compute the Voronoi diagram; arguments and errors as of `skeleton_approx`."""
     options = SamplingOptions(step, None, sampling)
     threads = checked_threads(threads)
     graph = graph_for_skeletons(polygons, strict=strict, threads=threads, progress=progress)
@@ -245,10 +201,7 @@ def approximate_skeleton(
     threads: int = 0,
     progress: Progress = None,
 ) -> ApproximateSkeleton:
-    """Delete what is not the skeleton's from the diagram of samples, and bound the errors of the arcs.
-
-    Arguments are as of `skeleton_approx`; with a tolerance, what should be sampled more finely is in the result.
-    """
+    """Delete what is not the skeleton's from the diagram of samples, and bound the errors of the arcs."""
     check_skeleton_options(side, 0, frame)
     if side != "exterior" and not shapes.graph.is_inside.any():
         warn_empty(shapes.placed.polygons, side)
@@ -297,13 +250,7 @@ def skeleton_of_samples(
 
 
 def whole_sampled_diagram(shapes: SampledShapes, *, frame: Frame | None = None, threads: int = 0) -> Skeleton:
-    """Give all edges of the Voronoi diagram of samples as arcs, cut by a frame; they have no side and no bounds.
-
-    Examples
-    --------
-    >>> len(whole_sampled_diagram(sampled_shapes([[0, 0], [2, 0], [0, 2]], step=1)))
-    11
-    """
+    """Give all edges of the Voronoi diagram of samples as arcs, cut by a frame; they have no side and no bounds."""
     check_skeleton_options("both", 0, frame)
     graph, placed = shapes.graph, shapes.placed
     clip = frame or default_frame(placed.polygons)

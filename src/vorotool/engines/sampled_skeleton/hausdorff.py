@@ -29,41 +29,17 @@ PER_ARC = 16
 
 @dataclass(frozen=True)
 class Deviation:
-    """The largest distance of places on one skeleton from another one, and where it is.
+    """The largest distance of places on one skeleton from another one, and where it is."""
 
-    Parameters
-    ----------
-    largest, mean : float
-        In input units.
-    x, y : float
-        A place on the first skeleton.
-    arc : int
-        Of the first skeleton.
-    """
-
-    largest: float
-    mean: float
-    x: float
-    y: float
-    arc: int
+    largest: float  # in input units
+    mean: float  # in input units
+    x: float  # a place on the first skeleton
+    y: float  # a place on the first skeleton
+    arc: int  # of the first skeleton
 
 
 def deviation(skeleton: Skeleton, other: Skeleton) -> Deviation | None:
-    """Measure how far the ends of arcs, and 16 places on each, are from another skeleton of the same polygons and side.
-
-    Returns
-    -------
-    Deviation
-        Right to a few ulp of the coordinates. None where one has no arcs.
-
-    Examples
-    --------
-    >>> from vorotool import skeleton_approx, skeleton_exact
-    >>> shape = [[0, 0], [8, 0], [8, 3], [4, 1], [0, 3]]
-    >>> approximate, exact = skeleton_approx(shape, step=0.5), skeleton_exact(shape)
-    >>> bool(deviation(approximate, exact).largest <= approximate.error_bound.max())
-    True
-    """
+    """Measure how far the ends of arcs, and 16 points on each, are from another skeleton of the same polygons."""
     if not len(skeleton) or not len(other):
         return None
     places = places_on_arcs(skeleton, np.linspace(0, 1, PER_ARC + 2))
@@ -74,38 +50,12 @@ def deviation(skeleton: Skeleton, other: Skeleton) -> Deviation | None:
 
 
 def compare_with_exact(found: ApproximateSkeleton, *, side: str = "interior", threads: int = 0) -> dict[str, Any]:
-    """Measure how far an approximate skeleton is from the exact one, both ways.
-
-    Parameters
-    ----------
-    found : ApproximateSkeleton
-        Of this side.
-    side : {"interior", "exterior", "both"}
-        See `vorotool.skeleton_approx`.
-    threads : int
-        0 uses all.
-
-    Returns
-    -------
-    dict
-        ``from_approximate_to_exact`` and ``from_exact_to_approximate``, each a `Deviation` as a dict, or None where one
-        has no arcs. Outside, what lies within the frame is measured from all that lies within a larger one.
-
-    Examples
-    --------
-    >>> from vorotool.engines.sampled_skeleton.approximate import sampled_shapes
-    >>> found = approximate_skeleton(sampled_shapes([[0, 0], [8, 0], [8, 3], [0, 3]], step=1), complete=True)
-    >>> [bool(way["largest"] < 1e-12) for way in compare_with_exact(found).values()]
-    [True, True]
-    """
+    """Measure how far an approximate skeleton is from the exact one, both ways."""
     return {name: _as_dict(way) for name, (way, _) in _both_ways(found, side=side, threads=threads).items()}
 
 
 def compare_parts(found: FeatureApproximation, *, side: str = "interior", threads: int = 0) -> dict[str, Any]:
-    """Measure how far an approximate skeleton of features is from the exact one, part by part.
-
-    Arguments and results are as of `compare_with_exact`; the arcs of exact skeletons are numbered part after part.
-    """
+    """Measure how far an approximate skeleton of features is from the exact one, part by part."""
     sides = [side] * len(found.parts)
     if side == "both" and found.inside is not None:
         sides = [*["interior"] * (len(found.parts) - 1), "exterior"]

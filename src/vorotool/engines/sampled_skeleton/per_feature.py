@@ -45,27 +45,16 @@ Indices = NDArray[np.int64]
 
 @dataclass(frozen=True, eq=False)
 class FeatureApproximation:
-    """An approximate skeleton of features, and what it was made of.
+    """An approximate skeleton of features, and what it was made of."""
 
-    Parameters
-    ----------
-    skeleton : Skeleton
-        What is inside features, one after the other, then what is outside.
-    seeds : (a, 2) int32 array
-        The seeds beside each arc, numbered part after part; -1 of lines that lead to corners.
-    parts : list of ApproximateSkeleton
-        Of batches of features, then of what is outside.
-    arcs : list of int64 arrays
-        The number in `skeleton` of each arc of each part; where rounding leaves no length of it, of one at its node.
-    inside : FeatureShapes, optional
-        What features are; None of what is outside alone.
-    """
-
-    skeleton: Skeleton
+    skeleton: Skeleton  # what is inside features, one after the other, then what is outside
+    # (a, 2) int32 array: the seeds beside each arc, numbered part after part; -1 of lines that lead to corners
     seeds: NDArray[np.int32]
-    parts: list[ApproximateSkeleton]
+    parts: list[ApproximateSkeleton]  # of batches of features, then of what is outside
+    # list of int64 arrays: the number in `skeleton` of each arc of each part; where rounding leaves no length of it,
+    # of one at its node
     arcs: list[Indices]
-    inside: FeatureShapes | None
+    inside: FeatureShapes | None  # what features are; None of what is outside alone
 
     @property
     def open_corners(self) -> int:
@@ -127,19 +116,7 @@ def approximation(
     threads: int = 0,
     progress: Progress = None,
 ) -> FeatureApproximation:
-    """Approximate the skeleton of polygons; arguments, errors and warnings as of `vorotool.skeleton_approx`.
-
-    Parameters
-    ----------
-    polygons : PolygonSet
-        What `PolygonSet.feature` is the same of is one feature.
-    options : SamplingOptions
-        How edges are sampled.
-    side, features, complete, frame, strict, threads, progress
-        As of `vorotool.skeleton_approx`.
-    most : int
-        The most seeds of all features.
-    """
+    """Approximate the skeleton of polygons; arguments, errors and warnings as of `vorotool.skeleton_approx`."""
     common: dict[str, Any] = {"threads": threads, "progress": progress}
     wanted: dict[str, Any] = {"complete": complete, "most": most, **common}
     if features == "together":
@@ -176,27 +153,7 @@ def feature_approximation(
     threads: int = 0,
     progress: Progress = None,
 ) -> FeatureApproximation:
-    """Approximate the skeleton inside polygons, in which each feature is what it would be alone on the lattice of all.
-
-    Parameters
-    ----------
-    polygons : PolygonSet
-        What `PolygonSet.feature` is the same of is one feature.
-    options : SamplingOptions
-        How edges are sampled.
-    complete, strict, threads, progress
-        As of `vorotool.skeleton_approx`, as are errors and warnings.
-    most : int
-        The most seeds of all features.
-
-    Examples
-    --------
-    >>> from vorotool.geometry.arguments.polygons import as_polygons
-    >>> square = [[0, 0], [4, 0], [4, 4], [0, 4]]
-    >>> made = feature_approximation(as_polygons([square, square]), SamplingOptions(step=1.0))
-    >>> made.skeleton.polygon.tolist()
-    [0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1]
-    """
+    """Approximate the skeleton inside polygons, each feature as it would be alone on the lattice of all."""
     budget = _SeedBudget(most, options)
 
     def work(shapes: BatchShapes, threads: int, poll: Progress) -> ApproximateSkeleton:

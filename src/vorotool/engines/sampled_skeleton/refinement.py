@@ -46,39 +46,7 @@ def skeleton_within(
     threads: int = 0,
     progress: Progress = None,
 ) -> ApproximateSkeleton:
-    """Sample a graph until the error bounds of all arcs are at most a tolerance.
-
-    The seeds are symmetric about each corner. They begin with gaps that double away from it. Where a bound is too
-    large, the gaps nearest to the arc are divided by what the bound, which goes with their square, asks for; and pieces
-    of edges that the cells of other seeds reach are halved, so that nothing is deleted but what should be.
-
-    Parameters
-    ----------
-    graph, placed : PlanarGraph, PlacedShapes
-        Of the polygons.
-    tolerance : float
-        In input units.
-    side, frame, complete
-        As of `vorotool.skeleton_approx`.
-    most : int
-        The most seeds.
-    threads : int
-        0 uses all.
-    progress : callable, optional
-        Called with the fraction done of each step.
-
-    Raises
-    ------
-    LimitError
-        If it takes more seeds, or coordinates are not that fine.
-
-    Examples
-    --------
-    >>> from vorotool import skeleton_approx
-    >>> skeleton = skeleton_approx([[0, 0], [8, 0], [8, 3], [4, 1], [0, 3]], tolerance=0.001)
-    >>> bool(skeleton.error_bound.max() <= 0.001)
-    True
-    """
+    """Sample a graph until the error bounds of all arcs are at most a tolerance."""
     if side != "exterior" and not graph.is_inside.any():
         warn_empty(placed.polygons, side)
     try:
@@ -116,10 +84,7 @@ def refined_skeleton(
     threads: int,
     progress: Progress,
 ) -> ApproximateSkeleton:
-    """Sample until there is nothing more to be divided, or it does not help; TooManySeedsError is the core's.
-
-    What one group asks for is of this one alone: where it asks for nothing more its seeds stay.
-    """
+    """Sample until there is nothing more to be divided, or it does not help; TooManySeedsError is the core's."""
     if tolerance < LEAST_STEPS * graph.scale:
         raise LimitError(
             f"a tolerance of {tolerance:g} is finer than the lattice that polygons are placed on: use at least "

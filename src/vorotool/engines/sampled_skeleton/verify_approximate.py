@@ -25,37 +25,7 @@ SEED_ERROR = 2.0**-20
 def verify_approximate(
     found: ApproximateSkeleton, *, step: float | None = None, threads: int = 0, progress: Progress = None
 ) -> None:
-    """Check an approximate skeleton from its samples and arrays.
-
-    Seeds are on their edges, in their order, and the gaps are what a step says. The ends of arcs are as far from both
-    of their seeds, and no seed is nearer; these have no label in common. Radii are no larger than the distances from
-    the seeds. All else is as `verify_skeleton` has it.
-
-    Parameters
-    ----------
-    found : ApproximateSkeleton
-        However it was made.
-    step : float, optional
-        What the samples were made with.
-    threads, progress
-        As of `verify_skeleton`, as is what it raises.
-
-    References
-    ----------
-    Melkemi and Vandorpe, "Voronoi Diagrams and Applications", section 3.1.
-
-    Examples
-    --------
-    >>> from dataclasses import replace
-    >>> from vorotool.engines.sampled_skeleton.approximate import approximate_skeleton, sampled_shapes
-    >>> found = approximate_skeleton(sampled_shapes([[0, 0], [8, 0], [8, 3], [4, 1], [0, 3]], step=0.5))
-    >>> verify_approximate(found, step=0.5)
-    >>> wrong = replace(found.skeleton, error_bound=found.skeleton.error_bound / 2)
-    >>> verify_approximate(replace(found, skeleton=wrong))  # doctest: +ELLIPSIS
-    Traceback (most recent call last):
-        ...
-    vorotool.errors.VerificationError: arc ... from the exact skeleton, beyond its bound of ...
-    """
+    """Check an approximate skeleton from its samples and arrays."""
     verify_samples(found, step=step)
     verify_skeleton(found.skeleton, threads=threads, progress=progress)
 

@@ -29,57 +29,7 @@ def segment_voronoi(
     threads: int = 0,
     progress: Progress = None,
 ) -> SegmentVoronoiDiagram:
-    """Compute the Voronoi diagram of the points and open segments of a planar straight-line graph.
-
-    Every decision on the topology is exact; a vertex that more than three sites share is one vertex. The result depends
-    on the input alone, not on the number of threads.
-
-    Parameters
-    ----------
-    points : (n, 2) array of integers
-        Distinct, at most 2^30 - 1 in magnitude. Every one is a site, also where segments end.
-    segments : (m, 2) array of integers
-        Indices of the ends of each segment. Segments meet at shared ends only, no point lies inside one, and no two
-        have the same ends: placement makes such a graph. This is not checked in full.
-    unwanted : (n + m,) uint8 array, optional
-        Sides of points, then of segments, where the diagram is not asked for, as `unwanted_sides` gives them: vertices
-        there are left out, but for corners, and so are the edges to them. All else is as in the whole diagram.
-    within : (least x, most x, least y, most y), optional
-        Bounds that hold all points, by default theirs: sites, and what is numbered or rounded along them, are put into
-        an order in these.
-    threads : int
-        0 uses all.
-    progress : callable, optional
-        Called with the fraction done.
-
-    Returns
-    -------
-    SegmentVoronoiDiagram
-        With ``counts``: ``visited`` vertices that were tested, ``cyclic`` segments whose conflict set had to be cut,
-        and tests settled beyond floating point by ``integer`` arithmetic, in ``double_double`` and ``exact``. These
-        numbers depend a little on how threads meet; nothing else does.
-
-    Raises
-    ------
-    InputError
-        If a coordinate is beyond the lattice, an index out of range, a segment of length zero, two points are at one
-        place, or segments cross where that comes to light.
-    LimitError
-        If there are more than 2^28 - 1 sites. Engine and result together take mostly 350 to 490 bytes for each point
-        and its segment.
-    VerificationError
-        If the engine finds its own diagram not planar, with valid input.
-
-    References
-    ----------
-    Melkemi and Vandorpe, "Voronoi Diagrams and Applications", section 3.2.
-
-    Examples
-    --------
-    >>> diagram = segment_voronoi([[0, 0], [4, 0], [0, 3]], [[0, 1], [1, 2], [2, 0]])
-    >>> diagram.vertices[-1].tolist(), diagram.radius[-1].tolist(), diagram.sites_of(3).tolist()
-    ([1.0, 1.0], 1.0, [3, 4, 5])
-    """
+    """Compute the Voronoi diagram of the points and open segments of a planar straight-line graph."""
     rows = np.asarray(points), np.asarray(segments)
     count = sum(len(array) for array in rows if array.ndim)
     if count > MOST_SITES:
@@ -104,22 +54,7 @@ def segment_voronoi_of_groups(
     threads: int = 0,
     progress: Progress = None,
 ) -> SegmentVoronoiDiagram:
-    """Compute the diagrams of groups of points and segments, each as if there were no others, one after the other.
-
-    Parameters
-    ----------
-    points, segments, within, threads, progress
-        As of `segment_voronoi`.
-    group : (n + m,) int array
-        Of each point and segment; a segment and its ends are in one.
-
-    Examples
-    --------
-    >>> pairs = np.array([[0, 0], [4, 0], [0, 1], [4, 1]], dtype=np.int32)
-    >>> diagram = segment_voronoi_of_groups(pairs, np.empty((0, 2), dtype=np.int32), np.array([0, 0, 1, 1]))
-    >>> diagram.edges.tolist(), diagram.edge_sites.tolist()
-    ([[-1, -1], [-1, -1]], [[0, 1], [2, 3]])
-    """
+    """Compute the diagrams of groups of points and segments, each as if there were no others, one after the other."""
     count = len(points)
     order = np.argsort(group, kind="stable")  # in each group points first
     starts = np.flatnonzero(np.diff(group[order], prepend=-1))
@@ -165,30 +100,7 @@ def _joined(
 
 
 def unwanted_sides(graph: PlanarGraph, is_wanted: NDArray[np.bool_]) -> NDArray[np.uint8]:
-    """Tell on which sides of its points and segments a planar graph has faces that are not wanted.
-
-    Parameters
-    ----------
-    graph : PlanarGraph
-        Points without segments are taken to be in no face that is wanted.
-    is_wanted : (f,) bool array
-        Of the faces.
-
-    Returns
-    -------
-    (n + m,) uint8 array
-        Of each point and segment: 1 for the left side, and 2 for the right one. A point has both or none.
-
-    Examples
-    --------
-    >>> from vorotool.engines.arrangement.planar_graph import planar_graph
-    >>> graph = planar_graph([[0, 0], [6, 0], [3, 2], [0, 6]])
-    >>> sides = unwanted_sides(graph, graph.is_inside)
-    >>> sides.tolist()
-    [3, 3, 0, 3, 2, 2, 2, 2]
-    >>> [len(segment_voronoi(graph.points, graph.segments, unwanted=unwanted)) for unwanted in (None, sides)]
-    [9, 7]
-    """
+    """Tell on which sides of its points and segments a planar graph has faces that are not wanted."""
     core = _core.kernel.PlanarGraph(graph.points, graph.segments, graph.segment_faces)
     return _core.segment_voronoi.unwanted_sides(core, is_wanted.view(np.uint8))
 

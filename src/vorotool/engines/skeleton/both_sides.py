@@ -47,17 +47,7 @@ def sides_of(
 
 
 def joined_sides(inside: Skeleton, outside: Skeleton, placed: PlacedShapes, graph: PlanarGraph) -> Skeleton:
-    """Put what is inside features and what is outside of all into one skeleton.
-
-    Parameters
-    ----------
-    inside : Skeleton
-        Of the features, each as if it were alone.
-    outside : Skeleton
-        Of one arrangement of the polygons of `inside`.
-    placed, graph : PlacedShapes, PlanarGraph
-        Of that arrangement.
-    """
+    """Put what is inside features and what is outside of all into one skeleton."""
     sites, shift = joined_sites(inside.polygons, inside.site_table, placed, graph)
     nodes, branches = len(inside.vertices), int(inside.branch.max(initial=-1)) + 1
     moved = {
@@ -75,10 +65,7 @@ def joined_sides(inside: Skeleton, outside: Skeleton, placed: PlacedShapes, grap
 def joined_sites(
     polygons: PolygonSet, table: SiteTable, placed: PlacedShapes, graph: PlanarGraph
 ) -> tuple[SiteTable, int]:
-    """Sites of features, followed by those of an arrangement of their polygons if these are others.
-
-    Gives the number of the arrangement's first one, too.
-    """
+    """Sites of features, followed by those of an arrangement of their polygons if these are others."""
     if placed.polygons.xy.tobytes() == polygons.xy.tobytes() and _are_equal(placed.sites, table):
         return table, 0
     own = _on_polygons(polygons, table, graph)

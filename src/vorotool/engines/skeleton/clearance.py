@@ -15,31 +15,7 @@ from vorotool.geometry.skeleton.skeleton import Skeleton
 
 
 def clearance_course(skeleton: Skeleton, *, threads: int = 0, progress: Progress = None) -> ClearanceCourse:
-    """Tell along each arc where the clearance grows, where it is least and where it stays.
-
-    Signs are exact where a node is the centre of a disc that touches three sites or more: doubles decide where the
-    error that they are proved to have is smaller, and integers and square roots behind them. Where an arc was cut,
-    by a frame or as skeletons are pruned, and where edges were shortened by a gap, doubles decide: what is within
-    their error is taken as a tie, and the clearance grows from there.
-
-    Parameters
-    ----------
-    skeleton : Skeleton
-        An exact one; of the arcs of an approximate one, the ends of whose steps touch no three sites, doubles decide.
-    threads : int
-        0 uses all.
-    progress : callable, optional
-        Called with the fraction done.
-
-    Examples
-    --------
-    >>> from vorotool import skeleton_exact
-    >>> skeleton = skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]])
-    >>> skeleton.radius[skeleton.arcs].tolist()
-    [[0.0, 1.0], [0.0, 1.0], [0.0, 1.0], [0.0, 1.0], [1.0, 1.0]]
-    >>> clearance_course(skeleton).slope.tolist()
-    [[1, -1], [1, -1], [1, -1], [1, -1], [0, 0]]
-    """
+    """Tell along each arc where the clearance grows, where it is least and where it stays."""
     origin, step = np.asarray(skeleton.origin), skeleton.scale or 1.0
     on_lattice = np.rint((skeleton.site_ends_on(threads) - origin) / step)
     fits = bool((np.abs(on_lattice) <= LATTICE_LIMIT).all())
@@ -58,52 +34,20 @@ def clearance_course(skeleton: Skeleton, *, threads: int = 0, progress: Progress
 
 
 def plateaus(skeleton: Skeleton, course: ClearanceCourse) -> NDArray[np.int32]:
-    """(v,) the plateau of each node, numbered from 0: nodes that arcs of the same clearance join have the same.
-
-    Examples
-    --------
-    >>> from vorotool import skeleton_exact
-    >>> skeleton = skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]])
-    >>> skeleton.radius.tolist(), plateaus(skeleton, clearance_course(skeleton)).tolist()
-    ([0.0, 1.0, 0.0, 0.0, 1.0, 0.0], [0, 1, 2, 3, 1, 4])
-    """
+    """(v,) the plateau of each node, numbered from 0: nodes that arcs of the same clearance join have the same."""
     flat = np.ascontiguousarray(skeleton.arcs[(course.slope == 0).all(axis=1)])
     joined = _core.graphs.connected_components(flat, len(skeleton.vertices))
     return np.unique(joined, return_inverse=True)[1].astype(np.int32).reshape(-1)
 
 
 def is_maximum(skeleton: Skeleton, course: ClearanceCourse, plateau: NDArray[np.int32]) -> NDArray[np.bool_]:
-    """(p,) whether the clearance shrinks along all ways that leave a plateau.
-
-    Parameters
-    ----------
-    skeleton, course
-        Of what.
-    plateau : (v,) int32 array
-        As `plateaus` gives it.
-
-    Examples
-    --------
-    >>> from vorotool import skeleton_exact
-    >>> skeleton = skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]])
-    >>> course = clearance_course(skeleton)
-    >>> is_maximum(skeleton, course, plateaus(skeleton, course)).tolist()
-    [False, True, False, False, False]
-    """
+    """(p,) whether the clearance shrinks along all ways that leave a plateau."""
     found = np.ones(int(plateau.max(initial=-1)) + 1, dtype=bool)
     found[plateau[skeleton.arcs[course.slope > 0]]] = False
     return found
 
 
 def maxima(skeleton: Skeleton, course: ClearanceCourse) -> NDArray[np.bool_]:
-    """(v,) whether a node is a local maximum of the clearance, or one of several nodes of a plateau that is.
-
-    Examples
-    --------
-    >>> from vorotool import skeleton_exact
-    >>> skeleton = skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]])
-    >>> maxima(skeleton, clearance_course(skeleton)).tolist()
-    [False, True, False, False, True, False]
-    """
+    """(v,) whether a node is a local maximum of the clearance, or one of several nodes of a plateau that is."""
     plateau = plateaus(skeleton, course)
     return is_maximum(skeleton, course, plateau)[plateau]

@@ -18,41 +18,17 @@ Indices = NDArray[np.int64]
 
 @dataclass(frozen=True, eq=False)
 class Contraction:
-    """A skeleton after arcs between equal nodes were contracted.
+    """A skeleton after arcs between equal nodes were contracted."""
 
-    Parameters
-    ----------
-    skeleton : Skeleton
-        The arcs that are left.
-    original : (a,) int array
-        The arc that each of them was before.
-    is_reversed : (a,) bool array
-        Whether it has changed its direction.
-    number : (b,) int64 array
-        The number of each arc there was before; for a contracted arc that of an arc at its node.
-    """
-
-    skeleton: Skeleton
-    original: NDArray[np.integer]
-    is_reversed: NDArray[np.bool_]
+    skeleton: Skeleton  # the arcs that are left
+    original: NDArray[np.integer]  # (a,) int array: the arc that each of them was before
+    is_reversed: NDArray[np.bool_]  # (a,) bool array: whether it has changed its direction
+    # (b,) int64 array: the number of each arc there was before; for a contracted arc that of an arc at its node
     number: Indices
 
 
 def without_equal_nodes(skeleton: Skeleton) -> Skeleton:
-    """Contract arcs whose two nodes have the same coordinates.
-
-    Nodes that are distinct but nearer to each other than doubles can tell have the same coordinates: the center of a
-    regular polygon is often several of them. An arc stays, as it does in `vorotool.prune`, where a whole connected part
-    is a single place.
-
-    Examples
-    --------
-    >>> from vorotool import skeleton_exact
-    >>> skeleton = skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]])
-    >>> narrow = replace(skeleton, vertices=np.floor(skeleton.vertices / 4))
-    >>> len(without_equal_nodes(narrow)), without_equal_nodes(narrow).vertices.tolist()
-    (2, [[1.0, 0.0], [0.0, 0.0], [1.0, 0.0]])
-    """
+    """Contract arcs whose two nodes have the same coordinates."""
     found = contraction(skeleton)
     return skeleton if found is None else found.skeleton
 

@@ -42,23 +42,7 @@ def skeleton_inside(
     threads: int = 0,
     progress: Progress = None,
 ) -> FeatureSkeleton[Seen]:
-    """Compute the skeleton inside each feature by itself.
-
-    Parameters
-    ----------
-    polygons, gap, complete, border, strict, threads, progress
-        As of `vorotool.skeleton_exact`, as are errors and warnings.
-    look : callable, optional
-        Called with the whole diagram of each batch of features, which otherwise has no vertices outside, and with the
-        skeleton in it.
-
-    Examples
-    --------
-    >>> from vorotool.geometry.arguments.polygons import as_polygons
-    >>> square = as_polygons([[0, 0], [8, 0], [8, 8], [0, 8]])
-    >>> len(skeleton_inside(square).skeleton), len(skeleton_inside(square, 1.0).skeleton)
-    (4, 12)
-    """
+    """Compute the skeleton inside each feature by itself."""
     common: dict[str, Any] = {"look": look, "strict": strict, "threads": threads, "progress": progress}
     if gap:
         found = feature_elements(polygons, gap, complete=complete, **common)
@@ -77,10 +61,7 @@ def diagram_of_all(
     threads: int = 0,
     progress: Progress = None,
 ) -> AnyDiagram:
-    """Compute the diagram of all features; arguments, errors and warnings as of `vorotool.skeleton_exact`.
-
-    If only the interior is asked for, vertices outside are left out where there is no gap.
-    """
+    """Compute the diagram of all features; arguments, errors and warnings as of `vorotool.skeleton_exact`."""
     graph_of = graph_for_skeletons if features == "together" else together
     graph = graph_of(polygons, strict=strict, threads=threads, progress=progress)
     if gap:

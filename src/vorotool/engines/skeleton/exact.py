@@ -51,34 +51,16 @@ def check_features(features: str) -> None:
 
 @dataclass(frozen=True, eq=False)
 class ShapeDiagram:
-    """Polygons made a planar graph, and the Voronoi diagram of its points and open segments.
+    """Polygons made a planar graph, and the Voronoi diagram of its points and open segments."""
 
-    Parameters
-    ----------
-    graph : PlanarGraph
-        Of the polygons.
-    diagram : SegmentVoronoiDiagram
-        Of the graph.
-    placed : PlacedShapes
-        The rings as the graph has them, and what the sites of the diagram are there.
-    opening : Opening, optional
-        With an open border: the graph is this one's, and what its sites are there.
-    """
-
-    graph: PlanarGraph
+    graph: PlanarGraph  # of the polygons
     diagram: SegmentVoronoiDiagram
-    placed: PlacedShapes
-    opening: Opening | None = None
+    placed: PlacedShapes  # the rings as the graph has them, and what the sites of the diagram are there
+    opening: Opening | None = None  # with an open border: the graph is this one's, and what its sites are there
 
 
 def shape_diagram(polygons: Any, *, strict: bool = False, threads: int = 0, progress: Progress = None) -> ShapeDiagram:
-    """Place polygons and compute their segment Voronoi diagram; arguments and errors as of `skeleton_exact`.
-
-    Examples
-    --------
-    >>> len(shape_diagram([[0, 0], [4, 0], [4, 4], [0, 4]]).diagram)
-    5
-    """
+    """Place polygons and compute their segment Voronoi diagram; arguments and errors as of `skeleton_exact`."""
     threads = checked_threads(threads)
     graph = graph_for_skeletons(polygons, strict=strict, threads=threads, progress=progress)
     return diagram_of_graph(graph, threads=threads, progress=progress)
@@ -87,10 +69,7 @@ def shape_diagram(polygons: Any, *, strict: bool = False, threads: int = 0, prog
 def diagram_of_graph(
     graph: PlanarGraph, *, interior_only: bool = False, threads: int = 0, progress: Progress = None
 ) -> ShapeDiagram:
-    """Compute the segment Voronoi diagram of polygons that are placed.
-
-    If only the interior is asked for, vertices outside are left out, but for corners.
-    """
+    """Compute the segment Voronoi diagram of polygons that are placed."""
     threads = checked_threads(threads)
     unwanted = sides_not_interior(graph) if interior_only else None
     diagram = segment_voronoi(graph.points, graph.segments, unwanted=unwanted, threads=threads, progress=progress)
@@ -157,15 +136,7 @@ def kept_edges(
 
 
 def whole_diagram(shapes: ShapeDiagram, *, frame: Frame | None = None, threads: int = 0) -> Skeleton:
-    """Give all edges of the diagram as arcs, cut by a frame: what it is before anything is deleted.
-
-    They have no side and no polygon (-1).
-
-    Examples
-    --------
-    >>> len(whole_diagram(shape_diagram([[0, 0], [4, 0], [4, 4], [0, 4]])))
-    12
-    """
+    """Give all edges of the diagram as arcs, cut by a frame: what it is before anything is deleted."""
     check_skeleton_options("both", 0, frame)
     count = len(shapes.diagram.edges)
     everything = assembled(
@@ -226,10 +197,7 @@ def assembled(
     threads: int,
     progress: Progress = None,
 ) -> Skeleton:
-    """Make a skeleton of edges of a diagram, each in the group of its polygon; those outside are the last group.
-
-    Where pixels are connected at corners only, so are the arcs that end there, if `joins`.
-    """
+    """Make a skeleton of edges of a diagram, each in the group of its polygon; those outside are the last group."""
     graph, placed = shapes.graph, shapes.placed
     outside, opening = len(placed.polygons), shapes.opening
     frame = (frame or default_frame(placed.polygons)) if clips else None
@@ -254,10 +222,7 @@ def assembled(
 
 
 def skeleton_of_arrays(made: dict[str, Any], graph: PlanarGraph, placed: PlacedShapes, frame: Frame | None) -> Skeleton:
-    """Put a skeleton together from the arrays of the core, in which the polygons of arcs are groups.
-
-    Those outside are the last group. `frame` is what they were cut by.
-    """
+    """Put a skeleton together from the arrays of the core, in which the polygons of arcs are groups."""
     outside = len(placed.polygons)
     vertices, cut = made["vertices"], made.pop("frame_side")
     if frame is not None:  # rounding must not move what was cut off the frame

@@ -40,26 +40,7 @@ def feature_elements(
     threads: int = 0,
     progress: Progress = None,
 ) -> FeatureSkeleton[Seen]:
-    """Compute the skeleton inside polygons by the paper's decomposition of each feature alone.
-
-    Parameters
-    ----------
-    polygons : PolygonSet
-        What `PolygonSet.feature` is the same of is one feature. Each has a diagram of its own: others would be seen
-        through gaps, however far they are. Its elements are on the lattice of all.
-    gap, complete, strict, threads, progress
-        As of `vorotool.skeleton_exact`, as are errors and warnings.
-    look : callable, optional
-        Called with the elements of each feature and its skeleton.
-
-    Examples
-    --------
-    >>> from vorotool.geometry.arguments.polygons import as_polygons
-    >>> square = [[0, 0], [8, 0], [8, 8], [0, 8]]
-    >>> made = feature_elements(as_polygons([square, square]), 1.0)
-    >>> np.bincount(made.skeleton.polygon).tolist(), made.skeleton.gap
-    ([12, 12], 1.0)
-    """
+    """Compute the skeleton inside polygons by the paper's decomposition of each feature alone."""
 
     def work(shapes: BatchShapes, threads: int, poll: Progress) -> tuple[ShortEdges, list[tuple[Skeleton, list[Seen]]]]:
         short = ShortEdges.of(shapes.graph, gap)

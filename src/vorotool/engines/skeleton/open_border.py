@@ -36,24 +36,13 @@ OUTWARDS = np.array([[-1, 0], [1, 0], [0, -1], [0, 1]], dtype=np.int64)
 
 @dataclass(frozen=True, eq=False)
 class Opening:
-    """A planar graph whose segments on the border of a rectangle are far away.
+    """A planar graph whose segments on the border of a rectangle are far away."""
 
-    Parameters
-    ----------
-    graph : PlanarGraph
-        With the faces of the graph that it is made of.
-    site : (s,) int32 array
-        Of its points, then its segments, the site of that graph; -1 of what is beyond the border.
-    frame : (x, y, w, h)
-        The rectangle.
-    box : (int, int, int, int)
-        Least and most x, then y, on the lattice.
-    """
-
-    graph: PlanarGraph
+    graph: PlanarGraph  # with the faces of the graph that it is made of
+    # (s,) int32 array: of its points, then its segments, the site of that graph; -1 of what is beyond the border
     site: NDArray[np.int32]
     frame: Frame
-    box: tuple[int, int, int, int]
+    box: tuple[int, int, int, int]  # least and most x, then y, on the lattice
 
     @property
     def within(self) -> tuple[int, int, int, int]:
@@ -97,23 +86,7 @@ def check_border(polygons: PolygonSet, frame: Frame | None, *, side: str, featur
 
 
 def opened(graph: PlanarGraph, frame: Frame) -> Opening:
-    """Put segments on the border of a rectangle far away.
-
-    Parameters
-    ----------
-    graph : PlanarGraph
-        Of polygons in the rectangle, on a lattice with room `around` it.
-    frame : (x, y, w, h)
-        The rectangle; its sides are on the lattice.
-
-    Examples
-    --------
-    >>> from vorotool.engines.arrangement.planar_graph import planar_graph
-    >>> graph = planar_graph([[0, 1], [4, 1], [4, 3], [0, 3]])
-    >>> opening = opened(graph, (0.0, 0.0, 4.0, 4.0))
-    >>> len(opening.graph), opening.site.tolist()
-    (8, [0, 1, 2, 3, -1, -1, -1, -1, 4, 6, -1, -1, -1, -1, -1, -1])
-    """
+    """Put segments on the border of a rectangle far away."""
     x, y, w, h = frame
     sides = np.array([x - graph.origin[0], x + w - graph.origin[0], y - graph.origin[1], y + h - graph.origin[1]])
     box = tuple(np.rint(sides / graph.scale).astype(int).tolist())

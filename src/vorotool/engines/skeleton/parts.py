@@ -16,16 +16,7 @@ PER_ARC = ("arcs", "control", "sites", "polygon", "side", "branch", "length", "e
 
 
 def with_arcs(skeleton: Skeleton, kept: NDArray[np.bool_]) -> Skeleton:
-    """Leave out arcs, and the nodes where then none ends; branches, which are left or left out, keep their order.
-
-    Examples
-    --------
-    >>> from vorotool import skeleton_exact
-    >>> skeleton = skeleton_exact([[0, 0], [4, 0], [4, 4], [0, 4]], side="both")
-    >>> inside = with_arcs(skeleton, skeleton.polygon >= 0)
-    >>> len(inside), len(inside.vertices)
-    (4, 5)
-    """
+    """Leave out arcs, and the nodes where then none ends; branches, which are left or left out, keep their order."""
     if kept.all():
         return skeleton
     columns: dict[str, Any] = {name: getattr(skeleton, name)[kept] for name in PER_ARC}
@@ -36,23 +27,7 @@ def with_arcs(skeleton: Skeleton, kept: NDArray[np.bool_]) -> Skeleton:
 
 
 def with_polygons(skeleton: Skeleton, chosen: NDArray[np.int64]) -> Skeleton:
-    """Give what is inside some polygons, with the sites of these polygons.
-
-    Parameters
-    ----------
-    skeleton : Skeleton
-        No site of an arc in one of the polygons is of another one.
-    chosen : (q,) int64 array
-        Ascending.
-
-    Examples
-    --------
-    >>> from vorotool import skeleton_exact
-    >>> skeleton = skeleton_exact([[[0, 0], [4, 0], [4, 4]], [[0, 0], [4, 0], [4, 4]]])
-    >>> second = with_polygons(skeleton, np.array([1]))
-    >>> len(second), len(second.site_table), second.polygon.tolist()
-    (3, 6, [0, 0, 0])
-    """
+    """Give what is inside some polygons, with the sites of these polygons."""
     polygons = skeleton.polygons
     if len(chosen) == len(polygons) and skeleton.site_table.ends is None:
         return with_arcs(skeleton, skeleton.polygon >= 0)

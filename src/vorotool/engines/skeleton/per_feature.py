@@ -31,21 +31,11 @@ Seen = TypeVar("Seen")
 
 @dataclass(frozen=True, eq=False)
 class FeatureSkeleton(Generic[Seen]):
-    """The skeleton inside features.
+    """The skeleton inside features."""
 
-    Parameters
-    ----------
-    skeleton : Skeleton
-        Of all of them, in their order.
-    shapes : FeatureShapes
-        What they are.
-    seen : list
-        What was seen of the diagram of each batch, if anybody looked.
-    """
-
-    skeleton: Skeleton
+    skeleton: Skeleton  # of all of them, in their order
     shapes: FeatureShapes
-    seen: list[Seen]
+    seen: list[Seen]  # what was seen of the diagram of each batch, if anybody looked
 
 
 def feature_skeleton(
@@ -57,25 +47,7 @@ def feature_skeleton(
     threads: int = 0,
     progress: Progress = None,
 ) -> FeatureSkeleton[Seen]:
-    """Compute the skeleton inside polygons, in which each feature is what it would be alone on the lattice of all.
-
-    Parameters
-    ----------
-    polygons : PolygonSet
-        What `PolygonSet.feature` is the same of is one feature, and has one skeleton.
-    look : callable, optional
-        Called with the whole diagram of each batch, which otherwise has no vertices outside, and its skeleton.
-    border, strict, threads, progress
-        As of `vorotool.skeleton_exact`, as are errors and warnings.
-
-    Examples
-    --------
-    >>> from vorotool.geometry.arguments.polygons import as_polygons
-    >>> square = [[0, 0], [4, 0], [4, 4], [0, 4]]
-    >>> made = feature_skeleton(as_polygons([square, square]))
-    >>> made.skeleton.polygon.tolist(), made.skeleton.radius.tolist()
-    ([0, 0, 0, 0, 1, 1, 1, 1], [0.0, 2.0, 0.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0])
-    """
+    """Compute the skeleton inside polygons, in which each feature is what it would be alone on the lattice of all."""
 
     def work(shapes: BatchShapes, threads: int, poll: Progress) -> tuple[Skeleton, list[Seen]]:
         diagram = batch_diagram(shapes, border=border, is_whole=look is not None, threads=threads, progress=poll)
@@ -103,10 +75,7 @@ def batch_diagram(
     threads: int = 0,
     progress: Progress = None,
 ) -> ShapeDiagram:
-    """Compute the diagram of a batch; the corners of the bounds of all are sites of it, after its other points.
-
-    With an open border it is that of the opened graph, and bounds of all tell the order of its sites.
-    """
+    """Compute the diagram of a batch; the corners of the bounds of all are sites of it, after its other points."""
     if border is not None:
         return _opened_diagram(shapes, border, is_whole, threads, progress)
     graph, beyond = shapes.graph, shapes.batch.beyond

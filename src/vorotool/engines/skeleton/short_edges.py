@@ -16,32 +16,15 @@ from vorotool.geometry.skeleton.skeleton import SiteTable
 
 @dataclass(frozen=True, eq=False)
 class ShortEdges:
-    """Segments that are not longer than twice a gap.
+    """Segments that are not longer than twice a gap."""
 
-    Parameters
-    ----------
-    site : (k,) int array
-        Their numbers among the sites.
-    ends : (k, 2, 2) float64 array
-        Where they begin and end.
-    length : (k,) float64 array
-        How long they are.
-    """
-
-    site: NDArray[np.int64]
-    ends: NDArray[np.float64]
-    length: NDArray[np.float64]
+    site: NDArray[np.int64]  # (k,) int array: their numbers among the sites
+    ends: NDArray[np.float64]  # (k, 2, 2) float64 array: where they begin and end
+    length: NDArray[np.float64]  # (k,) float64 array: how long they are
 
     @classmethod
     def of(cls, graph: PlanarGraph, gap: float) -> ShortEdges:
-        """Find those of a graph.
-
-        Examples
-        --------
-        >>> from vorotool.engines.arrangement.planar_graph import planar_graph
-        >>> ShortEdges.of(planar_graph([[0, 0], [8, 0], [8, 3], [0, 9]]), 1.5).site.tolist()
-        [5]
-        """
+        """Find those of a graph."""
         ends = graph.coordinates()[graph.segments]
         length = hypotenuse(*(ends[:, 1] - ends[:, 0]).T)
         short = np.flatnonzero(~(length > 2 * gap))

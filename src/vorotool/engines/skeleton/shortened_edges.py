@@ -41,46 +41,20 @@ DEVIATION_STEPS = 2.0**-14
 
 @dataclass(frozen=True, eq=False)
 class ElementDiagram:
-    """Elements of shapes, and their Voronoi diagram.
+    """Elements of shapes, and their Voronoi diagram."""
 
-    Parameters
-    ----------
-    shapes : PlanarGraph
-        Of the polygons: vertex i is element i, edge j element n + j.
-    graph : PlanarGraph
-        Of the elements: the shortened edges' new ends are at the nearest lattice points.
-    diagram : SegmentVoronoiDiagram
-        Of that graph.
-    element : (s,) int64 array
-        The element that each site of the diagram is a part of: a shortened edge is a closed segment, of three sites.
-    placed : PlacedShapes
-        The rings as `shapes` has them, and what the elements are there.
-    gap : float
-        By how much edges are shortened at both ends.
-    """
-
-    shapes: PlanarGraph
-    graph: PlanarGraph
+    shapes: PlanarGraph  # of the polygons: vertex i is element i, edge j element n + j
+    graph: PlanarGraph  # of the elements: the shortened edges' new ends are at the nearest lattice points
     diagram: SegmentVoronoiDiagram
+    # (s,) int64 array: the element that each site of the diagram is a part of: a shortened edge is a closed segment,
+    # of three sites
     element: NDArray[np.int64]
-    placed: PlacedShapes
-    gap: float
+    placed: PlacedShapes  # the rings as `shapes` has them, and what the elements are there
+    gap: float  # by how much edges are shortened at both ends
 
 
 def element_diagram(polygons: Any, gap: float, *, threads: int = 0) -> ElementDiagram:
-    """Decompose polygons, and compute the Voronoi diagram of the elements; arguments as of `vorotool.skeleton_exact`.
-
-    Raises
-    ------
-    InputError
-        If an edge is not longer than twice the gap; the first one is named.
-
-    Examples
-    --------
-    >>> square = element_diagram([[0, 0], [4, 0], [4, 4], [0, 4]], 1)
-    >>> len(square.graph.points), len(square.graph), int(square.element.max())
-    (12, 4, 7)
-    """
+    """Decompose polygons, and compute the Voronoi diagram of the elements."""
     return elements_of_graph(graph_for_skeletons(polygons, threads=threads), gap, threads=threads)
 
 
@@ -103,24 +77,7 @@ def elements_of_shapes(
     threads: int = 0,
     progress: Progress = None,
 ) -> ElementDiagram:
-    """Decompose polygons whose edges are all longer than twice the gap.
-
-    Parameters
-    ----------
-    shapes, placed : PlanarGraph, PlacedShapes
-        The polygons.
-    gap : float
-        By how much edges are shortened at both ends.
-    within : (k, 2) int32 array, optional
-        Corners of bounds on the lattice of `shapes`: elements are placed, and put into an order, as if there were
-        points.
-    feature : (n,) int array, optional
-        Of each point of `shapes`: those of each have a diagram of their own. By default they are one.
-    threads : int
-        0 uses all.
-    progress : callable, optional
-        Called with the fraction done.
-    """
+    """Decompose polygons whose edges are all longer than twice the gap."""
     threads = checked_threads(threads)
     points = shapes.coordinates()
     a, b = points[shapes.segments].swapaxes(0, 1)
@@ -168,11 +125,7 @@ def skeleton_of_elements(
     threads: int = 0,
     progress: Progress = None,
 ) -> Skeleton:
-    """Delete the bisectors of elements with a label in common, and add the missing portions if wanted.
-
-    Arguments are as of `vorotool.skeleton_exact`. Error bounds are NaN: how far the arcs are from the skeleton is not
-    known without that (`gap_deviation`).
-    """
+    """Delete the bisectors of elements with a label in common, and add the missing portions if wanted."""
     kept = np.flatnonzero(~_share_label(elements)).astype(np.int32)
     group = face_groups(elements.placed, side)[_faces_of(elements, kept)]
     diagram = elements.diagram
@@ -285,13 +238,7 @@ def _sector_faces(shapes: PlanarGraph, vertex: NDArray[np.int64], place: NDArray
 def _missing_portions(
     elements: ElementDiagram, kept: NDArray[np.int32]
 ) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.int32]]:
-    """Vertices of the diagram and corners to join, (k, 2), the sites beside the lines between, and their faces.
-
-    A vertex is where one arc ends beside the corner. Of a corner of nearly 180 degrees the cell may reach to other arcs
-    instead: then it is the end of one of these in whose direction the middle of the corner points most.
-
-    The sites, left and right, are those beside the corner's around the vertex.
-    """
+    """Vertices of the diagram and corners to join, (k, 2), the sites beside the lines between, and their faces."""
     diagram, corners = elements.diagram, len(elements.shapes.points)
     degree = np.bincount(diagram.edges[kept][diagram.edges[kept] >= 0], minlength=len(diagram))
     start = diagram.vertex_start
@@ -368,26 +315,7 @@ def _with_portions(
 
 
 def gap_deviation(skeleton: Skeleton, exact: Skeleton) -> float:
-    """Measure how far places on a skeleton with a gap are at most from the exact one.
-
-    Parameters
-    ----------
-    skeleton, exact : Skeleton
-        Of the same polygons and side, with a gap and without.
-
-    Returns
-    -------
-    float
-        In input units; places are the ends of arcs, and points on parabolas as dense as flattening to 2^-14 of the
-        extent makes them. 0 if one of the two has no arcs.
-
-    Examples
-    --------
-    >>> from vorotool import skeleton_exact
-    >>> shape = [[0, 0], [8, 0], [8, 3], [4, 1], [0, 3]]
-    >>> round(gap_deviation(skeleton_exact(shape, gap=0.5), skeleton_exact(shape)), 3)
-    0.027
-    """
+    """Measure how far places on a skeleton with a gap are at most from the exact one."""
     import shapely
 
     if not len(skeleton) or not len(exact):

@@ -45,17 +45,7 @@ def without_border(skeleton: Skeleton, graph: PlanarGraph) -> PlanarGraph:
 
 
 def check_cut_regions(skeleton: Skeleton, graph: PlanarGraph, left: PlanarGraph, sites: SitePlaces) -> None:
-    """Raise unless arcs end in corners or on the border, and all area is between the axis or the border and its feet.
-
-    Parameters
-    ----------
-    skeleton : Skeleton
-        With an open border.
-    graph, left : PlanarGraph
-        Of its polygons, and what is left of that `without_border`.
-    sites : SitePlaces
-        Of the skeleton.
-    """
+    """Raise unless arcs end in corners or on the border, and all area is between the axis and its feet."""
     at = first_wrong((skeleton.degree == 1) & (skeleton.radius > 0) & ~skeleton.on_frame)
     if at is not None:
         fail(
@@ -106,10 +96,7 @@ def _feet(ends: Floats, place: Floats) -> Floats:
 
 
 def _stretches(skeleton: Skeleton, graph: PlanarGraph, left: PlanarGraph) -> Floats:
-    """(k, 5) the polygon and both ends: segments on the border, cut where the nearest site may change.
-
-    That is at nodes, and where an edge is left for its own end: on the line across the edge there.
-    """
+    """(k, 5) the polygon and both ends: segments on the border, cut where the nearest site may change."""
     is_cut, axis = _is_on_border(skeleton, graph)
     coordinates, inside = graph.coordinates(), graph.is_inside
     nodes = np.flatnonzero(skeleton.touches_frame)

@@ -159,28 +159,7 @@ def _check_in_graph(
 
 
 def verify_exterior(shapes: ShapeDiagram, *, threads: int = 0) -> None:
-    """Check the unbounded part of a skeleton before it is clipped, as a graph.
-
-    With one node at infinity it is connected, and has as many independent cycles as the closed shape has components
-    less one.
-
-    Parameters
-    ----------
-    shapes : ShapeDiagram
-        However its diagram was computed.
-    threads : int
-        0 uses all.
-
-    Raises
-    ------
-    VerificationError
-        If it is not so.
-
-    Examples
-    --------
-    >>> from vorotool.engines.skeleton.exact import shape_diagram
-    >>> verify_exterior(shape_diagram([[[0, 0], [2, 0], [0, 2]], [[5, 5], [7, 5], [5, 7]]]))
-    """
+    """Check the unbounded part of a skeleton before it is clipped, as a graph."""
     graph, diagram = shapes.graph, shapes.diagram
     edges, faces = kept_edges(shapes, threads=threads)
     edges = edges[faces == 0]

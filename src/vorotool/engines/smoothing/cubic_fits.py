@@ -39,20 +39,12 @@ HANDLE = 0.25
 
 @dataclass(frozen=True, eq=False)
 class Stretches:
-    """Parts of lines that are fitted by one curve each.
+    """Parts of lines that are fitted by one curve each."""
 
-    Parameters
-    ----------
-    first, last : (k,) int64 array
-        The places where they begin and end.
-    leaving, entering : (2, k) float64 array
-        Unit tangents there: away from the first place, and away from the last.
-    """
-
-    first: Numbers
-    last: Numbers
-    leaving: Floats
-    entering: Floats
+    first: Numbers  # (k,) int64 array: the places where they begin and end
+    last: Numbers  # (k,) int64 array: the places where they begin and end
+    leaving: Floats  # (2, k) float64 array: unit tangents there: away from the first place, and away from the last
+    entering: Floats  # (2, k) float64 array: unit tangents there: away from the first place, and away from the last
 
     def __getitem__(self, chosen: NDArray[np.generic]) -> Stretches:
         return Stretches(self.first[chosen], self.last[chosen], self.leaving[:, chosen], self.entering[:, chosen])
@@ -60,45 +52,16 @@ class Stretches:
 
 @dataclass(frozen=True, eq=False)
 class Fits:
-    """Curves, one a stretch.
+    """Curves, one a stretch."""
 
-    Parameters
-    ----------
-    control : (4, 2, k) float64 array
-        Control points.
-    error : (k,) float64 array
-        Bounds on their distances.
-    farthest : (k,) int64 array
-        The place inside each stretch that is farthest from its parameter; -1 where none is inside.
-    """
-
-    control: Floats
-    error: Floats
+    control: Floats  # (4, 2, k) float64 array: control points
+    error: Floats  # (k,) float64 array: bounds on their distances
+    # (k,) int64 array: the place inside each stretch that is farthest from its parameter; -1 where none is inside
     farthest: Numbers
 
 
 def fitted(samples: LineSamples, stretches: Stretches, tolerance: float) -> Fits:
-    """Fit a curve to each stretch.
-
-    Parameters
-    ----------
-    samples : LineSamples
-        Lines.
-    stretches : Stretches
-        Parts of them, of which neighbouring places differ.
-    tolerance : float
-        Curves that are nearer are not made better.
-
-    Examples
-    --------
-    >>> from vorotool import centerline, skeleton_exact
-    >>> from vorotool.engines.smoothing.line_samples import sampled_lines
-    >>> samples = sampled_lines(centerline(skeleton_exact([[0, 0], [6, 0], [6, 2], [0, 2]])), 0.1)
-    >>> way = np.array([[1.0], [0.0]])
-    >>> fits = fitted(samples, Stretches(np.array([0]), np.array([10]), way, -way), 0.1)
-    >>> fits.control[:, 0, 0].round(9).tolist(), bool(fits.error[0] < 1e-9)
-    ([0.0, 2.0, 4.0, 6.0], True)
-    """
+    """Fit a curve to each stretch."""
     count = len(stretches.first)
     made = Fits(np.empty((4, 2, count)), np.full(count, np.inf), np.full(count, -1))
     number, places = np.arange(count), _Places(samples, stretches)

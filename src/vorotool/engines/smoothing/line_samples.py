@@ -24,46 +24,20 @@ LEAST_PIECES = 8
 
 @dataclass(frozen=True, eq=False)
 class LineSamples:
-    """Places along lines, line by line, from the start to the end of each.
+    """Places along lines, line by line, from the start to the end of each."""
 
-    Parameters
-    ----------
-    xy : (2, n) float64 array
-        Their coordinates. Neighbours differ; a line without a length has one place.
-    start : (l + 1,) integer array
-        The first place of each line, and ``n``.
-    along : (n,) float64 array
-        Lengths along the polylines, all lines after one another.
-    off : (n,) float64 array
-        How far the line may be from the straight piece that begins at each place; 0 at the ends of lines.
-    is_closed : (l,) bool array
-        Whether each line ends where it starts, and goes on there without a junction.
-    """
-
-    xy: Floats
-    start: Numbers
-    along: Floats
+    xy: Floats  # (2, n) float64 array: their coordinates. Neighbours differ; a line without a length has one place
+    start: Numbers  # (l + 1,) integer array: the first place of each line, and `n`
+    along: Floats  # (n,) float64 array: lengths along the polylines, all lines after one another
+    # (n,) float64 array: how far the line may be from the straight piece that begins at each place; 0 at the ends of
+    # lines
     off: Floats
+    # (l,) bool array: whether each line ends where it starts, and goes on there without a junction
     is_closed: NDArray[np.bool_]
 
 
 def sampled_lines(lines: Skeleton | LedOn, tolerance: float) -> LineSamples:
-    """Branches of a skeleton, or centerlines, as polylines with what leads on.
-
-    Parameters
-    ----------
-    lines : Skeleton, Centerlines or ExtendedSkeleton
-        Which.
-    tolerance : float
-        The polylines are `NEARNESS` times nearer.
-
-    Examples
-    --------
-    >>> from vorotool import centerline, skeleton_exact
-    >>> samples = sampled_lines(centerline(skeleton_exact([[0, 0], [6, 0], [6, 2], [0, 2]])), 0.1)
-    >>> samples.xy[0].round(9).tolist()
-    [0.0, 0.5, 1.0, 1.666666667, 2.333333333, 3.0, 3.666666667, 4.333333333, 5.0, 5.5, 6.0]
-    """
+    """Branches of a skeleton, or centerlines, as polylines with what leads on."""
     path = lines if isinstance(lines, Skeleton) else lines.path
     first = np.flatnonzero(np.diff(path.branch, prepend=-1))
     source, target = path.vertices[path.arcs[:, 0]], path.vertices[path.arcs[:, 1]]

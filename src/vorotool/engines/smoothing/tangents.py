@@ -29,17 +29,7 @@ ONE_SIDED = _one_sided()
 
 
 def inner_tangents(samples: LineSamples, first: Numbers, at: Numbers, last: Numbers, tolerance: float) -> Floats:
-    """(2, k) unit tangents forwards, at places inside stretches: the slope of least squares.
-
-    Parameters
-    ----------
-    samples : LineSamples
-        Lines.
-    first, at, last : (k,) int64 array
-        The ends of stretches, and a place between.
-    tolerance : float
-        By which the window is chosen.
-    """
+    """(2, k) unit tangents forwards, at places inside stretches: the slope of least squares."""
     along = samples.along
     half = np.minimum(WINDOW * tolerance, np.minimum(along[at] - along[first], along[last] - along[at]) / 2)
     way = np.zeros((2, len(at)))
@@ -50,16 +40,7 @@ def inner_tangents(samples: LineSamples, first: Numbers, at: Numbers, last: Numb
 
 
 def outer_tangents(samples: LineSamples, first: Numbers, last: Numbers, tolerance: float) -> tuple[Floats, Floats]:
-    """(2, k) unit tangents into lines, at their starts and at their ends.
-
-    Examples
-    --------
-    >>> from vorotool import centerline, skeleton_exact
-    >>> from vorotool.engines.smoothing.line_samples import sampled_lines
-    >>> samples = sampled_lines(centerline(skeleton_exact([[0, 0], [6, 0], [6, 2], [0, 2]])), 0.1)
-    >>> [way.T.tolist() for way in outer_tangents(samples, np.array([0]), np.array([10]), 0.1)]
-    [[[1.0, 0.0]], [[-1.0, 0.0]]]
-    """
+    """(2, k) unit tangents into lines, at their starts and at their ends."""
     along, xy = samples.along, samples.xy
     size = np.minimum(WINDOW * tolerance, (along[last] - along[first]) / 2)
     made = []

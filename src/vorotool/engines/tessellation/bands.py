@@ -27,40 +27,17 @@ class Band(Protocol):
 
 @dataclass(frozen=True)
 class SeedBand:
-    """Rows of a tessellation, with the seeds that they need.
+    """Rows of a tessellation, with the seeds that they need."""
 
-    Parameters
-    ----------
-    seeds : SeedSet
-        Enough of them.
-    frame : Frame
-        The rows.
-    what : {"labels", "distance", "distance2"}
-        What is computed.
-    dtype : dtype
-        Its type, which is that of the whole image.
-    max_distance : Fraction or float, optional
-        Of labels.
-    sides : PixelSides
-        Of a pixel, in whose unit distances are.
-    """
-
-    seeds: SeedSet
+    seeds: SeedSet  # enough of them
     frame: Frame
-    what: Quantity
-    dtype: np.dtype[Any]
+    what: Quantity  # what is computed
+    dtype: np.dtype[Any]  # its type, which is that of the whole image
     max_distance: float | Fraction | None = None
-    sides: PixelSides = SQUARE
+    sides: PixelSides = SQUARE  # of a pixel, in whose unit distances are
 
     def rows(self, *, threads: int = 0, progress: Progress = None) -> NDArray[Any]:
-        """Compute the rows.
-
-        Examples
-        --------
-        >>> seeds = SeedSet(np.array([0, 4]), np.array([0, 9]), np.array([1, 2]))
-        >>> SeedBand(seeds, Frame(0, 5, 5, 1), "labels", np.dtype(np.uint8)).rows()
-        array([[1, 2, 2, 2, 2]], dtype=uint8)
-        """
+        """Compute the rows."""
         sweep = Tessellator(
             self.seeds,
             self.frame,
@@ -77,25 +54,7 @@ class SeedBand:
 
 
 class SeedBands:
-    """Cuts seeds into those that bands of rows need.
-
-    In each column of seeds a pixel's nearest one is within the rows of its band, or it is the nearest above these, or
-    below. So a band needs the seeds in its rows and two lists with at most one seed a column: any band is computed
-    apart from the others, with the same result.
-
-    Parameters
-    ----------
-    seeds : SeedSet
-        All of them.
-    frame : Frame
-        The whole image.
-
-    Examples
-    --------
-    >>> seeds = SeedSet(np.array([3, 3, 3, 8]), np.array([0, 1, 9, 0]), np.array([1, 2, 3, 4]))
-    >>> SeedBands(seeds, Frame(0, 0, 9, 9)).seeds_of(4, 2).labels.tolist()
-    [4, 2, 3]
-    """
+    """Cuts seeds into those that bands of rows need."""
 
     def __init__(self, seeds: SeedSet, frame: Frame) -> None:
         self.frame, self.scale = frame, seeds.scale

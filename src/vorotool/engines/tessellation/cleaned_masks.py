@@ -22,17 +22,10 @@ _AS_COMPONENTS = option("--seeds components", 'mode="components"')
 
 
 class Cleaning(NamedTuple):
-    """Which holes of a mask are filled, and which of its objects are then left out.
+    """Which holes of a mask are filled, and which of its objects are then left out."""
 
-    Parameters
-    ----------
-    min_area : int
-        Pixels, or voxels, that an object has at least.
-    fill_holes : bool or int
-        Whether holes become foreground; a number is the most pixels, or voxels, of a hole that does.
-    """
-
-    min_area: int = 0
+    min_area: int = 0  # pixels, or voxels, that an object has at least
+    # whether holes become foreground; a number is the most pixels, or voxels, of a hole that does
     fill_holes: bool | int = False
 
     def __bool__(self) -> bool:
@@ -48,18 +41,7 @@ class Cleaning(NamedTuple):
 
     @classmethod
     def of(cls, min_area: RealLike | None, fill_holes: bool | RealLike) -> Cleaning:
-        """Return it for areas of any kind of number.
-
-        Raises
-        ------
-        UsageError
-            If an area is not a number above 0.
-
-        Examples
-        --------
-        >>> Cleaning.of(2.5, True), Cleaning.of(None, 2.5)
-        (Cleaning(min_area=3, fill_holes=True), Cleaning(min_area=0, fill_holes=2))
-        """
+        """Return it for areas of any kind of number."""
         least = 0 if min_area is None else ceil(_area(min_area, "min_area"))
         if isinstance(fill_holes, bool | np.bool_):
             return cls(least, bool(fill_holes))
@@ -67,28 +49,14 @@ class Cleaning(NamedTuple):
         return cls(least, True if most == inf else floor(most))
 
     def require_mask(self, kind: str, what: str = "image") -> None:
-        """Refuse objects that are labels.
-
-        Raises
-        ------
-        InputError
-            If they are.
-        """
+        """Refuse objects that are labels."""
         if kind == "labels":
             raise InputError(
                 f"the {what} holds labels, but {self.option} is for masks: use {_THRESHOLD} or {_AS_COMPONENTS}"
             )
 
     def fills(self, areas: NDArray[np.int64], reaches: NDArray[np.bool_]) -> NDArray[np.bool_]:
-        """Return which components of the background are filled: number 0 is the foreground.
-
-        Parameters
-        ----------
-        areas : (n,) int64 array
-            Of the components.
-        reaches : (n,) bool array
-            Whether they reach the border of the image, so that they are no holes.
-        """
+        """Return which components of the background are filled: number 0 is the foreground."""
         filled = ~reaches
         if self.fill_holes is not True:
             filled &= areas <= min(self.fill_holes, np.iinfo(np.int64).max)
@@ -110,22 +78,12 @@ def _area(value: Any, name: str) -> float | Fraction:
 
 
 class CleanedMask(NamedTuple):
-    """A mask, and what was done to it.
+    """A mask, and what was done to it."""
 
-    Parameters
-    ----------
-    mask : (H, W) bool array
-        The foreground.
-    filled : int
-        Pixels of holes that are foreground now.
-    removed, objects : int
-        Objects that were left out, of how many.
-    """
-
-    mask: NDArray[np.bool_]
-    filled: int
-    removed: int
-    objects: int
+    mask: NDArray[np.bool_]  # (H, W) bool array: the foreground
+    filled: int  # pixels of holes that are foreground now
+    removed: int  # objects that were left out, of how many
+    objects: int  # objects that were left out, of how many
 
 
 def cleaned_mask(
@@ -135,34 +93,7 @@ def cleaned_mask(
     connectivity: int = 8,
     missing: NDArray[np.bool_] | None = None,
 ) -> CleanedMask:
-    """Fill the holes of the objects of a mask, and then leave out the objects that are small.
-
-    A hole is a component of the background that does not reach the border of the image. Where pixels of objects are
-    connected over corners, those of the background are not, and the other way round.
-
-    Parameters
-    ----------
-    mask : (H, W) bool array
-        The foreground.
-    cleaning : Cleaning
-        Which holes and objects; the area of an object includes its filled holes.
-    connectivity : {8, 4}
-        Of the pixels of an object.
-    missing : (H, W) bool array, optional
-        Pixels that stay background.
-
-    Raises
-    ------
-    UsageError
-        If the connectivity is another.
-
-    Examples
-    --------
-    >>> ring = np.array([[1, 1, 1, 0, 1], [1, 0, 1, 0, 0], [1, 1, 1, 0, 0]], dtype=bool)
-    >>> made = cleaned_mask(ring, Cleaning(min_area=2, fill_holes=True))
-    >>> int(made.mask.sum()), made.filled, made.removed
-    (9, 1, 1)
-    """
+    """Fill the holes of the objects of a mask, and then leave out the objects that are small."""
     if not is_choice(connectivity, (4, 8)):
         raise UsageError(f"connectivity is {shown_number(connectivity)}: it must be 4 or 8")
     made = mask
@@ -187,41 +118,13 @@ def cleaned_values(
     connectivity: int = 8,
     missing: NDArray[np.bool_] | None = None,
 ) -> CleanedMask:
-    """Clean values of which the nonzero ones are foreground.
-
-    Parameters
-    ----------
-    values : (H, W) array
-        As of `foreground_values`.
-    cleaning : Cleaning
-        What to do.
-    mode : str, optional
-        What an object is; by default as in `default_objects`.
-    connectivity, missing
-        As of `cleaned_mask`.
-
-    Raises
-    ------
-    InputError
-        If the values are labels.
-
-    Examples
-    --------
-    >>> cleaned_values(np.array([[255, 0, 255, 255]], np.uint8), Cleaning(2), None).mask.tolist()
-    [[False, False, True, True]]
-    """
+    """Clean values of which the nonzero ones are foreground."""
     cleaning.require_mask(mode if mode not in (None, "centroids") else default_objects(values))
     return cleaned_mask(values != 0, cleaning, connectivity=connectivity, missing=missing)
 
 
 def reaches_border(components: NDArray[np.uint32]) -> NDArray[np.bool_]:
-    """Return for each number whether a pixel at the border of the image has it.
-
-    Examples
-    --------
-    >>> reaches_border(np.array([[1, 1, 1], [1, 2, 1], [1, 1, 1]], np.uint32)).tolist()
-    [False, True, False]
-    """
+    """Return for each number whether a pixel at the border of the image has it."""
     reaches = np.zeros(int(components.max(initial=0)) + 1, dtype=bool)
     for side in (components[0], components[-1], components[:, 0], components[:, -1]):
         reaches[side] = True

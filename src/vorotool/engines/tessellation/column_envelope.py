@@ -11,18 +11,10 @@ from numpy.typing import NDArray
 
 @dataclass(frozen=True)
 class ColumnEnvelope:
-    """At most one seed a column.
+    """At most one seed a column."""
 
-    Parameters
-    ----------
-    row : (W,) int32 array
-        Its row.
-    label : (W,) uint32 array
-        Its label; 0 where there is none.
-    """
-
-    row: NDArray[np.int32]
-    label: NDArray[np.uint32]
+    row: NDArray[np.int32]  # (W,) int32 array: its row
+    label: NDArray[np.uint32]  # (W,) uint32 array: its label; 0 where there is none
 
     @classmethod
     def empty(cls, width: int) -> ColumnEnvelope:
@@ -30,15 +22,7 @@ class ColumnEnvelope:
         return cls(np.zeros(width, np.int32), np.zeros(width, np.uint32))
 
     def or_else(self, farther: ColumnEnvelope) -> ColumnEnvelope:
-        """These seeds, and in the columns that have none those of another list.
-
-        Examples
-        --------
-        >>> near = ColumnEnvelope(np.array([5, 0], np.int32), np.array([1, 0], np.uint32))
-        >>> far = ColumnEnvelope(np.array([2, 3], np.int32), np.array([7, 8], np.uint32))
-        >>> near.or_else(far).label.tolist()
-        [1, 8]
-        """
+        """These seeds, and in the columns that have none those of another list."""
         has = self.label != 0
         return ColumnEnvelope(np.where(has, self.row, farther.row), np.where(has, self.label, farther.label))
 
@@ -58,13 +42,7 @@ class ColumnEnvelope:
 
     @classmethod
     def unpacked(cls, data: bytes) -> ColumnEnvelope:
-        """Give the list back.
-
-        Examples
-        --------
-        >>> ColumnEnvelope.unpacked(ColumnEnvelope(np.array([4, 2], np.int32), np.array([3, 0], np.uint32)).packed())
-        ColumnEnvelope(row=array([4, 2], dtype=int32), label=array([3, 0], dtype=uint32))
-        """
+        """Give the list back."""
         row, label = np.frombuffer(zlib.decompress(data), np.uint32).reshape(2, -1)
         return cls(np.cumsum(row.view(np.int32), dtype=np.int32), label)
 
@@ -78,14 +56,7 @@ def last_seeds(objects: NDArray[np.uint32], first: int) -> ColumnEnvelope:
 
 
 def first_seeds(objects: NDArray[np.uint32], first: int) -> ColumnEnvelope:
-    """The uppermost seed of each column.
-
-    Examples
-    --------
-    >>> objects = np.array([[0, 1], [2, 3]], np.uint32)
-    >>> first_seeds(objects, 10).label.tolist(), last_seeds(objects, 10).label.tolist()
-    ([2, 1], [2, 3])
-    """
+    """The uppermost seed of each column."""
     found = ColumnEnvelope.empty(objects.shape[1])
     for row in range(len(objects) - 1, -1, -1):
         _put(found, first + row, objects[row])

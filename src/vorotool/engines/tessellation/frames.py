@@ -119,27 +119,7 @@ def report_duplicates(duplicates: int, seeds: int, *, strict: bool) -> None:
 def default_frame(
     seeds: SeedSet, *, how: str = "give shape=(H, W) or window=(x, y, w, h)", instead: str = "voronoi_cells"
 ) -> Frame:
-    """Give the frame that the input brings, else the smallest at the origin that holds the points.
-
-    Parameters
-    ----------
-    seeds : SeedSet
-        Points or an image.
-    how, instead : str
-        How a frame is given, and what needs none, for messages.
-
-    Raises
-    ------
-    InputError
-        If a coordinate is negative: such points need a window.
-    LimitError
-        If the points need a frame that is larger than anyone would take without asking for it.
-
-    Examples
-    --------
-    >>> default_frame(as_seeds([[2, 1], [7.25, 5.5]])).shape
-    (7, 8)
-    """
+    """Give the frame that the input brings, else the smallest at the origin that holds the points."""
     if seeds.frame is not None:
         return seeds.frame
     nearest = least_sides({"x": seeds.x, "y": seeds.y}, seeds.scale, f"{_WINDOW}, or {_CELLS}")
@@ -152,27 +132,7 @@ def default_frame(
 
 
 def least_sides(places: dict[str, NDArray[np.int64]], scale: int, window: str) -> list[int]:
-    """Give the sides of the smallest frame at the origin that holds seeds.
-
-    Parameters
-    ----------
-    places : dict of str to (n,) int64 array
-        Coordinates by axis, in steps; at least one.
-    scale : int
-        Steps a pixel or voxel.
-    window : str
-        What to use for negative coordinates, for messages.
-
-    Raises
-    ------
-    InputError
-        If a coordinate is negative.
-
-    Examples
-    --------
-    >>> least_sides({"x": np.array([4, 15])}, 2, "a window")
-    [9]
-    """
+    """Give the sides of the smallest frame at the origin that holds seeds."""
     for name, values in places.items():
         if values.min() < 0:
             low, high = values.min() / scale, values.max() / scale
@@ -181,18 +141,7 @@ def least_sides(places: dict[str, NDArray[np.int64]], scale: int, window: str) -
 
 
 def asked_frame(shape: Any, window: Any) -> Frame | None:
-    """Give the frame that is asked for by ``shape`` (H, W) or ``window`` (x, y, w, h), if one is.
-
-    Raises
-    ------
-    UsageError
-        If both are given, or not integers.
-
-    Examples
-    --------
-    >>> asked_frame((480, 640), None)
-    Frame(x=0, y=0, width=640, height=480)
-    """
+    """Give the frame that is asked for by ``shape`` (H, W) or ``window`` (x, y, w, h), if one is."""
     numbers = asked_numbers(shape, window, _FORMS)
     if numbers is None:
         return None
@@ -200,25 +149,7 @@ def asked_frame(shape: Any, window: Any) -> Frame | None:
 
 
 def asked_numbers(shape: Any, window: Any, forms: tuple[tuple[int, str], tuple[int, str]]) -> list[int] | None:
-    """Give the numbers of a shape or a window, whichever is given, or None.
-
-    Parameters
-    ----------
-    shape, window : object
-        What the caller gave.
-    forms : pair of (int, str)
-        How many numbers a shape and a window have, and what a message says that they must be.
-
-    Raises
-    ------
-    UsageError
-        If both are given, or not so many integers.
-
-    Examples
-    --------
-    >>> asked_numbers((480, 640), None, ((2, "two integers"), (4, "four integers")))
-    [480, 640]
-    """
+    """Give the numbers of a shape or a window, whichever is given, or None."""
     if shape is not None and window is not None:
         raise UsageError("give shape or window, not both")
     given, (size, form) = (shape, forms[0]) if window is None else (window, forms[1])
@@ -277,13 +208,7 @@ def squared_limit(max_distance: float | Fraction | None, scale: int | Fraction) 
 
 
 def square_dtype(largest: int) -> np.dtype[Any]:
-    """Choose the type of squared distances up to `largest`: uint32 or uint64.
-
-    Raises
-    ------
-    LimitError
-        If they may exceed 64 bits.
-    """
+    """Choose the type of squared distances up to `largest`: uint32 or uint64."""
     if largest >= 2**64:
         raise LimitError(
             f"squared distances of this frame may exceed 64 bits: use {option('--what distance', 'distances')}"
@@ -292,13 +217,7 @@ def square_dtype(largest: int) -> np.dtype[Any]:
 
 
 def sides_of(source: Any, spacing: Any, axes: int = 2) -> PixelSides:
-    """Give the sides of the pixels as they are asked for, else those of labels that have sides.
-
-    Examples
-    --------
-    >>> sides_of([[1, 2]], (1.5, 0.5))
-    PixelSides(units=(3, 1), step=Fraction(1, 2))
-    """
+    """Give the sides of the pixels as they are asked for, else those of labels that have sides."""
     if spacing is None and isinstance(source, LabelImage | LabelVolume):
         return source.sides
     return pixel_sides(spacing, axes)

@@ -15,31 +15,7 @@ CHUNK = 1 << 20
 
 
 def needed_seeds(seeds: SeedSet) -> NDArray[np.intp] | None:
-    """Find the seeds that still give every other pixel its label, where that leaves many out.
-
-    A seed is surrounded if its four neighbours on the pixel lattice are seeds of its label. From a surrounded
-    seed one step towards any other pixel leads to a seed of the same label that is strictly nearer to that
-    pixel. So among the nearest seeds of a pixel none is surrounded, but for the seed on the pixel itself: the
-    others give the same labels and distances everywhere except on the seeds, and there `paint_seeds` puts them.
-
-    Parameters
-    ----------
-    seeds : SeedSet
-        Of any kind.
-
-    Returns
-    -------
-    (k,) index array or None
-        Increasing indices of the seeds that are not surrounded; None where all seeds should be used: they lie
-        between pixels, two share a place, they are not in raster order, or are too sparse to surround each
-        other.
-
-    Examples
-    --------
-    >>> y, x = (k.ravel() for k in np.indices((5, 5)))
-    >>> len(needed_seeds(SeedSet(x, y, np.ones(25))))
-    16
-    """
+    """Find the seeds that still give every other pixel its label, where that leaves many out."""
     if seeds.scale != 1 or not _may_be_surrounded(seeds):
         return None
     left, top = int(seeds.x.min()), int(seeds.y[0])
@@ -56,13 +32,7 @@ def needed_seeds(seeds: SeedSet) -> NDArray[np.intp] | None:
 
 
 def surrounded_pixels(image: NDArray[Any]) -> NDArray[np.bool_]:
-    """Find the pixels that have the value of their four neighbours; those at the sides have not four.
-
-    Examples
-    --------
-    >>> surrounded_pixels(np.ones((3, 3)))[1].tolist()
-    [False, True, False]
-    """
+    """Find the pixels that have the value of their four neighbours; those at the sides have not four."""
     inside = np.zeros(image.shape, bool)
     centre, surrounded = image[1:-1, 1:-1], inside[1:-1, 1:-1]
     np.equal(centre, image[1:-1, :-2], out=surrounded)
@@ -81,26 +51,7 @@ def _may_be_surrounded(seeds: SeedSet) -> bool:
 
 
 def paint_seeds(rows: NDArray[Any], seeds: SeedSet, frame: Frame, value: int | None = None) -> None:
-    """Set the pixels on which seeds lie, to their labels or to one value.
-
-    Parameters
-    ----------
-    rows : (h, w) array
-        Written in place.
-    seeds : SeedSet
-        On pixels, in raster order.
-    frame : Frame
-        Where the rows lie.
-    value : int, optional
-        Instead of the labels.
-
-    Examples
-    --------
-    >>> rows = np.zeros((1, 4), np.uint8)
-    >>> paint_seeds(rows, SeedSet(np.array([3, 9]), np.array([5, 5]), np.array([7, 8])), Frame(1, 5, 4, 1))
-    >>> rows
-    array([[0, 0, 7, 0]], dtype=uint8)
-    """
+    """Set the pixels on which seeds lie, to their labels or to one value."""
     first, last = np.searchsorted(seeds.y, [frame.y, frame.y + frame.height])
     for start in range(int(first), int(last), CHUNK):
         part = slice(start, min(start + CHUNK, int(last)))

@@ -13,19 +13,7 @@ CHUNK = 1 << 22
 
 
 def numbered(labels: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
-    """Give the distinct labels, and the index of each one among them: by a table unless the labels are sparse.
-
-    Parameters
-    ----------
-    labels : (n,) uint32 array
-        At least one; from 1.
-
-    Examples
-    --------
-    >>> distinct, index = numbered(np.array([7, 3, 7], dtype=np.uint32))
-    >>> distinct.tolist(), index.tolist()
-    ([3, 7], [1, 0, 1])
-    """
+    """Give the distinct labels, and the index of each one among them: by a table unless the labels are sparse."""
     largest = int(labels.max())
     if largest > 4 * labels.size + 65536:
         return np.unique(labels, return_inverse=True)
@@ -39,34 +27,13 @@ def numbered(labels: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
 
 
 def parts(count: int, size: int) -> Iterator[slice]:
-    """Cut a list of so many into slices of a size.
-
-    Examples
-    --------
-    >>> list(parts(5, 3))
-    [slice(0, 3, None), slice(3, 6, None)]
-    """
+    """Cut a list of so many into slices of a size."""
     for start in range(0, count, size):
         yield slice(start, start + size)
 
 
 def sums(index: NDArray[Any], kinds: int, weights: NDArray[Any] | None = None) -> NDArray[Any]:
-    """Give the sums of weights by index, part by part: NumPy would copy all of both to 64 bits.
-
-    Parameters
-    ----------
-    index : (n,) int array
-        From 0, below `kinds`.
-    kinds : int
-        How many sums.
-    weights : (n,) array, optional
-        By default ones, whose sums are integers.
-
-    Examples
-    --------
-    >>> sums(np.array([1, 0, 1]), 2).tolist(), sums(np.array([1, 0, 1]), 2, np.array([5, 6, 7])).tolist()
-    ([1, 2], [6.0, 12.0])
-    """
+    """Give the sums of weights by index, part by part: NumPy would copy all of both to 64 bits."""
     total = np.zeros(kinds, np.int64 if weights is None else np.float64)
     for part in parts(len(index), max(CHUNK, kinds)):
         total += np.bincount(index[part], None if weights is None else weights[part], minlength=kinds)

@@ -22,28 +22,7 @@ difference of two, as a part of the larger one."""
 
 
 def otsu_threshold(grey: NDArray[Any]) -> float:
-    """Give the largest value of the lower class; of floating-point numbers, the middle of a bin.
-
-    Parameters
-    ----------
-    grey : array of integers or of floating-point numbers
-        At least two values; finite.
-
-    Returns
-    -------
-    int or float
-        As scikit-image has it, where it has one: an integer of integers, however large. Of several that are equally
-        good it is the smallest.
-
-    References
-    ----------
-    Otsu, "A threshold selection method from gray-level histograms", 1979.
-
-    Examples
-    --------
-    >>> otsu_threshold(np.array([0, 0, 1, 2**62, 2**62 + 5]))
-    1
-    """
+    """Give the largest value of the lower class; of floating-point numbers, the middle of a bin."""
     if grey.dtype.kind == "f":
         return _of_floats(grey)
     if grey.dtype.itemsize <= NARROW:
@@ -74,20 +53,7 @@ def _of_floats(grey: NDArray[Any]) -> float:
 
 
 def best_split(values: NDArray[np.uint64], counts: NDArray[np.int64]) -> int:
-    """Give the index of the last value of the lower class, exactly.
-
-    Parameters
-    ----------
-    values : (n,) uint64 array
-        Increasing from 0; at least two.
-    counts : (n,) int64 array
-        How often each occurs; fewer than 2^42 in all.
-
-    Examples
-    --------
-    >>> best_split(np.array([0, 1, 9], dtype=np.uint64), np.array([5, 5, 1]))
-    1
-    """
+    """Give the index of the last value of the lower class, exactly."""
     below = np.cumsum(counts)[:-1]
     total = int(counts.sum())
     parts = [(values >> np.uint64(bits)) & np.uint64((1 << LIMB) - 1) for bits in range(0, 64, LIMB)]

@@ -37,30 +37,7 @@ def propagate(
     passes: int = 2,
     progress: Progress = None,
 ) -> LabelImage:
-    """Run the paper's two passes to the letter (section 2.2), with an implicit frame of zero labels.
-
-    Parameters
-    ----------
-    seeds : SeedSet
-        Seeds on pixels of the frame.
-    passes : {2, 1}
-        1 stops after the first passes, as in the paper's Figure 1; pixels not reached keep 0.
-
-    Returns
-    -------
-    LabelImage
-
-    Raises
-    ------
-    InputError
-        If there is no seed, or one is not on a pixel of the frame.
-
-    Examples
-    --------
-    >>> seeds = SeedSet(np.array([2, 1, 0]), np.array([0, 2, 6]), np.array([1, 2, 3]))
-    >>> propagate(seeds, Frame(0, 0, 14, 8)).labels[7, 13]  # 2 is nearer: sqrt 169 against sqrt 170
-    np.uint16(1)
-    """
+    """Run the paper's two passes to the letter (section 2.2), with an implicit frame of zero labels."""
     if not is_choice(passes, (1, 2)):
         raise UsageError(f"passes is {shown_number(passes)}: it must be 1 or 2")
     require_seeds(seeds)
@@ -81,23 +58,7 @@ def propagate(
 
 
 class PropagatedRows:
-    """The paper's tessellation, held in memory, with the interface of `Tessellator` for its rows.
-
-    Parameters
-    ----------
-    seeds, frame, passes, progress
-        As for `propagate`.
-    strict : bool
-        Refuse several seeds at one place.
-    max_pixels : int
-        Larger frames are refused before memory is taken.
-
-    Examples
-    --------
-    >>> seeds = SeedSet(np.array([2, 1, 0]), np.array([0, 2, 6]), np.array([1, 2, 3]))
-    >>> PropagatedRows(seeds, Frame(0, 0, 14, 8)).compare_with_exact()["wrong_pixels"]
-    1
-    """
+    """The paper's tessellation, held in memory, with the interface of `Tessellator` for its rows."""
 
     def __init__(
         self,
@@ -132,13 +93,7 @@ class PropagatedRows:
         return out
 
     def compare_with_exact(self) -> dict[str, Any]:
-        """Count the pixels that differ from the exact tessellation, and name the first in raster order.
-
-        Returns
-        -------
-        dict
-            ``wrong_pixels``, and ``first_wrong``: None, or ``x``, ``y``, ``label`` and ``exact_label``.
-        """
+        """Count the pixels that differ from the exact tessellation, and name the first in raster order."""
         count, first = 0, None
         for start, rows in band_limits(self.frame):
             found, exact = self.labels(start, rows), self._exact.labels(start, rows)

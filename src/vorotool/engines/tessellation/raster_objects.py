@@ -41,27 +41,7 @@ _LUMINANCE = (0.2125, 0.7154, 0.0721)
 
 
 def foreground_values(raster: Raster, threshold: Threshold, *, invert: bool) -> NDArray[Any]:
-    """Values of which the nonzero ones are foreground.
-
-    Parameters
-    ----------
-    raster : Raster
-        The image.
-    threshold : float or "otsu", optional
-        Foreground is what is larger, and of one value.
-    invert : bool
-        Exchange foreground and background.
-
-    Raises
-    ------
-    InputError
-        If there is no threshold, and the image has colours; or values are not finite.
-
-    Examples
-    --------
-    >>> foreground_values(Raster(np.array([[3, 200]])), 100, invert=False).tolist()
-    [[False, True]]
-    """
+    """Values of which the nonzero ones are foreground."""
     values, invert = raster.values, checked_flag(invert, "invert")
     if threshold is not None:
         number, invert = settled_threshold(raster, threshold, invert=invert)
@@ -94,25 +74,7 @@ def grey_values(raster: Raster) -> NDArray[Any]:
 
 
 def settled_threshold(raster: Raster, threshold: float | Literal["otsu"], *, invert: bool) -> tuple[float, bool]:
-    """Give the threshold of an image as a number, and whether foreground is what is not larger.
-
-    What is masked does not count. Otsu's method parts nothing of an image whose pixels all have one value: no pixel is
-    larger, and so there is no foreground, with `invert` as without.
-
-    Raises
-    ------
-    InputError
-        If values are not finite, for ``otsu``.
-    UsageError
-        If the threshold is no finite number.
-
-    Examples
-    --------
-    >>> settled_threshold(Raster(np.array([[0, 1, 10]])), "otsu", invert=True)
-    (1, True)
-    >>> settled_threshold(Raster(np.array([[7, 7, 7]])), "otsu", invert=True)
-    (7, False)
-    """
+    """Give the threshold of an image as a number, and whether foreground is what is not larger."""
     if not _is_otsu(threshold):
         finite_double(threshold, "threshold")
         return cast(float, threshold), invert  # as it is: a double would round integers beyond 2^53
@@ -133,13 +95,7 @@ def counted_values(raster: Raster) -> NDArray[Any]:
 
 
 def is_flat(grey: NDArray[Any]) -> bool:
-    """Whether there are no two different values.
-
-    Examples
-    --------
-    >>> is_flat(np.array([[7, 7]])), is_flat(np.array([[7, 8]]))
-    (True, False)
-    """
+    """Whether there are no two different values."""
     return not grey.size or bool(grey.min() == grey.max())
 
 
@@ -148,36 +104,12 @@ def _is_otsu(threshold: Any) -> bool:
 
 
 def whole_threshold(grey: NDArray[Any], threshold: float) -> float:
-    """Give a threshold as an integer where values are: a float would round those beyond 2^53 when it is compared.
-
-    Examples
-    --------
-    >>> whole_threshold(np.array([3, 200]), 99.5), whole_threshold(np.array([0.5]), 0.25)
-    (99, 0.25)
-    """
+    """Give a threshold as an integer where values are: a float would round those beyond 2^53 when it is compared."""
     return floor(threshold) if grey.dtype.kind in "iu" else threshold
 
 
 def default_objects(values: NDArray[Any], *, note: Note = None) -> Objects:
-    """Tell whether the nonzero values are of a mask or labels: several are labels, of one `objects_of_value` tells.
-
-    Parameters
-    ----------
-    values : (H, W) array
-        Of an image.
-    note : callable, optional
-        As of `objects_of_value`.
-
-    Raises
-    ------
-    InputError
-        If they look like a photograph.
-
-    Examples
-    --------
-    >>> default_objects(np.array([[0, 255]])), default_objects(np.array([[0, 7]])), default_objects(np.array([[1, 2]]))
-    ('components', 'labels', 'labels')
-    """
+    """Tell whether the nonzero values are of a mask or labels: several are labels, of one `objects_of_value` tells."""
     if values.dtype == bool:
         return "components"
     is_zero = values == 0
@@ -189,23 +121,7 @@ def default_objects(values: NDArray[Any], *, note: Note = None) -> Objects:
 
 
 def objects_of_value(value: Any, *, note: Note = None) -> Objects:
-    """Tell what an image holds that has no value but this one and 0: a mask or a label.
-
-    A mask has 1, 255, the largest value of its type, or True; any other value is the label that it is.
-
-    Parameters
-    ----------
-    value : NumPy scalar
-        The value; 0 where the image has no foreground.
-    note : callable, optional
-        Called with what was taken, where that may surprise: of a label, and of 1 and 255 in a type of more than 8 bits,
-        in which labels are written.
-
-    Examples
-    --------
-    >>> [objects_of_value(np.uint16(value)) for value in (0, 1, 7, 255, 65535)]
-    ['components', 'components', 'labels', 'components', 'components']
-    """
+    """Tell what an image holds that has no value but this one and 0: a mask or a label."""
     kind = value.dtype
     is_largest = kind == np.bool_ or (kind.kind in "iu" and value == np.iinfo(kind).max)
     if value == 0 or is_largest:
@@ -219,13 +135,7 @@ def objects_of_value(value: Any, *, note: Note = None) -> Objects:
 
 
 def numbered_components(values: NDArray[Any], connectivity: int = 8) -> NDArray[np.uint32]:
-    """Number the components of what is not 0: libraries that do it take longer to load than most images to process.
-
-    Examples
-    --------
-    >>> numbered_components(np.array([[5, 0, 5], [5, 0, 5]])).tolist()
-    [[1, 0, 2], [1, 0, 2]]
-    """
+    """Number the components of what is not 0: libraries that do it take longer to load than most images to process."""
     components = np.empty(values.shape, np.uint32)
     foreground = np.ascontiguousarray(values != 0).view(np.uint8)
     _core.label_images.label_components(foreground, connectivity == 8, components, None)
@@ -233,38 +143,14 @@ def numbered_components(values: NDArray[Any], connectivity: int = 8) -> NDArray[
 
 
 def objects_of_mask(labels: NDArray[Any]) -> NDArray[Any] | None:
-    """Number the objects of what is a mask by the rule of `objects_of_value`; None of labels, and where nothing is.
-
-    Examples
-    --------
-    >>> objects_of_mask(np.array([[1, 0, 1]])).tolist(), objects_of_mask(np.array([[7, 0, 7]]))
-    ([[1, 0, 2]], None)
-    """
+    """Number the objects of what is a mask by the rule of `objects_of_value`; None of labels, and where nothing is."""
     value = labels.max(initial=0)
     is_mask = value > 0 and objects_of_value(value) == "components"
     return numbered_components(labels) if is_mask and ((labels == 0) | (labels == value)).all() else None
 
 
 def only_value(pieces: Iterable[tuple[int, NDArray[Any]]]) -> tuple[Any, tuple[int, NDArray[Any]] | None]:
-    """Look for a second value beside 0 in pieces of an image or a volume; none is read after the one that has it.
-
-    Parameters
-    ----------
-    pieces : iterable of (int, array)
-        Where each begins, and its values.
-
-    Returns
-    -------
-    one : NumPy scalar
-        The first value beside 0, 0 where there is none.
-    found : (int, array), optional
-        The piece in which another one is; None where none is.
-
-    Examples
-    --------
-    >>> int(only_value([(0, np.array([0, 7])), (2, np.array([7, 0]))])[0]), only_value([(0, np.array([0, 7]))])[1]
-    (7, None)
-    """
+    """Look for a second value beside 0 in pieces of an image or a volume; none is read after the one that has it."""
     one: Any = np.uint8(0)
     for first, values in pieces:
         is_zero = values == 0
@@ -275,13 +161,7 @@ def only_value(pieces: Iterable[tuple[int, NDArray[Any]]]) -> tuple[Any, tuple[i
 
 
 def report_no_foreground(*, strict: bool, what: str = "image") -> None:
-    """Warn of an image or a volume in which there is nothing, or refuse it.
-
-    Raises
-    ------
-    InputError
-        If it is refused.
-    """
+    """Warn of an image or a volume in which there is nothing, or refuse it."""
     if strict:
         raise InputError(f"the {what} has no foreground: use {_INVERT} or {_SOME_THRESHOLD}, or leave out {STRICT}")
     message = Message(f"the {what} has no foreground: use {_INVERT} or {_SOME_THRESHOLD}", Kind.EMPTY_INPUT)
@@ -289,13 +169,7 @@ def report_no_foreground(*, strict: bool, what: str = "image") -> None:
 
 
 def refuse_distances(what: str = "image") -> None:
-    """Refuse distances to nothing.
-
-    Raises
-    ------
-    InputError
-        Always.
-    """
+    """Refuse distances to nothing."""
     raise InputError(
         f"the {what} has no foreground, so that there are no distances to it: use {_INVERT} or {_SOME_THRESHOLD}"
     )
@@ -317,27 +191,14 @@ def refuse_photograph(values: NDArray[Any]) -> None:
 
 
 def photograph_signs(values: NDArray[Any]) -> tuple[bool, int, int]:
-    """Tell whether values look like a photograph rather than labels, how many there are, and in how many pieces.
-
-    Examples
-    --------
-    >>> photograph_signs(np.array([[0, 7], [7, 0]])), photograph_signs(np.array([[0.5, 1]]))
-    ((False, 2, 2), (True, 2, 2))
-    """
+    """Tell whether values look like a photograph rather than labels, how many there are, and in how many pieces."""
     fractional = values.dtype.kind == "f" and bool((values != np.floor(values)).any())
     distinct, fragments = (len(np.unique(values)),) * 2 if fractional else _fragments(label_values(values))
     return fractional or (fragments > 4 * distinct and fragments > 256), distinct, fragments
 
 
 def mask_options(grey: NDArray[Any]) -> str:
-    """Give the options that make a mask of an image: of what is dark where most of it is light, as paper is.
-
-    Examples
-    --------
-    >>> light, dark = np.array([250, 250, 250, 250, 3]), np.array([3, 250])
-    >>> str(Message(mask_options(light))), str(Message(mask_options(dark)))
-    ('threshold="otsu", invert=True (most of it is light)', 'threshold="otsu"')
-    """
+    """Give the options that make a mask of an image: of what is dark where most of it is light, as paper is."""
     finite = grey[np.isfinite(grey)]
     middle = (float(finite.min()) + float(finite.max())) / 2 if finite.size else 0.0
     is_light = np.count_nonzero(finite > middle) > MOSTLY * finite.size
@@ -359,25 +220,7 @@ def _fragments(labels: NDArray[Any]) -> tuple[int, int]:
 
 
 def label_values(values: NDArray[Any], *, first: int = 0) -> NDArray[Any]:
-    """Give labels in an unsigned type; the first value that is none is named with its place.
-
-    Parameters
-    ----------
-    values : (h, W) or (d, H, W) array
-        Rows of an image, or slices of a volume.
-    first : int
-        Which is the first.
-
-    Raises
-    ------
-    InputError
-        If a value is no integer from 0 to 2^32 - 1.
-
-    Examples
-    --------
-    >>> label_values(np.array([[0, 7]])).dtype.name
-    'uint32'
-    """
+    """Give labels in an unsigned type; the first value that is none is named with its place."""
     if values.dtype in (np.bool_, np.uint8, np.uint16, np.uint32):
         return values
     bad = (values < 0) | (values > LARGEST_LABEL)

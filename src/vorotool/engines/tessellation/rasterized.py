@@ -43,30 +43,7 @@ class _Edges(NamedTuple):
 
 
 def rasterized(polygons: PolygonSet, frame: Frame) -> NDArray[np.uint32]:
-    """Label each pixel with the first feature that has it, counted from 1; 0 where none has.
-
-    A polygon has the pixels whose centre lies in its shell and in none of its holes, by the even-odd rule; a centre on
-    an edge belongs to the right of it, and below one that is level. A line has the pixels that it passes through, and a
-    ring of one or two vertices is one.
-
-    Parameters
-    ----------
-    polygons : PolygonSet
-        Vertices in pixels: centres of pixels are at integers.
-    frame : Frame
-        Which pixels.
-
-    Raises
-    ------
-    InputError
-        If a vertex is farther than 2^44 pixels away.
-
-    Examples
-    --------
-    >>> shapes = PolygonSet([[0, 0], [3, 0], [0, 3], [0, 2], [2, 2]], [0, 3, 5], [0, 2], [0, 1])
-    >>> rasterized(shapes, Frame(0, 0, 4, 3)).tolist()
-    [[1, 1, 1, 0], [1, 1, 0, 0], [1, 2, 2, 0]]
-    """
+    """Label each pixel with the first feature that has it, counted from 1; 0 where none has."""
     if len(polygons.xy) and np.abs(polygons.xy).max() > FARTHEST:
         raise InputError(
             f"vertices are more than 2^44 pixels from the frame: use {option('a larger --cell-size', 'larger pixels')}"

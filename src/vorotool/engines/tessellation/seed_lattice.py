@@ -35,27 +35,13 @@ _CELL = {2: "pixel", 3: "voxel"}
 
 
 class SnappedPlaces(NamedTuple):
-    """Places on the coarsest lattice that holds them.
+    """Places on the coarsest lattice that holds them."""
 
-    Parameters
-    ----------
-    steps : (n, axes) int64 array
-        In steps of 1 / ``scale``.
-    scale : int
-        A power of two, at most `finest`.
-    moved : (n,) bool array
-        Which of them lay on none of these lattices.
-    largest_move : float
-        The largest of their moves, in pixels or voxels.
-    finest : int
-        The steps a pixel or voxel of the finest of these lattices.
-    """
-
-    steps: NDArray[np.int64]
-    scale: int
-    moved: NDArray[np.bool_]
-    largest_move: float
-    finest: int
+    steps: NDArray[np.int64]  # (n, axes) int64 array: in steps of 1 / `scale`
+    scale: int  # a power of two, at most `finest`
+    moved: NDArray[np.bool_]  # (n,) bool array: which of them lay on none of these lattices
+    largest_move: float  # the largest of their moves, in pixels or voxels
+    finest: int  # the steps a pixel or voxel of the finest of these lattices
 
     @property
     def moves(self) -> int:
@@ -64,26 +50,7 @@ class SnappedPlaces(NamedTuple):
 
 
 def finest_scale(places: NDArray[np.float64], frame: Frame, sides: PixelSides = SQUARE) -> int:
-    """Give the steps a pixel of the finest lattice on which a tessellation is computed exactly.
-
-    Bands of the frame and the checker see the seeds from elsewhere than from the middle. So it is the extent of the
-    frame and the seeds together that is at most 2^40 steps.
-
-    Parameters
-    ----------
-    places : (n, 2) float64 array
-        Points in pixels, which may lie outside the frame. Those so far outside that they would make the lattice coarser
-        than 1/256 pixel do not count: they are refused later.
-    frame : Frame
-        The whole frame.
-    sides : PixelSides
-        Of a pixel.
-
-    Examples
-    --------
-    >>> [finest_scale(np.empty((0, 2)), Frame(0, 0, side, side)).bit_length() - 1 for side in (512, 8192)]
-    [31, 27]
-    """
+    """Give the steps a pixel of the finest lattice on which a tessellation is computed exactly."""
     low, high = (frame.x, frame.y), (frame.x + frame.width, frame.y + frame.height)
     of_frame = _scale_within(low, high, sides)
     if len(places):
@@ -101,37 +68,14 @@ def _scale_within(low: tuple[int, int], high: tuple[int, int], sides: PixelSides
 
 
 def least_frame(places: NDArray[np.float64]) -> Frame:
-    """Give the frame that is likely to be asked for later: the least at the origin that holds the points.
-
-    Examples
-    --------
-    >>> least_frame(np.array([[0.5, 2.0], [7.0, 5.0]])).shape
-    (6, 8)
-    """
+    """Give the frame that is likely to be asked for later: the least at the origin that holds the points."""
     low = [min(floor(column.min(initial=0)), 0) for column in places.T]
     high = [floor(column.max(initial=0) + 0.5) + 1 for column in places.T]
     return Frame(low[0], low[1], high[0] - low[0], high[1] - low[1])
 
 
 def on_coarser_lattice(seeds: SeedSet, frame: Frame, sides: PixelSides, *, strict: bool) -> SeedSet:
-    """Give seeds of a lattice that is too fine for a frame on the finest one that is not.
-
-    Raises
-    ------
-    InputError
-        If ``strict`` and a seed moves.
-
-    Warns
-    -----
-    VorotoolWarning
-        If seeds move.
-
-    Examples
-    --------
-    >>> seeds = SeedSet(np.array([0, 2**40]), np.array([0, 0]), np.array([1, 2]), scale=2**39)
-    >>> on_coarser_lattice(seeds, Frame(0, 0, 512, 512), SQUARE, strict=False).x.tolist()
-    [0, 2]
-    """
+    """Give seeds of a lattice that is too fine for a frame on the finest one that is not."""
     if seeds.scale <= FINEST_SCALE or not len(seeds):
         return seeds
     places = np.stack([seeds.x, seeds.y], axis=1) / seeds.scale
@@ -151,25 +95,7 @@ def on_coarser_lattice(seeds: SeedSet, frame: Frame, sides: PixelSides, *, stric
 
 
 def snapped_places(places: NDArray[np.float64], finest: int = FINEST_SCALE) -> SnappedPlaces:
-    """Put places on the lattice; what is finer than its steps moves to the nearest multiple.
-
-    Parameters
-    ----------
-    places : (n, 2) or (n, 3) float64 array
-        Finite.
-    finest : int
-        Steps a pixel or voxel at most: a power of two.
-
-    Raises
-    ------
-    InputError
-        If a coordinate is beyond 2^44.
-
-    Examples
-    --------
-    >>> snapped_places(np.array([[0.5, 2.0], [7.0, 5.0]])).steps.tolist()
-    [[1, 4], [14, 10]]
-    """
+    """Put places on the lattice; what is finer than its steps moves to the nearest multiple."""
     far = np.flatnonzero((np.abs(places) > LARGEST_COORDINATE).any(axis=1))
     if far.size:
         raise InputError(
@@ -193,22 +119,7 @@ def snapped_places(places: NDArray[np.float64], finest: int = FINEST_SCALE) -> S
 def sites_of_points(
     places: NDArray[np.float64], labels: NDArray[np.uint32], points: PointSet | VolumePoints
 ) -> dict[str, Any]:
-    """Give the sites in increasing label order; points that share a label leave the choice to the type of the seeds.
-
-    Parameters
-    ----------
-    places : (n, axes) float64 array
-        Of the seeds.
-    labels : (n,) uint32 array
-        Of the points.
-    points : PointSet or VolumePoints
-        What else is known of them.
-
-    Raises
-    ------
-    InputError
-        If points share a label and bring further columns.
-    """
+    """Give the sites in increasing label order; points that share a label leave the choice to the type of the seeds."""
     if points.labels is None:
         return {"sites": places, "site_labels": labels, "properties": points.properties, "index": points.index}
     order = np.argsort(labels, kind="stable")
@@ -222,18 +133,7 @@ def sites_of_points(
 
 
 def report_snapped(places: NDArray[np.float64], snapped: SnappedPlaces, *, strict: bool) -> None:
-    """Tell how many places moved to the lattice, if any did, or refuse them.
-
-    Raises
-    ------
-    InputError
-        If they are refused.
-
-    Warns
-    -----
-    VorotoolWarning
-        With their number and the largest move.
-    """
+    """Tell how many places moved to the lattice, if any did, or refuse them."""
     count, cell = snapped.moves, _CELL[places.shape[1]]
     step = f"1/{snapped.finest}" if snapped.finest <= FINEST_SCALE else f"2^-{snapped.finest.bit_length() - 1}"
     if not count:

@@ -58,30 +58,16 @@ class ImageRows(Protocol):
 
 @dataclass(frozen=True)
 class ObjectRows:
-    """The rows of an image, of which the objects are seeds.
-
-    Parameters
-    ----------
-    image : ImageRows
-        Its values.
-    mode : {"pixels", "components", "labels"}, optional
-        What shares a label; by default as in `seeds_from_raster`, but a photograph is looked for only in the first
-        band that has two values.
-    connectivity : {8, 4}
-        Of components.
-    threshold : float, optional
-        Foreground is what is larger.
-    invert : bool
-        Exchange foreground and background.
-    height : int
-        Rows of a band that is read at a time, if that is not too much: best those of the bands that are asked for.
-    """
+    """The rows of an image, of which the objects are seeds."""
 
     image: ImageRows
+    # what shares a label; by default as in `seeds_from_raster`, but a photograph is looked for only in the first band
+    # that has two values
     mode: StreamedMode | None = None
     connectivity: int = 8
-    threshold: float | None = None
-    invert: bool = False
+    threshold: float | None = None  # foreground is what is larger
+    invert: bool = False  # exchange foreground and background
+    # rows of a band that is read at a time, if that is not too much: best those of the bands that are asked for
     height: int = 512
 
     def values(self, first: int, count: int) -> NDArray[Any]:
@@ -117,33 +103,17 @@ class ObjectRows:
 
 @dataclass(frozen=True)
 class ObjectBand:
-    """Some rows of objects, and all that their tessellation needs of the other rows.
+    """Some rows of objects, and all that their tessellation needs of the other rows."""
 
-    Parameters
-    ----------
-    source : ObjectRows
-        Where they are read.
-    first, count : int
-        Which rows.
-    above, below : bytes
-        The nearest seed of each column above and below them: `ColumnEnvelope.packed`.
-    row_above : bytes
-        Of components: the numbers of the row above them, compressed.
-    start, end : int
-        Seeds, or provisional components, before the first row and after the last one.
-    fresh : (end - start,) uint32 array
-        Of components: their numbers.
-    """
-
-    source: ObjectRows
+    source: ObjectRows  # where they are read
     first: int
     count: int
-    above: bytes
-    below: bytes
-    row_above: bytes
-    start: int
-    end: int
-    fresh: NDArray[np.uint32]
+    above: bytes  # the nearest seed of each column above and below them: `ColumnEnvelope.packed`
+    below: bytes  # the nearest seed of each column above and below them: `ColumnEnvelope.packed`
+    row_above: bytes  # of components: the numbers of the row above them, compressed
+    start: int  # seeds, or provisional components, before the first row and after the last one
+    end: int  # seeds, or provisional components, before the first row and after the last one
+    fresh: NDArray[np.uint32]  # (end - start,) uint32 array: of components: their numbers
 
     def objects(self) -> NDArray[np.uint32]:
         """Read the rows: labels of objects, and 0."""
@@ -161,25 +131,15 @@ class ObjectBand:
 
 @dataclass(frozen=True)
 class ImageBand:
-    """Some rows of the tessellation of an image, computed where they are asked for: it can be pickled.
+    """Some rows of the tessellation of an image, computed where they are asked for: it can be pickled."""
 
-    Parameters
-    ----------
-    parts : tuple of ObjectBand
-        Those that have these rows.
-    first, count : int
-        Which rows.
-    what, dtype, max_distance, sides
-        As of `SeedBand`.
-    """
-
-    parts: tuple[ObjectBand, ...]
+    parts: tuple[ObjectBand, ...]  # those that have these rows
     first: int
     count: int
-    what: Quantity
-    dtype: np.dtype[Any]
-    max_distance: float | Fraction | None = None
-    sides: PixelSides = SQUARE
+    what: Quantity  # as of `SeedBand`
+    dtype: np.dtype[Any]  # as of `SeedBand`
+    max_distance: float | Fraction | None = None  # as of `SeedBand`
+    sides: PixelSides = SQUARE  # as of `SeedBand`
 
     def rows(self, *, threads: int = 0, progress: Progress = None) -> NDArray[Any]:
         """Compute the rows."""
@@ -231,51 +191,7 @@ class ImageBand:
 
 
 class StreamedImage:
-    """The tessellation of an image that is read twice: once for what each band needs of the others, once for the bands.
-
-    Parameters
-    ----------
-    source : ObjectRows
-        The image.
-    max_sites : int
-        More pixels, or provisional components, that need numbers are refused.
-    strict : bool
-        Refuse an image without foreground.
-    progress : callable, optional
-        Called with the fraction read, the first time.
-    note : callable, optional
-        As of `seeds_from_raster`.
-    sides : PixelSides
-        Of a pixel, in whose unit distances are.
-
-    Raises
-    ------
-    InputError
-        If the image cannot be read; or there is no foreground, and `strict`.
-    LimitError
-        If there are too many components or pixels.
-
-    Warns
-    -----
-    VorotoolWarning
-        If there is no foreground, so that all labels are 0 and there are no distances.
-
-    Notes
-    -----
-    The labels are those of `tessellate` with the seeds of `seeds_from_raster`: components are numbered by raster
-    order of their first pixels, by a union-find over runs of pixels as they pass by. Memory grows with the width, the
-    components, and in a compressed form with the width times the number of bands.
-
-    Examples
-    --------
-    >>> class Rows:
-    ...     shape = (2, 4)
-    ...     def rows(self, first, count):
-    ...         return np.array([[1, 0, 0, 0], [0, 0, 0, 1]])[first : first + count]
-    >>> image = StreamedImage(ObjectRows(Rows()))
-    >>> image.band("labels", np.dtype(np.uint16), 0, 2).rows().tolist()
-    [[1, 1, 2, 2], [1, 1, 2, 2]]
-    """
+    """The tessellation of an image that is read twice: for what bands need of each other, and for the bands."""
 
     def __init__(
         self,
@@ -419,10 +335,7 @@ def _numbered_pixels(mask: NDArray[np.uint8], start: int) -> NDArray[np.uint32]:
 
 
 def _seeds_near(objects: NDArray[np.uint32], frame: Frame, above: ColumnEnvelope, below: ColumnEnvelope) -> SeedSet:
-    """Give the seeds that are nearest to pixels of these rows: those that are not surrounded, and the lists.
-
-    See `needed_seeds` and `SeedBands`.
-    """
+    """Give the seeds that are nearest to pixels of these rows: those that are not surrounded, and the lists."""
     y, x = np.nonzero((objects != 0) & ~surrounded_pixels(objects))
     (x_above, y_above, above_labels), (x_below, y_below, below_labels) = above.seeds(), below.seeds()
     return SeedSet(

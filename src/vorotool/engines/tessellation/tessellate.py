@@ -243,22 +243,7 @@ def labelled_rows(
     max_pixels: int = MAX_PIXELS,
     progress: Progress = None,
 ) -> Tessellator | PropagatedRows:
-    """Prepare what gives any rows of a tessellation; arguments and errors as of `tessellate`.
-
-    Parameters
-    ----------
-    frame : Frame, optional
-        By default what just holds the seeds.
-    sides : PixelSides
-        Sides of a pixel, in whose unit distances are.
-    strict : bool
-        Refuse several seeds at one place.
-
-    Examples
-    --------
-    >>> labelled_rows(as_seeds([[0, 0], [2, 1]]), Frame(0, 0, 3, 2)).labels(1).tolist()
-    [[1, 2, 2]]
-    """
+    """Prepare what gives any rows of a tessellation; arguments and errors as of `tessellate`."""
     if not is_choice(method, ("exact", "propagation")):
         raise UsageError(f"method is {shown_number(method)}: it must be 'exact' or 'propagation'")
     if method == "propagation":
@@ -275,17 +260,7 @@ def labelled_rows(
 
 
 def verify_rows(rows: Tessellator | PropagatedRows, *, threads: int = 0) -> None:
-    """Check every label against an independent exact nearest-seed search, band by band.
-
-    Raises
-    ------
-    VerificationError
-        If a label is wrong; the first such pixel is named.
-
-    Examples
-    --------
-    >>> verify_rows(Tessellator(as_seeds([[0, 0], [4, 0]]), Frame(0, 0, 5, 3)))
-    """
+    """Check every label against an independent exact nearest-seed search, band by band."""
     for first, count in band_limits(rows.frame):
         frame = Frame(rows.frame.x, rows.frame.y + first, rows.frame.width, count)
         limit, sides = (rows.most_squared, rows.sides) if isinstance(rows, Tessellator) else (None, SQUARE)

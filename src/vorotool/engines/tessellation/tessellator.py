@@ -54,49 +54,7 @@ class NothingLabelled:
 
 
 class Tessellator:
-    """The exact tessellation of a frame, ready to give any of its rows.
-
-    Parameters
-    ----------
-    seeds : SeedSet
-        At least one seed, unless they are those of an image.
-    frame : Frame, optional
-        The pixels to label; by default `default_frame` of the seeds.
-    max_distance : float or Fraction, optional
-        Pixels farther than this from every seed get label 0.
-    sides : PixelSides
-        Sides of a pixel, in whose unit distances are.
-    threads : int
-        0 uses all.
-    strict : bool
-        Refuse several seeds at one place.
-    progress : callable, optional
-        Called now and then with the fraction done of the frame, of which rows are asked for from top to bottom.
-
-    Raises
-    ------
-    InputError
-        If there is no seed, or one is too far away for exact arithmetic.
-
-    Warns
-    -----
-    VorotoolWarning
-        If several seeds lie at one place: the smallest label has the region.
-
-    Notes
-    -----
-    A row sweep with dead seeds dropped for good: memory grows with the seeds and the width, not with the
-    frame. Of the pixels of large objects only the outer ones take part, see `needed_seeds`. Every row is the
-    same whatever the band it is computed in, the threads and the instruction set.
-
-    Examples
-    --------
-    >>> from vorotool.engines.tessellation.seeding import seeds_from_points
-    >>> from vorotool.geometry.points.point_set import PointSet
-    >>> sweep = Tessellator(seeds_from_points(PointSet([[0, 0], [4, 0]])), Frame(0, 0, 5, 1))
-    >>> sweep.labels().tolist()
-    [[1, 1, 1, 2, 2]]
-    """
+    """The exact tessellation of a frame, ready to give any of its rows."""
 
     def __init__(
         self,
@@ -182,27 +140,7 @@ class Tessellator:
     def labels(
         self, first: int = 0, rows: int | None = None, *, dtype: Any = None, out: NDArray[Any] | None = None
     ) -> NDArray[Any]:
-        """Labels of some rows of the frame.
-
-        Parameters
-        ----------
-        first, rows : int
-            The first row and the number of rows; by default all.
-        dtype : dtype, optional
-            uint8, uint16, uint32 or int32; by default uint16 where the labels fit, else uint32.
-        out : (rows, W) array, optional
-            Written instead of a new array; C-contiguous, of one of these types.
-
-        Returns
-        -------
-        (rows, W) array
-            `out` if it was given.
-
-        Raises
-        ------
-        UsageError
-            If the labels do not fit the type, or `out` has another shape or layout.
-        """
+        """Labels of some rows of the frame."""
         kind = label_dtype(self.seeds.largest_label, getattr(out, "dtype", dtype))
         array = self._output(first, rows, kind, out)
         limit = None if self.most_squared is None else divmod(self.most_squared, 2**64)
@@ -213,25 +151,7 @@ class Tessellator:
     def squared_distances(
         self, first: int = 0, rows: int | None = None, *, dtype: np.dtype[Any] | None = None
     ) -> NDArray[Any]:
-        """Exact squared distances to the nearest seed, in squares of a step of the sides over ``seeds.scale``.
-
-        Parameters
-        ----------
-        first, rows : int
-            The first row and the number of rows; by default all.
-        dtype : dtype, optional
-            uint32 or uint64, where it is known that they fit, or float64, rounded; by default `square_dtype`.
-
-        Returns
-        -------
-        (rows, W) array
-            uint32 where every distance of the frame fits, else uint64.
-
-        Raises
-        ------
-        LimitError
-            If a squared distance may exceed 64 bits.
-        """
+        """Exact squared distances to the nearest seed, in squares of a step of the sides over ``seeds.scale``."""
         array = self._output(first, rows, dtype or self.square_dtype, None)
         self._core.squared_distances(array, first, self._threads, self._progress_of(first, len(array)))
         self._paint(array, first, 0)

@@ -28,43 +28,7 @@ def verify_label_image(
     sides: PixelSides = SQUARE,
     threads: int = 0,
 ) -> None:
-    """Check a tessellation exactly, by another way than the one that makes it.
-
-    Every pixel must have the label of the nearest seed, ties to the smallest label; the nearest seed is found
-    in a k-d tree with integers of 64 or 128 bits.
-
-    Parameters
-    ----------
-    labels : (H, W) integer array
-        The labels to check.
-    seeds : SeedSet
-        All seeds, also those outside the frame; coordinates up to 2^40 lattice steps.
-    frame : Frame
-        Where the pixels lie.
-    max_distance2 : int, optional
-        Squared distance in lattice steps; pixels beyond it must be 0.
-    sides : PixelSides
-        Of a pixel, on the lattice.
-    threads : int
-        0 for all.
-
-    Raises
-    ------
-    VerificationError
-        If a pixel is wrong: the message counts them and names the first in row-major order.
-    InputError
-        If the shapes differ, or coordinates are beyond 2^40 lattice steps.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> seeds = SeedSet(np.array([0, 2]), np.array([0, 0]), np.array([1, 2]))
-    >>> verify_label_image(np.array([[1, 1, 2]]), seeds, Frame(0, 0, 3, 1))
-    >>> verify_label_image(np.array([[1, 2, 2]]), seeds, Frame(0, 0, 3, 1))
-    Traceback (most recent call last):
-        ...
-    vorotool.errors.VerificationError: 1 of 3 pixels is wrong: the first, (x, y) = (1, 0), has label 2, not 1
-    """
+    """Check a tessellation exactly, by another way than the one that makes it."""
     image = LabelImage(labels, frame)
     high, low = split_limit(max_distance2)
     left, top = -(frame.width // 2), -(frame.height // 2)  # seen from the middle, as the engine has them

@@ -19,35 +19,7 @@ Plane = NDArray[np.uint8]
 
 
 class CleanedSlices:
-    """The mask of a volume, whose holes are filled and whose small objects are left out; it is never held.
-
-    A hole is a component of the background that does not reach a face of the volume. Where voxels of objects are
-    connected over edges and corners, those of the background are not, and the other way round.
-
-    Parameters
-    ----------
-    objects : VolumeObjects
-        The mask. It is read once to find the holes, and once more to find the small objects.
-    cleaning : Cleaning
-        Which holes and objects, by their voxels.
-    connectivity : {26, 6}
-        Of the voxels of an object.
-
-    Notes
-    -----
-    Components are numbered again in each reading: what is kept is a truth value and a count for each provisional
-    number. Slices are best read in their order: for one before, reading begins anew.
-
-    Examples
-    --------
-    >>> from vorotool.engines.volumes.volume_objects import HeldSlices
-    >>> from vorotool.geometry.volumes.volume import Volume
-    >>> shell = np.ones((3, 3, 5), bool)
-    >>> shell[1, 1, 1] = shell[:, :, 3] = False
-    >>> mask = CleanedSlices(VolumeObjects(HeldSlices(Volume(shell))), Cleaning(min_area=10, fill_holes=True))
-    >>> int(mask.slices(0, 3).sum()), mask.filled, mask.removed, mask.objects
-    (27, 1, 1, 2)
-    """
+    """The mask of a volume, whose holes are filled and whose small objects are left out; it is never held."""
 
     def __init__(self, objects: VolumeObjects, cleaning: Cleaning, connectivity: int = 26) -> None:
         self._objects, self._corners = objects, connectivity == 26

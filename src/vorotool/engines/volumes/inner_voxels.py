@@ -22,18 +22,7 @@ from vorotool.geometry.volumes.voxel_frame import VoxelFrame
 
 
 def outer_voxels(volume: NDArray[Any]) -> NDArray[np.bool_]:
-    """Nonzero voxels that have not their own value on all six sides.
-
-    Parameters
-    ----------
-    volume : (D, H, W) array
-        0 is background.
-
-    Examples
-    --------
-    >>> int(outer_voxels(np.ones((3, 3, 3), np.uint8)).sum())
-    26
-    """
+    """Nonzero voxels that have not their own value on all six sides."""
     outer: NDArray[np.bool_] = volume != 0
     inner = np.ones(tuple(max(side - 2, 0) for side in volume.shape), dtype=bool)
     centre = volume[1:-1, 1:-1, 1:-1]
@@ -47,55 +36,14 @@ def outer_voxels(volume: NDArray[Any]) -> NDArray[np.bool_]:
 
 
 def inner_runs(seeds: VolumeSeeds, part: slice) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
-    """Find the runs of inner voxels that follow some seeds.
-
-    Parameters
-    ----------
-    seeds : VolumeSeeds
-        With `filled`.
-    part : slice
-        Which seeds.
-
-    Returns
-    -------
-    seed, start, end : (k,) int64 arrays
-        The seed before each run, of whose label it is, on whose row; the columns [start, end).
-
-    Examples
-    --------
-    >>> seeds = VolumeSeeds([[3, 0, 0], [6, 0, 0]], [1, 1], filled=np.array([True, False]))
-    >>> [each.tolist() for each in inner_runs(seeds, slice(None))]
-    [[0], [4], [6]]
-    """
+    """Find the runs of inner voxels that follow some seeds."""
     assert seeds.filled is not None
     seed = np.flatnonzero(seeds.filled[part]) + (part.start or 0)
     return seed, seeds.x[seed] + 1, seeds.x[seed + 1]
 
 
 def paint_inner(slices: NDArray[Any], seeds: VolumeSeeds, frame: VoxelFrame, first: int, value: Any = None) -> None:
-    """Set the voxels inside objects to their labels or to one value.
-
-    Parameters
-    ----------
-    slices : (d, H, W) array
-        Slices of a frame, C-contiguous, written in place.
-    seeds : VolumeSeeds
-        Where they have no `filled`, nothing is painted.
-    frame : VoxelFrame
-        All of it.
-    first : int
-        Which slice of the frame is the first of these.
-    value : int, optional
-        Instead of the labels.
-
-    Examples
-    --------
-    >>> seeds = VolumeSeeds([[3, 0, 0], [6, 0, 0]], [7, 7], filled=np.array([True, False]))
-    >>> slices = np.zeros((1, 1, 5), np.uint8)
-    >>> paint_inner(slices, seeds, VoxelFrame(2, 0, 0, 5, 1, 1), 0)
-    >>> slices.tolist()
-    [[[0, 0, 7, 7, 0]]]
-    """
+    """Set the voxels inside objects to their labels or to one value."""
     if seeds.filled is None:
         return
     width = frame.width

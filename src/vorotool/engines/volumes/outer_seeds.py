@@ -24,23 +24,7 @@ _CENTROIDS = option("--seeds centroids", 'mode="centroids"')
 
 
 class OuterSeeds:
-    """The seeds of a volume: all foreground voxels where each has a label of its own, else the outer ones of objects.
-
-    Parameters
-    ----------
-    objects : VolumeObjects
-        Where they are read.
-    kind : {"pixels", "components", "labels"}
-        What shares a label.
-    connectivity : {26, 6}
-        Of components.
-    most : int, optional
-        More seeds are refused.
-
-    Notes
-    -----
-    A slab waits with its last slice for the first one of the next. Components have provisional numbers until the end.
-    """
+    """The seeds of a volume: all foreground voxels where each has its own label, else the outer ones of objects."""
 
     def __init__(
         self, objects: VolumeObjects, kind: Objects | str, connectivity: int = 26, most: int | None = None
@@ -59,13 +43,7 @@ class OuterSeeds:
         self._count = 0
 
     def read(self, frame: VoxelFrame, progress: Progress = None) -> VolumeSeeds:
-        """Read the volume, and give its seeds, without sites.
-
-        Raises
-        ------
-        LimitError
-            If there are too many.
-        """
+        """Read the volume, and give its seeds, without sites."""
         depth = frame.depth
         for first, count in self._objects.limits():
             if self._kind == "pixels":

@@ -21,58 +21,26 @@ Quantity = Literal["labels", "distance", "distance2", "diagram"]
 
 
 def with_neighbours(frame: VoxelFrame, first: int, slices: int) -> tuple[int, int]:
-    """Give the first slice and the number of slices, with one more on each side where the frame has one.
-
-    Examples
-    --------
-    >>> with_neighbours(VoxelFrame(0, 0, 0, 9, 9, 5), 0, 3), with_neighbours(VoxelFrame(0, 0, 0, 9, 9, 5), 3, 2)
-    ((0, 4), (2, 3))
-    """
+    """Give the first slice and the number of slices, with one more on each side where the frame has one."""
     begin, end = max(first - 1, 0), min(first + slices + 1, frame.depth)
     return begin, end - begin
 
 
 @dataclass(frozen=True)
 class SeedSlab:
-    """Slices of a tessellation, with the seeds that they need: it can be pickled.
+    """Slices of a tessellation, with the seeds that they need: it can be pickled."""
 
-    Parameters
-    ----------
-    seeds : VolumeSeeds
-        Enough of them.
-    frame : VoxelFrame
-        The whole volume.
-    first, slices : int
-        Which slices.
-    what : {"labels", "distance", "distance2", "diagram"}
-        What is computed.
-    dtype : dtype
-        Its type, which is that of the whole volume.
-    sides : PixelSides
-        Of a voxel.
-    max_distance : Fraction or float, optional
-        Of labels.
-    """
-
-    seeds: VolumeSeeds
-    frame: VoxelFrame
+    seeds: VolumeSeeds  # enough of them
+    frame: VoxelFrame  # the whole volume
     first: int
     slices: int
-    what: Quantity
-    dtype: np.dtype[Any]
+    what: Quantity  # what is computed
+    dtype: np.dtype[Any]  # its type, which is that of the whole volume
     sides: PixelSides = CUBE
     max_distance: float | Fraction | None = None
 
     def rows(self, *, threads: int = 0, progress: Progress = None) -> NDArray[Any]:
-        """Compute the slices.
-
-        Examples
-        --------
-        >>> seeds = VolumeSeeds(np.array([[0, 0, 0], [4, 0, 9]]), np.array([1, 2]))
-        >>> frame = VoxelFrame(0, 0, 0, 5, 1, 10)
-        >>> SeedSlab(seeds, frame, 5, 1, "labels", np.dtype(np.uint8)).rows()
-        array([[[1, 2, 2, 2, 2]]], dtype=uint8)
-        """
+        """Compute the slices."""
         sweep = VolumeSweep(
             self.seeds,
             self.frame,
@@ -93,26 +61,7 @@ class SeedSlab:
 
 
 class SeedSlabs:
-    """Cuts seeds into those that slabs of slices need.
-
-    In each column of seeds along z a voxel's nearest one is within the slices of its slab, or it is the nearest before
-    these, or behind. So a slab needs the seeds in its slices and two lists with at most one seed a column: any slab is
-    computed apart from the others, with the same result.
-
-    Parameters
-    ----------
-    seeds : VolumeSeeds
-        All of them.
-    frame : VoxelFrame
-        The whole volume.
-
-    Examples
-    --------
-    >>> places = np.array([[3, 3, 0], [3, 3, 1], [3, 3, 9], [8, 8, 0]])
-    >>> slabs = SeedSlabs(VolumeSeeds(places, np.array([1, 2, 3, 4])), VoxelFrame(0, 0, 0, 9, 9, 10))
-    >>> slabs.seeds_of(4, 2).labels.tolist()
-    [4, 2, 3]
-    """
+    """Cuts seeds into those that slabs of slices need."""
 
     def __init__(self, seeds: VolumeSeeds, frame: VoxelFrame) -> None:
         self.frame, self.seeds = frame, seeds

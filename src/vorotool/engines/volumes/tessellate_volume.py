@@ -42,27 +42,7 @@ def tessellate_volume(
     max_pixels: int = MAX_PIXELS,
     progress: Progress = None,
 ) -> LabelVolume:
-    """Label every voxel with its nearest seed; ties go to the smallest label. Parameters are those of `tessellate`.
-
-    Parameters
-    ----------
-    seeds : VolumeSeeds, points of space or volume
-        Point i of an array has label i + 1; objects of volumes are those of `seeds_from_volume`.
-
-    Raises
-    ------
-    InputError
-        If there is no seed, a seed is unusable, or the points have negative coordinates and no window.
-    LimitError
-        If the frame has more than `max_pixels` voxels; or none is given, and the points need more than 2^28.
-    UsageError
-        If options do not go together.
-
-    Examples
-    --------
-    >>> tessellate_volume([[0, 0, 0], [2, 0, 1]], shape=(2, 1, 3)).labels.tolist()
-    [[[1, 1, 2]], [[1, 2, 2]]]
-    """
+    """Label every voxel with its nearest seed; ties go to the smallest label. Parameters are those of `tessellate`."""
     _check_method(method, passes)
     sides = sides_of(seeds, spacing, 3)
     frame = asked_voxel_frame(shape, window)

@@ -21,30 +21,7 @@ from vorotool.geometry.volumes.voxel_frame import VoxelFrame
 
 
 def verify_volume(volume: LabelVolume, *, max_distance: float | Fraction | None = None, threads: int = 0) -> None:
-    """Check that every voxel of a tessellation has the smallest label of its nearest seeds.
-
-    Parameters
-    ----------
-    volume : LabelVolume
-        With its seeds.
-    max_distance : float or Fraction, optional
-        The limit that the tessellation was made with.
-    threads : int
-        0 uses all.
-
-    Raises
-    ------
-    VerificationError
-        If a label is wrong; the first such voxel is named.
-    UsageError
-        If the volume carries no seeds.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> seeds = VolumeSeeds(np.array([[0, 0, 0], [2, 0, 0]]), np.array([1, 2]))
-    >>> verify_volume(LabelVolume(np.array([[[1, 1, 2]]]), seeds=seeds))
-    """
+    """Check that every voxel of a tessellation has the smallest label of its nearest seeds."""
     seeds, frame, sides = volume.seeds, volume.frame, volume.sides
     if seeds is None or frame is None:
         raise UsageError("the label volume carries no seeds: make it with vorotool.tessellate")
@@ -62,45 +39,7 @@ def verify_label_volume(
     threads: int = 0,
     progress: Progress = None,
 ) -> None:
-    """Check the tessellation of a volume exactly, by another way than the one that makes it.
-
-    Every voxel must have the label of the nearest seed, ties to the smallest label; the nearest seed is found
-    in a k-d tree with integers of 64 or 128 bits.
-
-    Parameters
-    ----------
-    labels : (D, H, W) integer array
-        The labels to check: of all slices, or of those of `frame`.
-    seeds : VolumeSeeds
-        All seeds, also those outside the frame; coordinates up to 2^40 lattice steps.
-    frame : VoxelFrame
-        Where the voxels lie.
-    sides : PixelSides
-        Of a voxel, on the lattice.
-    max_distance2 : int, optional
-        Squared distance in lattice steps; voxels beyond it must be 0.
-    threads : int
-        0 for all.
-    progress : callable, optional
-        Called with the fraction done.
-
-    Raises
-    ------
-    VerificationError
-        If a voxel is wrong: the message counts them and names the first by slice, row and column.
-    InputError
-        If the shapes differ, or coordinates are beyond 2^40 lattice steps.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> seeds = VolumeSeeds(np.array([[0, 0, 0], [2, 0, 0]]), np.array([1, 2]))
-    >>> verify_label_volume(np.array([[[1, 1, 2]]]), seeds, VoxelFrame(0, 0, 0, 3, 1, 1))
-    >>> verify_label_volume(np.array([[[1, 2, 2]]]), seeds, VoxelFrame(0, 0, 0, 3, 1, 1))
-    Traceback (most recent call last):
-        ...
-    vorotool.errors.VerificationError: 1 of 3 voxels is wrong: the first, (x, y, z) = (1, 0, 0), has label 2, not 1
-    """
+    """Check the tessellation of a volume exactly, by another way than the one that makes it."""
     volume = LabelVolume(labels, frame)
     high, low = split_limit(max_distance2)
     steps = sides.units[::-1]

@@ -31,30 +31,7 @@ _WINDOW = option("--window X,Y,Z,W,H,D", "window=(x, y, z, w, h, d)")
 def as_volume_seeds(
     source: Any, name: str = "seeds", *, max_pixels: int = MAX_PIXELS, check: Check = None
 ) -> VolumeSeeds:
-    """Give seeds from whatever `tessellate` accepts in three dimensions.
-
-    Parameters
-    ----------
-    source : object
-        `VolumeSeeds`, which are given back; a `LabelVolume`, whose seeds lie where its frame does; what `as_volume` or
-        `as_volume_points` takes.
-    name : str
-        Of the parameter, for messages.
-    max_pixels : int
-        Larger volumes are refused before what is not yet in memory is read.
-    check : callable, optional
-        May refuse seeds before anyone is told that they moved.
-
-    Raises
-    ------
-    InputError
-        If it is none of these.
-
-    Examples
-    --------
-    >>> len(as_volume_seeds(np.eye(3, dtype=bool)[None])), len(as_volume_seeds([[1, 2, 3]]))
-    (3, 1)
-    """
+    """Give seeds from whatever `tessellate` accepts in three dimensions."""
     if isinstance(source, VolumeSeeds):
         seeds = source
     elif isinstance(source, LabelVolume):
@@ -84,18 +61,7 @@ def _moved_to(seeds: VolumeSeeds, frame: VoxelFrame | None) -> VolumeSeeds:
 
 
 def asked_voxel_frame(shape: Any, window: Any) -> VoxelFrame | None:
-    """Give the frame that is asked for by ``shape`` (D, H, W) or ``window`` (x, y, z, w, h, d), if one is.
-
-    Raises
-    ------
-    UsageError
-        If both are given, or not integers.
-
-    Examples
-    --------
-    >>> asked_voxel_frame((20, 480, 640), None)
-    VoxelFrame(x=0, y=0, z=0, width=640, height=480, depth=20)
-    """
+    """Give the frame that is asked for by ``shape`` (D, H, W) or ``window`` (x, y, z, w, h, d), if one is."""
     numbers = asked_numbers(shape, window, _FORMS)
     if numbers is None:
         return None
@@ -105,27 +71,7 @@ def asked_voxel_frame(shape: Any, window: Any) -> VoxelFrame | None:
 def default_voxel_frame(
     seeds: VolumeSeeds, *, how: str = "give shape=(D, H, W) or window=(x, y, z, w, h, d)"
 ) -> VoxelFrame:
-    """Give the frame that the input brings, else the smallest at the origin that holds the points.
-
-    Parameters
-    ----------
-    seeds : VolumeSeeds
-        Points or a volume.
-    how : str
-        How a frame is given, for messages.
-
-    Raises
-    ------
-    InputError
-        If a coordinate is negative: such points need a window.
-    LimitError
-        If the points need a frame that is larger than anyone would take without asking for it.
-
-    Examples
-    --------
-    >>> default_voxel_frame(as_volume_seeds([[2, 1, 0], [7.25, 5.5, 3]])).shape
-    (4, 7, 8)
-    """
+    """Give the frame that the input brings, else the smallest at the origin that holds the points."""
     if seeds.frame is not None:
         return seeds.frame
     sides = least_sides({"x": seeds.x, "y": seeds.y, "z": seeds.z}, seeds.scale, _WINDOW)
@@ -138,20 +84,7 @@ def default_voxel_frame(
 
 
 def slab_limits(frame: VoxelFrame, seeds: int = 0) -> Iterator[tuple[int, int]]:
-    """First slice and number of slices of the slabs in which a frame is streamed.
-
-    Parameters
-    ----------
-    frame : VoxelFrame
-        The voxels.
-    seeds : int
-        Each slab begins with all of them: it is as large as they are worth.
-
-    Examples
-    --------
-    >>> list(slab_limits(VoxelFrame(0, 0, 0, 4096, 4096, 3)))
-    [(0, 1), (1, 1), (2, 1)]
-    """
+    """First slice and number of slices of the slabs in which a frame is streamed."""
     wanted = min(max(BAND_PIXELS, _VOXELS_A_SEED * seeds), _MOST_VOXELS)
     step = max(1, wanted // (frame.width * frame.height))
     for first in range(0, frame.depth, step):

@@ -25,104 +25,36 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class VolumeMeasures:
-    """Measures of the regions of a label volume; what `measure_volume` gives. All are counts, along x, y and z.
+    """Measures of the regions of a label volume; what `measure_volume` gives. All are counts, along x, y and z."""
 
-    Parameters
-    ----------
-    labels : (k,) uint32 array
-        The labels that occur, increasing, without 0.
-    voxels, components : (k,) int64 array
-        Voxels of each region, and its 6-connected parts.
-    faces : (k, 3) int64 array
-        Faces of voxels across each axis, between the region and anything else, the outside of the volume included.
-    sums : (k, 3) int64 array
-        Of columns, rows and slices, which count from the corner of the volume.
-    low, high : (k, 3) int64 array
-        First and last column, row and slice.
-    borders : (b, 2) uint32 array
-        Indices of two regions that share a face, the smaller first, in lexicographic order.
-    border_faces : (b, 3) int64 array
-        Faces that the two share, across each axis.
-    """
-
-    labels: NDArray[np.uint32]
-    voxels: NDArray[np.int64]
-    components: NDArray[np.int64]
+    labels: NDArray[np.uint32]  # (k,) uint32 array: the labels that occur, increasing, without 0
+    voxels: NDArray[np.int64]  # (k,) int64 array: voxels of each region, and its 6-connected parts
+    components: NDArray[np.int64]  # (k,) int64 array: voxels of each region, and its 6-connected parts
+    # (k, 3) int64 array: faces of voxels across each axis, between the region and anything else, the outside of the
+    # volume included
     faces: NDArray[np.int64]
+    # (k, 3) int64 array: of columns, rows and slices, which count from the corner of the volume
     sums: NDArray[np.int64]
-    low: NDArray[np.int64]
-    high: NDArray[np.int64]
+    low: NDArray[np.int64]  # (k, 3) int64 array: first and last column, row and slice
+    high: NDArray[np.int64]  # (k, 3) int64 array: first and last column, row and slice
+    # (b, 2) uint32 array: indices of two regions that share a face, the smaller first, in lexicographic order
     borders: NDArray[np.uint32]
-    border_faces: NDArray[np.int64]
+    border_faces: NDArray[np.int64]  # (b, 3) int64 array: faces that the two share, across each axis
 
     def touches_frame(self, shape: tuple[int, int, int]) -> NDArray[np.bool_]:
-        """(k,) whether each region has voxels at a border of the volume, whose shape is (D, H, W).
-
-        Examples
-        --------
-        >>> measure_volume(np.pad([[[3]]], 1, constant_values=2)).touches_frame((3, 3, 3)).tolist()
-        [True, False]
-        """
+        """(k,) whether each region has voxels at a border of the volume, whose shape is (D, H, W)."""
         last = np.array(shape[::-1]) - 1
         touches: NDArray[np.bool_] = ((self.low == 0) | (self.high == last)).any(axis=1)
         return touches
 
 
 def measure_volume(volume: VolumeLike, *, threads: int = 0, progress: Progress = None) -> VolumeMeasures:
-    """Measure all regions of a label volume in one pass.
-
-    The tables and the colouring take the result as ``measures``, so that several of them cost one pass.
-
-    Parameters
-    ----------
-    volume : LabelVolume, or (D, H, W) array of integers or truth values
-        Label 0 is background and no region.
-    threads : int
-        0 for all, which share whole slices; the result is the same for any number.
-    progress : callable, optional
-        Called with the fraction done.
-
-    Returns
-    -------
-    VolumeMeasures
-
-    Raises
-    ------
-    InputError
-        If a label is negative or above 4294967295.
-
-    Examples
-    --------
-    >>> measures = measure_volume(np.array([[[1, 1, 2]], [[1, 2, 2]]], dtype=np.uint16))
-    >>> measures.voxels.tolist(), measures.border_faces.tolist()
-    ([3, 3], [[2, 0, 1]])
-    """
+    """Measure all regions of a label volume in one pass."""
     return measure_slabs([labelled(volume).labels], threads=threads, progress=progress)
 
 
 def measure_slabs(slabs: Iterable[NDArray[Any]], *, threads: int = 0, progress: Progress = None) -> VolumeMeasures:
-    """Measure all regions of a label volume that comes slab by slab: it need not be in memory.
-
-    Memory: some 200 bytes a region and 100 a pair of neighbours, and for each thread the runs of equal labels of a few
-    slices.
-
-    Parameters
-    ----------
-    slabs : iterable of (d, H, W) integer array
-        One after the other along z, of any depths.
-    threads, progress
-        As of `measure_volume`; progress is that of each slab.
-
-    Raises
-    ------
-    InputError
-        If there is no slab, slabs differ in height or width, or a label is negative or above 4294967295.
-
-    Examples
-    --------
-    >>> measure_slabs(np.full((1, 2, 2), 7, np.uint8) for _ in range(3)).faces.tolist()
-    [[12, 12, 8]]
-    """
+    """Measure all regions of a label volume that comes slab by slab: it need not be in memory."""
     threads = checked_threads(threads)
     measurer, size = None, (0, 0)
     negative: list[np.dtype[Any]] = []
@@ -154,36 +86,7 @@ def volume_diagram(
     threads: int = 0,
     progress: Progress = None,
 ) -> NDArray[np.uint8]:
-    """Mark the digital Voronoi diagram: voxels of which a neighbour across a face has a larger label (section 2.1).
-
-    Parameters
-    ----------
-    labels : LabelVolume, or (D, H, W) array of integers or truth values
-        Voxels of label 0 are never marked, and as neighbours never larger.
-    before, after : (H, W) integer array, optional
-        The slices next to a slab of a larger volume, which then can be streamed in slabs of any depth.
-    out : (D, H, W) uint8 array, optional
-        C-contiguous array to write to; it must not overlap the labels.
-    threads : int
-        0 for all; the result is the same for any number.
-    progress : callable, optional
-        Called with the fraction done.
-
-    Returns
-    -------
-    (D, H, W) uint8 array
-        1 on the diagram, else 0.
-
-    Raises
-    ------
-    InputError
-        If the shapes do not fit.
-
-    Examples
-    --------
-    >>> volume_diagram(np.array([[[1, 1, 2]], [[3, 1, 0]]], dtype=np.uint16)).tolist()
-    [[[1, 1, 0]], [[0, 1, 0]]]
-    """
+    """Mark the digital Voronoi diagram: voxels of which a neighbour across a face has a larger label (section 2.1)."""
     own = label_array(labelled(labels).labels, "voxel")
     if out is None:
         out = np.empty(own.shape, dtype=np.uint8)
@@ -195,18 +98,7 @@ def volume_diagram(
 
 
 def labelled(volume: Any) -> LabelVolume:
-    """Give a label volume: of truth values the 26-connected components are numbered, integers are labels.
-
-    Raises
-    ------
-    InputError
-        If it is no volume of labels.
-
-    Examples
-    --------
-    >>> labelled(np.array([[[True, False, True]]])).labels.tolist()
-    [[[1, 0, 2]]]
-    """
+    """Give a label volume: of truth values the 26-connected components are numbered, integers are labels."""
     if isinstance(volume, LabelVolume):
         return volume
     made: Volume = as_volume(volume, "volume")

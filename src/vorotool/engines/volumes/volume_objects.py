@@ -53,18 +53,7 @@ class SlicesSource(Protocol):
 
 @dataclass(frozen=True)
 class HeldSlices:
-    """A volume in memory, as one that is read.
-
-    Parameters
-    ----------
-    volume : Volume
-        Its values.
-
-    Examples
-    --------
-    >>> HeldSlices(Volume(np.zeros((4, 2, 3), bool))).slices(1, 2).shape
-    (2, 2, 3)
-    """
+    """A volume in memory, as one that is read."""
 
     volume: Volume
 
@@ -85,24 +74,12 @@ class HeldSlices:
 
 @dataclass(frozen=True)
 class VolumeObjects:
-    """The slices of a volume, of which the objects are seeds.
-
-    Parameters
-    ----------
-    source : SlicesSource
-        Its values.
-    threshold : float, optional
-        Foreground is what is larger.
-    invert : bool
-        Exchange foreground and background.
-    step : int
-        Slices that are read at a time.
-    """
+    """The slices of a volume, of which the objects are seeds."""
 
     source: SlicesSource
-    threshold: float | None = None
-    invert: bool = False
-    step: int = 1
+    threshold: float | None = None  # foreground is what is larger
+    invert: bool = False  # exchange foreground and background
+    step: int = 1  # slices that are read at a time
 
     @classmethod
     def of(
@@ -113,15 +90,7 @@ class VolumeObjects:
         invert: bool = False,
         slices: int | None = None,
     ) -> VolumeObjects:
-        """Settle the threshold, for which ``otsu`` reads the volume, and how many slices are read at a time.
-
-        Raises
-        ------
-        InputError
-            If values are not finite, for ``otsu``.
-        UsageError
-            If the threshold is no finite number.
-        """
+        """Settle the threshold, for which ``otsu`` reads the volume, and how many slices are read at a time."""
         _, height, width = source.shape
         made = cls(source, None, invert, slices or max(1, SLAB_VOXELS // (height * width)))
         if threshold is None:
@@ -155,18 +124,7 @@ class VolumeObjects:
         return np.ascontiguousarray(self.values(first, count) != 0).view(np.uint8)
 
     def kind(self, *, note: Note = None) -> Objects:
-        """Tell whether the nonzero values are of a mask or labels, as `default_objects` does of an image.
-
-        Parameters
-        ----------
-        note : callable, optional
-            As of `objects_of_value`.
-
-        Raises
-        ------
-        InputError
-            If they look like grey values.
-        """
+        """Tell whether the nonzero values are of a mask or labels, as `default_objects` does of an image."""
         if self.threshold is not None or checked_flag(self.invert, "invert"):
             return "components"
         one, found = only_value((first, self.values(first, count)) for first, count in self.limits())

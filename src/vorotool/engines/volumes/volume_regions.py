@@ -21,26 +21,14 @@ from vorotool.geometry.volumes.voxel_frame import VoxelFrame
 
 @dataclass(frozen=True, eq=False)
 class VolumeRegions:
-    """Measures of regions, and their sites.
+    """Measures of regions, and their sites."""
 
-    Parameters
-    ----------
-    measures : VolumeMeasures
-        Of the regions.
-    frame : VoxelFrame
-        Where they lie.
-    sides : PixelSides
-        Of a voxel.
-    seeds : VolumeSeeds, optional
-        Whose sites are those of the regions; without them the centroids of the regions are.
-    largest_squares : (n,) uint64 array, optional
-        The largest squared distance in the region of each site.
-    """
-
-    measures: VolumeMeasures
-    frame: VoxelFrame
+    measures: VolumeMeasures  # of the regions
+    frame: VoxelFrame  # where they lie
     sides: PixelSides
+    # whose sites are those of the regions; without them the centroids of the regions are
     seeds: VolumeSeeds | None = None
+    # (n,) uint64 array: the largest squared distance in the region of each site
     largest_squares: NDArray[np.uint64] | None = None
 
     @property
@@ -85,26 +73,7 @@ class VolumeRegions:
 def regions_of_sweep(
     sweep: VolumeSweep, slabs: Iterable[tuple[int, NDArray[Any]]], *, distances: bool = False, threads: int = 0
 ) -> VolumeRegions:
-    """Measure the regions of a tessellation from its labels, which come slab by slab and need not be in memory.
-
-    Parameters
-    ----------
-    sweep : VolumeSweep
-        The tessellation.
-    slabs : iterable of (int, (d, H, W) array)
-        The first slice of each slab, and its labels: from the first slice of the frame to the last.
-    distances : bool
-        Whether to find the largest distance in each region, for which squared distances are computed slab by slab.
-    threads : int
-        0 for all; the result is the same for any number, and for any slabs.
-
-    Examples
-    --------
-    >>> sweep = VolumeSweep(VolumeSeeds([[0, 0, 0], [3, 0, 1]], [1, 2]), VoxelFrame(0, 0, 0, 4, 1, 2))
-    >>> slabs = ((z, sweep.labels(z, 1)) for z in range(2))
-    >>> regions_of_sweep(sweep, slabs, distances=True).largest_squares.tolist()
-    [2, 2]
-    """
+    """Measure the regions of a tessellation from its labels, which come slab by slab and need not be in memory."""
     wanted = sweep.seeds.site_labels
     assert wanted is not None  # VolumeSeeds has filled them in
     largest = np.zeros(len(wanted), np.uint64)

@@ -191,34 +191,7 @@ def seeds_of_slabs(
     slices: int | None = None,
     report: Callable[[CleanedSlices], None] | None = None,
 ) -> VolumeSeeds:
-    """Take seeds from a volume that is read slab by slab, and never held; the rest is as of `seeds_from_volume`.
-
-    Parameters
-    ----------
-    source : SlicesSource
-        It is read once; before that, where `mode` is not given, up to the slab in which there is a second value, and
-        for "otsu" once more, where floating-point numbers are all held, and once each to fill holes and to leave out
-        small objects.
-    cleaning : Cleaning
-        Holes of a mask that are filled, and objects that are left out.
-    progress : callable, optional
-        Called with the fraction read.
-    slices : int, optional
-        Slices that are read at a time, best a multiple of those of a chunk of the file; by default 2^23 voxels, or one
-        slice. The seeds do not depend on it.
-    report : callable, optional
-        Called with a mask that was cleaned.
-
-    Notes
-    -----
-    Memory: 29 bytes a seed are kept and up to 55 needed while the seeds are made, and some 16 a voxel of a slab.
-
-    Examples
-    --------
-    >>> seeds = seeds_of_slabs(HeldSlices(as_volume(np.ones((3, 3, 3), bool), "volume")), slices=1)
-    >>> len(seeds), seeds.object_volume.tolist(), seeds.sites.tolist()
-    (26, [27], [[1.0, 1.0, 1.0]])
-    """
+    """Take seeds from a volume that is read slab by slab, and never held; the rest is as of `seeds_from_volume`."""
     if not is_choice(connectivity, _CONNECTIVITY):
         of_images = "; 8 and 4 are of images" if is_choice(connectivity, (8, 4)) else ""
         raise UsageError(f"connectivity is {shown_number(connectivity)}: it must be 26 or 6 in a volume{of_images}")

@@ -38,49 +38,7 @@ def volume_table(
     threads: int = 0,
     progress: Progress = None,
 ) -> Table:
-    """Tabulate the regions of a tessellation: one row a site, in increasing label order.
-
-    Parameters
-    ----------
-    volume : LabelVolume, or (D, H, W) array of integers or truth values
-        With ``seeds``, every site has a row, also one without voxels: its volume is 0, and its bounding box,
-        ``touches_frame`` and ``max_distance`` do not exist. Without ``seeds`` every label that occurs has a row, and
-        the centroid of its region is its site.
-    distance2 : (D, H, W) integer array, optional
-        Squared distance of each voxel to its site, in steps of the sides of the volume over ``distance_scale``; without
-        it ``max_distance`` does not exist.
-    distance_scale : int, optional
-        Lattice steps a voxel of ``distance2``; by default the scale of the seeds, else 1.
-    measures : VolumeMeasures, optional
-        The result of `measure_volume` for this volume.
-    properties : bool
-        Whether to add the input's own columns.
-    threads : int
-        0 for all; the result is the same for any number.
-    progress : callable, optional
-        Called with the fraction done.
-
-    Returns
-    -------
-    Table
-        ``label, x, y, z, volume, surface, neighbours, nearest_label, nearest_distance, touches_frame, max_distance,
-        components, bbox_x, bbox_y, bbox_z, bbox_w, bbox_h, bbox_d`` (and ``object_volume`` for objects of several
-        voxels), in the unit of the ``sides`` of the volume; where these are 1, what is counted is an integer.
-        ``surface`` is the area of the faces between a region and anything else, those on the frame included.
-        ``neighbours`` counts the labels that share a face; ``components`` are 6-connected. ``nearest_label`` is the
-        site nearest to (x, y, z), ties to the smallest label. Fields that do not exist are masked.
-
-    Raises
-    ------
-    InputError
-        If a label of the volume is none of the seeds, or ``distance2`` does not fit the volume.
-
-    Examples
-    --------
-    >>> table = volume_table(np.array([[[1, 1, 2]], [[1, 2, 2]]], dtype=np.uint16))
-    >>> table["surface"].tolist(), table["nearest_label"].tolist()
-    ([14, 14], [2, 1])
-    """
+    """Tabulate the regions of a tessellation: one row a site, in increasing label order."""
     volume = labelled(volume)
     threads = checked_threads(threads)
     if distance_scale is not None:
@@ -102,22 +60,7 @@ def table_of_regions(
     threads: int = 0,
     progress: Progress = None,
 ) -> Table:
-    """Give the table of `volume_table` of what was measured.
-
-    Parameters
-    ----------
-    regions : VolumeRegions
-        Without ``largest_squares``, ``max_distance`` does not exist.
-    distance_scale, properties, threads, progress
-        As of `volume_table`.
-
-    Examples
-    --------
-    >>> volume = labelled(np.array([[[1, 1, 2]], [[1, 2, 2]]], dtype=np.uint16))
-    >>> regions = VolumeRegions(measure_volume(volume), volume.frame, volume.sides)
-    >>> table_of_regions(regions) == volume_table(volume)
-    True
-    """
+    """Give the table of `volume_table` of what was measured."""
     measures, sides = regions.measures, regions.sides
     labels, sites, rows = regions.labels, regions.sites, regions.rows
     step, count = sides.step, len(labels)
@@ -152,49 +95,12 @@ def volume_neighbours(
     threads: int = 0,
     progress: Progress = None,
 ) -> Table:
-    """Tabulate the neighbouring regions: one row a pair of labels that share a face.
-
-    Parameters
-    ----------
-    volume : LabelVolume, or (D, H, W) array of integers or truth values
-        Label 0 is no region.
-    measures : VolumeMeasures, optional
-        The result of `measure_volume` for this volume.
-    threads : int
-        0 for all; the result is the same for any number.
-    progress : callable, optional
-        Called with the fraction done.
-
-    Returns
-    -------
-    Table
-        ``label_a, label_b, border_area, centroid_distance``, ordered by the labels, ``label_a < label_b``: the area of
-        the faces that the two share, and the distance between their sites (region centroids, if the volume has no
-        seeds), in the unit of the ``sides`` of the volume.
-
-    Raises
-    ------
-    InputError
-        If a label of the volume is none of the seeds.
-
-    Examples
-    --------
-    >>> table = volume_neighbours(np.array([[[1, 1, 2]], [[3, 3, 2]]], dtype=np.uint16))
-    >>> list(zip(*(table[name].tolist() for name in ("label_a", "label_b", "border_area"))))
-    [(1, 2, 1), (1, 3, 2), (2, 3, 1)]
-    """
+    """Tabulate the neighbouring regions: one row a pair of labels that share a face."""
     return neighbours_of_regions(_regions_of(labelled(volume), measures, threads, progress))
 
 
 def neighbours_of_regions(regions: VolumeRegions) -> Table:
-    """Give the table of `volume_neighbours` of what was measured.
-
-    Examples
-    --------
-    >>> volume = labelled(np.array([[[1, 1, 2]], [[1, 2, 2]]], dtype=np.uint16))
-    >>> neighbours_of_regions(VolumeRegions(measure_volume(volume), volume.frame, volume.sides))["border_area"].tolist()
-    [3]
-    """
+    """Give the table of `volume_neighbours` of what was measured."""
     measures, sides = regions.measures, regions.sides
     position = regions.sites[regions.rows]
     a, b = measures.borders.T

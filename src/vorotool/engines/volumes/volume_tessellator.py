@@ -32,51 +32,7 @@ from vorotool.geometry.volumes.voxel_frame import VoxelFrame
 
 
 class VolumeSweep:
-    """The exact tessellation of a volume, ready to give any of its slices.
-
-    Parameters
-    ----------
-    seeds : VolumeSeeds
-        At least one seed, unless they are those of a volume.
-    frame : VoxelFrame, optional
-        The voxels to label; by default `default_voxel_frame` of the seeds.
-    sides : PixelSides
-        Sides of a voxel, in whose unit distances are.
-    max_distance : float or Fraction, optional
-        Voxels farther than this from every seed get label 0.
-    threads : int
-        0 uses all.
-    strict : bool
-        Refuse several seeds at one place.
-    progress : callable, optional
-        Called now and then with the fraction done of the frame, of which slices are asked for from first to last.
-    way : str
-        By ``"rows"``, by ``"bricks"``, or the ``"quicker"`` one, which changes the time alone.
-
-    Raises
-    ------
-    InputError
-        If there is no seed, or one is too far away for exact arithmetic.
-
-    Warns
-    -----
-    VorotoolWarning
-        If several seeds lie at one place: the smallest label has the region.
-
-    Notes
-    -----
-    On a row seeds are nearest in the order of their columns, and what hides one there hides it on a half-plane of rows
-    and slices. So each waits until it may be nearest again. Where seeds are many, boxes are halved until few may be
-    nearest in a brick of voxels, which takes the least of their distances. Results depend neither on that, nor on
-    threads, nor on instruction sets, nor on which slices are asked for together. Memory: some 60 bytes a seed beside
-    the seeds themselves, and by rows for each thread some 40 a seed more.
-
-    Examples
-    --------
-    >>> seeds = VolumeSeeds(np.array([[0, 0, 0], [3, 0, 1]]), np.array([1, 2]))
-    >>> VolumeSweep(seeds, VoxelFrame(0, 0, 0, 4, 1, 2)).labels().tolist()
-    [[[1, 1, 2, 2]], [[1, 1, 2, 2]]]
-    """
+    """The exact tessellation of a volume, ready to give any of its slices."""
 
     def __init__(
         self,
@@ -152,27 +108,7 @@ class VolumeSweep:
     def labels(
         self, first: int = 0, slices: int | None = None, *, dtype: Any = None, out: NDArray[Any] | None = None
     ) -> NDArray[Any]:
-        """Labels of some slices of the frame.
-
-        Parameters
-        ----------
-        first, slices : int
-            The first slice and the number of slices; by default all.
-        dtype : dtype, optional
-            uint8, uint16, uint32 or int32; by default uint16 where the labels fit, else uint32.
-        out : (slices, H, W) array, optional
-            Written instead of a new array; C-contiguous, of one of these types.
-
-        Returns
-        -------
-        (slices, H, W) array
-            `out` if it was given.
-
-        Raises
-        ------
-        UsageError
-            If the labels do not fit the type, or `out` has another shape or layout.
-        """
+        """Labels of some slices of the frame."""
         kind = label_dtype(self.seeds.largest_label, getattr(out, "dtype", dtype))
         array = self._output(first, slices, kind, out)
         limit = None if self.most_squared is None else divmod(self.most_squared, 2**64)
@@ -190,29 +126,7 @@ class VolumeSweep:
         dtype: np.dtype[Any] | None = None,
         out: NDArray[Any] | None = None,
     ) -> NDArray[Any]:
-        """Exact squared distances to the nearest seed, in squares of a step of the sides over ``seeds.scale``.
-
-        Parameters
-        ----------
-        first, slices : int
-            The first slice and the number of slices; by default all.
-        dtype : dtype, optional
-            uint32 or uint64, where it is known that they fit; by default `square_dtype`.
-        out : (slices, H, W) array, optional
-            Written instead of a new array; C-contiguous, of this type.
-
-        Returns
-        -------
-        (slices, H, W) array
-            uint32 where every distance of the frame fits, else uint64; `out` if it was given.
-
-        Raises
-        ------
-        LimitError
-            If a squared distance may exceed 64 bits.
-        UsageError
-            If `out` has another shape, type or layout.
-        """
+        """Exact squared distances to the nearest seed, in squares of a step of the sides over ``seeds.scale``."""
         array = self._output(first, slices, np.dtype(dtype or self.square_dtype), out)
         self._core.squared_distances(array, first, self._threads, self._progress_of(first, len(array)))
         paint_inner(array, self.seeds, self.frame, first, 0)

@@ -22,13 +22,7 @@ _NEAR = 2.0**-6
 
 
 def quarters(way: Floats) -> Floats:
-    """(k,) numbers from 0 to 4 that rise with the angle of directions, by one a right angle.
-
-    Examples
-    --------
-    >>> quarters(np.array([[1.0, 0.0], [0.0, 2.0], [-1.0, -1.0]])).tolist()
-    [0.0, 1.0, 2.5]
-    """
+    """(k,) numbers from 0 to 4 that rise with the angle of directions, by one a right angle."""
     x, y = way.T
     size = np.abs(x) + np.abs(y)
     size = np.where(size > 0, size, 1)
@@ -38,24 +32,7 @@ def quarters(way: Floats) -> Floats:
 
 
 def order_around(tail: Indices, angle: Floats, left: Indices, right: Indices) -> Indices:
-    """(h,) numbers that rise counter-clockwise among the ends that leave a place.
-
-    Where directions are one as far as doubles tell, they are put so that what is between them agrees.
-
-    Parameters
-    ----------
-    tail : (h,) int64 array
-        The place of each end.
-    angle : (h,) float64 array
-        Its direction, as of `quarters`.
-    left, right : (h, 2) int64 array
-        Region and site on either hand as it leaves; the site may be `UNKNOWN`.
-
-    Raises
-    ------
-    VerificationError
-        If they agree in no order.
-    """
+    """(h,) numbers that rise counter-clockwise among the ends that leave a place."""
     sorting = np.lexsort((angle, tail))
     starts = np.flatnonzero(np.diff(tail[sorting], prepend=-1))
     sizes = np.diff(starts, append=len(tail))

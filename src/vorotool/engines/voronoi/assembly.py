@@ -25,35 +25,18 @@ _AT_ONCE = 2**18
 
 @dataclass(frozen=True, eq=False)
 class Arcs:
-    """Arcs of a planar map, from the vertex with the smaller number each.
+    """Arcs of a planar map, from the vertex with the smaller number each."""
 
-    Parameters
-    ----------
-    vertices : (v, 2) float64 array
-        Places.
-    radius : (v,) float64 array
-        Distances from the nearest sites there; NaN at corners of the frame that no border ends at.
-    ends : (a, 2) int64 array
-        Source and target.
-    control, center : (a, 2) float64 array
-        Control points of parabolas, and centres of circular arcs; NaN of others.
-    sites, parts : (a, 2) int64 array
-        Left and right; `OUTSIDE` of what belongs to nobody.
-    order : (a, 2) int64 array
-        Rising counter-clockwise around source and target.
-    moves : Moves
-        Of vertices that are vertices of the input: all is decided where the lattice has them.
-    """
-
-    vertices: Floats
+    vertices: Floats  # (v, 2) float64 array: places
+    # (v,) float64 array: distances from the nearest sites there; NaN at corners of the frame that no border ends at
     radius: Floats
-    ends: Indices
-    control: Floats
-    center: Floats
-    sites: Indices
-    parts: Indices
-    order: Indices
-    moves: Moves
+    ends: Indices  # (a, 2) int64 array: source and target
+    control: Floats  # (a, 2) float64 array: control points of parabolas, and centres of circular arcs; NaN of others
+    center: Floats  # (a, 2) float64 array: control points of parabolas, and centres of circular arcs; NaN of others
+    sites: Indices  # (a, 2) int64 array: left and right; `OUTSIDE` of what belongs to nobody
+    parts: Indices  # (a, 2) int64 array: left and right; `OUTSIDE` of what belongs to nobody
+    order: Indices  # (a, 2) int64 array: rising counter-clockwise around source and target
+    moves: Moves  # of vertices that are vertices of the input: all is decided where the lattice has them
 
     def mixed(self) -> MixedArcs:
         """The arcs with their ends."""
@@ -62,18 +45,7 @@ class Arcs:
 
 
 def arcs_of(cut: CutBorders, ring: FrameRing, sites: Indices, parts: Indices, order: Indices) -> Arcs:
-    """Put borders and the frame together, and number vertices and arcs by where they are.
-
-    Vertices of the diagram come first, then those on the frame along it. Of the frame, what has nobody inside is left
-    out.
-
-    Parameters
-    ----------
-    cut, ring : CutBorders, FrameRing
-        What was cut, and its frame.
-    sites, parts, order : (c, 2) int64 array
-        Of the borders.
-    """
+    """Put borders and the frame together, and number vertices and arcs by where they are."""
     along = np.flatnonzero(ring.sides[:, 0] != OUTSIDE)
     nodes = len(along)
     beyond = np.full(nodes, OUTSIDE)
@@ -110,19 +82,7 @@ def arcs_of(cut: CutBorders, ring: FrameRing, sites: Indices, parts: Indices, or
 
 
 def without_lost(center: Floats, places: Floats, ends: Indices, is_left: NDArray[np.bool_]) -> Floats:
-    """Give centres of arcs of at most half a circle, but for those of which rounding leaves nothing: these are lines.
-
-    Parameters
-    ----------
-    center : (a, 2) float64 array
-        Of circular arcs; NaN of others.
-    places : (v, 2) float64 array
-        Of vertices.
-    ends : (a, 2) int64 array
-        Source and target.
-    is_left : (a,) bool array
-        Whether they go counter-clockwise.
-    """
+    """Return centres of arcs of at most half a circle; those that rounding flattens are lines."""
     circular = np.flatnonzero(~np.isnan(center[:, 0]))
     a, b = (places[end] - center[circular] for end in ends[circular].T)
     cross = np.where(is_left[circular], 1, -1) * (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
@@ -133,15 +93,7 @@ def without_lost(center: Floats, places: Floats, ends: Indices, is_left: NDArray
 
 
 def by_ends(ends: Indices, control: Floats, center: Floats) -> Indices:
-    """Give the order of arcs by their ends; those between the same two by their control points and centres.
-
-    Parameters
-    ----------
-    ends : (a, 2) int64 array
-        Source and target.
-    control, center : (a, 2) float64 array
-        NaN of those without.
-    """
+    """Give the order of arcs by their ends; those between the same two by their control points and centres."""
     vertices = int(ends.max(initial=-1)) + 1
     sorting = _core.graphs.arcs_by_ends(ends.astype(np.int32), vertices).astype(np.int64)
     key = (ends[:, 0] * vertices + ends[:, 1])[sorting]
@@ -155,25 +107,13 @@ def by_ends(ends: Indices, control: Floats, center: Floats) -> Indices:
 
 @dataclass(frozen=True, eq=False)
 class Rings:
-    """Rings of a planar map without double points.
+    """Rings of a planar map without double points."""
 
-    Parameters
-    ----------
-    start : (r + 1,) int64 array
-        Where each begins in `half_edge`.
-    half_edge : (h,) int64 array
-        Along each: 2 k along arc k, 2 k + 1 back.
-    site, part : (r,) int64 array
-        On the left.
-    area : (r,) float64 array
-        Above 0 of shells.
-    """
-
-    start: Indices
-    half_edge: Indices
-    site: Indices
-    part: Indices
-    area: Floats
+    start: Indices  # (r + 1,) int64 array: where each begins in `half_edge`
+    half_edge: Indices  # (h,) int64 array: along each: 2 k along arc k, 2 k + 1 back
+    site: Indices  # (r,) int64 array: on the left
+    part: Indices  # (r,) int64 array: on the left
+    area: Floats  # (r,) float64 array: above 0 of shells
 
     def __getitem__(self, chosen: NDArray[np.bool_]) -> Rings:
         """Some of the rings."""
@@ -183,22 +123,7 @@ class Rings:
 
 
 def cycles_of(ends: Indices, order: Indices, vertices: int) -> tuple[Indices, Indices]:
-    """Go around every face of a map, with the face on the left.
-
-    Parameters
-    ----------
-    ends, order : (a, 2) int64 array
-        As of `Arcs`.
-    vertices : int
-        Of the map.
-
-    Returns
-    -------
-    start : (r + 1,) int64 array
-        Where each ring begins in `half_edge`.
-    half_edge : (2 a,) int64 array
-        Along each: 2 k along arc k, 2 k + 1 back.
-    """
+    """Go around every face of a map, with the face on the left."""
     pairs = ends.astype(np.int32)
     after = _core.graphs.next_half_edges(pairs, order, vertices)
     start, half_edge = _core.graphs.boundary_cycles(after, pairs.ravel(), vertices)
@@ -206,13 +131,7 @@ def cycles_of(ends: Indices, order: Indices, vertices: int) -> tuple[Indices, In
 
 
 def rings_of(arcs: Arcs) -> Rings:
-    """Go around every face of a map, with the face on the left; the rings of the outside are left out.
-
-    Raises
-    ------
-    VerificationError
-        If an arc has another site on its left than the one before it.
-    """
+    """Go around every face of a map, with the face on the left; the rings of the outside are left out."""
     start, half_edge = cycles_of(arcs.ends, arcs.order, len(arcs.vertices))
     site, part = arcs.sites.ravel()[half_edge], arcs.parts.ravel()[half_edge]
     begin = start[:-1]
@@ -236,34 +155,19 @@ def _bulges(arcs: Arcs) -> Floats:
 
 @dataclass(frozen=True, eq=False)
 class Cells:
-    """Cells as rings in rows.
+    """Cells as rings in rows."""
 
-    Parameters
-    ----------
-    ring_arcs : (k,) int32 array
-        Arcs along each ring, from 1; below 0 against their direction.
-    ring_start, polygon_start, cell_start : int64 array
-        Where each ring begins there, each polygon among the rings, each cell among the polygons.
-    """
-
-    ring_arcs: NDArray[np.int32]
+    ring_arcs: NDArray[np.int32]  # (k,) int32 array: arcs along each ring, from 1; below 0 against their direction
+    # int64 array: where each ring begins there, each polygon among the rings, each cell among the polygons
     ring_start: Indices
+    # int64 array: where each ring begins there, each polygon among the rings, each cell among the polygons
     polygon_start: Indices
+    # int64 array: where each ring begins there, each polygon among the rings, each cell among the polygons
     cell_start: Indices
 
 
 def cells_of(rings: Rings, shell: Indices, count: int) -> Cells:
-    """Put rings into polygons, and polygons into cells.
-
-    Parameters
-    ----------
-    rings : Rings
-        Sorted by their smallest half-edges.
-    shell : (r,) int64 array
-        The ring around each hole; of a shell its own number.
-    count : int
-        Cells.
-    """
+    """Put rings into polygons, and polygons into cells."""
     is_hole = shell != np.arange(len(shell))
     sorting = np.lexsort((np.arange(len(shell)), is_hole, shell, rings.site[shell]))
     sizes = np.diff(rings.start)[sorting]

@@ -21,67 +21,29 @@ Indices = NDArray[np.int64]
 
 @dataclass(frozen=True, eq=False)
 class Borders:
-    """Pieces of borders in the plane, before a frame cuts them.
+    """Pieces of borders in the plane, before a frame cuts them."""
 
-    A cell of an element, one side of it, or a covered face is a part. Parts between which there is no border are
-    joined; all that is joined has one number.
-
-    Parameters
-    ----------
-    ends : (b, 2) int64 array
-        Source and target, numbers of `places`; -1 at infinity.
-    elements : (b, 2) int64 array
-        Elements of the graph left and right, which the piece is equally far from; a wall has itself twice.
-    sites : (b, 2) int32 array
-        Left and right.
-    parts : (b, 2) int64 array
-        Left and right.
-    order : (b, 2) int64 array
-        Of the piece among those that leave its source, and its target: rising counter-clockwise.
-    places : (v, 2) float64 array
-        On the lattice: vertices of the diagram, then points that are none, then nodes of the limit.
-    radius : (v,) float64 array
-        There.
-    center : (b, 2) float64 array
-        Of circular arcs along the limit, on the lattice; NaN of other pieces.
-    level : float
-        The limit on the lattice; infinity without one.
-    """
-
-    ends: Indices
+    ends: Indices  # (b, 2) int64 array: source and target, numbers of `places`; -1 at infinity
+    # (b, 2) int64 array: elements of the graph left and right, which the piece is equally far from; a wall has itself
+    # twice
     elements: Indices
-    sites: NDArray[np.int32]
-    parts: Indices
+    sites: NDArray[np.int32]  # (b, 2) int32 array: left and right
+    parts: Indices  # (b, 2) int64 array: left and right
+    # (b, 2) int64 array: of the piece among those that leave its source, and its target: rising counter-clockwise
     order: Indices
+    # (v, 2) float64 array: on the lattice: vertices of the diagram, then points that are none, then nodes of the
+    # limit
     places: NDArray[np.float64]
-    radius: NDArray[np.float64]
+    radius: NDArray[np.float64]  # (v,) float64 array: there
+    # (b, 2) float64 array: of circular arcs along the limit, on the lattice; NaN of other pieces
     center: NDArray[np.float64]
-    level: float
+    level: float  # the limit on the lattice; infinity without one
 
 
 def borders_of(
     owned: OwnedGraph, diagram: SegmentVoronoiDiagram, *, level: float = np.inf, threads: int = 0
 ) -> Borders:
-    """Choose the borders among the edges of a diagram and the segments of its graph.
-
-    Nothing is decided by coordinates but where a point lies on a straight line between two others, which is exact.
-
-    Parameters
-    ----------
-    owned : OwnedGraph
-        Of all sites.
-    diagram : SegmentVoronoiDiagram
-        Of its points and segments; vertices in covered faces may be left out if there is no limit.
-    level : float
-        The limit of distance on the lattice: pieces end there, and others run along it.
-    threads : int
-        0 uses all.
-
-    Raises
-    ------
-    VerificationError
-        If a border ends where its elements are not.
-    """
+    """Choose the borders among the edges of a diagram and the segments of its graph."""
     whole = core_diagram(diagram, owned.graph.segment_faces)
     limit = None
     if np.isfinite(level):
@@ -144,20 +106,7 @@ def _limited(
 
 
 def ridges_of(owned: OwnedGraph, diagram: SegmentVoronoiDiagram, *, level: float = np.inf, threads: int = 0) -> Borders:
-    """Choose the edges between elements of one site, in the open: the distance from it has its maxima along these.
-
-    Edges between a segment and its own end are none: across these the distance is smooth.
-
-    Parameters
-    ----------
-    owned, diagram, level, threads
-        As of `borders_of`; the level cuts none of them.
-
-    Returns
-    -------
-    Borders
-        With one site on both sides; parts and order are 0.
-    """
+    """Choose the edges between elements of one site, in the open: the distance from it has its maxima along these."""
     graph = owned.graph
     faces, is_own, alias = _core.voronoi.edge_faces(core_diagram(diagram, graph.segment_faces), threads, None)
     edge = np.flatnonzero(~is_own.view(bool))
@@ -197,13 +146,7 @@ def _parts_of_elements(owned: OwnedGraph, element: Indices, face: NDArray[np.int
 
 
 def sides_of_segments(owned: OwnedGraph) -> tuple[NDArray[np.bool_], NDArray[np.int32], Indices]:
-    """Of each segment whether it is a border, and left and right its sites and parts.
-
-    Parameters
-    ----------
-    owned : OwnedGraph
-        Of all sites.
-    """
+    """Of each segment whether it is a border, and left and right its sites and parts."""
     graph, count = owned.graph, len(owned.graph.points)
     covering = owned.face[graph.segment_faces]
     is_free = covering < 0

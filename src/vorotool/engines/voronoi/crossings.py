@@ -24,47 +24,22 @@ there, below 2^30, are rounded by, and what is drawn to an edge so moves by 2^-4
 
 @dataclass(frozen=True, eq=False)
 class Crossings:
-    """The places of a map that is cut: those of borders, then the ends of cut edges, then where both meet inside.
+    """The places of a map that is cut: those of borders, then the ends of cut edges, then where both meet inside."""
 
-    Parameters
-    ----------
-    pieces : (k,) int64 array
-        Pieces of borders that may be cut, and circular arcs, ascending; walls are none of them.
-    curves : CutCurves
-        That these are on.
-    node : (v,) int64 array
-        Of each place that which stands for it: others are at the same place.
-    edge : (v,) int64 array
-        The cut edge inside which a place lies; -1 of others.
-    far : (v,) float64 array
-        How far along it, on the lattice.
-    stop_row, stop_node : (s,) int64 array
-        Where pieces pass through places on cuts: rows of `pieces`, and places.
-    stop_t : (s,) float64 array
-        The parameters there.
-    radius : (v,) float64 array
-        Distances from sites, on the lattice; NaN where no border is.
-    """
-
+    # (k,) int64 array: pieces of borders that may be cut, and circular arcs, ascending; walls are none of them
     pieces: Indices
-    curves: CutCurves
-    node: Indices
-    edge: Indices
-    far: Floats
-    stop_row: Indices
-    stop_node: Indices
-    stop_t: Floats
-    radius: Floats
+    curves: CutCurves  # that these are on
+    node: Indices  # (v,) int64 array: of each place that which stands for it: others are at the same place
+    edge: Indices  # (v,) int64 array: the cut edge inside which a place lies; -1 of others
+    far: Floats  # (v,) float64 array: how far along it, on the lattice
+    stop_row: Indices  # (s,) int64 array: where pieces pass through places on cuts: rows of `pieces`, and places
+    stop_node: Indices  # (s,) int64 array: where pieces pass through places on cuts: rows of `pieces`, and places
+    stop_t: Floats  # (s,) float64 array: the parameters there
+    radius: Floats  # (v,) float64 array: distances from sites, on the lattice; NaN where no border is
 
 
 class EdgeLines:
-    """Cut edges as straight lines on the lattice.
-
-    Parameters
-    ----------
-    edges : CutEdges
-        Whose they are.
-    """
+    """Cut edges as straight lines on the lattice."""
 
     def __init__(self, edges: CutEdges) -> None:
         self.source, self.target = edges.points[edges.ends[:, 0]], edges.points[edges.ends[:, 1]]
@@ -92,18 +67,7 @@ class EdgeLines:
 
 
 def crossings_of(local: LocalDiagrams, edges: CutEdges) -> Crossings:
-    """Find where borders meet the cut edges of their region.
-
-    Places are drawn to ends of edges, and to edges, that they miss by less than `SLACK`. What passes through a place
-    that is known does not meet the edges there again.
-
-    Parameters
-    ----------
-    local : LocalDiagrams
-        With the borders.
-    edges : CutEdges
-        All edges.
-    """
+    """Find where borders meet the cut edges of their region."""
     import shapely
 
     borders, lines = local.borders, EdgeLines(edges)

@@ -20,23 +20,11 @@ INFINITY = float("inf")
 
 @dataclass(frozen=True, eq=False)
 class Parabolas:
-    """Parabolas, each about a focus, in units of its own: t along the directrix from below the focus.
+    """Parabolas, each about a focus, in units of its own: t along the directrix from below the focus."""
 
-    The distance from focus and directrix is (t^2 + h^2) / (2 h), with h that of the focus from the directrix.
-
-    Parameters
-    ----------
-    focus : (k, 2) float64 array
-        On the lattice.
-    way : (k, 2) float64 array
-        Unit vector along the directrix, the focus on its left.
-    height : (k,) float64 array
-        Above 0.
-    """
-
-    focus: Floats
-    way: Floats
-    height: Floats
+    focus: Floats  # (k, 2) float64 array: on the lattice
+    way: Floats  # (k, 2) float64 array: unit vector along the directrix, the focus on its left
+    height: Floats  # (k,) float64 array: above 0
 
     def parameter(self, place: Floats, radius: Floats) -> Floats:
         """(k,) t of places; on the steep sides of a sharp parabola the radius tells more than the place."""
@@ -49,17 +37,7 @@ class Parabolas:
 
 
 def parabolas_of(graph: PlanarGraph, elements: Indices) -> tuple[NDArray[np.bool_], Parabolas]:
-    """Tell which pairs of elements have a parabola between them, and give these.
-
-    It is between a point and a segment of which the point is no end.
-
-    Parameters
-    ----------
-    graph : PlanarGraph
-        Of the elements.
-    elements : (k, 2) int64 array
-        Pairs of points and segments.
-    """
+    """Tell which pairs of elements have a parabola between them, and give these."""
     count = len(graph.points)
     point, segment = np.sort(elements, axis=1).T
     mixed = np.flatnonzero((point < count) & (segment >= count))
@@ -79,25 +57,13 @@ def parabolas_of(graph: PlanarGraph, elements: Indices) -> tuple[NDArray[np.bool
 
 @dataclass(frozen=True)
 class CircularArc:
-    """An arc of at most half a circle, counter-clockwise, by t: the tangent of half the angle from its middle.
+    """An arc of at most half a circle, counter-clockwise, by t: the tangent of half the angle from its middle."""
 
-    Parameters
-    ----------
-    base : (float, float)
-        The centre, on the lattice.
-    middle : (float, float)
-        Unit vector to the middle of the arc.
-    radius : float
-        On the lattice.
-    first, last : float
-        From the one t to the other, larger one.
-    """
-
-    base: Place
-    middle: Place
-    radius: float
-    first: float
-    last: float
+    base: Place  # (float, float): the centre, on the lattice
+    middle: Place  # (float, float): unit vector to the middle of the arc
+    radius: float  # on the lattice
+    first: float  # from the one t to the other, larger one
+    last: float  # from the one t to the other, larger one
 
     @classmethod
     def between(cls, center: Place, source: Place, target: Place) -> CircularArc:

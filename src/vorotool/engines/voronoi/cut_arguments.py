@@ -20,16 +20,10 @@ Frame = tuple[float, float, float, float]
 
 @dataclass(frozen=True, eq=False)
 class GivenCuts:
-    """What cells are cut by, beside a frame.
+    """What cells are cut by, beside a frame."""
 
-    Parameters
-    ----------
-    clip, enclosures : PolygonSet, optional
-        Each in the coordinate reference system of the sites.
-    """
-
-    clip: PolygonSet | None
-    enclosures: PolygonSet | None
+    clip: PolygonSet | None  # each in the coordinate reference system of the sites
+    enclosures: PolygonSet | None  # each in the coordinate reference system of the sites
 
     @property
     def are_there(self) -> bool:
@@ -47,26 +41,7 @@ class GivenCuts:
 
 
 def given_cuts(clip: Any, enclosures: Any, crs: Any) -> GivenCuts:
-    """Take polygons to clip by, and lines and polygons that enclose.
-
-    Parameters
-    ----------
-    clip, enclosures : object
-        What `as_polygons` takes, or None.
-    crs : object
-        The coordinate reference system of the sites.
-
-    Raises
-    ------
-    InputError
-        If they are none, the clip has no area, or a coordinate reference system is another one.
-
-    Examples
-    --------
-    >>> given_cuts(["LINESTRING (0 0, 4 0)"], None, None)
-    Traceback (most recent call last):
-    vorotool.errors.InputError: the clip has no polygon: give polygons that have an area
-    """
+    """Take polygons to clip by, and lines and polygons that enclose."""
     made = []
     for name, source in (("clip", clip), ("enclosures", enclosures)):
         given = None if source is None else as_polygons(source, name)
@@ -91,17 +66,7 @@ def _in_crs(given: PolygonSet, crs: Any, name: str) -> PolygonSet:
 
 
 def frame_of(edges: CutEdges, frame: Frame | None, clip: PolygonSet | None) -> Frame:
-    """Give the bounds of what is shared out; of nothing those of what was given.
-
-    Parameters
-    ----------
-    edges : CutEdges
-        Around it.
-    frame : (x, y, w, h), optional
-        That was given.
-    clip : PolygonSet, optional
-        That was given.
-    """
+    """Give the bounds of what is shared out; of nothing those of what was given."""
     places = edges.given
     if not len(places):
         if frame is not None:

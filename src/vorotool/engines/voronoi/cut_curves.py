@@ -21,37 +21,19 @@ FAR = 2.0**34
 
 @dataclass(frozen=True, eq=False)
 class CutCurves:
-    """Curves on the lattice, from one parameter to another.
+    """Curves on the lattice, from one parameter to another."""
 
-    A line is base + t way. On a parabola t goes along the directrix from below the focus, as of `Parabolas`; on a
-    circle it is the tangent of half the angle from the middle of the arc, as of `CircularArc`.
-
-    Parameters
-    ----------
-    base : (k, 2) float64 array
-        A place of a line; the focus of a parabola; the centre of a circle.
-    way : (k, 2) float64 array
-        Along a line; the unit vector along a directrix, or to the middle of a circular arc.
-    height : (k,) float64 array
-        Of the focus above the directrix; 0 of others.
-    round : (k,) float64 array
-        Radius of a circle; 0 of others.
-    first, last : (k,) float64 array
-        Parameters at source and target, which may be infinite.
-    origin : (k, 2) float64 array
-        A place of an element of each line, which distances are measured from; NaN where that is a segment.
-    line : (k, 3) float64 array
-        Normal form of the segment that distances are measured from otherwise.
-    """
-
-    base: Floats
+    base: Floats  # (k, 2) float64 array: a place of a line; the focus of a parabola; the centre of a circle
+    # (k, 2) float64 array: along a line; the unit vector along a directrix, or to the middle of a circular arc
     way: Floats
-    height: Floats
-    round: Floats
-    first: Floats
-    last: Floats
+    height: Floats  # (k,) float64 array: of the focus above the directrix; 0 of others
+    round: Floats  # (k,) float64 array: radius of a circle; 0 of others
+    first: Floats  # (k,) float64 array: parameters at source and target, which may be infinite
+    last: Floats  # (k,) float64 array: parameters at source and target, which may be infinite
+    # (k, 2) float64 array: a place of an element of each line, which distances are measured from; NaN where that is a
+    # segment
     origin: Floats
-    line: Floats
+    line: Floats  # (k, 3) float64 array: normal form of the segment that distances are measured from otherwise
 
     def __getitem__(self, rows: NDArray[Any]) -> CutCurves:
         """Some of the curves, which may be repeated."""
@@ -119,11 +101,7 @@ class CutCurves:
         return made
 
     def meets(self, place: Floats, normal: Floats, slack: float) -> Floats:
-        """(k, 2) parameters where each meets a straight line; NaN where it does not.
-
-        Where it comes as near to the line as the slack without crossing it, or crosses it no deeper, it touches it:
-        there is one parameter then.
-        """
+        """(k, 2) parameters where each meets a straight line; NaN where it does not."""
         across = normal[:, 1] * self.way[:, 0] - normal[:, 0] * self.way[:, 1]
         is_bent = self.height > 0
         h = np.where(is_bent, self.height, 1)
@@ -186,17 +164,7 @@ class CutCurves:
 
 
 def cut_curves(borders: Borders, graph: PlanarGraph, pieces: Indices) -> CutCurves:
-    """Give the curves that some pieces of borders, none of them walls, are on.
-
-    Parameters
-    ----------
-    borders : Borders
-        In the whole plane.
-    graph : PlanarGraph
-        Whose they are.
-    pieces : (k,) int64 array
-        Numbers of pieces.
-    """
+    """Give the curves that some pieces of borders, none of them walls, are on."""
     elements, ends = borders.elements[pieces], borders.ends[pieces]
     count = len(graph.points)
     places = np.concatenate([borders.places, [[0.0, 0.0]]])  # of -1, at infinity, none

@@ -31,49 +31,18 @@ _ALONG = (0.5, 0.3125, 0.71875)
 
 @dataclass(frozen=True, eq=False)
 class CutMap:
-    """Cells between borders and cuts.
+    """Cells between borders and cuts."""
 
-    Parameters
-    ----------
-    arcs : Arcs
-        Those inside regions and those along cuts; a part is a site.
-    is_cut : (a,) bool array
-        Whether each is along a cut.
-    rings : Rings
-        Of the cells.
-    frame : (x, y, w, h)
-        Bounds of what is shared out.
-    """
-
-    arcs: Arcs
-    is_cut: NDArray[np.bool_]
+    arcs: Arcs  # those inside regions and those along cuts; a part is a site
+    is_cut: NDArray[np.bool_]  # (a,) bool array: whether each is along a cut
     rings: Rings
-    frame: tuple[float, float, float, float]
+    frame: tuple[float, float, float, float]  # bounds of what is shared out
 
 
 def cut_map(
     local: LocalDiagrams, edges: CutEdges, joint: PlanarGraph, frame: tuple[float, float, float, float]
 ) -> CutMap:
-    """Put the borders of all regions between the cuts, and tell whose each side of each cut is.
-
-    Where a site has both sides of an enclosure, there is no arc.
-
-    Parameters
-    ----------
-    local : LocalDiagrams
-        With the borders.
-    edges : CutEdges
-        The cuts.
-    joint : PlanarGraph
-        Of the sites and the cuts, as they were given.
-    frame : (x, y, w, h)
-        Bounds of what is shared out.
-
-    Raises
-    ------
-    VerificationError
-        If borders and cuts are in no order as far as doubles tell.
-    """
+    """Put the borders of all regions between the cuts, and tell whose each side of each cut is."""
     overlay = Overlay(local, edges, crossings_of(local, edges))
     sites, order = _sites_and_order(overlay)
     arcs = _with_all_sites(overlay, joint, sites, order)

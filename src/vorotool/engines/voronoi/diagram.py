@@ -15,27 +15,13 @@ from vorotool.geometry.skeleton.segment_voronoi import SegmentVoronoiDiagram
 def diagram_of(
     owned: OwnedGraph, *, is_whole: bool = False, threads: int = 0, progress: Progress = None
 ) -> SegmentVoronoiDiagram:
-    """Make the diagram of the points and segments of a graph.
-
-    Parameters
-    ----------
-    owned : OwnedGraph
-        Of all sites.
-    is_whole : bool
-        With all vertices; else those in covered faces may be left out.
-    threads, progress
-        As of `vorotool.voronoi`.
-    """
+    """Make the diagram of the points and segments of a graph."""
     graph, unwanted = owned.graph, None if is_whole else _unwanted(owned)
     return segment_voronoi(graph.points, graph.segments, unwanted=unwanted, threads=threads, progress=progress)
 
 
 def _unwanted(owned: OwnedGraph) -> NDArray[np.uint8] | None:
-    """Tell where the diagram is not needed: in covered faces; None where all of it is.
-
-    It is where a point without segments may be in any face, and where two sites part in the middle of a straight line:
-    the edge between them there may lead through the line.
-    """
+    """Tell where the diagram is not needed: in covered faces; None where all of it is."""
     graph, count = owned.graph, len(owned.graph.points)
     degree = np.bincount(graph.segments.ravel(), minlength=count)
     if (owned.face < 0).all() or (degree == 0).any():

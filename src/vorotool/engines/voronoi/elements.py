@@ -33,88 +33,27 @@ Sites = NDArray[np.int32]
 
 @dataclass(frozen=True, eq=False)
 class OwnedGraph:
-    """A planar graph, and the site that has each of its elements.
+    """A planar graph, and the site that has each of its elements."""
 
-    Of several sites the smallest has an element.
-
-    Parameters
-    ----------
-    graph : PlanarGraph
-        Of all sites together.
-    element : (n + m,) int32 array
-        The site on whose boundary each point and open segment is.
-    face : (f,) int32 array
-        The site that covers each face; -1 where none does.
-    """
-
-    graph: PlanarGraph
-    element: Sites
-    face: Sites
+    graph: PlanarGraph  # of all sites together
+    element: Sites  # (n + m,) int32 array: the site on whose boundary each point and open segment is
+    face: Sites  # (f,) int32 array: the site that covers each face; -1 where none does
 
 
 def owned_graph(polygons: PolygonSet, site: Sites, *, threads: int = 0, progress: Progress = None) -> OwnedGraph:
-    """Put polygons and lines into one planar graph, and tell whose its elements are.
-
-    A polygon without inside, on the lattice or as it is given, is the line along its shell.
-
-    Parameters
-    ----------
-    polygons : PolygonSet
-        Points are lines of one vertex.
-    site : (p,) int32 array
-        Of each polygon.
-    threads, progress
-        As of `vorotool.planar_graph`, as are errors.
-
-    Warns
-    -----
-    RepairWarning
-        If vertices are repeated, or an edge or a polygon bounds nothing. That edges meet is no fault of sites.
-
-    Examples
-    --------
-    >>> from vorotool.geometry.arguments.polygons import as_polygons
-    >>> squares = as_polygons([[[0, 0], [2, 0], [2, 2], [0, 2]], [[2, 0], [4, 0], [4, 2], [2, 2]]])
-    >>> owned = owned_graph(squares, np.array([0, 1], dtype=np.int32))
-    >>> owned.face.tolist(), sorted(owned.element.tolist())
-    ([-1, 0, 1], [0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1])
-    """
+    """Put polygons and lines into one planar graph, and tell whose its elements are."""
     return owners_of(_graph(polygons, threads, progress), site)
 
 
 def owners_of(graph: PlanarGraph, site: Sites) -> OwnedGraph:
-    """Tell whose the elements of a graph are.
-
-    Parameters
-    ----------
-    graph : PlanarGraph
-        Of all sites together, with its input.
-    site : (p,) int32 array
-        Of each polygon of that.
-    """
+    """Tell whose the elements of a graph are."""
     given = graph.polygons
     assert given is not None
     return OwnedGraph(graph, _element_owners(graph, given, site), _face_owners(graph, site))
 
 
 def shared_elements(owned: OwnedGraph, site: Sites) -> tuple[int, int, int]:
-    """Count the points, segments and faces that several sites have, of which the smallest was given each.
-
-    Parameters
-    ----------
-    owned : OwnedGraph
-        With its input.
-    site : (p,) int32 array
-        Of each polygon of that.
-
-    Examples
-    --------
-    >>> from vorotool.geometry.arguments.polygons import as_polygons
-    >>> squares = as_polygons([[[0, 0], [2, 0], [2, 2], [0, 2]], [[2, 0], [4, 0], [4, 2], [2, 2]]])
-    >>> both = np.array([0, 1], dtype=np.int32)
-    >>> shared_elements(owned_graph(squares, both), both)
-    (2, 1, 0)
-    """
+    """Count the points, segments and faces that several sites have, of which the smallest was given each."""
     graph, given = owned.graph, owned.graph.polygons
     assert given is not None
     points = [_lone_places(graph, given)]
@@ -147,22 +86,7 @@ def _graph(polygons: PolygonSet, threads: int, progress: Progress) -> PlanarGrap
 
 
 def graph_of_sites(given: PolygonSet, placement: Placement, *, progress: Progress = None) -> PlanarGraph:
-    """Make the graph of polygons and lines that are placed on a lattice; a polygon without inside there is a line.
-
-    Parameters
-    ----------
-    given : PolygonSet
-        Without flat shells.
-    placement : Placement
-        Of its vertices.
-    progress : callable, optional
-        Called with the fraction done.
-
-    Warns
-    -----
-    RepairWarning
-        As `owned_graph` does.
-    """
+    """Make the graph of polygons and lines that are placed on a lattice; a polygon without inside there is a line."""
     made = arranged(given, placement, progress=progress)
     found = {name: each if name in _FAULTS else (0, -1, -1) for name, each in made.found.items()}
     is_empty = ~given.is_line
@@ -246,10 +170,7 @@ def _element_owners(graph: PlanarGraph, given: PolygonSet, site: Sites) -> Sites
 
 
 def _bounding_sources(graph: PlanarGraph, given: PolygonSet) -> tuple[NDArray[np.bool_], NDArray[np.int32]]:
-    """Of each source edge of a segment, whether its polygon is bounded there, and the polygon.
-
-    A spike of one polygon may lie along an edge of another one: it bounds nothing.
-    """
+    """Of each source edge of a segment, whether its polygon is bounded there, and the polygon."""
     ring = owners(np.diff(given.ring_start))[graph.source_edge]
     polygon = given.ring_polygon[ring]
     is_part = np.ones(len(ring), dtype=bool)

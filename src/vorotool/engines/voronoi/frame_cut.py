@@ -33,48 +33,20 @@ TOUCH = 2.0**-48
 
 @dataclass(frozen=True, eq=False)
 class CutBorders:
-    """Pieces of borders in a frame.
+    """Pieces of borders in a frame."""
 
-    Parameters
-    ----------
-    piece : (c,) int64 array
-        The piece of the borders that each is, or is a part of.
-    ends : (c, 2) int64 array
-        Source and target, numbers of `places`.
-    control : (c, 2) float64 array
-        Control points of Bezier curves, in input units; NaN of straight lines.
-    places : (v, 2) float64 array
-        Those of the borders in input units, then where they are cut.
-    radius : (v,) float64 array
-        The distance from the sites there, in input units.
-    side : (v,) int64 array
-        Of the frame, on which a place lies; -1 inside or outside.
-    center : (c, 2) float64 array
-        Of circular arcs, in input units; NaN of others.
-    moves : Moves
-        Of places at vertices of the input.
-    """
-
-    piece: Indices
-    ends: Indices
-    control: Floats
-    places: Floats
-    radius: Floats
-    side: Indices
-    center: Floats
-    moves: Moves
+    piece: Indices  # (c,) int64 array: the piece of the borders that each is, or is a part of
+    ends: Indices  # (c, 2) int64 array: source and target, numbers of `places`
+    control: Floats  # (c, 2) float64 array: control points of Bezier curves, in input units; NaN of straight lines
+    places: Floats  # (v, 2) float64 array: those of the borders in input units, then where they are cut
+    radius: Floats  # (v,) float64 array: the distance from the sites there, in input units
+    side: Indices  # (v,) int64 array: of the frame, on which a place lies; -1 inside or outside
+    center: Floats  # (c, 2) float64 array: of circular arcs, in input units; NaN of others
+    moves: Moves  # of places at vertices of the input
 
 
 class FrameBox:
-    """A frame in input units, and on the lattice.
-
-    Parameters
-    ----------
-    frame : (x, y, w, h)
-        In input units.
-    graph : PlanarGraph
-        Whose lattice it is.
-    """
+    """A frame in input units, and on the lattice."""
 
     def __init__(self, frame: tuple[float, float, float, float], graph: PlanarGraph) -> None:
         x, y, w, h = frame
@@ -99,10 +71,7 @@ class FrameBox:
         return side
 
     def attract(self, places: Floats, chosen: NDArray[np.bool_]) -> None:
-        """Move those of some places to the sides that rounding alone may keep off: cells would touch themselves there.
-
-        They are where a limit crosses borders, which may be just on a side.
-        """
+        """Move points to the sides of the frame that rounding alone may keep off."""
         moved = places[chosen]
         for side in (self.low, self.high):
             near = np.abs(moved - side) <= TOUCH * np.abs(moved).max(axis=1, keepdims=True)
@@ -135,17 +104,7 @@ class FrameBox:
 
 
 def cut_borders(borders: Borders, graph: PlanarGraph, frame: tuple[float, float, float, float]) -> CutBorders:
-    """Cut pieces of borders where they leave a frame; what runs along it is left out.
-
-    Parameters
-    ----------
-    borders : Borders
-        In the whole plane.
-    graph : PlanarGraph
-        Whose they are.
-    frame : (x, y, w, h)
-        In input units.
-    """
+    """Cut pieces of borders where they leave a frame; what runs along it is left out."""
     box = FrameBox(frame, graph)
     places = graph.coordinates(borders.places).reshape(-1, 2)
     if np.isfinite(borders.level):

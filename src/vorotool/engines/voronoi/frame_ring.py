@@ -31,27 +31,20 @@ _MOST_TIES = 6
 
 @dataclass(frozen=True, eq=False)
 class FrameRing:
-    """The arcs of a frame, counter-clockwise.
+    """The arcs of a frame, counter-clockwise."""
 
-    Parameters
-    ----------
-    nodes : (k,) int64 array
-        Places along the frame from its smallest corner on, each a place of the cut borders, or a corner where none
-        ends: these come after them.
-    sides : (k, 2) int64 array
-        Site and part on the inner side of the arc that leaves each node; `UNKNOWN` if no border ends on the frame.
-    rank : (c, 2) int64 array
-        Of the source and target of cut borders on the frame: from 1 on counter-clockwise around their node.
-    corners : (m, 2) float64 array
-        Places of the corners where no border ends.
-    places : (v, 2) float64 array
-        Those of the cut borders; where rounding has put some along the frame in another order, they are exchanged.
-    """
-
+    # (k,) int64 array: places along the frame from its smallest corner on, each a place of the cut borders, or a
+    # corner where none ends: these come after them
     nodes: Indices
+    # (k, 2) int64 array: site and part on the inner side of the arc that leaves each node; `UNKNOWN` if no border
+    # ends on the frame
     sides: Indices
+    # (c, 2) int64 array: of the source and target of cut borders on the frame: from 1 on counter-clockwise around
+    # their node
     rank: Indices
-    corners: Floats
+    corners: Floats  # (m, 2) float64 array: places of the corners where no border ends
+    # (v, 2) float64 array: those of the cut borders; where rounding has put some along the frame in another order,
+    # they are exchanged
     places: Floats
 
 
@@ -66,24 +59,7 @@ class _Node:
 
 
 def frame_ring(cut: CutBorders, sites: Indices, parts: Indices, order: Indices, corners: Floats) -> FrameRing:
-    """Put the ends of borders on a frame in order around it.
-
-    Where several end at one place, as far as doubles tell, each order is tried until the sites between them agree.
-
-    Parameters
-    ----------
-    cut : CutBorders
-        In the frame.
-    sites, parts, order : (c, 2) int64 array
-        Of these borders: sites and parts left and right, order around source and target.
-    corners : (4, 2) float64 array
-        Of the frame, counter-clockwise from the smallest.
-
-    Raises
-    ------
-    VerificationError
-        If they agree in no order.
-    """
+    """Put the ends of borders on a frame in order around it."""
     rank = np.zeros_like(order)
     nodes = [*_nodes_of_borders(cut, sites, parts, order, corners, rank)]
     taken = {node.position for node in nodes}

@@ -11,19 +11,7 @@ Indices = NDArray[np.int64]
 
 
 def shells_of(rings: Rings, arcs: Arcs) -> Indices:
-    """(r,) the shell around each hole; of a shell its own number.
-
-    What is joined in the plane has one number in `Rings.part`: a hole belongs to the shell of its part. Only where a
-    frame has cut that into several is it looked for by places. A ring that is alone in its part is a shell, even one so
-    thin that rounding leaves no area in it.
-
-    Parameters
-    ----------
-    rings : Rings
-        Shells, whose areas are above 0, and holes.
-    arcs : Arcs
-        That they are made of.
-    """
+    """(r,) the shell around each hole; of a shell its own number."""
     shell = np.arange(len(rings.site))
     shells, holes = np.flatnonzero(rings.area > 0), np.flatnonzero(~(rings.area > 0))
     if not holes.size:
@@ -40,10 +28,7 @@ def shells_of(rings: Rings, arcs: Arcs) -> Indices:
 
 
 def _around(holes: Indices, shells: Indices, rings: Rings, arcs: Arcs) -> Indices:
-    """For each hole the smallest shell of its part that lies around it.
-
-    A place in the hole tells, since one on it may be on several shells; what lies in the hole itself is smaller.
-    """
+    """For each hole the smallest shell of its part that lies around it."""
     import shapely
 
     own = shells[np.isin(rings.part[shells], rings.part[holes])]

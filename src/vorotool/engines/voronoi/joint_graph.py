@@ -24,25 +24,14 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class JointGraph:
-    """The planar graph of sites, a frame, clips and enclosures together.
+    """The planar graph of sites, a frame, clips and enclosures together."""
 
-    Parameters
-    ----------
-    graph : PlanarGraph
-        Of all; its polygons are those of the sites first, then the frame, the clips and the enclosures.
-    of_clip, of_enclosures : range
-        Their polygons; no polygon is of a clip that was not given.
-    frame : int
-        The polygon of the frame; -1 without.
-    sites : PlanarGraph
-        Of the sites alone, on the same lattice, with a vertex wherever one of the others meets them.
-    """
-
+    # of all; its polygons are those of the sites first, then the frame, the clips and the enclosures
     graph: PlanarGraph
-    of_clip: range
-    of_enclosures: range
-    frame: int
-    sites: PlanarGraph
+    of_clip: range  # their polygons; no polygon is of a clip that was not given
+    of_enclosures: range  # their polygons; no polygon is of a clip that was not given
+    frame: int  # the polygon of the frame; -1 without
+    sites: PlanarGraph  # of the sites alone, on the same lattice, with a vertex wherever one of the others meets them
 
     @property
     def clips(self) -> bool:
@@ -60,19 +49,7 @@ def joint_graph(
     threads: int = 0,
     progress: Progress = None,
 ) -> JointGraph:
-    """Put sites and cuts on one lattice, and cut all where they meet.
-
-    Parameters
-    ----------
-    polygons : PolygonSet
-        Of the sites.
-    frame : (x, y, w, h), optional
-        In input units.
-    clip, enclosures : PolygonSet, optional
-        Lines of a clip are left out; polygons among enclosures are taken for the lines around them.
-    threads, progress
-        As of `vorotool.planar_graph`, as are errors.
-    """
+    """Put sites and cuts on one lattice, and cut all where they meet."""
     given = with_flat_shells_as_lines(polygons)
     parts = [given]
     if frame is not None:
@@ -149,10 +126,7 @@ def packed(places: NDArray[np.integer]) -> Indices:
 
 
 def _noded(given: PolygonSet, graph: PlanarGraph) -> tuple[PolygonSet, NDArray[np.int32]]:
-    """Polygons with a vertex wherever a graph cuts their edges, and all vertices on its lattice.
-
-    They have the place of the lattice as coordinates: these are of a graph, not of the input.
-    """
+    """Polygons with a vertex wherever a graph cuts their edges, and all vertices on its lattice."""
     assert graph.vertices is not None
     vertices, count = graph.vertices, len(given.xy)
     segment = owners(graph.source_count)

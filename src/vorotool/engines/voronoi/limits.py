@@ -32,52 +32,20 @@ STEP = 4
 
 @dataclass(frozen=True, eq=False)
 class LimitArcs:
-    """Arcs of a limit, each in the cell of an element of the graph, which is on its left.
+    """Arcs of a limit, each in the cell of an element of the graph, which is on its left."""
 
-    Parameters
-    ----------
-    ends : (k, 2) int64 array
-        Source and target: nodes.
-    element : (k,) int64 array
-        The point or segment that they are at the distance from.
-    face : (k,) int32 array
-        Of the graph, which they are in; that of circles around points is not told.
-    order : (k, 2) int64 array
-        Around source and target.
-    center : (k, 2) float64 array
-        On the lattice; NaN of straight lines. Circular arcs are at most half a circle.
-    places : (n, 2) float64 array
-        Those of new nodes.
-    """
-
-    ends: Indices
-    element: Indices
+    ends: Indices  # (k, 2) int64 array: source and target: nodes
+    element: Indices  # (k,) int64 array: the point or segment that they are at the distance from
+    # (k,) int32 array: of the graph, which they are in; that of circles around points is not told
     face: NDArray[np.int32]
-    order: Indices
+    order: Indices  # (k, 2) int64 array: around source and target
+    # (k, 2) float64 array: on the lattice; NaN of straight lines. Circular arcs are at most half a circle
     center: Floats
-    places: Floats
+    places: Floats  # (n, 2) float64 array: those of new nodes
 
 
 class Limit:
-    """The curves at one distance from all sites, by their crossings with the edges of a diagram.
-
-    Whether a vertex is beyond the limit is told by its radius, once for all that meets there. A half-edge crosses the
-    limit where it comes from beyond. Of the cell of one element what is within the limit is connected: it holds all
-    places between each of its places and the element.
-
-    Parameters
-    ----------
-    graph, diagram : PlanarGraph, SegmentVoronoiDiagram
-        The whole diagram of the graph.
-    level : float
-        The distance, in units of the lattice.
-    edge_faces : (e, 2) int32 array
-        The face of the graph that each edge is in towards its source, and towards its target.
-    is_own : (e,) bool array
-        Whether each edge is between a segment and its own end.
-    is_free : (f,) bool array
-        Whether nothing covers each face.
-    """
+    """The curves at one distance from all sites, by their crossings with the edges of a diagram."""
 
     def __init__(
         self,
@@ -174,19 +142,7 @@ class Limit:
     def cut(
         self, ends: Indices, order: Indices, edge: Indices, has_end: NDArray[np.bool_], first: int
     ) -> tuple[Indices, Indices]:
-        """Move ends of pieces of edges from beyond the limit to their crossings.
-
-        Parameters
-        ----------
-        ends, order : (k, 2) int64 array
-            Source and target before, and the order around them.
-        edge : (k,) int64 array
-            Of the diagram.
-        has_end : (k, 2) bool array
-            Whether each piece goes up to the source and to the target of its edge.
-        first : int
-            The number of new nodes.
-        """
+        """Move ends of pieces of edges from beyond the limit to their crossings."""
         node, _ = self.nodes(first)
         ends, order = ends.copy(), order.copy()
         for hand in (0, 1):
@@ -201,15 +157,7 @@ class Limit:
 
     # ---- arcs --------------------------------------------------------------------------------------
     def arcs(self, first: int, rank: Callable[[Indices, Indices], Indices]) -> LimitArcs:
-        """Give the arcs between crossings, those over half a circle in two, and the whole circles.
-
-        Parameters
-        ----------
-        first : int
-            The number of new nodes.
-        rank : callable
-            Gives the place of elements among the sites around vertices.
-        """
+        """Give the arcs between crossings, those over half a circle in two, and the whole circles."""
         node, places = self.nodes(first)
         edge, hand = self.half_edge >> 1, self.half_edge & 1
         coming, leaving = self._orders(node, rank)
@@ -239,11 +187,7 @@ class Limit:
         )
 
     def _orders(self, node: Indices, rank: Callable[[Indices, Indices], Indices]) -> tuple[Indices, Indices]:
-        """(c,) the orders around nodes of the arc that comes to each crossing, and of that which leaves it.
-
-        Looking towards what is near, an arc comes from the left and leaves to the right. Where two parts only touch
-        each other there are both of those from either side.
-        """
+        """(c,) the orders around nodes of the arc that comes to each crossing, and of that which leaves it."""
         edge, hand = self.half_edge >> 1, self.half_edge & 1
         is_other = (self.ending == _TOUCHING) & (hand == 1)
         coming, leaving = np.where(is_other, 3, 1), np.where(is_other, 0, 2)

@@ -25,28 +25,15 @@ Sites = NDArray[np.int32]
 
 @dataclass(frozen=True, eq=False)
 class LocalDiagrams:
-    """What belongs to whom in each of several regions, and the borders there.
+    """What belongs to whom in each of several regions, and the borders there."""
 
-    Parameters
-    ----------
-    owned : OwnedGraph
-        The graphs of all regions, one after the other, as if they were one: what two of them share is there twice.
-    point_region, segment_region : int64 array
-        Of points and segments.
-    borders : Borders
-        In the whole plane, of each region by itself.
-    polygons : PolygonSet
-        Of all sites, on the lattice.
-    site : (p,) int32 array
-        Of these.
-    """
-
+    # the graphs of all regions, one after the other, as if they were one: what two of them share is there twice
     owned: OwnedGraph
-    point_region: Indices
-    segment_region: Indices
-    borders: Borders
-    polygons: PolygonSet
-    site: Sites
+    point_region: Indices  # int64 array: of points and segments
+    segment_region: Indices  # int64 array: of points and segments
+    borders: Borders  # in the whole plane, of each region by itself
+    polygons: PolygonSet  # of all sites, on the lattice
+    site: Sites  # (p,) int32 array: of these
 
     @property
     def region(self) -> Indices:
@@ -66,25 +53,7 @@ def local_diagrams(
     threads: int = 0,
     progress: Progress = None,
 ) -> LocalDiagrams:
-    """Make the diagram of each region.
-
-    Parameters
-    ----------
-    sites : PlanarGraph
-        Of all sites, on the lattice.
-    site : (p,) int32 array
-        Of its polygons.
-    count : int
-        Of sites.
-    regions : Regions
-        With the sites of each.
-    limit : float, optional
-        How far from its site a place may be, in input units.
-    pieces_of : callable
-        Chooses pieces of the diagrams, as `borders_of` does.
-    threads, progress
-        As of `vorotool.voronoi`.
-    """
+    """Make the diagram of each region."""
     given = sites.polygons
     assert given is not None
     level = np.inf if limit is None else limit / sites.scale

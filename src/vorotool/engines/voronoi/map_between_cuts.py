@@ -21,26 +21,7 @@ def map_between_cuts(
     threads: int = 0,
     progress: Progress = None,
 ) -> CutMap:
-    """Make the diagrams of all regions that a frame, a clip and enclosures leave, in one map.
-
-    Parameters
-    ----------
-    given : Sites
-        Points, lines and polygons.
-    cuts : GivenCuts
-        A clip, enclosures, or both.
-    frame : (x, y, w, h), optional
-        That was given.
-    limit : float, optional
-        How far from its site a place may be, in input units.
-    threads, progress
-        As of `vorotool.voronoi`.
-
-    Raises
-    ------
-    InputError
-        If the clip has no area.
-    """
+    """Make the diagrams of all regions that a frame, a clip and enclosures leave, in one map."""
     frame = cuts.frame_for(given.polygons, frame)
     joint = joint_graph(given.polygons, frame, cuts.clip, cuts.enclosures, threads=threads, progress=progress)
     if cuts.clip is not None and not joint.clips:

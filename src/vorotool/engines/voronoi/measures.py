@@ -25,33 +25,13 @@ def graph_again(cells: VoronoiMap) -> OwnedGraph:
 
 
 def ties(cells: VoronoiMap) -> dict[str, int]:
-    """Count what several sites have, and the smallest was given: points and segments of their boundaries, and areas.
-
-    Examples
-    --------
-    >>> from vorotool import voronoi
-    >>> ties(voronoi([[[0, 0], [2, 0], [2, 2], [0, 2]], [[1, 0], [4, 0], [4, 2], [1, 2]]]))
-    {'shared_points': 4, 'shared_segments': 2, 'overlaps': 1}
-    """
+    """Count what several sites have, and the smallest was given: points and segments of their boundaries, and areas."""
     counts = shared_elements(graph_again(cells), cells.polygon_site)
     return dict(zip(("shared_points", "shared_segments", "overlaps"), counts, strict=True))
 
 
 def own_areas(cells: VoronoiMap) -> Floats:
-    """(s,) the area of its site's own polygons that each cell has: what no smaller site covers, nor a cut takes away.
-
-    Parameters
-    ----------
-    cells : VoronoiMap
-        However it was made.
-
-    Examples
-    --------
-    >>> from vorotool import voronoi
-    >>> squares = [[[0, 0], [2, 0], [2, 2], [0, 2]], [[1, 0], [4, 0], [4, 2], [1, 2]]]
-    >>> own_areas(voronoi(squares)).tolist(), own_areas(voronoi(squares, frame=(0, 0, 3, 1))).tolist()
-    ([4.0, 4.0], [2.0, 1.0])
-    """
+    """(s,) the area of its site's own polygons in each cell, without what smaller sites cover and cuts take away."""
     owned = graph_again(cells)
     made: Floats = np.zeros(len(cells))
     covered = owned.face >= 0
@@ -88,11 +68,7 @@ def _face_areas(graph: PlanarGraph, frame: tuple[float, float, float, float]) ->
 
 
 def _below(source: Floats, target: Floats, w: float, h: float) -> Floats:
-    """(k,) areas between segments and the lower side of a frame with its corner at 0, within it; above 0 rightwards.
-
-    A segment is cut by the left and the right side, and divided where it meets the lines of the lower and the upper
-    one: between, what is below it in the frame is a trapezoid.
-    """
+    """(k,) areas between segments and the lower side of a frame with its corner at 0, within it; above 0 rightwards."""
     way = target - source
     left, right = source[:, 0].clip(0, w), target[:, 0].clip(0, w)
     with np.errstate(divide="ignore", invalid="ignore"):

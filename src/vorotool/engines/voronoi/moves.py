@@ -19,18 +19,10 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class Moves:
-    """Where some of many places are in the input.
+    """Where some of many places are in the input."""
 
-    Parameters
-    ----------
-    at : (k,) int64 array
-        Their numbers.
-    xy : (k, 2) float64 array
-        Where each is.
-    """
-
-    at: Indices
-    xy: Floats
+    at: Indices  # (k,) int64 array: their numbers
+    xy: Floats  # (k, 2) float64 array: where each is
 
     def renumbered(self, number: Indices) -> Moves:
         """Give places other numbers; those below 0 are left out."""
@@ -39,17 +31,7 @@ class Moves:
 
 
 def moved_vertices(arcs: Arcs, rings: Rings) -> Floats:
-    """(v, 2) vertices of a map, where the input has them; on rings so thin that they might turn over none is moved.
-
-    Moved by at most d, the corners of a polygon of n edges and length l change its area by less than d (l + n d).
-
-    Parameters
-    ----------
-    arcs : Arcs
-        With their moves.
-    rings : Rings
-        Along the arcs, with their areas on the lattice.
-    """
+    """(v, 2) vertices of a map, where the input has them; on rings so thin that they might turn over none is moved."""
     at, xy = arcs.moves.at, arcs.moves.xy
     made = arcs.vertices.copy()
     if not at.size:

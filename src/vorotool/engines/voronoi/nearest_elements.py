@@ -18,13 +18,7 @@ Indices = NDArray[np.int64]
 
 
 class NearestElements:
-    """Finds the sites that places of a region are nearest to.
-
-    Parameters
-    ----------
-    local : LocalDiagrams
-        With the elements of all regions.
-    """
+    """Finds the sites that places of a region are nearest to."""
 
     def __init__(self, local: LocalDiagrams) -> None:
         self.local = local
@@ -34,10 +28,7 @@ class NearestElements:
         self.trees: dict[int, tuple[Any, Indices]] = {}
 
     def _has_wedge(self) -> NDArray[np.bool_]:
-        """(n,) whether a site smaller than those of the segments at a point may have what is nearest to the point.
-
-        That has no area where two of the segments are in one line.
-        """
+        """(n,) whether a site smaller than those of the segments at a point may have what is nearest to the point."""
         owned, graph = self.local.owned, self.local.owned.graph
         count = len(graph.points)
         least = np.full(count, NOBODY, dtype=np.int64)
@@ -52,10 +43,7 @@ class NearestElements:
         return has_wedge
 
     def sites(self, places: Floats, region: int) -> Indices:
-        """(k,) the smallest of the sites that cover each place on the lattice, else of those nearest to it.
-
-        What is beyond the limit of distance is `OUTSIDE`.
-        """
+        """(k,) the smallest of the sites that cover each place on the lattice, else of those nearest to it."""
         import shapely
 
         points = shapely.points(places)

@@ -18,26 +18,7 @@ MARGIN = 2.0**-40
 
 
 def site_at(owned: OwnedGraph, place: tuple[float, float], level: float = np.inf) -> int:
-    """Give the site that covers a place in input units, else the one nearest to it, the smallest of several.
-
-    Parameters
-    ----------
-    owned : OwnedGraph
-        Of all sites, of which there is one with places at least.
-    place : (float, float)
-        In input units.
-    level : float
-        A distance on the lattice: `OUTSIDE` is given where all sites are farther away.
-
-    Examples
-    --------
-    >>> from vorotool.engines.voronoi.elements import owned_graph
-    >>> from vorotool.geometry.arguments.sites import as_sites
-    >>> sites = as_sites(["POINT (0 0)", "POLYGON ((2 0, 4 0, 4 2, 2 2, 2 0))"])
-    >>> owned = owned_graph(sites.polygons, sites.site)
-    >>> [site_at(owned, (x, 1.0)) for x in (0.0, 1.5, 2.5)]
-    [0, 1, 1]
-    """
+    """Give the site that covers a place in input units, else the one nearest to it, the smallest of several."""
     graph = owned.graph
     first = int(owned.element[0])
     if (owned.element == first).all() and np.isin(owned.face, (first, -1)).all() and not np.isfinite(level):

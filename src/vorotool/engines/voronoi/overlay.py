@@ -26,24 +26,12 @@ UNKNOWN = -2
 
 @dataclass(frozen=True, eq=False)
 class Pieces:
-    """Parts of borders between places.
+    """Parts of borders between places."""
 
-    Parameters
-    ----------
-    piece : (k,) int64 array
-        Of the borders.
-    ends : (k, 2) int64 array
-        Source and target; -1 at infinity.
-    t : (k, 2) float64 array
-        Their parameters; NaN of pieces that are whole.
-    row : (k,) int64 array
-        Of `Crossings.pieces`; -1 of those that are not among them.
-    """
-
-    piece: Indices
-    ends: Indices
-    t: Floats
-    row: Indices
+    piece: Indices  # (k,) int64 array: of the borders
+    ends: Indices  # (k, 2) int64 array: source and target; -1 at infinity
+    t: Floats  # (k, 2) float64 array: their parameters; NaN of pieces that are whole
+    row: Indices  # (k,) int64 array: of `Crossings.pieces`; -1 of those that are not among them
 
     def __getitem__(self, chosen: NDArray[np.bool_]) -> Pieces:
         """Some of them."""
@@ -52,33 +40,17 @@ class Pieces:
 
 @dataclass(frozen=True, eq=False)
 class CutPieces:
-    """Parts of cut edges between places.
+    """Parts of cut edges between places."""
 
-    Parameters
-    ----------
-    edge : (k,) int64 array
-        That each is a part of.
-    ends : (k, 2) int64 array
-        Source and target, along it.
-    sites : (k, 2) int64 array
-        Left and right, where walls and borders along them tell; `OUTSIDE` where nobody has it, else `UNKNOWN`.
-    """
-
-    edge: Indices
-    ends: Indices
+    edge: Indices  # (k,) int64 array: that each is a part of
+    ends: Indices  # (k, 2) int64 array: source and target, along it
+    # (k, 2) int64 array: left and right, where walls and borders along them tell; `OUTSIDE` where nobody has it, else
+    # `UNKNOWN`
     sites: Indices
 
 
 def pieces_between(local: LocalDiagrams, found: Crossings) -> Pieces:
-    """Cut borders at all places where they meet cuts; what has no length is left out.
-
-    Parameters
-    ----------
-    local : LocalDiagrams
-        With the borders.
-    found : Crossings
-        The places.
-    """
+    """Cut borders at all places where they meet cuts; what has no length is left out."""
     borders = local.borders
     ends = np.where(borders.ends >= 0, found.node[borders.ends], -1)
     whole = np.ones(len(ends), dtype=bool)
@@ -109,17 +81,7 @@ def pieces_between(local: LocalDiagrams, found: Crossings) -> Pieces:
 
 
 def cut_pieces(edges: CutEdges, found: Crossings, count: int) -> CutPieces:
-    """Divide cut edges at all places where borders meet them.
-
-    Parameters
-    ----------
-    edges : CutEdges
-        All of them.
-    found : Crossings
-        The places.
-    count : int
-        Places of borders.
-    """
+    """Divide cut edges at all places where borders meet them."""
     number = np.arange(len(edges.ends))
     inner = np.flatnonzero((found.edge >= 0) & (found.node == np.arange(len(found.node))))
     edge = np.concatenate([number, found.edge[inner], number])
@@ -134,17 +96,7 @@ def cut_pieces(edges: CutEdges, found: Crossings, count: int) -> CutPieces:
 
 
 class Overlay:
-    """Parts of borders and cuts put together.
-
-    Parameters
-    ----------
-    local : LocalDiagrams
-        With the borders.
-    edges : CutEdges
-        The cuts.
-    found : Crossings
-        Where they meet.
-    """
+    """Parts of borders and cuts put together."""
 
     def __init__(self, local: LocalDiagrams, edges: CutEdges, found: Crossings) -> None:
         self.local, self.edges, self.found = local, edges, found
@@ -252,22 +204,7 @@ class Overlay:
             cuts.sites[part[own], hand] = told[own]
 
     def places_along(self, part: Indices, shares: tuple[float, ...]) -> tuple[Floats, Floats]:
-        """Give places along parts of cuts, on the lattice, and the lengths of the parts.
-
-        Parameters
-        ----------
-        part : (k,) int64 array
-            Of `cuts`.
-        shares : tuple of float
-            Of the length of each, from its source.
-
-        Returns
-        -------
-        places : (k, s, 2) float64 array
-            One for each share.
-        length : (k,) float64 array
-            Of the parts.
-        """
+        """Give places along parts of cuts, on the lattice, and the lengths of the parts."""
         edge = self.cuts.edge[part]
         first, last = (self._far(node, edge) for node in self.cuts.ends[part].T)
         far = first[:, None] + (last - first)[:, None] * np.array(shares)

@@ -32,25 +32,7 @@ _ENDS = 2
 
 
 def reaches(cells: VoronoiMap) -> Floats:
-    """(s,) the largest distance that a place of each cell has from its site; NaN of empty cells.
-
-    It is at a vertex of the cell, or where three elements of the site itself are equally far, as in the middle of a
-    court, or where an edge between two of them, a ridge, meets a cut.
-
-    Parameters
-    ----------
-    cells : VoronoiMap
-        However it was made.
-
-    Examples
-    --------
-    >>> from vorotool import voronoi
-    >>> reaches(voronoi([[0, 0], [4, 0]], frame=(0, 0, 4, 1))).round(6).tolist()
-    [2.236068, 2.236068]
-    >>> court = "LINESTRING (0 0, 4 0, 4 4, 0 4, 0 0)"
-    >>> reaches(voronoi([court], frame=(0, 0, 4, 4))).tolist()
-    [2.0]
-    """
+    """(s,) the largest distance that a place of each cell has from its site; NaN of empty cells."""
     made = np.full(len(cells), -np.inf)
     _take_vertices(made, cells)
     if _has_ridges(cells):

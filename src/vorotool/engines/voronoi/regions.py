@@ -24,52 +24,24 @@ NOBODY = -1
 
 @dataclass(frozen=True, eq=False)
 class CutEdges:
-    """Segments between regions, on the lattice.
+    """Segments between regions, on the lattice."""
 
-    Parameters
-    ----------
-    points : (n, 2) float64 array
-        Their ends there.
-    places : (n, 2) float64 array
-        In input units.
-    given : (n, 2) float64 array
-        The same, as the input has them: see `_as_given`.
-    ends : (m, 2) int64 array
-        Source and target, numbers of points.
-    regions : (m, 2) int64 array
-        Left and right, two different ones; `NOBODY` where nothing is shared out.
-    is_enclosure : (m,) bool array
-        Whether an enclosure runs along it.
-    """
-
-    points: Floats
-    places: Floats
-    given: Floats
-    ends: Indices
-    regions: Indices
-    is_enclosure: NDArray[np.bool_]
+    points: Floats  # (n, 2) float64 array: their ends there
+    places: Floats  # (n, 2) float64 array: in input units
+    given: Floats  # (n, 2) float64 array: the same, as the input has them: see `_as_given`
+    ends: Indices  # (m, 2) int64 array: source and target, numbers of points
+    regions: Indices  # (m, 2) int64 array: left and right, two different ones; `NOBODY` where nothing is shared out
+    is_enclosure: NDArray[np.bool_]  # (m,) bool array: whether an enclosure runs along it
 
 
 @dataclass(frozen=True, eq=False)
 class Regions:
-    """Regions, and which sites each is shared among.
+    """Regions, and which sites each is shared among."""
 
-    Parameters
-    ----------
-    edges : CutEdges
-        All that is between them.
-    count : int
-        Of regions.
-    start : (count + 1,) int64 array
-        Where the sites of each begin in `site`.
-    site : int64 array
-        Ascending for each region.
-    """
-
-    edges: CutEdges
+    edges: CutEdges  # all that is between them
     count: int
-    start: Indices
-    site: Indices
+    start: Indices  # (count + 1,) int64 array: where the sites of each begin in `site`
+    site: Indices  # int64 array: ascending for each region
 
     def sites_of(self, region: int) -> Indices:
         """The sites that a region is shared among."""
@@ -77,21 +49,7 @@ class Regions:
 
 
 def regions_of(joint: JointGraph, site: NDArray[np.int32], count: int) -> Regions:
-    """Find the faces of enclosures, or the whole, within the frame and the clip.
-
-    An end of an enclosure with one face on both sides cuts nothing, unless it reaches the frame or the clip, or runs
-    along their edge: what it parts there are faces of their own. A face is shared among the sites that meet its inside,
-    without enclosures the only one among all; where there are none it is nobody's.
-
-    Parameters
-    ----------
-    joint : JointGraph
-        Of everything.
-    site : (p,) int32 array
-        Of each polygon of the sites.
-    count : int
-        Of sites.
-    """
+    """Find the faces of enclosures, or the whole, within the frame and the clip."""
     graph = joint.graph
     shared = _is_shared_out(joint)
     if count and not shared.any():
@@ -131,10 +89,7 @@ def regions_of(joint: JointGraph, site: NDArray[np.int32], count: int) -> Region
 
 
 def _as_given(joint: JointGraph) -> Floats:
-    """(n, 2) coordinates of points in the input; others on an edge along an axis have its coordinate, as on the frame.
-
-    So an edge along an axis, and the frame whatever touches it, stays straight.
-    """
+    """(n, 2) coordinates of points in the input; others on an edge along an axis have its coordinate."""
     graph = joint.graph
     given, made = graph.polygons, graph.coordinates_as_given.copy()
     if given is None or not graph.largest_move:
@@ -243,29 +198,7 @@ def _meetings_of_points(
 
 
 def faces_of_sides(lines: Floats, sides: Indices) -> tuple[Indices, NDArray[Any]]:
-    """Give the faces between segments as polygons of shapely, and the region that each is a part of.
-
-    Parameters
-    ----------
-    lines : (m, 2, 2) float64 array
-        Segments between regions, which meet at common ends only; whole numbers.
-    sides : (m, 2) int64 array
-        The region left and right of each.
-
-    Returns
-    -------
-    names : (r,) int64 array
-        The regions.
-    shapes : (r,) array
-        Polygons, with holes.
-
-    Examples
-    --------
-    >>> square = np.array([[[0, 0], [2, 0]], [[2, 0], [2, 2]], [[2, 2], [0, 0]]], dtype=float)
-    >>> names, shapes = faces_of_sides(square, np.array([[4, -1]] * 3))
-    >>> names.tolist(), shapes[0].area
-    ([4], 2.0)
-    """
+    """Give the faces between segments as polygons of shapely, and the region that each is a part of."""
     import shapely
 
     shapes = np.asarray(shapely.get_parts(shapely.polygonize(shapely.linestrings(lines))))

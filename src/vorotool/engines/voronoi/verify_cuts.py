@@ -15,19 +15,7 @@ Floats = NDArray[np.float64]
 
 
 def shared_out(cells: VoronoiMap) -> Any:
-    """Give the area within the frame and the clip of a map, as geometry of shapely.
-
-    Parameters
-    ----------
-    cells : VoronoiMap
-        With its frame, and its clip if it has one.
-
-    Examples
-    --------
-    >>> from vorotool import voronoi
-    >>> shared_out(voronoi([[0, 0]], clip=["POLYGON ((0 0, 4 0, 0 4, 0 0))"])).area
-    8.0
-    """
+    """Give the area within the frame and the clip of a map, as geometry of shapely."""
     import shapely
 
     x, y, w, h = cells.frame
@@ -40,17 +28,7 @@ def shared_out(cells: VoronoiMap) -> Any:
 
 
 class EnclosedFaces:
-    """Faces between the enclosures of a map, and the sites that meet the inside of each.
-
-    Parameters
-    ----------
-    cells : VoronoiMap
-        With enclosures.
-    geometry : (k,) array
-        Its sites as geometry of shapely.
-    near : float
-        What geometry may be moved by: a site that is no deeper in a face may or may not meet it.
-    """
+    """Faces between the enclosures of a map, and the sites that meet the inside of each."""
 
     def __init__(self, cells: VoronoiMap, geometry: NDArray[Any], near: float) -> None:
         import shapely

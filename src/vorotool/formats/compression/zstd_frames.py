@@ -10,18 +10,7 @@ _DICTIONARY_BYTES = (0, 1, 2, 4)
 
 
 def most_unpacked(data: bytes | memoryview) -> tuple[int, bool]:
-    """Bytes that unpacking gives at most, and whether they are just as many: every frame says how many it holds.
-
-    Raises
-    ------
-    ValueError
-        If it is no such data, or cut off.
-
-    Examples
-    --------
-    >>> most_unpacked(bytes.fromhex("28b52ffd 20 05 290000 68656c6c6f"))
-    (5, True)
-    """
+    """Bytes that unpacking gives at most, and whether they are just as many: every frame says how many it holds."""
     at = total = 0
     is_exact = True
     while at < len(data):

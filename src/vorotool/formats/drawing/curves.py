@@ -24,13 +24,7 @@ Point = tuple[float, float]
 
 
 class Affine(NamedTuple):
-    """The map of (x, y) to (a x + c y + e, b x + d y + f), as SVG has it.
-
-    Examples
-    --------
-    >>> Affine(e=5).after(Affine(a=2, d=3)).of((1, 1))
-    (7.0, 3.0)
-    """
+    """The map of (x, y) to (a x + c y + e, b x + d y + f), as SVG has it."""
 
     a: float = 1.0
     b: float = 0.0
@@ -92,11 +86,7 @@ class Bezier(NamedTuple):
         return self.control
 
     def flattened(self, start: Point, tolerance: float) -> Floats:
-        """Divide it evenly in its parameter, so that chords are within the tolerance.
-
-        A chord over 1/n of the parameter is off by max |B''| / (8 n^2) at most, and B'' is bounded by the second
-        differences of the control points.
-        """
+        """Divide it evenly in its parameter, so that chords are within the tolerance."""
         control, degree = [start, *self.control], len(self.control)
         bend = 0.0
         for (a, b), (c, d), (e, f) in zip(control[:-2], control[1:-1], control[2:], strict=True):
@@ -114,25 +104,15 @@ class Bezier(NamedTuple):
 
 
 class Arc(NamedTuple):
-    """An arc of an ellipse: the image of an arc of the unit circle that turns from the first axis to the second.
+    """An arc of an ellipse: the image of an arc of the unit circle that turns from the first axis to the second."""
 
-    Parameters
-    ----------
-    centre : (float, float)
-        Of the ellipse.
-    first, second : (float, float)
-        Images of the axes: conjugate half-diameters.
-    ways : tuple of (float, float)
-        Places on the unit circle, each at most half a turn behind the one before: its start, its end, and between.
-    end : (float, float)
-        Where it ends: given, since it is where the next piece begins.
-    """
-
-    centre: Point
-    first: Point
-    second: Point
+    centre: Point  # (float, float): of the ellipse
+    first: Point  # (float, float): images of the axes: conjugate half-diameters
+    second: Point  # (float, float): images of the axes: conjugate half-diameters
+    # tuple of (float, float): places on the unit circle, each at most half a turn behind the one before: its start,
+    # its end, and between
     ways: tuple[Point, ...]
-    end: Point
+    end: Point  # (float, float): where it ends: given, since it is where the next piece begins
 
     def mapped(self, by: Affine) -> Arc:
         """Map it."""
@@ -164,21 +144,11 @@ Piece = Line | Bezier | Arc
 
 @dataclass
 class Curve:
-    """Pieces of which each begins where the one before ends.
+    """Pieces of which each begins where the one before ends."""
 
-    Parameters
-    ----------
-    start : (float, float)
-        Where the first begins.
-    pieces : list of Line, Bezier and Arc
-        In order.
-    is_closed : bool
-        Whether the last ends where the first begins, by a straight line if need be.
-    """
-
-    start: Point
+    start: Point  # (float, float): where the first begins
     pieces: list[Piece] = field(default_factory=list)
-    is_closed: bool = False
+    is_closed: bool = False  # whether the last ends where the first begins, by a straight line if need be
 
     @property
     def end(self) -> Point:
@@ -190,10 +160,7 @@ class Curve:
         return Curve(by.of(self.start), [piece.mapped(by) for piece in self.pieces], self.is_closed)
 
     def flattened(self, tolerance: float | None = None, most: float = inf) -> Floats:
-        """(n, 2) places along it, both ends included, but the start once if it is closed; none twice in succession.
-
-        Without a tolerance each piece is within 1/2000 of the diagonal of the box that holds it, and within `most`.
-        """
+        """(n, 2) places along it, both ends included, but the start once if it is closed; none twice in succession."""
         made, begin = [np.array([self.start])], self.start
         for piece in self.pieces:
             made.append(piece.flattened(begin, tolerance or _tolerance_of(begin, piece, most)))
@@ -226,13 +193,7 @@ def _tolerance_of(begin: Point, piece: Piece, most: float) -> float:
 
 
 def extent_of(curves: Sequence[Curve]) -> float:
-    """Return the larger side of what holds curves; 1 of nothing.
-
-    Examples
-    --------
-    >>> extent_of([Curve((0.0, 0.0), [Line((4096.0, 1.0))])])
-    4096.0
-    """
+    """Return the larger side of what holds curves; 1 of nothing."""
     places = [place for curve in curves for piece in curve.pieces for place in piece.reach()]
     places += [curve.start for curve in curves]
     if not places:
@@ -248,29 +209,12 @@ _QUARTERS: tuple[Point, ...] = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)
 
 
 def turned(degrees: float) -> Point:
-    """Give cosine and sine of an angle; those of quarters of a turn are exact.
-
-    Examples
-    --------
-    >>> turned(-90), turned(720)
-    ((0.0, -1.0), (1.0, 0.0))
-    """
+    """Give cosine and sine of an angle; those of quarters of a turn are exact."""
     return turned_each([degrees])[0]
 
 
 def turned_each(degrees: Sequence[float]) -> list[Point]:
-    """Give cosine and sine of each of many angles, as `turned` does.
-
-    Raises
-    ------
-    ValueError
-        If one is not finite.
-
-    Examples
-    --------
-    >>> turned_each([90.0, 180.0])
-    [(0.0, 1.0), (-1.0, 0.0)]
-    """
+    """Give cosine and sine of each of many angles, as `turned` does."""
     if not all(map(isfinite, degrees)):
         raise ValueError("an angle is not finite")
     angles = np.asarray(degrees, dtype=np.float64) % 360
@@ -283,26 +227,13 @@ def turned_each(degrees: Sequence[float]) -> list[Point]:
 
 
 def whole_ellipse(centre: Point, first: Point, second: Point) -> Curve:
-    """An ellipse by its centre and two conjugate half-diameters; it begins at the end of the first.
-
-    Examples
-    --------
-    >>> whole_ellipse((0.0, 0.0), (1.0, 0.0), (0.0, 2.0)).flattened(1.0).tolist()
-    [[1.0, 0.0], [0.0, 2.0], [-1.0, 0.0], [0.0, -2.0]]
-    """
+    """An ellipse by its centre and two conjugate half-diameters; it begins at the end of the first."""
     start = (centre[0] + first[0], centre[1] + first[1])
     return Curve(start, [Arc(centre, first, second, _QUARTERS, start)], is_closed=True)
 
 
 def arc_between(centre: Point, first: Point, second: Point, ways: tuple[Point, Point], end: Point) -> Arc:
-    """Give the arc between two ways of the unit circle, counter-clockwise; the end is where it is said to be.
-
-    Examples
-    --------
-    >>> arc = arc_between((0.0, 0.0), (1.0, 0.0), (0.0, 1.0), ((1.0, 0.0), (0.0, -1.0)), (0.0, -1.0))
-    >>> [[round(x, 3) for x in way] for way in arc.ways]
-    [[1.0, 0.0], [-0.707, 0.707], [0.0, -1.0]]
-    """
+    """Give the arc between two ways of the unit circle, counter-clockwise; the end is where it is said to be."""
     (ax, ay), (bx, by) = ways
     if ax * by - ay * bx >= 0:  # at most half a turn
         return Arc(centre, first, second, ways, end)
@@ -313,13 +244,7 @@ def arc_between(centre: Point, first: Point, second: Point, ways: tuple[Point, P
 
 
 def bulged(start: Point, end: Point, bulge: float) -> Piece:
-    """Give the arc of a DXF polyline: its bulge is the tangent of a quarter of its angle, counter-clockwise.
-
-    Examples
-    --------
-    >>> bulged((1.0, 0.0), (-1.0, 0.0), 1.0).flattened((1.0, 0.0), 0.5).round(9).tolist()
-    [[0.0, 1.0], [-1.0, 0.0]]
-    """
+    """Give the arc of a DXF polyline: its bulge is the tangent of a quarter of its angle, counter-clockwise."""
     if not bulge or start == end:
         return Line(end)
     across, down = (end[0] - start[0]) / 2, (end[1] - start[1]) / 2

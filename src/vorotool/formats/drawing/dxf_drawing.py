@@ -24,24 +24,7 @@ _FORBIDDEN = '<>/\\":;?*|=`,'
 
 
 class DxfDrawing:
-    r"""Entities on layers, in the coordinates of the data.
-
-    Parameters
-    ----------
-    unit : str, optional
-        Of the coordinates.
-    y_up : bool
-        Whether they have y upwards, as drawings do; else all is turned over, so that it looks as it did.
-
-    Examples
-    --------
-    >>> drawing = DxfDrawing(unit="mm", y_up=False)
-    >>> drawing.polyline("cut", np.array([[0.0, 0.0], [4.0, 3.0]]))
-    >>> out = io.BytesIO()
-    >>> drawing.write(out)
-    >>> out.getvalue().count(b"\nAcDbLine\n"), b"-3.0" in out.getvalue()
-    (1, True)
-    """
+    """Entities on layers, in the coordinates of the data."""
 
     def __init__(self, *, unit: str | None, y_up: bool) -> None:
         ezdxf = self._library = ezdxf_module()

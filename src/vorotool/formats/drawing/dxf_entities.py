@@ -32,15 +32,7 @@ _SPLINE_FRAME = 16
 
 
 def curves_of(entity: Any, flatten: float | None) -> list[Curve]:
-    """Give the curves of an entity in its own coordinates, seen from above.
-
-    Parameters
-    ----------
-    entity : ezdxf entity
-        Of a type in `ENTITIES`.
-    flatten : float, optional
-        How far lines may be from rational splines.
-    """
+    """Give the curves of an entity in its own coordinates, seen from above."""
     kind = entity.dxftype()
     made = ENTITIES[kind](entity, flatten)
     mirror = Affine(a=-1.0)  # the arbitrary axes of what is seen from below

@@ -30,20 +30,7 @@ MOST_LEVELS = 100
 
 
 def read_dxf(source: Source, options: ReadOptions) -> PolygonSet:
-    """Read the lines, arcs, polylines and splines of a drawing; curves become lines within a tolerance.
-
-    What ends where others begin is joined, layer by layer. Closed curves are polygons: those of a layer that lie in
-    others are holes, and again polygons in these. Each polygon and each open line is a feature, with its ``layer``.
-
-    Raises
-    ------
-    InputError
-        If the drawing is damaged.
-    LimitError
-        If there is too much in it.
-    UsageError
-        If ezdxf is not installed.
-    """
+    """Read the lines, arcs, polylines and splines of a drawing; curves become lines within a tolerance."""
     drawing = _loaded(source)
     try:
         blocks = _Blocks(source.name, drawing)
@@ -133,15 +120,7 @@ class _Seen(NamedTuple):
 
 @dataclass
 class _Blocks:
-    """The blocks of a drawing, and the curves that are found in them; None stands for the drawing itself.
-
-    Parameters
-    ----------
-    name : str
-        The input.
-    drawing : ezdxf document
-        What was read.
-    """
+    """The blocks of a drawing, and the curves that are found in them; None stands for the drawing itself."""
 
     name: str
     drawing: Any

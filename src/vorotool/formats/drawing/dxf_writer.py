@@ -28,34 +28,7 @@ DEPTH = "depth"
 
 
 def write_dxf(out: BinaryIO, value: Any, *, what: str) -> None:
-    """Write a result on a layer of its name; offset curves on one for each distance.
-
-    Places along a skeleton are at the depth of their radius, z = -r, and with all nodes of the skeleton on lines in
-    space, branch by branch, on the layer `DEPTH`. Edges of alpha shapes are on layers of their class, shapes on
-    those of the ``layer`` that their input has. Where y of the input goes downwards, it is turned over.
-
-    Parameters
-    ----------
-    out : binary file object
-        Need not be seekable.
-    value : value of the library
-        What is written.
-    what : str
-        Which part of it: a product that can be written as GeoJSON.
-
-    Raises
-    ------
-    UsageError
-        If ezdxf is not installed.
-
-    Examples
-    --------
-    >>> import io, vorotool
-    >>> out = io.BytesIO()
-    >>> write_dxf(out, vorotool.offset([[0, 0], [4, 0], [4, 4], [0, 4]], 1), what="offset")
-    >>> out.getvalue().count(b"AcDbPolyline"), b"offset_1" in out.getvalue()
-    (1, True)
-    """
+    """Write a result on a layer of its name; offset curves on one for each distance."""
     unit, y_up = _described(value)
     drawing = DxfDrawing(unit=unit, y_up=y_up)
     if isinstance(value, Skeleton | LedOn | SmoothLines | SkeletonPoints):

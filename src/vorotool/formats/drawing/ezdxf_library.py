@@ -11,21 +11,7 @@ from vorotool.geometry.extras import needed
 
 
 def ezdxf_module(module: str = "ezdxf") -> Any:
-    """Import ezdxf, or a module of it.
-
-    It reads settings from the folder of the user and from where the program runs, as it is imported; what is read and
-    written here depends on neither.
-
-    Raises
-    ------
-    UsageError
-        If it is not installed.
-
-    Examples
-    --------
-    >>> ezdxf_module("ezdxf.lldxf.const").DXFError.__name__
-    'DXFError'
-    """
+    """Import ezdxf, or a module of it."""
     if "ezdxf" in sys.modules:
         return needed(module, "cad", "DXF drawings")
     logger = logging.getLogger("ezdxf")

@@ -19,30 +19,7 @@ _MOST_PAIRS = 2**17
 
 
 def filled_polygons(rings: Sequence[Floats], rule: str) -> list[list[Floats]]:
-    """Give shells, each with its holes, of what closed rings fill.
-
-    Rings that are simple and do not cross keep their vertices: by how they lie in one another each is a shell, a hole,
-    or a border of nothing. Others are cut where they cross, by shapely, and faces are put together again.
-
-    Parameters
-    ----------
-    rings : sequence of (n, 2) float64 array
-        Each without its first vertex at its end.
-    rule : {"nonzero", "evenodd"}
-        As SVG has it.
-
-    Returns
-    -------
-    list of list of (n, 2) array
-        Of each polygon the shell, then its holes.
-
-    Examples
-    --------
-    >>> outer, inner = ([[0, 0], [9, 0], [9, 9], [0, 9]], [[3, 3], [6, 3], [6, 6], [3, 6]])
-    >>> rings = [np.array(ring, dtype=float) for ring in (outer, inner)]
-    >>> [[len(filled) for filled in filled_polygons(rings, rule)] for rule in ("nonzero", "evenodd")]
-    [[1], [2]]
-    """
+    """Give shells, each with its holes, of what closed rings fill."""
     import shapely
 
     flat = [ring for ring in rings if len(ring) > 2]
@@ -67,14 +44,7 @@ def filled_polygons(rings: Sequence[Floats], rule: str) -> list[list[Floats]]:
 
 
 def nested_polygons(rings: Sequence[Floats]) -> list[list[Floats]]:
-    """Give shells, each with its holes, of rings of which none is filled by itself; where some cross, each is a shell.
-
-    Examples
-    --------
-    >>> outer, inner = ([[0, 0], [9, 0], [9, 9], [0, 9]], [[3, 3], [6, 3], [6, 6], [3, 6]])
-    >>> [len(polygon) for polygon in nested_polygons([np.array(inner, dtype=float), np.array(outer, dtype=float)])]
-    [2]
-    """
+    """Return shells, each with its holes, of rings of which none is filled by itself."""
     import shapely
 
     flat = [ring for ring in rings if len(ring) > 2]

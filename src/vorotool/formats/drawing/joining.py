@@ -32,27 +32,13 @@ class Gap(NamedTuple):
 
 
 def default_tolerance(curves: Sequence[Curve], unit: str | None) -> float:
-    """Give how far ends of curves may be apart that are joined, by the unit of their coordinates.
-
-    Examples
-    --------
-    >>> line = [Curve((0.0, 0.0), [Line((400.0, 300.0))])]
-    >>> default_tolerance(line, "mm"), default_tolerance(line, "m"), round(default_tolerance(line, None), 6)
-    (0.005, 5e-06, 0.004)
-    """
+    """Give how far ends of curves may be apart that are joined, by the unit of their coordinates."""
     length = None if unit is None else ratio(unit, "mm")
     return JOINED_PART * extent_of(curves) if length is None else float(JOINED / length)
 
 
 def open_gaps(chains: Sequence[Curve], tolerance: float) -> list[Gap]:
-    """Give the gaps between ends of open curves that are wider than a tolerance, by up to ten times, widest last.
-
-    Examples
-    --------
-    >>> corner = [Curve((0.0, 0.0), [Line((4.0, 0.0))]), Curve((4.0, 0.5), [Line((4.0, 3.0))])]
-    >>> open_gaps(corner, 0.1), open_gaps(corner, 0.01)
-    ([Gap(width=0.5, place=(4.0, 0.0))], [])
-    """
+    """Give the gaps between ends of open curves that are wider than a tolerance, by up to ten times, widest last."""
     import shapely
 
     ends = np.array([end for chain in chains if not chain.is_closed for end in (chain.start, chain.end)])
@@ -69,27 +55,7 @@ def open_gaps(chains: Sequence[Curve], tolerance: float) -> list[Gap]:
 
 
 def joined(curves: Sequence[Curve], tolerance: float) -> list[Curve]:
-    """Join open curves at places where exactly two ends meet; closed ones stay.
-
-    Parameters
-    ----------
-    curves : sequence of Curve
-        What to join.
-    tolerance : float
-        How far ends may be apart.
-
-    Returns
-    -------
-    list of Curve
-        In the order of the first of each; a chain that comes back to its start is closed.
-
-    Examples
-    --------
-    >>> sides = [((0.0, 0.0), (1.0, 0.0)), ((0.0, 1.0), (1.0, 0.0)), ((0.0, 1.0), (0.0, 0.0)), ((5.0, 5.0), (6.0, 6.0))]
-    >>> made = joined([Curve(a, [Line(b)]) for a, b in sides], 1e-9)
-    >>> [(curve.is_closed, curve.flattened(1.0).tolist()) for curve in made]
-    [(True, [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]), (False, [[5.0, 5.0], [6.0, 6.0]])]
-    """
+    """Join open curves at places where exactly two ends meet; closed ones stay."""
     is_open = [not curve.is_closed and bool(curve.pieces) for curve in curves]
     ends = np.array(
         [end for curve, each in zip(curves, is_open, strict=True) if each for end in (curve.start, curve.end)]

@@ -28,51 +28,14 @@ _ROUNDING = 2.0**-51
 
 
 class Nesting(NamedTuple):
-    """How rings lie in one another.
+    """How rings lie in one another."""
 
-    Parameters
-    ----------
-    parent : list of int
-        The smallest ring around each, or `OUTSIDE`.
-    order : list of int
-        All rings, each behind its parent.
-    """
-
-    parent: list[int]
-    order: list[int]
+    parent: list[int]  # the smallest ring around each, or `OUTSIDE`
+    order: list[int]  # all rings, each behind its parent
 
 
 def nesting_of(rings: Sequence[Floats], turns: Sequence[int], areas: Sequence[float]) -> Nesting | None:
-    """Find the parent of each ring, exactly; None where two of them cross or are the same.
-
-    The sweep stops at every vertex. It keeps the edges that cross its line from the lowest to the highest; of edges
-    that run along one another those of a ring that has the other in it come first from outside. Every two edges that
-    are neighbours must agree on the ring that the plane between them lies in: they do everywhere if, and only if, no
-    ring crosses another.
-
-    Parameters
-    ----------
-    rings : sequence of (n, 2) float64 array
-        Simple ones, each without its first vertex at its end; they may touch one another.
-    turns : sequence of int
-        1 for those that run counter-clockwise, else -1.
-    areas : sequence of float
-        Inside each.
-
-    Raises
-    ------
-    LimitError
-        If edges touch others too often.
-
-    Examples
-    --------
-    >>> outer, inner = ([[0, 0], [9, 0], [9, 9], [0, 9]], [[3, 3], [6, 3], [6, 6], [3, 6]])
-    >>> rings = [np.array(ring, dtype=float) for ring in (inner, outer)]
-    >>> nesting_of(rings, [1, 1], [9.0, 81.0])
-    Nesting(parent=[1, -1], order=[1, 0])
-    >>> nesting_of([rings[0], rings[0] + 2], [1, 1], [9.0, 9.0]) is None
-    True
-    """
+    """Find the parent of each ring, exactly; None where two of them cross or are the same."""
     sweep = _Sweep(rings, turns, areas)
     return Nesting(sweep.parent, sweep.order) if sweep.runs() else None
 
@@ -139,10 +102,7 @@ class _Sweep:
         return (edge.is_lower, -area if edge.is_lower else area, edge.ring)
 
     def _agree(self, below: _Edge | None, above: _Edge | None) -> bool:
-        """Whether neighbours do not cross, and lie in the same ring; a ring that begins above another gets its parent.
-
-        They are neighbours up to the first of their right ends, if they do not cross before.
-        """
+        """Whether neighbours do not cross, and lie in the same ring."""
         around = OUTSIDE
         if below is not None:
             around = below.ring if below.is_lower else self.parent[below.ring]

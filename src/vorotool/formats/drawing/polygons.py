@@ -23,28 +23,15 @@ shell a feature of its own; where they cross each is a shell."""
 
 
 class Shape(NamedTuple):
-    """One feature of a drawing.
+    """One feature of a drawing."""
 
-    Parameters
-    ----------
-    curves : list of Curve
-        What it is drawn with.
-    rule : {"nonzero", "evenodd", "nested"} or None
-        What of the plane they fill, open ones as if they were closed; None where each is by itself: closed ones are
-        polygons, others lines.
-    id : object
-        Its name in the drawing, if it has one.
-    place : str
-        Words for its place.
-    is_stroked : bool
-        Whether lines are drawn along what fills nothing, as one or two places do not.
-    """
-
-    curves: Sequence[Curve]
+    curves: Sequence[Curve]  # what it is drawn with
+    # what of the plane they fill, open ones as if they were closed; None where each is by itself: closed ones are
+    # polygons, others lines
     rule: str | None
-    id: Any
-    place: str
-    is_stroked: bool = True
+    id: Any  # its name in the drawing, if it has one
+    place: str  # words for its place
+    is_stroked: bool = True  # whether lines are drawn along what fills nothing, as one or two places do not
 
 
 def shapes_to_polygons(
@@ -56,36 +43,7 @@ def shapes_to_polygons(
     y_up: bool = False,
     properties: dict[str, list[Any]] | None = None,
 ) -> PolygonSet:
-    """Flatten the curves of shapes, one feature a shape.
-
-    Parameters
-    ----------
-    name : str
-        The input.
-    shapes : sequence of Shape
-        In order.
-    options : ReadOptions
-        Its ``flatten`` says how far lines may be from curves; by default
-        1/2000 of the diagonal of the box of each piece, and 0.01 mm where the unit is known.
-    unit, y_up : optional
-        Of the coordinates.
-    properties : dict of str to list, optional
-        One value a shape.
-
-    Raises
-    ------
-    InputError
-        If a place is beyond the largest number.
-    LimitError
-        If there are too many vertices.
-
-    Examples
-    --------
-    >>> from vorotool.formats.drawing.curves import whole_ellipse
-    >>> circle = Shape([whole_ellipse((0.0, 0.0), (1.0, 0.0), (0.0, 1.0))], "nonzero", "o", "circle")
-    >>> len(shapes_to_polygons("a.svg", [circle], ReadOptions(flatten=0.01)).xy)
-    32
-    """
+    """Flatten the curves of shapes, one feature a shape."""
     beyond = next((shape for shape in shapes if not all(curve.is_finite() for curve in shape.curves)), None)
     if beyond is not None:
         raise InputError(f"{beyond.place}: a place is beyond the largest number; correct or remove it")

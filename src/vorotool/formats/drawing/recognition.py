@@ -20,13 +20,7 @@ BINARY_DXF = b"AutoCAD Binary DXF\r\n\x1a\0"
 
 
 def drawing_format(source: Source) -> str | None:
-    r"""Tell the format of a drawing by the extension, else by the content; None if it is none.
-
-    Examples
-    --------
-    >>> drawing_format(Source("-", b"<svg></svg>")), drawing_format(Source("-", b"  0\nSECTION\n  2\nHEADER\n"))
-    ('svg', 'dxf')
-    """
+    """Tell the format of a drawing by the extension, else by the content; None if it is none."""
     by_suffix = SUFFIXES.get(source.suffix)
     if by_suffix is not None and source.data.strip():
         return by_suffix
@@ -46,13 +40,7 @@ def _unpacked_head(head: bytes) -> bytes:
 
 
 def refuse_drawing(source: Source) -> None:
-    """Refuse a drawing where points are due.
-
-    Raises
-    ------
-    InputError
-        If it is one.
-    """
+    """Refuse a drawing where points are due."""
     if drawing_format(source) is not None:
         raise InputError(
             f"{source.name} is a drawing, which holds polygons and lines, and points or an image were expected: give "

@@ -32,21 +32,11 @@ _CLIPPED = {
 
 @dataclass
 class Document:
-    """A drawing.
-
-    Parameters
-    ----------
-    name : str
-        The input.
-    root : Element
-        Its outermost element.
-    hidden : int
-        Counts elements that are not displayed.
-    """
+    """A drawing."""
 
     name: str
-    root: Element
-    hidden: int = 0
+    root: Element  # its outermost element
+    hidden: int = 0  # counts elements that are not displayed
     _most: int = 0
     _counted: dict[Element, tuple[int, int] | None] = field(default_factory=dict)
 
@@ -80,13 +70,7 @@ class Document:
         return f"{self.name}, line {element.line}, {element.tag}{'' if identity is None else f' #{identity[:40]}'}"
 
     def target(self, use: Element) -> Element:
-        """Give what an element uses.
-
-        Raises
-        ------
-        InputError
-            If it is not in the drawing.
-        """
+        """Give what an element uses."""
         link = use.attributes.get("href", use.attributes.get(_LINK, ""))
         if link and not link.startswith("#"):
             raise InputError(

@@ -13,27 +13,7 @@ from vorotool.geometry.extras import needed
 
 
 def path_curves(data: str, place: str) -> list[Curve]:
-    """Give the subpaths of path data.
-
-    Parameters
-    ----------
-    data : str
-        As ``d`` has them.
-    place : str
-        Of the element, for messages.
-
-    Raises
-    ------
-    InputError
-        If they are damaged: what a browser draws of such data ends there.
-    UsageError
-        If svgelements is not installed.
-
-    Examples
-    --------
-    >>> [curve.flattened(1.0).tolist() for curve in path_curves("M0 0h4v3zM9 9l1 1", "a.svg")]
-    [[[0.0, 0.0], [4.0, 0.0], [4.0, 3.0]], [[9.0, 9.0], [10.0, 10.0]]]
-    """
+    """Give the subpaths of path data."""
     lexer = needed("svgelements.svgelements", "cad", "SVG drawings").SVGLexicalParser()
     made = _Path()
     try:
@@ -179,24 +159,7 @@ class _Place:
 
 
 def elliptic_arc(start: Point, radii: Point, rotation: float, flags: tuple[bool, bool], end: Point) -> Piece:
-    """Give the arc that SVG describes by its ends (SVG 1.1, appendix F.6.5).
-
-    Parameters
-    ----------
-    start, end : (float, float)
-        Ends.
-    radii : (float, float)
-        Of the ellipse; they grow if they are too short.
-    rotation : float
-        Of its first axis, in degrees.
-    flags : (bool, bool)
-        Whether it is the larger arc, and whether it turns from x to y.
-
-    Examples
-    --------
-    >>> elliptic_arc((2.0, 0.0), (1.0, 1.0), 0, (False, True), (0.0, 0.0)).centre
-    (1.0, 0.0)
-    """
+    """Give the arc that SVG describes by its ends (SVG 1.1, appendix F.6.5)."""
     rx, ry = abs(radii[0]), abs(radii[1])
     if start == end or not rx > 0 or not ry > 0 or not isfinite(rx + ry + rotation):
         return Line(end)

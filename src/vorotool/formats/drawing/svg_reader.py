@@ -35,28 +35,7 @@ MOST_BYTES = 2**27
 
 
 def read_svg(source: Source, options: ReadOptions) -> PolygonSet:
-    """Read the shapes of a drawing, one feature an element, with its id; curves become lines within a tolerance.
-
-    What is filled is polygons, by its fill rule; what is stroked only is an open line, or a polygon where it is
-    closed. Layers of Inkscape are the property ``layer``. Coordinates are in millimetres where the drawing has a
-    size in mm, cm, in, pt or pc, else in its own units, with y downwards.
-
-    Raises
-    ------
-    InputError
-        If the drawing is damaged, or holds what is no shape: text, images, clips, masks, patterns.
-    LimitError
-        If there is too much in it.
-    UsageError
-        If svgelements is not installed.
-
-    Examples
-    --------
-    >>> drawing = b'<svg xmlns="http://www.w3.org/2000/svg"><rect id="a" width="4" height="3"/></svg>'
-    >>> shapes = read_svg(Source("a.svg", drawing), ReadOptions())
-    >>> shapes.xy.tolist(), shapes.ids
-    ([[0.0, 0.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0]], ['a'])
-    """
+    """Read the shapes of a drawing, one feature an element, with its id; curves become lines within a tolerance."""
     document = Document.parsed(source.name, _unpacked(source))
     page = _page(document)
     reader = _Reader(document, options)

@@ -78,13 +78,7 @@ class Geometry:
 
 
 def parsed_length(text: str, what: str) -> tuple[float, str]:
-    """Give the number and the unit of a length; a px has none.
-
-    Examples
-    --------
-    >>> parsed_length("10 mm", "width"), parsed_length("3px", "width")
-    ((10.0, 'mm'), (3.0, ''))
-    """
+    """Give the number and the unit of a length; a px has none."""
     match = _LENGTH.fullmatch(text)
     number = float("nan") if match is None else float(match[1])
     if match is None or not isfinite(number):
@@ -197,13 +191,7 @@ _TRANSFORM = re.compile(r"([a-zA-Z]+)\s*\(([^)]*)\)")
 
 
 def parsed_transform(text: str, place: str) -> Affine:
-    """Give the map of a transform attribute.
-
-    Examples
-    --------
-    >>> parsed_transform("translate(1, 2) scale(3)", "a.svg")
-    Affine(a=3.0, b=0.0, c=0.0, d=3.0, e=1.0, f=2.0)
-    """
+    """Give the map of a transform attribute."""
     if text in ("", "none"):
         return Affine()
     if _TRANSFORMS.fullmatch(text) is None:
@@ -244,13 +232,7 @@ def viewbox_of(attributes: Mapping[str, str], place: str) -> tuple[float, float,
 
 
 def fitted(box: tuple[float, float, float, float], viewport: Viewport, aspect: str) -> Affine:
-    """Give the map of a viewBox into a viewport, as preserveAspectRatio says.
-
-    Examples
-    --------
-    >>> fitted((0, 0, 10, 10), Viewport(40, 20), "")
-    Affine(a=2.0, b=0.0, c=0.0, d=2.0, e=10.0, f=0.0)
-    """
+    """Give the map of a viewBox into a viewport, as preserveAspectRatio says."""
     x, y, width, height = box
     across, down = viewport.width / width, viewport.height / height
     words = aspect.removeprefix("defer").lower().split() or ["xmidymid"]

@@ -35,25 +35,13 @@ class Style(NamedTuple):
         return self.stroke not in ("none", "transparent")
 
     def inherited_by(self, own: dict[str, str]) -> Style:
-        """Give the style of an element in one of this style that says something of its own.
-
-        Examples
-        --------
-        >>> Style().inherited_by({"fill": "none", "stroke": "inherit"})
-        Style(fill='none', stroke='none', rule='nonzero', visibility='visible')
-        """
+        """Give the style of an element in one of this style that says something of its own."""
         given = [own.get(name, "inherit") for name in ("fill", "stroke", "fill-rule", "visibility")]
         return Style(*(old if new == "inherit" else new for old, new in zip(self, given, strict=True)))
 
 
 def referred(value: str) -> str | None:
-    """Give what a paint, a clip or a mask refers to by url(); None if it does not.
-
-    Examples
-    --------
-    >>> referred("url(#a) none"), referred("none")
-    ('#a', None)
-    """
+    """Give what a paint, a clip or a mask refers to by url(); None if it does not."""
     _, sign, rest = value.partition("url(")
     name, end, _ = rest.partition(")")
     return name.strip(" \t\r\n'\"") if sign and end else None
@@ -61,18 +49,11 @@ def referred(value: str) -> str | None:
 
 @dataclass(frozen=True)
 class StyleSheet:
-    """The rules of the style elements of a drawing.
+    """The rules of the style elements of a drawing."""
 
-    Parameters
-    ----------
-    rules : dict
-        By the tag, and the class or the id with the sign before it: the value of each property, with its rank.
-    others : tuple of str
-        Selectors that are left out: those of elements within others, and pseudo-classes.
-    """
-
+    # by the tag, and the class or the id with the sign before it: the value of each property, with its rank
     rules: dict[tuple[str, str], Ranked]
-    others: tuple[str, ...]
+    others: tuple[str, ...]  # selectors that are left out: those of elements within others, and pseudo-classes
     _known: dict[Element, dict[str, str]] = field(default_factory=dict)
 
     @classmethod

@@ -27,23 +27,7 @@ class _Runs(NamedTuple):
 
 
 def windings(rings: Sequence[Floats], places: Floats) -> Indices:
-    """Count how often rings turn around places: by what a ray towards larger x crosses.
-
-    A ray that meets a run of edges from outside of its box crosses it as often as the heights of its ends say; only
-    the runs whose boxes hold the place are looked into.
-
-    Parameters
-    ----------
-    rings : sequence of (n, 2) float64 array
-        Each without its first vertex at its end.
-    places : (m, 2) float64 array
-        Those on an edge count as beside it, at a larger x.
-
-    Examples
-    --------
-    >>> windings([np.array([[0.0, 0.0], [4.0, 0.0], [0.0, 4.0]])], np.array([[1.0, 1.0], [3.0, 3.0]])).tolist()
-    [1, 0]
-    """
+    """Count how often rings turn around places: by what a ray towards larger x crosses."""
     edges = _Edges(rings)
     found = np.zeros(len(places), dtype=np.int64)
     top = len(edges.levels) - 1

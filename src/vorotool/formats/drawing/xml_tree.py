@@ -21,27 +21,13 @@ _LONGEST_NAMESPACE = 255
 
 @dataclass(eq=False, slots=True)
 class Element:
-    """An element.
+    """An element."""
 
-    Parameters
-    ----------
-    tag : str
-        Its name; one of another namespace begins with this and a brace.
-    attributes : dict
-        As given; those of a namespace begin with it and a brace.
-    line : int
-        Of the file, from 1.
-    children : list of Element
-        In order.
-    text : list of str
-        Pieces of the text right in it.
-    """
-
-    tag: str
-    attributes: dict[str, str]
-    line: int
+    tag: str  # its name; one of another namespace begins with this and a brace
+    attributes: dict[str, str]  # as given; those of a namespace begin with it and a brace
+    line: int  # of the file, from 1
     children: list[Element] = field(default_factory=list)
-    text: list[str] = field(default_factory=list)
+    text: list[str] = field(default_factory=list)  # pieces of the text right in it
 
     def walk(self) -> Iterator[Element]:
         """Give it and all that is in it, in the order of the file."""
@@ -53,29 +39,7 @@ class Element:
 
 
 def parse_xml(name: str, data: bytes, namespace: str) -> Element:
-    """Parse a file; elements of its namespace, and of none, go by their bare names.
-
-    Parameters
-    ----------
-    name : str
-        Of the input.
-    data : bytes
-        Its content.
-    namespace : str
-        That of the elements that matter.
-
-    Raises
-    ------
-    InputError
-        If it is no XML, declares entities or a long namespace, or is nested too deep; the line is named.
-    LimitError
-        If it has too many elements.
-
-    Examples
-    --------
-    >>> parse_xml("a.svg", b"<svg><g/></svg>", "http://www.w3.org/2000/svg").children[0].tag
-    'g'
-    """
+    """Parse a file; elements of its namespace, and of none, go by their bare names."""
     builder = _Builder(name, f"{namespace}}}")
     parser = expat.ParserCreate(namespace_separator="}")
     builder.parser = parser

@@ -24,30 +24,13 @@ _BINARY = re.compile(r"(00|01)([0-9A-Fa-f]{2}){8,}")
 
 
 def geometry_column(fields: Sequence[str]) -> int | None:
-    """Which column holds geometry, by its usual names; None if there is none.
-
-    Examples
-    --------
-    >>> geometry_column(["id", "WKT"]), geometry_column(["x", "y"])
-    (1, None)
-    """
+    """Which column holds geometry, by its usual names; None if there is none."""
     lower = [field.strip().lower() for field in fields]
     return next((lower.index(name) for name in _GEOMETRY_COLUMNS if name in lower), None)
 
 
 def features_of(source: Source) -> Features:
-    """Read all rows; an empty field is no geometry.
-
-    Raises
-    ------
-    InputError
-        If no column is called as one of geometry, or a field of it is none; the line is named.
-
-    Examples
-    --------
-    >>> features_of(Source("a.csv", b"id,wkt\\n7,POINT (1 2)\\n")).columns["id"]
-    ['7']
-    """
+    """Read all rows; an empty field is no geometry."""
     text = delimited_text(source)
     column = geometry_column(text.fields)
     if column is None:

@@ -29,17 +29,7 @@ class TypedColumn(NamedTuple):
 
 
 class FeatureRows(JsonItems):
-    r"""A file that takes a list in JSON or a collection in GeoJSON, and keeps what is in it.
-
-    Examples
-    --------
-    >>> rows = FeatureRows()
-    >>> _ = rows.write(b'{"type":"FeatureCollection","features":[\n')
-    >>> _ = rows.write(b'{"type":"Feature","properties":{"a":1},"geometry":{"type":"Point","coordinates":[1,2]}}\n')
-    >>> _ = rows.write(b"]}\n")
-    >>> rows.geometry, rows.columns()["a"].values
-    (array([<POINT (1 2)>], dtype=object), array([1]))
-    """
+    """A file that takes a list in JSON or a collection in GeoJSON, and keeps what is in it."""
 
     def __init__(self) -> None:
         super().__init__()

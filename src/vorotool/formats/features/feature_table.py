@@ -24,36 +24,17 @@ _POINTS, _SHAPES, _COLLECTION = (0, 4), (1, 2, 3, 5, 6), 7  # type numbers of GE
 
 @dataclass(frozen=True)
 class Features:
-    """The features of one layer.
+    """The features of one layer."""
 
-    Parameters
-    ----------
-    name : str
-        The input, for messages.
-    geometry : (n,) object array
-        Shapely geometry; None where a feature has none.
-    columns : mapping of str to sequence
-        Attributes, one value a feature: numbers, truth values, texts, dates; None where there is none.
-    ids : sequence, optional
-        The file's own names of its features.
-    crs : object, optional
-        The ``crs`` member of GeoJSON.
-    place : callable, optional
-        Gives the words for a feature (0-based), for messages.
-    is_table : bool
-        There is no geometry at all: coordinates are among the columns, if anywhere.
-    curves : int
-        How many curves were flattened.
-    """
-
-    name: str
-    geometry: NDArray[np.object_]
+    name: str  # the input, for messages
+    geometry: NDArray[np.object_]  # (n,) object array: shapely geometry; None where a feature has none
+    # attributes, one value a feature: numbers, truth values, texts, dates; None where there is none
     columns: Mapping[str, Sequence[Any]] = field(default_factory=dict)
-    ids: Sequence[Any] | None = None
-    crs: Any = None
-    place: Callable[[int], str] | None = None
-    is_table: bool = False
-    curves: int = 0
+    ids: Sequence[Any] | None = None  # the file's own names of its features
+    crs: Any = None  # the `crs` member of GeoJSON
+    place: Callable[[int], str] | None = None  # gives the words for a feature (0-based), for messages
+    is_table: bool = False  # there is no geometry at all: coordinates are among the columns, if anywhere
+    curves: int = 0  # how many curves were flattened
 
     @property
     def holds_shapes(self) -> bool:
@@ -72,24 +53,7 @@ class Features:
 
 
 def polygons_of_features(features: Features, options: ReadOptions) -> PolygonSet:
-    """Give the polygons and lines of features; those without a geometry are left out.
-
-    Raises
-    ------
-    InputError
-        If a geometry is neither, or a coordinate is not finite.
-    LimitError
-        If there are too many vertices or attributes.
-
-    Examples
-    --------
-    >>> import shapely
-    >>> made = polygons_of_features(
-    ...     Features("a.gpkg", np.array([shapely.box(0, 0, 1, 1), None]), {"name": ["x", "y"]}), ReadOptions()
-    ... )
-    >>> len(made), made.properties
-    (1, {'name': ['x']})
-    """
+    """Give the polygons and lines of features; those without a geometry are left out."""
     kept = _kept(features)
     options.note_left_out(features.name, len(features.geometry) - len(kept))
     _check_kinds(features, features.geometry[kept], kept, _SHAPES, "no polygon or line", not_a_shape_advice)
@@ -97,22 +61,7 @@ def polygons_of_features(features: Features, options: ReadOptions) -> PolygonSet
 
 
 def sites_of_features(features: Features, options: ReadOptions) -> Sites:
-    """Give points, lines and polygons, each feature a site; one without a geometry is a site without places.
-
-    Raises
-    ------
-    InputError, LimitError
-        As of `polygons_of_features`, whose geometry may be points, too.
-
-    Examples
-    --------
-    >>> import shapely
-    >>> made = sites_of_features(
-    ...     Features("a.gpkg", np.array([shapely.Point(3, 4), None]), {"name": ["x", "y"]}), ReadOptions()
-    ... )
-    >>> made.count, made.properties
-    (2, {'name': ['x', 'y']})
-    """
+    """Give points, lines and polygons, each feature a site; one without a geometry is a site without places."""
     kept = _kept(features)
     options.note_empty(features.name, len(features.geometry) - len(kept))
     expected = (*_POINTS, *_SHAPES)
@@ -154,24 +103,7 @@ def _shapes_of(features: Features, kept: NDArray[np.int64], options: ReadOptions
 
 
 def feature_points(features: Features, options: ReadOptions) -> PointRows:
-    """Give the points of features, those of several in one as its parts; those without a geometry are left out.
-
-    Raises
-    ------
-    InputError
-        If a geometry is no point, or a coordinate is not finite, or has no z where the options want one.
-    LimitError
-        If there are too many points or attributes.
-
-    Examples
-    --------
-    >>> import shapely
-    >>> made = feature_points(
-    ...     Features("a.gpkg", np.array([shapely.Point(3, 4), None]), {"name": ["x", "y"]}, [7, 8]), ReadOptions()
-    ... )
-    >>> made.coordinates.tolist(), made.properties
-    ([[3.0, 4.0]], {'id': [7], 'name': ['x']})
-    """
+    """Give the points of features, those of several in one as its parts; those without a geometry are left out."""
     import shapely
 
     kept = _kept(features)

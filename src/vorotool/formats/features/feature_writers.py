@@ -29,17 +29,7 @@ _UTC = 100  # GDAL's number of the zone
 
 
 class GeoPackage(FeatureRows):
-    """A GeoPackage of one layer, which is called as the result is.
-
-    Parameters
-    ----------
-    out : binary file object
-        Need not be seekable.
-    what : str
-        The result.
-    path : str
-        Of the output.
-    """
+    """A GeoPackage of one layer, which is called as the result is."""
 
     def __init__(self, out: BinaryIO, what: str, path: str) -> None:
         super().__init__()
@@ -162,13 +152,7 @@ def _kind(geometry: NDArray[np.object_]) -> str:
 
 
 class GeoParquet(FeatureRows):
-    """A Parquet file; with geometry, as GeoParquet 1.1 has it.
-
-    Parameters
-    ----------
-    out, what, path
-        As of `GeoPackage`.
-    """
+    """A Parquet file; with geometry, as GeoParquet 1.1 has it."""
 
     def __init__(self, out: BinaryIO, what: str, path: str) -> None:
         super().__init__()

@@ -63,15 +63,7 @@ class _Column(NamedTuple):
 
 
 def features_of(source: Source) -> Features:
-    """Read a layer: the one that is wanted, or the only one.
-
-    Raises
-    ------
-    InputError
-        If the file is damaged or no GeoPackage, or has several layers and none is wanted, or not that one.
-    LimitError
-        If the layer has too many rows, or a view takes too long or becomes too large.
-    """
+    """Read a layer: the one that is wanted, or the only one."""
     if not source.data.startswith(MAGIC):
         raise InputError(f"{source.name} is no GeoPackage that can be read: it begins as something else")
     with decoding(source.name, "GeoPackage"):
@@ -85,26 +77,7 @@ def layers_of(source: Source) -> list[str]:
 
 
 def check_layers(path: str, layer: str, *, overwrite: bool = False) -> None:
-    """Refuse to replace a GeoPackage that holds more than the layer that is written, or that is being written to.
-
-    Parameters
-    ----------
-    path : str
-        Of the output.
-    layer : str
-        What is written.
-    overwrite : bool
-        Its other layers may be lost.
-
-    Raises
-    ------
-    OutputError
-        If there are other layers, which are named, or a journal of another program.
-
-    Examples
-    --------
-    >>> check_layers("build/none.gpkg", "cells")
-    """
+    """Refuse to replace a GeoPackage that holds more than the layer that is written, or that is being written to."""
     journal = next((path + ending for ending in JOURNALS if Path(path + ending).exists()), None)
     if journal is not None:
         raise OutputError(

@@ -23,15 +23,7 @@ _CELL = 32
 
 
 def features_of(source: Source) -> Features:
-    """Read all rows.
-
-    Raises
-    ------
-    InputError
-        If there is no geometry, or in another encoding than well-known binary.
-    UsageError
-        If pyarrow is not installed.
-    """
+    """Read all rows."""
     with decoding(source.name, _TITLE):
         columns, document = _columns(source)
         if document is None:
@@ -78,10 +70,7 @@ def _columns(source: Source) -> tuple[dict[str, list[Any]], Any]:
 
 
 def _repeated(schema: Any) -> list[str]:
-    """Return the columns of bytes, of which a value may stand for many rows: they stay so until they are counted.
-
-    What the file says of its chunks would tell which do; where that is damaged pyarrow ends the process.
-    """
+    """Return the columns of bytes, of which a value may stand for many rows: they stay so until they are counted."""
     columns = (schema.column(index) for index in range(len(schema)))
     return [column.path for column in columns if column.physical_type == "BYTE_ARRAY"]
 

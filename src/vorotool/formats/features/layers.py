@@ -9,25 +9,7 @@ from vorotool.formats.io.sources import Source
 
 
 def chosen_layer(source: Source, layers: Sequence[tuple[str, str | None]]) -> int:
-    """Give the number of the layer that is wanted, or of the only one that has geometry.
-
-    Parameters
-    ----------
-    source : Source
-        The file, and the layer that the caller wants.
-    layers : sequence of (str, str or None)
-        Names, of which one may be different each time that it is asked for, and kinds of geometry, None of none.
-
-    Raises
-    ------
-    InputError
-        If there is no such layer, or none with geometry, or several and none is wanted.
-
-    Examples
-    --------
-    >>> chosen_layer(Source("a.gpkg", b"", layer="lakes"), [("roads", "LineString"), ("lakes", "Polygon")])
-    1
-    """
+    """Give the number of the layer that is wanted, or of the only one that has geometry."""
     named = {name: number for number, (name, kind) in enumerate(layers) if kind is not None}
     held = ", ".join(named) or "none with geometry"
     if source.layer is not None:

@@ -20,13 +20,7 @@ from vorotool.products.inputs import INPUTS
 
 
 def features_of(source: Source) -> Features:
-    """Give the features of a source; those that were read to tell what it holds come with it.
-
-    Examples
-    --------
-    >>> features_of(Source("a.csv", b"id,wkt\\n7,POINT (1 2)\\n", "csv-wkt")).columns["id"]
-    ['7']
-    """
+    """Give the features of a source; those that were read to tell what it holds come with it."""
     if isinstance(source.document, Features):
         return source.document
     read: Features = resolved(INPUTS[source.format].features)(source)

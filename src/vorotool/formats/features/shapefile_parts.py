@@ -36,15 +36,7 @@ _MOST_LAYERS = 100
 
 
 def archive_of(source: Source) -> bytes:
-    """Give a ZIP archive of a Shapefile: what is beside the ``.shp`` that is named, or the archive that is.
-
-    Raises
-    ------
-    InputError
-        If only the ``.shp`` came through a stream, or parts are missing.
-    LimitError
-        If the archive unpacks to too much, holds more than 100 Shapefiles, or there are too many shapes.
-    """
+    """Give a ZIP archive of a Shapefile: what is beside the ``.shp`` that is named, or the archive that is."""
     if source.data.startswith(ZIP_MAGIC):
         with zipfile.ZipFile(io.BytesIO(source.data)) as archive:
             entries = [entry for entry in archive.infolist() if Path(entry.filename).suffix.lower() in PARTS]
@@ -108,13 +100,7 @@ def _beside(path: Path) -> dict[str, Path]:
 
 
 def holds_shapefile(data: bytes) -> bool:
-    """Whether data is a ZIP archive in which there is a ``.shp``.
-
-    Examples
-    --------
-    >>> holds_shapefile(b"PK?"), holds_shapefile(b"II*")
-    (False, False)
-    """
+    """Whether data is a ZIP archive in which there is a ``.shp``."""
     if not data.startswith(ZIP_MAGIC):
         return False
     try:
@@ -125,22 +111,7 @@ def holds_shapefile(data: bytes) -> bool:
 
 
 def check_parts(path: str, rules: Rules, *, makes_folder: bool = False) -> None:
-    """Find out before any work whether the other files of a Shapefile can be written and older ones replaced.
-
-    Parameters
-    ----------
-    path : str
-        The ``.shp``.
-    rules : Rules
-        Of the output.
-    makes_folder : bool
-        The folder is yet to be made.
-
-    Raises
-    ------
-    UsageError, OutputError
-        As by `check_output`, or if one of them is a stream, or if links lead to parts of another Shapefile.
-    """
+    """Find out before any work whether the other files of a Shapefile can be written and older ones replaced."""
     whole = Path(path)
     for name in (path, *(str(whole.with_suffix(extension)) for extension in PARTS[1:])):
         if stream_kind(name) is not None:
@@ -161,13 +132,7 @@ def check_parts(path: str, rules: Rules, *, makes_folder: bool = False) -> None:
 
 
 def older_parts(path: Path, written: Collection[str]) -> list[Path]:
-    """Files of an older Shapefile, besides those whose extensions are written; extensions may be in any case.
-
-    Examples
-    --------
-    >>> older_parts(Path("data/dots.shp"), [])
-    []
-    """
+    """Files of an older Shapefile, besides those whose extensions are written; extensions may be in any case."""
     with suppress(OSError):
         names = {f"{path.stem}{extension}" for extension in written}
         beside = [each for each in path.parent.iterdir() if each.stem == path.stem and each.suffix.lower() in _OF_OLDER]
@@ -176,22 +141,7 @@ def older_parts(path: Path, written: Collection[str]) -> list[Path]:
 
 
 def is_whole(path: Path, count: int) -> bool:
-    """Return whether all parts of a Shapefile have the sizes that follow from their headers and the count of features.
-
-    GDAL does not report that a disk was full when it wrote the last bytes.
-
-    Parameters
-    ----------
-    path : Path
-        The ``.shp``.
-    count : int
-        Of the features.
-
-    Examples
-    --------
-    >>> is_whole(Path("data/dots.shp"), 0)
-    False
-    """
+    """Return whether all parts of a Shapefile have the sizes that follow from their headers."""
     shp, shx, dbf, prj, cpg = map(path.with_suffix, PARTS)
     if not all(part.exists() and part.stat().st_size >= 100 for part in (shp, shx)):
         return False

@@ -45,15 +45,7 @@ _COUNT_FIELD, _SMALLEST = 8, 8
 
 
 def features_of(source: Source) -> Features:
-    """Read a layer: the one that is wanted, or the only one.
-
-    Raises
-    ------
-    InputError
-        If the file is damaged, or has several layers and none is wanted, or not that one.
-    UsageError
-        If pyogrio is not installed.
-    """
+    """Read a layer: the one that is wanted, or the only one."""
     title = TITLES[source.format]
     if not _BEGINNINGS[source.format].match(source.data):
         raise InputError(f"{source.name} is no {title} that can be read: it begins as something else")

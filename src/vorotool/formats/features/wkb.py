@@ -19,18 +19,7 @@ _HEXADECIMAL = re.compile(rb"[0-9A-Fa-f\s]*")
 
 
 def features_of(source: Source) -> Features:
-    """Read one geometry, or one a line.
-
-    Raises
-    ------
-    InputError
-        If it is none.
-
-    Examples
-    --------
-    >>> features_of(Source("a.wkb", b"0101000000000000000000F03F0000000000000040")).geometry[0]
-    <POINT (1 2)>
-    """
+    """Read one geometry, or one a line."""
     import shapely
 
     if not source.data.strip():

@@ -17,27 +17,7 @@ COLOURS = 256
 
 
 def write_animation(out: BinaryIO, frames: Iterable[NDArray[np.uint8]], *, fmt: str, fps: float) -> None:
-    """Write frames; frames that are the same as the one before lengthen its time.
-
-    Parameters
-    ----------
-    out : binary file
-        Receives the file, which is made in memory.
-    frames : iterable of (H, W, 3) uint8 array
-        Red, green and blue; one at least.
-    fmt : {"gif", "apng", "webp"}
-        WebP is without loss, and GIF if all frames have at most 256 colours.
-    fps : float
-        Frames a second.
-
-    Examples
-    --------
-    >>> out = io.BytesIO()
-    >>> black = np.zeros((4, 6, 3), np.uint8)
-    >>> write_animation(out, [black, black + 255], fmt="gif", fps=10)
-    >>> out.getvalue()[:6]
-    b'GIF89a'
-    """
+    """Write frames; frames that are the same as the one before lengthen its time."""
     from PIL import Image
 
     images = [Image.fromarray(frame) for frame in frames]

@@ -33,23 +33,10 @@ _TIFF_MAGIC = (b"II*\x00", b"MM\x00*", b"II+\x00", b"MM\x00+")
 
 @dataclass(frozen=True)
 class ZarrRows:
-    """The rows of a Zarr array.
+    """The rows of a Zarr array."""
 
-    Parameters
-    ----------
-    name : str
-        As the user wrote it.
-    path : str
-        Absolute, for processes in other folders.
-
-    Raises
-    ------
-    InputError
-        If it is no array of numbers with two axes, or is damaged.
-    """
-
-    name: str
-    path: str
+    name: str  # as the user wrote it
+    path: str  # absolute, for processes in other folders
 
     @cached_property
     def _level(self) -> Level | None:
@@ -129,23 +116,10 @@ class ZarrRows:
 
 @dataclass(frozen=True)
 class TiffRows:
-    """The rows of a page of a TIFF file with one value a pixel.
+    """The rows of a page of a TIFF file with one value a pixel."""
 
-    Parameters
-    ----------
-    name, path
-        As of `ZarrRows`.
-    page : int, optional
-        Which page.
-
-    Raises
-    ------
-    InputError
-        If the file is damaged or cut off, or no such image.
-    """
-
-    name: str
-    path: str
+    name: str  # as of `ZarrRows`
+    path: str  # as of `ZarrRows`
     page: int | None = None
 
     @cached_property
@@ -201,17 +175,7 @@ class TiffRows:
 
 
 def open_tiff(name: str, input_format: str | None = None, page: int | None = None) -> TiffRows | None:
-    """Open a page of a TIFF file that can be read band by band; None if it is none, or comes through a stream.
-
-    Raises
-    ------
-    InputError
-        If it is one, but damaged.
-
-    Examples
-    --------
-    >>> open_tiff("data/dots.csv")
-    """
+    """Open a page of a TIFF file that can be read band by band; None if it is none, or comes through a stream."""
     if input_format not in (None, "tiff") or not _begins_as_tiff(name):
         return None
     rows = TiffRows(name, str(Path(name).absolute()), page)
@@ -219,13 +183,7 @@ def open_tiff(name: str, input_format: str | None = None, page: int | None = Non
 
 
 def open_zarr(name: str, input_format: str | None = None, page: int | None = None) -> ZarrRows | None:
-    """Open what is, or should be, a Zarr array: a folder that holds one, or is named or said to; None if it is none.
-
-    Raises
-    ------
-    InputError
-        If another page than the one that it has is asked for.
-    """
+    """Open what is, or should be, a Zarr array: a folder that holds one, or is named or said to; None if it is none."""
     if input_format not in (None, "zarr") or not is_folder(name):
         return None
     if input_format is None and not is_store(name) and not name.rstrip(os.sep).lower().endswith(".zarr"):
@@ -238,13 +196,7 @@ def open_zarr(name: str, input_format: str | None = None, page: int | None = Non
 def read_rows(
     rows: ZarrRows | TiffRows, *, max_pixels: int = MAX_PIXELS, note: Callable[[str], None] | None = None
 ) -> Raster:
-    """Read a whole image, and say what of it is not used.
-
-    Raises
-    ------
-    LimitError
-        If it has more than ``max_pixels`` pixels.
-    """
+    """Read a whole image, and say what of it is not used."""
     height, width = rows.shape
     check_pixels(rows.name, width, height, max_pixels)
     if note is not None and rows.note:

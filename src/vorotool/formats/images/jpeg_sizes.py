@@ -10,13 +10,7 @@ _LARGEST_UNIT = 32
 
 
 def check_jpegs(layout: TiffLayout, data: bytes) -> None:
-    """Refuse pictures that are larger than the strip or tile that they fill.
-
-    Raises
-    ------
-    InputError
-        If one is.
-    """
+    """Refuse pictures that are larger than the strip or tile that they fill."""
     wide, high = (-(-side // _LARGEST_UNIT) * _LARGEST_UNIT for side in (layout.columns, layout.rows))
     for index, (offset, count) in enumerate(zip(layout.offsets, layout.counts, strict=True)):
         _, width, height = jpeg_frame(data[offset : offset + count])
@@ -28,13 +22,7 @@ def check_jpegs(layout: TiffLayout, data: bytes) -> None:
 
 
 def jpeg_frame(data: bytes) -> tuple[int, int, int]:
-    """Marker, width and height of the first frame header; zeros if there is none.
-
-    Examples
-    --------
-    >>> jpeg_frame(bytes.fromhex("ffd8 ffc0 000b 08 0010 0020 01 01 11 00"))
-    (192, 32, 16)
-    """
+    """Marker, width and height of the first frame header; zeros if there is none."""
     at = 2
     while at + 9 <= len(data) and data[at] == 0xFF:
         marker = data[at + 1]

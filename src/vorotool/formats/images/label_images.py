@@ -39,52 +39,7 @@ def write_label_image(
     tiled: bool = False,
     threads: int = 0,
 ) -> None:
-    r"""Write an image from bands of rows; what the format cannot hold is refused before anything is written.
-
-    Parameters
-    ----------
-    out : binary file
-        Where to write.
-    bands : iterable of (rows, W) arrays
-        Rows from top to bottom.
-    shape : (int, int)
-        Height and width.
-    dtype : dtype
-        Type in TIFF and NPY files: an integer, bool (stored as uint8), or float32 for distances.
-    fmt : {"png", "tiff", "npy", "text"}
-        File format.
-    largest_label : int
-        The largest value there can be.
-    palette : (k, 3) uint8 array, optional
-        Makes PNG and TIFF palette images (8 bits a pixel unless ``bit_depth`` says less); NPY and text get
-        the indices.
-    bit_depth : {1, 2, 4, 8, 16}, optional
-        Of a PNG; by default 16, with a palette 8.
-    grid : PixelGrid, optional
-        Of the pixels, for TIFF.
-    nodata : int, optional
-        What pixels without a value have, for TIFF on a map.
-    tiled : bool
-        Whether a TIFF has tiles instead of strips.
-    threads : int
-        0 for all processors.
-
-    Raises
-    ------
-    UsageError
-        If the format is for integers and these are not.
-    LimitError
-        If a label or the size exceeds what the format holds.
-
-    Examples
-    --------
-    >>> import io
-    >>> labels = np.array([[1, 1, 2]], dtype=np.uint16)
-    >>> out = io.BytesIO()
-    >>> write_label_image(out, [labels], shape=(1, 3), dtype=np.uint16, fmt="text", largest_label=2)
-    >>> out.getvalue()
-    b'1 1 2\n'
-    """
+    """Write an image from bands of rows; what the format cannot hold is refused before anything is written."""
     kind = np.dtype(np.uint8 if np.dtype(dtype) == np.bool_ else dtype)
     if kind.kind not in "ui" and fmt in ("png", "text"):
         raise UsageError(f"{kind} values cannot be written as {fmt}: use {_ANY_IMAGE}")
@@ -105,16 +60,7 @@ def write_label_image(
 
 
 def write_labels(out: BinaryIO, image: LabelImage, fmt: LabelFormat, *, threads: int = 0) -> None:
-    r"""Write the labels of an image that is in memory; see `write_label_image`.
-
-    Examples
-    --------
-    >>> import io
-    >>> out = io.BytesIO()
-    >>> write_labels(out, LabelImage(np.array([[1, 1, 2]], dtype=np.uint16)), "text")
-    >>> out.getvalue()
-    b'1 1 2\n'
-    """
+    """Write the labels of an image that is in memory; see `write_label_image`."""
     kind, largest = image.labels.dtype, int(image.labels.max())
     write_label_image(
         out,
@@ -129,19 +75,7 @@ def write_labels(out: BinaryIO, image: LabelImage, fmt: LabelFormat, *, threads:
 
 
 def check_png(kind: np.dtype[Any], largest: int, depth: int = 16) -> None:
-    """Refuse values that a PNG does not hold.
-
-    Raises
-    ------
-    UsageError
-        If the type is wider than 32 bits.
-    LimitError
-        If the largest value needs more bits a pixel.
-
-    Examples
-    --------
-    >>> check_png(np.dtype(np.uint32), 65535)
-    """
+    """Refuse values that a PNG does not hold."""
     if kind.itemsize > 4:
         raise UsageError(f"{kind} values cannot be written as png: use {_ANY_IMAGE}")
     if largest >= 1 << depth:
@@ -152,18 +86,7 @@ def check_png(kind: np.dtype[Any], largest: int, depth: int = 16) -> None:
 
 
 def label_image_of(image: Raster, name: str) -> LabelImage:
-    """Take the values of an image for labels; masked pixels have none.
-
-    Raises
-    ------
-    InputError
-        If the image has colour channels or values that are no labels from 0 to 4294967295; the pixel is named.
-
-    Examples
-    --------
-    >>> label_image_of(Raster(np.array([[1, 1, 2]])), "a.zarr").labels
-    array([[1, 1, 2]], dtype=uint32)
-    """
+    """Take the values of an image for labels; masked pixels have none."""
     values = image.values
     if values.ndim != 2:
         raise InputError(f"{name} has {values.shape[2]} channels: labels need a single one")

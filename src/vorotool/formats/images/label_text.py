@@ -19,33 +19,7 @@ MOST_PIXELS = 1_000_000
 def write_label_text(
     out: BinaryIO, bands: Iterable[NDArray[Any]], shape: tuple[int, int], *, largest_label: int
 ) -> None:
-    """Write one line a row; columns are as wide as the largest label and one space apart.
-
-    Parameters
-    ----------
-    out : binary file
-        Receives ASCII.
-    bands : iterable of (rows, W) integer arrays
-        Rows from top to bottom.
-    shape : (int, int)
-        Height and width.
-    largest_label : int
-        Sets the width of the columns.
-
-    Raises
-    ------
-    LimitError
-        If the image is wider than 4096 or has more than 10^6 pixels.
-
-    Examples
-    --------
-    >>> import io, numpy as np
-    >>> out = io.BytesIO()
-    >>> write_label_text(out, [np.array([[1, 1, 12], [1, 12, 12]])], (2, 3), largest_label=12)
-    >>> print(out.getvalue().decode(), end="")
-     1  1 12
-     1 12 12
-    """
+    """Write one line a row; columns are as wide as the largest label and one space apart."""
     height, width = shape
     if width > WIDEST or width * height > MOST_PIXELS:
         raise LimitError(

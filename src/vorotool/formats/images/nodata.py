@@ -17,19 +17,7 @@ from vorotool.geometry.points.raster import Raster
 
 
 def tiff_raster(name: str, values: NDArray[Any], about: PageGrid, note: Callable[[str], None]) -> Raster:
-    """Make an image of what was read of a TIFF, and say what of it is not used.
-
-    Parameters
-    ----------
-    name : str
-        The input.
-    values : array
-        As they are stored.
-    about : PageGrid
-        What the file says of its pixels.
-    note : callable
-        Called with words.
-    """
+    """Make an image of what was read of a TIFF, and say what of it is not used."""
     if about.note:
         note(about.note)
     masked = with_nodata(values, about.nodata)
@@ -42,15 +30,7 @@ def placed_grid(name: str, grid: PixelGrid | None) -> PixelGrid | None:
 
 
 def with_nodata(values: NDArray[Any], nodata: float | None) -> Raster:
-    """Mask the pixels of one value; of those that are not finite the values become 0.
-
-    Examples
-    --------
-    >>> with_nodata(np.array([[7, 1]]), 7.0).mask.tolist()
-    [[True, False]]
-    >>> with_nodata(np.array([[7, 1]]), 9.0).mask is None
-    True
-    """
+    """Mask the pixels of one value; of those that are not finite the values become 0."""
     missing = missing_values(values, nodata)
     if missing is None:
         return Raster(values)
@@ -61,13 +41,7 @@ def with_nodata(values: NDArray[Any], nodata: float | None) -> Raster:
 
 
 def missing_values(values: NDArray[Any], nodata: float | None) -> NDArray[np.bool_] | None:
-    """Tell which values stand for none; None where no value does.
-
-    Examples
-    --------
-    >>> missing_values(np.array([np.nan, 1.0]), float("nan")).tolist()
-    [True, False]
-    """
+    """Tell which values stand for none; None where no value does."""
     if nodata is None:
         return None
     missing: NDArray[np.bool_] = np.isnan(values) if isnan(nodata) else values == nodata

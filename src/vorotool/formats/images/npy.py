@@ -16,32 +16,7 @@ from vorotool.formats.io.sources import Source
 
 
 def write_npy(out: BinaryIO, bands: Iterable[NDArray[Any]], shape: tuple[int, int], *, dtype: DTypeLike) -> None:
-    """Write an array from bands of rows: the header first, then each band as it comes.
-
-    Parameters
-    ----------
-    out : binary file
-        Written from its current position on; never sought.
-    bands : iterable of (rows, W) arrays
-        Rows from top to bottom.
-    shape : (int, int)
-        Height and width.
-    dtype : dtype
-        Type in the file, always little-endian.
-
-    Raises
-    ------
-    LimitError
-        If an integer does not fit in ``dtype``.
-
-    Examples
-    --------
-    >>> import io
-    >>> out = io.BytesIO()
-    >>> write_npy(out, [np.array([[1, 2]]), np.array([[3, 4]])], (2, 2), dtype=np.uint16)
-    >>> np.load(io.BytesIO(out.getvalue())).tolist()
-    [[1, 2], [3, 4]]
-    """
+    """Write an array from bands of rows: the header first, then each band as it comes."""
     kind = np.dtype(dtype).newbyteorder("<")
     header = {
         "descr": np.lib.format.dtype_to_descr(kind),
@@ -61,24 +36,7 @@ def stored(band: NDArray[Any], dtype: np.dtype[Any]) -> NDArray[Any]:
 
 
 def read_npy(source: Source, *, max_items: int, option: str) -> NDArray[Any]:
-    """Return the array of a source, as a view of its bytes where that is possible.
-
-    Parameters
-    ----------
-    source : Source
-        Name and content.
-    max_items : int
-        Largest number of items, checked before memory is taken.
-    option : str
-        The option that sets the limit, for the message.
-
-    Raises
-    ------
-    InputError
-        If the header is not usable, or the file ends before the array does.
-    LimitError
-        If the array has more than ``max_items`` items.
-    """
+    """Return the array of a source, as a view of its bytes where that is possible."""
     header = npy_header(source)
     items = prod(header.shape)
     if items > max_items:

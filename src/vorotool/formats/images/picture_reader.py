@@ -27,13 +27,7 @@ _LIMITS = threading.Lock()
 
 
 def picture_format(data: bytes) -> str | None:
-    """Which of `PICTURES` data begins as.
-
-    Examples
-    --------
-    >>> picture_format(b"GIF89a"), picture_format(b"BMI,age")
-    ('gif', None)
-    """
+    """Which of `PICTURES` data begins as."""
     if data.startswith(b"\xff\xd8\xff"):
         return "jpeg"
     if data.startswith((b"GIF87a", b"GIF89a")):
@@ -65,30 +59,7 @@ def _chunks(data: bytes) -> set[bytes]:
 def read_picture_file(
     source: Source, kind: str, *, page: int | None, max_pixels: int, note: Callable[[str], None] | None = None
 ) -> NDArray[Any]:
-    """Return what is seen: (H, W) or (H, W, C) values of 8 bits, turned upright where the file says how.
-
-    Palettes are applied, and what is not red, green and blue becomes it.
-
-    Parameters
-    ----------
-    source : Source
-        Name and content of the file.
-    kind : str
-        One of `PICTURES`.
-    page : int, optional
-        Which picture of an animation, from 0; by default the first one.
-    max_pixels : int
-        The limit, compared with the header before memory is taken.
-    note : callable, optional
-        Told of an animation, of which one picture is read.
-
-    Raises
-    ------
-    InputError
-        If the file is damaged or cut off, or has no such page.
-    LimitError
-        If it is too large.
-    """
+    """Return what is seen: (H, W) or (H, W, C) values of 8 bits, turned upright where the file says how."""
     with _opened(source, kind) as file:
         height, width = file.properties(index=0).shape[:2]
         check_pixels(source.name, width, height, max_pixels)
@@ -105,13 +76,7 @@ def read_picture_file(
 
 
 def picture_pages(source: Source, kind: str) -> int:
-    """Count the pictures of an animation; others hold one.
-
-    Raises
-    ------
-    InputError
-        If the file is damaged.
-    """
+    """Count the pictures of an animation; others hold one."""
     if kind not in _ANIMATED:
         return 1
     with _opened(source, kind) as file:

@@ -33,13 +33,7 @@ class PngHeader(NamedTuple):
 
 
 def png_header(source: Source) -> PngHeader:
-    """Read the header alone.
-
-    Raises
-    ------
-    InputError
-        If it is missing or inconsistent.
-    """
+    """Read the header alone."""
     data = source.data
     if not data.startswith(SIGNATURE) or len(data) < 33 or data[12:16] != b"IHDR":
         raise InputError(f"{source.name} is no PNG file, or it is cut off in the header ({len(data)} bytes)")
@@ -82,10 +76,7 @@ def png_palette(source: Source) -> NDArray[np.uint8] | None:
 
 
 def _chunks(source: Source) -> Iterator[tuple[bytes, int]]:
-    """Kind and length of each chunk; bounds and checksums are looked at on the way.
-
-    Pillow's `verify` passes a second header, and says nowhere what is damaged.
-    """
+    """Kind and length of each chunk; bounds and checksums are looked at on the way."""
     data, at = memoryview(source.data), len(SIGNATURE)
     while True:
         if at + 12 > len(data):

@@ -40,45 +40,7 @@ def write_png(
     has_alpha: bool = False,
     threads: int = 0,
 ) -> None:
-    r"""Write a grey, palette or RGB PNG from bands of rows, in bounded memory.
-
-    The bytes depend on the pixels alone: not on threads, nor on how the rows come in bands.
-
-    Parameters
-    ----------
-    out : binary file
-        Written from its current position on; never sought.
-    bands : iterable of (rows, W) arrays
-        Unsigned, signed or boolean rows from top to bottom; of RGB, (rows, 3 W) of uint8. A band may be reused
-        once the next is asked for.
-    shape : (int, int)
-        Height and width.
-    bit_depth : {1, 2, 4, 8, 16}
-        Bits a pixel; at most 8 with a palette.
-    palette : (k, 3) uint8 array, optional
-        Colours; the values are then indices below k.
-    rgb : bool
-        Write red, green and blue of 8 bits each, whatever ``bit_depth`` is.
-    has_alpha : bool
-        With ``rgb`` rows have a fourth value a pixel, how opaque it is; of a palette the first colour is nothing.
-    threads : int
-        0 for all processors.
-
-    Raises
-    ------
-    LimitError
-        If a value does not fit in ``bit_depth`` or the palette, or a side is 2^31 or more.
-    ValueError
-        If ``bit_depth`` or ``palette`` is none of the above, or the rows are not H.
-
-    Examples
-    --------
-    >>> import io
-    >>> out = io.BytesIO()
-    >>> write_png(out, [np.array([[1, 2], [2, 2]], dtype=np.uint16)], (2, 2))
-    >>> out.getvalue()[:8]
-    b'\x89PNG\r\n\x1a\n'
-    """
+    """Write a grey, palette or RGB PNG from bands of rows, in bounded memory."""
     height, width = shape
     if max(shape) > LARGEST_SIDE:
         raise LimitError(f"a PNG has at most {LARGEST_SIDE} pixels a side, not {width} x {height}: use .tif or .npy")
@@ -108,16 +70,7 @@ def write_png(
 
 
 def joined_adler32(first: int, second: int, length: int) -> int:
-    """Checksum of two pieces of data from theirs; ``length`` is that of the second.
-
-    Adler-32 is a = 1 + sum of the bytes and b = sum of all intermediate a, both modulo 65521. After other
-    data each of the second's ``length`` intermediate sums is larger by that data's a - 1.
-
-    Examples
-    --------
-    >>> joined_adler32(zlib.adler32(b"Voro"), zlib.adler32(b"noi"), 3) == zlib.adler32(b"Voronoi")
-    True
-    """
+    """Checksum of two pieces of data from theirs; ``length`` is that of the second."""
     modulus = 65521
     a_before = (first & 0xFFFF) - 1
     a = (a_before + (second & 0xFFFF)) % modulus
@@ -166,10 +119,7 @@ def _pack(rows: NDArray[Any], bit_depth: int, out: NDArray[Any]) -> None:
 
 
 def _deflated(block: NDArray[Any]) -> tuple[bytes, int, int]:
-    """Filter and compress a block: its piece of the stream, the filtered bytes' checksum and number.
-
-    A sync flush ends each piece at a byte, and no piece refers to another: their concatenation is one stream.
-    """
+    """Filter and compress a block: its piece of the stream, the filtered bytes' checksum and number."""
     data = block.view(np.uint8)
     filtered = np.empty((len(data) - 1, 1 + data.shape[1]), np.uint8)
     filtered[:, 0] = _UP

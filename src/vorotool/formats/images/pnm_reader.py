@@ -42,13 +42,7 @@ def looks_like_pnm(data: bytes) -> bool:
 
 
 def pnm_header(source: Source) -> PnmHeader:
-    """Read the header alone.
-
-    Raises
-    ------
-    InputError
-        If it is not complete, or the largest value not from 1 to 65535.
-    """
+    """Read the header alone."""
     start = source.data[:65_536]
     kind = start[1] - ord("0") if re.match(rb"P[1-6]", start) else 0
     match = _HEADERS[kind in (1, 4)].match(start)

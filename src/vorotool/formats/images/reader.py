@@ -21,38 +21,7 @@ from vorotool.geometry.points.raster import Raster
 
 
 def read_image(source: Source, options: ReadOptions) -> Raster:
-    """Read the values of an image as they are stored: palette indices, labels, grey values are not rescaled.
-
-    Two-valued images give 0 and 1 (in PBM, 1 is the ink). An opaque alpha channel is dropped; a colour image
-    that is grey at every pixel becomes a single channel; any other keeps its channels, shape (H, W, C). JPEG, BMP, GIF,
-    WebP and AVIF are read as they look: with their palettes applied, and upright.
-
-    Parameters
-    ----------
-    source : Source
-        What was read, with its format.
-    options : ReadOptions
-        Of which ``page``, ``max_pixels`` and ``note`` count. A page is needed if a TIFF has several; of an animation
-        the first picture is the default.
-
-    Returns
-    -------
-    Raster
-        Values of the stored integer or floating-point type (uint8 for two-valued images), and the grid of
-        its pixels, if the file, or a world file beside it, states one. Pixels without a value (``nodata``) are masked.
-
-    Raises
-    ------
-    InputError
-        If the file is damaged or cut off, or no such image, or has no such page.
-    LimitError
-        If it has more than ``max_pixels`` pixels.
-
-    Examples
-    --------
-    >>> read_image(Source("a.pbm", b"P1 3 1 1 0 1", "pnm"), ReadOptions()).values
-    array([[1, 0, 1]], dtype=uint8)
-    """
+    """Read the values of an image as they are stored: palette indices, labels, grey values are not rescaled."""
     kind, page, max_pixels = source.format, options.page, options.max_pixels
     if kind == "tiff":
         values, about = tiff_reader.read_tiff(source, page=page, max_pixels=max_pixels)

@@ -17,34 +17,7 @@ _WHITE = 255
 
 
 def read_picture(source: Source, options: ReadOptions) -> NDArray[np.uint8]:
-    """Read an image as a screen shows it.
-
-    Values of 8 bits stay as they are; others, and images of two values, are spread from black for the least to white
-    for the largest one. Indices of a PNG palette get their colours. What is transparent lies on white.
-
-    Parameters
-    ----------
-    source : Source
-        What was read, with its format.
-    options : ReadOptions
-        Of which ``page``, where a TIFF has several, and ``max_pixels`` count.
-
-    Returns
-    -------
-    (H, W, 3) uint8 array
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read, or has several pages and none is chosen.
-    LimitError
-        If it is too large.
-
-    Examples
-    --------
-    >>> read_picture(Source("a.pbm", b"P1 3 1 1 0 1", "pnm"), ReadOptions())[0, :, 0].tolist()
-    [255, 0, 255]
-    """
+    """Read an image as a screen shows it."""
     if source.format != "tiff" or tiff_reader.tiff_pages(source) == 1:
         options = replace(options, page=None)
     values = read_image(source, options).values

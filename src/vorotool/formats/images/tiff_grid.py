@@ -31,38 +31,15 @@ _IMAGEJ_STEPS = 10**6
 
 @dataclass(frozen=True)
 class PageGrid:
-    """What a page says of its pixels.
+    """What a page says of its pixels."""
 
-    Parameters
-    ----------
-    grid : PixelGrid, optional
-        Their sides and places.
-    nodata : float, optional
-        Pixels with this value have none.
-    note : str
-        What of it is not used.
-    """
-
-    grid: PixelGrid | None = None
-    nodata: float | None = None
-    note: str = ""
+    grid: PixelGrid | None = None  # their sides and places
+    nodata: float | None = None  # pixels with this value have none
+    note: str = ""  # what of it is not used
 
 
 def grid_of(name: str, file: Any, page: Any) -> PageGrid:
-    """Read what a page of a TIFF file says of its pixels.
-
-    Parameters
-    ----------
-    name : str
-        The input, for messages.
-    file, page : tifffile.TiffFile, tifffile.TiffPage
-        Which.
-
-    Raises
-    ------
-    InputError
-        If its GeoTIFF tags are no finite numbers, or too few.
-    """
+    """Read what a page of a TIFF file says of its pixels."""
     nodata = _nodata(page)
     transform, note = _transform(name, page)
     if transform is not None:
@@ -98,24 +75,12 @@ def _resolution_grid(file: Any, page: Any) -> PixelGrid | None:
 
 
 def unescaped(text: str) -> str:
-    r"""Undo how ImageJ writes letters that are not ASCII.
-
-    Examples
-    --------
-    >>> unescaped(r"\u00B5m")
-    'µm'
-    """
+    """Undo how ImageJ writes letters that are not ASCII."""
     return re.sub(r"\\u([0-9a-fA-F]{4})", lambda match: chr(int(match[1], 16)), text)
 
 
 def side_of_imagej(pixels: int, units: int) -> Fraction:
-    """Give the side of a pixel: of those that ImageJ would write as this ratio, the one with the fewest digits.
-
-    Examples
-    --------
-    >>> side_of_imagej(3076923, 1000000), side_of_imagej(40, 13)
-    (Fraction(13, 40), Fraction(13, 40))
-    """
+    """Give the side of a pixel: of those that ImageJ would write as this ratio, the one with the fewest digits."""
     exact = Fraction(units, pixels)
     if units != _IMAGEJ_STEPS:
         return exact

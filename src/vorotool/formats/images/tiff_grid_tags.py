@@ -46,24 +46,7 @@ Tag = tuple[int, int, int, Any, bool]
 def grid_tags(
     grid: PixelGrid | None, shape: tuple[int, int], dtype: np.dtype[Any], *, nodata: int | None = None
 ) -> dict[str, Any]:
-    """Arguments of tifffile that say of an image what the file of another said of its pixels.
-
-    Parameters
-    ----------
-    grid : PixelGrid, optional
-        Of the pixels of both.
-    shape : (int, int)
-        Height and width.
-    dtype : dtype
-        Of the pixels.
-    nodata : int, optional
-        What pixels have that have no value; told on maps only.
-
-    Examples
-    --------
-    >>> grid_tags(PixelGrid(Fraction(1, 300), Fraction(1, 300), "inch"), (2, 2), np.dtype(np.uint8))
-    {'resolution': ((300, 1), (300, 1)), 'resolutionunit': 2}
-    """
+    """Arguments of tifffile that say of an image what the file of another said of its pixels."""
     if grid is None:
         return {}
     if grid.transform is not None:
@@ -82,13 +65,7 @@ def grid_tags(
 
 
 def imagej_unit(unit: str) -> str:
-    r"""Write a unit as ImageJ does, in ASCII.
-
-    Examples
-    --------
-    >>> imagej_unit("µm"), imagej_unit("Å")
-    ('um', '\\u00c5')
-    """
+    """Write a unit as ImageJ does, in ASCII."""
     plain = "um" if unit == "µm" else unit
     return "".join(letter if letter.isascii() else f"\\u{ord(letter) % 2**16:04x}" for letter in plain)
 
@@ -108,13 +85,7 @@ def resolution(ratios: list[tuple[int, int] | None], unit: int) -> dict[str, Any
 
 
 def ratio_of(value: float) -> tuple[int, int] | None:
-    """Nearest ratio of two 32-bit integers, as TIFF stores numbers; None beyond what they can tell.
-
-    Examples
-    --------
-    >>> ratio_of(0.5), ratio_of(1e-12)
-    ((1, 2), None)
-    """
+    """Nearest ratio of two 32-bit integers, as TIFF stores numbers; None beyond what they can tell."""
     if not 1 / _LARGEST <= value <= _LARGEST:
         return None
     return Fraction(value).limit_denominator(min(_LARGEST, int(_LARGEST / value))).as_integer_ratio()
@@ -151,13 +122,7 @@ def _is_point(keys: GeoKeys) -> bool:
 
 
 def _keys_of(crs: object) -> GeoKeys | None:
-    """Give the keys for a coordinate reference system by its code; None of one without.
-
-    Examples
-    --------
-    >>> _keys_of("EPSG:2056").directory[4:8]
-    (1024, 0, 1, 1)
-    """
+    """Give the keys for a coordinate reference system by its code; None of one without."""
     authority, _, code = ("", "", "") if crs is None else crs_name(crs).partition(":")
     longitude_latitude = (authority, code) in (("OGC", "CRS84"), ("CRS", "84"))
     number = 4326 if longitude_latitude else int(code) if authority == "EPSG" and code.isdecimal() else 0

@@ -35,54 +35,29 @@ JPEGS = {6, 7, 33007, 34892}
 
 @dataclass(frozen=True)
 class TiffLayout:
-    """Strips or tiles of a page, all of which are in the file.
+    """Strips or tiles of a page, all of which are in the file."""
 
-    Parameters
-    ----------
-    name : str
-        Of the file, for messages.
-    width, height : int
-        Of the image.
-    samples : int
-        Values a pixel.
-    planes : int
-        1, or ``samples`` where each has its own segments.
-    bits : int
-        Of a value; 0 where values differ in that.
-    dtype : dtype, optional
-        Of the values, native; None if it is none that numpy has.
-    byte_order : {"<", ">"}
-        Of the file.
-    compression, predictor, fill_order : int
-        As in the tags.
-    is_tiled : bool
-        Tiles, not strips.
-    rows, columns : int
-        Of a segment: a strip or a tile.
-    offsets, counts : (n,) int64 arrays
-        Where the segments are in the file, in order of planes, rows and columns; one that has neither offset nor
-        bytes is all background: GDAL leaves out what is empty.
-    background : number
-        Of what is left out.
-    """
-
-    name: str
+    name: str  # of the file, for messages
     width: int
     height: int
-    samples: int
-    planes: int
-    bits: int
-    dtype: np.dtype[Any] | None
+    samples: int  # values a pixel
+    planes: int  # 1, or `samples` where each has its own segments
+    bits: int  # of a value; 0 where values differ in that
+    dtype: np.dtype[Any] | None  # of the values, native; None if it is none that numpy has
     byte_order: Literal["<", ">"]
-    compression: int
-    predictor: int
-    fill_order: int
-    is_tiled: bool
-    rows: int
-    columns: int
+    compression: int  # as in the tags
+    predictor: int  # as in the tags
+    fill_order: int  # as in the tags
+    is_tiled: bool  # tiles, not strips
+    rows: int  # of a segment: a strip or a tile
+    columns: int  # of a segment: a strip or a tile
+    # (n,) int64 arrays: where the segments are in the file, in order of planes, rows and columns; one that has
+    # neither offset nor bytes is all background: GDAL leaves out what is empty
     offsets: NDArray[np.int64]
+    # (n,) int64 arrays: where the segments are in the file, in order of planes, rows and columns; one that has
+    # neither offset nor bytes is all background: GDAL leaves out what is empty
     counts: NDArray[np.int64]
-    background: float
+    background: float  # of what is left out
 
     @property
     def kind(self) -> str:
@@ -124,13 +99,7 @@ class TiffLayout:
 
 
 def layout_of(name: str, size: int, page: Any) -> TiffLayout:
-    """Check the tags of a page of a file of so many bytes.
-
-    Raises
-    ------
-    InputError
-        If a tag is no number or out of range, or there are fewer segments, or shorter ones, than the image needs.
-    """
+    """Check the tags of a page of a file of so many bytes."""
     is_tiled = bool(page.is_tiled)
     numbers = _checked_numbers(name, page, is_tiled)
     width, height, samples = (numbers[key] for key in ("imagewidth", "imagelength", "samplesperpixel"))

@@ -73,17 +73,7 @@ def decode_image(layout: TiffLayout, data: bytes) -> NDArray[Any]:
 def decode_rows(
     layout: TiffLayout, read: Callable[[int, int], bytes], index: int, first: int, count: int
 ) -> NDArray[Any]:
-    """Decode some rows of a segment: (count, columns, values). Of one that is not compressed no others are read.
-
-    Parameters
-    ----------
-    layout : TiffLayout
-        Of the page.
-    read : callable
-        ``read(offset, size)`` gives bytes of the file.
-    index, first, count : int
-        Which segment, and which of its rows.
-    """
+    """Decode some rows of a segment: (count, columns, values). Of one that is not compressed no others are read."""
     offset, size = int(layout.offsets[index]), int(layout.counts[index])
     if layout.compression == _PLAIN and size:
         data = read(offset + first * layout.row_bytes, count * layout.row_bytes)
@@ -92,15 +82,7 @@ def decode_rows(
 
 
 def decode_band(layout: TiffLayout, read: Callable[[int, int], bytes], first: int, count: int) -> NDArray[Any]:
-    """Decode some rows of a page that has one value a pixel: (count, W).
-
-    Parameters
-    ----------
-    layout, read
-        As of `decode_rows`.
-    first, count : int
-        Which rows of the page.
-    """
+    """Decode some rows of a page that has one value a pixel: (count, W)."""
     rows = np.empty((count, layout.width), layout.dtype)
     for band in range(first // layout.rows, -(-(first + count) // layout.rows)):
         for index in range(band * layout.across, (band + 1) * layout.across):
@@ -112,15 +94,7 @@ def decode_band(layout: TiffLayout, read: Callable[[int, int], bytes], first: in
 
 
 def decode_segment(layout: TiffLayout, data: bytes | memoryview, index: int) -> NDArray[Any]:
-    """Decode a segment: (rows, columns, values); a tile at the lower end may have only the rows of the image.
-
-    Raises
-    ------
-    InputError
-        If it has more or less than its pixels need.
-    LimitError
-        If it is too large.
-    """
+    """Decode a segment: (rows, columns, values); a tile at the lower end may have only the rows of the image."""
     assert layout.dtype is not None
     rows = layout.place(index)[3]
     if not data:  # left out by its writer, which the layout tells from damage

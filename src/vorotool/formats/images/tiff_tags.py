@@ -121,16 +121,7 @@ class _Walk:
 
 
 def check_tags(name: str, file: BinaryIO) -> None:
-    """Follow the chain of pages before tifffile does; the file is left at its beginning.
-
-    Raises
-    ------
-    InputError
-        If the pages form a circle, a page is cut off, tags that should be one whole number are not, or the pages share
-        so many bytes that it takes long to read them.
-    LimitError
-        If there are more than `MOST_ENTRIES` pages and tags.
-    """
+    """Follow the chain of pages before tifffile does; the file is left at its beginning."""
     head = file.read(16).ljust(16, b"\0")
     order = _FIRST_BYTES.get(head[:4])
     if order is not None:

@@ -43,43 +43,7 @@ def write_tiff(
     tiled: bool = False,
     threads: int = 0,
 ) -> None:
-    r"""Write a single-page TIFF from bands of rows, in bounded memory; a BigTIFF where the pixels need it.
-
-    Parameters
-    ----------
-    out : binary file
-        Where it cannot be sought, the file is made in a temporary one first, since the tags come before the
-        strips.
-    bands : iterable of (rows, W) arrays
-        Rows from top to bottom.
-    shape : (int, int)
-        Height and width.
-    dtype : dtype
-        uint8, uint16, uint32, uint64, int32 or float32.
-    palette : (k, 3) uint8 array, optional
-        Colours of uint8 indices.
-    grid : PixelGrid, optional
-        Of the pixels; lengths of the metric system become centimetres.
-    nodata : int, optional
-        What pixels without a value have, where the grid is that of a map.
-    tiled : bool
-        In tiles of `TILE` pixels a side, of which a part of the image is read without the rest of its rows.
-    threads : int
-        0 for all processors.
-
-    Raises
-    ------
-    LimitError
-        If an integer does not fit in ``dtype``.
-
-    Examples
-    --------
-    >>> import io
-    >>> out = io.BytesIO()
-    >>> write_tiff(out, [np.array([[1, 70000]])], (1, 2), dtype=np.uint32)
-    >>> out.getvalue()[:4]
-    b'II*\x00'
-    """
+    """Write a single-page TIFF from bands of rows, in bounded memory; a BigTIFF where the pixels need it."""
     tags = grid_tags(grid, shape, np.dtype(dtype), nodata=nodata)
     if tiled:
         tags["tile"] = (TILE, TILE)
@@ -133,13 +97,7 @@ def is_compressed(kind: np.dtype[Any]) -> bool:
 
 
 def rows_of_strip(shape: tuple[int, int], kind: np.dtype[Any]) -> int:
-    """Give the rows of a strip, which depend on the shape alone.
-
-    Examples
-    --------
-    >>> rows_of_strip((4096, 4096), np.dtype(np.uint16))
-    128
-    """
+    """Give the rows of a strip, which depend on the shape alone."""
     return max(1, min(shape[0], BLOCK_BYTES // (shape[1] * kind.itemsize)))
 
 

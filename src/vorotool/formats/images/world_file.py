@@ -16,21 +16,7 @@ _LARGEST = 4096
 
 
 def world_grid(name: str) -> PixelGrid | None:
-    """Read the grid of an image from the world file beside it; None where there is none, or the image is a stream.
-
-    The file is called as the image is, with the first and the last letter of its extension and a w (``a.tfw`` for
-    ``a.tif``), with all of it and a w (``a.tifw``), or with ``.wld``, in lower or upper case.
-
-    Parameters
-    ----------
-    name : str
-        The image, as the user wrote it.
-
-    Raises
-    ------
-    InputError
-        If it is there, and has not six finite numbers, or pixels would have no area.
-    """
+    """Read the grid of an image from the world file beside it; None where there is none, or the image is a stream."""
     if name == STANDARD_INPUT or stream_kind(name) is not None:
         return None
     for path in _candidates(Path(name)):

@@ -29,17 +29,11 @@ STANDARD_OUTPUT = "standard output"
 
 
 class Rules(NamedTuple):
-    """What an output must not replace, for its further files.
+    """What an output must not replace, for its further files."""
 
-    Parameters
-    ----------
-    no_clobber, inputs, option
-        As for `open_output`.
-    """
-
-    no_clobber: bool = False
-    inputs: Sequence[str | os.PathLike[str]] = ()
-    option: str = OUTPUT
+    no_clobber: bool = False  # as for `open_output`
+    inputs: Sequence[str | os.PathLike[str]] = ()  # as for `open_output`
+    option: str = OUTPUT  # as for `open_output`
 
     def check(self, name: str) -> None:
         """Refuse to replace or remove a file."""
@@ -65,46 +59,7 @@ def open_output(
     inputs: Iterable[str | os.PathLike[str]] = (),
     option: str = OUTPUT,
 ) -> Iterator[BinaryIO]:
-    """Open an output that replaces an older file only when all of it has been written.
-
-    A regular file is written beside its place under a temporary name and renamed at the end; on any
-    exception, an interrupt too, the temporary file is removed and the older file is as it was. Pipes and
-    devices are written directly; what is open already, such as ``/dev/stdout``, is written where it stands. The body
-    should do nothing but write: its ``OSError`` is taken for one of the output.
-
-    Parameters
-    ----------
-    path : str or path
-        Where to write; ``-`` is standard output.
-    binary : bool
-        The output is not text: it is never sent to a terminal.
-    no_clobber : bool
-        Refuse to replace an existing file.
-    inputs : iterable of paths
-        Files that must not be replaced because they are being read.
-    option : str
-        The option that names the output, for messages.
-
-    Yields
-    ------
-    binary file object
-        Regular files can be written at any position; pipes only in order.
-
-    Raises
-    ------
-    UsageError
-        If the output is one of the inputs, or binary on a terminal.
-    OutputError
-        If it cannot be written; the message names the path and the reason.
-    BrokenPipeError
-        If the reader of a pipe has gone; for the caller to end quietly.
-
-    Examples
-    --------
-    >>> with open_output("/dev/null") as out:
-    ...     out.write(b"label,x,y")
-    9
-    """
+    """Open an output that replaces an older file only when all of it has been written."""
     name = os.fspath(path)
     descriptor = _checked_descriptor(name, binary, option)
     if descriptor is not None:
@@ -130,26 +85,7 @@ def check_output(
     makes_folder: bool = False,
     option: str = OUTPUT,
 ) -> None:
-    """Find out before any work whether `open_output` would refuse an output.
-
-    Parameters
-    ----------
-    path, binary, no_clobber, inputs, option
-        As for `open_output`.
-    makes_folder : bool
-        The folder of the file is yet to be made.
-
-    Raises
-    ------
-    UsageError
-        If the output is one of the inputs, or binary on a terminal.
-    OutputError
-        If it cannot be written; the message names the path and the reason.
-
-    Examples
-    --------
-    >>> check_output("/dev/null")
-    """
+    """Find out before any work whether `open_output` would refuse an output."""
     name = os.fspath(path)
     if _checked_descriptor(name, binary, option) is not None or name == STANDARD:
         return
@@ -170,17 +106,7 @@ def check_folder(name: str, folder: Path, *, makes_folder: bool = False, option:
 
 
 def make_folder(path: str | os.PathLike[str]) -> None:
-    """Make a folder for outputs and those above it, where they are not there yet.
-
-    Raises
-    ------
-    OutputError
-        If it cannot be made.
-
-    Examples
-    --------
-    >>> make_folder("build")
-    """
+    """Make a folder for outputs and those above it, where they are not there yet."""
     try:
         Path(path).mkdir(parents=True, exist_ok=True)
     except (OSError, ValueError) as error:
@@ -189,10 +115,7 @@ def make_folder(path: str | os.PathLike[str]) -> None:
 
 
 def _checked_descriptor(name: str, binary: bool, option: str) -> int | None:
-    """Give the number of the descriptor that an output is, if it is one that can be written.
-
-    Standard output has none where Python is embedded in what has replaced it.
-    """
+    """Give the number of the descriptor that an output is, if it is one that can be written."""
     if name != STANDARD:
         number = descriptor_of(name)
         is_terminal = number is not None and os.isatty(number)
@@ -265,13 +188,7 @@ def _check_replaced(name: str, target: Path, rules: Rules) -> None:
 
 
 def followed(name: str, option: str = OUTPUT) -> Path:
-    """Follow links, so that a file is replaced and not the link to it.
-
-    Raises
-    ------
-    OutputError
-        If that leads nowhere, or to what another process has open.
-    """
+    """Follow links, so that a file is replaced and not the link to it."""
     try:
         if is_of_another_process(name):
             raise OutputError(

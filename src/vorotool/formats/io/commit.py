@@ -20,37 +20,20 @@ from vorotool.formats.io.temporaries import ASIDE, Temporaries, Temporary, new_f
 
 @dataclass(frozen=True)
 class Placement:
-    """An output that is complete, and the place where it goes.
+    """An output that is complete, and the place where it goes."""
 
-    Parameters
-    ----------
-    target : Path
-        The place, links followed.
-    temporary : Temporary, optional
-        The output; without one the file at the place is removed.
-    check : callable
-        Raises if what is there must stay.
-    explained : callable
-        Makes a context that turns an `OSError` into an error that names the output.
-    """
-
-    target: Path
-    temporary: Temporary | None
-    check: Callable[[], None]
+    target: Path  # the place, links followed
+    temporary: Temporary | None  # the output; without one the file at the place is removed
+    check: Callable[[], None]  # raises if what is there must stay
+    # makes a context that turns an `OSError` into an error that names the output
     explained: Callable[[], AbstractContextManager[None]]
 
 
 @dataclass
 class Commit:
-    """Outputs that are being written and will take their places together.
+    """Outputs that are being written and will take their places together."""
 
-    Parameters
-    ----------
-    temporaries : Temporaries
-        Makes what is written, and removes it at the end.
-    """
-
-    temporaries: Temporaries
+    temporaries: Temporaries  # makes what is written, and removes it at the end
     _placements: list[Placement] = field(default_factory=list)
     _asides: dict[Path, Path] = field(default_factory=dict)
 
@@ -117,18 +100,7 @@ _CURRENT: ContextVar[Commit | None] = ContextVar("commit", default=None)
 
 @contextmanager
 def committed_together() -> Iterator[Commit]:
-    """Put all outputs that are written within in their places at the end, or none on an exception.
-
-    Within another such context it is that one.
-
-    Examples
-    --------
-    >>> from vorotool.formats.io.atomic_output import open_output
-    >>> with committed_together():
-    ...     for name in ("a", "b"):
-    ...         with open_output(f"build/{name}.txt") as out:
-    ...             _ = out.write(b"text")
-    """
+    """Put all outputs that are written within in their places at the end, or none on an exception."""
     current = _CURRENT.get()
     if current is not None:
         yield current

@@ -43,25 +43,13 @@ _KINDS = (
 
 
 def descriptor_of(name: str) -> int | None:
-    """Number of the open descriptor that a path stands for, links followed; None where it stands for none.
-
-    Examples
-    --------
-    >>> descriptor_of("/dev/stdout"), descriptor_of("/dev/fd/63"), descriptor_of("data/dots.csv")
-    (1, 63, None)
-    """
+    """Number of the open descriptor that a path stands for, links followed; None where it stands for none."""
     found = _place(name)
     return None if found is None or found[0] not in (None, os.getpid()) else found[1]
 
 
 def is_of_another_process(name: str) -> bool:
-    """Whether a path stands for a descriptor of another process, which can be opened only by its name.
-
-    Examples
-    --------
-    >>> is_of_another_process("/dev/fd/1"), is_of_another_process("/proc/0/fd/1")
-    (False, True)
-    """
+    """Whether a path stands for a descriptor of another process, which can be opened only by its name."""
     found = _place(name)
     return found is not None and found[0] not in (None, os.getpid())
 
@@ -83,13 +71,7 @@ def _place(name: str) -> tuple[int | None, int] | None:
 
 
 def stream_kind(name: str) -> str | None:
-    """The kind of a stream, in words; None for a file, a folder and what is not there. Nothing is opened.
-
-    Examples
-    --------
-    >>> stream_kind("/dev/null"), stream_kind("data"), stream_kind("no such file")
-    ('a device', None, None)
-    """
+    """The kind of a stream, in words; None for a file, a folder and what is not there. Nothing is opened."""
     if name == STANDARD or descriptor_of(name) is not None:
         return "an open descriptor"
     try:
@@ -100,13 +82,7 @@ def stream_kind(name: str) -> str | None:
 
 
 def input_identity(name: str) -> Hashable | None:
-    """An identity that two names of one stream share; None for files, and for devices, which start anew.
-
-    Examples
-    --------
-    >>> input_identity("-") == input_identity("/dev/stdin"), input_identity("data/dots.csv")
-    (True, None)
-    """
+    """An identity that two names of one stream share; None for files, and for devices, which start anew."""
     number = 0 if name == STANDARD else descriptor_of(name)
     try:
         found = os.stat(name) if number is None else os.fstat(number)  # noqa: PTH116
@@ -118,13 +94,7 @@ def input_identity(name: str) -> Hashable | None:
 
 
 def is_same_output(one: str, other: str) -> bool:
-    """Whether two names of outputs are one descriptor, pipe or file, there already or yet to be written.
-
-    Examples
-    --------
-    >>> is_same_output("-", "/dev/stdout"), is_same_output("a.csv", "./a.csv"), is_same_output("/dev/null", "/dev/null")
-    (True, True, False)
-    """
+    """Whether two names of outputs are one descriptor, pipe or file, there already or yet to be written."""
     numbers = [1 if name == STANDARD else descriptor_of(name) for name in (one, other)]
     if None not in numbers and numbers[0] == numbers[1]:
         return True
@@ -141,27 +111,13 @@ def is_same_output(one: str, other: str) -> bool:
 
 
 def open_input(descriptor: int) -> BinaryIO:
-    """Open what a descriptor reads, from where it stands.
-
-    Raises
-    ------
-    OSError
-        If it is closed, or open for writing only.
-    """
+    """Open what a descriptor reads, from where it stands."""
     _check_mode(descriptor, os.O_RDONLY)
     return io.BufferedReader(_PatientReader(os.dup(descriptor), "rb"))
 
 
 def open_output_descriptor(descriptor: int) -> BinaryIO:
-    """Open what a descriptor writes, from where it stands, or from the end of what is appended to.
-
-    What is behind it may be a file, but it holds what others have written: it is never sought.
-
-    Raises
-    ------
-    OSError
-        If it is closed, or open for reading only.
-    """
+    """Open what a descriptor writes, from where it stands, or from the end of what is appended to."""
     check_writable(descriptor)
     for stream in (sys.stdout, sys.stderr):  # what was said before comes first
         if _number(stream) == descriptor:
@@ -170,13 +126,7 @@ def open_output_descriptor(descriptor: int) -> BinaryIO:
 
 
 def open_onward(path: str | os.PathLike[str]) -> BinaryIO:
-    """Open a pipe or a device, which is written in order: some devices say that they can be sought, and cannot.
-
-    Raises
-    ------
-    OSError
-        If it cannot be opened.
-    """
+    """Open a pipe or a device, which is written in order: some devices say that they can be sought, and cannot."""
     return io.BufferedWriter(_OnwardOnly(path, "wb"))
 
 

@@ -12,26 +12,7 @@ from vorotool.formats.io.descriptors import stream_kind
 
 
 def check_space(path: str | os.PathLike[str], most: int, expected: Callable[[], int]) -> None:
-    """Refuse an output for which there is no room.
-
-    Parameters
-    ----------
-    path : str or path
-        Of the output; standard output, pipes and devices need no room.
-    most : int
-        Bytes that it has at most, or nearly so.
-    expected : callable
-        Estimates the bytes; called where there is less room than for `most`.
-
-    Raises
-    ------
-    OutputError
-        If there is not even room for the bytes that are expected.
-
-    Examples
-    --------
-    >>> check_space("build/labels.npy", 1000, lambda: 500)
-    """
+    """Refuse an output for which there is no room."""
     free = _free(path)
     if free is None or most <= free:
         return

@@ -23,19 +23,7 @@ Result = TypeVar("Result")
 
 
 def check_pixels(name: str, width: int, height: int, max_pixels: int) -> None:
-    """Refuse an image that is empty or larger than the limit, from its header alone.
-
-    Raises
-    ------
-    InputError
-        If a side is below 1.
-    LimitError
-        If there are more than ``max_pixels`` pixels.
-
-    Examples
-    --------
-    >>> check_pixels("a.png", 640, 480, 10**6)
-    """
+    """Refuse an image that is empty or larger than the limit, from its header alone."""
     if width < 1 or height < 1:
         raise InputError(f"{name} is {width} x {height} pixels: an image needs at least 1 x 1")
     if width * height > max_pixels:
@@ -47,26 +35,7 @@ def check_pixels(name: str, width: int, height: int, max_pixels: int) -> None:
 
 
 def check_unpacked(name: str, size: int, packed: int) -> None:
-    """Refuse what becomes larger than 512 MiB and than 100 times the file that holds it.
-
-    Parameters
-    ----------
-    name : str
-        The input.
-    size : int
-        Bytes that it becomes, as far as is known.
-    packed : int
-        Those of the file.
-
-    Raises
-    ------
-    LimitError
-        If that is too much.
-
-    Examples
-    --------
-    >>> check_unpacked("a.parquet", 10**8, 1000)
-    """
+    """Refuse what becomes larger than 512 MiB and than 100 times the file that holds it."""
     if size > max(MOST_UNPACKED, _MOST_TIMES * packed):
         raise LimitError(
             f"{name} is {packed} bytes that become {size} or more, over {_MOST_TIMES} times as many: split it, or "
@@ -75,16 +44,7 @@ def check_unpacked(name: str, size: int, packed: int) -> None:
 
 
 def interruptible(work: Callable[[], Result]) -> Result:
-    """Call what takes long in a library that does not look for signals: in a thread, so that this one sees them.
-
-    A signal whose handler raises ends the wait. What the other thread still does is lost, and does not keep the
-    process from ending.
-
-    Examples
-    --------
-    >>> interruptible(lambda: 6 * 7)
-    42
-    """
+    """Call what takes long in a library that does not look for signals: in a thread, so that this one sees them."""
     if threading.current_thread() is not threading.main_thread():
         return work()
     future: Future[Result] = Future()

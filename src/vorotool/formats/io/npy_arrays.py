@@ -27,13 +27,7 @@ class NpyHeader(NamedTuple):
 
 
 def npy_header(source: Source) -> NpyHeader:
-    """Read the header alone.
-
-    Raises
-    ------
-    InputError
-        If there is none, or it describes pickled objects, text, records or other things that are not numbers.
-    """
+    """Read the header alone."""
     stream = io.BytesIO(source.data[:_LONGEST_HEADER])
     try:
         version = np.lib.format.read_magic(stream)  # later ones only serve structured arrays
@@ -58,13 +52,7 @@ def npy_header(source: Source) -> NpyHeader:
 
 
 def npy_values(source: Source, header: NpyHeader) -> NDArray[Any]:
-    """Give the array of a source, as a view of its bytes.
-
-    Raises
-    ------
-    InputError
-        If the file ends before the array does.
-    """
+    """Give the array of a source, as a view of its bytes."""
     items = prod(header.shape)
     needed, present = items * header.dtype.itemsize, len(source.data) - header.offset
     if present < needed:
@@ -77,22 +65,7 @@ def npy_values(source: Source, header: NpyHeader) -> NDArray[Any]:
 
 
 def write_array(out: BinaryIO, values: NDArray[Any]) -> None:
-    """Write an array of numbers: the same bytes for the same values, little-endian.
-
-    Parameters
-    ----------
-    out : binary file object
-        Need not be seekable.
-    values : array of numbers
-        Of any shape.
-
-    Examples
-    --------
-    >>> out = io.BytesIO()
-    >>> write_array(out, np.array([[0, 1], [1, 2]]))
-    >>> np.load(io.BytesIO(out.getvalue())).tolist()
-    [[0, 1], [1, 2]]
-    """
+    """Write an array of numbers: the same bytes for the same values, little-endian."""
     stored = np.ascontiguousarray(values, dtype=values.dtype.newbyteorder("<"))
     header = {"descr": np.lib.format.dtype_to_descr(stored.dtype), "fortran_order": False, "shape": values.shape}
     np.lib.format.write_array_header_1_0(out, header)

@@ -18,18 +18,7 @@ BLOCK_BYTES = 1 << 20
 
 
 def checked(bands: Iterable[NDArray[Any]], shape: tuple[int, int]) -> Iterator[NDArray[Any]]:
-    """Pass on bands of shape (rows, W), and see that they are H rows together.
-
-    Raises
-    ------
-    ValueError
-        If they are not: a defect of the caller.
-
-    Examples
-    --------
-    >>> [band.shape for band in checked([np.zeros((2, 5)), np.ones((1, 5))], (3, 5))]
-    [(2, 5), (1, 5)]
-    """
+    """Pass on bands of shape (rows, W), and see that they are H rows together."""
     height, width = shape
     seen = 0
     for item in bands:
@@ -45,17 +34,7 @@ def checked(bands: Iterable[NDArray[Any]], shape: tuple[int, int]) -> Iterator[N
 
 
 def check_fits(band: NDArray[Any], largest: int, target: str) -> None:
-    """Refuse values that ``target`` cannot hold: nothing is ever wrapped.
-
-    Raises
-    ------
-    LimitError
-        If a value is negative or above ``largest``; it is named.
-
-    Examples
-    --------
-    >>> check_fits(np.array([[0, 255]], dtype=np.uint16), 255, "an 8-bit PNG")
-    """
+    """Refuse values that ``target`` cannot hold: nothing is ever wrapped."""
     if band.size == 0 or band.dtype.kind == "b":
         return
     if np.iinfo(band.dtype).max > largest and (top := int(band.max())) > largest:
@@ -72,23 +51,7 @@ def blocks(
     dtype: DTypeLike,
     encode: Callable[[NDArray[Any], NDArray[Any]], None],
 ) -> Iterator[NDArray[Any]]:
-    """Regroup bands into blocks whose limits depend on the shape alone, so that the bytes written do too.
-
-    Parameters
-    ----------
-    bands, shape
-        The image.
-    columns, dtype
-        Items of an encoded row, and their type.
-    encode : callable
-        ``encode(rows, out)`` writes rows in their file form; the bands may be reused after that.
-
-    Yields
-    ------
-    (1 + k, columns) array
-        The row before the block (zeros before the first), and the k rows of the block; each block is a new
-        array.
-    """
+    """Regroup bands into blocks whose limits depend on the shape alone, so that the bytes written do too."""
     row_bytes = max(1, columns * np.dtype(dtype).itemsize)
     rows = max(1, min(shape[0], BLOCK_BYTES // row_bytes))
     block, filled = np.zeros((1 + rows, columns), dtype), 1

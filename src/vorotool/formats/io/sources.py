@@ -28,41 +28,16 @@ NESTING_LIMIT = 100
 
 @dataclass(frozen=True)
 class Source:
-    """The content of one input.
+    """The content of one input."""
 
-    Parameters
-    ----------
-    name : str
-        The path as the user wrote it, or ``standard input``: what messages say.
-    data : bytes
-        The whole content.
-    format : str
-        One of `vorotool.products.inputs.INPUTS`, once it has been told.
-    document : object, optional
-        The JSON in it, or the features of a map, once that has been parsed.
-    layer : str, optional
-        The layer of a map that is wanted.
-    max_sites : int, optional
-        Most features of a map, which are read to tell what they are.
-    flatten : float, optional
-        How far lines may be from the curves of these.
-    is_unpacked : bool
-        The content was packed by gzip.
-
-    Examples
-    --------
-    >>> Source("seeds.CSV", b"1,2").suffix
-    '.csv'
-    """
-
-    name: str
-    data: bytes
-    format: str = ""
-    document: Any = None
-    layer: str | None = None
-    max_sites: int | None = None
-    flatten: float | None = None
-    is_unpacked: bool = False
+    name: str  # the path as the user wrote it, or `standard input`: what messages say
+    data: bytes  # the whole content
+    format: str = ""  # one of `vorotool.products.inputs.INPUTS`, once it has been told
+    document: Any = None  # the JSON in it, or the features of a map, once that has been parsed
+    layer: str | None = None  # the layer of a map that is wanted
+    max_sites: int | None = None  # most features of a map, which are read to tell what they are
+    flatten: float | None = None  # how far lines may be from the curves of these
+    is_unpacked: bool = False  # the content was packed by gzip
 
     @property
     def is_file(self) -> bool:
@@ -80,15 +55,7 @@ class Source:
 
 
 def read_source(path: str | os.PathLike[str]) -> Source:
-    """Read a whole file, or standard input for ``-``; what gzip has packed is unpacked.
-
-    Raises
-    ------
-    InputError
-        If there is no such file, it is a directory, it cannot be read, or standard input is empty.
-    LimitError
-        If more than `MOST_UNPACKED` bytes are packed in it.
-    """
+    """Read a whole file, or standard input for ``-``; what gzip has packed is unpacked."""
     name = os.fspath(path)
     with explained_reading(name):
         data = read_bytes(name)
@@ -101,13 +68,7 @@ def read_source(path: str | os.PathLike[str]) -> Source:
 
 
 def without_gz(name: str) -> str:
-    """Return a name without the extension of gzip.
-
-    Examples
-    --------
-    >>> without_gz("a.csv.gz"), without_gz("a.csv")
-    ('a.csv', 'a.csv')
-    """
+    """Return a name without the extension of gzip."""
     return name[: -len(".gz")] if name.lower().endswith(".gz") else name
 
 
@@ -128,13 +89,7 @@ def _unpacked(data: bytes, name: str) -> bytes:
 
 @contextmanager
 def explained_reading(name: str) -> Iterator[None]:
-    """Turn what the system says of a file that is read into an error that tells what to do.
-
-    Raises
-    ------
-    InputError
-        If there is no such file, it is a directory, or it cannot be read.
-    """
+    """Turn what the system says of a file that is read into an error that tells what to do."""
     if not name:
         raise InputError("the name of the input is empty: name a file, or - for standard input")
     try:
@@ -154,24 +109,7 @@ def explained_reading(name: str) -> Iterator[None]:
 
 @contextmanager
 def reading(name: str) -> Iterator[None]:
-    """Let errors carry the name of an input that is read: the words of all readers name it.
-
-    Errors in the use of options are about these, whatever the input.
-
-    Parameters
-    ----------
-    name : str
-        As the user wrote it; ``-`` is standard input.
-
-    Examples
-    --------
-    >>> try:
-    ...     with reading("no-such-file.csv"):
-    ...         read_source("no-such-file.csv")
-    ... except InputError as error:
-    ...     print(error.source)
-    no-such-file.csv
-    """
+    """Let errors carry the name of an input that is read: the words of all readers name it."""
     try:
         yield
     except VorotoolError as error:
@@ -181,25 +119,7 @@ def reading(name: str) -> Iterator[None]:
 
 
 def read_bytes(name: str) -> bytes:
-    """Read all that a file holds, or that comes through a stream: each is opened once, and read to its end.
-
-    Parameters
-    ----------
-    name : str
-        A path, or ``-`` for standard input. What is open already is read from where it stands.
-
-    Raises
-    ------
-    InputError
-        If it is no file that is open for reading.
-    OSError, ValueError
-        If a path cannot be opened or read.
-
-    Examples
-    --------
-    >>> read_bytes("data/six-seeds.csv")[:3]
-    b'x,y'
-    """
+    """Read all that a file holds, or that comes through a stream: each is opened once, and read to its end."""
     number = 0 if name == STANDARD else descriptor_of(name)
     if number is None:
         return Path(name).read_bytes()
@@ -221,20 +141,7 @@ def read_bytes(name: str) -> bytes:
 
 
 def copy_stream(name: str, out: BinaryIO) -> None:
-    """Copy all that comes through a stream, or is in a file, without holding it.
-
-    Parameters
-    ----------
-    name : str
-        As of `read_bytes`.
-    out : binary file object
-        Takes it.
-
-    Raises
-    ------
-    InputError, OSError, ValueError
-        As of `read_bytes`.
-    """
+    """Copy all that comes through a stream, or is in a file, without holding it."""
     number = 0 if name == STANDARD else descriptor_of(name)
     if number is None:
         with Path(name).open("rb") as file:
@@ -267,30 +174,7 @@ def _place(name: str) -> str:
 
 
 def check_nesting(text: str | bytes, limit: int = NESTING_LIMIT, name: str = "the text") -> None:
-    """Refuse brackets nested beyond ``limit`` before a recursive parser sees them.
-
-    Parameters
-    ----------
-    text : str or bytes
-        JSON or WKT; brackets inside JSON strings do not count.
-    limit : int
-        Levels that are accepted.
-    name : str
-        What the message calls the text.
-
-    Raises
-    ------
-    InputError
-        If a bracket opens a level beyond ``limit``; the line is named.
-
-    Examples
-    --------
-    >>> check_nesting(b"[[1, 2], [3, 4]]")
-    >>> check_nesting("(" * 500, name="deep.wkt")
-    Traceback (most recent call last):
-        ...
-    vorotool.errors.InputError: deep.wkt, line 1: brackets are nested more than 100 deep; check the brackets
-    """
+    """Refuse brackets nested beyond ``limit`` before a recursive parser sees them."""
     data = text.encode("utf-8", "replace") if isinstance(text, str) else text
     from vorotool import _core
 

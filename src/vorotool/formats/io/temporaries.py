@@ -55,18 +55,10 @@ _UNKNOWN = "0" * 12
 
 @dataclass
 class Temporary:
-    """A file or folder that is being written, and is ours.
+    """A file or folder that is being written, and is ours."""
 
-    Parameters
-    ----------
-    path : Path
-        Its name for now.
-    descriptor : int
-        Holds the lock; -1 where there are no locks.
-    """
-
-    path: Path
-    descriptor: int
+    path: Path  # its name for now
+    descriptor: int  # holds the lock; -1 where there are no locks
 
     def opened(self) -> BinaryIO:
         """Open a file for writing; closing this does not give the lock back."""
@@ -91,33 +83,14 @@ class Temporary:
 
 
 class Temporaries:
-    """Temporary files and folders, whose rest is removed at the end, whatever happens.
-
-    What dead processes have left is removed when a process, or a batch, first writes in a folder.
-
-    Examples
-    --------
-    >>> with Temporaries() as temporaries:
-    ...     temporaries.make(Path("build/folder"), new_folder).path.is_dir()
-    True
-    """
+    """Temporary files and folders, whose rest is removed at the end, whatever happens."""
 
     def __init__(self) -> None:
         self._names: list[Path] = []
         self._made: list[Temporary] = []
 
     def make(self, target: Path, make: Callable[[Path], int], *, ending: str = ".tmp") -> Temporary:
-        """Make one beside a place.
-
-        Parameters
-        ----------
-        target : Path
-            What it is beside.
-        make : callable
-            ``make(path)`` makes it, and returns an open descriptor of it.
-        ending : str
-            Of the name.
-        """
+        """Make one beside a place."""
         _remove_dead_once(target.parent)
         temporary = Temporary(target, _make_ours(target.parent, make, ending, self._names))
         temporary.path = self._names[-1]
@@ -140,19 +113,7 @@ class Temporaries:
 
 @contextmanager
 def temporary_beside(target: Path, make: Callable[[Path], int], *, ending: str = ".tmp") -> Iterator[Temporary]:
-    """Make a temporary file or folder, and remove what is left of it at the end, whatever happens.
-
-    Parameters
-    ----------
-    target, make, ending
-        As for `Temporaries.make`.
-
-    Examples
-    --------
-    >>> with temporary_beside(Path("build/folder"), new_folder) as temporary:
-    ...     temporary.path.is_dir()
-    True
-    """
+    """Make a temporary file or folder, and remove what is left of it at the end, whatever happens."""
     with Temporaries() as temporaries:
         yield temporaries.make(target, make, ending=ending)
 
@@ -174,13 +135,7 @@ def new_folder(path: Path) -> int:
 
 @contextmanager
 def tagged_temporaries(tag: str) -> Iterator[None]:
-    """Put a tag in the names of temporaries that are made within.
-
-    Parameters
-    ----------
-    tag : str
-        Letters and digits, ended by a hyphen, once or more often; the first is that of a batch.
-    """
+    """Put a tag in the names of temporaries that are made within."""
     token = _TAG.set(tag)
     try:
         yield
@@ -189,12 +144,7 @@ def tagged_temporaries(tag: str) -> Iterator[None]:
 
 
 def remove_tagged(folders: Iterable[str | os.PathLike[str]], tag: str) -> None:
-    """Remove temporaries with a tag that nobody needs any more, of dead and living processes of all machines.
-
-    Examples
-    --------
-    >>> remove_tagged(["build"], "0a1b2c3d-")
-    """
+    """Remove temporaries with a tag that nobody needs any more, of dead and living processes of all machines."""
     for folder in folders:
         for path, found in _temporaries(folder):
             if found[3].startswith(tag):
@@ -202,12 +152,7 @@ def remove_tagged(folders: Iterable[str | os.PathLike[str]], tag: str) -> None:
 
 
 def remove_dead(folder: str | os.PathLike[str]) -> None:
-    """Remove temporaries whose owners are proved dead; the folder is listed once.
-
-    Examples
-    --------
-    >>> remove_dead("build")
-    """
+    """Remove temporaries whose owners are proved dead; the folder is listed once."""
     boot, machine = _host()
     for path, found in _temporaries(folder):
         if (found[1] == boot != _UNKNOWN) or (found[2] == machine != _UNKNOWN):
@@ -235,10 +180,7 @@ def _remove_dead_once(folder: Path) -> None:
 
 
 def _discard_ours(names: Sequence[Path]) -> None:
-    """Remove what is left under names: 64 random bits are nobody else's, so that whatever happens they are ours.
-
-    An interrupt that comes meanwhile has to wait.
-    """
+    """Remove what is left under names: 64 random bits are nobody else's, so that whatever happens they are ours."""
     try:
         for path in names:
             _discard(path)
@@ -249,10 +191,7 @@ def _discard_ours(names: Sequence[Path]) -> None:
 
 
 def _make_ours(folder: Path, make: Callable[[Path], int], ending: str, names: list[Path]) -> int:
-    """Make a temporary, the last of the names, and lock it.
-
-    Another process may take it for a dead one's before it is locked, and remove it: then the next name is tried.
-    """
+    """Make a temporary, the last of the names, and lock it."""
     host = "".join(_host()) + "-"
     if fcntl is None or host == f"{_UNKNOWN}{_UNKNOWN}-":
         host = ""

@@ -21,27 +21,7 @@ _DWG = re.compile(rb"AC10\d\d\0")
 
 
 def refuse_convertible(source: Source) -> None:
-    """Refuse the formats of maps and drawings that are not read, by extension or content.
-
-    Raises
-    ------
-    InputError
-        With the command that converts the file.
-
-    Examples
-    --------
-    >>> refuse_convertible(Source("seeds.csv", b"1,2"))
-    >>> refuse_convertible(Source("towns.zip", b""))
-    Traceback (most recent call last):
-        ...
-    vorotool.errors.InputError: towns.zip: .zip files are not read; unpack it, and give a file that is in it: \
-unzip towns.zip
-    >>> refuse_convertible(Source("plan.dwg", b""))
-    Traceback (most recent call last):
-        ...
-    vorotool.errors.InputError: plan.dwg: .dwg files are not read; save it as DXF in the program that made it, or \
-convert it: dwg2dxf -o plan.dxf plan.dwg
-    """
+    """Refuse the formats of maps and drawings that are not read, by extension or content."""
     heads = (suffix for head, suffix in _HEADS if source.data.startswith(head))
     found = source.suffix if source.suffix in _MAPS + _DRAWINGS + _OTHERS else next(heads, None)
     if found is None and _DWG.match(source.data):

@@ -15,13 +15,7 @@ MOST_CELLS = 10**8
 
 
 def parse_json(source: Source) -> Any:
-    """Parse JSON whose nesting has been counted before; lines of it are one document.
-
-    Raises
-    ------
-    InputError
-        If it is not JSON; the line and column are named.
-    """
+    """Parse JSON whose nesting has been counted before; lines of it are one document."""
     import orjson
 
     if source.document is not None:
@@ -40,22 +34,7 @@ def parse_json(source: Source) -> Any:
 
 
 def refuse_table(name: str, document: Sequence[Any], advice: str) -> None:
-    """Refuse a list of objects that are rows of a table, such as ``--what table -f json`` writes.
-
-    Parameters
-    ----------
-    name : str
-        The input.
-    document : sequence
-        Whose first item tells: rows have fields that are no coordinates.
-    advice : str
-        What it is not, and what to do.
-
-    Raises
-    ------
-    InputError
-        With the first fields of the first row.
-    """
+    """Refuse a list of objects that are rows of a table, such as ``--what table -f json`` writes."""
     row = document[0] if document else None
     if isinstance(row, dict) and row and not row.keys() & {"type", "shell", "line"}:
         fields = ", ".join([*list(row)[:4], *["…"] * (len(row) > 4)])
@@ -84,13 +63,7 @@ def feature_places(name: str, document: Mapping[str, Any]) -> Callable[[int], st
 
 
 def geometry_of(feature: Any, place: str) -> Mapping[str, Any] | None:
-    """Give the geometry of a feature, or None; what is inside it is not looked at.
-
-    Raises
-    ------
-    InputError
-        If it is no feature, or its properties or geometry are no objects.
-    """
+    """Give the geometry of a feature, or None; what is inside it is not looked at."""
     if not isinstance(feature, dict) or feature.get("type") != "Feature":
         raise InputError(f'{place}: {shortened(feature)} is no Feature; give it "type": "Feature"')
     if not isinstance(feature.get("properties"), dict | None):
@@ -132,13 +105,7 @@ def holds_shapes(document: Any) -> bool:
 def property_columns(
     name: str, features: Sequence[Mapping[str, Any]], owners: Sequence[int], noun: str
 ) -> dict[str, list[Any]]:
-    """Give the properties as columns with one value an object; ``owners`` tells the feature of each.
-
-    Raises
-    ------
-    LimitError
-        If features share so few names that the columns would hold more than 10^8 fields.
-    """
+    """Give the properties as columns with one value an object; ``owners`` tells the feature of each."""
     rows = [feature.get("properties") or {} for feature in features]
     names = list(dict.fromkeys(key for row in rows for key in row))
     if len(names) * len(owners) > MOST_CELLS:

@@ -11,13 +11,7 @@ OF_SITES = "use (Multi)Point, (Multi)LineString or (Multi)Polygon"
 
 
 def not_a_point_advice(kind: str) -> str:
-    """Say what to do with a geometry that is no point.
-
-    Examples
-    --------
-    >>> not_a_point_advice("MultiCurve")
-    'use Point or MultiPoint'
-    """
+    """Say what to do with a geometry that is no point."""
     lines = kind.lower().removeprefix("multi")
     if lines in ("polygon", "linestring"):
         return f"replace it by its centroid or its vertices ({_TAKER} polygons and lines)"
@@ -25,13 +19,7 @@ def not_a_point_advice(kind: str) -> str:
 
 
 def not_a_shape_advice(kind: str) -> str:
-    """Say what to do with a geometry that is neither polygon nor line.
-
-    Examples
-    --------
-    >>> not_a_shape_advice("MultiCurve")
-    'use (Multi)Polygon or (Multi)LineString'
-    """
+    """Say what to do with a geometry that is neither polygon nor line."""
     if kind.lower().removeprefix("multi") == "point":
         return f"put points into a file of their own ({_TAKER_OF_ALL} points, lines and polygons together)"
     return "use (Multi)Polygon or (Multi)LineString"

@@ -24,15 +24,7 @@ _GEOMETRIES = ("Point", "LineString", "Polygon", "MultiPoint", "MultiLineString"
 
 
 def is_json_lines(data: bytes) -> bool:
-    r"""Whether the first two lines are JSON objects of their own, or there is a record separator before the first.
-
-    A single line is one, too, if it has the values of a row: numbers, truth values and texts.
-
-    Examples
-    --------
-    >>> is_json_lines(b'{"a":1}\n{"a":2}\n'), is_json_lines(b'{"x":1}\n'), is_json_lines(b'{\n"a":1}')
-    (True, True, False)
-    """
+    """Whether the first two lines are JSON objects of their own, or there is a record separator before the first."""
     import orjson
 
     if data.startswith(RECORD_MARK):
@@ -47,18 +39,7 @@ def is_json_lines(data: bytes) -> bool:
 
 
 def parse_lines(source: Source) -> Any:
-    r"""Parse each line: features and geometries are given as a collection, all else as a list.
-
-    Raises
-    ------
-    InputError
-        If a line is no object of JSON, or features are in different coordinate reference systems; the line is named.
-
-    Examples
-    --------
-    >>> parse_lines(Source("a.jsonl", b'{"x":1}\n{"x":2}\n'))
-    [{'x': 1}, {'x': 2}]
-    """
+    """Parse each line: features and geometries are given as a collection, all else as a list."""
     import orjson
 
     rows: list[dict[str, Any]] = []

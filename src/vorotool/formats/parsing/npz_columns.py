@@ -22,13 +22,7 @@ _CELLS = frozenset({"cell_starts", "polygon_starts", "ring_starts", "vertex_x", 
 
 
 def npz_holds(data: bytes) -> Literal["points", "polygons", "skeleton", "voronoi"]:
-    """Tell what an archive holds by the names of its arrays: all else is taken for points.
-
-    Examples
-    --------
-    >>> npz_holds(b"no archive")
-    'points'
-    """
+    """Tell what an archive holds by the names of its arrays: all else is taken for points."""
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             names = {name.removesuffix(".npy") for name in archive.namelist()}
@@ -40,13 +34,7 @@ def npz_holds(data: bytes) -> Literal["points", "polygons", "skeleton", "voronoi
 
 
 def npz_columns(source: Source, options: ReadOptions) -> dict[str, NDArray[Any]]:
-    """Read all arrays, by their names.
-
-    Raises
-    ------
-    InputError
-        If it is no archive of uncompressed 1-D arrays of numbers or text.
-    """
+    """Read all arrays, by their names."""
     columns: dict[str, NDArray[Any]] = {}
     with decoding(source.name, "NPZ"), zipfile.ZipFile(io.BytesIO(source.data)) as archive:
         for entry in archive.infolist():

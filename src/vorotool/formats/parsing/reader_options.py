@@ -27,36 +27,20 @@ def no_note(message: str) -> None:
 
 @dataclass(frozen=True)
 class ReadOptions:
-    """What a reader is told beside its source; each format takes what is about it.
+    """What a reader is told beside its source; each format takes what is about it."""
 
-    Parameters
-    ----------
-    columns, page, properties, max_pixels, max_sites, threads, note
-        As of `vorotool.read`.
-    crs : object, optional
-        The ``crs`` member of GeoJSON for an input that names none.
-    to_crs : object, optional
-        That of the system in which coordinates are wanted.
-    flatten : float, optional
-        How far lines may be from the curves of drawings.
-    join_tolerance : float, optional
-        How far ends of curves may be apart that are joined.
-    wants_z : bool
-        Points are of space, and have a z.
-    """
-
-    columns: str | None = None
-    page: int | None = None
-    properties: bool = True
-    max_pixels: int = MAX_PIXELS
-    max_sites: int | None = None
-    threads: int = 0
-    note: Callable[[str], None] = no_note
-    crs: Any = None
-    to_crs: Any = None
-    flatten: float | None = None
-    join_tolerance: float | None = None
-    wants_z: bool = False
+    columns: str | None = None  # as of `vorotool.read`
+    page: int | None = None  # as of `vorotool.read`
+    properties: bool = True  # as of `vorotool.read`
+    max_pixels: int = MAX_PIXELS  # as of `vorotool.read`
+    max_sites: int | None = None  # as of `vorotool.read`
+    threads: int = 0  # as of `vorotool.read`
+    note: Callable[[str], None] = no_note  # as of `vorotool.read`
+    crs: Any = None  # the `crs` member of GeoJSON for an input that names none
+    to_crs: Any = None  # that of the system in which coordinates are wanted
+    flatten: float | None = None  # how far lines may be from the curves of drawings
+    join_tolerance: float | None = None  # how far ends of curves may be apart that are joined
+    wants_z: bool = False  # points are of space, and have a z
 
     @property
     def axes(self) -> int:
@@ -103,22 +87,7 @@ def no_points(axes: int = 2) -> NDArray[np.float64]:
 
 
 def position_array(positions: list[Any], place: Callable[[int], str], axes: int = 2) -> NDArray[np.float64]:
-    """Coordinates of JSON positions ``[x, y, ...]``; what follows x and y, or z, is left out.
-
-    Parameters
-    ----------
-    positions : list
-        As they were parsed: anything.
-    place : callable
-        Gives the words that name the place of position i (0-based).
-    axes : int
-        2, or 3 of points of space.
-
-    Raises
-    ------
-    InputError
-        If one is not a list of at least so many finite numbers.
-    """
+    """Coordinates of JSON positions ``[x, y, ...]``; what follows x and y, or z, is left out."""
     tuples = positions
     if set(map(type, positions)) <= {list} and max(map(len, positions), default=axes) > axes:
         tuples = [position[:axes] for position in positions]

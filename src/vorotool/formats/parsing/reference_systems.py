@@ -21,24 +21,7 @@ Placed = TypeVar("Placed", PointSet, PolygonSet)
 
 
 def with_crs(value: Placed, name: str, options: ReadOptions) -> Placed:
-    """Settle the coordinate reference system of an input: as it says, as is declared, and then the one that is wanted.
-
-    Parameters
-    ----------
-    value : PointSet or PolygonSet
-        As it was read.
-    name : str
-        The input.
-    options : ReadOptions
-        What is declared and wanted, and who is told that lengths are in degrees.
-
-    Raises
-    ------
-    InputError
-        If the input names another system than the declared one, or none that coordinates could be brought from.
-    UsageError
-        If they are to be brought into another system, and pyproj is not installed.
-    """
+    """Return the coordinate reference system of an input: its own, else the declared one, else the wanted one."""
     value = declared_in(value, name, options.crs)
     if options.to_crs is not None:
         if value.crs is None:
@@ -56,22 +39,7 @@ def with_crs(value: Placed, name: str, options: ReadOptions) -> Placed:
 
 
 def declared_in(value: Placed, name: str, declared: Any) -> Placed:
-    """Give an input that names no coordinate reference system the one that is declared, if one is.
-
-    Parameters
-    ----------
-    value : PointSet or PolygonSet
-        As it was read.
-    name : str
-        The input.
-    declared : object
-        The ``crs`` member of GeoJSON, or None.
-
-    Raises
-    ------
-    InputError
-        If the input names another one.
-    """
+    """Give an input that names no coordinate reference system the one that is declared, if one is."""
     if declared is None:
         return value
     if value.crs is None:
@@ -113,13 +81,7 @@ def note_unnamed(name: str, xy: NDArray[np.float64], note: Callable[[str], None]
 
 
 def crs_of_numbers(name: str, srids: Sequence[int], line_of: Callable[[int], int]) -> Any:
-    """Give the ``crs`` member for the numbers (SRID) of extended well-known text, 0 where a geometry has none.
-
-    Raises
-    ------
-    InputError
-        If there are two.
-    """
+    """Give the ``crs`` member for the numbers (SRID) of extended well-known text, 0 where a geometry has none."""
     first = next((k for k, srid in enumerate(srids) if srid), None)
     if first is None:
         return None

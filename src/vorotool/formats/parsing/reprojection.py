@@ -13,34 +13,7 @@ from vorotool.geometry.extras import needed
 
 
 def reprojected(xy: NDArray[np.float64], name: str, source: Any, target: Any) -> NDArray[np.float64]:
-    """Bring coordinates from one system into another, vertex by vertex: edges stay straight lines between them.
-
-    Parameters
-    ----------
-    xy : (n, 2) float64 array
-        In the system of the input; x is the longitude or the easting.
-    name : str
-        The input.
-    source, target : object
-        Both systems, as the ``crs`` member of GeoJSON has them.
-
-    Returns
-    -------
-    (n, 2) float64 array
-        In the other system.
-
-    Raises
-    ------
-    InputError
-        If a coordinate has no place in the other system.
-    UsageError
-        If pyproj is not installed, or does not know one of the systems.
-
-    Examples
-    --------
-    >>> reprojected(np.array([[9.0, 0.0]]), "a.gpkg", "EPSG:4326", "EPSG:32632").round(6).tolist()
-    [[500000.0, 0.0]]
-    """
+    """Bring coordinates from one system into another, vertex by vertex: edges stay straight lines between them."""
     pyproj = needed("pyproj", "gis", "other coordinate reference systems")
     systems = [_known(pyproj, each) for each in (source, target)]
     pyproj.network.set_network_enabled(False)  # grids that are not there are not looked for elsewhere

@@ -52,18 +52,7 @@ class Wanted(NamedTuple):
 
 
 def parse_columns(columns: str, *, wants_z: bool = False) -> Wanted:
-    """Take the names apart; that of z has ``z=`` before it.
-
-    Raises
-    ------
-    UsageError
-        If there are fewer than two or more than three without z, or one comes twice.
-
-    Examples
-    --------
-    >>> parse_columns("1,2,z=4", wants_z=True).z
-    '4'
-    """
+    """Take the names apart; that of z has ``z=`` before it."""
     parts = [part.strip() for part in columns.split(",")]
     of_z = [part for part in parts if wants_z and part.lower().startswith("z=")]
     wanted = Wanted([part for part in parts if part not in of_z], of_z[0][2:].strip() if of_z else None)
@@ -84,18 +73,7 @@ def choose(name: str, fields: list[str], wanted: Wanted | None, options: ReadOpt
 
 
 def chosen_columns(name: str, fields: list[str], options: ReadOptions) -> Chosen:
-    """Choose the columns of a table that are x, y and, if one is, the label: as in delimited text.
-
-    Raises
-    ------
-    InputError
-        If the names are not known as coordinates, or ``--columns`` names one that is not there.
-
-    Examples
-    --------
-    >>> chosen_columns("a.json", ["label", "x", "y"], ReadOptions())
-    Chosen(x=1, y=2, label=0, z=None)
-    """
+    """Choose the columns of a table that are x, y and, if one is, the label: as in delimited text."""
     wanted = None if options.columns is None else parse_columns(options.columns, wants_z=options.wants_z)
     return choose(name, fields, wanted, options)[1]
 

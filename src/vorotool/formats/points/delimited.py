@@ -58,14 +58,7 @@ class _Layout:
 
 
 def read_text(source: Source, options: ReadOptions) -> PointSet:
-    """Read delimited text.
-
-    It may have a byte order mark, ``#`` comments, blank lines, quoted fields, and commas, semicolons, tabs or blanks
-    between fields. A header with x,y, lon,lat, longitude,latitude, easting,northing, centroid-1,centroid-0 or
-    axis-1,axis-0 (in any case) says which columns are the coordinates; without a header two columns are x, y; all else
-    needs ``columns``. A column ``label`` is used when ``columns`` names it, or when the header is x, y and label alone.
-    Places on a map by the header are points with y upwards.
-    """
+    """Read delimited text."""
     return point_set(text_rows(source, options))
 
 
@@ -87,13 +80,7 @@ def text_rows(source: Source, options: ReadOptions) -> PointRows:
 
 
 def header_fields(data: bytes) -> list[str]:
-    """Fields of the first record of delimited text.
-
-    Examples
-    --------
-    >>> header_fields(b"id;WKT\\n1;POINT (1 2)\\n")
-    ['id', 'WKT']
-    """
+    """Fields of the first record of delimited text."""
     data = _plain_lines(data)
     first = _core.text.first_record(data, _guess_delimiter(data))
     return [] if first is None else first[2]
@@ -128,13 +115,7 @@ class DelimitedText:
 
 
 def delimited_text(source: Source) -> DelimitedText:
-    r"""Take delimited text apart; its first record is a header.
-
-    Examples
-    --------
-    >>> delimited_text(Source("a.csv", b"id;wkt\n7;POINT (1 2)\n")).columns()
-    {'id': ['7'], 'wkt': ['POINT (1 2)']}
-    """
+    """Take delimited text apart; its first record is a header."""
     data = _plain_lines(source.data)
     delimiter = _guess_delimiter(data)
     if delimiter == " ":  # there is one column, whose geometry has blanks and commas
@@ -144,13 +125,7 @@ def delimited_text(source: Source) -> DelimitedText:
 
 
 def has_coordinates(fields: Sequence[str]) -> bool:
-    """Whether a header names a known pair of coordinates.
-
-    Examples
-    --------
-    >>> has_coordinates(["id", "Lon", "Lat"]), has_coordinates(["id", "wkt"])
-    (True, False)
-    """
+    """Whether a header names a known pair of coordinates."""
     return coordinate_columns(fields) is not None
 
 
@@ -185,13 +160,7 @@ def _read_rows(layout: _Layout, options: ReadOptions) -> PointRows:
 
 
 def placed_by(x: str, y: str, options: ReadOptions) -> dict[str, Any]:
-    """Give the direction of y and the coordinate reference system of points, which the names of the columns tell.
-
-    Examples
-    --------
-    >>> placed_by("x", "y", ReadOptions())
-    {'y_up': False, 'crs': None}
-    """
+    """Give the direction of y and the coordinate reference system of points, which the names of the columns tell."""
     is_geographic = is_longitude_latitude(x, y) and options.crs is None
     return {"y_up": is_map(x, y), "crs": crs_member(LONGITUDE_LATITUDE) if is_geographic else None}
 
@@ -251,26 +220,7 @@ def explain(
     counted_by: str,
     advice: str = "correct it, or remove the line",
 ) -> InputError:
-    """Put an error of the core into words.
-
-    Parameters
-    ----------
-    name : str
-        The input.
-    error : TextError
-        What the core found.
-    described : callable
-        Gives the words for a 0-based column.
-    counted_by : str
-        What set the number of fields that each line must have.
-    advice : str
-        What to do about text that is no number.
-
-    Returns
-    -------
-    InputError
-        To be raised.
-    """
+    """Put an error of the core into words."""
     kind, line, column, text, found, expected = error.args
     place = described(column)
     if kind == "field_count":

@@ -31,18 +31,7 @@ def read_npy(source: Source, options: ReadOptions) -> PointSet:
 
 
 def check_coordinates(name: str, table: NDArray[np.generic]) -> NDArray[np.float64]:
-    """Give coordinates, a column each, as floating-point numbers, which hold them exactly and are finite.
-
-    Raises
-    ------
-    InputError
-        If they are not; the row is named.
-
-    Examples
-    --------
-    >>> check_coordinates("a.npy", np.array([[1, 2]]))
-    array([[1., 2.]])
-    """
+    """Give coordinates, a column each, as floating-point numbers, which hold them exactly and are finite."""
     row = first_inexact(table)
     if row is not None:
         raise InputError(f"{name}, row {row + 1}: ({_shown(table[row])}): {INEXACT}")

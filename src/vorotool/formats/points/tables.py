@@ -24,34 +24,13 @@ _MISSING = "_missing"
 
 
 def is_table(document: Any) -> bool:
-    """Whether parsed JSON is a list of rows of a table, such as ``--what table -f json`` writes.
-
-    Examples
-    --------
-    >>> is_table([{"label": 1, "x": 0.5, "y": 2}]), is_table([[0.5, 2]]), is_table([{"shell": []}])
-    (True, False, False)
-    """
+    """Whether parsed JSON is a list of rows of a table, such as ``--what table -f json`` writes."""
     row = document[0] if isinstance(document, list) and document else None
     return isinstance(row, dict) and bool(row) and not row.keys() & {"type", "shell", "line"}
 
 
 def points_of_objects(name: str, rows: Sequence[Any], options: ReadOptions) -> PointRows:
-    """Read points from the rows of a table.
-
-    Parameters
-    ----------
-    name : str
-        The input.
-    rows : sequence of mapping
-        Objects with the same members; None where there is no value.
-    options : ReadOptions
-        What is read.
-
-    Raises
-    ------
-    InputError
-        If a row has other members, a coordinate is no finite number, or no columns are known as coordinates.
-    """
+    """Read points from the rows of a table."""
     options.check_sites(name, len(rows))
     names = list(rows[0])
     for number, row in enumerate(rows, 1):
@@ -68,15 +47,7 @@ def read_npz(source: Source, options: ReadOptions) -> PointSet:
 
 
 def npz_rows(source: Source, options: ReadOptions) -> PointRows:
-    """Read points from the columns of a table, with a z where the options want it.
-
-    What a column ``<name>_missing`` marks has no value.
-
-    Raises
-    ------
-    InputError
-        If it is no archive of uncompressed 1-D arrays of one length, or has no coordinates.
-    """
+    """Read points from the columns of a table, with a z where the options want it."""
     columns = npz_columns(source, options)
     lengths = {len(values) for values in columns.values()}
     if len(lengths) != 1:
@@ -98,13 +69,7 @@ def _present(values: NDArray[Any], missing: NDArray[Any] | None) -> list[Any]:
 
 
 def rows_of_columns(name: str, columns: Mapping[str, list[Any]], options: ReadOptions) -> PointRows:
-    """Choose coordinates and labels as in CSV; the other columns are properties.
-
-    Raises
-    ------
-    InputError
-        If a coordinate is no finite number, or no columns are known as coordinates.
-    """
+    """Choose coordinates and labels as in CSV; the other columns are properties."""
     names = list(columns)
     chosen = chosen_columns(name, names, options)
     coordinates = [names[column] for column in chosen.coordinates]

@@ -54,10 +54,7 @@ def read_json(source: Source, options: ReadOptions) -> PolygonSet:
 
 
 def read_sites(source: Source, options: ReadOptions) -> Sites:
-    """Read polygons and lines, or where the object has a type GeoJSON, whose points are sites, too.
-
-    Of a Voronoi map its sites are read.
-    """
+    """Read polygons and lines, or where the object has a type GeoJSON, whose points are sites, too."""
     document = parse_json(source)
     if isinstance(document, dict) and document.get("type") == "vorotool.voronoi":
         options.note(f"{source.name} holds a Voronoi map: the sites in it are read")

@@ -22,12 +22,7 @@ _SEGMENTS = "<segments> <0 or 1 boundary markers>"
 
 
 def read_poly(source: Source, options: ReadOptions) -> PolygonSet:
-    """Read the closed loops of segments as rings and other chains of segments as lines.
-
-    A loop is a hole where one of the file's hole points lies in it and in no smaller loop; it belongs to the smallest
-    loop around it that is none. Other loops are shells, also inside another one. Attributes, markers and regional
-    constraints are left out.
-    """
+    """Read the closed loops of segments as rings and other chains of segments as lines."""
     lines = _Lines(source)
     xy, base = _read_vertices(lines, options)
     segments = _read_segments(lines, len(xy), base)
@@ -146,11 +141,7 @@ def _read_holes(lines: _Lines) -> NDArray[np.float64]:
 
 
 def _chains(segments: NDArray[np.int64], vertices: int) -> list[list[int]]:
-    """Vertices along each maximal chain of segments that meet at vertices of exactly two segments.
-
-    A chain that comes back to its beginning repeats it. The order is that of the first segment of each chain; segments
-    between a vertex and itself are left out.
-    """
+    """Vertices along each maximal chain of segments that meet at vertices of exactly two segments."""
     segments = segments[segments[:, 0] != segments[:, 1]]
     ends = segments.ravel()
     order = np.argsort(ends, kind="stable")

@@ -39,23 +39,7 @@ WKT_LINE = "LINESTRING (", "LINESTRING EMPTY\n"
 
 
 def geojson_wording(polygons: PolygonSet, polygon: Sequence[int], own: Mapping[str, Sequence[Any]]) -> Wording:
-    """One feature a polyline, with the id and the properties of its polygon.
-
-    Parameters
-    ----------
-    polygons : PolygonSet
-        Named and described.
-    polygon : sequence of int
-        That of each polyline; -1 for none.
-    own : mapping of str to sequence
-        Further properties; their names take a prefix where a polygon has the same.
-
-    Examples
-    --------
-    >>> shapes = PolygonSet([[0, 0], [4, 0], [0, 3]], [0, 3], [0], [0], ids=["a"])
-    >>> geojson_wording(shapes, [0], {"length": [2.5]}).openings[0][:70]
-    '{"type":"Feature","id":"a","properties":{"polygon":0,"length":2.5},"ge'
-    """
+    """One feature a polyline, with the id and the properties of its polygon."""
     names = {name: f"voro_{name}" if name in polygons.properties else name for name in ("polygon", *own)}
     openings = []
     for row, index in enumerate(polygon):
@@ -85,29 +69,7 @@ def write_polylines(
     precision: int | None = None,
     threads: int = 0,
 ) -> None:
-    r"""Write polylines; one whose points all are one place has no geometry.
-
-    Parameters
-    ----------
-    out : binary file object
-        Need not be seekable.
-    points : (n, 2) float64 array
-        Of one polyline after the other.
-    start : (k,) integer array
-        Where each begins.
-    wording : Wording
-        Of the format.
-    precision, threads : int
-        As of `vorotool.formats.text.tables.write_table`.
-
-    Examples
-    --------
-    >>> import io
-    >>> out = io.BytesIO()
-    >>> write_polylines(out, np.array([[0.0, 0.0], [1.0, 0.5]]), np.array([0]), wkt_wording(1))
-    >>> out.getvalue()
-    b'LINESTRING (0 0, 1 0.5)\n'
-    """
+    """Write polylines; one whose points all are one place has no geometry."""
     points, start, has_length = with_length(points, np.append(start, len(points)))
     texts, waiting = [wording.comma], ""
     for opening, is_line in zip(wording.openings, has_length.tolist(), strict=True):

@@ -16,27 +16,13 @@ from vorotool.geometry.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet
 
 @dataclass
 class RingCollector:
-    """Rings of JSON positions, as they were parsed: anything may stand where a position is due.
-
-    Parameters
-    ----------
-    options : ReadOptions
-        Of the reader.
-    name : str
-        The input.
-    feature_place : callable
-        Gives the words for the place of a feature (0-based).
-    flat_only : bool
-        Positions must not have more than two numbers.
-    takes_points : bool
-        Points are wanted, too, as lines of one vertex.
-    """
+    """Rings of JSON positions, as they were parsed: anything may stand where a position is due."""
 
     options: ReadOptions
     name: str
-    feature_place: Callable[[int], str]
-    flat_only: bool = False
-    takes_points: bool = False
+    feature_place: Callable[[int], str]  # gives the words for the place of a feature (0-based)
+    flat_only: bool = False  # positions must not have more than two numbers
+    takes_points: bool = False  # points are wanted, too, as lines of one vertex
     positions: list[Any] = field(default_factory=list)
     sizes: list[int] = field(default_factory=list)
     kinds: list[int] = field(default_factory=list)
@@ -61,15 +47,7 @@ class RingCollector:
         self.add_line(feature, [position] if position else position)
 
     def finish(self, **described: Any) -> PolygonSet:
-        """Make the polygons, once all are collected.
-
-        Raises
-        ------
-        InputError
-            If a position is not a list of at least two finite numbers; its place is named.
-        LimitError
-            If there are too many of them.
-        """
+        """Make the polygons, once all are collected."""
         self.options.check_vertices(self.name, len(self.positions))
         longest = max((len(p) for p in self.positions if type(p) is list), default=2)
         if longest > 2 and self.flat_only:

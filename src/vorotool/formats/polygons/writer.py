@@ -21,27 +21,5 @@ _WRITERS: dict[str, Callable[[BinaryIO, PolygonSet], None]] = {
 
 
 def write_polygons(out: BinaryIO, polygons: PolygonSet, fmt: str) -> None:
-    r"""Write polygons and lines; polygons are valid on the grid of the file.
-
-    The parts of a feature become one multi-part geometry, but in JSON, which numbers them. WKT and ``.poly`` have no
-    place for ids and properties; ``.poly`` has none for features either.
-
-    Parameters
-    ----------
-    out : binary file object
-        Need not be seekable.
-    polygons : PolygonSet
-        What to write.
-    fmt : {"json", "geojson", "wkt", "poly"}
-        The format.
-
-    Examples
-    --------
-    >>> import io
-    >>> from vorotool.geometry.arguments.polygons import as_polygons
-    >>> out = io.BytesIO()
-    >>> write_polygons(out, as_polygons([[0, 0], [4, 0.5], [0, 3]]), "wkt")
-    >>> out.getvalue()
-    b'POLYGON ((0 0, 4 0.5, 0 3, 0 0))\n'
-    """
+    """Write polygons and lines; polygons are valid on the grid of the file."""
     _WRITERS[fmt](out, written_polygons(polygons))

@@ -54,28 +54,7 @@ def write_shape(
     precision: int | None = None,
     threads: int = 0,
 ) -> None:
-    r"""Write a part of a shape, the radii of a family, a hull, or the persistence of regions.
-
-    Parameters
-    ----------
-    out, precision, threads
-        As of `vorotool.formats.text.tables.write_table`.
-    value : AlphaShape, AlphaComplex, AlphaHull or RegionPersistence
-        What to write.
-    fmt : {"csv", "tsv", "json", "npz", "npy", "geojson", "wkt", "poly"}
-        The format. NPY has the points of edges, from 0 in the order of the input, or the radii of the spectrum.
-    what : {"edges", "complex", "polygons", "general", "points", "table", "family", "spectrum", "hull", "persistence"}
-        The part; a family has the table of its radii and those of them at which the shape changes.
-
-    Examples
-    --------
-    >>> import io
-    >>> from vorotool import alpha_shape
-    >>> out = io.BytesIO()
-    >>> write_shape(out, alpha_shape([[0, 0], [4, 0], [0, 3]], r=2.5), "wkt", what="polygons")
-    >>> out.getvalue()
-    b'POLYGON ((4 0, 0 3, 0 0, 4 0))\n'
-    """
+    """Write a part of a shape, the radii of a family, a hull, or the persistence of regions."""
     shape: Any = value
     if fmt == "npy":
         write_array(out, _array(shape, what))
@@ -103,26 +82,7 @@ def _array(shape: Any, what: str) -> NDArray[Any]:
 def write_shape_edges(
     out: BinaryIO, shape: AlphaShape, *, interior: bool = False, precision: int | None = None, threads: int = 0
 ) -> None:
-    """Write edges as GeoJSON: LineStrings with labels, length, radii and class.
-
-    Parameters
-    ----------
-    out, precision, threads
-        As of `vorotool.formats.text.tables.write_table`.
-    shape : AlphaShape
-        Whose edges.
-    interior : bool
-        Interior ones too.
-
-    Examples
-    --------
-    >>> import io
-    >>> from vorotool import alpha_shape
-    >>> out = io.BytesIO()
-    >>> write_shape_edges(out, alpha_shape([[0, 0], [4, 0], [0, 3]], r=2))
-    >>> out.getvalue().count(b"LineString")
-    2
-    """
+    """Write edges as GeoJSON: LineStrings with labels, length, radii and class."""
     table = shape_edge_table(shape, interior=interior).stored()
     chosen = np.flatnonzero(shape.edge_classes()) if interior else shape.edge_index
     names = [name for name in table if name[:2] not in ("x_", "y_")]
@@ -134,26 +94,7 @@ def write_shape_edges(
 
 
 def write_general(out: BinaryIO, shape: AlphaShape, fmt: str) -> None:
-    r"""Write all of a shape: regions as polygons, singular edges as lines, isolated points.
-
-    Parameters
-    ----------
-    out : binary file object
-        Need not be seekable.
-    shape : AlphaShape
-        What to write.
-    fmt : {"geojson", "wkt"}
-        In GeoJSON each part tells its class, and its region, labels or label.
-
-    Examples
-    --------
-    >>> import io
-    >>> from vorotool import alpha_shape
-    >>> out = io.BytesIO()
-    >>> write_general(out, alpha_shape([[0, 0], [4, 0], [0, 3], [9, 9]], r=2), "wkt")
-    >>> out.getvalue()
-    b'LINESTRING (0 0, 0 3)\nLINESTRING (0 0, 4 0)\nPOINT (9 9)\n'
-    """
+    """Write all of a shape: regions as polygons, singular edges as lines, isolated points."""
     if fmt == "wkt":
         for geometry, _ in _parts(shape):
             out.write(f"{geometry['type'].upper()} {_wkt(geometry)}\n".encode())
@@ -162,24 +103,7 @@ def write_general(out: BinaryIO, shape: AlphaShape, fmt: str) -> None:
 
 
 def write_hull_geojson(out: BinaryIO, hull: AlphaHull) -> None:
-    """Write a hull as GeoJSON: its rings flattened to polygons, and points without extent.
-
-    Parameters
-    ----------
-    out : binary file object
-        Need not be seekable.
-    hull : AlphaHull
-        What to write.
-
-    Examples
-    --------
-    >>> import io
-    >>> from vorotool import alpha_hull, alpha_shape
-    >>> out = io.BytesIO()
-    >>> write_hull_geojson(out, alpha_hull(alpha_shape([[0, 0], [1, 0], [0.5, 0.75**0.5]], r=0.6)))
-    >>> out.getvalue().count(b"Polygon"), out.getvalue().count(b"Point")
-    (1, 3)
-    """
+    """Write a hull as GeoJSON: its rings flattened to polygons, and points without extent."""
     mesh = hull.shape.family.mesh
 
     def parts() -> Iterator[tuple[dict[str, Any], dict[str, Any]]]:

@@ -22,32 +22,7 @@ from vorotool.geometry.table import Computed, Lookup, Table
 
 
 def write_cells(out: BinaryIO, cells: CellSet, fmt: str, *, precision: int | None = None, threads: int = 0) -> None:
-    r"""Write cells; the bytes depend on nothing but the cells, the format and the precision.
-
-    Further columns of the input are kept; where a name is one of ours, ours takes the prefix ``voro_``. An empty cell
-    has no geometry: ``null`` in GeoJSON, an empty field in CSV, ``POLYGON EMPTY`` in WKT, an empty shell in JSON.
-
-    Parameters
-    ----------
-    out : binary file object
-        Need not be seekable; only some cells are in memory as text at a time.
-    cells : CellSet
-        One row, or feature, a cell.
-    fmt : {"geojson", "csv", "tsv", "json", "npz", "wkt"}
-        GeoJSON features have the id of the input, else the label; CSV and TSV have the cell as WKT after label and
-        place of its site; JSON is that of polygons, with the parts of a cell numbered if any has several; NPZ has
-        beside the columns the vertices, where each ring begins among these (``ring_starts``), each polygon among the
-        rings, each cell among the polygons, and the sides of the frame; WKT is one geometry a line, without the
-        columns.
-
-    Examples
-    --------
-    >>> import io, vorotool
-    >>> out = io.BytesIO()
-    >>> write_cells(out, vorotool.voronoi_cells([[1, 1], [3, 1]], frame=(0, 0, 4, 2)), "csv")
-    >>> print(out.getvalue().decode().splitlines()[1])
-    1,1,1,"POLYGON ((0 0, 2 0, 2 2, 0 2, 0 0))"
-    """
+    """Write cells; the bytes depend on nothing but the cells, the format and the precision."""
     if fmt in _WRITERS:
         _WRITERS[fmt](out, cells, precision, threads)
     else:
@@ -56,30 +31,15 @@ def write_cells(out: BinaryIO, cells: CellSet, fmt: str, *, precision: int | Non
 
 @dataclass(frozen=True, eq=False)
 class CellShapes:
-    """Cells as polygons, and what is known of each.
+    """Cells as polygons, and what is known of each."""
 
-    Parameters
-    ----------
-    columns : mapping of str to column
-        Ours, the label first.
-    properties : mapping of str to sequence
-        Those of the input.
-    coordinates : (k, 2) float64 array
-        Vertices, ring after ring, the first of each not repeated.
-    nesting : Nesting
-        Where rings, polygons and cells begin.
-    ids : sequence, optional
-        Names of the features; by default the property ``id``, else labels.
-    crs : object, optional
-        The ``crs`` member of GeoJSON.
-    """
-
-    columns: Mapping[str, Any]
-    properties: Mapping[str, Any]
+    columns: Mapping[str, Any]  # ours, the label first
+    properties: Mapping[str, Any]  # those of the input
+    # (k, 2) float64 array: vertices, ring after ring, the first of each not repeated
     coordinates: NDArray[np.float64]
-    nesting: Nesting
-    ids: Sequence[Any] | None = None
-    crs: Any = None
+    nesting: Nesting  # where rings, polygons and cells begin
+    ids: Sequence[Any] | None = None  # names of the features; by default the property `id`, else labels
+    crs: Any = None  # the `crs` member of GeoJSON
 
     def texts(self, style: str, rows: NDArray[np.int64] | None = None) -> Computed:
         """The column of the cells' polygons, or that of other rows of polygons."""
@@ -103,25 +63,7 @@ class CellShapes:
 
 
 def write_shapes(out: BinaryIO, cells: CellShapes, fmt: str, *, precision: int | None = None, threads: int = 0) -> None:
-    r"""Write cells as GeoJSON, as WKT, or as a table with a column of WKT.
-
-    Parameters
-    ----------
-    out, precision, threads
-        As of `write_cells`.
-    cells : CellShapes
-        One row, or feature, a cell.
-    fmt : {"geojson", "csv", "tsv", "wkt"}
-        The format.
-
-    Examples
-    --------
-    >>> import io, vorotool
-    >>> out = io.BytesIO()
-    >>> write_shapes(out, _shapes_of(vorotool.voronoi_cells([[1, 1], [3, 1]], frame=(0, 0, 4, 2))), "wkt")
-    >>> out.getvalue().splitlines()[1]
-    b'POLYGON ((2 0, 4 0, 4 2, 2 2, 2 0))'
-    """
+    """Write cells as GeoJSON, as WKT, or as a table with a column of WKT."""
     if fmt == "geojson":
         _write_geojson(out, cells, precision, threads)
     elif fmt == "wkt":
@@ -143,15 +85,7 @@ def _shapes_of(cells: CellSet) -> CellShapes:
 def written_cells(
     points: NDArray[np.float64], nesting: Nesting, *, in_box: bool = False
 ) -> tuple[NDArray[np.float64], Nesting]:
-    """Round the vertices of cells to the decimals of the file, where they are a valid coverage.
-
-    Examples
-    --------
-    >>> import vorotool
-    >>> cells = vorotool.voronoi_cells([[1, 1], [3, 1]], frame=(0, 0, 4, 2))
-    >>> written_cells(cells.coordinates, cells.nesting)[0][:2].tolist()
-    [[0.0, 0.0], [2.0, 0.0]]
-    """
+    """Round the vertices of cells to the decimals of the file, where they are a valid coverage."""
     made = written_rings(points, nesting, decimals=current_decimals(), is_coverage=True, in_box=in_box)
     report_emptied(made.emptied, "cell")
     return made.points, made.nesting

@@ -26,33 +26,7 @@ def write_centerlines(
     precision: int | None = None,
     threads: int = 0,
 ) -> None:
-    r"""Write centerlines, skeletons with their ends, or smooth lines; the bytes depend on these and the options alone.
-
-    GeoJSON and WKT have one LineString a polygon, or a branch, in GeoJSON with its id and properties, ``length``,
-    ``width_mean``, ``width_min`` and ``width_max``, or of smooth lines ``curves``, their number, and ``error``; CSV,
-    JSON and NPZ one row an arc (see :func:`vorotool.geometry.skeleton.centerline.centerline_table`) or a curve.
-
-    Parameters
-    ----------
-    out, precision, threads
-        As of `vorotool.formats.text.tables.write_table`.
-    lines : Centerlines, ExtendedSkeleton or SmoothLines
-        What to write.
-    fmt : {"geojson", "csv", "tsv", "json", "npz", "wkt"}
-        The format.
-    flatten : float, optional
-        As of `vorotool.formats.results.skeletons.write_skeleton`.
-
-    Examples
-    --------
-    >>> import io
-    >>> from vorotool import centerline, prune, skeleton_exact
-    >>> lines = centerline(prune(skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]]), angle=100))
-    >>> out = io.BytesIO()
-    >>> write_centerlines(out, lines, "wkt")
-    >>> out.getvalue()
-    b'LINESTRING (0 1, 4 1)\n'
-    """
+    """Write centerlines, skeletons with their ends, or smooth lines; the bytes depend on these alone."""
     if fmt in TABLES:
         write_table(out, _table(lines), fmt, precision=precision, threads=threads)
         return

@@ -19,34 +19,7 @@ def write_discs(
     precision: int | None = None,
     threads: int = 0,
 ) -> None:
-    r"""Write a row or a feature a disc.
-
-    Parameters
-    ----------
-    out, precision, threads
-        As of `vorotool.formats.text.tables.write_table`.
-    discs : Discs
-        What to write, in its order.
-    fmt : {"csv", "tsv", "json", "npz", "geojson", "wkt"}
-        The first four are of tables. GeoJSON and WKT have no circles: these are polygons, in GeoJSON with the id and
-        the properties of the polygon, and ``rank``, ``x``, ``y``, ``r`` and ``feet``.
-    flatten : float, optional
-        How far a chord may be from its circle, in input units; by default 1/2000 of the radius.
-
-    Raises
-    ------
-    UsageError
-        If the tolerance is not positive.
-
-    Examples
-    --------
-    >>> import io
-    >>> from vorotool import largest_discs
-    >>> out = io.BytesIO()
-    >>> write_discs(out, largest_discs([[0, 0], [4, 0], [4, 4], [0, 4]]), "wkt", flatten=1)
-    >>> out.getvalue()
-    b'POLYGON ((4 2, 2 4, 0 2, 2 0, 4 2))\n'
-    """
+    """Write a row or a feature a disc."""
     if fmt in TABLES:
         write_table(out, discs.table(), fmt, precision=precision, threads=threads)
         return

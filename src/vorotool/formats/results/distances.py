@@ -21,28 +21,7 @@ def write_distances(
     precision: int | None = None,
     threads: int = 0,
 ) -> None:
-    r"""Write a row a distance, or the line between its two places.
-
-    Parameters
-    ----------
-    out, precision, threads
-        As of `vorotool.formats.text.tables.write_table`.
-    found : Distances
-        What to write.
-    fmt : {"csv", "tsv", "json", "npz", "geojson", "wkt"}
-        The first four are of tables. GeoJSON has ``what`` and ``distance``.
-    what : {"distances", "hausdorff", "smallest"}
-        All distances, those of Hausdorff, or the smallest one.
-
-    Examples
-    --------
-    >>> import io
-    >>> from vorotool import hausdorff
-    >>> out = io.BytesIO()
-    >>> write_distances(out, hausdorff([[0, 0]], [[3, 4]]), "wkt")
-    >>> out.getvalue().splitlines()[0]
-    b'LINESTRING (0 0, 3 4)'
-    """
+    """Write a row a distance, or the line between its two places."""
     if what == "hausdorff":
         found = replace(found, smallest=None)
     elif what == "smallest":

@@ -34,39 +34,7 @@ def write_graphml(
     precision: int | None = None,
     threads: int = 0,
 ) -> None:
-    """Write a skeleton as an undirected graph in GraphML, with what `to_networkx` gives; geometry is WKT.
-
-    Characters in names and texts that XML cannot hold become U+FFFD.
-
-    Parameters
-    ----------
-    out : binary file object
-        Need not be seekable.
-    skeleton : Skeleton
-        Which.
-    by : {"branch", "arc"}
-        What an edge is; its id is the number of it, and the id of a node that of the vertex.
-    flatten : float, optional
-        How far the geometry may be from parabolas; by default as of
-        `Skeleton.flattened`.
-    precision : int, optional
-        Significant digits of floating-point numbers; by default the shortest that reads back the same.
-    threads : int
-        0 for all.
-
-    Raises
-    ------
-    UsageError
-        If ``by`` is something else, or the tolerance is not positive.
-
-    Examples
-    --------
-    >>> import io, vorotool
-    >>> out = io.BytesIO()
-    >>> write_graphml(out, vorotool.skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]]))
-    >>> out.getvalue().count(b"<node "), out.getvalue().count(b"<edge ")
-    (6, 5)
-    """
+    """Write a skeleton as an undirected graph in GraphML, with what `to_networkx` gives; geometry is WKT."""
     check_precision(precision)
     graph = skeleton_graph(skeleton, by=by, flatten=flatten)
     edges = _EdgeTexts(graph, precision)

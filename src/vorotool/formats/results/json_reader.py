@@ -21,15 +21,7 @@ from vorotool.geometry.skeleton.skeleton import SiteTable
 
 
 class JsonRows:
-    """Lists of objects, whose members are taken out as arrays.
-
-    Parameters
-    ----------
-    name : str
-        The input, which messages begin with.
-    document : mapping
-        As it was parsed.
-    """
+    """Lists of objects, whose members are taken out as arrays."""
 
     def __init__(self, name: str, document: Mapping[str, Any]) -> None:
         self.name, self.document = name, document
@@ -104,13 +96,7 @@ class JsonRows:
 
 
 def opened_rows(source: Source, kind: str, version: int, noun: str) -> JsonRows:
-    """Parse the JSON of one of our results, whose type and version are stated.
-
-    Raises
-    ------
-    InputError
-        If it is no JSON, or states another type or version.
-    """
+    """Parse the JSON of one of our results, whose type and version are stated."""
     document = parse_json(source)
     if not isinstance(document, Mapping) or document.get("type") != kind:
         raise InputError(f'{source.name} holds no {noun}; its type should be "{kind}"')

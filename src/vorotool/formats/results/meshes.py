@@ -36,32 +36,7 @@ def write_mesh(
     precision: int | None = None,
     threads: int = 0,
 ) -> None:
-    r"""Write edges, triangles or points; the bytes depend on nothing but the mesh, the format and the precision.
-
-    Tables (CSV, TSV, JSON, NPZ) and GeoJSON tell the labels of the vertices. The others number the points in the order
-    of the input, duplicates included: NPY from 0, in an array of shape (m, 2) or (m, 3). OBJ holds them. An ``.edge``
-    or ``.ele`` file of Triangle belongs to a ``.node`` file: the one that was read, whose numbering from 0 or 1 is
-    kept, or the one that the table is written as. The marker of an edge or node is 1 on the hull, else 0.
-
-    Parameters
-    ----------
-    out, precision, threads
-        As of `vorotool.formats.text.tables.write_table`.
-    mesh : Triangulation, DigitalTriangulation or ProximityGraph
-        Rows are in the order of its arrays.
-    fmt : {"csv", "tsv", "json", "geojson", "npz", "npy", "edge", "ele", "node", "obj"}
-        Edges are LineStrings in GeoJSON and lines in OBJ, triangles are Polygons and faces.
-    what : {"edges", "triangles", "table"}
-        What to write; the table has one row a point.
-
-    Examples
-    --------
-    >>> import io, vorotool
-    >>> out = io.BytesIO()
-    >>> write_mesh(out, vorotool.delaunay([[0, 0], [4, 0], [0, 3]]), "ele", what="triangles")
-    >>> out.getvalue()
-    b'1 3 0\n1 1 2 3\n'
-    """
+    """Write edges, triangles or points; the bytes depend on nothing but the mesh, the format and the precision."""
     if isinstance(mesh, DigitalTriangulation) and (what == "table" or fmt in ("edge", "ele")):
         raise UsageError(
             f"{what} as {fmt!r} is for triangulations: what a digital tessellation shows need not be one; write its "
@@ -96,21 +71,7 @@ def write_features(
     precision: int | None = None,
     threads: int = 0,
 ) -> None:
-    """Write edges or triangles as GeoJSON, streamed: one feature each, whose id is its number from 1.
-
-    Parameters
-    ----------
-    out, precision, threads
-        As of `vorotool.formats.text.tables.write_table`.
-    columns : mapping of str to column
-        Properties, as in a `Table`.
-    points : (n, 2) float64 array
-        Coordinates.
-    rows : (m, 2) or (m, 3) int32 array
-        Points of each edge, which becomes a LineString, or triangle, which becomes a Polygon.
-    crs : object, optional
-        The ``crs`` member.
-    """
+    """Write edges or triangles as GeoJSON, streamed: one feature each, whose id is its number from 1."""
     x, y = np.ascontiguousarray(points.T)
     ring = [*rows.T, *([rows[:, 0]] if rows.shape[1] == 3 else [])]
     corners = [Column.of_places(values, index) for index in ring for values in (x, y)]

@@ -15,27 +15,7 @@ from vorotool.products.formats import TABLES
 
 
 def write_necks(out: BinaryIO, necks: Necks, fmt: str, *, precision: int | None = None, threads: int = 0) -> None:
-    r"""Write necks: in GeoJSON and WKT the cuts, in tables one row a neck.
-
-    Parameters
-    ----------
-    out, precision, threads
-        As of `vorotool.formats.text.tables.write_table`.
-    necks : Necks
-        What to write, in its order.
-    fmt : {"csv", "tsv", "json", "npz", "geojson", "wkt"}
-        The first four are of tables. GeoJSON has the id and the properties of the polygon, ``width``, ``ratio``,
-        ``r_smaller`` and ``r_larger``.
-
-    Examples
-    --------
-    >>> import io
-    >>> from vorotool import necks
-    >>> out = io.BytesIO()
-    >>> write_necks(out, necks([[0, 0], [10, 0], [10, 4], [6, 2], [0, 4]]), "wkt")
-    >>> out.getvalue()
-    b'LINESTRING (6 0, 6 2)\n'
-    """
+    """Write necks: in GeoJSON and WKT the cuts, in tables one row a neck."""
     if fmt in TABLES:
         write_table(out, necks.table(), fmt, precision=precision, threads=threads)
         return
@@ -51,27 +31,7 @@ def write_necks(out: BinaryIO, necks: Necks, fmt: str, *, precision: int | None 
 
 
 def write_parts(out: BinaryIO, parts: Parts, fmt: str, *, precision: int | None = None, threads: int = 0) -> None:
-    r"""Write the parts of polygons, in tables one row a piece.
-
-    Parameters
-    ----------
-    out, precision, threads
-        As of `vorotool.formats.text.tables.write_table`.
-    parts : Parts
-        What to write, in its order.
-    fmt : {"csv", "tsv", "npz", "geojson", "json", "wkt", "poly"}
-        The first three are of tables. GeoJSON and JSON have the id and the properties of the polygon, ``piece``,
-        ``polygon``, ``area``, ``width``, ``cuts`` and ``neighbours``.
-
-    Examples
-    --------
-    >>> import io
-    >>> from vorotool import parts
-    >>> out = io.BytesIO()
-    >>> write_parts(out, parts([[0, 0], [10, 0], [10, 4], [6, 2], [0, 4]], neck=1), "wkt")
-    >>> out.getvalue().splitlines()[1]
-    b'POLYGON ((6 0, 10 0, 10 4, 6 2, 6 0))'
-    """
+    """Write the parts of polygons, in tables one row a piece."""
     if fmt in ("csv", "tsv", "npz"):
         write_table(out, parts.table(), fmt, precision=precision, threads=threads)
     else:

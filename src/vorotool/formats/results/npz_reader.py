@@ -33,25 +33,13 @@ Arrays = Mapping[str, NDArray[Any]]
 
 
 def read_skeleton(source: Source, options: ReadOptions) -> Skeleton:
-    """Read a skeleton; ids, properties and the coordinate reference system of its polygons are in its JSON alone.
-
-    Raises
-    ------
-    InputError
-        If an array is missing, or of another length, or an index or a number is none; it is named.
-    """
+    """Read a skeleton; ids, properties and the coordinate reference system of its polygons are in its JSON alone."""
     document = _skeleton(source.name, npz_columns(source, options))
     return read_skeleton_json(Source(source.name, b"", "json", document), options)
 
 
 def read_polygons(source: Source, options: ReadOptions) -> PolygonSet:
-    """Read the polygons of cells, or those that a skeleton is of.
-
-    Raises
-    ------
-    InputError
-        If it holds neither, or its arrays do not go together.
-    """
+    """Read the polygons of cells, or those that a skeleton is of."""
     holds = npz_holds(source.data)
     if holds == "points":
         raise InputError(

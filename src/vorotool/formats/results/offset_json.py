@@ -31,10 +31,7 @@ VERSION = 1
 
 # ---- writing -------------------------------------------------------------------------------------
 def write_json(out: BinaryIO, offsets: Offsets, *, precision: int | None = None, threads: int = 0) -> None:
-    """Polygons, sites, shapes, rings and pieces, one object a line of text; all indices are 0-based.
-
-    The rings of a shape begin with the ring ``first``, its shell; the pieces of a ring with the piece ``first``.
-    """
+    """Polygons, sites, shapes, rings and pieces, one object a line of text; all indices are 0-based."""
     polygons, step = as_written(offsets.polygons)
     head: dict[str, Any] = {"type": TYPE, "version": VERSION}
     if polygons.y_up:
@@ -81,28 +78,7 @@ def write_json(out: BinaryIO, offsets: Offsets, *, precision: int | None = None,
 
 # ---- reading -------------------------------------------------------------------------------------
 def read_offsets(source: Source, options: ReadOptions) -> Offsets:
-    """Read offset curves that were written as JSON.
-
-    Parameters
-    ----------
-    source, options
-        As of :func:`vorotool.formats.results.skeleton_json.read_skeleton`.
-
-    Raises
-    ------
-    InputError
-        If it is no such JSON, or an index or a number is none; its place is named.
-    LimitError
-        If the polygons have too many vertices.
-
-    Examples
-    --------
-    >>> import io, vorotool
-    >>> out = io.BytesIO()
-    >>> write_json(out, vorotool.offset([[0, 0], [4, 0], [4, 4], [0, 4]], [-1, 1]))
-    >>> read_offsets(Source("offsets.json", out.getvalue()), ReadOptions()).distance.tolist()
-    [-1.0, 1.0]
-    """
+    """Read offset curves that were written as JSON."""
     rows = opened_rows(source, TYPE, VERSION, "offset curves")
     polygons = as_read(read_polygons_of(rows, options), rows.document)
     sites = read_sites(rows, polygons)

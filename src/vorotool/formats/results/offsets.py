@@ -21,36 +21,7 @@ def write_offsets(
     precision: int | None = None,
     threads: int = 0,
 ) -> None:
-    r"""Write offset curves; the bytes depend on nothing but these and the options.
-
-    JSON (version 1) and NPZ hold all there is, CSV one row a piece. GeoJSON and WKT have no arcs: shapes are polygons,
-    those of one polygon at one distance one feature, in GeoJSON with its id, its properties and ``distance``.
-
-    Parameters
-    ----------
-    out, precision, threads
-        As of `vorotool.formats.text.tables.write_table`.
-    offsets : Offsets
-        What to write, in its order.
-    fmt : {"json", "csv", "tsv", "geojson", "npz", "wkt"}
-        The format.
-    flatten : float, optional
-        How far a chord may be from its arc, in input units; by default 1/2000 of the radius.
-
-    Raises
-    ------
-    UsageError
-        If the tolerance is not positive.
-
-    Examples
-    --------
-    >>> import io
-    >>> from vorotool import offset
-    >>> out = io.BytesIO()
-    >>> write_offsets(out, offset([[0, 0], [4, 0], [4, 4], [0, 4]], -1), "wkt")
-    >>> out.getvalue()
-    b'POLYGON ((1 1, 3 1, 3 3, 1 3, 1 1))\n'
-    """
+    """Write offset curves; the bytes depend on nothing but these and the options."""
     if fmt in ("csv", "tsv"):
         write_table(out, offsets.table(), fmt, precision=precision, threads=threads)
     elif fmt == "json":
@@ -62,14 +33,7 @@ def write_offsets(
 
 
 def offset_arrays(offsets: Offsets) -> dict[str, NDArray[Any]]:
-    """1-D arrays of pieces, rings and shapes; no polygon is -1, the centre of a line NaN.
-
-    Examples
-    --------
-    >>> from vorotool import offset
-    >>> offset_arrays(offset([[0, 0], [4, 0], [4, 4], [0, 4]], -1))["piece_x0"].tolist()
-    [1.0, 3.0, 3.0, 1.0]
-    """
+    """1-D arrays of pieces, rings and shapes; no polygon is -1, the centre of a line NaN."""
     places = {"x0": offsets.start, "x1": offsets.end, "cx": offsets.centre}
     return {
         **{f"piece_{name}": values[:, 0] for name, values in places.items()},

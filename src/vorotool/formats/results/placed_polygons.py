@@ -16,11 +16,7 @@ LATTICE_STEP = "lattice_step"
 
 
 def as_written(polygons: PolygonSet) -> tuple[PolygonSet, float]:
-    """Return polygons as they were given, and the step of their lattice, 0 for none.
-
-    Where the lattice is not that of the polygons as they were given, or what is on it was scaled, they are returned as
-    they are: who reads them could not tell.
-    """
+    """Return polygons as they were given, and the step of their lattice, 0 for none."""
     given = polygons.as_given
     if given is polygons:
         return polygons, 0.0

@@ -26,30 +26,7 @@ def write_skeleton_points(
     precision: int | None = None,
     threads: int = 0,
 ) -> None:
-    r"""Write a row or a feature a point, or a transect: the segment between its two feet, none in a corner.
-
-    Parameters
-    ----------
-    out, precision, threads
-        As of `vorotool.formats.text.tables.write_table`.
-    points : SkeletonPoints
-        What to write, in its order.
-    fmt : {"csv", "tsv", "json", "npz", "npy", "geojson", "wkt"}
-        The first four are of tables, NPY has the places of points. GeoJSON has the id and the properties of the
-        polygon, and ``branch``, ``along``, ``r`` and ``width``; along centerlines ``ring_a`` and ``ring_b``, too.
-    what : {"points", "transects"}
-        What to write.
-
-    Examples
-    --------
-    >>> import io
-    >>> from vorotool import points_along, skeleton_exact
-    >>> points = points_along(skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]]), every=2)
-    >>> out = io.BytesIO()
-    >>> write_skeleton_points(out, points, "wkt", what="transects")
-    >>> out.getvalue().splitlines()[-1]
-    b'LINESTRING (3 2, 3 0)'
-    """
+    """Write a row or a feature a point, or a transect: the segment between its two feet, none in a corner."""
     points = (points.transects() if what == "transects" else points).as_given
     if fmt == "npy":
         write_array(out, points.xy)

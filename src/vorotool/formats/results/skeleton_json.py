@@ -38,12 +38,7 @@ VERSION = 1
 
 # ---- writing -------------------------------------------------------------------------------------
 def write_json(out: BinaryIO, skeleton: Skeleton, *, precision: int | None = None, threads: int = 0) -> None:
-    """Write polygons, sites, vertices and arcs, one object a line of text; all indices are 0-based.
-
-    Beside what the format must have, arcs tell ``polygon`` (null outside), ``branch`` and ``length``, and the object
-    ``frame``, ``gap``, ``y_up``, ``crs`` and ``connectivity`` where there are such, and ``features`` where they are
-    together, and ``border`` where it is open.
-    """
+    """Write polygons, sites, vertices and arcs, one object a line of text; all indices are 0-based."""
     polygons, step = as_written(skeleton.polygons)
     head: dict[str, Any] = {"type": TYPE, "version": VERSION}
     if skeleton.frame is not None:
@@ -101,30 +96,7 @@ def _write_arcs(out: BinaryIO, skeleton: Skeleton, precision: int | None, thread
 
 # ---- reading -------------------------------------------------------------------------------------
 def read_skeleton(source: Source, options: ReadOptions) -> Skeleton:
-    """Read a skeleton that was written as JSON.
-
-    Parameters
-    ----------
-    source : Source
-        What was read.
-    options : ReadOptions
-        Of which ``properties``, ``max_sites`` and ``note`` count.
-
-    Raises
-    ------
-    InputError
-        If it is no such JSON, or an index or a number is none; its place is named.
-    LimitError
-        If the polygons have too many vertices.
-
-    Examples
-    --------
-    >>> import io, vorotool
-    >>> out = io.BytesIO()
-    >>> write_json(out, vorotool.skeleton_exact([[0, 0], [4, 0], [4, 4], [0, 4]]))
-    >>> len(read_skeleton(Source("square.json", out.getvalue()), ReadOptions()))
-    4
-    """
+    """Read a skeleton that was written as JSON."""
     rows = opened_rows(source, TYPE, VERSION, "skeleton")
     polygons = as_read(read_polygons_of(rows, options), rows.document)
     sites = read_sites(rows, polygons)

@@ -31,34 +31,7 @@ def write_skeleton(
     precision: int | None = None,
     threads: int = 0,
 ) -> None:
-    r"""Write a skeleton, its branches or a row a polygon; the bytes depend on nothing but the skeleton and the options.
-
-    JSON (version 1) and NPZ hold all there is, CSV and TSV one row an arc. GeoJSON and WKT have no curves: each branch
-    is a LineString, in GeoJSON with the id and the properties of its polygon.
-
-    Parameters
-    ----------
-    out, precision, threads
-        As of `vorotool.formats.text.tables.write_table`.
-    skeleton : Skeleton
-        What to write, in its order; one with its ends, or smooth lines, as of
-        `vorotool.formats.results.centerlines.write_centerlines`.
-    fmt : {"json", "csv", "tsv", "geojson", "npz", "wkt"}
-        The format; parts are written as CSV, JSON or NPZ.
-    what : {"skeleton", "diagram", "elements", "branches", "table"}
-        What to write.
-    flatten : float, optional
-        How far a polyline may be from its parabola, in input units; by default as of
-        `Skeleton.flattened`.
-
-    Examples
-    --------
-    >>> import io, vorotool
-    >>> out = io.BytesIO()
-    >>> write_skeleton(out, vorotool.skeleton_exact([[0, 0], [4, 0], [4, 4], [0, 4]]), "wkt")
-    >>> out.getvalue().splitlines()[0]
-    b'LINESTRING (0 0, 2 2)'
-    """
+    """Write a skeleton, its branches or a row a polygon; the bytes depend on these alone."""
     if not isinstance(skeleton, Skeleton):
         write_centerlines(out, skeleton, fmt, flatten=flatten, precision=precision, threads=threads)
     elif fmt in TABLES and what not in ("skeleton", "diagram"):
@@ -84,14 +57,7 @@ def _table(skeleton: Skeleton, what: str, threads: int) -> Table:
 
 
 def skeleton_arrays(skeleton: Skeleton) -> dict[str, NDArray[Any]]:
-    """1-D arrays of all that a skeleton holds, as in its JSON; no polygon, side or source is -1.
-
-    Examples
-    --------
-    >>> import vorotool
-    >>> skeleton_arrays(vorotool.skeleton_exact([[0, 0], [4, 0], [4, 4], [0, 4]]))["arc_target"].tolist()
-    [1, 1, 1, 1]
-    """
+    """1-D arrays of all that a skeleton holds, as in its JSON; no polygon, side or source is -1."""
     table, (polygons, step) = skeleton.site_table, as_written(skeleton.polygons)
     vertices = (skeleton.as_given if step else skeleton).vertices
     frame = () if skeleton.frame is None else skeleton.frame

@@ -14,16 +14,7 @@ ROWS = 256
 
 
 def write_thickness(out: BinaryIO, image: ThicknessImage, fmt: Literal["tiff", "npy"], *, threads: int = 0) -> None:
-    """Write each thickness as a float of 32 bits.
-
-    Examples
-    --------
-    >>> import io
-    >>> out = io.BytesIO()
-    >>> write_thickness(out, ThicknessImage(np.ones((2, 3))), "npy")
-    >>> np.load(io.BytesIO(out.getvalue())).dtype
-    dtype('float32')
-    """
+    """Write each thickness as a float of 32 bits."""
     values = image.values
     write_label_image(
         out,

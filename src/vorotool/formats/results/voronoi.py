@@ -34,35 +34,7 @@ def write_voronoi(
     precision: int | None = None,
     threads: int = 0,
 ) -> None:
-    r"""Write the cells of a Voronoi map, its borders, or a row a cell or a pair of neighbours.
-
-    Cells as JSON (version 1) and NPZ are all that the map holds, with its curves. As GeoJSON, WKT and in columns of WKT
-    they are polygons, in which neighbours share each vertex: one a site, in order, with the label, area and perimeter
-    (those with the true curves), the id and the columns of the site; an empty cell has no geometry. Borders as GeoJSON
-    and WKT are one line a piece.
-
-    Parameters
-    ----------
-    out, precision, threads
-        As of `vorotool.formats.text.tables.write_table`.
-    cells : VoronoiMap
-        What to write, in its order.
-    fmt : {"geojson", "csv", "tsv", "json", "npz", "wkt"}
-        The format; tables of neighbours and cells are written as CSV, TSV, JSON and NPZ.
-    what : {"cells", "edges", "neighbours", "table"}
-        What to write.
-    flatten : float, optional
-        How far lines may be from curves, in input units; by default each has its own tolerance:
-        see `vorotool.geometry.voronoi.shapes.flattened_arcs`.
-
-    Examples
-    --------
-    >>> import io, vorotool
-    >>> out = io.BytesIO()
-    >>> write_voronoi(out, vorotool.voronoi([[1, 1], [3, 1]], frame=(0, 0, 4, 2)), "wkt")
-    >>> out.getvalue().splitlines()[0]
-    b'POLYGON ((0 0, 2 0, 2 2, 0 2, 0 0))'
-    """
+    """Write the cells of a Voronoi map, its borders, or a row a cell or a pair of neighbours."""
     if what != "cells" and fmt in TABLES:
         write_table(out, _TABLES[what](cells), fmt, precision=precision, threads=threads)
     elif what != "cells":

@@ -16,13 +16,7 @@ from vorotool.geometry.voronoi.voronoi_map import OUTSIDE, VoronoiMap
 
 
 def pairs_of_sites(rows: JsonRows, arcs: list[Any], count: int) -> NDArray[np.int32]:
-    """Read the sites left and right of each arc; null is `OUTSIDE`.
-
-    Raises
-    ------
-    InputError
-        If one is no site.
-    """
+    """Read the sites left and right of each arc; null is `OUTSIDE`."""
 
     def is_right(value: Any) -> bool:
         return type(value) is list and len(value) == 2 and all(v is None or _is_index(v, count) for v in value)
@@ -50,20 +44,7 @@ def naming_values(name: str) -> Iterator[None]:
 
 
 def check_map(name: str, cells: VoronoiMap) -> None:
-    """Check that arcs lead from lower to higher vertices, and that rings are closed and pass each side of an arc once.
-
-    Parameters
-    ----------
-    name : str
-        The input, which messages begin with.
-    cells : VoronoiMap
-        Whose indices are within their ranges but those of `ring_arcs`.
-
-    Raises
-    ------
-    InputError
-        Naming the first fault.
-    """
+    """Check that arcs lead from lower to higher vertices, and that rings are closed and pass each side once."""
     low, high = cells.arcs.T
     _refuse(name, "arcs", low >= high, lambda at: f"it is from vertex {low[at]} to {high[at]}; write the smaller first")
     signed = cells.ring_arcs.astype(np.int64)

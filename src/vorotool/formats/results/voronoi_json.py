@@ -33,13 +33,7 @@ _CUTS = ("clip", "enclosures")
 
 # ---- writing -------------------------------------------------------------------------------------
 def write_json(out: BinaryIO, cells: VoronoiMap, *, precision: int | None = None, threads: int = 0) -> None:
-    """Write polygons, sites, vertices, arcs and cells, one object a line of text; all indices are 0-based.
-
-    Each polygon tells the ``site`` that it is a part of and its ``feature``. Rings of cells list their arcs, counted
-    from 1, below 0 against their direction; ``shells`` are those of the rings that are no holes, which follow their
-    shell. The object tells ``max_distance``, ``clip``, ``enclosures``, ``y_up``, ``crs``, ``unit`` and ``connectivity``
-    where there are such.
-    """
+    """Write polygons, sites, vertices, arcs and cells, one object a line of text; all indices are 0-based."""
     polygons = cells.polygons
     head = {"type": TYPE, "version": VERSION, "frame": list(cells.frame), **described(cells)}
     out.write(json_text(head).removesuffix("}").encode() + b",\n")
@@ -57,14 +51,7 @@ def write_json(out: BinaryIO, cells: VoronoiMap, *, precision: int | None = None
 
 
 def described(cells: VoronoiMap) -> dict[str, Any]:
-    """Give what is known of a map as a whole beside its frame, for JSON.
-
-    Examples
-    --------
-    >>> from vorotool import voronoi
-    >>> described(voronoi(["POINT (0 0)"]))
-    {'y_up': True}
-    """
+    """Give what is known of a map as a whole beside its frame, for JSON."""
     made: dict[str, Any] = {} if cells.max_distance is None else {"max_distance": cells.max_distance}
     made |= {name: _document(getattr(cells, name)) for name in _CUTS if getattr(cells, name) is not None}
     return made | _placed(cells.polygons)
@@ -95,13 +82,7 @@ def _write_sites(out: BinaryIO, cells: VoronoiMap, threads: int) -> None:
 
 
 def described_rows(count: int, ids: Sequence[Any] | None, properties: Mapping[str, Sequence[Any]]) -> list[Any]:
-    """Give id and properties of each site or polygon as an object of JSON, as far as there are any.
-
-    Examples
-    --------
-    >>> described_rows(2, [7, None], {"a": [1, 2]})
-    [{'id': 7, 'properties': {'a': 1}}, {'id': None, 'properties': {'a': 2}}]
-    """
+    """Give id and properties of each site or polygon as an object of JSON, as far as there are any."""
     made: list[dict[str, Any]] = [{} for _ in range(count)] if ids is None else [{"id": value} for value in ids]
     if properties:
         columns = {name: list(values) for name, values in properties.items()}
@@ -155,31 +136,7 @@ def _write_cells(out: BinaryIO, cells: VoronoiMap, threads: int) -> None:
 
 # ---- reading -------------------------------------------------------------------------------------
 def read_voronoi(source: Source, options: ReadOptions) -> VoronoiMap:
-    """Read a Voronoi map that was written as JSON.
-
-    Parameters
-    ----------
-    source : Source
-        What was read.
-    options : ReadOptions
-        Of which ``properties``, ``max_sites`` and ``note`` count.
-
-    Raises
-    ------
-    InputError
-        If it is no such JSON, an index or a number is none, or rings are not closed; its place is named.
-    LimitError
-        If the polygons have too many vertices.
-
-    Examples
-    --------
-    >>> import io, vorotool
-    >>> out = io.BytesIO()
-    >>> cells = vorotool.voronoi([[1, 1], [3, 1]], frame=(0, 0, 4, 2))
-    >>> write_json(out, cells)
-    >>> read_voronoi(Source("cells.json", out.getvalue()), ReadOptions()) == cells
-    True
-    """
+    """Read a Voronoi map that was written as JSON."""
     rows = opened_rows(source, TYPE, VERSION, "Voronoi map")
     with naming_values(rows.name):
         made = _map(rows, options)
@@ -212,25 +169,12 @@ def _map(rows: JsonRows, options: ReadOptions) -> VoronoiMap:
 
 
 def read_sites(source: Source, options: ReadOptions) -> Sites:
-    """Read the sites of a Voronoi map that was written as JSON.
-
-    Raises
-    ------
-    InputError, LimitError
-        As of `read_voronoi`.
-    """
+    """Read the sites of a Voronoi map that was written as JSON."""
     return sites_of_map(read_voronoi(source, replace(options, note=no_note)))
 
 
 def sites_of_map(cells: VoronoiMap) -> Sites:
-    """Give the sites that a map was made of.
-
-    Examples
-    --------
-    >>> from vorotool import voronoi
-    >>> sites_of_map(voronoi([[0, 0], [1, 1]], by=["a", "b"])).ids
-    ['a', 'b']
-    """
+    """Give the sites that a map was made of."""
     ids = None if cells.ids is None else list(cells.ids)
     return Sites(cells.polygons, cells.polygon_site, len(cells), ids, cells.properties)
 
@@ -254,13 +198,7 @@ def read_unit(name: str, document: Mapping[str, Any]) -> str | None:
 
 
 def check_described(rows: JsonRows, member: str, items: list[Any]) -> None:
-    """Refuse properties that are no objects.
-
-    Raises
-    ------
-    InputError
-        Naming the first.
-    """
+    """Refuse properties that are no objects."""
 
     def is_right(value: Any) -> bool:
         return isinstance(value, dict | None)
@@ -270,13 +208,7 @@ def check_described(rows: JsonRows, member: str, items: list[Any]) -> None:
 
 
 def named_rows(rows: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
-    """Give ids and properties as columns; see `described_rows`.
-
-    Examples
-    --------
-    >>> named_rows([{"id": 7, "properties": {"a": 1}}, {"properties": {"a": 2}}])
-    {'ids': [7, None], 'properties': {'a': [1, 2]}}
-    """
+    """Give ids and properties as columns; see `described_rows`."""
     ids = [row.get("id") for row in rows] if any("id" in row for row in rows) else None
     own = [row.get("properties") or {} for row in rows]
     names = dict.fromkeys(name for each in own for name in each)

@@ -46,17 +46,7 @@ def write_npz(out: BinaryIO, cells: VoronoiMap, *, threads: int = 0) -> None:
 
 
 def voronoi_arrays(cells: VoronoiMap) -> dict[str, NDArray[Any]]:
-    """1-D arrays of all that a map holds; what belongs to no cell is -1, and ``about`` the UTF-8 of JSON.
-
-    That tells type and version, ``sites`` and ``polygons`` with their ids and properties, and what its JSON (version 1)
-    tells of the map as a whole beside the frame.
-
-    Examples
-    --------
-    >>> from vorotool import voronoi
-    >>> voronoi_arrays(voronoi([[1, 1], [3, 1]], frame=(0, 0, 4, 2)))["cell_start"].tolist()
-    [0, 1, 2]
-    """
+    """1-D arrays of all that a map holds; what belongs to no cell is -1, and ``about`` the UTF-8 of JSON."""
     polygons = cells.polygons
     about: dict[str, Any] = {"type": TYPE, "version": VERSION, **described(cells)}
     about["sites"] = described_rows(len(cells), cells.ids, cells.properties)
@@ -90,22 +80,7 @@ def voronoi_arrays(cells: VoronoiMap) -> dict[str, NDArray[Any]]:
 
 
 def read_voronoi(source: Source, options: ReadOptions) -> VoronoiMap:
-    """Read a Voronoi map that was written as NPZ.
-
-    Raises
-    ------
-    InputError
-        If an array is missing, or of another length, or an index or a number is none, or rings are not closed.
-
-    Examples
-    --------
-    >>> import io, vorotool
-    >>> out = io.BytesIO()
-    >>> cells = vorotool.voronoi([[1, 1], [3, 1]], frame=(0, 0, 4, 2))
-    >>> write_npz(out, cells)
-    >>> read_voronoi(Source("cells.npz", out.getvalue()), ReadOptions()) == cells
-    True
-    """
+    """Read a Voronoi map that was written as NPZ."""
     held = _Held(source.name, npz_columns(source, options))
     about = opened_rows(Source(f"{source.name}, about", held.bytes("about"), "json"), TYPE, VERSION, "Voronoi map")
     sites = about.list_of("sites")

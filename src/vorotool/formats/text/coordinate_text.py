@@ -4,11 +4,5 @@ from __future__ import annotations
 
 
 def coordinate_text(value: float) -> str:
-    """Return the text of a coordinate.
-
-    Examples
-    --------
-    >>> coordinate_text(2.0), coordinate_text(0.1)
-    ('2', '0.1')
-    """
+    """Return the text of a coordinate."""
     return repr(value).removesuffix(".0")

@@ -10,13 +10,7 @@ from vorotool.formats.text.tables import json_text
 
 
 def collection_opening(crs: Any) -> bytes:
-    """The text before the features of a collection, whose ``crs`` member may be None.
-
-    Examples
-    --------
-    >>> collection_opening(None)
-    b'{"type":"FeatureCollection","features":['
-    """
+    """The text before the features of a collection, whose ``crs`` member may be None."""
     member = "" if crs is None else f'"crs":{json_text(crs)},'
     return f'{{"type":"FeatureCollection",{member}"features":['.encode()
 
@@ -30,25 +24,7 @@ def write_collection(
     precision: int | None = None,
     threads: int = 0,
 ) -> None:
-    r"""Write a collection, streamed: one feature a row.
-
-    Parameters
-    ----------
-    out : binary file object
-        Need not be seekable.
-    columns, shape, precision, threads
-        As of `vorotool.formats.text.row_writer.write_rows`.
-    crs : object, optional
-        The ``crs`` member.
-
-    Examples
-    --------
-    >>> import io
-    >>> out = io.BytesIO()
-    >>> write_collection(out, [Column.of("id", [7])], RowShape(('{"type":"Feature","id":', "}"), ",\n"))
-    >>> out.getvalue()
-    b'{"type":"FeatureCollection","features":[\n{"type":"Feature","id":7}\n]}\n'
-    """
+    """Write a collection, streamed: one feature a row."""
     out.write(collection_opening(crs))
     write_list_rows(out, columns, shape, precision=precision, threads=threads)
     out.write(b"]}\n")

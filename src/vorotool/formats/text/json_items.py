@@ -7,11 +7,7 @@ from typing import Any, Self
 
 
 class JsonItems:
-    """A file that takes a list in JSON or a collection in GeoJSON, and passes its items on, some at a time.
-
-    JSON has no line break within a string, and our lists have them in three places: after the opening, after the comma
-    behind each item, and before the closing and behind it.
-    """
+    """A file that takes a list in JSON or a collection in GeoJSON, and passes its items on, some at a time."""
 
     def __init__(self) -> None:
         self._begun: list[bytes] = []  # the parts of a line that has no end yet

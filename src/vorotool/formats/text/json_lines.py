@@ -11,27 +11,7 @@ _FEATURE = b'{"type":"Feature",'
 
 
 class JsonLines(JsonItems):
-    r"""A file that takes a list in JSON or a collection in GeoJSON, and passes its items on, one a line.
-
-    A ``crs`` member of the collection goes to each feature, which stands for itself then.
-
-    Parameters
-    ----------
-    out : binary file object
-        Need not be seekable; some items are in memory at a time.
-    what, path : str, optional
-        The result and the output, which say nothing here.
-
-    Examples
-    --------
-    >>> import io
-    >>> out = io.BytesIO()
-    >>> lines = JsonLines(out)
-    >>> for part in (b'[\n{"a":1', b'},\n{"a":2}\n', b"]\n"):
-    ...     _ = lines.write(part)
-    >>> out.getvalue()
-    b'{"a":1}\n{"a":2}\n'
-    """
+    """A file that takes a list in JSON or a collection in GeoJSON, and passes its items on, one a line."""
 
     def __init__(self, out: BinaryIO, what: str = "", path: str = "") -> None:
         super().__init__()

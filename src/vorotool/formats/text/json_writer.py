@@ -24,31 +24,7 @@ def write_list(
     precision: int | None = None,
     threads: int = 0,
 ) -> None:
-    r"""Write a comma and a member of an object that is a list.
-
-    Parameters
-    ----------
-    out : binary file object
-        Need not be seekable.
-    name : str
-        Of the member.
-    columns : sequence of Column
-        Fields of the objects; nothing stands for what is missing.
-    around : tuple of str
-        The text around the fields, one more than there are.
-    precision : int, optional
-        Significant digits; by default the shortest that reads back the same.
-    threads : int
-        0 for all.
-
-    Examples
-    --------
-    >>> import io
-    >>> out = io.BytesIO()
-    >>> write_list(out, "pairs", [integers(np.array([1, 2]))], ('{"a":', "}"))
-    >>> out.getvalue()
-    b',\n"pairs":[\n{"a":1},\n{"a":2}\n]'
-    """
+    """Write a comma and a member of an object that is a list."""
     out.write(f',\n"{name}":['.encode())
     write_list_rows(out, columns, RowShape(around, ",\n", ""), precision=precision, threads=threads)
     out.write(b"]")

@@ -108,13 +108,7 @@ class TypedOutput(Protocol):
 
 
 def check_precision(precision: int | None) -> int:
-    """Return the number of significant digits, 0 for the shortest text that reads back the same.
-
-    Raises
-    ------
-    UsageError
-        If it is not from 1 to 17.
-    """
+    """Return the number of significant digits, 0 for the shortest text that reads back the same."""
     name = option("--precision")
     if precision is not None and not 1 <= whole_number(precision, name) <= MOST_DIGITS:
         raise UsageError(
@@ -132,31 +126,7 @@ def write_rows(
     precision: int | None = None,
     threads: int = 0,
 ) -> None:
-    r"""Write the text of rows; the bytes do not depend on the number of threads.
-
-    Parameters
-    ----------
-    out : binary file object
-        Need not be seekable; only some slices of text are in memory at a time, and one text a value of lookups.
-    columns : sequence of Column
-        Of one length. Lists hold str.
-    shape : RowShape, optional
-        By default rows of CSV.
-    by_tabs : bool
-        Without a shape: rows of TSV.
-    precision : int, optional
-        Significant digits of floating-point numbers; by default the shortest that reads back the same.
-    threads : int
-        0 for all.
-
-    Examples
-    --------
-    >>> import io
-    >>> out = io.BytesIO()
-    >>> write_rows(out, [Column.of("a", [1, 2]), Column.of("b", [0.5, 3.0])], RowShape(("l ", " ", "\n")))
-    >>> out.getvalue()
-    b'l 1 0.5\nl 2 3\n'
-    """
+    """Write the text of rows; the bytes do not depend on the number of threads."""
     if not columns:
         return
     digits = check_precision(precision)
@@ -181,16 +151,7 @@ def write_rows(
 def write_list_rows(
     out: BinaryIO, columns: Sequence[Column], shape: RowShape, *, precision: int | None = None, threads: int = 0
 ) -> None:
-    r"""Write the rows of a list between its brackets: on lines of their own, if there are any; see `write_rows`.
-
-    Examples
-    --------
-    >>> import io
-    >>> out = io.BytesIO()
-    >>> write_list_rows(out, [Column.of("a", [1, 2])], RowShape(("", ""), ",\n"))
-    >>> out.getvalue()
-    b'\n1,\n2\n'
-    """
+    """Write the rows of a list between its brackets: on lines of their own, if there are any; see `write_rows`."""
     if isinstance(out, TypedOutput):
         out.announce(columns)
     if columns and len(columns[0].values):

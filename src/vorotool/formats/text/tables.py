@@ -24,38 +24,7 @@ _SLICE_VALUES = 1 << 16  # numbers of an array that are gathered and written at 
 
 
 def write_table(out: BinaryIO, table: Table, fmt: str, *, precision: int | None = None, threads: int = 0) -> None:
-    r"""Write a table; the bytes depend on nothing but the table, the format and the precision.
-
-    What does not exist (masked, ``None``, or a number that is not finite) is an empty field in CSV and TSV,
-    ``null`` in JSON, and marked in a further array ``<name>_missing`` in NPZ. Truth values are 0 and 1 in CSV and TSV.
-
-    Parameters
-    ----------
-    out : binary file object
-        Need not be seekable.
-    table : Table
-        Columns of numbers, truth values, text, or mixed objects.
-    fmt : {"csv", "tsv", "json", "npz"}
-        CSV and TSV always have a header; JSON is a list of one object a row; NPZ has one array a column.
-    precision : int, optional
-        Significant digits of floating-point numbers in text, but of coordinates; by default the shortest that reads
-        back the same.
-    threads : int
-        Threads for text; 0 for all.
-
-    Raises
-    ------
-    UsageError
-        If ``precision`` is not from 1 to 17.
-
-    Examples
-    --------
-    >>> import io
-    >>> out = io.BytesIO()
-    >>> write_table(out, Table({"label": [1, 2], "x": np.ma.array([0.5, 0], mask=[False, True])}), "csv")
-    >>> out.getvalue()
-    b'label,x\n1,0.5\n2,\n'
-    """
+    """Write a table; the bytes depend on nothing but the table, the format and the precision."""
     check_precision(precision)
     columns = [_placed(Column.of(name, values)) for name, values in _with_unit(table).items()]
     if fmt in ("csv", "tsv"):
@@ -89,10 +58,7 @@ _UNIT: ContextVar[str | None] = ContextVar("unit", default=None)
 
 @contextmanager
 def unit_column(unit: str | None) -> Iterator[None]:
-    """Give tables that are written within a last column ``unit``; with None they have none.
-
-    Where the input brings a column of this name, ours is ``voro_unit``.
-    """
+    """Give tables that are written within a last column ``unit``; with None they have none."""
     token = _UNIT.set(unit)
     try:
         yield
@@ -125,13 +91,7 @@ def safe_texts(is_wanted: bool = True) -> Iterator[None]:
 
 
 def safe_text(text: str) -> str:
-    """Put an apostrophe before a text that begins with =, +, -, @, a tab or a carriage return and is no number.
-
-    Examples
-    --------
-    >>> safe_text("=1+1"), safe_text("-2.5"), safe_text("a=b")
-    ("'=1+1", '-2.5', 'a=b')
-    """
+    """Put an apostrophe before a text that begins with =, +, -, @, a tab or a carriage return and is no number."""
     return f"'{text}" if _FORMULA.match(text) and not _NUMBER.fullmatch(text) else text
 
 
@@ -198,13 +158,7 @@ def json_column(column: Column, precision: int | None = None) -> Column:
 
 
 def json_text(value: Any) -> str:
-    """JSON of anything; what JSON does not know becomes text.
-
-    Examples
-    --------
-    >>> json_text({"a": NumberText("3.50"), "b": {1, 1}})
-    '{"a":3.50,"b":"{1}"}'
-    """
+    """JSON of anything; what JSON does not know becomes text."""
     return json_bytes(value).decode()
 
 
@@ -250,17 +204,7 @@ def write_npz(out: BinaryIO, columns: list[Column], threads: int) -> None:
 
 
 def write_arrays(out: BinaryIO, arrays: Mapping[str, NDArray[Any]], *, threads: int = 0) -> None:
-    """Write 1-D arrays of any lengths as NPZ: the same bytes for the same arrays.
-
-    Parameters
-    ----------
-    out : binary file object
-        Need not be seekable.
-    arrays : mapping of str to 1-D array
-        Of numbers or texts.
-    threads : int
-        0 for all.
-    """
+    """Write 1-D arrays of any lengths as NPZ: the same bytes for the same arrays."""
     with zipfile.ZipFile(_Stream(out), "w", zipfile.ZIP_STORED) as archive:  # type: ignore[call-overload]
         for name, values in arrays.items():
             _write_array(archive, name, values, threads)

@@ -13,30 +13,13 @@ from vorotool.formats.io.sources import copy_stream
 
 
 def mapped(path: str) -> bytes:
-    """Give the content of a file, as something that can be sliced like bytes.
-
-    Raises
-    ------
-    OSError, ValueError
-        If there is no such file, or it is empty.
-    """
+    """Give the content of a file, as something that can be sliced like bytes."""
     with Path(path).open("rb") as file:
         return cast("bytes", memoryview(mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)))
 
 
 class Spool:
-    """A temporary file with all that comes through a stream; it is removed with this object, or when Python ends.
-
-    Parameters
-    ----------
-    name : str
-        Of the stream; ``-`` is standard input.
-
-    Raises
-    ------
-    InputError
-        If the stream cannot be read.
-    """
+    """A temporary file with all that comes through a stream; it is removed with this object, or when Python ends."""
 
     def __init__(self, name: str) -> None:
         descriptor, self.path = tempfile.mkstemp(prefix="vorotool-")

@@ -22,22 +22,11 @@ from vorotool.geometry.volumes.voxel_grid import VoxelGrid
 
 @dataclass(frozen=True)
 class NpyVolume:
-    """The slices of an array of three axes; in Fortran order each slice is scattered over the whole file.
+    """The slices of an array of three axes; in Fortran order each slice is scattered over the whole file."""
 
-    Parameters
-    ----------
-    name, path, spool
-        As of `vorotool.formats.volumes.tiff_stack.TiffStack`.
-
-    Raises
-    ------
-    InputError
-        If it is no array of numbers with three axes, or is cut off.
-    """
-
-    name: str
-    path: str
-    spool: Spool | None = None
+    name: str  # as of `vorotool.formats.volumes.tiff_stack.TiffStack`
+    path: str  # as of `vorotool.formats.volumes.tiff_stack.TiffStack`
+    spool: Spool | None = None  # as of `vorotool.formats.volumes.tiff_stack.TiffStack`
 
     @cached_property
     def _source(self) -> Source:
@@ -98,32 +87,7 @@ class NpyVolume:
 def write_npy_volume(
     out: BinaryIO, slabs: Iterable[NDArray[Any]], shape: tuple[int, int, int], *, dtype: DTypeLike
 ) -> None:
-    """Write an array from slabs of slices: the header first, then each slab as it comes.
-
-    Parameters
-    ----------
-    out : binary file
-        Never sought.
-    slabs : iterable of (slices, H, W) arrays
-        In order.
-    shape : (int, int, int)
-        Slices, rows and columns.
-    dtype : dtype
-        Type in the file, always little-endian.
-
-    Raises
-    ------
-    LimitError
-        If an integer does not fit in ``dtype``.
-
-    Examples
-    --------
-    >>> import io
-    >>> out = io.BytesIO()
-    >>> write_npy_volume(out, [np.ones((1, 2, 3), np.uint8)] * 2, (2, 2, 3), dtype=np.uint8)
-    >>> np.load(io.BytesIO(out.getvalue())).shape
-    (2, 2, 3)
-    """
+    """Write an array from slabs of slices: the header first, then each slab as it comes."""
     kind = np.dtype(dtype).newbyteorder("<")
     header = {"descr": np.lib.format.dtype_to_descr(kind), "fortran_order": False, "shape": tuple(map(int, shape))}
     np.lib.format.write_array_header_1_0(out, header)

@@ -22,33 +22,15 @@ _MOST_REPEATS = 4
 
 @dataclass
 class OmeStack:
-    """The image of an OME-TIFF.
-
-    Parameters
-    ----------
-    attributes : dict
-        Of its Pixels.
-    planes : list of dict
-        Its TiffData.
-    files : set of str
-        That hold its planes, as far as they are named.
-    images : int
-        How many images there are; this is the first.
-    """
+    """The image of an OME-TIFF."""
 
     attributes: dict[str, str] = field(default_factory=dict)
     planes: list[dict[str, str]] = field(default_factory=list)
-    files: set[str] = field(default_factory=set)
-    images: int = 0
+    files: set[str] = field(default_factory=set)  # that hold its planes, as far as they are named
+    images: int = 0  # how many images there are; this is the first
 
     def pages(self, name: str, count: int) -> tuple[int, ...]:
-        """Give the page of each slice, of a file of so many pages.
-
-        Raises
-        ------
-        InputError
-            If there are several images, channels or points in time, or slices that are not in the file.
-        """
+        """Give the page of each slice, of a file of so many pages."""
         if self.images > 1:
             raise InputError(f"{name} holds {self.images} images of OME: save one of them alone, or name its pages")
         if len(self.files) > 1:
@@ -117,14 +99,7 @@ class OmeStack:
 
 
 def ome_stack(text: str) -> OmeStack | None:
-    """Read the description of an OME-TIFF; None where it describes no image.
-
-    Examples
-    --------
-    >>> made = ome_stack('<OME><Image><Pixels SizeZ="2" PhysicalSizeX="1"/></Image></OME>')
-    >>> made.pages("a.tif", 2)
-    (0, 1)
-    """
+    """Read the description of an OME-TIFF; None where it describes no image."""
     stack = OmeStack()
 
     def start(name: str, attributes: dict[str, str]) -> None:

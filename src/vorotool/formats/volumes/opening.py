@@ -28,36 +28,7 @@ _LONGEST_HEAD = 8
 
 
 def open_volume(path: str | PathLike[str], *, input_format: str | None = None) -> VolumeSource:
-    """Open a volume, to read it some slices at a time; its header is checked, and nothing is held.
-
-    Parameters
-    ----------
-    path : str or path
-        A TIFF or NPY file, a Zarr array or an OME-Zarr group; ``-`` is standard input. What comes through a stream is
-        put in a temporary file first.
-    input_format : str, optional
-        One of tiff, npy and zarr, where the content leaves it unclear.
-
-    Returns
-    -------
-    VolumeSource
-        With ``shape``, ``dtype``, ``grid`` and ``slices(first, count)``; it can be pickled, and is then opened again by
-        its path.
-
-    Raises
-    ------
-    InputError
-        If it is no volume, or damaged.
-    UsageError
-        If the format is none that volumes have.
-
-    Examples
-    --------
-    >>> np.save("build/cube.npy", np.arange(24).reshape(2, 3, 4))
-    >>> volume = open_volume("build/cube.npy")
-    >>> volume.shape, volume.slices(1, 1).sum()
-    ((2, 3, 4), np.int64(210))
-    """
+    """Open a volume, to read it some slices at a time; its header is checked, and nothing is held."""
     said = known_input_format(input_format, VOLUME_NAMES)
     if not isinstance(path, str | PathLike):
         raise InputError(f"{path!r} is no path: give the name of a file; arrays need not be read")
@@ -75,30 +46,7 @@ def read_volume(
     max_voxels: int = MAX_PIXELS,
     note: Callable[[str], None] | None = None,
 ) -> Volume:
-    """Read a whole volume.
-
-    Parameters
-    ----------
-    path, input_format
-        As of `open_volume`.
-    max_voxels : int
-        Larger ones are refused before memory is taken.
-    note : callable, optional
-        Told in words what of the file is not used.
-
-    Raises
-    ------
-    InputError, UsageError
-        As of `open_volume`.
-    LimitError
-        If it has more than ``max_voxels`` voxels.
-
-    Examples
-    --------
-    >>> np.save("build/cube.npy", np.zeros((2, 3, 4), np.uint16))
-    >>> read_volume("build/cube.npy")
-    Volume: 4 x 3 x 2, uint16
-    """
+    """Read a whole volume."""
     source = open_volume(path, input_format=input_format)
     with reading(fspath(path)):
         check_voxels(source.name, source.shape, max_voxels)

@@ -35,42 +35,7 @@ def read_xyz(
     threads: int = 0,
     note: Callable[[str], None] | None = None,
 ) -> VolumePoints:
-    """Read points with a z: a column of this name, the third number of a position, or the column that is named.
-
-    Parameters
-    ----------
-    path : str or path
-        The file; ``-`` is standard input.
-    input_format : str, optional
-        As of `vorotool.read`.
-    columns : str, optional
-        ``X,Y,z=Z[,LABEL]`` of a table, by name or number from 1; an NPY array, whose third column is the label
-        otherwise, needs it.
-    max_sites : int, optional
-        More points are refused before memory is taken.
-    properties : bool
-        Keep the further columns.
-    threads : int
-        0 uses all.
-    note : callable, optional
-        Told in words what was recognised.
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read, or its points have no z; the message names the place and what to do.
-    LimitError
-        If there are too many points.
-    UsageError
-        If an option is malformed, or does not fit the input.
-
-    Examples
-    --------
-    >>> from pathlib import Path
-    >>> _ = Path("build/space.csv").write_text("x,y,z\\n1,2,3\\n4,5,6.5\\n")
-    >>> read_xyz("build/space.csv").xyz.tolist()
-    [[1.0, 2.0, 3.0], [4.0, 5.0, 6.5]]
-    """
+    """Read points with a z: a column of this name, the third number of a position, or the column that is named."""
     said = known_input_format(input_format, NAMES_WITH["points"])
     options = ReadOptions(
         columns=columns,

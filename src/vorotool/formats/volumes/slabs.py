@@ -10,18 +10,7 @@ from numpy.typing import NDArray
 
 
 def checked_slabs(slabs: Iterable[NDArray[Any]], shape: tuple[int, int, int]) -> Iterator[NDArray[Any]]:
-    """Pass on slabs of shape (slices, H, W), and see that they are D slices together.
-
-    Raises
-    ------
-    ValueError
-        If they are not: a defect of the caller.
-
-    Examples
-    --------
-    >>> [slab.shape for slab in checked_slabs([np.zeros((2, 4, 5)), np.ones((1, 4, 5))], (3, 4, 5))]
-    [(2, 4, 5), (1, 4, 5)]
-    """
+    """Pass on slabs of shape (slices, H, W), and see that they are D slices together."""
     depth, height, width = shape
     seen = 0
     for item in slabs:

@@ -49,19 +49,7 @@ class VolumeSource(Protocol):
 
 
 def check_voxels(name: str, shape: tuple[int, int, int], most: int) -> None:
-    """Refuse a volume that is empty or larger than the limit, from its header alone.
-
-    Raises
-    ------
-    InputError
-        If a side is below 1.
-    LimitError
-        If there are more than ``most`` voxels.
-
-    Examples
-    --------
-    >>> check_voxels("a.tif", (20, 480, 640), 10**7)
-    """
+    """Refuse a volume that is empty or larger than the limit, from its header alone."""
     depth, height, width = shape
     size = f"{width} x {height} x {depth}"
     if min(shape) < 1:
@@ -74,24 +62,7 @@ def check_voxels(name: str, shape: tuple[int, int, int], most: int) -> None:
 
 
 def refuse_axes(name: str, axes: Mapping[str, int]) -> None:
-    """Refuse further axes of more than one step.
-
-    Parameters
-    ----------
-    name : str
-        The input.
-    axes : mapping of str to int
-        Steps along each, by their names in the plural.
-
-    Raises
-    ------
-    InputError
-        If there are such axes; all are named.
-
-    Examples
-    --------
-    >>> refuse_axes("a.tif", {"channels": 1, "time steps": 1})
-    """
+    """Refuse further axes of more than one step."""
     found = [f"{steps} {axis}" for axis, steps in axes.items() if steps != 1]
     if found:
         raise InputError(

@@ -25,34 +25,16 @@ _MOST_IMAGES = 2**31
 
 @dataclass(frozen=True)
 class StackAxes:
-    """A stack as a file describes it.
+    """A stack as a file describes it."""
 
-    Parameters
-    ----------
-    slices : int, optional
-        How many there are, where it says so.
-    pages : tuple of int, optional
-        Of each slice; by default they come in order.
-    grid : VoxelGrid, optional
-        Of the voxels.
-    note : str
-        What of it is not used.
-    """
-
-    slices: int | None = None
-    pages: tuple[int, ...] | None = None
+    slices: int | None = None  # how many there are, where it says so
+    pages: tuple[int, ...] | None = None  # of each slice; by default they come in order
     grid: VoxelGrid | None = None
-    note: str = ""
+    note: str = ""  # what of it is not used
 
 
 def stack_axes(name: str, file: Any, count: int) -> StackAxes:
-    """Read what the first page of a file of so many pages says of all of them.
-
-    Raises
-    ------
-    InputError
-        If they have further axes, or the description contradicts them.
-    """
+    """Read what the first page of a file of so many pages says of all of them."""
     if file.is_ome:
         stack = ome_stack(file.pages[0].description)
         if stack is not None:

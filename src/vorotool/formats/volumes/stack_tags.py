@@ -21,25 +21,7 @@ StackForm = Literal["imagej", "ome", "tiff"]
 
 
 def stack_form(grid: VoxelGrid | None, dtype: np.dtype[Any], *, is_large: bool) -> StackForm:
-    """Choose whose description a stack has: that of its input, else ImageJ's.
-
-    ImageJ has no integers beyond 16 bits and no BigTIFF: these are described as OME, which ImageJ opens by Bio-Formats.
-    What OME has no type for is plain.
-
-    Parameters
-    ----------
-    grid : VoxelGrid, optional
-        Of the input.
-    dtype : dtype
-        Of the voxels.
-    is_large : bool
-        Whether it is a BigTIFF.
-
-    Examples
-    --------
-    >>> stack_form(None, np.dtype(np.uint16), is_large=False), stack_form(None, np.dtype(np.uint32), is_large=False)
-    ('imagej', 'ome')
-    """
+    """Choose whose description a stack has: that of its input, else ImageJ's."""
     form = "imagej" if grid is None else grid.form
     if form == "tiff":
         return "tiff"
@@ -56,26 +38,7 @@ def stack_tags(
     is_large: bool = False,
     nodata: int | None = None,
 ) -> dict[str, Any]:
-    """Arguments of tifffile that say what is known of voxels; the description is on the first page.
-
-    Parameters
-    ----------
-    grid : VoxelGrid, optional
-        Of the voxels.
-    shape : (int, int, int)
-        Slices, rows and columns.
-    dtype : dtype
-        Of the voxels.
-    is_large : bool
-        Whether it is a BigTIFF.
-    nodata : int, optional
-        What voxels have that have no value.
-
-    Examples
-    --------
-    >>> stack_tags(None, (2, 3, 4), np.dtype(np.uint8))
-    {'description': b'ImageJ=1.54f\\nimages=2\\nslices=2\\n'}
-    """
+    """Arguments of tifffile that say what is known of voxels; the description is on the first page."""
     more = {} if nodata is None else {"extratags": [(NODATA, _ASCII, 0, str(nodata), True)]}
     form = stack_form(grid, dtype, is_large=is_large)
     plane = None if grid is None else PixelGrid(grid.width, grid.height, grid.unit)

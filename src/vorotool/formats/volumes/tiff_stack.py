@@ -30,48 +30,21 @@ _WORTH_THREADS = 2**20
 
 @dataclass(frozen=True)
 class _Stack:
-    """Where the voxels are.
-
-    Parameters
-    ----------
-    pages : sequence of TiffLayout
-        Of each slice.
-    axes : StackAxes
-        What the file says of them.
-    nodata : float, optional
-        Voxels with this value have none.
-    step : int, optional
-        Bytes from slice to slice where each is one array and they are equally far apart.
-    """
+    """Where the voxels are."""
 
     pages: Sequence[TiffLayout]
-    axes: StackAxes
-    nodata: float | None
-    step: int | None
+    axes: StackAxes  # what the file says of them
+    nodata: float | None  # voxels with this value have none
+    step: int | None  # bytes from slice to slice where each is one array and they are equally far apart
 
 
 @dataclass(frozen=True)
 class TiffStack:
-    """The slices of a TIFF file with one value a pixel.
+    """The slices of a TIFF file with one value a pixel."""
 
-    Parameters
-    ----------
-    name : str
-        As the user wrote it.
-    path : str
-        Absolute, for processes in other folders.
-    spool : Spool, optional
-        Keeps the file, where it is a temporary one.
-
-    Raises
-    ------
-    InputError
-        If the file is damaged or cut off, its pages are not alike, or it has channels or points in time.
-    """
-
-    name: str
-    path: str
-    spool: Spool | None = None
+    name: str  # as the user wrote it
+    path: str  # absolute, for processes in other folders
+    spool: Spool | None = None  # keeps the file, where it is a temporary one
 
     @cached_property
     def _stack(self) -> _Stack:

@@ -34,45 +34,7 @@ def write_volume(
     nodata: int | None = None,
     threads: int = 0,
 ) -> None:
-    r"""Write a volume from slabs of slices, in bounded memory; the bytes do not depend on the slabs or the threads.
-
-    A TIFF has a page for each slice, deflated where it holds integers, and is a BigTIFF where that may be needed. Its
-    first page describes all of them: see `vorotool.formats.volumes.stack_tags.stack_form`.
-
-    Parameters
-    ----------
-    out : binary file
-        Where to write. Where it cannot be sought, a TIFF is made in a temporary file first.
-    slabs : iterable of (slices, H, W) arrays
-        In order.
-    shape : (int, int, int)
-        Slices, rows and columns.
-    dtype : dtype
-        Type in the file: an integer, bool (stored as uint8), or float32.
-    fmt : {"tiff", "npy"}
-        File format.
-    grid : VoxelGrid, optional
-        Of the voxels, for TIFF.
-    nodata : int, optional
-        What voxels without a value have, for TIFF.
-    threads : int
-        0 for all processors.
-
-    Raises
-    ------
-    LimitError
-        If an integer does not fit in ``dtype``.
-    UsageError
-        If volumes are not written in such a format.
-
-    Examples
-    --------
-    >>> import io
-    >>> out = io.BytesIO()
-    >>> write_volume(out, [np.ones((2, 3, 4), np.uint16)], shape=(2, 3, 4), dtype=np.uint16, fmt="tiff")
-    >>> out.getvalue()[:4]
-    b'II*\x00'
-    """
+    """Write a volume from slabs of slices, in bounded memory; the bytes do not depend on the slabs or the threads."""
     kind = np.dtype(np.uint8 if np.dtype(dtype) == np.bool_ else dtype).newbyteorder("<")
     if fmt == "npy":
         write_npy_volume(out, slabs, shape, dtype=kind)

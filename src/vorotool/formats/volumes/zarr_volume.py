@@ -27,23 +27,10 @@ _SPACE = ("z", "y", "x")
 
 @dataclass(frozen=True)
 class ZarrVolume:
-    """The slices of a Zarr array.
+    """The slices of a Zarr array."""
 
-    Parameters
-    ----------
-    name : str
-        As the user wrote it.
-    path : str
-        Absolute, for processes in other folders.
-
-    Raises
-    ------
-    InputError
-        If it is no array of numbers with the axes z, y and x, or is damaged.
-    """
-
-    name: str
-    path: str
+    name: str  # as the user wrote it
+    path: str  # absolute, for processes in other folders
 
     @cached_property
     def _image(self) -> Described | None:

@@ -18,18 +18,7 @@ from vorotool.geometry.row_index import index_of_rows
 
 
 def written_polygons(polygons: PolygonSet) -> PolygonSet:
-    """Round polygons to the decimals of the file, and repair those that are invalid then.
-
-    Features without area on the grid are left out, with a warning. Sets with open lines, or with rings of one or two
-    vertices, are only rounded.
-
-    Examples
-    --------
-    >>> from vorotool.geometry.coordinate_grid import coordinates_written
-    >>> with coordinates_written(0):
-    ...     written_polygons(PolygonSet([[0, 0], [4.3, 0], [0, 3]], [0, 3], [0], [0])).xy.tolist()
-    [[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]]
-    """
+    """Round polygons to the decimals of the file, and repair those that are invalid then."""
     if polygons.is_line.any() or (np.diff(polygons.ring_start) < 3).any():
         return replace(polygons, xy=on_grid(polygons.xy))
     assert polygons.feature is not None

@@ -41,41 +41,7 @@ def written_rings(
     in_box: bool = False,
     threads: int = 0,
 ) -> WrittenRings:
-    """Round the vertices of rings, and repair features that are invalid then.
-
-    Parameters
-    ----------
-    points : (n, 2) float64 array
-        Vertices, ring after ring, the first of each not repeated.
-    nesting : Nesting
-        Where rings, polygons and features begin; the first ring of a polygon is its shell.
-    decimals : int, optional
-        Coordinates are multiples of 10 to the power of minus this; by default they stay as they are.
-    is_coverage : bool
-        Features do not overlap, and share vertices where they touch: both is so afterwards. Where rounding makes
-        features overlap, the first of them has the place.
-    in_box : bool
-        The outline of the coverage is a rectangle along the axes, which saves the search for features that clash.
-    threads : int
-        For the test; 0 uses all.
-
-    Returns
-    -------
-    WrittenRings
-        Valid by the rules of OGC. Rings change where rounding makes them invalid, and where they share vertices with
-        such.
-
-    References
-    ----------
-    Hobby, "Practical segment intersection with finite precision output", 1999.
-
-    Examples
-    --------
-    >>> points = np.array([[0, 0], [4, 0], [4.0, 1.6], [2, 0.4], [0, 3]])
-    >>> made = written_rings(points, Nesting(np.array([0, 5]), np.array([0, 1]), np.array([0, 1])), decimals=0)
-    >>> made.points.tolist(), made.nesting.cells.tolist()
-    ([[0.0, 0.0], [2.0, 0.0], [0.0, 3.0], [4.0, 0.0], [4.0, 2.0], [2.0, 0.0]], [0, 2])
-    """
+    """Round the vertices of rings, and repair features that are invalid then."""
     given = rounded(points, decimals), nesting
     if is_coverage or decimals is not None:
         given = _compact(*given)
@@ -119,10 +85,7 @@ def _compact(points: Floats, nesting: Nesting) -> Rings:
 def _invalid(
     points: Floats, nesting: Nesting, *, is_coverage: bool, in_box: bool = False, threads: int = 0
 ) -> NDArray[np.bool_]:
-    """(f,) whether each feature is invalid, or overlaps or misses the vertices of others of its coverage.
-
-    In a box no two features clash if all are valid and the right way round.
-    """
+    """(f,) whether each feature is invalid, or overlaps or misses the vertices of others of its coverage."""
     import shapely
 
     rings, polygons, cells = nesting

@@ -20,25 +20,13 @@ Rings = tuple[Floats, Nesting]
 
 @dataclass(frozen=True, eq=False)
 class Snapped:
-    """Features after snap rounding, and what that means for others with the same vertices and edges.
+    """Features after snap rounding, and what that means for others with the same vertices and edges."""
 
-    Parameters
-    ----------
-    rings : pair of array and Nesting
-        Of the features, in their order; those without area have none.
-    before, after : (k, 2) float64 array
-        Vertices of the features, and where they are now.
-    edges : (e, 2, 2) float64 array
-        Edges, by their ends before, that have further vertices now.
-    chains : list of (c, 2) float64 array
-        These, from the first end to the second.
-    """
-
-    rings: Rings
-    before: Floats
-    after: Floats
-    edges: Floats
-    chains: list[Floats]
+    rings: Rings  # pair of array and Nesting: of the features, in their order; those without area have none
+    before: Floats  # (k, 2) float64 array: vertices of the features, and where they are now
+    after: Floats  # (k, 2) float64 array: vertices of the features, and where they are now
+    edges: Floats  # (e, 2, 2) float64 array: edges, by their ends before, that have further vertices now
+    chains: list[Floats]  # list of (c, 2) float64 array: these, from the first end to the second
 
     def applied_to(self, points: Floats, nesting: Nesting, features: NDArray[np.bool_]) -> Rings:
         """Move the vertices of other features, and lead their edges along the chains, which run the other way."""
@@ -110,21 +98,7 @@ def _complex(points: Floats) -> NDArray[np.complex128]:
 def snapped(
     points: Floats, nesting: Nesting, grid: Grid, *, is_coverage: bool = False, keeps_vertices: bool = True
 ) -> Snapped:
-    """Make the rings of features valid by snap rounding, together.
-
-    Parameters
-    ----------
-    points, nesting
-        Of the features.
-    grid : Grid
-        Vertices stay on it; they move to a lattice that is coarser by a power of two where the features together are
-        wider than 2^31 steps.
-    is_coverage : bool
-        Where features overlap the first one has the place.
-    keeps_vertices : bool
-        A place of the lattice has the coordinates of the first vertex there. Nearly always that is valid, too; without
-        it the result is valid by construction.
-    """
+    """Make the rings of features valid by snap rounding, together."""
     rings, polygons, cells = nesting
     lattice = _Lattice.of(points, grid)
     vertices = lattice.places(points)

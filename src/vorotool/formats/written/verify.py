@@ -14,31 +14,7 @@ _COARSEST = 2.0**-28
 
 
 def verify_written(made: NDArray[Any], given: NDArray[Any], decimals: int | None, *, is_coverage: bool) -> None:
-    """Check features as they are written, by GEOS.
-
-    Parameters
-    ----------
-    made, given : (f,) array of shapely geometry
-        As written, and before rounding.
-    decimals : int or None
-        Of the coordinates.
-    is_coverage : bool
-        Whether they are one.
-
-    Raises
-    ------
-    VerificationError
-        If a feature is invalid, features of a coverage overlap or do not share their vertices, a coordinate has more
-        decimals, or an area differs by more than rounding explains.
-
-    Examples
-    --------
-    >>> import shapely
-    >>> bow = shapely.from_wkt(["POLYGON ((0 0, 4 4, 4 0, 0 4, 0 0))"])
-    >>> verify_written(bow, bow, None, is_coverage=False)
-    Traceback (most recent call last):
-    vorotool.errors.VerificationError: feature 1 is invalid as it is written: Self-intersection[2 2]
-    """
+    """Check features as they are written, by GEOS."""
     import shapely
 
     bad = np.flatnonzero(~shapely.is_valid(made))

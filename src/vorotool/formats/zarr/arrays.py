@@ -30,13 +30,7 @@ _LEVEL = 1
 
 
 def zarr_module() -> Any:
-    """Import zarr.
-
-    Raises
-    ------
-    UsageError
-        If it is not installed.
-    """
+    """Import zarr."""
     try:
         import zarr
     except ImportError:
@@ -45,13 +39,7 @@ def zarr_module() -> Any:
 
 
 def chunks_of(shape: tuple[int, int], dtype: DTypeLike, asked: tuple[int, int] | None = None) -> tuple[int, int]:
-    """Choose rows and columns of the chunks of an image, if they are not asked for.
-
-    Examples
-    --------
-    >>> chunks_of((131072, 131072), np.uint32), chunks_of((131072, 131072), np.uint64), chunks_of((99, 9), np.uint8)
-    ((512, 2048), (256, 2048), (99, 9))
-    """
+    """Choose rows and columns of the chunks of an image, if they are not asked for."""
     rows, columns = asked or CHUNK
     while asked is None and rows > 1 and rows * shape[1] * np.dtype(dtype).itemsize > BAND_BYTES:
         rows //= 2
@@ -59,23 +47,7 @@ def chunks_of(shape: tuple[int, int], dtype: DTypeLike, asked: tuple[int, int] |
 
 
 def create_array(store: Any, shape: tuple[int, ...], *, dtype: DTypeLike, chunks: tuple[int, ...]) -> Any:
-    """Make an array for an image or a volume in an empty folder.
-
-    Parameters
-    ----------
-    store : path or dict
-        The folder, or what takes the files by name.
-    shape : (int, int) or (int, int, int)
-        Height and width, or slices, rows and columns.
-    dtype : dtype
-        Type of the pixels.
-    chunks : tuple of int
-        The same of a chunk. One whose pixels are all 0 takes no file.
-
-    Returns
-    -------
-    zarr.Array
-    """
+    """Make an array for an image or a volume in an empty folder."""
     zarr = zarr_module()
     return to_its_end(
         lambda: zarr.create_array(
@@ -100,28 +72,7 @@ def open_array(folder: str | os.PathLike[str]) -> Any:
 def write_rows(
     array: Any, first: int, rows: NDArray[Any], *, threads: int = 0, check: Callable[[], object] | None = None
 ) -> None:
-    """Write one row of chunks, each chunk by itself: an interrupt waits for some milliseconds only.
-
-    Parameters
-    ----------
-    array : zarr.Array
-        From `create_array` or `open_array`.
-    first : int
-        Row of the image, a multiple of the rows of a chunk.
-    rows : (k, W) array
-        All rows of the chunks.
-    threads : int
-        0 for all processors.
-    check : callable, optional
-        Called before each chunk; what it raises stops the work.
-
-    Examples
-    --------
-    >>> array = create_array({}, (3, 2), dtype=np.uint8, chunks=(2, 2))
-    >>> write_rows(array, 2, np.array([[5, 6]]), threads=1)
-    >>> array[:].tolist()
-    [[0, 0], [0, 0], [5, 6]]
-    """
+    """Write one row of chunks, each chunk by itself: an interrupt waits for some milliseconds only."""
     height, width = array.chunks
     if first % height or len(rows) != min(height, array.shape[0] - first):
         raise ValueError(f"rows {first} to {first + len(rows) - 1} are not those of chunks of {height} rows")
@@ -143,11 +94,7 @@ def write_rows(
 
 
 def to_its_end(function: Callable[[], Result], stop: Callable[[], None] = lambda: None) -> Result:
-    """Call what writes in a store, and wait until it has ended, through an interrupt, too, which asks it to stop.
-
-    Zarr writes in threads of its own, which would go on in a folder that is being removed. An interrupt comes between
-    any two steps of this thread, so that it must not be the one that knows whether the work has begun.
-    """
+    """Call what writes in a store, and wait until it has ended, through an interrupt, too, which asks it to stop."""
     work: Future[Result] = Future()
     try:
         start(function, work)
@@ -162,28 +109,7 @@ def to_its_end(function: Callable[[], Result], stop: Callable[[], None] = lambda
 def write_zarr(
     path: str | os.PathLike[str], image: NDArray[Any], *, grid: PixelGrid | None = None, threads: int = 0
 ) -> None:
-    """Write an image that is held to a store, which replaces an older one when all is written.
-
-    Parameters
-    ----------
-    path : str or path
-        Of the store.
-    image : (H, W) array
-        Labels.
-    grid : PixelGrid, optional
-        Of the pixels: a store that is named as OME-Zarr tells their size.
-    threads : int
-        0 for all processors.
-
-    Raises
-    ------
-    OutputError
-        If it cannot be written.
-
-    Examples
-    --------
-    >>> write_zarr("build/eye.zarr", np.eye(3, dtype=np.uint8))
-    """
+    """Write an image that is held to a store, which replaces an older one when all is written."""
     height, width = image.shape
     chunks = chunks_of((height, width), image.dtype)
     zarr_module()

@@ -92,30 +92,14 @@ Codec = Compression | Checksum | Shuffle | Delta
 
 @dataclass(frozen=True)
 class Pipeline:
-    """How values become the bytes of a chunk.
-
-    Parameters
-    ----------
-    shape : tuple of int
-        Of the chunk.
-    dtype : dtype
-        As stored.
-    fill : number
-        Of what is left out.
-    orders : tuple of tuples
-        Orders of axes in which the values are laid down, one after the other.
-    shard : Shard, optional
-        If the chunk is made of smaller ones.
-    codecs : tuple
-        Of bytes, in the order of encoding.
-    """
+    """How values become the bytes of a chunk."""
 
     shape: tuple[int, ...]
     dtype: np.dtype[Any]
-    fill: Any
-    orders: tuple[tuple[int, ...], ...]
-    shard: Shard | None
-    codecs: tuple[Codec, ...]
+    fill: Any  # of what is left out
+    orders: tuple[tuple[int, ...], ...]  # orders of axes in which the values are laid down, one after the other
+    shard: Shard | None  # if the chunk is made of smaller ones
+    codecs: tuple[Codec, ...]  # of bytes, in the order of encoding
 
     @property
     def size(self) -> int:
@@ -129,13 +113,7 @@ class Pipeline:
         return size if self.shard is None else size + math.prod(self.shard.counts) * (SPARE // 4)
 
     def decoded(self, data: bytes, region: tuple[slice, ...]) -> NDArray[Any]:
-        """Decode a chunk, and give a region of it.
-
-        Raises
-        ------
-        ValueError
-            If it holds more or less than its values.
-        """
+        """Decode a chunk, and give a region of it."""
         for codec in reversed(self.codecs):
             data = codec.decoded(data, self.most_bytes)
         if self.shard is not None:
@@ -153,22 +131,14 @@ class Pipeline:
 
 @dataclass(frozen=True)
 class Shard:
-    """A chunk that is made of smaller ones, with an index of where they are.
+    """A chunk that is made of smaller ones, with an index of where they are."""
 
-    Parameters
-    ----------
-    counts : tuple of int
-        How many along each axis.
-    inner, index : Pipeline
-        Of a smaller chunk, and of the index: offset and size of each, both 2^64 - 1 where it is left out.
-    is_first : bool
-        The index comes before the chunks.
-    """
-
-    counts: tuple[int, ...]
+    counts: tuple[int, ...]  # how many along each axis
+    # of a smaller chunk, and of the index: offset and size of each, both 2^64 - 1 where it is left out
     inner: Pipeline
+    # of a smaller chunk, and of the index: offset and size of each, both 2^64 - 1 where it is left out
     index: Pipeline
-    is_first: bool
+    is_first: bool  # the index comes before the chunks
 
     def decoded(self, data: bytes, region: tuple[slice, ...], whole: Pipeline) -> NDArray[Any]:
         """Decode those smaller chunks that have some of a region of the shard."""
@@ -201,13 +171,7 @@ class Shard:
 
 
 def places_within(region: tuple[slice, ...], chunk: tuple[int, ...]) -> Iterator[tuple[int, ...]]:
-    """Places in the grid of the chunks that have some of a region.
-
-    Examples
-    --------
-    >>> list(places_within((slice(3, 9),), (4,)))
-    [(0,), (1,), (2,)]
-    """
+    """Places in the grid of the chunks that have some of a region."""
     return product(
         *(range(part.start // side, -(-part.stop // side)) for part, side in zip(region, chunk, strict=True))
     )
@@ -216,13 +180,7 @@ def places_within(region: tuple[slice, ...], chunk: tuple[int, ...]) -> Iterator
 def overlap(
     region: tuple[slice, ...], place: tuple[int, ...], chunk: tuple[int, ...]
 ) -> tuple[tuple[slice, ...], tuple[slice, ...]]:
-    """Give what a chunk at a place of the grid and a region share: within the region, and within the chunk.
-
-    Examples
-    --------
-    >>> overlap((slice(3, 9),), (1,), (5,))
-    ((slice(2, 6, None),), (slice(0, 4, None),))
-    """
+    """Give what a chunk at a place of the grid and a region share: within the region, and within the chunk."""
     target, source = [], []
     for part, number, side in zip(region, place, chunk, strict=True):
         first, last = max(part.start, number * side), min(part.stop, (number + 1) * side)
@@ -232,13 +190,7 @@ def overlap(
 
 
 def checked_bytes_codec(name: str, options: dict[str, Any], dtype: np.dtype[Any]) -> Codec:
-    """Give a codec of bytes by its name.
-
-    Raises
-    ------
-    InputError
-        If it is none of those that are known.
-    """
+    """Give a codec of bytes by its name."""
     short = name.removeprefix("numcodecs.")
     if short in BYTES_CODECS:
         return Compression(short)

@@ -52,22 +52,13 @@ _ACCEPTED = "bytes, transpose, sharding_indexed, shuffle, delta, crc32c, " + ", 
 
 @dataclass(frozen=True)
 class ZarrMetadata:
-    """An array in a store.
-
-    Parameters
-    ----------
-    shape : tuple of int
-        Of the array.
-    pipeline : Pipeline
-        How a chunk is stored; it knows the shape of chunks, the type and the value of what is left out.
-    prefix, separator : str
-        Of the names of chunks, as in ``c/0/1``.
-    """
+    """An array in a store."""
 
     shape: tuple[int, ...]
+    # how a chunk is stored; it knows the shape of chunks, the type and the value of what is left out
     pipeline: Pipeline
-    prefix: str
-    separator: str
+    prefix: str  # of the names of chunks, as in `c/0/1`
+    separator: str  # of the names of chunks, as in `c/0/1`
 
     @property
     def chunks(self) -> tuple[int, ...]:
@@ -80,13 +71,7 @@ class ZarrMetadata:
 
 
 def read_metadata(path: str | os.PathLike[str]) -> dict[str, Any] | None:
-    """Read the JSON that says what a folder holds; None if it holds no Zarr array or group.
-
-    Raises
-    ------
-    InputError
-        If it cannot be read, is too large, nested too deep, or no JSON object.
-    """
+    """Read the JSON that says what a folder holds; None if it holds no Zarr array or group."""
     folder = Path(path)
     for name in (_VERSION_3, _VERSION_2, ".zgroup"):
         file = folder / name
@@ -100,13 +85,7 @@ def read_metadata(path: str | os.PathLike[str]) -> dict[str, Any] | None:
 
 
 def read_json(file: Path) -> dict[str, Any]:
-    """Read a file of metadata.
-
-    Raises
-    ------
-    InputError
-        As `read_metadata`.
-    """
+    """Read a file of metadata."""
     with file.open("rb") as opened:
         text = opened.read(LARGEST_METADATA + 1)
     if len(text) > LARGEST_METADATA:
@@ -122,13 +101,7 @@ def read_json(file: Path) -> dict[str, Any]:
 
 
 def array_metadata(name: str, made: dict[str, Any]) -> ZarrMetadata:
-    """Check metadata of an array that `read_metadata` gave.
-
-    Raises
-    ------
-    InputError
-        If they are damaged, or name a codec, a type or an extension that is not known.
-    """
+    """Check metadata of an array that `read_metadata` gave."""
     try:
         metadata = _version_2(made) if made["zarr_format"] == 2 else _version_3(made)
     except InputError as error:

@@ -33,60 +33,25 @@ _LONG_UNITS |= {"m": "meter", "km": "kilometer", "Å": "angstrom", "inch": "inch
 
 @dataclass(frozen=True)
 class Level:
-    """The largest image of a pyramid.
+    """The largest image of a pyramid."""
 
-    Parameters
-    ----------
-    path : str
-        Of its array, from the group.
-    axes : tuple of str
-        Names of the axes, of which the last two are y and x.
-    grid : PixelGrid, optional
-        Of its pixels.
-    """
-
-    path: str
-    axes: tuple[str, ...]
+    path: str  # of its array, from the group
+    axes: tuple[str, ...]  # names of the axes, of which the last two are y and x
     grid: PixelGrid | None
 
 
 @dataclass(frozen=True)
 class Described:
-    """What the metadata of a group say of the largest image in it.
+    """What the metadata of a group say of the largest image in it."""
 
-    Parameters
-    ----------
-    path : str
-        Of its array, from the group.
-    axes : tuple of str
-        Names of the axes.
-    scale : tuple of Fraction
-        The products of all scales, one for each axis.
-    units : tuple
-        Of the axes: anything, None where there is none.
-    """
-
-    path: str
-    axes: tuple[str, ...]
-    scale: tuple[Fraction, ...]
-    units: tuple[Any, ...]
+    path: str  # of its array, from the group
+    axes: tuple[str, ...]  # names of the axes
+    scale: tuple[Fraction, ...]  # the products of all scales, one for each axis
+    units: tuple[Any, ...]  # of the axes: anything, None where there is none
 
 
 def full_size(name: str, folder: str) -> Level | None:
-    """Find the image of an OME-Zarr group; None if the group is none.
-
-    Parameters
-    ----------
-    name : str
-        For messages.
-    folder : str
-        The group.
-
-    Raises
-    ------
-    InputError
-        If its metadata are damaged, or its last two axes are not y and x.
-    """
+    """Find the image of an OME-Zarr group; None if the group is none."""
     found = largest_image(name, folder)
     if found is None:
         return None
@@ -96,13 +61,7 @@ def full_size(name: str, folder: str) -> Level | None:
 
 
 def largest_image(name: str, folder: str) -> Described | None:
-    """Read what an OME-Zarr group says of its image, whatever its axes; None if the group is none.
-
-    Raises
-    ------
-    InputError
-        If its metadata are damaged.
-    """
+    """Read what an OME-Zarr group says of its image, whatever its axes; None if the group is none."""
     about = _ome_attributes(folder)
     scales = about.get("multiscales")
     if not scales:
@@ -179,19 +138,7 @@ def _grid(found: Described) -> PixelGrid | None:
 
 
 def write_group(folder: Path, *, grid: PixelGrid | None, name: str, is_labels: bool) -> None:
-    """Write the metadata of a group whose array ``0`` is an image of two axes.
-
-    Parameters
-    ----------
-    folder : Path
-        Of the group.
-    grid : PixelGrid, optional
-        Of its pixels; degrees, or dots an inch, give no scale.
-    name : str
-        Of the image.
-    is_labels : bool
-        Whether it is a label image.
-    """
+    """Write the metadata of a group whose array ``0`` is an image of two axes."""
     unit, scale = None, [1.0, 1.0]
     if grid is not None and grid.unit in _LONG_UNITS and grid.is_size:
         unit, scale = grid.unit, [float(grid.height), float(grid.width)]
@@ -199,21 +146,7 @@ def write_group(folder: Path, *, grid: PixelGrid | None, name: str, is_labels: b
 
 
 def write_image(folder: Path, name: str, scale: Mapping[str, float], unit: str | None, *, is_labels: bool) -> None:
-    """Write the metadata of a group whose array ``0`` is an image.
-
-    Parameters
-    ----------
-    folder : Path
-        Of the group.
-    name : str
-        Of the image.
-    scale : mapping of str to float
-        Sides of its pixels, by the names of the axes, in their order.
-    unit : str, optional
-        Of the sides; one that OME-Zarr does not know is left out.
-    is_labels : bool
-        Whether it is a label image.
-    """
+    """Write the metadata of a group whose array ``0`` is an image."""
     told = {"unit": _LONG_UNITS[unit]} if unit in _LONG_UNITS else {}
     axes = [{"name": axis, "type": "space", **told} for axis in scale]
     datasets = [_dataset(0, list(scale.values()))]
@@ -224,15 +157,7 @@ def write_image(folder: Path, name: str, scale: Mapping[str, float], unit: str |
 
 
 def add_scales(folder: Path, factors: Sequence[Sequence[int]]) -> None:
-    """Say of a group whose metadata `write_image` wrote that there are coarser images, too.
-
-    Parameters
-    ----------
-    folder : Path
-        Of the group.
-    factors : sequence of sequence of int
-        Of the arrays ``1``, ``2`` and so on: how often a pixel of ``0`` goes into one of theirs, along each axis.
-    """
+    """Say of a group whose metadata `write_image` wrote that there are coarser images, too."""
     made = read_json(folder / "zarr.json")
     image = made["attributes"]["ome"]["multiscales"][0]
     sides = image["datasets"][0]["coordinateTransformations"][0]["scale"]
@@ -252,17 +177,7 @@ def _write_metadata(folder: Path, made: dict[str, Any]) -> None:
 
 
 def array_folder(store: Path, path: str | os.PathLike[str], *, grid: PixelGrid | None, is_labels: bool) -> Path:
-    """Where the array of an image goes: in the store itself, or in the group of what is to be called as OME-Zarr.
-
-    Parameters
-    ----------
-    store : Path
-        The empty folder.
-    path : str or path
-        What it will be called.
-    grid, is_labels
-        As of `write_group`.
-    """
+    """Where the array of an image goes: in the store itself, or in the group of what is to be called as OME-Zarr."""
     name = Path(path).name
     if not name.lower().endswith(OME_ENDING):
         return store

@@ -27,20 +27,7 @@ _MOST_DIGITS = 19
 
 
 class StoredArray:
-    """An array in a folder, of format 2 or 3; its values are read when they are asked for.
-
-    Parameters
-    ----------
-    name : str
-        For messages.
-    path : str or path
-        The folder.
-
-    Raises
-    ------
-    InputError
-        If there is no array, or it is stored in a way that is not known.
-    """
+    """An array in a folder, of format 2 or 3; its values are read when they are asked for."""
 
     def __init__(self, name: str, path: str | os.PathLike[str]) -> None:
         made = read_metadata(path)
@@ -61,13 +48,7 @@ class StoredArray:
         return self.metadata.pipeline.dtype.newbyteorder("=")
 
     def read(self, region: tuple[slice, ...], *, threads: int = 0) -> NDArray[Any]:
-        """Read a region: each slice has a start and a stop within its axis.
-
-        Raises
-        ------
-        ValueError
-            If a chunk is damaged.
-        """
+        """Read a region: each slice has a start and a stop within its axis."""
         chunk = self.metadata.pipeline.shape
         if self._stored is None and self._places > _MANY_CHUNKS:
             self._stored = self._listed()
@@ -94,10 +75,7 @@ class StoredArray:
         return math.prod(-(-side // part) for side, part in zip(self.shape, self.metadata.chunks, strict=True))
 
     def _chunk(self, place: tuple[int, ...]) -> bytes | None:
-        """Read the bytes of a chunk; None if it is left out.
-
-        The first that is left out has the folder listed: a sparse array may lack millions of chunks.
-        """
+        """Read the bytes of a chunk; None if it is left out."""
         key, most = self.metadata.key(place), self.metadata.pipeline.most_bytes
         path = self.folder / key
         try:

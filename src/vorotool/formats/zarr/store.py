@@ -18,24 +18,12 @@ _METADATA = ("zarr.json", ".zarray", ".zgroup")
 
 
 def is_store(path: str | os.PathLike[str]) -> bool:
-    """Whether a path is a folder that holds a Zarr array or group.
-
-    Examples
-    --------
-    >>> is_store("data")
-    False
-    """
+    """Whether a path is a folder that holds a Zarr array or group."""
     return any(_is_file(Path(path) / name) for name in _METADATA)
 
 
 def is_folder(path: str | os.PathLike[str]) -> bool:
-    """Whether a path is a folder; what must not be looked at is none, and who opens it says why.
-
-    Examples
-    --------
-    >>> is_folder("data"), is_folder("data/dots.csv")
-    (True, False)
-    """
+    """Whether a path is a folder; what must not be looked at is none, and who opens it says why."""
     try:
         return Path(path).is_dir()
     except (OSError, ValueError):
@@ -76,36 +64,7 @@ def check_store(
     inputs: Iterable[str | os.PathLike[str]] = (),
     makes_folder: bool = False,
 ) -> Path:
-    """Refuse a store that `open_store` would not write.
-
-    Parameters
-    ----------
-    path : str or path
-        Where to write.
-    no_clobber : bool
-        Refuse to replace a store.
-    inputs : iterable of paths
-        What is being read: neither replaced nor within what is replaced.
-    makes_folder : bool
-        The folder of the store is yet to be made.
-
-    Returns
-    -------
-    Path
-        The place, links followed.
-
-    Raises
-    ------
-    UsageError
-        If it is standard output, or one of the inputs.
-    OutputError
-        If something else is there, or it cannot be written.
-
-    Examples
-    --------
-    >>> check_store("build/new.zarr").name
-    'new.zarr'
-    """
+    """Refuse a store that `open_store` would not write."""
     name = os.fspath(path)
     if (kind := stream_kind(name)) is not None:
         place = "standard output" if name == STANDARD else f"{name}, {kind}"
@@ -140,33 +99,7 @@ def _other_error(name: str) -> OutputError:
 def open_store(
     path: str | os.PathLike[str], *, no_clobber: bool = False, inputs: Iterable[str | os.PathLike[str]] = ()
 ) -> Iterator[Path]:
-    """Give a folder to write a store in; it takes its place when all of it has been written.
-
-    It is made beside its place under a temporary name, and exchanged with an older store, which is removed then. On any
-    exception the folder is removed, and the older store is as it was.
-
-    Parameters
-    ----------
-    path, no_clobber, inputs
-        As for `check_store`.
-
-    Yields
-    ------
-    Path
-        The folder, which is there and empty.
-
-    Raises
-    ------
-    UsageError, OutputError
-        As by `check_store`, or if it cannot be written.
-
-    Examples
-    --------
-    >>> with open_store("build/one.zarr") as folder:
-    ...     _ = (folder / ".zarray").write_text("{}")
-    >>> is_array("build/one.zarr")
-    True
-    """
+    """Give a folder to write a store in; it takes its place when all of it has been written."""
     name = os.fspath(path)
     target = check_store(name, no_clobber=no_clobber, inputs=inputs)
 

@@ -35,15 +35,7 @@ _AXES = ("z", "y", "x")
 
 
 def volume_chunks(shape: Shape, dtype: DTypeLike, asked: Shape | None = None) -> Shape:
-    """Choose the chunks of a volume, if they are not asked for: near 4 MiB, and so that a slab of them can be held.
-
-    Examples
-    --------
-    >>> volume_chunks((512, 512, 512), np.uint8), volume_chunks((512, 512, 512), np.uint32)
-    ((64, 256, 256), (16, 256, 256))
-    >>> volume_chunks((1024, 4096, 4096), np.uint32), volume_chunks((3, 2, 1), np.uint8)
-    ((4, 512, 512), (3, 2, 1))
-    """
+    """Choose the chunks of a volume, if they are not asked for: near 4 MiB, and so that a slab of them can be held."""
     size = np.dtype(dtype).itemsize
     slices, rows, columns = asked or CHUNK
     if asked is None:
@@ -57,41 +49,14 @@ def volume_chunks(shape: Shape, dtype: DTypeLike, asked: Shape | None = None) ->
 
 
 def create_volume(folder: Any, shape: Shape, *, dtype: DTypeLike, chunks: Shape) -> Any:
-    """Make an array for a volume in an empty folder: see `vorotool.formats.zarr.arrays.create_array`.
-
-    Examples
-    --------
-    >>> create_volume({}, (3, 4, 5), dtype=np.uint8, chunks=(2, 4, 5)).chunks
-    (2, 4, 5)
-    """
+    """Make an array for a volume in an empty folder: see `vorotool.formats.zarr.arrays.create_array`."""
     return create_array(folder, shape, dtype=dtype, chunks=chunks)
 
 
 def write_slices(
     array: Any, first: int, slab: NDArray[Any], *, threads: int = 0, check: Callable[[], object] | None = None
 ) -> None:
-    """Write all chunks of some slices, each chunk by itself: an interrupt waits for some milliseconds only.
-
-    Parameters
-    ----------
-    array : zarr.Array
-        From `create_volume` or `vorotool.formats.zarr.arrays.open_array`.
-    first : int
-        Slice of the volume, a multiple of the slices of a chunk.
-    slab : (k, H, W) array
-        All slices of one chunk, or of several, or those at the end.
-    threads : int
-        0 for all processors.
-    check : callable, optional
-        Called before each chunk; what it raises stops the work.
-
-    Examples
-    --------
-    >>> array = create_volume({}, (3, 1, 2), dtype=np.uint8, chunks=(2, 1, 2))
-    >>> write_slices(array, 2, np.array([[[5, 6]]]), threads=1)
-    >>> array[:].tolist()
-    [[[0, 0]], [[0, 0]], [[5, 6]]]
-    """
+    """Write all chunks of some slices, each chunk by itself: an interrupt waits for some milliseconds only."""
     depth = array.chunks[0]
     if first % depth or (len(slab) % depth and first + len(slab) != array.shape[0]):
         raise ValueError(f"slices {first} to {first + len(slab) - 1} are not those of chunks of {depth} slices")
@@ -106,19 +71,7 @@ def write_slices(
 def volume_folder(
     store: Path, path: str | os.PathLike[str], *, grid: VoxelGrid | None = None, is_labels: bool = True
 ) -> Path:
-    """Where the array of a volume goes: in the store itself, or in the group of what is to be called as OME-Zarr.
-
-    Parameters
-    ----------
-    store : Path
-        The empty folder.
-    path : str or path
-        What it will be called.
-    grid : VoxelGrid, optional
-        Of the voxels, which OME-Zarr tells.
-    is_labels : bool
-        Whether it is a label image.
-    """
+    """Where the array of a volume goes: in the store itself, or in the group of what is to be called as OME-Zarr."""
     name = Path(path).name
     if not name.lower().endswith(OME_ENDING):
         return store
@@ -129,17 +82,7 @@ def volume_folder(
 
 
 def check_levels(path: str | os.PathLike[str], levels: int) -> None:
-    """Refuse coarser copies in what is not named as OME-Zarr, or fewer than none of them.
-
-    Raises
-    ------
-    UsageError
-        If there are to be some.
-
-    Examples
-    --------
-    >>> check_levels("a.ome.zarr", 3)
-    """
+    """Refuse coarser copies in what is not named as OME-Zarr, or fewer than none of them."""
     if levels < 0:
         raise UsageError(f"invalid number of coarser copies {levels}: expected one from 0 on")
     if levels and not Path(path).name.lower().endswith(OME_ENDING):
@@ -148,13 +91,7 @@ def check_levels(path: str | os.PathLike[str], levels: int) -> None:
 
 
 def usual_levels(shape: Shape) -> int:
-    """Give the number of coarser copies after which one is small enough to be shown as a whole.
-
-    Examples
-    --------
-    >>> usual_levels((100, 1024, 800)), usual_levels((3, 200, 256))
-    (2, 0)
-    """
+    """Give the number of coarser copies after which one is small enough to be shown as a whole."""
     levels = 0
     while max(shape) > _SMALL:
         shape, levels = _coarser(shape), levels + 1
@@ -162,22 +99,7 @@ def usual_levels(shape: Shape) -> int:
 
 
 def add_levels(store: Path, levels: int, *, threads: int = 0, check: Callable[[], object] | None = None) -> None:
-    """Make coarser copies of the array ``0`` of a group, each of every second voxel of the one before along each axis.
-
-    Labels stay labels, the first voxel stays where it is, and some chunks are held at a time. The metadata of the
-    group name them when they are there.
-
-    Parameters
-    ----------
-    store : Path
-        The group, whose array ``0`` is complete.
-    levels : int
-        How many.
-    threads : int
-        0 for all processors.
-    check : callable, optional
-        Called before each chunk; what it raises stops the work.
-    """
+    """Make coarser copies of the array ``0`` of a group, each of every second voxel of the one before."""
     factors, product_of_steps = [], (1, 1, 1)
     for level in range(1, levels + 1):
         finer = StoredArray(store.name, store / str(level - 1))
@@ -217,30 +139,7 @@ def write_zarr_volume(
     levels: int = 0,
     threads: int = 0,
 ) -> None:
-    """Write a volume that is held to a store, which replaces an older one when all is written.
-
-    Parameters
-    ----------
-    path : str or path
-        Of the store.
-    values : (D, H, W) array
-        Labels, or others.
-    grid, is_labels
-        As of `volume_folder`.
-    levels : int
-        Coarser copies, for OME-Zarr: see `add_levels`.
-    threads : int
-        0 for all processors.
-
-    Raises
-    ------
-    OutputError
-        If it cannot be written.
-
-    Examples
-    --------
-    >>> write_zarr_volume("build/cube.ome.zarr", np.ones((2, 3, 4), np.uint8), levels=1)
-    """
+    """Write a volume that is held to a store, which replaces an older one when all is written."""
     shape = _three(values.shape)
     chunks = volume_chunks(shape, values.dtype)
     check_levels(path, levels)

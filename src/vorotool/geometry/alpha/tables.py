@@ -16,27 +16,7 @@ from vorotool.geometry.table import Lookup, Table
 
 
 def shape_edge_table(shape: AlphaShape, *, interior: bool = False) -> Table:
-    """Give one row an edge of a shape, in the order of the family.
-
-    Parameters
-    ----------
-    shape : AlphaShape
-        Whose edges.
-    interior : bool
-        Interior edges too, not only singular and boundary ones.
-
-    Returns
-    -------
-    Table
-        ``label_a, label_b, x_a, y_a, x_b, y_b, length, r_min, r_max, class``; an infinite r_max is missing.
-
-    Examples
-    --------
-    >>> from vorotool import alpha_shape
-    >>> table = shape_edge_table(alpha_shape([[0, 0], [4, 0], [0, 3]], r=2))
-    >>> table["label_a"].tolist(), table["r_max"].tolist(), table["class"]
-    ([1, 1], [inf, inf], ['singular', 'singular'])
-    """
+    """Give one row an edge of a shape, in the order of the family."""
     family = shape.family
     classes = shape.edge_classes()
     chosen = np.flatnonzero(classes).astype(np.int32) if interior else shape.edge_index
@@ -52,19 +32,7 @@ def shape_edge_table(shape: AlphaShape, *, interior: bool = False) -> Table:
 
 
 def family_table(family: AlphaComplex) -> Table:
-    """Give one row a Delaunay edge: the radii at which it enters, bounds a triangle, and goes inside.
-
-    Returns
-    -------
-    Table
-        ``label_a, label_b, r_min, r_mid, r_max``; infinite radii are missing.
-
-    Examples
-    --------
-    >>> from vorotool import alpha_complex
-    >>> family_table(alpha_complex([[0, 0], [4, 0], [0, 3]]))["r_mid"].tolist()
-    [2.5, 2.5, 2.5]
-    """
+    """Give one row a Delaunay edge: the radii at which it enters, bounds a triangle, and goes inside."""
     labels = family.mesh.label_array
     a, b = np.ascontiguousarray(family.edges.T)
     return Table(
@@ -79,21 +47,7 @@ def family_table(family: AlphaComplex) -> Table:
 
 
 def shape_point_table(shape: AlphaShape) -> Table:
-    """Give one row a point, in the order of the input.
-
-    Returns
-    -------
-    Table
-        ``label, x, y, class, region``: isolated, singular (on edges without a triangle), boundary or interior, and the
-        first region that has the point, from 1; it is missing where there is none. Then the input's own columns.
-
-    Examples
-    --------
-    >>> from vorotool import alpha_shape
-    >>> table = shape_point_table(alpha_shape([[0, 0], [4, 0], [0, 3], [9, 9]], r=2.5))
-    >>> table["class"], table["region"].tolist()
-    (['boundary', 'boundary', 'boundary', 'isolated'], [1, 1, 1, None])
-    """
+    """Give one row a point, in the order of the input."""
     mesh = shape.family.mesh
     x, y = np.ascontiguousarray(mesh.points.T)
     region = shape.point_regions()
@@ -110,21 +64,7 @@ def shape_point_table(shape: AlphaShape) -> Table:
 
 
 def region_table(shape: AlphaShape) -> Table:
-    """Give one row a region of a shape.
-
-    Returns
-    -------
-    Table
-        ``region, area, perimeter, holes, points, triangles, bbox_x, bbox_y, bbox_w, bbox_h``: regions are numbered from
-        1, holes are those of its polygon, points are its vertices.
-
-    Examples
-    --------
-    >>> from vorotool import alpha_shape
-    >>> table = region_table(alpha_shape([[0, 0], [4, 0], [0, 3]], r=2.5))
-    >>> table["area"].tolist(), table["perimeter"].tolist(), table["points"].tolist()
-    ([6.0], [12.0], [3])
-    """
+    """Give one row a region of a shape."""
     inside, count = shape.inside, shape.region_count
     of = shape.region[inside]
     corners = shape.family.mesh.triangles[inside]
@@ -161,14 +101,7 @@ def _named(names: tuple[str, ...], numbers: NDArray[np.uint8]) -> list[str]:
 
 
 def described_polygons(shape: AlphaShape) -> PolygonSet:
-    """Give the polygons of a shape with the area, the perimeter and the number of holes of each.
-
-    Examples
-    --------
-    >>> from vorotool import alpha_shape
-    >>> described_polygons(alpha_shape([[0, 0], [4, 0], [0, 3]], r=2.5)).properties
-    {'area': [6.0], 'perimeter': [12.0], 'holes': [0]}
-    """
+    """Give the polygons of a shape with the area, the perimeter and the number of holes of each."""
     described = {
         "area": shape.region_areas().tolist(),
         "perimeter": _perimeters(shape).tolist(),

@@ -54,47 +54,17 @@ Rows = NDArray[np.integer]
 
 @dataclass(frozen=True, eq=False)
 class Features:
-    """Geometry with columns, one row a feature.
+    """Geometry with columns, one row a feature."""
 
-    Parameters
-    ----------
-    geometry : (n,) array of shapely geometry
-        Of each row; None where there is none.
-    columns : Table
-        Of n rows, those of the input too.
-    source : object
-        The points or polygons that the rows come from: their ``crs`` and ``index`` are of the rows, too.
-    item : (n,) integer array, optional
-        The row of the input that each comes from, -1 for none; None: they come from several.
-    """
-
-    geometry: NDArray[Any]
-    columns: Table
-    source: Any
+    geometry: NDArray[Any]  # (n,) array of shapely geometry: of each row; None where there is none
+    columns: Table  # of n rows, those of the input too
+    source: Any  # the points or polygons that the rows come from: their `crs` and `index` are of the rows, too
+    # (n,) integer array: the row of the input that each comes from, -1 for none; None: they come from several
     item: Rows | None = None
 
 
 def features_of(value: Any, **options: Any) -> Features:
-    """Give the features of a value.
-
-    Parameters
-    ----------
-    value : value of the library
-        With places in the plane.
-    **options
-        ``what``, ``by`` and ``flatten``, as the method ``to_shapely`` of the value has them.
-
-    Raises
-    ------
-    UsageError
-        If there are none, or no such part.
-
-    Examples
-    --------
-    >>> from vorotool import delaunay
-    >>> features_of(delaunay([[0, 0], [4, 0], [0, 3]]), what="edges").geometry[0].wkt
-    'LINESTRING (0 0, 0 3)'
-    """
+    """Give the features of a value."""
     maker = _MAKERS.get(type(value))
     if maker is None:
         raise UsageError(f"there is no geometry of a {type(value).__name__}")
@@ -111,20 +81,7 @@ def _chosen(value: Any, what: str | None, parts: Mapping[str, Callable[[Any], Fe
 
 # ---- geometry of arrays --------------------------------------------------------------------------
 def lines(points: NDArray[np.float64], start: Rows) -> NDArray[Any]:
-    """(n,) lines through places that follow one another; empty where these all are one place.
-
-    Parameters
-    ----------
-    points : (k, 2) float64 array
-        Places, line after line.
-    start : (n + 1,) integer array
-        Where each line begins, and k.
-
-    Examples
-    --------
-    >>> lines(np.array([[0, 0], [1, 1], [2, 0.0], [5, 5], [6, 6]]), np.array([0, 3, 5]))[1].wkt
-    'LINESTRING (5 5, 6 6)'
-    """
+    """(n,) lines through places that follow one another; empty where these all are one place."""
     points, start, has_length = with_length(points, start)
     made: NDArray[Any] = np.full(len(has_length), shapely.LineString(), dtype=object)
     made[has_length] = _joined(points, start)
@@ -200,13 +157,7 @@ def _mesh_points(mesh: AnyTriangulation) -> Features:
 
 
 def without_places(table: Table, properties: Mapping[str, Any] | None = None) -> Table:
-    """Leave out the columns of coordinates, which geometry has; those of the input stay.
-
-    Examples
-    --------
-    >>> list(without_places(Table({"label": [1], "x": [2], "x_a": [3], "length": [4]})))
-    ['label', 'length']
-    """
+    """Leave out the columns of coordinates, which geometry has; those of the input stay."""
     own = properties or {}
     kept = {name: column for name, column in table.stored().items() if name in own or not _is_place(name)}
     return Table(kept)
@@ -424,10 +375,7 @@ def _on_map(table: Table, image: LabelImage, own: Mapping[str, Any]) -> Table:
 
 
 def _regions(image: LabelImage, labels: NDArray[Any]) -> NDArray[Any]:
-    """(n,) outlines of the pixels of each label, on the map where the image lies on one, else in the unit of its sides.
-
-    None of labels without pixels.
-    """
+    """(n,) outlines of the pixels of each label, on the map where the image lies on one, else in pixels."""
     geometry = np.full(len(labels), None, dtype=object)
     if not image.labels.any():
         return geometry

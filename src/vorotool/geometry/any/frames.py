@@ -17,28 +17,14 @@ from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 
 
 def to_pandas(value: Any) -> Any:
-    """Give the table of a value as a data frame, with the index of the input where rows come from its rows.
-
-    Examples
-    --------
-    >>> from vorotool import Table
-    >>> to_pandas(Table({"label": np.array([1, 2]), "size": np.ma.array([7, 0], mask=[False, True])}))["size"].tolist()
-    [7, <NA>]
-    """
+    """Give the table of a value as a data frame, with the index of the input where rows come from its rows."""
     pandas = needed("pandas", "frames", "data frames")
     table, source, item = indexed_table(value)
     return pandas.DataFrame(_series(pandas, table), index=_index(pandas, source, item))
 
 
 def to_geopandas(value: Any, **options: Any) -> Any:
-    """Give the features of a value as a data frame of geopandas; see `vorotool.geometry.values`.
-
-    Examples
-    --------
-    >>> from vorotool import PointSet
-    >>> to_geopandas(PointSet([[2, 1]], crs="EPSG:2056")).crs.to_epsg()
-    2056
-    """
+    """Give the features of a value as a data frame of geopandas; see `vorotool.geometry.values`."""
     geopandas = needed("geopandas", "frames", "data frames of geometry")
     pandas = needed("pandas", "frames", "data frames of geometry")
     features = features_of(value, **options)
@@ -52,16 +38,7 @@ def to_geopandas(value: Any, **options: Any) -> Any:
 
 
 def adjacency(cells: VoronoiMap) -> Any:
-    """Give pairs of neighbours both ways as a data frame, cells without any with themselves.
-
-    See `vorotool.VoronoiMap.to_adjacency`.
-
-    Examples
-    --------
-    >>> from vorotool import voronoi
-    >>> adjacency(voronoi([[0, 0], [4, 0], [4, 0]], frame=(0, 0, 4, 2))).values.tolist()
-    [[0.0, 1.0, 2.0], [1.0, 0.0, 2.0], [2.0, 2.0, 0.0]]
-    """
+    """Give pairs of neighbours both ways as a data frame, cells without any with themselves."""
     pandas = needed("pandas", "frames", "data frames")
     pairs, length = neighbour_pairs(cells)
     lone = np.setdiff1d(np.arange(len(cells)), pairs)

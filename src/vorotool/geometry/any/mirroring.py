@@ -12,14 +12,7 @@ from vorotool.geometry.ragged import within
 
 
 def mirrored_polygons(polygons: PolygonSet) -> PolygonSet:
-    """Mirror polygons; closed rings begin at the same vertex, and run the other way, so that areas keep their signs.
-
-    Examples
-    --------
-    >>> square = PolygonSet([[0, 0], [2, 0], [2, 1], [0, 1]], [0, 4], [0], [0])
-    >>> mirrored_polygons(square).xy.tolist()
-    [[0.0, 0.0], [0.0, -1.0], [2.0, -1.0], [2.0, 0.0]]
-    """
+    """Mirror polygons; closed rings begin at the same vertex, and run the other way, so that areas keep their signs."""
     sizes = np.diff(polygons.ring_start)
     place = within(sizes)
     size, first = np.repeat(sizes, sizes), np.repeat(polygons.ring_start[:-1], sizes)
@@ -29,15 +22,7 @@ def mirrored_polygons(polygons: PolygonSet) -> PolygonSet:
 
 
 def mirrored_seeds(seeds: SeedSet) -> SeedSet:
-    """Mirror seeds and the frame that they bring.
-
-    Examples
-    --------
-    >>> from vorotool.geometry.pixel_frame import Frame
-    >>> seeds = mirrored_seeds(SeedSet(np.array([0, 5]), np.array([0, 1]), np.array([1, 2]), frame=Frame(0, 0, 9, 4)))
-    >>> seeds.y.tolist(), seeds.frame
-    ([0, -1], Frame(x=0, y=-3, width=9, height=4))
-    """
+    """Mirror seeds and the frame that they bring."""
     frame, sites = seeds.frame, seeds.sites
     if frame is not None:
         frame = replace(frame, y=-(frame.y + frame.height - 1))

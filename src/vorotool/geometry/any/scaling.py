@@ -81,36 +81,7 @@ _DISTANCES = frozenset(
 def scaled(
     value: Any, factor: Fraction, origin: Place = None, *, unit: str | None = None, of_steps: bool = False
 ) -> Any:
-    """Give a result in units of which one is ``1 / factor`` of the old.
-
-    What was decided in the old units stays: edges, ranks, classes, ties. Each number is rounded once.
-
-    Parameters
-    ----------
-    value : PolygonSet, Triangulation, DigitalTriangulation, ProximityGraph, CellSet, AlphaComplex, AlphaShape,
-        AlphaHull, Skeleton, SkeletonPoints, Necks, Parts, Offsets, Centerlines, ExtendedSkeleton, SmoothLines, Discs or
-        VoronoiMap
-        What to scale; for a table see `scaled_table`.
-    factor : Fraction
-        More than 0.
-    origin : (float, float), optional
-        Where the origin of the old coordinates is in the new ones; by default theirs.
-    unit : str, optional
-        Of the result.
-    of_steps : bool
-        The old numbers are mostly integers, steps of which one is the factor: three of a tenth are 0.3.
-
-    Raises
-    ------
-    UsageError
-        If it is of another type.
-
-    Examples
-    --------
-    >>> from vorotool import delaunay
-    >>> scaled(delaunay([[0, 0], [4, 0], [0, 3]]), Fraction(1, 2)).edge_lengths().tolist()
-    [1.5, 2.0, 2.5]
-    """
+    """Give a result in units of which one is ``1 / factor`` of the old."""
     if type(value) not in _LENGTHS_OF:
         raise UsageError(f"a {type(value).__name__} is not scaled")
     parts = {
@@ -159,31 +130,7 @@ def scaled_table(
     pixel: tuple[float, float] = (1.0, 1.0),
     of_steps: bool = False,
 ) -> Table:
-    """Give a table of tessellations, triangulations or alpha shapes in other units.
-
-    Parameters
-    ----------
-    table : Table
-        Its columns with a name in `LENGTHS` or `AREAS` are scaled.
-    factor : Fraction
-        More than 0.
-    properties : collection of str
-        Names of the input's own columns, which are not.
-    origin : (float, float), optional
-        Where the centre of the first pixel is in the new coordinates: boxes then begin at the outer sides of pixels.
-    y_up : bool
-        With an origin: the new y goes upwards, where the old one goes downwards.
-    pixel : (float, float)
-        With an origin: width and height of a pixel in the old units.
-    of_steps : bool
-        As of `scaled`.
-
-    Examples
-    --------
-    >>> table = scaled_table(Table({"label": [1], "area": [8], "perimeter": [12]}), Fraction(1, 2))
-    >>> table["label"], table["area"].tolist(), table["perimeter"].tolist()
-    ([1], [2.0], [6.0])
-    """
+    """Give a table of tessellations, triangulations or alpha shapes in other units."""
     columns = table.stored()
     scale = {LENGTHS: _scale(factor, of_steps=of_steps), AREAS: _scale(factor * factor, of_steps=of_steps)}
     made = {name: _scaled_column(name, column, scale, properties) for name, column in columns.items()}

@@ -83,19 +83,7 @@ def table(value: Any) -> dict[str, NDArray[Any]]:
 
 
 def indexed_table(value: Any) -> IndexedTable:
-    """Give the table of a value, with the rows of the input behind its rows.
-
-    Raises
-    ------
-    UsageError
-        If there is no table of it.
-
-    Examples
-    --------
-    >>> import vorotool
-    >>> indexed_table(vorotool.offset([[0, 0], [4, 0], [0, 3]], -0.5)).item.tolist()
-    [0, 0, 0]
-    """
+    """Give the table of a value, with the rows of the input behind its rows."""
     maker = _MAKERS.get(type(value))
     if maker is None:
         *others, last = (kind.__name__ for kind in _MAKERS)

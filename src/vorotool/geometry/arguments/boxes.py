@@ -14,25 +14,7 @@ EXPECTED = "expected a Box or four finite numbers x, y, width, height, the last 
 
 
 def as_box(source: Any, name: str) -> Box:
-    """Give a box from one, or from four numbers: its smallest corner, its width and its height.
-
-    Parameters
-    ----------
-    source : Box or (x, y, width, height)
-        What the caller gave.
-    name : str
-        Of the parameter, for messages.
-
-    Raises
-    ------
-    InputError
-        If it is neither, or has no area.
-
-    Examples
-    --------
-    >>> as_box((10, 20, 4, 3), "frame").sides
-    (10.0, 20.0, 14.0, 23.0)
-    """
+    """Give a box from one, or from four numbers: its smallest corner, its width and its height."""
     if isinstance(source, Box):
         return source
     try:
@@ -42,18 +24,7 @@ def as_box(source: Any, name: str) -> Box:
 
 
 def as_extent(source: Any, name: str) -> Extent:
-    """Give the smallest corner of a rectangle, its width and its height, digit by digit as they were given.
-
-    Raises
-    ------
-    UsageError
-        If these are no box and no four finite numbers.
-
-    Examples
-    --------
-    >>> as_extent(Box(10, 20, 14, 23), "frame")
-    (10.0, 20.0, 4.0, 3.0)
-    """
+    """Give the smallest corner of a rectangle, its width and its height, digit by digit as they were given."""
     if isinstance(source, Box):
         return source.extent
     try:

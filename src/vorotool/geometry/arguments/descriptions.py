@@ -18,15 +18,7 @@ LONGEST = 40
 
 @contextmanager
 def naming(name: str) -> Iterator[None]:
-    """Put the name of a parameter before what is wrong with its value.
-
-    Examples
-    --------
-    >>> with naming("points"):
-    ...     raise InputError("point 2 is empty")
-    Traceback (most recent call last):
-    vorotool.errors.InputError: invalid points: point 2 is empty
-    """
+    """Put the name of a parameter before what is wrong with its value."""
     try:
         yield
     except InputError as error:
@@ -34,24 +26,12 @@ def naming(name: str) -> Iterator[None]:
 
 
 def unexpected(value: Any, expected: str) -> InputError:
-    """Give the error for a value of another kind.
-
-    Examples
-    --------
-    >>> str(unexpected({"a": 1, "b": 2}, "an image"))
-    'expected an image, but got a dict with a, b'
-    """
+    """Give the error for a value of another kind."""
     return InputError(f"expected {expected}, but got {described(value)}")
 
 
 def described(value: Any) -> str:
-    """Name the type of a value, and its shape or columns.
-
-    Examples
-    --------
-    >>> described([1, 2]), described(None), described("a.csv")
-    ('a list', 'None', "'a.csv'")
-    """
+    """Name the type of a value, and its shape or columns."""
     if value is None:
         return "None"
     if isinstance(value, str | bytes):
@@ -71,25 +51,13 @@ def described(value: Any) -> str:
 
 
 def listing(names: list[Any]) -> str:
-    """Name the first few of some names.
-
-    Examples
-    --------
-    >>> listing(list("abcdefgh"))
-    'a, b, c, d, e, f, …'
-    """
+    """Name the first few of some names."""
     shown = [str(name) for name in names[:MOST_SHOWN]]
     return ", ".join([*shown, *(["…"] if len(names) > MOST_SHOWN else [])])
 
 
 def items_of(source: Iterator[Any]) -> list[Any]:
-    """Take all items of an iterator.
-
-    Raises
-    ------
-    InputError
-        If it cannot be read, as a file that is closed.
-    """
+    """Take all items of an iterator."""
     try:
         return list(source)
     except (OSError, ValueError) as error:
@@ -97,14 +65,7 @@ def items_of(source: Iterator[Any]) -> list[Any]:
 
 
 def column_names(value: Any) -> list[Any] | None:
-    """Give the names of the columns of a data frame; None of what is none.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> column_names(np.zeros(2, dtype=[("x", float), ("y", float)])), column_names([1, 2])
-    (['x', 'y'], None)
-    """
+    """Give the names of the columns of a data frame; None of what is none."""
     fields = getattr(getattr(value, "dtype", None), "names", None)
     if isinstance(fields, tuple):
         return list(fields)
@@ -118,12 +79,6 @@ def column_names(value: Any) -> list[Any] | None:
 
 
 def refuse_paths(value: Any, *, texts: bool = False) -> None:
-    """Refuse the path of a file, or any text: functions take what was read from it.
-
-    Raises
-    ------
-    InputError
-        Naming the function that reads.
-    """
+    """Refuse the path of a file, or any text: functions take what was read from it."""
     if isinstance(value, PathLike) or (texts and isinstance(value, str)):
         raise InputError(f"files are read with vorotool.read({str(value)!r})")

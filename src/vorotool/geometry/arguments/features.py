@@ -26,33 +26,17 @@ MOST_LEVELS = 100
 
 @dataclass(frozen=True, eq=False)
 class HeldFeatures:
-    """Features, one geometry each, and what is known of them.
+    """Features, one geometry each, and what is known of them."""
 
-    Parameters
-    ----------
-    items : list
-        Geometry of each: of shapely, a mapping of GeoJSON, or None where there is none.
-    properties : dict of str to list
-        Attributes, one value a feature.
-    ids : list, optional
-        Names of the features.
-    index : pandas Index, array or sequence, optional
-        What a series or a data frame calls them.
-    crs : object, optional
-        The ``crs`` member of GeoJSON.
-    curves : int
-        How many curves of texts were flattened.
-    is_map : bool
-        They come from a form in which features say where they are: pictures have y upwards, and what has no geometry is
-        left out, since an index or an id tells of the others which they are.
-    """
-
+    # geometry of each: of shapely, a mapping of GeoJSON, or None where there is none
     items: Sequence[Any] | NDArray[np.object_]
-    properties: dict[str, list[Any]] = field(default_factory=dict)
-    ids: list[Any] | None = None
-    index: Any = None
-    crs: Any = None
-    curves: int = 0
+    properties: dict[str, list[Any]] = field(default_factory=dict)  # attributes, one value a feature
+    ids: list[Any] | None = None  # names of the features
+    index: Any = None  # pandas Index, array or sequence: what a series or a data frame calls them
+    crs: Any = None  # the `crs` member of GeoJSON
+    curves: int = 0  # how many curves of texts were flattened
+    # they come from a form in which features say where they are: pictures have y upwards, and what has no geometry is
+    # left out, since an index or an id tells of the others which they are
     is_map: bool = False
 
     @property
@@ -82,24 +66,7 @@ class HeldFeatures:
 
 
 def held_features(source: Any) -> HeldFeatures | None:
-    """Take features apart; None of what has no geometry.
-
-    Parameters
-    ----------
-    source : object
-        Shapely geometry, a GeoSeries, GeoDataFrame or GeometryArray, a mapping of GeoJSON, an object with
-        ``__geo_interface__``, well-known text; a list, an object array or a series of such geometry.
-
-    Raises
-    ------
-    InputError
-        If a text is no geometry, or a feature is malformed.
-
-    Examples
-    --------
-    >>> held_features("POINT (1 2)").geometry.tolist(), held_features([[1, 2]]) is None
-    ([<POINT (1 2)>], True)
-    """
+    """Take features apart; None of what has no geometry."""
     held = _held(source)
     return held if held is None else _without_curves(held)
 
@@ -255,13 +222,7 @@ def _of_geopandas(source: Any) -> HeldFeatures:
 
 
 def crs_of(crs: Any) -> Any:
-    """Give the ``crs`` member for a system of pyproj: authority and code where it has them, else spelled out.
-
-    Examples
-    --------
-    >>> crs_of(None) is None
-    True
-    """
+    """Give the ``crs`` member for a system of pyproj: authority and code where it has them, else spelled out."""
     if crs is None or isinstance(crs, str):
         return member_of_text(crs)
     found = crs.to_authority()
@@ -269,18 +230,7 @@ def crs_of(crs: Any) -> Any:
 
 
 def joined_parts(geometry: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
-    """Give the simple geometries of an object of GeoJSON in order: the kind of each and its coordinates.
-
-    Raises
-    ------
-    InputError
-        If a geometry has no type or lacks its coordinates.
-
-    Examples
-    --------
-    >>> list(joined_parts({"type": "MultiPoint", "coordinates": [[1, 2], [3, 4]]}))
-    [('Point', [1, 2]), ('Point', [3, 4])]
-    """
+    """Give the simple geometries of an object of GeoJSON in order: the kind of each and its coordinates."""
     pending: list[Any] = [geometry]
     while pending:  # not recursive: collections may be nested as deep as one likes
         each = pending.pop()

@@ -19,24 +19,7 @@ COLUMN_AXES = ("x", "lon", "longitude", "easting", "column", "col")
 
 
 def grid_of(image: Any) -> PixelGrid | None:
-    """Give the grid of an image with named axes; None where its axes have no coordinates.
-
-    Parameters
-    ----------
-    image : object
-        With ``dims`` and ``coords``, rows first.
-
-    Returns
-    -------
-    PixelGrid
-        The sides of a pixel in the unit that both coordinates have. Of a map also where the first pixel is; an image
-        whose rows go down from 0, as those of microscopes do, is none.
-
-    Raises
-    ------
-    InputError
-        If columns come first, or coordinates are no evenly spaced numbers.
-    """
+    """Give the grid of an image with named axes; None where its axes have no coordinates."""
     rows, columns = image.dims
     if plain_name(str(rows)) in COLUMN_AXES:
         raise InputError(f"its dimensions are {rows}, {columns}: give it transposed, rows first")

@@ -32,30 +32,7 @@ def check_image_choice(image: Any) -> None:
 
 
 def is_image(source: Any, name: str, image: bool | None = None) -> bool:
-    """Tell whether what may be points or an image is an image.
-
-    Parameters
-    ----------
-    source : object
-        What the caller gave.
-    name : str
-        Of the parameter, for messages.
-    image : bool, optional
-        What the caller says of an array; by default truth values are an image, and so are integers, but those with two
-        or three columns, which are points, as floating-point numbers are.
-
-    Raises
-    ------
-    InputError
-        If it looks like an image of grey values, which needs a threshold.
-    UsageError
-        If `image` is no truth value.
-
-    Examples
-    --------
-    >>> is_image(np.eye(3, dtype=bool), "seeds"), is_image(np.zeros((9, 2), int), "seeds"), is_image([[1, 2]], "seeds")
-    (True, False, False)
-    """
+    """Tell whether what may be points or an image is an image."""
     check_image_choice(image)
     if isinstance(source, Raster | LabelImage):
         return True
@@ -80,32 +57,7 @@ def is_image(source: Any, name: str, image: bool | None = None) -> bool:
 
 
 def as_raster(source: Any, name: str, *, is_grey: bool = False, max_pixels: int = MAX_PIXELS) -> Raster:
-    """Give an image from whatever holds it.
-
-    Parameters
-    ----------
-    source : object
-        A `Raster`, which is given back; a `LabelImage`; an array, of xarray with its grid; what makes an array of
-        itself, as arrays of Dask and Zarr and images of Pillow do.
-    name : str
-        Of the parameter, for messages.
-    is_grey : bool
-        Floating-point numbers and colours are right, since there may be a threshold.
-    max_pixels : int
-        More are refused before what is not yet in memory is read.
-
-    Raises
-    ------
-    InputError
-        If it is no image.
-    LimitError
-        If it is too large.
-
-    Examples
-    --------
-    >>> as_raster(np.eye(3, dtype=bool), "image").shape
-    (3, 3)
-    """
+    """Give an image from whatever holds it."""
     if isinstance(source, Raster):
         return source
     if isinstance(source, LabelImage):
@@ -125,27 +77,7 @@ def as_raster(source: Any, name: str, *, is_grey: bool = False, max_pixels: int 
 
 
 def as_label_image(source: Any, name: str, components: Callable[[NDArray[Any]], NDArray[Any]]) -> LabelImage:
-    """Give a label image: of truth values the components are numbered, integers are labels.
-
-    Parameters
-    ----------
-    source : object
-        A `LabelImage`, which is given back, or what `as_raster` takes.
-    name : str
-        Of the parameter, for messages.
-    components : callable
-        Numbers the connected components of a mask.
-
-    Raises
-    ------
-    InputError
-        If it is no image of labels.
-
-    Examples
-    --------
-    >>> as_label_image(np.array([[0, 7]]), "image", np.asarray).labels.tolist()
-    [[0, 7]]
-    """
+    """Give a label image: of truth values the components are numbered, integers are labels."""
     if isinstance(source, LabelImage):
         return source
     raster = as_raster(source, name)

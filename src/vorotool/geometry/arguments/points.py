@@ -26,28 +26,7 @@ EXPECTED = "an (n, 2) array of numbers, a data frame with columns x, y, or point
 
 
 def as_points(source: Any, name: str = "points") -> PointSet:
-    """Give points from whatever holds them; the order is kept.
-
-    Parameters
-    ----------
-    source : object
-        A `PointSet`, which is given back; a `SeedSet`, whose sites count; an (n, 2) array or a list of pairs; a data
-        frame; shapely points, a GeoSeries, a GeoDataFrame, GeoJSON, well-known text.
-    name : str
-        Of the parameter, for messages.
-
-    Raises
-    ------
-    InputError
-        If it is none of these, or a coordinate is not finite.
-
-    Examples
-    --------
-    >>> as_points([[2, 1], [7, 5]]).xy.tolist()
-    [[2.0, 1.0], [7.0, 5.0]]
-    >>> as_points(["POINT (3 4)", "SRID=2056;POINT (5 6)"]).xy.tolist()
-    [[3.0, 4.0], [5.0, 6.0]]
-    """
+    """Give points from whatever holds them; the order is kept."""
     if isinstance(source, PointSet):
         return source
     with naming(name):
@@ -55,20 +34,7 @@ def as_points(source: Any, name: str = "points") -> PointSet:
 
 
 def as_place(source: Any, name: str) -> tuple[float, float]:
-    """Give one place: of two numbers, or of a point in any form.
-
-    Raises
-    ------
-    InputError
-        If it is another number of points.
-    UsageError
-        If these are no two finite numbers.
-
-    Examples
-    --------
-    >>> as_place("POINT (3 4)", "start"), as_place([1, 2], "start")
-    ((3.0, 4.0), (1.0, 2.0))
-    """
+    """Give one place: of two numbers, or of a point in any form."""
     if not (isinstance(source, str | Mapping | PointSet) or is_shapely(source) or hasattr(source, "crs")):
         return pair_of_doubles(source, name)
     points = as_points(source, name)

@@ -28,32 +28,7 @@ Part = tuple[int, Any]
 
 
 def as_polygons(source: Any, name: str = "polygons") -> PolygonSet:
-    """Give polygons and open lines from whatever holds them; the order is kept.
-
-    Parameters
-    ----------
-    source : object
-        A `PolygonSet`, which is given back; shapely geometry, a GeoSeries, a GeoDataFrame, GeoJSON, well-known text; an
-        (n, 2) array, which is the shell of one polygon; a mapping with ``shell`` and ``holes``, or ``line``; a list of
-        these. Of a mask, a 2-D array of truth values, the outlines are taken. Each row or item is one feature, and the
-        polygons of a multi-part geometry are its parts. Empty and missing geometry is left out.
-    name : str
-        Of the parameter, for messages.
-
-    Raises
-    ------
-    InputError
-        If it is none of these, a geometry is a point, or a coordinate is not finite; the item is named.
-
-    Examples
-    --------
-    >>> as_polygons([[0, 0], [4, 0], [0, 3]]).ring_start.tolist()
-    [0, 3]
-    >>> len(as_polygons([{"shell": [[0, 0], [9, 0], [0, 9]], "holes": [[[1, 1], [2, 1], [1, 2]]]}, {"line": [[5, 5]]}]))
-    2
-    >>> as_polygons({"type": "LineString", "coordinates": [[0, 0], [4, 0]]}).is_line.tolist()
-    [True]
-    """
+    """Give polygons and open lines from whatever holds them; the order is kept."""
     if isinstance(source, PolygonSet):
         return source
     with naming(name):
@@ -61,18 +36,7 @@ def as_polygons(source: Any, name: str = "polygons") -> PolygonSet:
 
 
 def as_geometry(source: Any, name: str) -> tuple[NDArray[np.object_], Any]:
-    """Give the same as shapely geometry, and the ``crs`` member; geometry of shapely as it is, parts not taken apart.
-
-    Raises
-    ------
-    InputError
-        As of `as_polygons`.
-
-    Examples
-    --------
-    >>> as_geometry([[0, 0], [4, 0], [0, 3]], "clip")[0][0].area
-    6.0
-    """
+    """Return the same as shapely geometry, and the ``crs`` member; geometry of shapely as it is."""
     if not isinstance(source, PolygonSet):
         with naming(name):
             refuse_paths(source)

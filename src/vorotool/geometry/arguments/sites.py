@@ -36,60 +36,19 @@ EXPECTED = (
 
 @dataclass(frozen=True, eq=False)
 class Sites:
-    """Sites of a Voronoi diagram, and what the input says of them.
+    """Sites of a Voronoi diagram, and what the input says of them."""
 
-    Parameters
-    ----------
-    polygons : PolygonSet
-        Polygons, lines, and points, which are lines of one vertex.
-    site : (p,) int32 array
-        That each polygon is a part of.
-    count : int
-        Sites, those without polygons too.
-    ids : list, optional
-        Their names: the values that they were joined by, or those of the input.
-    properties : dict of str to list
-        Further columns of the input, one value a site; none of sites that were joined.
-    index : pandas Index, array or sequence, optional
-        What the input calls them, unless they were joined.
-    """
-
-    polygons: PolygonSet
-    site: NDArray[np.int32]
-    count: int
-    ids: list[Any] | None = None
+    polygons: PolygonSet  # polygons, lines, and points, which are lines of one vertex
+    site: NDArray[np.int32]  # (p,) int32 array: that each polygon is a part of
+    count: int  # sites, those without polygons too
+    ids: list[Any] | None = None  # their names: the values that they were joined by, or those of the input
+    # further columns of the input, one value a site; none of sites that were joined
     properties: dict[str, list[Any]] = field(default_factory=dict)
-    index: Any = None
+    index: Any = None  # pandas Index, array or sequence: what the input calls them, unless they were joined
 
 
 def as_sites(source: Any, by: Any = None, name: str = "sites") -> Sites:
-    """Give the sites of whatever holds points, lines and polygons.
-
-    Parameters
-    ----------
-    source : object
-        What `as_polygons` takes, with points among the geometry, or what `as_points` takes: an (n, 2) array is n
-        points. Each feature is a site; one without geometry is a site without places. Of a mask or a label image each
-        object is one, by its outline.
-    by : str or sequence, optional
-        Values that join features: a column of the input, its ids by the name ``id``, or one value a feature. Sites are
-        numbered by first appearance.
-    name : str
-        Of the parameter, for messages.
-
-    Raises
-    ------
-    InputError
-        If it is none of these, or there is not one value a feature, or one is missing.
-    UsageError
-        If there is no such column.
-
-    Examples
-    --------
-    >>> three = as_sites(["POINT (0 0)", "LINESTRING (1 0, 2 0)", "POINT (4 0)"], by=["a", "b", "a"])
-    >>> three.site.tolist(), three.count, three.ids
-    ([0, 1, 0], 2, ['a', 'b'])
-    """
+    """Give the sites of whatever holds points, lines and polygons."""
     features = _features(source, name)
     if by is None:
         return features

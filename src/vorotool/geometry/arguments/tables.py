@@ -33,39 +33,14 @@ MISSING_TYPES = ("NAType", "NaTType")
 
 
 def is_table(value: Any) -> bool:
-    """Tell whether a value has named columns: a data frame, a structured array, a mapping of names to columns.
-
-    Examples
-    --------
-    >>> is_table({"x": [1], "y": [2]}), is_table({"type": "Point", "coordinates": [1, 2]}), is_table([[1, 2]])
-    (True, False, False)
-    """
+    """Tell whether a value has named columns: a data frame, a structured array, a mapping of names to columns."""
     if isinstance(value, Mapping):
         return bool(value) and not value.keys() & NO_TABLE
     return column_names(value) is not None
 
 
 def points_of_table(table: Any, name: str) -> PointSet:
-    """Take coordinates, labels, further columns and the index of a table.
-
-    Parameters
-    ----------
-    table : data frame, structured array or mapping
-        With columns as `coordinate_columns` finds them, or with two columns, both of numbers.
-    name : str
-        Of the parameter, for advice.
-
-    Raises
-    ------
-    InputError
-        If no columns are known as coordinates, or they do not hold numbers.
-
-    Examples
-    --------
-    >>> points = points_of_table({"Lat": [47.5], "Lon": [8.5], "town": ["a"]}, "points")
-    >>> points.xy.tolist(), points.properties, points.y_up
-    ([[8.5, 47.5]], {'town': ['a']}, True)
-    """
+    """Take coordinates, labels, further columns and the index of a table."""
     names, columns = _columns_of(table)
     texts = [str(each) for each in names]
     chosen = coordinate_columns(texts) or _two_numeric(texts, columns)
@@ -81,24 +56,7 @@ def points_of_table(table: Any, name: str) -> PointSet:
 
 
 def volume_points_of_table(table: Any) -> VolumePoints:
-    """Take coordinates of space, labels, further columns and the index of a table.
-
-    Parameters
-    ----------
-    table : data frame, structured array or mapping
-        With columns as `space_columns` finds them.
-
-    Raises
-    ------
-    InputError
-        If no columns are known as coordinates, or they do not hold numbers.
-
-    Examples
-    --------
-    >>> points = volume_points_of_table({"x": [4], "y": [5], "z": [6], "cell": ["a"]})
-    >>> points.xyz.tolist(), points.properties
-    ([[4.0, 5.0, 6.0]], {'cell': ['a']})
-    """
+    """Take coordinates of space, labels, further columns and the index of a table."""
     names, columns = _columns_of(table)
     texts = [str(each) for each in names]
     chosen = space_columns(texts)
@@ -134,25 +92,13 @@ def _taken(table: Any, texts: list[str], columns: list[Any], chosen: list[int], 
 
 
 def index_of(value: Any) -> Any:
-    """Give the index of a data frame or a series; None of what has none.
-
-    Examples
-    --------
-    >>> index_of([1, 2]) is None
-    True
-    """
+    """Give the index of a data frame or a series; None of what has none."""
     index = getattr(value, "index", None)
     return None if index is None or callable(index) else index
 
 
 def listed(column: Any) -> list[Any]:
-    """Give the values of a column as objects of Python; None where there is none.
-
-    Examples
-    --------
-    >>> listed(np.ma.array([1, 2], mask=[False, True])), listed(("a", None))
-    ([1, None], ['a', None])
-    """
+    """Give the values of a column as objects of Python; None where there is none."""
     for method in ("to_pylist", "tolist", "to_list"):
         if hasattr(column, method):
             values: list[Any] = getattr(column, method)()

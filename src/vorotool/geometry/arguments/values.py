@@ -32,29 +32,7 @@ _MAKERS = {
 
 
 def check_value(value: Any, name: str, *types: type) -> None:
-    """Refuse what is not of a type of the library.
-
-    Parameters
-    ----------
-    value : object
-        What the caller gave.
-    name : str
-        Of the parameter.
-    *types : type
-        Those that it may have.
-
-    Raises
-    ------
-    InputError
-        With the function that makes such a value.
-
-    Examples
-    --------
-    >>> from vorotool import Skeleton
-    >>> check_value([[0, 0], [4, 0], [0, 3]], "skeleton", Skeleton)
-    Traceback (most recent call last):
-    vorotool.errors.InputError: invalid skeleton: expected a Skeleton of vorotool.skeleton_exact, but got a list
-    """
+    """Refuse what is not of a type of the library."""
     if isinstance(value, types):
         return
     expected = " or ".join(f"{_article(each.__name__)} of vorotool.{_MAKERS[each.__name__]}" for each in types)

@@ -21,28 +21,7 @@ EXPECTED = (
 
 
 def as_volume_points(source: Any, name: str = "points") -> VolumePoints:
-    """Give points of space from whatever holds them; the order is kept.
-
-    Parameters
-    ----------
-    source : object
-        `VolumePoints`, which are given back; `VolumeSeeds`, whose sites count; an (n, 3) array or a list of triples, x,
-        y and z; a data frame, structured array or mapping with columns x, y and z; shapely points with a z.
-    name : str
-        Of the parameter, for messages.
-
-    Raises
-    ------
-    InputError
-        If it is none of these, or a coordinate is not finite.
-
-    Examples
-    --------
-    >>> as_volume_points([[2, 1, 0], [7, 5, 3]]).xyz.tolist()
-    [[2.0, 1.0, 0.0], [7.0, 5.0, 3.0]]
-    >>> as_volume_points({"z": [0, 3], "y": [1, 5], "x": [2, 7]}).xyz.tolist()
-    [[2.0, 1.0, 0.0], [7.0, 5.0, 3.0]]
-    """
+    """Give points of space from whatever holds them; the order is kept."""
     if isinstance(source, VolumePoints):
         return source
     with naming(name):

@@ -23,13 +23,7 @@ EXPECTED = "a volume: a Volume, a LabelVolume, or a 3-D array of truth values or
 
 
 def is_volume(values: Any) -> bool:
-    """Whether an array has three axes, of which the last one is not that of colours.
-
-    Examples
-    --------
-    >>> is_volume(np.zeros((4, 5, 6), bool)), is_volume(np.zeros((4, 5, 3), np.uint8))
-    (True, False)
-    """
+    """Whether an array has three axes, of which the last one is not that of colours."""
     try:
         shape = np.shape(values) if isinstance(values, list | tuple) else getattr(values, "shape", ())
     except ValueError:  # lists of several lengths
@@ -39,23 +33,7 @@ def is_volume(values: Any) -> bool:
 
 
 def is_of_space(source: Any, shape: Any = None, window: Any = None) -> bool:
-    """Tell whether seeds are those of a volume: by their type, their shape, or what is asked for.
-
-    Parameters
-    ----------
-    source : object
-        What the caller gave as seeds.
-    shape, window : object
-        As of `vorotool.tessellate`: three or six numbers are of a volume, others are not.
-
-    Examples
-    --------
-    >>> points = np.zeros((5, 3))
-    >>> is_of_space(points, (2, 3, 4)), is_of_space(points, (3, 4)), is_of_space(points)
-    (True, False, False)
-    >>> is_of_space(np.zeros((4, 5, 6), bool)), is_of_space(VolumePoints(points)), is_of_space([[1, 2]], (2, 3, 4))
-    (True, True, False)
-    """
+    """Tell whether seeds are those of a volume: by their type, their shape, or what is asked for."""
     if isinstance(source, Volume | LabelVolume | VolumePoints | VolumeSeeds):
         return True
     if _width(source) == 2:  # points of the plane, of which another shape is wrong
@@ -67,29 +45,7 @@ def is_of_space(source: Any, shape: Any = None, window: Any = None) -> bool:
 
 
 def refuse_triples(source: Any, name: str, *, image: bool | None = None) -> None:
-    """Refuse an array or a list of triples where no volume is asked for: they may be points of space, or of the plane.
-
-    Parameters
-    ----------
-    source : object
-        What the caller gave.
-    name : str
-        Of the parameter, for messages.
-    image : bool, optional
-        Whether it is said to be an image.
-
-    Raises
-    ------
-    InputError
-        With what says which it is.
-
-    Examples
-    --------
-    >>> refuse_triples([[1, 2]], "seeds")
-    >>> refuse_triples(np.ones((5, 3)), "seeds")  # doctest: +ELLIPSIS
-    Traceback (most recent call last):
-    vorotool.errors.InputError: invalid seeds: ... for points of space give shape=(D, H, W) as well; ...
-    """
+    """Refuse an array or a list of triples where no volume is asked for: they may be points."""
     if not image and _width(source) == AXES:
         raise InputError(
             f"invalid {name}: expected shape (n, 2), but got {described(source)}: for points of space give "
@@ -108,32 +64,7 @@ def _width(source: Any) -> int | None:
 
 
 def as_volume(source: Any, name: str, *, is_grey: bool = False, max_pixels: int = MAX_PIXELS) -> Volume:
-    """Give a volume from whatever holds it.
-
-    Parameters
-    ----------
-    source : object
-        A `Volume`, which is given back; a `LabelVolume`; a 3-D array; what makes an array of itself, as arrays of Dask
-        and Zarr do.
-    name : str
-        Of the parameter, for messages.
-    is_grey : bool
-        Floating-point numbers are right, since there may be a threshold.
-    max_pixels : int
-        More voxels are refused before what is not yet in memory is read.
-
-    Raises
-    ------
-    InputError
-        If it is no volume.
-    LimitError
-        If it is too large.
-
-    Examples
-    --------
-    >>> as_volume(np.zeros((2, 3, 4), bool), "volume").shape
-    (2, 3, 4)
-    """
+    """Give a volume from whatever holds it."""
     if isinstance(source, Volume):
         return source
     if isinstance(source, LabelVolume):

@@ -11,23 +11,7 @@ Floats = NDArray[np.float64]
 
 
 def areas_beside(source: Floats, control: Floats, target: Floats, centre: Floats) -> Floats:
-    """(n,) signed areas between a place and curves: positive where they go counter-clockwise around it.
-
-    Those of the curves of a closed ring add up to the area in it, wherever the place is.
-
-    Parameters
-    ----------
-    source, control, target : (n, 2) float64 array
-        Control points; the middle one is NaN of a straight line.
-    centre : (2,) or (n, 2) float64 array
-        The place, or one for each curve.
-
-    Examples
-    --------
-    >>> source, target, centre = np.array([[0.0, 0.0]]), np.array([[2.0, 0.0]]), np.zeros(2)
-    >>> areas_beside(source, np.array([[1.0, -3.0]]), target, centre).tolist()
-    [2.0]
-    """
+    """(n,) signed areas between a place and curves: positive where they go counter-clockwise around it."""
     a, b = source - centre, target - centre
     triangle = (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2
     u, v = control - source, target - source
@@ -37,23 +21,7 @@ def areas_beside(source: Floats, control: Floats, target: Floats, centre: Floats
 
 
 def lengths_of(source: Floats, control: Floats, target: Floats) -> Floats:
-    """(n,) lengths of curves.
-
-    With s the slope against the directrix at an end of a parabola, and w the root of 1 + s^2, the length is half the
-    distance of focus and directrix times the difference of s w + asinh s. Differences are written as sums of positive
-    numbers.
-
-    Parameters
-    ----------
-    source, control, target : (n, 2) float64 array
-        Control points; the middle one is NaN of a straight line.
-
-    Examples
-    --------
-    >>> source, control, target = np.array([[0.0, 0.0]]), np.array([[0.5, 0.0]]), np.array([[1.0, 1.0]])
-    >>> lengths_of(source, control, target).round(9).tolist()
-    [1.478942858]
-    """
+    """(n,) lengths of curves."""
     length = _norm(target - source)
     bent = np.flatnonzero(~np.isnan(control[:, 0]))
     first, second = control[bent] - source[bent], target[bent] - control[bent]

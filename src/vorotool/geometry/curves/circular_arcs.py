@@ -17,30 +17,7 @@ MOST_HALVINGS = 12
 def chords_of(
     start: Floats, end: Floats, centre: Floats, is_left: NDArray[np.bool_], tolerance: float | Floats
 ) -> tuple[Floats, NDArray[np.int64]]:
-    """Replace arcs by chords between places on them, each at most a quarter of a circle.
-
-    Parameters
-    ----------
-    start, end, centre : (k, 2) float64 array
-        Of arcs of at most half a circle; the centre of a straight line is NaN.
-    is_left : (k,) bool array
-        Whether each arc turns left: counter-clockwise, y upwards.
-    tolerance : float, or (k,) float64 array
-        How far a chord may be from its arc.
-
-    Returns
-    -------
-    points : (n, 2) float64 array
-        The start of each piece, and places inside the arcs; no end.
-    first : (k + 1,) int64 array
-        Where the points of each piece begin.
-
-    Examples
-    --------
-    >>> places = np.array([[[1.0, 0.0]], [[-1.0, 0.0]], [[0.0, 0.0]]])
-    >>> chords_of(*places, np.array([True]), 0.5)[0].tolist()
-    [[1.0, 0.0], [0.0, 1.0]]
-    """
+    """Replace arcs by chords between places on them, each at most a quarter of a circle."""
     halvings = _halvings(start, end, centre, tolerance)
     first = starts_of(2**halvings)
     points = np.empty((first[-1], 2))
@@ -53,14 +30,7 @@ def chords_of(
 
 
 def middles_of(start: Floats, end: Floats, centre: Floats, is_long: NDArray[np.bool_]) -> Floats:
-    """Middles of arcs that turn left, over half a circle where they are long.
-
-    Examples
-    --------
-    >>> a, b, c = (np.array([place]) for place in ([1.0, 0.0], [0.0, -1.0], [0.0, 0.0]))
-    >>> middles_of(a, b, c, np.array([True])).round(3).tolist()
-    [[-0.707, 0.707]]
-    """
+    """Middles of arcs that turn left, over half a circle where they are long."""
     u, v = start - centre, end - centre
     is_wide = (u * v).sum(axis=1) < 0  # then the chord tells more than the sum of the ends
     across = np.stack([(v - u)[:, 1], (u - v)[:, 0]], axis=1)

@@ -17,27 +17,7 @@ _FINEST = 16
 
 
 def flattened_arcs(points: Floats, flatten: float | None = None) -> Floats:
-    """Replace arcs by chords; the points that were given stay vertices.
-
-    Parameters
-    ----------
-    points : (2k + 1, d) float64 array
-        The start of the first arc, and of each arc a point between its ends, and its end. An arc whose ends are one
-        point is a whole circle, counter-clockwise, with the point between opposite. Numbers beyond x and y are
-        interpolated.
-    flatten : float, optional
-        How far a chord may be from its arc; by default 1/2000 of the diagonal of the box that holds the arc.
-
-    Returns
-    -------
-    (n, d) float64 array
-        Vertices.
-
-    Examples
-    --------
-    >>> flattened_arcs(np.array([[1.0, 0], [0, 1], [-1, 0]]), 0.1).round(3).tolist()
-    [[1.0, 0.0], [0.707, 0.707], [0.0, 1.0], [-0.707, 0.707], [-1.0, 0.0]]
-    """
+    """Replace arcs by chords; the points that were given stay vertices."""
     points = np.asarray(points, dtype=np.float64)
     with np.errstate(all="ignore"):  # numbers that are not finite are found by whoever reads the vertices
         a, b, c = points[:-1:2, :2], points[1::2, :2], points[2::2, :2]

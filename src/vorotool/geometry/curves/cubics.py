@@ -12,21 +12,7 @@ Floats = NDArray[np.float64]
 
 
 def places_at(control: Floats, t: Floats) -> Floats:
-    """(n, 2) places on curves, each at its parameter.
-
-    Parameters
-    ----------
-    control : (n, 4, 2) float64 array
-        Control points.
-    t : (n,) float64 array
-        From 0 to 1.
-
-    Examples
-    --------
-    >>> arch = np.array([[[0.0, 0.0], [0.0, 4.0], [8.0, 4.0], [8.0, 0.0]]])
-    >>> places_at(arch, np.array([0.5])).tolist()
-    [[4.0, 3.0]]
-    """
+    """(n, 2) places on curves, each at its parameter."""
     a, b, c, d = np.moveaxis(control, 1, 0)
     t = t[:, None]
     u = 1 - t
@@ -35,14 +21,7 @@ def places_at(control: Floats, t: Floats) -> Floats:
 
 
 def parts_between(control: Floats, first: Floats, last: Floats) -> Floats:
-    """(n, 4, 2) control points of the parts of curves from one parameter to another.
-
-    Examples
-    --------
-    >>> arch = np.array([[[0.0, 0.0], [0.0, 4.0], [8.0, 4.0], [8.0, 0.0]]])
-    >>> parts_between(arch, np.array([0.0]), np.array([0.5])).tolist()
-    [[[0.0, 0.0], [0.0, 2.0], [2.0, 3.0], [4.0, 3.0]]]
-    """
+    """(n, 4, 2) control points of the parts of curves from one parameter to another."""
     made = np.empty_like(control)
     for k, parameters in enumerate(((first,) * 3, (first, first, last), (first, last, last), (last,) * 3)):
         points = np.moveaxis(control, 1, 0)
@@ -53,31 +32,7 @@ def parts_between(control: Floats, first: Floats, last: Floats) -> Floats:
 
 
 def cubic_polylines(control: Floats, tolerance: float | Floats) -> tuple[Floats, NDArray[np.int64]]:
-    """Curves as polylines, divided evenly in their parameter.
-
-    A chord over 1/n of the parameter is off by a quarter of the larger second difference of the control points times
-    3 / n^2 at most.
-
-    Parameters
-    ----------
-    control : (n, 4, 2) float64 array
-        Control points.
-    tolerance : float
-        How far a polyline may be from its curve.
-
-    Returns
-    -------
-    points : (k, 2) float64 array
-        Places along each curve, its ends included.
-    start : (n + 1,) int64 array
-        Where the points of each curve begin.
-
-    Examples
-    --------
-    >>> arch = np.array([[[0.0, 0.0], [0.0, 4.0], [8.0, 4.0], [8.0, 0.0]]])
-    >>> cubic_polylines(arch, 2.0)[0].tolist()
-    [[0.0, 0.0], [4.0, 3.0], [8.0, 0.0]]
-    """
+    """Curves as polylines, divided evenly in their parameter."""
     second = control[:, 2:] - 2 * control[:, 1:-1] + control[:, :-2]
     bend = np.sqrt((second * second).sum(axis=2)).max(axis=1, initial=0.0)
     pieces = np.clip(np.ceil(np.sqrt(0.75 * bend / tolerance)), 1, MOST_PIECES).astype(np.int64)

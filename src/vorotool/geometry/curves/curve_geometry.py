@@ -37,52 +37,23 @@ CURVED = (
 
 @dataclass
 class Node:
-    """A geometry as it is written: its kind, and its points or its parts.
+    """A geometry as it is written: its kind, and its points or its parts."""
 
-    Parameters
-    ----------
-    kind : str
-        One of `LEAVES` or `PARTS`.
-    points : (n, d) float64 array
-        x, y, and z if there is one.
-    parts : list of Node
-        In order.
-    """
-
-    kind: str
+    kind: str  # one of `LEAVES` or `PARTS`
+    # (n, d) float64 array: x, y, and z if there is one
     points: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 2)))
     parts: list[Node] = field(default_factory=list)
 
 
 class Linearizer:
-    """Makes geometry of shapely, and counts the curves that it flattens.
-
-    Parameters
-    ----------
-    flatten : float, optional
-        As of `flattened_arcs`.
-
-    Examples
-    --------
-    >>> lines = Linearizer(0.5)
-    >>> lines.geometry(Node("CIRCULARSTRING", np.array([[0.0, 0], [1, 1], [2, 0]])))
-    <LINESTRING (0 0, 1 1, 2 0)>
-    >>> lines.curves
-    1
-    """
+    """Makes geometry of shapely, and counts the curves that it flattens."""
 
     def __init__(self, flatten: float | None = None) -> None:
         self._flatten = flatten
         self.curves = 0
 
     def geometry(self, node: Node) -> Any:
-        """Give the geometry of shapely for a node.
-
-        Raises
-        ------
-        ValueError
-            If its parts do not go together, such as a ring that is not closed; also as errors of shapely.
-        """
+        """Give the geometry of shapely for a node."""
         import shapely
 
         kind, parts = node.kind, node.parts

@@ -23,13 +23,7 @@ MOST_PIECES = 1 << 12
 
 
 def circle_tolerances(center: Floats, radius: Floats, tolerance: float | None) -> float | Floats:
-    """(k,) how far lines may be from circular arcs: 1/2000 of the radius, where no tolerance is given.
-
-    Examples
-    --------
-    >>> circle_tolerances(np.zeros((1, 2)), np.array([4.0]), None).tolist()
-    [0.002]
-    """
+    """(k,) how far lines may be from circular arcs: 1/2000 of the radius, where no tolerance is given."""
     if tolerance is not None:
         return tolerance
     far = np.abs(center).max(axis=1, initial=0) + radius
@@ -37,22 +31,7 @@ def circle_tolerances(center: Floats, radius: Floats, tolerance: float | None) -
 
 
 def curve_tolerances(control: Floats, clearance: Floats | float, tolerance: float | None) -> float | Floats:
-    """(k,) how far lines may be from curves, where no tolerance is given.
-
-    Parameters
-    ----------
-    control : (k, n, 2) float64 array
-        Control points. The extent of a curve is the diagonal of the box of its ends.
-    clearance : float, or (k,) float64 array
-        The least distance of each from sites.
-    tolerance : float, optional
-        That of all.
-
-    Examples
-    --------
-    >>> curve_tolerances(np.array([[[0.0, 0.0], [1.0, 9.0], [3.0, 4.0]]]), np.array([0.1]), None).tolist()
-    [0.0025]
-    """
+    """(k,) how far lines may be from curves, where no tolerance is given."""
     if tolerance is not None:
         return tolerance
     extent = hypotenuse(*(control[:, -1] - control[:, 0]).T)
@@ -61,16 +40,7 @@ def curve_tolerances(control: Floats, clearance: Floats | float, tolerance: floa
 
 
 def least_focal_distances(source: Floats, control: Floats, target: Floats) -> Floats:
-    """(k,) the least distance of parabolas from their foci, as their Bézier curves have it; infinity of lines.
-
-    It is (t^2 + h^2) / (2 h), with t along the directrix from the axis, along which the curve runs evenly.
-
-    Examples
-    --------
-    >>> arch = np.array([[[-2.0, 2.0]], [[0.0, -2.0]], [[2.0, 2.0]]])
-    >>> least_focal_distances(*arch).tolist()
-    [0.5]
-    """
+    """(k,) the least distance of parabolas from their foci, as their Bézier curves have it; infinity of lines."""
     least = np.full(len(source), np.inf)
     first, second = control - source, target - control
     bend = second - first
@@ -88,30 +58,7 @@ def least_focal_distances(source: Floats, control: Floats, target: Floats) -> Fl
 def polylines(
     source: Floats, control: Floats, target: Floats, is_curve: NDArray[np.bool_], tolerance: float | Floats
 ) -> tuple[Floats, Indices]:
-    """Parabolas as polylines, divided evenly in their parameter, and straight lines as they are.
-
-    Parameters
-    ----------
-    source, control, target : (k, 2) float64 array
-        Control points of quadratic Bézier curves; the middle one of a straight line is not looked at.
-    is_curve : (k,) bool array
-        Whether each is no straight line.
-    tolerance : float, or (k,) float64 array
-        How far a polyline may be from its curve.
-
-    Returns
-    -------
-    points : (n, 2) float64 array
-        Places along each curve, its ends included.
-    start : (k + 1,) int64 array
-        Where the points of each curve begin.
-
-    Examples
-    --------
-    >>> arch = np.array([[[0.0, 0.0]], [[1.0, 2.0]], [[2.0, 0.0]]])
-    >>> polylines(*arch, np.array([True]), 0.25)[0].tolist()
-    [[0.0, 0.0], [1.0, 1.0], [2.0, 0.0]]
-    """
+    """Parabolas as polylines, divided evenly in their parameter, and straight lines as they are."""
     control = np.where(is_curve[:, None], control, (source + target) / 2)
     bend = source - 2 * control + target
     # a chord over 1/n of the parameter is off by |bend| / (4 n^2)
@@ -126,28 +73,7 @@ def polylines(
 
 
 def chained(points: Floats, start: Indices, first: NDArray[np.integer]) -> tuple[Floats, Indices]:
-    """Put polylines together that go on where the one before ends.
-
-    Parameters
-    ----------
-    points, start
-        As of `polylines`.
-    first : (c,) integer array
-        The first polyline of each chain.
-
-    Returns
-    -------
-    points : (m, 2) float64 array
-        Places along each chain, those where polylines meet once.
-    start : (c + 1,) int64 array
-        Where the points of each chain begin.
-
-    Examples
-    --------
-    >>> points, start = chained(np.array([[0, 0], [1, 0], [1, 0], [1, 1]]), np.array([0, 2, 4]), np.array([0]))
-    >>> points.tolist(), start.tolist()
-    ([[0, 0], [1, 0], [1, 1]], [0, 3])
-    """
+    """Put polylines together that go on where the one before ends."""
     kept = np.ones(len(points), dtype=bool)
     kept[start[:-1]] = False
     kept[start[first]] = True

@@ -21,53 +21,17 @@ _TERMS = 15
 
 
 def inverse_sine(z: ArrayLike) -> Floats:
-    """Angles of sines, which may be beyond 1 by their rounding.
-
-    Parameters
-    ----------
-    z : array-like
-        From -1 to 1.
-
-    Examples
-    --------
-    >>> inverse_sine([0.5, 1.0]).tolist()
-    [0.5235987755982988, 1.5707963267948963]
-    """
+    """Angles of sines, which may be beyond 1 by their rounding."""
     return _by_halves(np.clip(np.asarray(z, dtype=np.float64), -1, 1), -1)
 
 
 def inverse_sinh(z: ArrayLike) -> Floats:
-    """Give the inverse of the hyperbolic sine.
-
-    Parameters
-    ----------
-    z : array-like
-        Finite; below 2^500 in magnitude.
-
-    Examples
-    --------
-    >>> float(inverse_sinh(0.75)), float(np.log(2))
-    (0.6931471805599453, 0.6931471805599453)
-    """
+    """Give the inverse of the hyperbolic sine."""
     return _by_halves(np.asarray(z, dtype=np.float64), 1)
 
 
 def hypotenuse(x: ArrayLike, y: ArrayLike) -> Floats:
-    """Lengths of ways (x, y), wrong by less than a unit in the last place.
-
-    The root of the sum of the squares is improved by one step of Newton's method, in which what the squares lost by
-    rounding is found again (Borges 2019, "An Improved Algorithm for hypot(a,b)"); powers of two keep squares in range.
-
-    Parameters
-    ----------
-    x, y : array-like
-        Of any size; infinite where either is.
-
-    Examples
-    --------
-    >>> hypotenuse([3.0, 2.0**-1000], [4.0, 0.0]).tolist() == [5.0, 2.0**-1000]
-    True
-    """
+    """Lengths of ways (x, y), wrong by less than a unit in the last place."""
     x, y = np.abs(np.asarray(x, dtype=np.float64)), np.abs(np.asarray(y, dtype=np.float64))
     large, small = np.maximum(x, y), np.minimum(x, y)
     is_near = (large >= 2.0**-459) & (large <= 2.0**511) | (large == 0)
@@ -91,13 +55,7 @@ def _hypotenuse(large: Floats, small: Floats) -> Floats:
 
 
 def angle_of(x: ArrayLike, y: ArrayLike) -> Floats:
-    """Angles of ways (x, y) from the first axis towards the second, in [-π, π], as ``np.arctan2(y, x)``.
-
-    Examples
-    --------
-    >>> angle_of([1.0, -1.0, 0.0, 0.0], [0.0, 0.0, -2.0, 0.0]).tolist()
-    [0.0, 3.141592653589793, -1.5707963267948966, 0.0]
-    """
+    """Angles of ways (x, y) from the first axis towards the second, in [-π, π], as ``np.arctan2(y, x)``."""
     x, y = np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64)
     length, small = hypotenuse(x, y), np.minimum(np.abs(x), np.abs(y))
     angle = inverse_sine(np.divide(small, length, out=np.zeros_like(length), where=length > 0))
@@ -107,13 +65,7 @@ def angle_of(x: ArrayLike, y: ArrayLike) -> Floats:
 
 
 def cosine_and_sine(angle: ArrayLike) -> tuple[Floats, Floats]:
-    """Give both of angles of at most a few turns, by the power series of what is beside multiples of a quarter.
-
-    Examples
-    --------
-    >>> [part.tolist() for part in cosine_and_sine([0.0, 0.5235987755982988])]
-    [[1.0, 0.8660254037844387], [0.0, 0.49999999999999994]]
-    """
+    """Give both of angles of at most a few turns, by the power series of what is beside multiples of a quarter."""
     angle = np.asarray(angle, dtype=np.float64)
     quarters = np.rint(angle / (PI / 2))
     rest = (angle - quarters * _QUARTER[0]) - quarters * _QUARTER[1]
@@ -135,13 +87,7 @@ def _series(square: Floats, first: int) -> Floats:
 
 
 def decimal_logarithm(values: ArrayLike) -> Floats:
-    """Logarithms to base 10 of numbers above 0, within 2^-48.
-
-    Examples
-    --------
-    >>> decimal_logarithm([1.0, 1000.0]).round(13).tolist()
-    [0.0, 3.0]
-    """
+    """Logarithms to base 10 of numbers above 0, within 2^-48."""
     fraction, exponent = np.frexp(np.asarray(values, dtype=np.float64))
     # the logarithm of f is twice the inverse hyperbolic tangent of (f - 1) / (f + 1): at most 1/3
     z = (fraction - 1) / (fraction + 1)

@@ -25,34 +25,14 @@ _TERMS = 15
 
 @dataclass(frozen=True, eq=False)
 class MixedArcs:
-    """Arcs with two ends each.
+    """Arcs with two ends each."""
 
-    Parameters
-    ----------
-    source, target : (n, 2) float64 array
-        The ends.
-    control : (n, 2) float64 array
-        The control point of a quadratic Bezier curve, which each parabola is; NaN of other arcs.
-    center : (n, 2) float64 array
-        Of the circle of each circular arc; NaN of other arcs.
-    is_left : (n,) bool array
-        Whether a circular arc goes counter-clockwise around its centre.
-
-    Examples
-    --------
-    >>> ends = np.array([[1.0, 0.0]]), np.array([[-1.0, 0.0]])
-    >>> arcs = MixedArcs(*ends, np.full((1, 2), np.nan), np.zeros((1, 2)), np.array([True]))
-    >>> arcs.lengths().round(6).tolist(), arcs.areas_beside(np.zeros(2)).round(6).tolist()
-    ([3.141593], [1.570796])
-    >>> arcs.polylines(0.5)[0].tolist()
-    [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0]]
-    """
-
-    source: Floats
-    target: Floats
+    source: Floats  # (n, 2) float64 array: the ends
+    target: Floats  # (n, 2) float64 array: the ends
+    # (n, 2) float64 array: the control point of a quadratic Bezier curve, which each parabola is; NaN of other arcs
     control: Floats
-    center: Floats
-    is_left: NDArray[np.bool_]
+    center: Floats  # (n, 2) float64 array: of the circle of each circular arc; NaN of other arcs
+    is_left: NDArray[np.bool_]  # (n,) bool array: whether a circular arc goes counter-clockwise around its centre
 
     def __getitem__(self, chosen: NDArray[np.bool_] | Indices) -> MixedArcs:
         """Some of the arcs."""
@@ -114,20 +94,7 @@ class MixedArcs:
         return sagittas
 
     def polylines(self, tolerance: float | Floats) -> tuple[Floats, Indices]:
-        """Give each arc as a polyline; circular arcs are at most half a circle.
-
-        Parameters
-        ----------
-        tolerance : float, or (n,) float64 array
-            How far a polyline may be from its arc.
-
-        Returns
-        -------
-        points : (m, 2) float64 array
-            Places along each arc, its ends included.
-        start : (n + 1,) int64 array
-            Where the places of each arc begin.
-        """
+        """Give each arc as a polyline; circular arcs are at most half a circle."""
         is_parabola = ~np.isnan(self.control[:, 0])
         made, made_start = polylines(self.source, self.control, self.target, is_parabola, tolerance)
         circles = np.flatnonzero(self.is_circle)
@@ -156,10 +123,7 @@ class MixedArcs:
 
 
 def _segments_of(sine: Floats) -> Floats:
-    """Areas between chords of the unit circle and their arcs, from sines of half the angle, up to half a circle.
-
-    That of s is asin s - s sqrt(1 - s^2), whose derivative is 2 s^2 / sqrt(1 - s^2).
-    """
+    """Areas between chords of the unit circle and their arcs, from sines of half the angle, up to half a circle."""
     area = inverse_sine(sine) - sine * np.sqrt((1 - sine) * (1 + sine))
     small = np.flatnonzero(sine <= _SMALL)
     s = sine[small]

@@ -33,35 +33,14 @@ _COLLECTION = 7
 
 
 class Flat(NamedTuple):
-    """Geometry without curves.
+    """Geometry without curves."""
 
-    Parameters
-    ----------
-    geometry : (n,) object array
-        Of shapely; None where a text was None, or is none.
-    curves : int
-        How many circular strings were replaced by lines.
-    """
-
-    geometry: NDArray[np.object_]
-    curves: int
+    geometry: NDArray[np.object_]  # (n,) object array: of shapely; None where a text was None, or is none
+    curves: int  # how many circular strings were replaced by lines
 
 
 def geometry_of_texts(texts: Sequence[str | None], flatten: float | None = None) -> Flat:
-    """Read well-known text.
-
-    Parameters
-    ----------
-    texts : sequence of str or None
-        One geometry each. How deep their brackets are nested has been checked.
-    flatten : float, optional
-        How far lines may be from curves; by default 1/2000 of the diagonal of the box of each arc.
-
-    Examples
-    --------
-    >>> geometry_of_texts(["CIRCULARSTRING (0 0, 1 1, 2 0)", "POINT (1 2)", "POINT (1"], 0.5)
-    Flat(geometry=array([<LINESTRING (0 0, 1 1, 2 0)>, <POINT (1 2)>, None], dtype=object), curves=1)
-    """
+    """Read well-known text."""
     import shapely
 
     capitals = "\n".join(text for text in texts if isinstance(text, str)).upper()
@@ -84,20 +63,7 @@ def _is_unicode(text: str) -> bool:
 
 
 def geometry_of_binary(items: Sequence[bytes | str | None], flatten: float | None = None) -> Flat:
-    """Read well-known binary, plain or extended, as bytes or as hexadecimal digits.
-
-    Parameters
-    ----------
-    items : sequence of bytes, str or None
-        One geometry each.
-    flatten : float, optional
-        As of `geometry_of_texts`.
-
-    Examples
-    --------
-    >>> geometry_of_binary(["0101000000000000000000F03F0000000000000040", b"?"]).geometry.tolist()
-    [<POINT (1 2)>, None]
-    """
+    """Read well-known binary, plain or extended, as bytes or as hexadecimal digits."""
     import shapely
 
     own = [k for k, item in enumerate(items) if item is not None and _is_read_here(item)]
@@ -119,21 +85,7 @@ def _read_plain(read: Callable[..., Any], items: NDArray[np.object_]) -> NDArray
 
 
 def without_curves(geometry: NDArray[np.object_], flatten: float | None = None) -> Flat:
-    """Replace geometry of shapely that has curves in it, as collections may.
-
-    Parameters
-    ----------
-    geometry : (n,) object array
-        Of shapely, or anything else, which is kept.
-    flatten : float, optional
-        As of `geometry_of_texts`.
-
-    Examples
-    --------
-    >>> import shapely
-    >>> without_curves(np.array([shapely.Point(1, 2)])).curves
-    0
-    """
+    """Replace geometry of shapely that has curves in it, as collections may."""
     import shapely
 
     held = np.flatnonzero(shapely.is_geometry(geometry))
@@ -143,13 +95,7 @@ def without_curves(geometry: NDArray[np.object_], flatten: float | None = None) 
 
 
 def flattened_note(curves: int) -> str:
-    """Say how many curves were flattened.
-
-    Examples
-    --------
-    >>> flattened_note(1)
-    '1 curve flattened to a line of short pieces'
-    """
+    """Say how many curves were flattened."""
     return f"{curves} curve{'s' * (curves > 1)} flattened to {'a line' if curves == 1 else 'lines'} of short pieces"
 
 

@@ -171,10 +171,7 @@ class Triangulation(Value, Tabular, WithParts, Graph, Pictured):
         return centres, radii
 
     def _corners(self) -> tuple[NDArray[np.float64], ...]:
-        """The vertex opposite to the longest side (times 2^-scale), and the way to the others (times 2^-exponent).
-
-        From there the formulas are as well-conditioned as the triangle is; powers of two keep them within range.
-        """
+        """The vertex opposite to the longest side (times 2^-scale), and the way to the others (times 2^-exponent)."""
         scale = 4 if np.abs(self.points).max(initial=0.0) > 2.0**1000 else 0
         corners = np.ldexp(self.points, -scale)[self.triangles]
         sides = np.roll(corners, -2, axis=1) - np.roll(corners, -1, axis=1)  # opposite to each vertex
@@ -192,13 +189,7 @@ class Triangulation(Value, Tabular, WithParts, Graph, Pictured):
 
 
 def lengths_of(points: NDArray[np.float64], edges: NDArray[np.int32]) -> NDArray[np.float64]:
-    """(e,) distances between the ends of edges; relative error below 1e-15, infinite beyond the largest double.
-
-    Examples
-    --------
-    >>> lengths_of(np.array([[0.0, 0.0], [3.0, 4.0]]), np.array([[0, 1]])).tolist()
-    [5.0]
-    """
+    """(e,) distances between the ends of edges; relative error below 1e-15, infinite beyond the largest double."""
     lengths = np.empty(len(edges))
     for start in range(0, len(lengths), CHUNK):
         ends = edges[start : start + CHUNK]
@@ -208,10 +199,7 @@ def lengths_of(points: NDArray[np.float64], edges: NDArray[np.int32]) -> NDArray
 
 
 def _distances(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Distances of pairs of points: square roots of sums of squares, scaled by powers of two out of their range.
-
-    From 2^-900 on no square that counts has lost a bit: one below 2^-1022 is less than 2^-100 of the sum.
-    """
+    """Distances of pairs of points: square roots of sums of squares, scaled by powers of two out of their range."""
     with np.errstate(over="ignore", under="ignore", invalid="ignore"):
         way = b - a
         square = way[:, 0] * way[:, 0] + way[:, 1] * way[:, 1]

@@ -14,27 +14,7 @@ POINT, MULTIPOINT, COLLECTION = 0, 4, 7
 
 
 def single_points(geometry: Any) -> tuple[NDArray[np.object_], NDArray[np.int64]]:
-    """Give the points of geometry that are not empty, and the item that each comes from.
-
-    Parameters
-    ----------
-    geometry : (n,) array-like of shapely geometry
-        Points, single or several in one, and collections of them.
-
-    Returns
-    -------
-    points : (m,) object array
-        Single points.
-    owners : (m,) int64 array
-        Not decreasing.
-
-    Examples
-    --------
-    >>> import shapely
-    >>> points, owners = single_points([shapely.Point(1, 2), shapely.Point(), shapely.MultiPoint([(3, 4), (5, 6)])])
-    >>> owners.tolist()
-    [0, 2, 2]
-    """
+    """Give the points of geometry that are not empty, and the item that each comes from."""
     import shapely
 
     points, owners = np.array(geometry, dtype=object), np.arange(len(geometry))
@@ -46,12 +26,6 @@ def single_points(geometry: Any) -> tuple[NDArray[np.object_], NDArray[np.int64]
 
 
 def part_numbers(owners: NDArray[Any]) -> NDArray[np.int64]:
-    """Count the points of each item from 1.
-
-    Examples
-    --------
-    >>> part_numbers(np.array([0, 2, 2])).tolist()
-    [1, 1, 2]
-    """
+    """Count the points of each item from 1."""
     first = np.flatnonzero(np.diff(owners, prepend=-1))
     return within(np.diff(first, append=len(owners))) + 1

@@ -85,18 +85,7 @@ def known_of_points(points: Any) -> dict[str, Any]:
 
 
 def finite_rows(values: Any, axes: int) -> NDArray[np.float64]:
-    """Copy the coordinates of points, all of them finite.
-
-    Raises
-    ------
-    InputError
-        If they are not, or no (n, axes) array of numbers; the row is named.
-
-    Examples
-    --------
-    >>> finite_rows([[0, 1, 2]], 3)
-    array([[0., 1., 2.]])
-    """
+    """Copy the coordinates of points, all of them finite."""
     rows = coordinate_rows(values, "point", axes)
     finite = np.isfinite(rows)
     bad = np.flatnonzero(~np.logical_and.reduce(finite.T))  # an `all` along rows this short is slow
@@ -110,18 +99,7 @@ def finite_rows(values: Any, axes: int) -> NDArray[np.float64]:
 
 
 def checked_labels(labels: Any, count: int) -> NDArray[np.int64]:
-    """Give the labels of so many points, each from 1 to 4294967295.
-
-    Raises
-    ------
-    InputError
-        If they are not; the point is named.
-
-    Examples
-    --------
-    >>> checked_labels([7, 3], 2)
-    array([7, 3])
-    """
+    """Give the labels of so many points, each from 1 to 4294967295."""
     array = whole_numbers(labels, "label of point", np.int64)
     if array.shape != (count,):
         raise InputError(f"labels must have shape ({count},), but have shape {array.shape}")

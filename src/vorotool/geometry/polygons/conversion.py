@@ -22,30 +22,7 @@ def polygons_of_geometry(
     *,
     takes_points: bool = False,
 ) -> PolygonSet:
-    """Polygons and lines of shapely geometry, one feature an item; rings and lines keep their direction.
-
-    Parameters
-    ----------
-    geometry : sequence of shapely geometry
-        Of polygons and lines, single or several in one. None, and what is empty, is left out.
-    described : callable, optional
-        ``described(items)`` gives further fields of the `PolygonSet` for the items that its polygons come from; by
-        default these are their features.
-    takes_points : bool
-        A point is taken for a line of one vertex.
-
-    Raises
-    ------
-    InputError
-        If a geometry is a point or holds one, and none is taken, or a coordinate is not finite.
-
-    Examples
-    --------
-    >>> import shapely
-    >>> shapes = polygons_of_geometry([shapely.box(0, 0, 1, 2), shapely.LineString([(0, 0), (1, 1)])])
-    >>> shapes.ring_kind.tolist(), shapes.ring_start.tolist()
-    ([0, 2], [0, 4, 6])
-    """
+    """Polygons and lines of shapely geometry, one feature an item; rings and lines keep their direction."""
     import shapely
 
     parts, owners = np.array(geometry, dtype=object), np.arange(len(geometry))
@@ -75,13 +52,7 @@ def polygons_of_geometry(
 
 
 def to_shapely(polygons: PolygonSet) -> NDArray[np.object_]:
-    """Shapely geometry of each polygon and line, in order; rings of fewer than three vertices are padded.
-
-    Examples
-    --------
-    >>> to_shapely(set_of_rings([[0, 0], [4, 0], [0, 3]], [3], [SHELL], [0]))[0].area
-    6.0
-    """
+    """Shapely geometry of each polygon and line, in order; rings of fewer than three vertices are padded."""
     import shapely
 
     sizes, is_line = np.diff(polygons.ring_start), polygons.is_line

@@ -180,27 +180,7 @@ class PolygonSet(Value, Tabular, Geometric, Pictured):
 def set_of_rings(
     xy: ArrayLike, sizes: ArrayLike, kinds: ArrayLike, polygons: ArrayLike, **described: Any
 ) -> PolygonSet:
-    """Make a `PolygonSet` of rings that may repeat their first vertex at their end, once or more.
-
-    Parameters
-    ----------
-    xy : (n, 2) array-like
-        Vertices of all rings.
-    sizes, kinds, polygons : (r,) array-like
-        Number of vertices (at least 1), kind and polygon of each ring.
-    **described
-        The other fields of the `PolygonSet`.
-
-    Raises
-    ------
-    InputError
-        As `PolygonSet` has it.
-
-    Examples
-    --------
-    >>> set_of_rings([[0, 0], [1, 0], [0, 1], [0, 0]], [4], [SHELL], [0]).ring_start.tolist()
-    [0, 3]
-    """
+    """Make a `PolygonSet` of rings that may repeat their first vertex at their end, once or more."""
     vertices = coordinate_rows(xy, "vertex")
     lengths = np.array(sizes, dtype=np.int64).reshape(-1)
     starts = starts_of(lengths)

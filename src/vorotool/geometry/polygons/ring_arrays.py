@@ -18,24 +18,12 @@ Indices = NDArray[np.int64]
 
 @dataclass(frozen=True, eq=False)
 class RingArrays:
-    """Rings of polygons, in any order.
+    """Rings of polygons, in any order."""
 
-    Parameters
-    ----------
-    xy : (n, 2) array
-        Vertices, ring after ring.
-    sizes : (r,) int64 array
-        Vertices of each ring.
-    kind : (r,) int8 array
-        See `PolygonSet`.
-    rings : (p,) int64 array
-        Rings of each polygon.
-    """
-
-    xy: NDArray[Any]
-    sizes: Indices
-    kind: NDArray[np.int8]
-    rings: Indices
+    xy: NDArray[Any]  # (n, 2) array: vertices, ring after ring
+    sizes: Indices  # (r,) int64 array: vertices of each ring
+    kind: NDArray[np.int8]  # (r,) int8 array: see `PolygonSet`
+    rings: Indices  # (p,) int64 array: rings of each polygon
 
     @classmethod
     def of(cls, polygons: PolygonSet) -> RingArrays:
@@ -51,30 +39,14 @@ class RingArrays:
         return cls(*columns)
 
     def taken(self, chosen: NDArray[Any]) -> tuple[RingArrays, Indices, Indices]:
-        """Choose polygons; gives the numbers of their rings and vertices, too.
-
-        Examples
-        --------
-        >>> square, point = np.zeros((4, 2)), np.ones((1, 2))
-        >>> both = RingArrays(np.concatenate([square, point]), np.array([4, 1]), np.zeros(2, np.int8), np.array([1, 1]))
-        >>> [array.tolist() for array in both.taken(np.array([1]))[1:]]
-        [[1], [4]]
-        """
+        """Choose polygons; gives the numbers of their rings and vertices, too."""
         rings = ranges(starts_of(self.rings)[chosen], self.rings[chosen])
         vertices = ranges(starts_of(self.sizes)[rings], self.sizes[rings])
         made = RingArrays(self.xy[vertices], self.sizes[rings], self.kind[rings], self.rings[chosen])
         return made, rings, vertices
 
     def polygons(self, given: PolygonSet, source: NDArray[Any]) -> PolygonSet:
-        """Make a set of polygons that are described as those of another set: ids, features, properties and index.
-
-        Parameters
-        ----------
-        given : PolygonSet
-            The other set.
-        source : (p,) array
-            The polygon there of each polygon here, not decreasing.
-        """
+        """Make a set of polygons that are described as those of another set: ids, features, properties and index."""
         assert given.feature is not None
         own = source.tolist()
         return replace(

@@ -16,31 +16,7 @@ _MANY = 1 << 22
 
 
 def used_shapes(polygons: PolygonSet) -> NDArray[np.object_]:
-    """Return what each polygon bounds: what is inside its shell and in none of its holes, each by the even-odd rule.
-
-    Spikes and dangling segments bound nothing and are left out. A hole is cut out where it lies inside its shell and
-    left out elsewhere. A polygon without inside is the line along its shell, a line of one vertex a point. Valid
-    polygons, and lines, are returned as they are.
-
-    Parameters
-    ----------
-    polygons : PolygonSet
-        With any rings.
-
-    Returns
-    -------
-    (p,) array
-        Of shapely geometry.
-
-    Examples
-    --------
-    >>> from vorotool.geometry.arguments.polygons import as_polygons
-    >>> spike = [[0, 0], [4, 0], [4, 4], [2, 4], [2, 9], [2, 4], [0, 4]]
-    >>> stray = {"shell": [[0, 0], [4, 0], [0, 4]], "holes": [[[8, 8], [9, 8], [8, 9]]]}
-    >>> shapes = used_shapes(as_polygons([spike, stray, [[0, 0], [5, 5]]]))
-    >>> [shape.bounds for shape in shapes], [shape.area for shape in shapes]
-    ([(0.0, 0.0, 4.0, 4.0), (0.0, 0.0, 4.0, 4.0), (0.0, 0.0, 5.0, 5.0)], [16.0, 8.0, 0.0])
-    """
+    """Return what each polygon bounds: what is inside its shell and in none of its holes, each by the even-odd rule."""
     import shapely
 
     made = to_shapely(polygons)
@@ -55,14 +31,7 @@ def used_shapes(polygons: PolygonSet) -> NDArray[np.object_]:
 
 
 def with_used_rings(polygons: PolygonSet) -> PolygonSet:
-    """Replace the rings of invalid polygons by those of what they bound; see `used_shapes`.
-
-    Examples
-    --------
-    >>> from vorotool.geometry.arguments.polygons import as_polygons
-    >>> with_used_rings(as_polygons([[[0, 0], [4, 0], [4, 4], [4, 9], [4, 4], [0, 4]]])).xy[:, 1].max().item()
-    4.0
-    """
+    """Replace the rings of invalid polygons by those of what they bound; see `used_shapes`."""
     import shapely
 
     invalid = np.flatnonzero(~polygons.is_line & ~shapely.is_valid(to_shapely(polygons)))

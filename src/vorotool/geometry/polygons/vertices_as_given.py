@@ -20,35 +20,7 @@ def places_as_given(
     back: bool = False,
     others: tuple[NDArray[np.integer], Floats, Floats] | None = None,
 ) -> Floats:
-    """Move places at vertices that an engine has moved to where these were given, of several the first, or back.
-
-    Parameters
-    ----------
-    places : (k, 2) float64 array
-        Anywhere.
-    polygon : (k,) integer array
-        The polygon that each is of.
-    polygons : PolygonSet
-        Where a result was computed.
-    together : bool
-        Whether vertices of all features count, or those of the place's own.
-    back : bool
-        From where they were given to where the result was computed.
-    others : (k,) integer array and two (k, 2) float64 arrays, optional
-        The polygons of further places that are moved, where these are, and where to.
-
-    Returns
-    -------
-    (k, 2) float64 array
-        With the same bits at equal places; elsewhere nothing is moved.
-
-    Examples
-    --------
-    >>> from vorotool.geometry.polygons.polygon_set import SHELL, set_of_rings
-    >>> moved = set_of_rings([[0, 0], [4.1, 0], [0, 3]], [3], [SHELL], [0]).moved(np.array([[0, 0], [4, 0], [0, 3.0]]))
-    >>> places_as_given(np.array([[4, 0], [1, 0.0]]), np.array([0, 0]), moved, together=True).tolist()
-    [[4.1, 0.0], [1.0, 0.0]]
-    """
+    """Move places at vertices that an engine has moved to where these were given, of several the first, or back."""
     given = polygons.as_given
     if given is polygons or not len(places):
         return places

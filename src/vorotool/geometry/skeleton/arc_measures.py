@@ -31,39 +31,7 @@ _STEPS = 64
 
 
 class ArcMeasures:
-    """Measures of some arcs of a skeleton, by the parameter u of the Bezier curve that each is: 0 to 1.
-
-    Let the slope of a parabola be that against its directrix: it is linear in u, since the parameter is. With d the
-    way along the directrix, the sum of the slopes at the ends is twice the difference of the radii over d, and their
-    difference twice the height of the Bezier triangle over d: nothing has to be known of the sites. The radius is a
-    quadratic polynomial in u.
-
-    Between two vertices the radius is the root of c^2 + x^2, where c is half their distance and x the way along the
-    arc; on other straight arcs it is linear.
-
-    Parameters
-    ----------
-    ends : (n, 2, 2) float64 array
-        Source and target, x and y.
-    radius : (n, 2) float64 array
-        There.
-    control : (n, 2) float64 array
-        Of parabolas; NaN on straight lines.
-    sites : (2, n, 2, 2) float64 array
-        The ends of the sites left and right; a vertex has one place twice.
-    is_edge : (2, n) bool array
-        Whether these are edges.
-    length : (n,) float64 array
-        Of the arcs.
-
-    Examples
-    --------
-    >>> walls = np.array([[[[0.0, 0.0], [4.0, 0.0]]], [[[0.0, 2.0], [0.0, 2.0]]]])
-    >>> ends, edges = np.array([[[-2.0, 2.0], [2.0, 2.0]]]), np.array([[True], [False]])
-    >>> arc = ArcMeasures(ends, np.array([[2.0, 2.0]]), np.array([[0.0, 0.0]]), walls, edges, np.array([4.5911743]))
-    >>> arc.radius(np.array([0.5])).tolist(), arc.parameter(arc.length / 2).round(6).tolist()
-    ([1.0], [0.5])
-    """
+    """Measures of some arcs of a skeleton, by the parameter u of the Bezier curve that each is: 0 to 1."""
 
     def __init__(
         self,
@@ -135,11 +103,7 @@ class ArcMeasures:
         return slope
 
     def parameter(self, distance: Floats) -> Floats:
-        """(n,) u at a distance along each arc from its source.
-
-        The length to u is d times the integral of sqrt(1 + slope^2) over u. Newton's method from the nearer end of
-        the bracket; a step that leaves the bracket halves it.
-        """
+        """(n,) u at a distance along each arc from its source."""
         low, high = np.zeros_like(distance), np.ones_like(distance)
         u = np.clip(_ratio(distance, self.length), 0, 1)
         curved = self.is_parabola & (u > 0) & (u < 1)
@@ -189,13 +153,7 @@ def _quadrature(r0: Floats, along: Floats, slope0: Floats, bend: Floats) -> Floa
 
 
 def mean_root(s: Floats, t: Floats) -> Floats:
-    """Mean of sqrt(1 + x^2) for x from s to t, by sums of positive numbers.
-
-    Examples
-    --------
-    >>> mean_root(np.array([0.0, 3.0]), np.array([0.0, 3.0])).tolist()
-    [1.0, 3.1622776601683795]
-    """
+    """Mean of sqrt(1 + x^2) for x from s to t, by sums of positive numbers."""
     v, w = np.sqrt(1 + s * s), np.sqrt(1 + t * t)
     products = (v + w) / 2 + (s + t) * (s + t) / (2 * (v + w))
     same = s * t

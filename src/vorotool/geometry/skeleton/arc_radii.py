@@ -17,22 +17,7 @@ Floats = NDArray[np.float64]
 def arc_radii(
     count: int, arrays_of: Callable[[slice], tuple[NDArray[Any], ...]], *, threads: int = 1
 ) -> tuple[Floats, Floats, Floats]:
-    """Smallest and largest radius on each of many arcs, and the integral of the radius along it.
-
-    Parameters
-    ----------
-    count : int
-        Of arcs.
-    arrays_of : callable
-        Gives the arrays of some of them, as `radii_of_arcs` takes them; called in several threads at once.
-    threads : int
-        0 uses all.
-
-    Returns
-    -------
-    tuple of (a,) float64 arrays
-        Least, most, and the integral.
-    """
+    """Smallest and largest radius on each of many arcs, and the integral of the radius along it."""
     made = np.empty((3, count))
 
     def fill(part: slice) -> None:
@@ -46,29 +31,7 @@ def arc_radii(
 def radii_of_arcs(
     ends: Floats, radius: Floats, control: Floats, sites: Floats, is_edge: NDArray[np.bool_], length: Floats
 ) -> tuple[Floats, Floats, Floats]:
-    """Smallest and largest radius on each arc, and the integral of the radius along it.
-
-    Parameters
-    ----------
-    ends, radius, control, sites, is_edge, length
-        As of `ArcMeasures`.
-
-    Returns
-    -------
-    tuple of (a,) float64 arrays
-        Least, most, and the integral.
-
-    Examples
-    --------
-    >>> wall = np.array([[[0.0, 0.0], [4.0, 0.0]]])
-    >>> arc = np.array([[[1.0, 1.0], [3.0, 3.0]]])
-    >>> edges = np.ones((2, 1), dtype=bool)
-    >>> nothing, length = np.full((1, 2), np.nan), np.array([2.0])
-    >>> sites = np.stack([wall, wall])
-    >>> least, most, integral = radii_of_arcs(arc, np.array([[1.0, 3.0]]), nothing, sites, edges, length)
-    >>> least.tolist(), most.tolist(), integral.tolist()
-    ([1.0], [3.0], [4.0])
-    """
+    """Smallest and largest radius on each arc, and the integral of the radius along it."""
     r0, r1 = np.ascontiguousarray(radius.T)
     least, most = np.minimum(r0, r1), np.maximum(r0, r1)
     integral = length * (r0 + r1) / 2  # between two edges the radius is linear

@@ -17,30 +17,15 @@ from vorotool.geometry.table import Lookup, Table
 
 @dataclass(frozen=True, eq=False)
 class BoundarySamples:
-    """Seeds: the points of a planar graph, then those inside each of its segments, along it.
+    """Seeds: the points of a planar graph, then those inside each of its segments, along it."""
 
-    Parameters
-    ----------
-    seeds : (s, 2) float64 array
-        Lattice coordinates: multiples of 2^-22, within 2^-21 of their segments.
-    segment : (s,) int32 array
-        The segment that each is inside of; -1 of points.
-    start : (m + 1,) int32 array
-        The first seed inside each segment.
-    graph : PlanarGraph
-        Of the shapes.
-    sites : SiteTable
-        What its points, and then its segments, are in `polygons`.
-    polygons : PolygonSet
-        The shapes as they are used.
-    """
-
+    # (s, 2) float64 array: lattice coordinates: multiples of 2^-22, within 2^-21 of their segments
     seeds: NDArray[np.float64]
-    segment: NDArray[np.int32]
-    start: NDArray[np.int32]
+    segment: NDArray[np.int32]  # (s,) int32 array: the segment that each is inside of; -1 of points
+    start: NDArray[np.int32]  # (m + 1,) int32 array: the first seed inside each segment
     graph: PlanarGraph
-    sites: SiteTable
-    polygons: PolygonSet
+    sites: SiteTable  # what its points, and then its segments, are in `polygons`
+    polygons: PolygonSet  # the shapes as they are used
 
     def __len__(self) -> int:
         return len(self.seeds)
@@ -87,27 +72,7 @@ class BoundarySamples:
 
 
 def sample_table(samples: BoundarySamples) -> Table:
-    """Give one row a seed.
-
-    Parameters
-    ----------
-    samples : BoundarySamples
-        Rows are in the order of its seeds: vertices first, then edge by edge.
-
-    Returns
-    -------
-    Table
-        ``element, kind, polygon, id, ring, vertex_index, x, y, label_a, label_b``: a vertex of a polygon, or a sample
-        of the edge that begins at this vertex. The labels are numbers of edges from 1: a sample has that of its edge,
-        a vertex those of its edges (the first two of more).
-
-    Examples
-    --------
-    >>> from vorotool.engines.sampled_skeleton.approximate import sampled_shapes
-    >>> table = sample_table(sampled_shapes([[0, 0], [4, 0], [0, 3]], step=2).samples)
-    >>> table["x"].tolist()[3:], table["label_a"].tolist()
-    ([2.0, 2.4000000000000004, 0.7999999999999998, 0.0], [1, 1, 2, 1, 2, 2, 3])
-    """
+    """Give one row a seed."""
     site, labels, xy = samples.site, samples.labels, samples.xy
     sites = samples.sites
     return Table(

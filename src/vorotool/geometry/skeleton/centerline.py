@@ -45,27 +45,7 @@ class Centerlines(LedOn):
 
 
 def centerline_table(lines: Centerlines) -> Table:
-    """Give one row an arc, line by line, with the straight lines that lead on.
-
-    Parameters
-    ----------
-    lines : Centerlines
-        Polygons and arcs are counted from 0, the arcs of each line by themselves.
-
-    Returns
-    -------
-    Table
-        ``polygon, id, arc, x0, y0, r0, x1, y1, r1, kind, cx, cy, length``. The kind is ``line``, ``parabola`` or
-        ``extension``, at whose end on the boundary the radius is 0.
-
-    Examples
-    --------
-    >>> from vorotool import centerline, prune, skeleton_exact
-    >>> lines = centerline(prune(skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]]), angle=100))
-    >>> table = centerline_table(lines)
-    >>> table["x0"].tolist(), table["length"].tolist()
-    ([0.0, 1.0, 3.0], [1.0, 2.0, 1.0])
-    """
+    """Give one row an arc, line by line, with the straight lines that lead on."""
     return led_on_table(lines, has_branches=False)
 
 
@@ -78,15 +58,7 @@ def without_centerline(lines: Centerlines) -> NDArray[np.int64]:
 
 
 def centerline_columns(lines: Centerlines) -> dict[str, Any]:
-    """Length and mean width by polygon, as columns of the table of polygons.
-
-    Examples
-    --------
-    >>> from vorotool import centerline, prune, skeleton_exact
-    >>> lines = centerline(prune(skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]]), angle=100))
-    >>> {name: column.tolist() for name, column in centerline_columns(lines).items()}
-    {'centerline_length': [4.0], 'centerline_width_mean': [2.0]}
-    """
+    """Length and mean width by polygon, as columns of the table of polygons."""
     columns = {}
     for name, values in (("centerline_length", lines.length), ("centerline_width_mean", lines.width_mean)):
         column, has_none = np.zeros(len(lines.path.polygons)), np.ones(len(lines.path.polygons), dtype=bool)

@@ -59,31 +59,11 @@ class CriticalValues(Value, Tabular):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ArcProfiles(Value):
-    r"""How the two nearest places on the boundary lie along arcs: what cuts inside arcs are computed from.
+    """How the two nearest places on the boundary lie along arcs: what cuts inside arcs are computed from."""
 
-    Between two lines the angle under which centres see these feet is the same everywhere. Else, with x linear in the
-    parameter of the Bezier curve, the cotangent of half the angle is \|x\|. The distance of the feet is
-    h sqrt(1 + x^2) on a parabola whose focus is h from its directrix, and 2 h between two points.
-
-    Parameters
-    ----------
-    kind : (a,) int8 array
-        `BETWEEN_LINES`, `BETWEEN_POINTS`, or `FROM_FOCUS`.
-    ends : (a, 2) float64 array
-        x at the source and at the target; 0 between lines.
-    size : (a,) float64 array
-        h; between lines the tangent of half the angle.
-
-    Examples
-    --------
-    >>> from vorotool import arc_profiles, skeleton_exact
-    >>> arc_profiles(skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]])).size.tolist()
-    [1.0, 1.0, 1.0, 1.0, inf]
-    """
-
-    kind: NDArray[np.int8]
-    ends: NDArray[np.float64]
-    size: NDArray[np.float64]
+    kind: NDArray[np.int8]  # (a,) int8 array: `BETWEEN_LINES`, `BETWEEN_POINTS`, or `FROM_FOCUS`
+    ends: NDArray[np.float64]  # (a, 2) float64 array: x at the source and at the target; 0 between lines
+    size: NDArray[np.float64]  # (a,) float64 array: h; between lines the tangent of half the angle
 
     def _summary(self) -> str:
         return counted(len(self.kind), "arc")

@@ -41,25 +41,5 @@ class ExtendedSkeleton(LedOn):
 
 
 def extended_table(extended: LedOn) -> Table:
-    """Give one row an arc, branch by branch, with the straight lines that lead on.
-
-    Parameters
-    ----------
-    extended : ExtendedSkeleton
-        Polygons, branches and arcs are counted from 0, the arcs of each branch by themselves.
-
-    Returns
-    -------
-    Table
-        ``polygon, id, branch, arc, x0, y0, r0, x1, y1, r1, kind, cx, cy, length``. The kind is ``line``, ``parabola``
-        or ``extension``, at whose end on the boundary the radius is 0.
-
-    Examples
-    --------
-    >>> from vorotool import extend_ends, prune, skeleton_exact
-    >>> extended = extend_ends(prune(skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]]), scale=1.5))
-    >>> table = extended_table(extended)
-    >>> table["x0"].tolist(), table["r1"].tolist()
-    ([0.0, 1.0, 3.0], [1.0, 1.0, 0.0])
-    """
+    """Give one row an arc, branch by branch, with the straight lines that lead on."""
     return led_on_table(extended, has_branches=True)

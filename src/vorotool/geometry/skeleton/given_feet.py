@@ -12,26 +12,7 @@ Floats = NDArray[np.float64]
 
 
 def moved_feet(skeleton: Skeleton, site: NDArray[np.integer], feet: Floats, *, back: bool = False) -> Floats:
-    """Move feet to the vertices and edges that they are on, where these were given, or back; along edges none is moved.
-
-    Parameters
-    ----------
-    skeleton : Skeleton
-        Whose sites they are on.
-    site : (n, 2) integer array
-        Of each foot.
-    feet : (n, 2, 2) float64 array
-        Their places.
-    back : bool
-        From where they were given to where the skeleton has them.
-
-    Examples
-    --------
-    >>> from vorotool import necks
-    >>> found = necks([[0.1, 0], [10.3, 0], [10.3, 4], [6, 2.1], [0.1, 4]])
-    >>> found.feet.tolist()
-    [[[6.0, 0.0], [6.0, 2.1]]]
-    """
+    """Move feet to the vertices and edges that they are on, where these were given, or back."""
     polygons = skeleton.polygons
     if polygons.as_given is polygons:
         return feet
@@ -51,13 +32,7 @@ def moved_feet(skeleton: Skeleton, site: NDArray[np.integer], feet: Floats, *, b
 
 
 def projected(edge: Floats, place: Floats) -> Floats:
-    """Give the nearest place on each edge, which is an end of it exactly where nothing nearer is inside.
-
-    Examples
-    --------
-    >>> projected(np.array([[[0.0, 0.0], [4.0, 0.0]]] * 2), np.array([[1.0, 2.0], [9.0, 2.0]])).tolist()
-    [[1.0, 0.0], [4.0, 0.0]]
-    """
+    """Give the nearest place on each edge, which is an end of it exactly where nothing nearer is inside."""
     a, b = edge[:, 0], edge[:, 1]
     way, from_a = b - a, place - a
     square = np.square(way).sum(axis=1)

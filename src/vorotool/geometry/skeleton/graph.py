@@ -21,59 +21,22 @@ BY = ("branch", "arc")
 
 @dataclass(frozen=True, eq=False)
 class SkeletonGraph:
-    """Nodes and edges of a skeleton; several edges may join the same nodes, and one may join a node with itself.
-
-    Parameters
-    ----------
-    skeleton : Skeleton
-        Of which.
-    nodes : (n,) int64 array
-        Its vertices that are nodes, ascending.
-    source, target : (e,) int64 array
-        The vertices at the ends of each edge.
-    edges : Table
-        ``branch`` or ``arc``, ``polygon``, ``id``, ``side``, ``kind``, ``length``, ``r_min``, ``r_max``, ``r_mean``; of
-        branches ``type`` and ``tortuosity``, too.
-    points : (k, 2) float64 array
-        Places along the edges, from source to target, the ends included.
-    start : (e + 1,) int64 array
-        Where those of each edge begin.
-
-    Examples
-    --------
-    >>> from vorotool import skeleton_exact
-    >>> graph = skeleton_graph(skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]]))
-    >>> len(graph.nodes), len(graph.source), graph.edges["r_max"].tolist()
-    (6, 5, [1.0, 1.0, 1.0, 1.0, 1.0])
-    """
+    """Nodes and edges of a skeleton; several edges may join the same nodes, and one may join a node with itself."""
 
     skeleton: Skeleton
-    nodes: NDArray[np.int64]
-    source: NDArray[np.int64]
-    target: NDArray[np.int64]
+    nodes: NDArray[np.int64]  # (n,) int64 array: its vertices that are nodes, ascending
+    source: NDArray[np.int64]  # (e,) int64 array: the vertices at the ends of each edge
+    target: NDArray[np.int64]  # (e,) int64 array: the vertices at the ends of each edge
+    # `branch` or `arc`, `polygon`, `id`, `side`, `kind`, `length`, `r_min`, `r_max`, `r_mean`; of branches `type` and
+    # `tortuosity`, too
     edges: Table
+    # (k, 2) float64 array: places along the edges, from source to target, the ends included
     points: NDArray[np.float64]
-    start: NDArray[np.int64]
+    start: NDArray[np.int64]  # (e + 1,) int64 array: where those of each edge begin
 
 
 def skeleton_graph(skeleton: Skeleton, *, by: str = "branch", flatten: float | None = None) -> SkeletonGraph:
-    """Give the graph of a skeleton.
-
-    Parameters
-    ----------
-    skeleton : Skeleton
-        Which.
-    by : {"branch", "arc"}
-        What an edge is. Nodes are the ends of edges; a closed branch joins one of its vertices with itself.
-    flatten : float, optional
-        How far the polylines may be from parabolas; by default as of
-        `Skeleton.flattened`.
-
-    Raises
-    ------
-    UsageError
-        If edges are to be something else, or the tolerance is not positive.
-    """
+    """Give the graph of a skeleton."""
     if not is_choice(by, BY):
         raise UsageError(f"by is {shown_number(by)}: use {' or '.join(BY)}")
     points, start = skeleton.as_given.flattened(flatten)

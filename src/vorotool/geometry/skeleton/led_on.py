@@ -136,22 +136,7 @@ class LedOn(Value, Tabular, Curved, Pictured):
 
 
 def led_on_table(lines: LedOn, *, has_branches: bool) -> Table:
-    """Give one row an arc, line by line, with the straight lines that lead on.
-
-    Parameters
-    ----------
-    lines : Centerlines or ExtendedSkeleton
-        Polygons and arcs are counted from 0, the arcs of each line by themselves.
-    has_branches : bool
-        Whether there is a column ``branch``: the number of the line.
-
-    Examples
-    --------
-    >>> from vorotool import extend_ends, prune, skeleton_exact
-    >>> extended = extend_ends(prune(skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]]), scale=1.5))
-    >>> led_on_table(extended, has_branches=True)["kind"].tolist()
-    ['extension', 'line', 'extension']
-    """
+    """Give one row an arc, line by line, with the straight lines that lead on."""
     given, nodes = lines.as_given, lines.end_nodes
     path = given.path
     first, last = lines.extended

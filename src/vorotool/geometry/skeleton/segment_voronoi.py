@@ -28,63 +28,25 @@ _SHAPES = {
 
 @dataclass(frozen=True, eq=False)
 class SegmentVoronoiDiagram:
-    """The Voronoi diagram of n points and m open segments, in lattice units.
+    """The Voronoi diagram of n points and m open segments, in lattice units."""
 
-    Point i is site i, open segment j is site n + j. The order of vertices and edges is that of a Morton curve through
-    the points: it depends on where they are, not on how they are numbered, and on nothing else. An edge comes with its
-    source, which is the end with the smaller number, counter-clockwise around it.
-
-    Parameters
-    ----------
-    points : (n, 2) int32 array
-        Distinct points, at most `LATTICE_LIMIT` in magnitude.
-    segments : (m, 2) int32 array
-        Ends of each segment. Segments meet at shared ends only, and no point lies inside one.
-    vertices : (v, 2) float64 array
-        Centres of the discs that touch three sites or more and hold none inside.
-    radius : (v,) float64 array
-        Their radii; 0 at a point where segments meet, which then is the vertex.
-    vertex_start : (v + 1,) int32 array
-        The sites of vertex i are ``vertex_sites[vertex_start[i]:vertex_start[i + 1]]``.
-    vertex_sites : (k,) int32 array
-        All sites that the disc touches and whose cells meet there, counter-clockwise from the smallest number. A point
-        whose segments leave no gap of 180 degrees has no cell.
-    edges : (e, 2) int32 array
-        Source and target of each edge; -1 at infinity, as source only of lines without a vertex. Edges between a
-        segment and its own end are included, edges of length zero are not.
-    edge_sites : (e, 2) int32 array
-        The sites left and right of source -> target.
-    counts : dict of str to int
-        Statistics of the computation.
-
-    Raises
-    ------
-    InputError
-        If an array has another shape.
-
-    References
-    ----------
-    Melkemi and Vandorpe, "Voronoi Diagrams and Applications", section 3.2.
-
-    Examples
-    --------
-    >>> from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi
-    >>> square = segment_voronoi([[0, 0], [2, 0], [2, 2], [0, 2]], [[0, 1], [1, 2], [2, 3], [3, 0]])
-    >>> square.vertices.tolist(), square.radius.tolist()
-    ([[0.0, 0.0], [0.0, 2.0], [2.0, 0.0], [2.0, 2.0], [1.0, 1.0]], [0.0, 0.0, 0.0, 0.0, 1.0])
-    >>> square.sites_of(4).tolist()
-    [4, 5, 6, 7]
-    """
-
-    points: NDArray[np.int32]
+    points: NDArray[np.int32]  # (n, 2) int32 array: distinct points, at most `LATTICE_LIMIT` in magnitude
+    # (m, 2) int32 array: ends of each segment. Segments meet at shared ends only, and no point lies inside one
     segments: NDArray[np.int32]
+    # (v, 2) float64 array: centres of the discs that touch three sites or more and hold none inside
     vertices: NDArray[np.float64]
+    # (v,) float64 array: their radii; 0 at a point where segments meet, which then is the vertex
     radius: NDArray[np.float64]
+    # (v + 1,) int32 array: the sites of vertex i are `vertex_sites[vertex_start[i]:vertex_start[i + 1]]`
     vertex_start: NDArray[np.int32]
+    # (k,) int32 array: all sites that the disc touches and whose cells meet there, counter-clockwise from the
+    # smallest number. A point whose segments leave no gap of 180 degrees has no cell
     vertex_sites: NDArray[np.int32]
+    # (e, 2) int32 array: source and target of each edge; -1 at infinity, as source only of lines without a vertex.
+    # Edges between a segment and its own end are included, edges of length zero are not
     edges: NDArray[np.int32]
-    edge_sites: NDArray[np.int32]
-    counts: dict[str, Any] = field(default_factory=dict)
+    edge_sites: NDArray[np.int32]  # (e, 2) int32 array: the sites left and right of source -> target
+    counts: dict[str, Any] = field(default_factory=dict)  # statistics of the computation
 
     def __post_init__(self) -> None:
         for name, (dtype, width) in _SHAPES.items():

@@ -30,28 +30,26 @@ VERTEX, EDGE = 0, 1
 
 @dataclass(frozen=True, eq=False)
 class SiteTable:
-    """The elements of sites: a vertex of a polygon as it was used, or the open edge that begins at a vertex.
+    """The elements of sites: a vertex of a polygon as it was used, or the open edge that begins at a vertex."""
 
-    Parameters
-    ----------
-    kind : (s,) int8 array
-        `VERTEX` or `EDGE`.
-    polygon, ring, index : (s,) int32 array
-        The polygon; its ring, 0 for the shell or a line; the vertex in the ring, or the one where the edge begins.
-    source_ring, source_index : (s,) int32 array
-        The ring of the input, counted over all polygons, and the vertex or edge there that it is, or is a part of; -1
-        for a crossing of edges.
-    ends : (s, 2, 2) float64 array, optional
-        Where sites are that need not be whole edges of the polygons, or their vertices: those of what is outside, where
-        features overlap. NaN for others.
-    """
-
-    kind: NDArray[np.int8]
+    kind: NDArray[np.int8]  # (s,) int8 array: `VERTEX` or `EDGE`
+    # (s,) int32 array: the polygon; its ring, 0 for the shell or a line; the vertex in the ring, or the one where the
+    # edge begins
     polygon: NDArray[np.int32]
+    # (s,) int32 array: the polygon; its ring, 0 for the shell or a line; the vertex in the ring, or the one where the
+    # edge begins
     ring: NDArray[np.int32]
+    # (s,) int32 array: the polygon; its ring, 0 for the shell or a line; the vertex in the ring, or the one where the
+    # edge begins
     index: NDArray[np.int32]
+    # (s,) int32 array: the ring of the input, counted over all polygons, and the vertex or edge there that it is, or
+    # is a part of; -1 for a crossing of edges
     source_ring: NDArray[np.int32]
+    # (s,) int32 array: the ring of the input, counted over all polygons, and the vertex or edge there that it is, or
+    # is a part of; -1 for a crossing of edges
     source_index: NDArray[np.int32]
+    # (s, 2, 2) float64 array: where sites are that need not be whole edges of the polygons, or their vertices: those
+    # of what is outside, where features overlap. NaN for others
     ends: NDArray[np.float64] | None = None
 
     def __post_init__(self) -> None:

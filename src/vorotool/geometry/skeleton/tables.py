@@ -337,13 +337,7 @@ def _least_nodes(skeleton: Skeleton, starts: NDArray[np.int64]) -> NDArray[np.in
 
 
 def connected_roots(pairs: NDArray[np.integer], count: int) -> NDArray[np.int64]:
-    """(count,) the smallest number that each is connected with by pairs.
-
-    Examples
-    --------
-    >>> connected_roots(np.array([[0, 1], [3, 1], [2, 4]]), 5).tolist()
-    [0, 0, 2, 0, 2]
-    """
+    """(count,) the smallest number that each is connected with by pairs."""
     root = np.arange(count)
     a, b = np.asarray(pairs).reshape(-1, 2).T
     while len(a):

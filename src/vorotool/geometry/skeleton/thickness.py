@@ -12,18 +12,10 @@ from vorotool.geometry.pixel_grid import PixelGrid
 
 @dataclass(frozen=True, eq=False)
 class ThicknessImage:
-    """The diameter of the largest inscribed disc over each pixel.
+    """The diameter of the largest inscribed disc over each pixel."""
 
-    Parameters
-    ----------
-    values : (H, W) float64 array
-        0 where there is no object.
-    grid : PixelGrid, optional
-        Sides and places of the pixels, where the file says them.
-    """
-
-    values: NDArray[np.float64]
-    grid: PixelGrid | None = None
+    values: NDArray[np.float64]  # (H, W) float64 array: 0 where there is no object
+    grid: PixelGrid | None = None  # sides and places of the pixels, where the file says them
 
     @property
     def largest(self) -> float:

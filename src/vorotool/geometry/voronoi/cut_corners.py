@@ -17,29 +17,7 @@ Indices = NDArray[np.int64]
 def with_feet_of_corners(
     cells: VoronoiMap, points: Floats, start: Indices, tolerance: Floats
 ) -> tuple[Floats, Indices]:
-    """Add to polylines the feet of corners of cuts that may be between them and their curves.
-
-    A straight cut that does not cross a curve crosses a polyline only if it ends between the two. The foot of that end
-    on the curve, along the axis of a parabola or towards the centre of a circle, divides what is between them so that
-    the end is in neither part.
-
-    Parameters
-    ----------
-    cells : VoronoiMap
-        With a clip or enclosures; others have no corner between a curve and its chord.
-    points, start : (n, 2) float64 array, (a + 1,) int64 array
-        A polyline of each arc, and where it begins.
-    tolerance : (a,) float64 array
-        How far polylines may be from curves.
-
-    Examples
-    --------
-    >>> from vorotool import voronoi
-    >>> sites, notch = ["LINESTRING (0 0, 8 0)", "POINT (4 2)"], "POLYGON ((0 0, 8 0, 8 8, 4 1.25, 0 8, 0 0))"
-    >>> cells = voronoi(sites, clip=[notch])
-    >>> bool(np.isin([4, 1.0], cells.to_shapely(flatten=2)[0].exterior.coords).all())
-    True
-    """
+    """Add to polylines the feet of corners of cuts that may be between them and their curves."""
     curved = np.flatnonzero(cells.is_parabola | cells.is_circle)
     if (cells.clip is None and cells.enclosures is None) or not curved.size:
         return points, start
@@ -140,11 +118,7 @@ def _from_circles(arcs: MixedArcs, place: Floats) -> Floats:
 
 
 def _from_parabolas(arcs: MixedArcs, place: Floats) -> Floats:
-    """(k,) no more than the distance of places in the triangles of Bezier curves from these.
-
-    With u, v, w the weights of the three control points at a place, v^2 - 4 u w is 0 on the curve. What this is
-    elsewhere, over the most that it can rise by, is less than the distance.
-    """
+    """(k,) no more than the distance of places in the triangles of Bezier curves from these."""
     a, b, c = arcs.source, arcs.control, arcs.target
     double = _cross(b - a, c - a)
     with np.errstate(divide="ignore", invalid="ignore"):

@@ -18,19 +18,7 @@ _MANY = 1 << 20
 
 
 def site_shapes(cells: VoronoiMap) -> NDArray[Any]:
-    """(s,) what each site bounds or is, as one collection of shapely; an empty one of a site without places.
-
-    Parameters
-    ----------
-    cells : VoronoiMap
-        With the sites.
-
-    Examples
-    --------
-    >>> from vorotool import voronoi
-    >>> [shape.wkt for shape in site_shapes(voronoi([[0, 0], [4, 0]]))]
-    ['GEOMETRYCOLLECTION (POINT (0 0))', 'GEOMETRYCOLLECTION (POINT (4 0))']
-    """
+    """(s,) what each site bounds or is, as one collection of shapely; an empty one of a site without places."""
     import shapely
 
     parts = used_shapes(cells.polygons)
@@ -43,21 +31,7 @@ def site_shapes(cells: VoronoiMap) -> NDArray[Any]:
 
 
 def site_distances(cells: VoronoiMap, pairs: Indices) -> Floats:
-    """(n,) distances between two sites each; 0 where they touch or overlap.
-
-    Parameters
-    ----------
-    cells : VoronoiMap
-        With the sites.
-    pairs : (n, 2) int64 array
-        Of sites, each with places.
-
-    Examples
-    --------
-    >>> from vorotool import voronoi
-    >>> site_distances(voronoi([[0, 0], [4, 0], [4, 3]]), np.array([[0, 1], [0, 2]])).tolist()
-    [4.0, 5.0]
-    """
+    """(n,) distances between two sites each; 0 where they touch or overlap."""
     import shapely
 
     shapes = site_shapes(cells)

@@ -19,39 +19,13 @@ KINDS = ["line", "parabola", "circle"]
 
 
 def kinds_of(cells: VoronoiMap) -> NDArray[np.int32]:
-    """(a,) the kind of each arc, a number among `KINDS`.
-
-    Examples
-    --------
-    >>> from vorotool import voronoi
-    >>> kinds_of(voronoi([[0, 0]])).tolist()
-    [0, 0, 0, 0]
-    """
+    """(a,) the kind of each arc, a number among `KINDS`."""
     kinds: NDArray[np.int32] = np.where(cells.is_circle, 2, cells.is_parabola).astype(np.int32)
     return kinds
 
 
 def border_table(cells: VoronoiMap) -> Table:
-    """Give one row an arc between two cells.
-
-    Parameters
-    ----------
-    cells : VoronoiMap
-        Rows are in the order of its arcs; those with one cell only are left out.
-
-    Returns
-    -------
-    Table
-        ``label_a, label_b, kind, x0, y0, x1, y1, cx, cy, length, arc, r0, r1``: the labels of the cells, from 1, the
-        smaller first; the ends; the control point of a parabola; the number of the arc, from 0; the distances from both
-        sites at the ends, which do not exist on enclosures.
-
-    Examples
-    --------
-    >>> from vorotool import voronoi
-    >>> border_table(voronoi([[0, 0], [4, 0]], frame=(0, 0, 4, 2)))["length"].tolist()
-    [2.0]
-    """
+    """Give one row an arc between two cells."""
     arc = np.flatnonzero(cells.is_border)
     low, high = np.sort(cells.sites[arc], axis=1).T
     source, target = np.ascontiguousarray(cells.arcs[arc].T)
@@ -87,26 +61,7 @@ def neighbour_pairs(cells: VoronoiMap) -> tuple[NDArray[np.int64], NDArray[np.fl
 
 
 def neighbour_table(cells: VoronoiMap) -> Table:
-    """Give one row a pair of cells that share a border; cells that meet in places only are none.
-
-    Parameters
-    ----------
-    cells : VoronoiMap
-        With the cells.
-
-    Returns
-    -------
-    Table
-        ``label_a, label_b, border_length, distance``: labels from 1, the smaller first; the distance is that between
-        the two sites, 0 where they touch.
-
-    Examples
-    --------
-    >>> from vorotool import voronoi
-    >>> lattice = [[0, 0], [2, 0], [0, 2], [2, 2]]
-    >>> neighbour_table(voronoi(lattice, frame=(-1, -1, 4, 4)))["label_b"].tolist()
-    [2, 3, 4, 4]
-    """
+    """Give one row a pair of cells that share a border; cells that meet in places only are none."""
     pairs, length = neighbour_pairs(cells)
     low, high = np.ascontiguousarray(pairs.T) + 1
     distance = _when_asked(lambda: site_distances(cells, pairs), len(pairs))
@@ -114,27 +69,7 @@ def neighbour_table(cells: VoronoiMap) -> Table:
 
 
 def cell_table(cells: VoronoiMap) -> Table:
-    """Give one row a cell.
-
-    Parameters
-    ----------
-    cells : VoronoiMap
-        Rows are in the order of its sites.
-
-    Returns
-    -------
-    Table
-        ``label, id, area, perimeter, neighbours, own_area, max_distance, components``, and the columns of the input:
-        label i is that of cell i - 1, and there is an id if the input has some. The own area is what the cell has of
-        the polygons of its site, the distance the largest from the site within the cell, NaN of an empty one, and
-        components are its polygons.
-
-    Examples
-    --------
-    >>> from vorotool import voronoi
-    >>> cell_table(voronoi([[0, 0], [4, 0]], frame=(0, 0, 4, 2)))["neighbours"].tolist()
-    [1, 1]
-    """
+    """Give one row a cell."""
     pairs, _ = neighbour_pairs(cells)
     columns: dict[str, Any] = {"label": np.arange(1, len(cells) + 1)}
     if cells.ids is not None:

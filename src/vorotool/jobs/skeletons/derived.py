@@ -22,17 +22,7 @@ if TYPE_CHECKING:
 
 
 class Derived:
-    """Results that are made when they are asked for.
-
-    Parameters
-    ----------
-    origin : Origin
-        What they follow from.
-    backdrop : Backdrop, optional
-        The image that pictures are drawn over.
-    styled : callable
-        Gives the page that is drawn on as the options say.
-    """
+    """Results that are made when they are asked for."""
 
     def __init__(self, origin: Origin, backdrop: Backdrop | None, styled: Callable[[Page], Page]) -> None:
         self.origin, self.backdrop, self._styled = origin, backdrop, styled

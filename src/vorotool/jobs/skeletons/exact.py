@@ -30,19 +30,11 @@ from vorotool.jobs.skeletons.products import SkeletonProducts
 
 @dataclass(frozen=True)
 class Seen:
-    """Counts of the diagram of some features.
+    """Counts of the diagram of some features."""
 
-    Parameters
-    ----------
-    vertices, edges : int
-        Of the diagram.
-    deviation : float
-        With a gap, how far the skeleton is from the exact one, if that is asked for.
-    """
-
-    vertices: int
-    edges: int
-    deviation: float = 0.0
+    vertices: int  # of the diagram
+    edges: int  # of the diagram
+    deviation: float = 0.0  # with a gap, how far the skeleton is from the exact one, if that is asked for
 
 
 class ExactProducts(SkeletonProducts[ExactSkeletonOptions]):

@@ -21,17 +21,7 @@ LINES = ("skeleton", "centerline")
 
 
 class WrittenLines:
-    """Lines that are made when they are asked for.
-
-    Parameters
-    ----------
-    run : Run
-        Takes seconds.
-    options : SkeletonOptions
-        Of the command line.
-    skeleton, centerlines : callable
-        Give the skeleton, pruned as the options say, and its centerlines.
-    """
+    """Lines that are made when they are asked for."""
 
     def __init__(
         self,

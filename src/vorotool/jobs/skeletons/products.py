@@ -45,17 +45,7 @@ Options = TypeVar("Options", bound=SkeletonOptions)
 
 
 class SkeletonProducts(ABC, Generic[Options]):
-    """Results of one skeleton, however it is made.
-
-    Parameters
-    ----------
-    run : Run
-        Takes notes and seconds.
-    options : SkeletonOptions
-        Of the command line.
-    given : JobInput
-        With the image that pictures are drawn over.
-    """
+    """Results of one skeleton, however it is made."""
 
     def __init__(self, run: Run, options: Options, given: JobInput) -> None:
         self.run = run

@@ -25,36 +25,17 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Origin:
-    """What results follow from.
+    """What results follow from."""
 
-    Parameters
-    ----------
-    run : Run
-        Takes seconds and what is to be said.
-    options : SkeletonOptions
-        Of the command line.
-    skeleton : callable
-        Gives the skeleton, pruned as the options say.
-    whole : callable
-        Gives it before it is pruned.
-    centerlines : callable
-        Gives the longest path in each polygon, or that between the places that are given.
-    shapes : callable
-        Gives the shapes, or their exact diagram.
-    frame : Frame, optional
-        Pixels of the image that the shapes are outlines of.
-    grid : PixelGrid, optional
-        What that image says of them.
-    """
-
-    run: Run
-    options: SkeletonOptions
-    skeleton: Callable[[], Skeleton]
-    whole: Callable[[], Skeleton]
+    run: Run  # takes seconds and what is to be said
+    options: SkeletonOptions  # of the command line
+    skeleton: Callable[[], Skeleton]  # gives the skeleton, pruned as the options say
+    whole: Callable[[], Skeleton]  # gives it before it is pruned
+    # gives the longest path in each polygon, or that between the places that are given
     centerlines: Callable[[], Centerlines]
-    shapes: Callable[[], ShapeDiagram | PolygonSet]
-    frame: Frame | None = None
-    grid: PixelGrid | None = None
+    shapes: Callable[[], ShapeDiagram | PolygonSet]  # gives the shapes, or their exact diagram
+    frame: Frame | None = None  # pixels of the image that the shapes are outlines of
+    grid: PixelGrid | None = None  # what that image says of them
 
     @property
     def exact_options(self) -> ExactSkeletonOptions:
@@ -64,13 +45,7 @@ class Origin:
 
 
 class Result(ABC):
-    """A result, made when it is asked for.
-
-    Parameters
-    ----------
-    origin : Origin
-        What it follows from.
-    """
+    """A result, made when it is asked for."""
 
     draws_itself = False
     """Its picture is an image of its own, and no layers."""

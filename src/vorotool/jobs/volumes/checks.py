@@ -18,13 +18,7 @@ _PICTURES = ("png", "svg")
 
 
 def check_image_options(o: TessellationOptions) -> None:
-    """Refuse what means something for volumes only.
-
-    Raises
-    ------
-    UsageError
-        If such an option is given.
-    """
+    """Refuse what means something for volumes only."""
     check_connectivity(o, is_volume=False)
     if o.slice is not None:
         raise UsageError("--slice is for volumes: use --volume, or leave it out")
@@ -35,13 +29,7 @@ def check_image_options(o: TessellationOptions) -> None:
 
 
 def check_volume_options(o: TessellationOptions, targets: list[Target]) -> None:
-    """Refuse what means nothing for volumes, and what no output would show.
-
-    Raises
-    ------
-    UsageError
-        If such an option is given.
-    """
+    """Refuse what means nothing for volumes, and what no output would show."""
     _check_frame(o)
     check_connectivity(o, is_volume=True)
     check_components(o)
@@ -51,13 +39,7 @@ def check_volume_options(o: TessellationOptions, targets: list[Target]) -> None:
 
 
 def check_volume_units(o: TessellationOptions) -> None:
-    """Refuse the size of a pixel, and lengths whose unit no spacing tells.
-
-    Raises
-    ------
-    UsageError
-        If there are such.
-    """
+    """Refuse the size of a pixel, and lengths whose unit no spacing tells."""
     if o.pixel_size is not None:
         raise UsageError("--pixel-size is for images: use --spacing SX,SY,SZ for a volume, such as 0.325,0.325,1.5um")
     lengths = {"max-distance": o.max_distance, "min-area": o.min_area, "fill-holes": o.fill_holes}
@@ -70,13 +52,7 @@ def check_volume_units(o: TessellationOptions) -> None:
 
 
 def check_connectivity(o: TessellationOptions, *, is_volume: bool) -> None:
-    """Refuse the connectivity of images for volumes, and the other way round.
-
-    Raises
-    ------
-    UsageError
-        If it is that of the other kind.
-    """
+    """Refuse the connectivity of images for volumes, and the other way round."""
     allowed = _CONNECTIVITY[is_volume]
     if o.connectivity is None or o.connectivity in allowed:
         return

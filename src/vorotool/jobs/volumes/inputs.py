@@ -35,45 +35,16 @@ _TIFF_HEADS = (b"II*\x00", b"MM\x00*", b"II+\x00", b"MM\x00+")
 
 @dataclass(frozen=True)
 class ReadVolume:
-    """Seeds, and what else an input says.
-
-    Parameters
-    ----------
-    seeds : VolumeSeeds
-        Of the input.
-    frame : VoxelFrame, optional
-        What is tessellated; None where there are no seeds.
-    sides : PixelSides
-        Of a voxel, in whose unit distances are.
-    grid : VoxelGrid, optional
-        Sides of the voxels, for files that are written.
-    """
+    """Seeds, and what else an input says."""
 
     seeds: VolumeSeeds
-    frame: VoxelFrame | None
-    sides: PixelSides
-    grid: VoxelGrid | None
+    frame: VoxelFrame | None  # what is tessellated; None where there are no seeds
+    sides: PixelSides  # of a voxel, in whose unit distances are
+    grid: VoxelGrid | None  # sides of the voxels, for files that are written
 
 
 def read_volume_seeds(run: Run, o: TessellationOptions, given: JobInput) -> tuple[TessellationOptions, ReadVolume]:
-    """Read a volume, or points of space; options with a unit are in that of the voxels then.
-
-    Parameters
-    ----------
-    run : Run
-        Takes notes and statistics.
-    o : TessellationOptions
-        Of the command line.
-    given : JobInput
-        The input.
-
-    Raises
-    ------
-    InputError
-        If it is none of both, or its file does not say the sides that are asked of it.
-    UsageError
-        If options are given that it has no use for.
-    """
+    """Read a volume, or points of space; options with a unit are in that of the voxels then."""
     if not _is_volume(o, given.path):
         return _read_points(run, o, given)
     refuse({"columns": o.columns, **o.of_frame()}, "is for lists of points, but the input is a volume, with its own")
@@ -179,24 +150,7 @@ def _slices_at_a_time(source: VolumeSource) -> int:
 
 # ---- sides of voxels
 def with_voxel_sides(run: Run, o: TessellationOptions, given: JobInput, grid: VoxelGrid | None) -> TessellationOptions:
-    """Give options with the sides of voxels: as the user says, or what the file says where that is asked for.
-
-    Parameters
-    ----------
-    run : Run
-        Takes notes and statistics.
-    o : TessellationOptions
-        Of the command line.
-    given : JobInput
-        The volume.
-    grid : VoxelGrid, optional
-        What its file says of its voxels.
-
-    Raises
-    ------
-    InputError
-        If the file is to say it, and does not.
-    """
+    """Give options with the sides of voxels: as the user says, or what the file says where that is asked for."""
     asked = o.pixel_size
     if asked is None:
         if grid is not None and not grid.is_cube:

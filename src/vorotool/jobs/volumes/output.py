@@ -26,33 +26,15 @@ Limits = Sequence[tuple[int, int]]
 
 @dataclass(frozen=True)
 class VolumeStream:
-    """A volume that need not be in memory.
-
-    Parameters
-    ----------
-    frame : VoxelFrame
-        Its voxels.
-    slices_of : callable
-        ``slices_of(first, slices)`` gives some slices.
-    dtype : dtype
-        Of the voxels.
-    slab : callable
-        ``slab(first, slices)`` gives some slices as what computes them anywhere.
-    limits : sequence of (int, int)
-        Slabs that suit what computes them.
-    grid : VoxelGrid, optional
-        Sides of the voxels, for the file.
-    nodata : int, optional
-        What voxels without a value have.
-    """
+    """A volume that need not be in memory."""
 
     frame: VoxelFrame
-    slices_of: Callable[[int, int], NDArray[Any]]
+    slices_of: Callable[[int, int], NDArray[Any]]  # `slices_of(first, slices)` gives some slices
     dtype: np.dtype[Any]
-    slab: Callable[[int, int], Band]
-    limits: Limits
-    grid: VoxelGrid | None = None
-    nodata: int | None = None
+    slab: Callable[[int, int], Band]  # `slab(first, slices)` gives some slices as what computes them anywhere
+    limits: Limits  # sequence of (int, int): slabs that suit what computes them
+    grid: VoxelGrid | None = None  # sides of the voxels, for the file
+    nodata: int | None = None  # what voxels without a value have
 
     def write(self, out: Any, fmt: Any, slabs: Iterator[NDArray[Any]], slices: int, *, threads: int) -> None:
         """Write slabs of so many slices to a file."""
@@ -65,15 +47,7 @@ class VolumeStream:
 
 
 def check_volume_chunks(o: TessellationOptions, frame: VoxelFrame, dtype: np.dtype[Any]) -> tuple[int, int, int]:
-    """Choose slices, rows and columns of the chunks of a store.
-
-    Raises
-    ------
-    LimitError
-        If a layer of chunks is too large to be held.
-    UsageError
-        If zarr is not installed.
-    """
+    """Choose slices, rows and columns of the chunks of a store."""
     from vorotool.formats.zarr.arrays import zarr_module
     from vorotool.formats.zarr.volumes import volume_chunks
 

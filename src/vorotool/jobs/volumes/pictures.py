@@ -36,22 +36,12 @@ _STEPS = 256
 
 
 class View(NamedTuple):
-    """A slice of a volume and its place in a picture.
+    """A slice of a volume and its place in a picture."""
 
-    Parameters
-    ----------
-    axes : (int, int)
-        Axis of the volume that goes down, and the one to the right.
-    number : int
-        Which slice along the third axis.
-    top, left : int
-        Pixel of the upper left corner.
-    """
-
-    axes: tuple[int, int]
-    number: int
-    top: int
-    left: int
+    axes: tuple[int, int]  # (int, int): axis of the volume that goes down, and the one to the right
+    number: int  # which slice along the third axis
+    top: int  # pixel of the upper left corner
+    left: int  # pixel of the upper left corner
 
     @property
     def across(self) -> int:
@@ -61,31 +51,12 @@ class View(NamedTuple):
 
 @dataclass(frozen=True)
 class SlicePicture:
-    """Where slices lie in a picture, whose pixels are squares with the shortest side of a voxel.
-
-    Parameters
-    ----------
-    frame : VoxelFrame
-        Of the volume.
-    units : (int, int, int)
-        Sides of a voxel: along z, y and x.
-    chosen : int, optional
-        The slice that is drawn, by its z; by default there are three views: the slice across z through the middle
-        voxel, to the right of it the one across x, and below it the one across y.
-
-    Raises
-    ------
-    UsageError
-        If the volume has no such slice.
-
-    Examples
-    --------
-    >>> SlicePicture(VoxelFrame(0, 0, 0, 40, 30, 10), (3, 1, 1)).shape
-    (63, 73)
-    """
+    """Where slices lie in a picture, whose pixels are squares with the shortest side of a voxel."""
 
     frame: VoxelFrame
-    units: tuple[int, ...] = (1, 1, 1)
+    units: tuple[int, ...] = (1, 1, 1)  # sides of a voxel: along z, y and x
+    # the slice that is drawn, by its z; by default there are three views: the slice across z through the middle
+    # voxel, to the right of it the one across x, and below it the one across y
     chosen: int | None = None
 
     def __post_init__(self) -> None:
@@ -129,13 +100,7 @@ class SlicePicture:
         return (height, width) if self.chosen is not None else (height + self._gap + depth, width + self._gap + depth)
 
     def check(self, max_pixels: int) -> None:
-        """Refuse a picture of too many pixels.
-
-        Raises
-        ------
-        LimitError
-            If it has more.
-        """
+        """Refuse a picture of too many pixels."""
         height, width = self.shape
         if height * width > max_pixels:
             raise LimitError(
@@ -251,21 +216,7 @@ def write_slices(
     texts: Mapping[int, str] | None,
     threads: int,
 ) -> None:
-    """Draw slices of a volume as PNG or SVG.
-
-    Parameters
-    ----------
-    out : binary file
-        Where to write.
-    volume : LabelVolume
-        With seeds, if these are drawn.
-    views : SlicePicture
-        What is drawn of it.
-    colours : pair of (k,) integer arrays
-        Labels and the colour class of each, for the whole volume.
-    fmt, layers, style, width, texts, threads
-        As of `vorotool.jobs.label_pictures.LabelPicture`.
-    """
+    """Draw slices of a volume as PNG or SVG."""
     from vorotool.jobs.label_pictures import LabelPicture
 
     image = views.image(volume)

@@ -64,21 +64,7 @@ def products(run: Run, o: TessellationOptions, given: JobInput) -> VolumeProduct
 
 
 class VolumeProducts:
-    """Results of one tessellation.
-
-    Parameters
-    ----------
-    run : Run
-        Takes notes and seconds.
-    options : TessellationOptions
-        Of the command line.
-    read : ReadVolume
-        What was read of the input.
-    sweep : VolumeSweep
-        Gives any slices of labels.
-    has_page : bool
-        Whether a page is among the results.
-    """
+    """Results of one tessellation."""
 
     def __init__(
         self, run: Run, options: TessellationOptions, read: ReadVolume, sweep: VolumeSweep, *, has_page: bool = False

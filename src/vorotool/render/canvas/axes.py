@@ -22,27 +22,7 @@ FINENESS = 0.25
 
 
 def draw_on_axes(ax: Axes, layers: Iterable[Layer], page: Page, **style: Any) -> None:
-    """Draw layers from below.
-
-    Parameters
-    ----------
-    ax : matplotlib.axes.Axes
-        Where.
-    layers : iterable of Layer
-        What to draw.
-    page : Page
-        How large a px is.
-    **style
-        Further arguments of what matplotlib draws, before ours.
-
-    Examples
-    --------
-    >>> from matplotlib.figure import Figure
-    >>> ax = Figure().add_subplot()
-    >>> draw_on_axes(ax, [Points("sites", np.zeros((3, 2)))], Page((0, 0, 1, 1), width=640, y_up=False))
-    >>> len(ax.collections)
-    1
-    """
+    """Draw layers from below."""
     for each in layers:
         layer = each.chords(page.distance(FINENESS)) if isinstance(each, Arcs | CurvedPolygons) else each
         if not len(layer.points):
@@ -123,16 +103,7 @@ def _write_texts(ax: Axes, layer: Texts) -> None:
 
 
 def settle_axes(ax: Axes, *, y_up: bool, is_geographic: bool) -> None:
-    """Give axes equal scales, longitudes by the cosine of the middle latitude, and y as in our pictures.
-
-    Examples
-    --------
-    >>> from matplotlib.figure import Figure
-    >>> ax = Figure().add_subplot()
-    >>> settle_axes(ax, y_up=False, is_geographic=False)
-    >>> ax.get_aspect(), bool(ax.yaxis_inverted())
-    (1.0, True)
-    """
+    """Give axes equal scales, longitudes by the cosine of the middle latitude, and y as in our pictures."""
     ax.autoscale_view()
     if ax.yaxis_inverted() == y_up:
         ax.invert_yaxis()

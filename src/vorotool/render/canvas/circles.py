@@ -21,20 +21,7 @@ class Circles(Arcs):
 
 
 def circles(name: str, xy: NDArray[np.float64], radius: NDArray[np.float64], edge: str, width: float) -> Circles:
-    """Give a layer of circles that are not filled.
-
-    Parameters
-    ----------
-    name, edge, width
-        As of `Arcs`.
-    xy, radius : (n, 2) and (n,) float64 array
-        Centres and radii.
-
-    Examples
-    --------
-    >>> circles("discs", np.array([[1.0, 2.0]]), np.array([0.5]), "#000000", 1.0).radius.tolist()
-    [0.5]
-    """
+    """Give a layer of circles that are not filled."""
     right, left = (xy + way * radius[:, None] * (1, 0) for way in (1, -1))
     start, end = (np.stack(ends, axis=1).reshape(-1, 2) for ends in ((right, left), (left, right)))
     rings = np.arange(0, 2 * len(xy) + 1, 2)

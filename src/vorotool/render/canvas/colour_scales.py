@@ -20,13 +20,7 @@ TICKS = 4
 
 
 def scale_colours(count: int) -> NDArray[np.uint8]:
-    """Give (count, 3) colours from dark to light: red, green and blue.
-
-    Examples
-    --------
-    >>> scale_colours(3).tolist()
-    [[68, 1, 84], [33, 145, 140], [253, 231, 37]]
-    """
+    """Give (count, 3) colours from dark to light: red, green and blue."""
     stops = np.array([list(bytes.fromhex(stop)) for stop in _STOPS], dtype=np.float64)
     place = np.linspace(0, len(stops) - 1, count)
     below = np.minimum(place.astype(np.intp), len(stops) - 2)
@@ -36,23 +30,7 @@ def scale_colours(count: int) -> NDArray[np.uint8]:
 
 
 def colour_bar(largest: float, unit: str | None, page: Page) -> list[Layer]:
-    """Make a bar of the colours from 0 to the largest amount, in the upper right corner of a page.
-
-    Parameters
-    ----------
-    largest : float
-        More than 0.
-    unit : str, optional
-        Of the numbers beside it.
-    page : Page
-        In whose px the layers are.
-
-    Examples
-    --------
-    >>> page = Page((0, 0, 100, 50), width=600, y_up=True)
-    >>> [layer.texts for layer in colour_bar(70.0, "um", page) if isinstance(layer, Texts)]
-    [['0', '20', '40', '60 um']]
-    """
+    """Make a bar of the colours from 0 to the largest amount, in the upper right corner of a page."""
     size = letter_size(page)
     step = rounded_length(largest / 2)
     step = step if largest / step < TICKS else 2 * step

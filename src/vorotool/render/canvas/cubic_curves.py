@@ -13,19 +13,9 @@ from vorotool.render.canvas.layers import Curves
 
 @dataclass(frozen=True, eq=False)
 class CubicCurves(Curves):
-    """Cubic Bézier curves.
+    """Cubic Bézier curves."""
 
-    Parameters
-    ----------
-    name, points, pairs, colour, width, is_broken
-        As of `Curves`.
-    control : (m,) int32 array
-        The first control point of each.
-    second : (m,) int32 array
-        Its second one.
-    """
-
-    second: NDArray[np.int32] = field(kw_only=True)
+    second: NDArray[np.int32] = field(kw_only=True)  # (m,) int32 array: its second one
 
     def polylines(self, tolerance: float) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
         """As of `Curves`."""

@@ -59,28 +59,7 @@ def _cells(text: str) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
 
 
 def text_cells(texts: Sequence[str]) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.bool_]]:
-    """Give the cells of texts.
-
-    Parameters
-    ----------
-    texts : sequence of str
-        What is written; letters beyond ASCII lose their accents, or are question marks.
-
-    Returns
-    -------
-    text : (n,) int64 array
-        Index of the text that each cell is of, increasing.
-    cells : (n, 2) int64 array
-        Column and row, from the middle of the text.
-    is_ink : (n,) bool array
-        Whether it is one of the letters, not of the halo around them.
-
-    Examples
-    --------
-    >>> _, cells, is_ink = text_cells(["1"])
-    >>> int(is_ink.sum()), cells[is_ink].min(axis=0).tolist(), cells[is_ink].max(axis=0).tolist()
-    (10, [-1, -3], [1, 3])
-    """
+    """Give the cells of texts."""
     parts = [np.concatenate(_cells(text)) for text in texts]
     inks = [len(_cells(text)[0]) for text in texts]
     sizes = np.array([len(part) for part in parts], dtype=np.int64)

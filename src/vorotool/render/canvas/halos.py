@@ -10,26 +10,12 @@ from vorotool.render.canvas.palettes import WHITE
 
 
 def halo_width(width: float) -> float:
-    """Give the width of a line with a white edge of up to 1 px on both sides: many fine lines leave no more room.
-
-    Examples
-    --------
-    >>> halo_width(1.5), halo_width(0.25)
-    (3.5, 0.75)
-    """
+    """Give the width of a line with a white edge of up to 1 px on both sides: many fine lines leave no more room."""
     return width + min(2.0, 2 * width)
 
 
 def with_halos(layers: Sequence[Layer]) -> list[Layer]:
-    """Put a white edge beneath each layer of lines and of points, so that they show on dark and on light ground.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> line = Lines("edges", np.zeros((2, 2)), np.array([[0, 1]], dtype=np.int32))
-    >>> [(layer.name, layer.colour, layer.width) for layer in with_halos([line])]
-    [('edges-halo', '#ffffff', 3.5), ('edges', '#222222', 1.5)]
-    """
+    """Put a white edge beneath each layer of lines and of points, so that they show on dark and on light ground."""
     made: list[Layer] = []
     for layer in layers:
         name = f"{layer.name}-halo"

@@ -28,32 +28,7 @@ LONGEST = 0.25
 
 
 def insets(layers: Sequence[Layer], page: Page) -> list[Layer]:
-    """Make the legend and the scale bar that the style of a page asks for.
-
-    Parameters
-    ----------
-    layers : sequence of Layer
-        What is drawn on the page.
-    page : Page
-        With its style.
-
-    Returns
-    -------
-    list of Layer
-        In px of the page.
-
-    Raises
-    ------
-    UsageError
-        If no length fits as a scale bar.
-
-    Examples
-    --------
-    >>> page = Page((0, 0, 100, 50), width=1000, y_up=True)
-    >>> page.style = replace(page.style, scale_bar=ScaleBar(1.0, "m"))
-    >>> [layer.texts for layer in insets([], page) if isinstance(layer, Texts)]
-    [['20 m']]
-    """
+    """Make the legend and the scale bar that the style of a page asks for."""
     style = page.style
     made: list[Layer] = []
     if style.has_legend:
@@ -64,13 +39,7 @@ def insets(layers: Sequence[Layer], page: Page) -> list[Layer]:
 
 
 def rounded_length(longest: float) -> float:
-    """Give the largest length of 1, 2 or 5 times a power of ten that is at most so long.
-
-    Examples
-    --------
-    >>> rounded_length(49.9), rounded_length(0.05), rounded_length(1999)
-    (20.0, 0.05, 1000.0)
-    """
+    """Give the largest length of 1, 2 or 5 times a power of ten that is at most so long."""
     power = Decimal(longest).adjusted()
     return max(length for k in (power - 1, power, power + 1) for length in _lengths(k) if length <= longest)
 
@@ -80,13 +49,7 @@ def _lengths(power: int) -> Iterable[float]:
 
 
 def letter_size(page: Page) -> float:
-    """Give the size of letters on a page, in px.
-
-    Examples
-    --------
-    >>> letter_size(Page((0, 0, 100, 50), width=600, y_up=True))
-    10.0
-    """
+    """Give the size of letters on a page, in px."""
     return min(max(page.width * LETTERS, LEAST), LARGEST)
 
 

@@ -26,65 +26,35 @@ TALLEST = 4
 
 @dataclass(frozen=True, eq=False)
 class Lines:
-    """Straight lines.
+    """Straight lines."""
 
-    Parameters
-    ----------
-    name : str
-        Of the layer: the id of its group in SVG.
-    points : (n, 2) float64 array
-        Finite coordinates.
-    pairs : (m, 2) int32 array
-        Ends of each line, indices of points.
-    colour : str
-        ``#rrggbb``.
-    width : float
-        In px, whatever the scale.
-    """
-
-    name: str
-    points: NDArray[np.float64]
-    pairs: NDArray[np.int32]
+    name: str  # of the layer: the id of its group in SVG
+    points: NDArray[np.float64]  # (n, 2) float64 array: finite coordinates
+    pairs: NDArray[np.int32]  # (m, 2) int32 array: ends of each line, indices of points
     colour: str = INK
-    width: float = 1.5
+    width: float = 1.5  # in px, whatever the scale
 
 
 @dataclass(frozen=True, eq=False)
 class Curves:
-    """Straight lines, quadratic Bezier curves and circular arcs.
+    """Straight lines, quadratic Bezier curves and circular arcs."""
 
-    Parameters
-    ----------
-    name, points, pairs, colour, width
-        As of `Lines`; curves of which one begins where the one before ends are drawn as one path.
-    control : (m,) int32 array
-        The control point of each; -1: it is a straight line.
-    is_broken : bool
-        Drawn as a broken line in SVG.
-    centre : (m, 2) float64 array, optional
-        Of the circle of each circular arc, which is at most half of one; NaN of others.
-    is_left : (m,) bool array, optional
-        Whether each arc turns counter-clockwise with y upwards; there if there are centres.
-    """
-
-    name: str
+    name: str  # as of `Lines`; curves of which one begins where the one before ends are drawn as one path
+    # as of `Lines`; curves of which one begins where the one before ends are drawn as one path
     points: NDArray[np.float64]
+    # as of `Lines`; curves of which one begins where the one before ends are drawn as one path
     pairs: NDArray[np.int32]
-    control: NDArray[np.int32]
-    colour: str = INK
-    width: float = 1.5
-    is_broken: bool = False
+    control: NDArray[np.int32]  # (m,) int32 array: the control point of each; -1: it is a straight line
+    colour: str = INK  # as of `Lines`; curves of which one begins where the one before ends are drawn as one path
+    width: float = 1.5  # as of `Lines`; curves of which one begins where the one before ends are drawn as one path
+    is_broken: bool = False  # drawn as a broken line in SVG
+    # (m, 2) float64 array: of the circle of each circular arc, which is at most half of one; NaN of others
     centre: NDArray[np.float64] | None = None
+    # (m,) bool array: whether each arc turns counter-clockwise with y upwards; there if there are centres
     is_left: NDArray[np.bool_] | None = None
 
     def polylines(self, tolerance: float) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-        """Give places along each curve, its ends included, and where those of each begin.
-
-        Parameters
-        ----------
-        tolerance : float
-            How far lines between these may be from the curves, in the units of the data.
-        """
+        """Give places along each curve, its ends included, and where those of each begin."""
         source, target = self.points[self.pairs.T]
         control, is_bent = self.points[self.control], self.control >= 0
         if self.centre is None or self.is_left is None:
@@ -99,21 +69,7 @@ class Curves:
         return Lines(self.name, points, np.stack([first, first + 1], axis=1).astype(np.int32), self.colour, self.width)
 
     def flattened(self, places: NDArray[np.float64], tolerance: float) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
-        """Straight lines instead of the curves.
-
-        Parameters
-        ----------
-        places : (n, 2) float64 array
-            Where the points are drawn.
-        tolerance : float
-            How far a line may be from its curve.
-
-        Returns
-        -------
-        places : (k, 2) float64 array
-        pairs : (l, 2) int32 array
-            Ends of each line.
-        """
+        """Straight lines instead of the curves."""
         source, target = places[self.pairs.T]
         points, start = polylines(source, places[self.control], target, self.control >= 0, tolerance)
         first = np.delete(np.arange(len(points)), start[1:] - 1)
@@ -122,46 +78,25 @@ class Curves:
 
 @dataclass(frozen=True, eq=False)
 class Polygons:
-    """Polygons of one or more rings each, filled by the even-odd rule.
-
-    Parameters
-    ----------
-    name, points
-        As of `Lines`.
-    corners : (k,) int32 array
-        Indices of points, ring after ring; rings are not closed by repetition.
-    rings : (r + 1,) integer array
-        Where each ring begins in ``corners``, and ``k``.
-    first_rings : (p + 1,) integer array, optional
-        Where each polygon begins among the rings, and ``r``; by default each ring is a polygon.
-    colours : sequence of str
-        Fills, ``#rrggbb``.
-    colour_of : (p,) integer array, optional
-        Index of each polygon's fill; by default all have the first.
-    ids : sequence of str, optional
-        Id of each polygon in SVG: each is a path of its own then, unless they are too many.
-    edge : str, optional
-        Colour of the outlines.
-    width : float
-        Of the outlines, in px.
-    is_alone : (p,) bool array, optional
-        Polygons that are paths of their own in SVG in any case, since others lie over them.
-    is_sheer : bool
-        Half of what lies beneath is seen through the fills, as it is over an image in any case.
-    """
+    """Polygons of one or more rings each, filled by the even-odd rule."""
 
     name: str
     points: NDArray[np.float64]
+    # (k,) int32 array: indices of points, ring after ring; rings are not closed by repetition
     corners: NDArray[np.int32]
-    rings: NDArray[np.int64]
+    rings: NDArray[np.int64]  # (r + 1,) integer array: where each ring begins in `corners`, and `k`
+    # (p + 1,) integer array: where each polygon begins among the rings, and `r`; by default each ring is a polygon
     first_rings: NDArray[np.int64] | None = None
     colours: Sequence[str] = ("#ffffff",)
+    # (p,) integer array: index of each polygon's fill; by default all have the first
     colour_of: NDArray[np.integer] | None = None
+    # id of each polygon in SVG: each is a path of its own then, unless they are too many
     ids: Sequence[str] | None = None
-    edge: str | None = None
-    width: float = 1.5
+    edge: str | None = None  # colour of the outlines
+    width: float = 1.5  # of the outlines, in px
+    # (p,) bool array: polygons that are paths of their own in SVG in any case, since others lie over them
     is_alone: NDArray[np.bool_] | None = None
-    is_sheer: bool = False
+    is_sheer: bool = False  # half of what lies beneath is seen through the fills, as it is over an image in any case
 
     @property
     def ring_limits(self) -> NDArray[np.int64]:
@@ -185,19 +120,10 @@ class Polygons:
 
 @dataclass(frozen=True, eq=False)
 class CurvedPolygons(Polygons):
-    """Polygons whose sides may be curves, which two of them share.
-
-    Parameters
-    ----------
-    name, points, corners, rings, first_rings, colours, colour_of, ids, edge, width, is_alone, is_sheer
-        As of `Polygons`; points are those of the curves.
-    curves : Curves
-        All sides.
-    along : (k,) int32 array
-        The side that leads on from each corner, counted from 1, below 0 against its direction.
-    """
+    """Polygons whose sides may be curves, which two of them share."""
 
     curves: Curves = field(kw_only=True)
+    # (k,) int32 array: the side that leads on from each corner, counted from 1, below 0 against its direction
     along: NDArray[np.int32] = field(kw_only=True)
 
     def chords(self, tolerance: float) -> Polygons:
@@ -231,46 +157,20 @@ class Points:
 
 @dataclass(frozen=True, eq=False)
 class Texts:
-    """Short texts beside points.
-
-    Parameters
-    ----------
-    name, points, colour
-        As of `Lines`.
-    texts : sequence of str
-        One a point.
-    size : float
-        Of the letters, in px.
-    halo : str, optional
-        Colour of an edge around the letters, which sets them off from what they lie on; in PNG there always is one.
-    is_centred : bool
-        Write them on the points instead, as names of what is around these.
-    is_led : bool
-        They begin at the points, and are not in the middle over them.
-    """
+    """Short texts beside points."""
 
     name: str
     points: NDArray[np.float64]
     texts: Sequence[str]
     colour: str = INK
-    size: float = 12.0
+    size: float = 12.0  # of the letters, in px
+    # colour of an edge around the letters, which sets them off from what they lie on; in PNG there always is one
     halo: str | None = None
-    is_centred: bool = False
-    is_led: bool = False
+    is_centred: bool = False  # write them on the points instead, as names of what is around these
+    is_led: bool = False  # they begin at the points, and are not in the middle over them
 
     def lowered(self, y: NDArray[np.float64], capital: float) -> NDArray[np.float64]:
-        """Give the px from the top at which the letters stand, for points at these.
-
-        They stand above points in the lower half of the page and below those in the upper one, where the margin is
-        narrow.
-
-        Parameters
-        ----------
-        y : (n,) float64 array
-            Px from the top.
-        capital : float
-            Height of capitals, as a part of the size.
-        """
+        """Give the px from the top at which the letters stand, for points at these."""
         if self.is_centred:
             return y + self.size * capital / 2
         below = y < (y.min(initial=0.0) + y.max(initial=0.0)) / 2
@@ -279,34 +179,20 @@ class Texts:
 
 @dataclass(frozen=True, eq=False)
 class Arcs:
-    """Closed curves of circular arcs and straight lines, filled by the even-odd rule or not at all.
-
-    Parameters
-    ----------
-    name : str
-        Of the layer.
-    start, end, centre : (k, 2) float64 array
-        Of each arc, which is at most half a circle; the centre of a straight line is NaN.
-    rings : (r + 1,) integer array
-        Where each curve begins among the arcs, and ``k``.
-    fill : str, optional
-        ``#rrggbb``.
-    edge : str
-        ``#rrggbb``.
-    width : float
-        Of the curves, in px.
-    is_left : (k,) bool array, optional
-        Whether each arc turns counter-clockwise with y upwards; by default none does.
-    """
+    """Closed curves of circular arcs and straight lines, filled by the even-odd rule or not at all."""
 
     name: str
+    # (k, 2) float64 array: of each arc, which is at most half a circle; the centre of a straight line is NaN
     start: NDArray[np.float64]
+    # (k, 2) float64 array: of each arc, which is at most half a circle; the centre of a straight line is NaN
     end: NDArray[np.float64]
+    # (k, 2) float64 array: of each arc, which is at most half a circle; the centre of a straight line is NaN
     centre: NDArray[np.float64]
-    rings: NDArray[np.int64]
+    rings: NDArray[np.int64]  # (r + 1,) integer array: where each curve begins among the arcs, and `k`
     fill: str | None
     edge: str
-    width: float = 1.5
+    width: float = 1.5  # of the curves, in px
+    # (k,) bool array: whether each arc turns counter-clockwise with y upwards; by default none does
     is_left: NDArray[np.bool_] | None = None
 
     @property
@@ -330,13 +216,7 @@ class Arcs:
 
 
 def name_size(page: Page, count: int) -> float:
-    """Give the size in px of the names of so many objects, which get smaller where these are many.
-
-    Examples
-    --------
-    >>> name_size(Page((0, 0, 1, 1), width=1000, y_up=False), 100)
-    16.0
-    """
+    """Give the size in px of the names of so many objects, which get smaller where these are many."""
     return min(max(page.spacing(count) / 4, 6.0), 16.0)
 
 
@@ -344,13 +224,7 @@ Layer = Lines | Curves | Polygons | Points | Texts | Arcs
 
 
 def bounds_of(layers: Iterable[Layer]) -> tuple[float, float, float, float]:
-    """Smallest box that holds the points of layers: least x, least y, largest x, largest y.
-
-    Examples
-    --------
-    >>> bounds_of([Points("sites", np.array([[1.0, 5.0], [3.0, 2.0]]))])
-    (1.0, 2.0, 3.0, 5.0)
-    """
+    """Smallest box that holds the points of layers: least x, least y, largest x, largest y."""
     used = [bounds(layer.points) for layer in layers if len(layer.points)]
     if not used:
         return (0.0, 0.0, 1.0, 1.0)
@@ -359,34 +233,7 @@ def bounds_of(layers: Iterable[Layer]) -> tuple[float, float, float, float]:
 
 
 class Page:
-    """Where the data are on the page.
-
-    Parameters
-    ----------
-    bounds : (x, y, x, y)
-        The least and the largest coordinates to show; any finite ones.
-    width : int
-        Of the page, in px. The height follows from the bounds.
-    y_up : bool
-        Draw y upwards.
-    aspect : float
-        Px of a unit of y for each px of a unit of x.
-    margin : float
-        Of the larger side of the data, on each side of the page.
-
-    Attributes
-    ----------
-    style : PictureStyle
-        What is chosen of the looks of the picture.
-    decimals : int
-        Of px in SVG.
-
-    Examples
-    --------
-    >>> page = Page((0, 0, 100, 46), width=104, y_up=True)
-    >>> page.height, page.place(np.array([[0.0, 0.0]])).tolist()
-    (50, [[2.0, 48.0]])
-    """
+    """Where the data are on the page."""
 
     style = PictureStyle()
     decimals = 2
@@ -449,37 +296,15 @@ class Page:
 
 @dataclass(frozen=True, eq=False)
 class Backdrop:
-    """An image to draw over.
+    """An image to draw over."""
 
-    Parameters
-    ----------
-    pixels : (H, W, 3) uint8 array
-        Red, green and blue.
-    encode : callable
-        Gives the image as the bytes of a PNG file.
-    y_up : bool
-        What is drawn over it has y upwards: row r is at y = -r.
-    """
-
-    pixels: NDArray[np.uint8]
-    encode: Callable[[], bytes]
-    y_up: bool = False
+    pixels: NDArray[np.uint8]  # (H, W, 3) uint8 array: red, green and blue
+    encode: Callable[[], bytes]  # gives the image as the bytes of a PNG file
+    y_up: bool = False  # what is drawn over it has y upwards: row r is at y = -r
 
 
 class ImagePage(Page):
-    """The page of an image: a px is a pixel, whose centre is at integers of the data.
-
-    Parameters
-    ----------
-    backdrop : Backdrop
-        The image, which lies beneath the layers. Areas are half see-through over it.
-
-    Examples
-    --------
-    >>> page = ImagePage(Backdrop(np.zeros((2, 3, 3), np.uint8), bytes))
-    >>> (page.width, page.height), page.place(np.array([[0.0, 1.0]])).tolist()
-    ((3, 2), [[0.5, 1.5]])
-    """
+    """The page of an image: a px is a pixel, whose centre is at integers of the data."""
 
     def __init__(self, backdrop: Backdrop) -> None:
         height, width = backdrop.pixels.shape[:2]

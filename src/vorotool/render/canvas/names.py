@@ -12,35 +12,12 @@ from vorotool.render.canvas.layers import Texts
 
 
 def column_texts(properties: Mapping[str, Sequence[Any]], column: str | None, ids: Iterable[Any]) -> list[str]:
-    """Give what is written on objects.
-
-    Parameters
-    ----------
-    properties : mapping of str to sequence
-        Columns, one value an object.
-    column : str, optional
-        That names them; a value that is missing (None, NaN, an empty text) writes nothing.
-    ids : iterable
-        What is written where there is no column.
-
-    Examples
-    --------
-    >>> column_texts({"name": ["Huron", None, float("nan"), 2.0]}, "name", range(4))
-    ['Huron', '', '', '2']
-    >>> column_texts({}, None, [7, 9])
-    ['7', '9']
-    """
+    """Give what is written on objects."""
     return [text_of(value) for value in (ids if column is None else properties[column])]
 
 
 def text_of(value: Any) -> str:
-    """Give a value as what is written, shortest; nothing for what is missing.
-
-    Examples
-    --------
-    >>> text_of(0.5), text_of(np.int64(3)), text_of(True), text_of(None)
-    ('0.5', '3', 'true', '')
-    """
+    """Give a value as what is written, shortest; nothing for what is missing."""
     if value is None or value is np.ma.masked:
         return ""
     value = value.item() if isinstance(value, np.generic) else value
@@ -52,13 +29,7 @@ def text_of(value: Any) -> str:
 
 
 def without_empty(texts: Texts) -> Texts:
-    """Leave out the places where nothing is written.
-
-    Examples
-    --------
-    >>> without_empty(Texts("labels", np.zeros((2, 2)), ["a", ""])).texts
-    ['a']
-    """
+    """Leave out the places where nothing is written."""
     kept = [k for k, text in enumerate(texts.texts) if text]
     if len(kept) == len(texts.texts):
         return texts

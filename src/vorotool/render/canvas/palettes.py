@@ -61,12 +61,7 @@ LINE_ON_PAPER = _triples([WHITE, LINE])
 
 
 class PicturePalette(NamedTuple):
-    """Colours of a palette picture: 0 is the ground, for no label, c is colour class c, then line and seed.
-
-    The halo of letters and lines is white; -1 where there are none. Borders of cells, letters and filled objects have
-    entries of their own where their colours are chosen. What is opaque hides an image beneath; ``has_halos`` says
-    whether discs have an edge, too.
-    """
+    """Colours of a palette picture: 0 is the ground, for no label, c is colour class c, then line and seed."""
 
     colours: NDArray[np.uint8]
     line: int
@@ -86,13 +81,7 @@ class PicturePalette(NamedTuple):
 
 
 def cell_colour(colour_class: int) -> str:
-    """Colour of a class as ``#rrggbb``: 0 is white, and from the 13th class on hues are generated.
-
-    Examples
-    --------
-    >>> cell_colour(1), cell_colour(0)
-    ('#77aadd', '#ffffff')
-    """
+    """Colour of a class as ``#rrggbb``: 0 is white, and from the 13th class on hues are generated."""
     if colour_class < 1:
         return WHITE
     if colour_class <= len(CELLS):
@@ -106,31 +95,7 @@ def cell_colour(colour_class: int) -> str:
 def picture_palette(
     classes: int, *, has_halo: bool = False, has_halos: bool = False, chosen: Mapping[str, str] | None = None
 ) -> PicturePalette:
-    """Palette for pictures with colour classes 1 to ``classes``; the same for all that need at most 12.
-
-    Parameters
-    ----------
-    classes : int
-        Colour classes of the cells.
-    has_halo : bool
-        Letters, lines or borders have a white edge, or are white.
-    has_halos : bool
-        Discs have one as well.
-    chosen : mapping of str to str, optional
-        Other colours of "ground", "diagram", "seeds", "objects", "labels", and of "cells", which is that of their
-        borders.
-
-    Raises
-    ------
-    LimitError
-        If there are more than 253 classes.
-
-    Examples
-    --------
-    >>> palette = picture_palette(5)
-    >>> palette.colours.shape, palette.line, palette.seed, palette.bit_depth
-    ((15, 3), 13, 14, 4)
-    """
+    """Palette for pictures with colour classes 1 to ``classes``; the same for all that need at most 12."""
     chosen = chosen or {}
     count = max(classes, len(CELLS))
     names = [*(cell_colour(c) for c in range(count + 1)), chosen.get("diagram", LINE), chosen.get("seeds", SEED)]

@@ -9,18 +9,7 @@ from vorotool.render.canvas.layers import Page
 
 
 class PixelPage(Page):
-    """The page of what is placed in px of another page, such as a legend.
-
-    Parameters
-    ----------
-    page : Page
-        The other one.
-
-    Examples
-    --------
-    >>> PixelPage(Page((0, 0, 1, 1), width=100, y_up=True)).place(np.array([[3.0, 4.0]])).tolist()
-    [[3.0, 4.0]]
-    """
+    """The page of what is placed in px of another page, such as a legend."""
 
     def __init__(self, page: Page) -> None:
         super().__init__((0.0, 0.0, float(page.width), float(page.height)), width=page.width, y_up=False)

@@ -34,13 +34,7 @@ _ITEMS = 1 << 18  # lines or corners that are taken at a time
 
 
 def check_picture_size(page: Page, max_pixels: int) -> None:
-    """Refuse a picture whose drawing would have more pixels than there may be.
-
-    Raises
-    ------
-    LimitError
-        If it would.
-    """
+    """Refuse a picture whose drawing would have more pixels than there may be."""
     fine = page.width * page.height * FINE**2
     if fine > max_pixels:
         raise LimitError(
@@ -50,29 +44,7 @@ def check_picture_size(page: Page, max_pixels: int) -> None:
 
 
 def layer_bands(layers: Iterable[Layer], page: Page, *, insets: Iterable[Layer] = ()) -> Iterator[NDArray[np.uint8]]:
-    """Draw layers from below, over the page's image if it has one.
-
-    Parameters
-    ----------
-    layers : iterable of Layer
-        What to draw; at most 254 colours together.
-    page : Page
-        Where it lies.
-    insets : iterable of Layer
-        What lies over these, in px of the page.
-
-    Yields
-    ------
-    (rows, 3 W) or (rows, 4 W) uint8 array
-        Red, green and blue of each pixel, in bands from top to bottom; where the page has no ground, how opaque it is,
-        too.
-
-    Examples
-    --------
-    >>> line = Lines("line", np.array([[0.0, 0.0], [1.0, 0.0]]), np.array([[0, 1]], np.int32), width=2)
-    >>> next(layer_bands([line], Page((0, 0, 1, 1), width=16, y_up=False))).shape
-    (16, 48)
-    """
+    """Draw layers from below, over the page's image if it has one."""
     canvas = _Canvas(page)
     for layer in layers:
         canvas.draw(layer, page)
@@ -242,10 +214,7 @@ class _Canvas:
         *,
         every_other: bool = False,
     ) -> None:
-        """Set pixels from ``left`` to before ``right`` of rows, each with its value; what is outside is left out.
-
-        Every other one, as on a chessboard, leaves half of what is beneath.
-        """
+        """Set pixels from ``left`` to before ``right`` of rows, each with its value; what is outside is left out."""
         drawing = self.indices if target is None else target
         height, width = drawing.shape
         start = np.clip(left, 0, width).astype(np.int64)

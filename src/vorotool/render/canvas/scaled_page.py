@@ -23,26 +23,7 @@ LEAST = 1e-3
 
 
 class ScaledPage(Page):
-    """A page whose lengths are those of the data, by a scale; a px is 1/96 in.
-
-    Parameters
-    ----------
-    bounds, y_up
-        As of `Page`.
-    millimetres : float
-        Of a unit of the data.
-
-    Raises
-    ------
-    UsageError
-        If the page would be larger than a kilometre, or nothing.
-
-    Examples
-    --------
-    >>> page = ScaledPage((0, 0, 100, 46), y_up=True, millimetres=0.5)
-    >>> page.size
-    'width="52mm" height="25mm"'
-    """
+    """A page whose lengths are those of the data, by a scale; a px is 1/96 in."""
 
     decimals = 4
 
@@ -79,14 +60,7 @@ def _short(number: float) -> str:
 
 
 def styled_layers(layers: Iterable[Layer], style: PictureStyle) -> list[Layer]:
-    """Give layers the colours and widths that are chosen for them.
-
-    Examples
-    --------
-    >>> red = PictureStyle(colours={"sites": "#ff0000"})
-    >>> [layer.colour for layer in styled_layers([Points("sites", np.zeros((1, 2)))], red)]
-    ['#ff0000']
-    """
+    """Give layers the colours and widths that are chosen for them."""
     made = [_styled(layer, *style.of(layer.name)) for layer in layers]
     return [layer for layer in made if not (isinstance(layer, Lines | Curves) and layer.width == 0)]
 

@@ -21,35 +21,14 @@ class ScaleBar(NamedTuple):
 
 @dataclass(frozen=True)
 class PictureStyle:
-    """What of a picture is not left to what draws it.
+    """What of a picture is not left to what draws it."""
 
-    Parameters
-    ----------
-    ground : str, optional
-        Colour of what lies beneath all layers, ``#rrggbb``; None is nothing.
-    colours : mapping of str to str
-        Of layers, by their names.
-    widths : mapping of str to float
-        Of the lines of layers, in px.
-    has_legend : bool
-        Names of the layers stand in a corner, each with its colour.
-    scale_bar : ScaleBar, optional
-        A length stands in another one.
-    label_by : str, optional
-        Column of properties that names objects, instead of their ids.
-
-    Examples
-    --------
-    >>> PictureStyle(colours={"skeleton": "#ff0000"}).of("centerline")
-    ('#ff0000', None)
-    """
-
-    ground: str | None = WHITE
-    colours: Mapping[str, str] = field(default_factory=dict)
-    widths: Mapping[str, float] = field(default_factory=dict)
-    has_legend: bool = False
-    scale_bar: ScaleBar | None = None
-    label_by: str | None = None
+    ground: str | None = WHITE  # colour of what lies beneath all layers, `#rrggbb`; None is nothing
+    colours: Mapping[str, str] = field(default_factory=dict)  # of layers, by their names
+    widths: Mapping[str, float] = field(default_factory=dict)  # of the lines of layers, in px
+    has_legend: bool = False  # names of the layers stand in a corner, each with its colour
+    scale_bar: ScaleBar | None = None  # a length stands in another one
+    label_by: str | None = None  # column of properties that names objects, instead of their ids
 
     def of(self, layer: str) -> tuple[str | None, float | None]:
         """Give colour and width of a layer, None where they are left to what draws it."""

@@ -51,29 +51,7 @@ DASH = 6
 def write_layers_svg(
     out: BinaryIO, layers: Iterable[Layer], page: Page, *, insets: Iterable[Layer] = (), threads: int = 0
 ) -> None:
-    """Draw layers from below, each a group with its name for an id; strokes keep their width when it is scaled.
-
-    Parameters
-    ----------
-    out : binary file
-        Receives UTF-8.
-    layers : iterable of Layer
-        What to draw.
-    page : Page
-        Where it lies.
-    insets : iterable of Layer
-        What lies over these, in px of the page.
-    threads : int
-        0 for all.
-
-    Examples
-    --------
-    >>> import io
-    >>> out = io.BytesIO()
-    >>> write_layers_svg(out, [Points("sites", np.zeros((3, 2)))], Page((0, 0, 1, 1), width=100, y_up=False))
-    >>> out.getvalue().count(b"<circle")
-    3
-    """
+    """Draw layers from below, each a group with its name for an id; strokes keep their width when it is scaled."""
     ground = "" if page.style.ground is None else f'<rect {page.size} fill="{page.style.ground}"/>\n'
     head = f'<svg xmlns="http://www.w3.org/2000/svg" {page.size} viewBox="0 0 {page.extent}">\n'
     out.write((head + ground).encode())

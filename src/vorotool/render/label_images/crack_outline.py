@@ -13,25 +13,7 @@ Loop = list[tuple[int, int]]
 
 
 def crack_loops(labels: NDArray[Any]) -> Iterator[tuple[int, list[Loop]]]:
-    """Give each label's boundary as loops of corners, for filling by the even-odd rule.
-
-    Parameters
-    ----------
-    labels : (H, W) integer array
-        0 is no label.
-
-    Yields
-    ------
-    label : int
-        In increasing order.
-    loops : list of list of (int, int)
-        Corners (x, y) of pixels, from (0, 0) to (W, H); a loop begins with a horizontal step.
-
-    Examples
-    --------
-    >>> list(crack_loops(np.array([[7, 7]])))
-    [(7, [[(0, 0), (2, 0), (2, 1), (0, 1)]])]
-    """
+    """Give each label's boundary as loops of corners, for filling by the even-odd rule."""
     owner, x, y = _corners(labels)
     beside, below = _partners(owner, y, x), _partners(owner, x, y)
     order, owners = np.lexsort((x, y, owner)).tolist(), owner.tolist()
@@ -41,10 +23,7 @@ def crack_loops(labels: NDArray[Any]) -> Iterator[tuple[int, list[Loop]]]:
 
 
 def _corners(labels: NDArray[Any]) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
-    """Label and place of each corner: where one or three of the pixels around a point have the label.
-
-    Where two pixels of a label touch at a corner only, both count: two corners at one place.
-    """
+    """Label and place of each corner: where one or three of the pixels around a point have the label."""
     padded = np.pad(labels.astype(np.int64), 1)
     rows, columns = labels.shape[0] + 1, labels.shape[1] + 1
     quarters = {(dy, dx): padded[dy : dy + rows, dx : dx + columns] for dy in (0, 1) for dx in (0, 1)}

@@ -34,52 +34,7 @@ def picture_bands(
     names: Names | None = None,
     layers: Iterable[str] = LAYERS,
 ) -> Iterator[NDArray[np.uint8]]:
-    """Compose rows of palette indices: cells below, the diagram over them, seeds and names on top.
-
-    Parameters
-    ----------
-    bands : iterable of (rows, W) integer arrays
-        Labels from top to bottom.
-    shape : (int, int)
-        Height and width of the image.
-    palette : PicturePalette
-        From `vorotool.render.canvas.palettes.picture_palette`.
-    colour_of_label : integer array
-        Colour class by label; entry 0, for no label, is 0.
-    diagram : iterable of (rows, W) bool arrays, optional
-        The pixels to draw black, in the same bands as the labels.
-    marks : sequence of (int, (H, W) bool array)
-        Palette indices, and the pixels that have them, from below: over the cells and beneath the diagram.
-    seeds : SeedSet, optional
-        Drawn as discs.
-    outlines : (H, W) bool array, optional
-        Outermost pixels of the objects that are the seeds: drawn instead of discs.
-    frame : Frame, optional
-        Where the image lies; by default pixel (0, 0) is at the origin.
-    names : Names, optional
-        Of the regions.
-    layers : iterable of str
-        Which of "cells", "diagram", "objects", "seeds", "labels" to draw; one without data is left out.
-
-    Yields
-    ------
-    (rows, W) uint8 array
-        Palette indices, one band for each given.
-
-    Raises
-    ------
-    UsageError
-        If a layer is unknown.
-
-    Examples
-    --------
-    >>> from vorotool.render.canvas.palettes import picture_palette
-    >>> labels = np.array([[1, 2], [2, 0]])
-    >>> colours = np.array([0, 1, 2])
-    >>> next(picture_bands([labels], shape=(2, 2), palette=picture_palette(2), colour_of_label=colours))
-    array([[1, 2],
-           [2, 0]], dtype=uint8)
-    """
+    """Compose rows of palette indices: cells below, the diagram over them, seeds and names on top."""
     wanted = checked_layers(layers, LAYERS)
     classes = np.asarray(colour_of_label).astype(np.uint8)
     masks = iter(diagram) if diagram is not None and "diagram" in wanted else None
@@ -108,31 +63,7 @@ def picture_bands(
 def over_image(
     bands: Iterable[NDArray[np.uint8]], backdrop: Backdrop, palette: PicturePalette, frame: Frame
 ) -> NDArray[np.uint8]:
-    """Draw a picture over an image: cells half see-through, lines and seeds not.
-
-    Parameters
-    ----------
-    bands : iterable of (rows, W) uint8 arrays
-        What `picture_bands` gives.
-    backdrop : Backdrop
-        The image.
-    palette : PicturePalette
-        Of the bands.
-    frame : Frame
-        Where the picture lies in the image; what is beside it is left out.
-
-    Returns
-    -------
-    (H, 3 W) uint8 array
-        Red, green and blue of each pixel of the image.
-
-    Examples
-    --------
-    >>> from vorotool.render.canvas.palettes import picture_palette
-    >>> grey = Backdrop(np.full((1, 2, 3), 100, np.uint8), bytes)
-    >>> over_image([np.array([[13]], np.uint8)], grey, picture_palette(2), Frame(1, 0, 1, 1)).tolist()
-    [[100, 100, 100, 0, 0, 0]]
-    """
+    """Draw a picture over an image: cells half see-through, lines and seeds not."""
     made = backdrop.pixels.copy()
     height, width = made.shape[:2]
     left, right = (min(max(x, 0), width) for x in (frame.x, frame.x + frame.width))
@@ -150,13 +81,7 @@ def over_image(
 
 
 def around(lines: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Give the pixels beside those of lines, corner to corner, too: an edge that shows them on any ground.
-
-    Examples
-    --------
-    >>> around(np.array([[False, False, False, True]])).tolist()
-    [[False, False, True, False]]
-    """
+    """Give the pixels beside those of lines, corner to corner, too: an edge that shows them on any ground."""
     made = lines.copy()
     for step in (np.s_[1:, :], np.s_[:, 1:]):
         back = tuple(slice(None, -1) if part.start else part for part in step)
@@ -168,13 +93,7 @@ def around(lines: NDArray[np.bool_]) -> NDArray[np.bool_]:
 
 
 def widened(lines: NDArray[np.bool_], width: float) -> NDArray[np.bool_]:
-    """Make lines of a pixel so many pixels wide, to the nearest whole number; of none there is nothing.
-
-    Examples
-    --------
-    >>> widened(np.array([[False, False, False, True]]), 2).tolist()
-    [[False, False, True, True]]
-    """
+    """Make lines of a pixel so many pixels wide, to the nearest whole number; of none there is nothing."""
     if width == 0:
         return np.zeros_like(lines)
     made = lines
@@ -192,13 +111,7 @@ def widened(lines: NDArray[np.bool_], width: float) -> NDArray[np.bool_]:
 
 
 def checked_layers(layers: Iterable[str], known: tuple[str, ...]) -> frozenset[str]:
-    """Return the layers as a set.
-
-    Raises
-    ------
-    UsageError
-        If one is not known; it is named.
-    """
+    """Return the layers as a set."""
     wanted = tuple(layers)
     for layer in wanted:
         if layer not in known:
@@ -207,13 +120,7 @@ def checked_layers(layers: Iterable[str], known: tuple[str, ...]) -> frozenset[s
 
 
 def disc_radius(shape: tuple[int, int], count: int) -> float:
-    """Radius of a seed's disc in pixels: 1/250 of the smaller side, but less where that would fill cells.
-
-    Examples
-    --------
-    >>> disc_radius((1000, 2000), 50), disc_radius((1000, 1000), 10**6)
-    (4.0, 0.5)
-    """
+    """Radius of a seed's disc in pixels: 1/250 of the smaller side, but less where that would fill cells."""
     height, width = shape
     spacing = math.sqrt(width * height / max(count, 1))
     return min(max(1.0, min(shape) / 250), max(0.5, spacing / 8))

@@ -44,51 +44,7 @@ def write_label_svg(
     style: PictureStyle | None = None,
     insets: Iterable[Layer] = (),
 ) -> None:
-    """Draw a label image with one path a label, and numbers in the pixels of images of at most 40 x 40.
-
-    In larger ones a name is written in each region instead.
-
-    Seeds are discs, outlines of objects or, where there are numbers, bold underlined numbers, as in the paper's
-    Figures 1 and 2.
-
-    Parameters
-    ----------
-    out : binary file
-        Receives UTF-8.
-    image : LabelImage
-        Labels, frame, and seeds if there are any.
-    colour_of_label : integer array or mapping
-        Colour class by label; an array's entry 0, for no label, is 0.
-    width : int
-        Width of the picture in px.
-    layers : iterable of str
-        Which of "cells", "labels", "objects", "seeds" to draw; each is a named group.
-    backdrop : Backdrop, optional
-        An image to draw over, at its size: cells are half see-through then.
-    names : Names, optional
-        Of the regions, instead of numbers in the pixels of an image of at most 40 x 40.
-    objects : (H, W) integer array, optional
-        The labels of the objects that are the seeds: drawn as outlines, filled ones in their own layer.
-    style : PictureStyle, optional
-        Ground, colours and widths of lines.
-    insets : iterable of Layer
-        What lies over all, in px of the page.
-
-    Raises
-    ------
-    LimitError
-        If the image has more than 10^6 pixels.
-    UsageError
-        If a layer is unknown.
-
-    Examples
-    --------
-    >>> import io
-    >>> out = io.BytesIO()
-    >>> write_label_svg(out, LabelImage(np.array([[1, 2]])), colour_of_label=np.array([0, 1, 2]))
-    >>> out.getvalue().decode().count("<path")
-    2
-    """
+    """Draw a label image with one path a label, and numbers in the pixels of images of at most 40 x 40."""
     check_size(image.shape)
     wanted = checked_layers(layers, LAYERS)
     page = _Page(image, width, backdrop, style or PictureStyle())
@@ -124,38 +80,18 @@ def has_numbers(shape: tuple[int, int]) -> bool:
 
 
 def aspect_of(image: LabelImage) -> float:
-    """Give how much higher than wide a pixel is.
-
-    Examples
-    --------
-    >>> from vorotool.geometry.spacing import pixel_sides
-    >>> aspect_of(LabelImage(np.array([[1]]), sides=pixel_sides((1.5, 0.5))))
-    3.0
-    """
+    """Give how much higher than wide a pixel is."""
     return image.sides.y / image.sides.x
 
 
 def check_size(shape: tuple[int, int], fmt: str = "SVG") -> None:
-    """Refuse an image that is too large for a picture with a path a label, as SVG or on a page.
-
-    Raises
-    ------
-    LimitError
-        If it has more than 10^6 pixels.
-
-    Examples
-    --------
-    >>> check_size((1000, 1000))
-    """
+    """Refuse an image that is too large for a picture with a path a label, as SVG or on a page."""
     if shape[0] * shape[1] > MOST_PIXELS:
         raise LimitError(f"{shape[1]} x {shape[0]} pixels are too many for {fmt}, at most {MOST_PIXELS}: use {AS_PNG}")
 
 
 class _Page:
-    """Where pixels are on the page: it is as wide as the image and 2 % of its larger side as a margin.
-
-    Pixels have the aspect of their sides. Over another image it has that one's size.
-    """
+    """Where pixels are on the page: it is as wide as the image and 2 % of its larger side as a margin."""
 
     def __init__(self, image: LabelImage, width: int, backdrop: Backdrop | None, style: PictureStyle) -> None:
         rows, columns = image.shape

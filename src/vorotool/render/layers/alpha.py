@@ -20,34 +20,7 @@ LAYERS = ("polygons", "delaunay", "interior", "boundary", "singular", "hull", "p
 
 
 def alpha_layers(shape: AlphaShape, page: Page, layers: Iterable[str], *, hull: AlphaHull | None = None) -> list[Layer]:
-    """Make layers of an alpha shape; lines and discs get finer where points are crowded.
-
-    Parameters
-    ----------
-    shape : AlphaShape
-        What to draw.
-    page : Page
-        Where it will be drawn.
-    layers : iterable of str
-        Which of "polygons" (the regions), "delaunay" (all edges, faint), "interior", "boundary", "singular" (edges),
-        "hull" (its arcs), "points", "labels".
-    hull : AlphaHull, optional
-        For its layer.
-
-    Raises
-    ------
-    UsageError
-        If a layer is unknown.
-
-    Examples
-    --------
-    >>> from vorotool import alpha_shape
-    >>> from vorotool.render.layers.mesh import mesh_page
-    >>> shape = alpha_shape([[0, 0], [4, 0], [0, 3]], r=2)
-    >>> page = mesh_page(shape.family.mesh)
-    >>> [layer.name for layer in alpha_layers(shape, page, ["points", "singular"])]
-    ['singular', 'points']
-    """
+    """Make layers of an alpha shape; lines and discs get finer where points are crowded."""
     wanted = checked_layers(layers, LAYERS)
     points = shape.points
     spacing = page.spacing(len(points))

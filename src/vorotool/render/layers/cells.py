@@ -15,24 +15,7 @@ LAYERS = ("cells", "diagram")
 
 
 def cell_polygons(cells: CellSet, colours: NDArray[np.unsignedinteger], page: Page) -> Polygons:
-    """Fill cells; their outlines get finer where cells are small.
-
-    Parameters
-    ----------
-    cells : CellSet
-        What to draw.
-    colours : (n,) integer array
-        Colour class of each cell, from 1: what `cell_colours` gives, for neighbours to differ.
-    page : Page
-        Where they will be drawn.
-
-    Examples
-    --------
-    >>> from vorotool import voronoi_cells
-    >>> cells = voronoi_cells([[1, 1], [3, 1]], frame=(0, 0, 4, 2))
-    >>> cell_polygons(cells, np.array([1, 2]), cells_page(cells)).ids
-    ['cell-1', 'cell-2']
-    """
+    """Fill cells; their outlines get finer where cells are small."""
     rings, polygons, of_cells = cells.nesting
     cell = owners(np.diff(of_cells))
     part = within(np.diff(of_cells)) + 1
@@ -57,15 +40,7 @@ def cell_polygons(cells: CellSet, colours: NDArray[np.unsignedinteger], page: Pa
 
 
 def cell_lines(cells: CellSet, page: Page) -> Lines:
-    """Draw the boundaries of cells as lines, each side once where two cells share it.
-
-    Examples
-    --------
-    >>> from vorotool import voronoi_cells
-    >>> cells = voronoi_cells([[1, 1], [3, 1]], frame=(0, 0, 4, 2))
-    >>> len(cell_lines(cells, cells_page(cells)).pairs)
-    7
-    """
+    """Draw the boundaries of cells as lines, each side once where two cells share it."""
     _, index = np.unique(cells.coordinates, axis=0, return_inverse=True)
     rings = cells.nesting.rings
     first = np.full(int(index.max(initial=-1)) + 1, len(index), dtype=np.int32)

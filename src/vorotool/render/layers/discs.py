@@ -18,29 +18,7 @@ LAYERS = ("polygons", "discs", "feet", "labels")
 
 
 def disc_layers(discs: Discs, page: Page, layers: Iterable[str]) -> list[Layer]:
-    """Make layers of discs: the polygons light grey, circles, and where they touch.
-
-    Parameters
-    ----------
-    discs : Discs
-        What to draw.
-    page : Page
-        Where it will be drawn.
-    layers : iterable of str
-        Which of "polygons", "discs", "feet", "labels" (of the polygons).
-
-    Raises
-    ------
-    UsageError
-        If a layer is unknown.
-
-    Examples
-    --------
-    >>> from vorotool import largest_discs
-    >>> made = largest_discs([[0, 0], [4, 0], [0, 3]])
-    >>> [layer.name for layer in disc_layers(made, disc_page(made), ["feet", "discs"])]
-    ['discs', 'feet']
-    """
+    """Make layers of discs: the polygons light grey, circles, and where they touch."""
     wanted = checked_layers(layers, LAYERS)
     spacing = page.spacing(max(len(discs), 1))
     width = min(max(spacing / 16, 0.2), 1.5)

@@ -19,29 +19,7 @@ LAYERS = ("first", "second", "distances")
 
 
 def distance_layers(found: Distances, page: Page, layers: Iterable[str]) -> list[Layer]:
-    """Make layers of two shapes, and of the lines between the places that are as far apart as they are.
-
-    Parameters
-    ----------
-    found : Distances
-        What to draw.
-    page : Page
-        Where it will be drawn.
-    layers : iterable of str
-        Which of "first", "second", "distances".
-
-    Raises
-    ------
-    UsageError
-        If a layer is unknown.
-
-    Examples
-    --------
-    >>> from vorotool import hausdorff
-    >>> found = hausdorff([[0, 0]], [[3, 4]])
-    >>> [layer.name for layer in distance_layers(found, distance_page(found), ["distances", "first"])]
-    ['first', 'distances', 'places']
-    """
+    """Make layers of two shapes, and of the lines between the places that are as far apart as they are."""
     wanted = checked_layers(layers, LAYERS)
     made: list[Layer] = []
     for name, polygons, colour in zip(LAYERS, found.shapes, (FAINT, SEED), strict=False):

@@ -25,30 +25,7 @@ def line_layers(
     points: NDArray[np.float64] | None = None,
     exact: Skeleton | None = None,
 ) -> list[Layer]:
-    """Make layers of lines along skeletons: those of the skeleton, but "skeleton" are the lines.
-
-    Parameters
-    ----------
-    lines : Centerlines, ExtendedSkeleton or SmoothLines
-        What to draw.
-    page : Page
-        Where it will be drawn.
-    layers, points, exact
-        As of `vorotool.render.layers.skeleton.skeleton_layers`.
-
-    Raises
-    ------
-    UsageError
-        If a layer is unknown.
-
-    Examples
-    --------
-    >>> from vorotool import centerline, skeleton_exact, smooth
-    >>> from vorotool.render.layers.skeleton import skeleton_page
-    >>> lines = smooth(centerline(skeleton_exact([[0, 0], [4, 0], [0, 3]])), 0.1)
-    >>> [layer.name for layer in line_layers(lines, skeleton_page(lines.path), ["skeleton", "polygons"])]
-    ['polygons', 'centerline']
-    """
+    """Make layers of lines along skeletons: those of the skeleton, but "skeleton" are the lines."""
     near_to = lines.lines if isinstance(lines, SmoothLines) else lines
     name = "centerline" if isinstance(near_to, Centerlines) else "skeleton"
     made = skeleton_layers(lines.path, page, layers, name=name, points=points, exact=exact)

@@ -19,29 +19,7 @@ LAYERS = ("triangles", "edges", "points", "labels")
 
 
 def mesh_layers(mesh: AnyTriangulation | ProximityGraph, page: Page, layers: Iterable[str]) -> list[Layer]:
-    """Make layers of a triangulation; lines and discs get finer where points are crowded.
-
-    Parameters
-    ----------
-    mesh : Triangulation, DigitalTriangulation or ProximityGraph
-        What to draw.
-    page : Page
-        Where it will be drawn.
-    layers : iterable of str
-        Which of "triangles", "edges", "points", "labels".
-
-    Raises
-    ------
-    UsageError
-        If a layer is unknown.
-
-    Examples
-    --------
-    >>> from vorotool import delaunay
-    >>> mesh = delaunay([[0, 0], [4, 0], [0, 3]])
-    >>> [layer.name for layer in mesh_layers(mesh, mesh_page(mesh), ["points", "edges"])]
-    ['edges', 'points']
-    """
+    """Make layers of a triangulation; lines and discs get finer where points are crowded."""
     wanted = checked_layers(layers, LAYERS)
     spacing = page.spacing(len(mesh.points))
     corners, rings = mesh.triangles.reshape(-1), 3 * np.arange(len(mesh.triangles) + 1)
@@ -57,15 +35,7 @@ def mesh_layers(mesh: AnyTriangulation | ProximityGraph, page: Page, layers: Ite
 
 
 def site_names(sites: AnyTriangulation | ProximityGraph | CellSet, page: Page) -> Texts:
-    """Ids of the sites beside these, or what the column says that the page is to have.
-
-    Examples
-    --------
-    >>> from vorotool import delaunay
-    >>> mesh = delaunay([[0, 0], [4, 0], [0, 3]])
-    >>> site_names(mesh, mesh_page(mesh)).texts
-    ['1', '2', '3']
-    """
+    """Ids of the sites beside these, or what the column says that the page is to have."""
     points = sites.sites if isinstance(sites, CellSet) else sites.points
     texts = column_texts(sites.properties, page.style.label_by, sites.label_array.tolist())
     size = min(max(page.spacing(len(points)) / 4, 2.0), 16.0)
@@ -79,18 +49,6 @@ def mesh_page(
     y_up: bool | None = None,
     bounds: tuple[float, float, float, float] | None = None,
 ) -> Page:
-    """The page of a picture: with all points of a triangulation, or with other bounds.
-
-    Parameters
-    ----------
-    mesh : Triangulation, DigitalTriangulation or ProximityGraph
-        What to draw; where ``y_up`` is not given, its own decides.
-    width : int
-        In px.
-    y_up : bool, optional
-        Draw y upwards.
-    bounds : (x, y, x, y), optional
-        The least and the largest coordinates to show.
-    """
+    """The page of a picture: with all points of a triangulation, or with other bounds."""
     up = mesh.y_up if y_up is None else y_up
     return Page(bounds or bounds_of([Points("points", mesh.points)]), width=width, y_up=up)

@@ -27,29 +27,7 @@ _WIDEST = 2.0
 
 
 def neck_layers(necks: Necks, page: Page, layers: Iterable[str]) -> list[Layer]:
-    """Make layers of necks: lines from foot to foot, which get finer where there are many.
-
-    Parameters
-    ----------
-    necks : Necks
-        What to draw.
-    page : Page
-        Where it will be drawn.
-    layers : iterable of str
-        Which of "polygons", "skeleton", "necks", "labels" (of the polygons).
-
-    Raises
-    ------
-    UsageError
-        If a layer is unknown.
-
-    Examples
-    --------
-    >>> from vorotool import necks
-    >>> found = necks([[0, 0], [10, 0], [10, 4], [6, 2], [0, 4]])
-    >>> [layer.name for layer in neck_layers(found, neck_page(found), ["necks", "polygons"])]
-    ['polygons', 'necks']
-    """
+    """Make layers of necks: lines from foot to foot, which get finer where there are many."""
     wanted = checked_layers(layers, LAYERS)
     made = skeleton_layers(necks.skeleton, page, [n for n in ("polygons", "skeleton") if n in wanted], colour=FAINT)
     if "necks" in wanted:
@@ -58,29 +36,7 @@ def neck_layers(necks: Necks, page: Page, layers: Iterable[str]) -> list[Layer]:
 
 
 def part_layers(parts: Parts, page: Page, layers: Iterable[str]) -> list[Layer]:
-    """Make layers of parts, in colours that differ on both sides of a cut.
-
-    Parameters
-    ----------
-    parts : Parts
-        What to draw.
-    page : Page
-        Where it will be drawn.
-    layers : iterable of str
-        Which of "parts", "skeleton", "cuts", "labels" (ids of the polygons, else numbers of the pieces).
-
-    Raises
-    ------
-    UsageError
-        If a layer is unknown.
-
-    Examples
-    --------
-    >>> from vorotool import parts
-    >>> pieces = parts([[0, 0], [10, 0], [10, 4], [6, 2], [0, 4]], neck=1)
-    >>> part_layers(pieces, part_page(pieces), ["parts"])[0].colour_of.tolist()
-    [2, 1]
-    """
+    """Make layers of parts, in colours that differ on both sides of a cut."""
     wanted = checked_layers(layers, PART_LAYERS)
     made: list[Layer] = []
     if "parts" in wanted:

@@ -20,29 +20,7 @@ _FINE = 2.0**-10
 
 
 def offset_layers(offsets: Offsets, page: Page, layers: Iterable[str]) -> list[Layer]:
-    """Make layers of offset curves; lines get finer where there are many.
-
-    Parameters
-    ----------
-    offsets : Offsets
-        What to draw: its polygons light grey, and its curves.
-    page : Page
-        Where it will be drawn.
-    layers : iterable of str
-        Which of "polygons", "offset", "labels" (of the polygons).
-
-    Raises
-    ------
-    UsageError
-        If a layer is unknown.
-
-    Examples
-    --------
-    >>> from vorotool import offset
-    >>> made = offset([[0, 0], [4, 0], [0, 3]], 1)
-    >>> [layer.name for layer in offset_layers(made, offset_page(made), LAYERS)]
-    ['polygons', 'offset', 'labels']
-    """
+    """Make layers of offset curves; lines get finer where there are many."""
     wanted = checked_layers(layers, LAYERS)
     width = min(max(page.spacing(max(len(offsets.site), 1)) / 16, 0.2), 1.5)
     curves = Arcs(

@@ -17,29 +17,7 @@ LAYERS = ("polygons", "skeleton", "transects", "points", "labels")
 
 
 def skeleton_point_layers(points: SkeletonPoints, page: Page, layers: Iterable[str]) -> list[Layer]:
-    """Make layers of places along a skeleton; discs and lines get finer where there are many.
-
-    Parameters
-    ----------
-    points : SkeletonPoints
-        What to draw.
-    page : Page
-        Where it will be drawn.
-    layers : iterable of str
-        Which of "polygons", "skeleton", "transects", "points", "labels" (of the polygons).
-
-    Raises
-    ------
-    UsageError
-        If a layer is unknown.
-
-    Examples
-    --------
-    >>> from vorotool import points_along, skeleton_exact
-    >>> points = points_along(skeleton_exact([[0, 0], [4, 0], [0, 3]]), every=1)
-    >>> [layer.name for layer in skeleton_point_layers(points, point_page(points), ["points", "polygons"])]
-    ['polygons', 'points']
-    """
+    """Make layers of places along a skeleton; discs and lines get finer where there are many."""
     wanted = checked_layers(layers, LAYERS)
     spacing = page.spacing(max(len(points), 1))
     below = [name for name in ("polygons", "skeleton") if name in wanted]

@@ -21,25 +21,7 @@ SHAPE_LAYERS = ("shape", "labels")
 def polygon_layers(
     polygons: PolygonSet, width: float, *, name: str = "polygons", edge: str | None = None
 ) -> list[Layer]:
-    """Closed rings filled, open lines drawn.
-
-    Parameters
-    ----------
-    polygons : PolygonSet
-        What to draw.
-    width : float
-        Of lines, in px.
-    name : str
-        Of the layer of closed rings.
-    edge : str, optional
-        Colour of their outlines, and of lines.
-
-    Examples
-    --------
-    >>> square = PolygonSet([[0, 0], [1, 0], [1, 1], [0, 1]], [0, 4], [0], [0])
-    >>> [layer.name for layer in polygon_layers(square, 1.0)]
-    ['polygons']
-    """
+    """Closed rings filled, open lines drawn."""
     closed = ~polygons.is_line[polygons.ring_polygon]
     corner_is_closed = np.repeat(closed, np.diff(polygons.ring_start))
     corners = np.flatnonzero(corner_is_closed).astype(np.int32)
@@ -64,14 +46,7 @@ def polygon_layers(
 
 
 def covered(polygons: PolygonSet) -> NDArray[np.bool_] | None:
-    """(p,) polygons of which a part lies in another one, too; None if there are none.
-
-    Examples
-    --------
-    >>> box = [[0, 0], [4, 0], [4, 4], [0, 4]]
-    >>> covered(PolygonSet([*box, [1, 1], [2, 1], [1, 2]], [0, 4, 7], [0, 0], [0, 1])).tolist()
-    [True, True]
-    """
+    """(p,) polygons of which a part lies in another one, too; None if there are none."""
     if len(polygons) < 2 or polygons.connectivity is not None or polygons.is_line.all():
         return None
     placed, *_ = _core.arrangement.place_on_lattice(polygons.xy, 0, None)
@@ -90,22 +65,7 @@ def covered(polygons: PolygonSet) -> NDArray[np.bool_] | None:
 
 
 def shape_layers(polygons: PolygonSet, page: Page, layers: Iterable[str]) -> list[Layer]:
-    """Polygons and lines as what is shown: filled, with outlines, which get finer where there are many vertices.
-
-    Parameters
-    ----------
-    polygons : PolygonSet
-        What to draw.
-    page : Page
-        Where it will be drawn.
-    layers : iterable of str
-        Which of "shape", "labels" (ids of the features, or what a column says).
-
-    Raises
-    ------
-    UsageError
-        If a layer is unknown.
-    """
+    """Polygons and lines as what is shown: filled, with outlines, which get finer where there are many vertices."""
     wanted = checked_layers(layers, SHAPE_LAYERS)
     width = min(max(page.spacing(max(len(polygons.xy), 1)) / 16, 0.2), 1.5)
     made = polygon_layers(polygons, width, name="shape", edge=RESULT) if "shape" in wanted else []
@@ -113,15 +73,7 @@ def shape_layers(polygons: PolygonSet, page: Page, layers: Iterable[str]) -> lis
 
 
 def feature_names(polygons: PolygonSet, page: Page) -> list[str]:
-    """Ids of the features, else their numbers from 0, or what the column says that the page is to have.
-
-    Examples
-    --------
-    >>> box = PolygonSet([[0, 0], [4, 0], [0, 3]], [0, 3], [0], [0], properties={"name": ["Huron"]})
-    >>> page = polygon_page(box)
-    >>> feature_names(box, page)
-    ['0']
-    """
+    """Ids of the features, else their numbers from 0, or what the column says that the page is to have."""
     assert polygons.feature is not None  # PolygonSet has filled it in
     _, first = np.unique(polygons.feature, return_index=True)
     ids = [None] * len(polygons) if polygons.ids is None else polygons.ids
@@ -132,15 +84,7 @@ def feature_names(polygons: PolygonSet, page: Page) -> list[str]:
 
 
 def names_of_features(polygons: PolygonSet, page: Page) -> Texts:
-    """Names of features: inside the largest polygon, in the middle of the longest line, on the first point.
-
-    Examples
-    --------
-    >>> box = PolygonSet([[0, 0], [4, 0], [4, 4], [0, 4]], [0, 4], [0], [0], ids=["a"])
-    >>> names = names_of_features(box, polygon_page(box))
-    >>> names.texts, names.points.tolist()
-    (['a'], [[2.0, 2.0]])
-    """
+    """Names of features: inside the largest polygon, in the middle of the longest line, on the first point."""
     import shapely
 
     from vorotool.geometry.polygons.conversion import to_shapely

@@ -33,36 +33,7 @@ def skeleton_layers(
     points: NDArray[np.float64] | None = None,
     exact: Skeleton | None = None,
 ) -> list[Layer]:
-    """Make layers of a skeleton; lines get finer where there are many.
-
-    Parameters
-    ----------
-    skeleton : Skeleton
-        What to draw: its polygons light grey, its sites, its arcs, and its nodes.
-    page : Page
-        Where it will be drawn.
-    layers : iterable of str
-        Which of "polygons", "elements" (edges), "points" (their ends), "skeleton", "exact", "nodes", "labels":
-        the paper's, of elements, where these are drawn, else the ids of polygons and lines, or their numbers from 0.
-    name, colour : str
-        Of the layer of arcs: a whole diagram has other ones.
-    points : (s, 2) float64 array, optional
-        Samples of the edges: drawn instead of the ends of edges.
-    exact : Skeleton, optional
-        What the skeleton approximates: drawn as a broken line.
-
-    Raises
-    ------
-    UsageError
-        If a layer is unknown.
-
-    Examples
-    --------
-    >>> from vorotool import skeleton_exact
-    >>> skeleton = skeleton_exact([[0, 0], [4, 0], [0, 3]])
-    >>> [layer.name for layer in skeleton_layers(skeleton, skeleton_page(skeleton), ["skeleton", "polygons"])]
-    ['polygons', 'skeleton']
-    """
+    """Make layers of a skeleton; lines get finer where there are many."""
     wanted = checked_layers(layers, LAYERS)
     places = _site_places(skeleton) if points is None else points
     spacing = page.spacing(max(len(skeleton.site_table), len(places), 1))

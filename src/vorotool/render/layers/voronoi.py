@@ -26,29 +26,7 @@ Indices = NDArray[np.int64]
 
 
 def voronoi_layers(cells: VoronoiMap, page: Page, layers: Iterable[str]) -> list[Layer]:
-    """Make layers of a Voronoi map; lines and discs get finer where cells are small.
-
-    Parameters
-    ----------
-    cells : VoronoiMap
-        What to draw.
-    page : Page
-        Where it will be drawn.
-    layers : iterable of str
-        Which of "cells", "edges", "objects", "labels".
-
-    Raises
-    ------
-    UsageError
-        If a layer is unknown.
-
-    Examples
-    --------
-    >>> from vorotool import voronoi
-    >>> made = voronoi(["LINESTRING (0 0, 4 0)", "POINT (2 2)"])
-    >>> [layer.name for layer in voronoi_layers(made, voronoi_page(made), LAYERS)]
-    ['cells', 'edges', 'objects', 'object-points', 'labels']
-    """
+    """Make layers of a Voronoi map; lines and discs get finer where cells are small."""
     wanted = checked_layers(layers, LAYERS)
     spacing = page.spacing(max(len(cells), 1))
     width = min(max(spacing / 24, 0.1), 1.5)
@@ -72,14 +50,7 @@ def voronoi_page(cells: VoronoiMap, *, width: int = 1000, y_up: bool | None = No
 
 
 def map_colours(cells: VoronoiMap) -> NDArray[np.uint32]:
-    """(s,) colour class of each cell, from 1: cells that share a border never have the same one.
-
-    Examples
-    --------
-    >>> from vorotool import voronoi
-    >>> map_colours(voronoi([[0, 0], [4, 0], [8, 0]])).tolist()
-    [2, 1, 2]
-    """
+    """(s,) colour class of each cell, from 1: cells that share a border never have the same one."""
     a, b = np.ascontiguousarray(neighbour_pairs(cells)[0].T.astype(np.uint32))
     return _core.graphs.colour_graph(len(cells), a, b, None)
 

@@ -28,13 +28,7 @@ _PLACE = "/*DATA*/null"
 
 
 def check_html_size(family: AlphaComplex) -> None:
-    """Refuse a page that no browser would draw.
-
-    Raises
-    ------
-    LimitError
-        If there are more than 100 000 points.
-    """
+    """Refuse a page that no browser would draw."""
     if len(family.points) > MOST_POINTS:
         raise LimitError(
             f"{len(family.points)} points are too many for a page, at most {MOST_POINTS}: use {AS_PICTURE}"
@@ -44,38 +38,7 @@ def check_html_size(family: AlphaComplex) -> None:
 def write_alpha_html(
     out: BinaryIO, family: AlphaComplex, curves: Table, *, r: Radius | None = None, y_up: bool | None = None
 ) -> None:
-    """Write a page with a slider over r: the shape, the classes of its edges, and curves.
-
-    It is opened from a file as well as from a server, works without a network, and shows the radius that its address
-    ends with (``page.html#r=10``).
-
-    Parameters
-    ----------
-    out : binary file
-        Receives UTF-8.
-    family : AlphaComplex
-        The shapes of all radii.
-    curves : Table
-        What `alpha_curves` gives.
-    r : float or Fraction, optional
-        The radius shown first; by default the middle one of the spectrum.
-    y_up : bool, optional
-        By default what the input says.
-
-    Raises
-    ------
-    LimitError
-        If there are more than 100 000 points.
-
-    Examples
-    --------
-    >>> import io
-    >>> from vorotool import alpha_complex, alpha_curves
-    >>> out, family = io.BytesIO(), alpha_complex([[0, 0], [4, 0], [0, 3]])
-    >>> write_alpha_html(out, family, alpha_curves(family), r=2)
-    >>> out.getvalue()[:15]
-    b'<!DOCTYPE html>'
-    """
+    """Write a page with a slider over r: the shape, the classes of its edges, and curves."""
     check_html_size(family)
     page = Path(__file__).with_name(PAGE).read_text(encoding="utf-8")
     before, after = page.split(_PLACE)

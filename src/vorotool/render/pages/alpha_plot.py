@@ -18,28 +18,7 @@ _PANEL, _GAP, _LEFT, _RIGHT, _TOP, _BOTTOM = 110, 26, 90, 20, 20, 44
 
 
 def write_curves_svg(out: BinaryIO, curves: Table, *, width: int = 1000) -> None:
-    """Plot each curve over r in a panel of its own; r on a logarithmic axis.
-
-    Curves are steps, drawn as fine as pixels are: of the values within one, the least and the greatest.
-
-    Parameters
-    ----------
-    out : binary file
-        Receives UTF-8.
-    curves : Table
-        ``r, area, perimeter, regions, cavities, edges``, as `alpha_curves` gives it.
-    width : int
-        In px.
-
-    Examples
-    --------
-    >>> import io
-    >>> from vorotool import alpha_complex, alpha_curves
-    >>> out = io.BytesIO()
-    >>> write_curves_svg(out, alpha_curves(alpha_complex([[0, 0], [4, 0], [0, 3]])))
-    >>> out.getvalue().count(b"<path")
-    5
-    """
+    """Plot each curve over r in a panel of its own; r on a logarithmic axis."""
     r = np.asarray(curves["r"], dtype=np.float64)
     shown = (r > 0) & np.isfinite(r)
     r = r[shown]

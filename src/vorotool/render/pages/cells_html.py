@@ -33,41 +33,18 @@ _FINE = 2.0**-12
 
 
 class Shapes(NamedTuple):
-    """Outlines of cells or of labels.
+    """Outlines of cells or of labels."""
 
-    Parameters
-    ----------
-    xy : (n, 2) float64 array
-        Vertices.
-    rings : (r + 1,) integer array
-        Where each ring begins among them, and n.
-    shapes : (k + 1,) integer array
-        Where each shape begins among the rings, and r.
-    ids : sequence of str
-        One a shape.
-    bounds : (x, y, x, y)
-        What the page shows.
-    y_up : bool
-        y goes upwards.
-    """
-
-    xy: NDArray[np.float64]
-    rings: NDArray[np.integer]
-    shapes: NDArray[np.integer]
+    xy: NDArray[np.float64]  # (n, 2) float64 array: vertices
+    rings: NDArray[np.integer]  # (r + 1,) integer array: where each ring begins among them, and n
+    shapes: NDArray[np.integer]  # (k + 1,) integer array: where each shape begins among the rings, and r
     ids: Sequence[str]
-    bounds: tuple[float, float, float, float]
-    y_up: bool = False
+    bounds: tuple[float, float, float, float]  # what the page shows
+    y_up: bool = False  # y goes upwards
 
 
 def shapes_of_cells(cells: CellSet, *, y_up: bool | None = None) -> Shapes:
-    """Give the outlines of cells.
-
-    Examples
-    --------
-    >>> from vorotool import voronoi_cells
-    >>> shapes_of_cells(voronoi_cells([[1, 1], [3, 1]], frame=(0, 0, 4, 2))).shapes.tolist()
-    [0, 1, 2]
-    """
+    """Give the outlines of cells."""
     rings, polygons, of_cells = cells.nesting
     ids = [str(label) for label in cells.label_array.tolist()]
     up = cells.y_up if y_up is None else y_up
@@ -75,14 +52,7 @@ def shapes_of_cells(cells: CellSet, *, y_up: bool | None = None) -> Shapes:
 
 
 def shapes_of_map(cells: VoronoiMap, *, y_up: bool | None = None) -> Shapes:
-    """Give the outlines of the cells of a Voronoi map, with lines instead of curves.
-
-    Examples
-    --------
-    >>> from vorotool import voronoi
-    >>> shapes_of_map(voronoi([[1, 1], [3, 1]], frame=(0, 0, 4, 2))).ids
-    ['1', '2']
-    """
+    """Give the outlines of the cells of a Voronoi map, with lines instead of curves."""
     x, y, w, h = cells.frame
     xy, rings = cell_rings(cells, _FINE * max(w, h))
     ids = [str(label) for label in (range(1, len(cells) + 1) if cells.ids is None else cells.ids)]
@@ -91,16 +61,7 @@ def shapes_of_map(cells: VoronoiMap, *, y_up: bool | None = None) -> Shapes:
 
 
 def shapes_of_labels(labels: NDArray[Any], *, y_up: bool = False, sides: PixelSides = SQUARE) -> Shapes:
-    """Give the outlines of the labels of an image along the cracks between its pixels; 0 is none.
-
-    They are in the unit of the sides of a pixel.
-
-    Examples
-    --------
-    >>> shapes = shapes_of_labels(np.array([[7, 7, 2]]))
-    >>> shapes.ids, shapes.xy[:4].tolist()
-    (['2', '7'], [[2.0, 0.0], [3.0, 0.0], [3.0, 1.0], [2.0, 1.0]])
-    """
+    """Give the outlines of the labels of an image along the cracks between its pixels; 0 is none."""
     found = list(crack_loops(labels))
     loops = [loop for _, own in found for loop in own]
     xy = np.array([place for loop in loops for place in loop], dtype=np.float64).reshape(-1, 2)
@@ -113,35 +74,7 @@ def shapes_of_labels(labels: NDArray[Any], *, y_up: bool = False, sides: PixelSi
 
 
 def write_cells_html(out: BinaryIO, shapes: Shapes, classes: ArrayLike, columns: Mapping[str, Sequence[Any]]) -> None:
-    """Write a page on which the cell that is pointed at is named, with its values.
-
-    It is opened from a file as well as from a server, works without a network, on light and on dark ground, and shows
-    the cell that its address ends with (``page.html#id=10``).
-
-    Parameters
-    ----------
-    out : binary file
-        Receives UTF-8.
-    shapes : Shapes
-        Outlines.
-    classes : (k,) integer array
-        Colour class of each, from 1.
-    columns : mapping of str to sequence
-        Values of each, such as areas: numbers, texts, or None.
-
-    Raises
-    ------
-    LimitError
-        If there are more than 100 000 cells, or 3 000 000 vertices.
-
-    Examples
-    --------
-    >>> import io
-    >>> out = io.BytesIO()
-    >>> write_cells_html(out, shapes_of_labels(np.array([[7, 7, 2]])), [1, 2], {"area": [1, 2]})
-    >>> out.getvalue()[:15]
-    b'<!DOCTYPE html>'
-    """
+    """Write a page on which the cell that is pointed at is named, with its values."""
     check_html_size(len(shapes.ids), len(shapes.xy))
     page = Path(__file__).with_name(PAGE).read_text(encoding="utf-8")
     before, after = page.split(_PLACE)
@@ -150,13 +83,7 @@ def write_cells_html(out: BinaryIO, shapes: Shapes, classes: ArrayLike, columns:
 
 
 def check_html_size(cells: int, vertices: int = 0) -> None:
-    """Refuse a page that no browser would draw.
-
-    Raises
-    ------
-    LimitError
-        If there are too many cells or vertices.
-    """
+    """Refuse a page that no browser would draw."""
     for count, most, what in ((cells, MOST_CELLS, "cells"), (vertices, MOST_VERTICES, "vertices of cells")):
         if count > most:
             raise LimitError(f"{count} {what} are too many for a page, at most {most}: use {AS_SVG} or png")
@@ -184,13 +111,7 @@ def _data(shapes: Shapes, classes: NDArray[Any], columns: Mapping[str, Sequence[
 
 
 def json_value(value: Any) -> Any:
-    """Give a number or a text as JSON has them; what is missing or no number is None.
-
-    Examples
-    --------
-    >>> json_value(np.int64(3)), json_value(float("nan"))
-    (3, None)
-    """
+    """Give a number or a text as JSON has them; what is missing or no number is None."""
     if value is np.ma.masked:
         return None
     value = value.item() if isinstance(value, np.generic) else value
@@ -200,11 +121,5 @@ def json_value(value: Any) -> Any:
 
 
 def packed(values: NDArray[Any], dtype: DTypeLike) -> str:
-    """Give the bytes of an array as text.
-
-    Examples
-    --------
-    >>> packed(np.array([1, 2]), "<i1")
-    'AQI='
-    """
+    """Give the bytes of an array as text."""
     return b64encode(np.ascontiguousarray(values, dtype=dtype).tobytes()).decode()

@@ -19,30 +19,7 @@ _TICKS = 10
 
 
 def write_persistence_svg(out: BinaryIO, regions: Table, suggested: int, *, width: int = 1000) -> None:
-    """Draw bars over r, the longest first; those of regions that stand out are darker.
-
-    The bar of a region that never dies goes on with an arrow where all points are joined.
-
-    Parameters
-    ----------
-    out : binary file
-        Receives UTF-8.
-    regions : Table
-        As `RegionPersistence.table` gives it.
-    suggested : int
-        How many regions stand out.
-    width : int
-        In px.
-
-    Examples
-    --------
-    >>> import io, vorotool
-    >>> found = vorotool.persistence([[0, 0], [2, 0], [0, 2], [9, 0], [12, 0], [9, 3]])
-    >>> out = io.BytesIO()
-    >>> write_persistence_svg(out, found.table(), found.suggested)
-    >>> out.getvalue().count(b"<rect"), b">2 of 2 regions stand out<" in out.getvalue()
-    (3, True)
-    """
+    """Draw bars over r, the longest first; those of regions that stand out are darker."""
     length = np.asarray(regions["persistence"], dtype=np.float64)
     rows = np.argsort(-length, kind="stable")[:MOST]
     birth = np.asarray(regions["birth"], dtype=np.float64)

@@ -25,13 +25,7 @@ _PLACE = "/*DATA*/null"
 
 
 def check_html_size(skeleton: Skeleton) -> None:
-    """Refuse a page that no browser would draw.
-
-    Raises
-    ------
-    LimitError
-        If there are more than 100 000 arcs, or vertices of polygons.
-    """
+    """Refuse a page that no browser would draw."""
     for count, what in ((len(skeleton), "arcs"), (len(skeleton.polygons.xy), "vertices of polygons")):
         if count > MOST_ARCS:
             raise LimitError(f"{count} {what} are too many for a page, at most {MOST_ARCS}: use {AS_PICTURE}")
@@ -46,41 +40,7 @@ def write_skeleton_html(
     shown: tuple[str, float] | None = None,
     y_up: bool | None = None,
 ) -> None:
-    """Write a page with a slider over the threshold of each criterion, on which arcs are drawn as far as they are left.
-
-    It is opened from a file as well as from a server, works without a network, and shows the pruning that its address
-    ends with (``page.html#scale=1.5``).
-
-    Parameters
-    ----------
-    out : binary file
-        Receives UTF-8.
-    skeleton : Skeleton
-        Not pruned.
-    values : sequence of CriticalValues
-        One or more criteria, for all arcs.
-    profiles : ArcProfiles
-        Of all arcs.
-    shown : (criterion, threshold), optional
-        What is shown first; by default the first criterion, with nothing removed.
-    y_up : bool, optional
-        By default what the input says.
-
-    Raises
-    ------
-    LimitError
-        If there are more than 100 000 arcs, or vertices of polygons.
-
-    Examples
-    --------
-    >>> import io
-    >>> from vorotool import arc_profiles, critical_values, skeleton_exact
-    >>> skeleton = skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]])
-    >>> out = io.BytesIO()
-    >>> write_skeleton_html(out, skeleton, [critical_values(skeleton, "scale")], arc_profiles(skeleton))
-    >>> out.getvalue()[:15]
-    b'<!DOCTYPE html>'
-    """
+    """Write a page with a slider over the threshold of each criterion."""
     check_html_size(skeleton)
     page = Path(__file__).with_name(PAGE).read_text(encoding="utf-8")
     before, after = page.split(_PLACE)

@@ -26,39 +26,16 @@ _PLACE = "/*DATA*/null"
 
 
 class Runs(NamedTuple):
-    """A volume of labels as runs along its rows.
+    """A volume of labels as runs along its rows."""
 
-    Parameters
-    ----------
-    rows : (D * H + 1,) int64 array
-        Where the runs of each row begin, and their number.
-    ends : (r,) int64 array
-        The column behind each run.
-    regions : (r,) int64 array
-        Index of the label of each run among the known ones, from 1; 0 is none.
-    """
-
-    rows: NDArray[np.int64]
-    ends: NDArray[np.int64]
+    rows: NDArray[np.int64]  # (D * H + 1,) int64 array: where the runs of each row begin, and their number
+    ends: NDArray[np.int64]  # (r,) int64 array: the column behind each run
+    # (r,) int64 array: index of the label of each run among the known ones, from 1; 0 is none
     regions: NDArray[np.int64]
 
 
 def runs_of(labels: NDArray[Any], known: NDArray[Any]) -> Runs:
-    """Give the runs of a volume.
-
-    Parameters
-    ----------
-    labels : (D, H, W) integer array
-        0 is none.
-    known : (k,) integer array
-        The labels that occur, increasing.
-
-    Examples
-    --------
-    >>> runs = runs_of(np.array([[[7, 7, 0], [9, 9, 9]]]), np.array([7, 9]))
-    >>> runs.rows.tolist(), runs.ends.tolist(), runs.regions.tolist()
-    ([0, 2, 3], [2, 3, 3], [1, 0, 2])
-    """
+    """Give the runs of a volume."""
     _, height, width = labels.shape
     counts, ends, regions = [], [], []
     for values in labels:
@@ -72,17 +49,7 @@ def runs_of(labels: NDArray[Any], known: NDArray[Any]) -> Runs:
 
 
 def check_volume_page(shape: tuple[int, ...], labels: int = 0, runs: int = 0) -> None:
-    """Refuse a page that no browser would show.
-
-    Raises
-    ------
-    LimitError
-        If the volume has too many voxels, labels, or runs of voxels of one label.
-
-    Examples
-    --------
-    >>> check_volume_page((64, 512, 512))
-    """
+    """Refuse a page that no browser would show."""
     depth, height, width = shape
     instead = f"use {option('--what colour -f png, or --what labels', 'labels in TIFF, NPY or Zarr')}"
     if depth * height * width > MOST_VOXELS:
@@ -102,39 +69,7 @@ def write_volume_html(
     first: int = 0,
     units: ArrayLike = (1, 1, 1),
 ) -> None:
-    """Write a page with a slider over the slices of a volume, on which the region that is pointed at is named.
-
-    It is opened from a file as well as from a server, works without a network, on light and on dark ground, and shows
-    the region and the slice that its address ends with (``page.html#id=10&z=3``).
-
-    Parameters
-    ----------
-    out : binary file
-        Receives UTF-8.
-    labels : (D, H, W) integer array
-        0 is no label.
-    colours : pair of (k,) integer arrays
-        The labels that occur, increasing, and the colour class of each, from 1.
-    columns : mapping of str to sequence
-        Values of each, such as volumes: numbers, texts, or None.
-    first : int
-        z of the first slice.
-    units : (3,) array of numbers
-        Sides of a voxel along z, y and x.
-
-    Raises
-    ------
-    LimitError
-        If it would be too large: see `check_volume_page`.
-
-    Examples
-    --------
-    >>> import io
-    >>> out = io.BytesIO()
-    >>> write_volume_html(out, np.array([[[7, 7, 2]]]), (np.array([2, 7]), np.array([1, 2])), {"volume": [1, 2]})
-    >>> out.getvalue()[:15]
-    b'<!DOCTYPE html>'
-    """
+    """Write a page with a slider over the slices of a volume, on which the region that is pointed at is named."""
     known, classes = np.asarray(colours[0]), np.asarray(colours[1])
     check_volume_page(labels.shape, len(known))
     runs = runs_of(labels, known)
