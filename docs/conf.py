@@ -1,6 +1,12 @@
 """How Sphinx makes the site from this folder: `make docs`."""
 
+import sys
+from pathlib import Path
+
 import vorotool
+
+sys.path.insert(0, str(Path(__file__).parent / "scripts"))
+from cli_reference import reference
 
 project = "vorotool"
 version = release = vorotool.__version__
@@ -36,11 +42,13 @@ ELSEWHERE = {"../CONTRIBUTING.md": "contributing.md", "../data/README.md": "data
 
 
 def setup(app):
-    """Lead links out of this folder to the pages that include what they lead to."""
-    app.connect("source-read", lead_to_pages)
+    """Complete the sources of pages as they are read."""
+    app.connect("source-read", complete)
 
 
-def lead_to_pages(_app, _page, source):
-    """Change the links of one page."""
-    for path, page in ELSEWHERE.items():
-        source[0] = source[0].replace(f"]({path})", f"]({page})")
+def complete(_app, page, source):
+    """Make the reference of the commands, and lead links out of this folder to the pages that include their targets."""
+    if page == "cli":
+        source[0] = reference()
+    for path, included in ELSEWHERE.items():
+        source[0] = source[0].replace(f"]({path})", f"]({included})")

@@ -1,4 +1,4 @@
-"""Print the command-line reference, made from the commands: `docs/scripts/cli_reference.py > docs/cli.md`.
+"""Make the page of the site that has the options of all commands, and the formats of their results.
 
 sphinx-click 6.2 reads the same objects, but knows no groups of options, names a value after its parameter where its
 type has a name of its own (`--what <what>` for `--what A[,B…]`, `--size <size>` for `--size WxH`), and makes no
@@ -7,7 +7,6 @@ tables of formats.
 
 import inspect
 import re
-import sys
 from collections.abc import Iterator
 
 import click
@@ -22,12 +21,7 @@ OPTION = re.compile(r"(?<![\w`-])(--?[a-z][a-z-]*)")
 
 def reference() -> str:
     """The help of every command, as Markdown."""
-    parts = [
-        "# Command-line reference",
-        "",
-        "Made by `python docs/scripts/cli_reference.py`; a test keeps it true.",
-        "",
-    ]
+    parts = ["# Command-line reference", ""]
     context = click.Context(vorotool, info_name="vorotool")
     for name in COMMANDS:
         command = vorotool.get_command(context, name)
@@ -74,7 +68,3 @@ def formats_of(command: str) -> list[str]:
 def _named(name: str) -> str:
     each = FORMATS[name]
     return f"{each.title} (`{'`, `'.join(each.endings)}`)"
-
-
-if __name__ == "__main__":
-    sys.stdout.write(reference())

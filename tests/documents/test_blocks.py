@@ -81,13 +81,6 @@ def test_rules_of_make_are_those_of_the_makefile():
     assert [block in rules for _, block in blocks("make")] == [True]
 
 
-@pytest.mark.parametrize(("script", "page"), [("cli_reference", "cli"), ("formats_reference", "reference/formats")])
-def test_the_reference_is_true(script, page):
-    done = ended_python(ROOT / f"docs/scripts/{script}.py", check=True)
-    kept = (ROOT / f"docs/{page}.md").read_text(encoding="utf-8")
-    assert done.stdout == kept, f"run docs/scripts/{script}.py > docs/{page}.md"
-
-
 def test_the_manual_pages_are_true(tmp_path):
     ended_python(ROOT / "docs/scripts/manual_pages.py", tmp_path, check=True)
     made, kept = ({path.name: path.read_bytes() for path in folder.iterdir()} for folder in (tmp_path, MANUAL))

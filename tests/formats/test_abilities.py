@@ -1,10 +1,5 @@
-"""What each format carries: each is written and read, and the table of that in the documents is what was found.
+"""What each format carries: each is written and read, and the table of that in the documents is what was found."""
 
-``python tests/formats/test_abilities.py > docs/reference/abilities.md`` writes the table.
-"""
-
-import sys
-import tempfile
 import warnings
 from fractions import Fraction
 from pathlib import Path
@@ -23,10 +18,9 @@ from vorotool.geometry.number_text import NumberText
 from vorotool.geometry.pixel_grid import PixelGrid, map_grid
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.products.formats import FORMATS
-from vorotool.products.inputs import INPUTS, NAMES_WITH
+from vorotool.products.inputs import INPUTS, NAMES_WITH, VOLUME_NAMES
 
 ROOT = Path(__file__).parents[2]
-PAGE = ROOT / "docs" / "reference" / "abilities.md"
 VERTICES = np.array([[0.1, 0], [4, 1 / 3], [0, 3], [10, 0], [14, 0], [10, 3.5]])
 ATTRIBUTES = {"name": ["a", "b"], "code": ["007", "8"], "count": [3, -4], "depth": [0.5, 2.0]}
 SYSTEM = member_of_text("EPSG:2056")
@@ -141,38 +135,35 @@ def image_row(fmt, folder):
     ]  # fmt: skip
 
 
-def table(folder):
-    """Give the page."""
+def rows(folder):
+    """The rows of the table."""
     images = [name for name, each in INPUTS.items() if "image" in each.readers] + ["text"]
     vectors = [name for name in (*INPUTS, *FORMATS) if name not in images and name not in ("html", "apng")]
-    rows = {name: vector_row(name, folder) for name in dict.fromkeys(vectors)}
-    rows |= {name: image_row(name, folder) for name in images}
-    lines = [f"| `{name}` | {' | '.join(cells)} |" for name, cells in rows.items()]
-    return "\n".join(
-        [
-            "# What formats carry",
-            "",
-            "Made by `python tests/formats/test_abilities.py`, which writes and reads each format; a test keeps it so.",
-            "A round trip is one to the last bit of each coordinate or pixel. Attributes are texts, codes (`007`),",
-            "integers and numbers; KML and GPX have their own. Maps in TIFF: [units](../howto/units.md).",
-            "",
-            "| format | read | written | coordinate reference system | attributes | pixel size | round trip |",
-            "| --- | --- | --- | --- | --- | --- | --- |",
-            *lines,
-            "",
-        ]
-    )
+    found = {name: vector_row(name, folder) for name in dict.fromkeys(vectors)}
+    found |= {name: image_row(name, folder) for name in images}
+    for name, (read, *cells) in found.items():
+        content = held(name) if read == "yes" else "no"
+        yield f"| `{name}` | {' | '.join((endings(name), content, *cells))} |"
 
 
-def test_the_table_is_what_was_found(tmp_path):
-    assert table(tmp_path) == PAGE.read_text(encoding="utf-8")
+def held(name):
+    """What files of a format are read as."""
+    kinds = [kind for kind in ("points", "polygons", "image") if kind in INPUTS[NAMES_WITH[None][name]].readers]
+    return ", ".join([*kinds, *(["volume"] if name in VOLUME_NAMES else [])])
+
+
+def endings(name):
+    """The extensions of files of a format."""
+    read = [each for each in (INPUTS[name].names if name in INPUTS else ()) if each == name or each not in FORMATS]
+    found = dict.fromkeys([*(f".{each}" for each in read), *(FORMATS[name].endings if name in FORMATS else ())])
+    return ", ".join(f"`{each}`" for each in found).replace(".csv-wkt", ".csv")
+
+
+def test_the_documents_have_the_rows_that_were_found(tmp_path):
+    page = (ROOT / "docs/reference/formats.md").read_text(encoding="utf-8")
+    assert [line for line in page.splitlines() if line.startswith("| `")] == list(rows(tmp_path))
 
 
 @pytest.mark.parametrize("fmt", ["gpkg", "fgb", "shp", "parquet", "geojson", "jsonl"])
 def test_maps_carry_everything(tmp_path, fmt):
     assert vector_row(fmt, tmp_path) == ["yes", "yes", "yes", "with types", "–", "yes"]
-
-
-if __name__ == "__main__":
-    with tempfile.TemporaryDirectory() as made:
-        sys.stdout.write(table(Path(made)))

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 import vorotool
+from cli_reference import reference
 from support.processes.ended import ended_python
 from vorotool.products.formats import EXTENSIONS, FORMATS, PICTURES, TABLE_WRITER
 from vorotool.products.registry import PRODUCTS, all_layers, formats_of
@@ -71,7 +72,7 @@ formats.EXTENSIONS[".drw"] = "drawing"
 
 READ = {
     "help": "from vorotool.cli.main import main; main(['skeleton-exact', '--help'])",
-    "documents": "import runpy; runpy.run_path('docs/scripts/cli_reference.py', run_name='__main__')",
+    "documents": "sys.path.append('docs/scripts'); import cli_reference; print(cli_reference.reference())",
     "refusal": "from vorotool.cli.main import main; main(['skeleton-exact', '--what', 'offset', '-f', 'obj', '-'])",
     "writing": "from vorotool.cli.main import main; "
     "main(['skeleton-exact', 'data/two-shapes.json', '--what', 'offset', '-d', '1', '-f', 'drw'])",
@@ -113,8 +114,7 @@ def help_of(command):
 def test_help_and_documents_name_all_formats(command):
     formats = dict.fromkeys(fmt for those in formats_of(command).values() for fmt in those)
     assert f"Format of the output: {', '.join(formats)};" in " ".join(help_of(command).split())
-    reference = (ROOT / "docs/cli.md").read_text(encoding="utf-8")
-    section = reference.partition(f"## vorotool {command}\n")[2].partition("\n## ")[0]
+    section = reference().partition(f"## vorotool {command}\n")[2].partition("\n## ")[0]
     for what, those in formats_of(command).items():
         (row,) = (line for line in section.splitlines() if line.startswith(f"| `{what}` |"))
         assert all(ending in row for fmt in those for ending in FORMATS[fmt].endings)
