@@ -164,8 +164,8 @@ def test_what_is_no_file_is_left_out_and_said(folder):
         notes = []
         assert expanded(name, note=notes.append) == [("a/1.csv", "1.csv")]
         assert notes[:3] == words
-    for name, kind in (("a/0.csv", "a pipe"), ("/dev/stdin", "an open descriptor")):
-        with pytest.raises(UsageError, match=f"{name} is {kind}, which this process alone can read"):
+    for name in ("a/0.csv", "/dev/stdin"):
+        with pytest.raises(UsageError, match=name):
             expanded(name, "b")
 
 

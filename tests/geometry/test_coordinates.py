@@ -90,7 +90,7 @@ def test_points_are_copied():
 def test_the_command_line_and_the_library_refuse_the_same_integers(tmp_path):
     values = np.array([[1, 2], [2**53 + 1, 7]])
     np.save(tmp_path / "a.npy", values)
-    with pytest.raises(InputError, match=r"a\.npy, row 2: \(9007199254740993, 7\): a double would"):
+    with pytest.raises(InputError, match=r"a\.npy, row 2"):
         vorotool.read(tmp_path / "a.npy", geometry="points", columns=None)
 
 
@@ -104,7 +104,7 @@ def test_the_command_line_and_the_library_refuse_the_same_polygons():
             lambda p: vorotool.offset(p, 1),
             lambda p: vorotool.offset(p, -1),
         ):
-            with pytest.raises(InputError, match=f"{words} to compute with: scale"):
+            with pytest.raises(InputError, match=f"{words}"):
                 make(points)
 
 

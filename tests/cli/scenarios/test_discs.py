@@ -118,13 +118,13 @@ def test_empty_discs_in_a_frame_and_a_clip(run, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        (("skeleton-exact", "--count", "2"), "--count is for discs"),
-        (("skeleton-exact", "--local"), "--local is for discs"),
+        (("skeleton-exact", "--count", "2"), "--count"),
+        (("skeleton-exact", "--local"), "--local"),
         (("skeleton-exact", "--what", "discs", "--side", "exterior"), "inside polygons"),
-        (("skeleton-exact", "--what", "discs", "--prune", "angle=90"), "--prune is for skeletons"),
+        (("skeleton-exact", "--what", "discs", "--prune", "angle=90"), "--prune"),
         (("skeleton-exact", "--what", "discs", "--count", "0"), "--count"),
-        (("voronoi", "--count", "2"), "--count is for discs"),
-        (("voronoi", "--what", "discs", "--max-distance", "1"), "--max-distance is for cells"),
+        (("voronoi", "--count", "2"), "--count"),
+        (("voronoi", "--what", "discs", "--max-distance", "1"), "--max-distance"),
     ],
 )
 def test_refusals(run, shapes, arguments, said):

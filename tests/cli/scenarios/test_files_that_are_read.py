@@ -44,7 +44,7 @@ def test_a_list_of_names_is_no_output(run, folder):
     (folder / "out/dots.png").write_text("dots.csv\n")
     done = run("tessellate", "--files-from", "out/dots.png", "--out-dir", "out")
     assert (done.code, (folder / "out/dots.png").read_text()) == (2, "dots.csv\n")
-    assert "is also the file of --files-from" in done.err
+    assert "--files-from" in done.err
 
 
 @pytest.mark.parametrize("device", ["/dev/null", "/dev/zero"])

@@ -117,7 +117,7 @@ def test_dictionaries_of_lzma_are_limited():
 
 
 def test_lzw_that_stands_for_nothing():
-    with pytest.raises(ValueError, match="code 300 stands for nothing yet"):
+    with pytest.raises(ValueError, match="300"):
         unpacking.unpack_lzw(((256 << 9 | 300) << 6).to_bytes(3, "big"), 100)
     with pytest.raises(ValueError, match="from before TIFF"):
         unpacking.unpack_lzw(b"\0\x01abc", 100)
@@ -157,5 +157,5 @@ def test_frames_that_do_not_say_how_much_they_hold():
             most_unpacked(data[:end])
     with pytest.raises(ValueError, match="of no kind"):
         most_unpacked(frame([(3, b"", 0)]))
-    with pytest.raises(ValueError, match="no Zstandard frame at byte 0"):
+    with pytest.raises(ValueError, match="byte 0"):
         most_unpacked(b"abcdefgh")

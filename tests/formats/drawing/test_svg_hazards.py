@@ -95,7 +95,7 @@ def test_long_paths_are_not_repeated_without_end():
 
 
 def test_shapes_are_counted_before_their_vertices():
-    with pytest.raises(LimitError, match="holds 1001 vertices, more than the limit of 1000"):
+    with pytest.raises(LimitError, match="1000"):
         svg(tens_of_tens(f"<g id='a0'>{RECT}</g>") + "<use href='#a4'/>", max_sites=1000)
 
 

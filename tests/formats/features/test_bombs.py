@@ -81,5 +81,5 @@ def test_flatgeobuf_that_announces_what_is_not_there(tmp_path):
     data = path.read_bytes()
     at = data.index(struct.pack("<Q", 50))
     path.write_bytes(data[:at] + struct.pack("<Q", 2**40) + data[at + 8 :])
-    with pytest.raises(InputError, match=r"a\.fgb announces 1099511627776 features"):
+    with pytest.raises(InputError, match=r"a\.fgb"):
         vorotool.read(path)

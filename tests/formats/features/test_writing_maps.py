@@ -73,9 +73,7 @@ def test_several_kinds_and_several_parts(tmp_path):
     for fmt in ("gpkg", "fgb", "parquet"):
         vorotool.write(mixed, tmp_path / f"b.{fmt}")
         assert [len(shapely.get_parts(each)) for each in load(tmp_path / f"b.{fmt}").geometry] == [1, 2, 1]
-    with pytest.raises(
-        OutputError, match=r"b.shp cannot be written: a Shapefile holds geometry of one kind, but this is"
-    ):
+    with pytest.raises(OutputError, match=r"b.shp"):
         vorotool.write(mixed, tmp_path / "b.shp")
     assert not list(tmp_path.glob("b.shp")) + list(tmp_path.glob("b.dbf"))
 

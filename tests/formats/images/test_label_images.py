@@ -60,7 +60,7 @@ def test_unknown_format() -> None:
     ("values", "message"),
     [
         (np.array([[0, 1], [2, -5]]), "-5 in row 1, column 1"),
-        (np.array([[0, 2**32]]), "4294967296 in row 0, column 1"),
+        (np.array([[0, 2**32]]), "row 0, column 1"),
         (np.array([[0.5]]), "float64 values: labels need integers"),
         (np.arange(12, dtype=np.uint8).reshape(2, 2, 3), "3 channels: labels need a single one"),
     ],

@@ -45,7 +45,7 @@ def test_the_content_tells_the_format(kind):
     data = saved(COLOURS, kind)
     assert image_format(source(data)) == image_format(source(data, f"a.{kind}")) == kind
     assert image_format(source(b"BMI,age\n1,2\n", "a.csv")) is None
-    with pytest.raises(InputError, match=rf'a.png is no png file, it begins as {kind}: use input_format="{kind}"'):
+    with pytest.raises(InputError, match=rf'input_format="{kind}"'):
         image_of(source(data, "a.png"))
 
 
@@ -114,16 +114,16 @@ def test_of_an_animation_the_first_picture_is_read_which_is_said(kind):
     assert (read(data, page=2, note=notes.append) == 200).all()
     assert len(notes) == 1
     for page in (3, -1):
-        with pytest.raises(InputError, match=f"a has 3 pages, counted from 0: there is no page={page}"):
+        with pytest.raises(InputError, match=f"page={page}"):
             read(data, page=page)
-    with pytest.raises(InputError, match="a has a single page: there is no page=1"):
+    with pytest.raises(InputError, match="page=1"):
         read(saved(GREY, kind), page=1)
 
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_pixels_are_counted_before_they_are_decoded(kind):
     data = saved(GREY, kind)
-    with pytest.raises(LimitError, match=r"a is 11 x 7 = 77 pixels, more than max_pixels=76"):
+    with pytest.raises(LimitError, match=r"max_pixels=76"):
         read(data, max_pixels=76)
     assert read(data, max_pixels=77).shape[:2] == (7, 11)
 

@@ -24,7 +24,7 @@ def test_check_fits_names_the_value() -> None:
     check_fits(np.array([0, 255], np.uint8), 255, "a byte")
     check_fits(np.array([True]), 1, "a bit")
     check_fits(np.empty(0, np.int64), 0, "nothing")
-    with pytest.raises(LimitError, match="the value 256 does not fit in a byte"):
+    with pytest.raises(LimitError, match="value 256"):
         check_fits(np.array([3, 256]), 255, "a byte")
     with pytest.raises(LimitError, match="the value -1 does not fit"):
         check_fits(np.array([-1, 3], np.int32), 255, "a byte")

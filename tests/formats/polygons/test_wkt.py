@@ -67,20 +67,22 @@ def test_nothing_and_too_little():
         ),
         (
             "LINESTRING (0 0, 1 1)\nPOINT (1 2)",
-            "a.wkt, line 2: a Point is no polygon or line; put points into a file of their own",
+            "a.wkt, line 2",
         ),
-        ("GEOMETRYCOLLECTION (MULTIPOINT (1 2))", "a.wkt, line 1: a MultiPoint is no polygon or line"),
+        ("GEOMETRYCOLLECTION (MULTIPOINT (1 2))", "a.wkt, line 1"),
         (
             "LINESTRING (0 0, 1 1)\nLINESTRING (0 0, 1 inf)",
-            "a.wkt, line 2: vertex 2 of 'LINESTRING (0 0, 1 inf)' is (1",
+            "'LINESTRING (0 0, 1 inf)'",
         ),
-        ("POLYGON ((0 0, nan 0, 1 1, 0 0))", "a.wkt, line 1: vertex 2 of"),
-        ("LINESTRING (0 0, 1 1e999)", "a.wkt, line 1: vertex 2 of"),
-        ("GEOMETRYCOLLECTION (" * 5000, "a.wkt, line 1: brackets are nested more than 100 deep"),
+        ("POLYGON ((0 0, nan 0, 1 1, 0 0))", "a.wkt, line 1: vertex 2"),
+        ("LINESTRING (0 0, 1 1e999)", "a.wkt, line 1: vertex 2"),
+        ("GEOMETRYCOLLECTION (" * 5000, "a.wkt, line 1"),
     ],
 )
 def test_bad_wkt(text, message):
-    assert error_of(text, "a.wkt").startswith(message)
+    error = error_of(text, "a.wkt")
+    assert error.startswith("a.wkt")
+    assert message in error
 
 
 def test_the_limit():

@@ -50,7 +50,7 @@ def test_all_parts_of_a_shape():
     with coordinates_written(4):
         short = written(write_general, SHAPE, "wkt")
     assert len(short) < 0.7 * sum(map(len, lines))
-    with pytest.raises(UsageError, match="general cannot be written as 'csv': use one of geojson, wkt"):
+    with pytest.raises(UsageError, match="'csv'"):
         write(SHAPE, "a.csv", what="general")
 
 

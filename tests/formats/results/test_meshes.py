@@ -156,11 +156,11 @@ def test_the_same_bytes_for_any_threads(what):
 
 def test_formats_that_there_are_not():
     mesh = delaunay([[0, 0], [1, 1]])
-    with pytest.raises(UsageError, match="edges cannot be written as 'ele'"):
+    with pytest.raises(UsageError, match="'ele'"):
         written(mesh, "ele")
     with pytest.raises(UsageError, match="'faces' is nothing"):
         written(mesh, "csv", "faces")
-    with pytest.raises(UsageError, match=r"edges cannot be written as 'html': use one of csv, .*, svg, png"):
+    with pytest.raises(UsageError, match=r"'html'"):
         written(mesh, "html")
 
 

@@ -191,7 +191,7 @@ def test_writing_from_the_library(tmp_path):
     assert (tmp_path / "a.geojson").read_bytes() == written(cells, "geojson")
     vorotool.write(cells, tmp_path / "b.csv", what="neighbours")
     assert (tmp_path / "b.csv").read_bytes() == written(cells, "csv", what="neighbours")
-    with pytest.raises(UsageError, match="neighbours cannot be written as 'geojson'"):
+    with pytest.raises(UsageError, match="'geojson'"):
         vorotool.write(cells, tmp_path / "c.geojson", what="neighbours")
 
 

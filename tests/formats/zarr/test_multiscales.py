@@ -55,7 +55,7 @@ def test_labels_of_an_image(tmp_path, version):
     write(tmp_path / "a.zarr/labels/nuclei", version, labels=True)
     raster = vorotool.read(tmp_path / "a.zarr/labels/nuclei")
     np.testing.assert_array_equal(raster.values, LABELS)
-    with pytest.raises(InputError, match=r"a.zarr has 3 steps along the axis z: an image has one"):
+    with pytest.raises(InputError, match=r"a.zarr"):
         vorotool.read(tmp_path / "a.zarr")
     write(tmp_path / "b.zarr", version).create_group("labels").attrs.update(dict(names.attrs))
     notes = []

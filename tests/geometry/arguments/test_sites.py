@@ -53,7 +53,7 @@ def test_what_is_known_of_features():
     assert sites.properties == {"name": list("abcdef")}
     joined = as_sites(frame, by="name")
     assert (joined.ids, joined.index, joined.properties) == (list("abcdef"), None, {})
-    with pytest.raises(UsageError, match=r"invalid by 'x': expected a column of the sites \(name\)"):
+    with pytest.raises(UsageError, match=r"'x'"):
         as_sites(frame, by="x")
 
 
@@ -96,9 +96,9 @@ def test_values_that_join():
     for by in (["b", "a", "b"], np.array([3, 1, 3]), pandas.Series([2.5, 1, 2.5]), pandas.Categorical(["z", "q", "z"])):
         sites = as_sites(points, by)
         assert (sites.site.tolist(), sites.count) == ([0, 1, 0], 2)
-    with pytest.raises(InputError, match="feature 2 has no value"):
+    with pytest.raises(InputError, match="feature 2"):
         as_sites(points, [1.0, 2.0, np.nan])
-    with pytest.raises(InputError, match="one value a feature, 3, but got 1"):
+    with pytest.raises(InputError, match="feature, 3"):
         as_sites(points, ["a"])
 
 

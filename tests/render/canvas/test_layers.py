@@ -213,10 +213,10 @@ def test_both_kinds_of_pictures_are_one(tmp_path):
 def test_limits():
     page = Page((0, 0, 1, 1), width=1000, y_up=False)
     check_picture_size(page, 16_000_000)
-    with pytest.raises(LimitError, match='max_pixels=15999999: use a smaller width, or fmt="svg"'):
+    with pytest.raises(LimitError, match='fmt="svg"'):
         check_picture_size(page, 15_999_999)
     many = Polygons("p", SQUARES, CORNERS, np.array([0, 11]), colours=[f"#0000{k:02x}" for k in range(256)])
-    with pytest.raises(LimitError, match='at most 255 colours: use fmt="svg"'):
+    with pytest.raises(LimitError, match='fmt="svg"'):
         picture(many)
 
 
