@@ -117,11 +117,7 @@ def test_time_of_frames(run, folder):
 
 
 REFUSED = [
-    (
-        ["tessellate", "dots.csv", "--what", "colour", "--animate", "-o", "a.svg"],
-        2,
-        "--animate",
-    ),
+    (["tessellate", "dots.csv", "--what", "colour", "--animate", "-o", "a.svg"], 2, "--animate"),
     (["tessellate", "dots.csv", "--what", "colour", "--frames", "3", "-o", "a.png"], 2, "--frames"),
     (["tessellate", "dots.csv", "--what", "colour", "--fps", "3", "-o", "a.png"], 2, "--fps"),
     (["tessellate", "dots.csv", "--what", "colour", "--frames", "1", "-o", "a.gif"], 2, "1 is not in the range"),
@@ -131,17 +127,9 @@ REFUSED = [
         2,
         "animations are of the exact tessellation",
     ),
-    (
-        ["alphashape", "dots.csv", "-r", "9", "--method", "digital", "-o", "a.gif"],
-        2,
-        "--method",
-    ),
+    (["alphashape", "dots.csv", "-r", "9", "--method", "digital", "-o", "a.gif"], 2, "--method"),
     (["skeleton-exact", "shapes.json", "-o", "a.gif"], 2, "skeleton cannot be written as gif: use --what offset"),
-    (
-        ["tessellate", "dots.csv", "--what", "colour", "--size", "6000x6000", "-o", "a.gif"],
-        5,
-        f"{MOST_PIXELS}",
-    ),
+    (["tessellate", "dots.csv", "--what", "colour", "--size", "6000x6000", "-o", "a.gif"], 5, f"{MOST_PIXELS}"),
 ]
 
 

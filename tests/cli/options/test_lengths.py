@@ -89,29 +89,19 @@ KNOWN = "nm, um, µm, mm, cm, m, km, in, ft"
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        (
-            "tessellate in.csv --max-distance 5um",
-            "5um",
-        ),
-        (
-            "tessellate in.csv --max-distance 5parsec",
-            "--max-distance '5parsec'",
-        ),
+        ("tessellate in.csv --max-distance 5um", "5um"),
+        ("tessellate in.csv --max-distance 5parsec", "--max-distance '5parsec'"),
         ("tessellate in.csv --max-distance 5um --pixel-size 2", "--pixel-size"),
         ("tessellate in.csv --max-distance 5um --pixel-size 2voxel", "is in voxel, which is none that is known"),
         ("tessellate in.csv --max-distance 5voxel --pixel-size 2um", "invalid --max-distance '5voxel'"),
-        ("alphashape in.csv -r 5um", "-r 5um"),
-        ("skeleton-exact in.json --what offset -d 2m", "-d 2m"),
         ("skeleton-exact in.json --prune chord=2m", "--prune chord=2m"),
         ("skeleton-exact in.json --what points --every 1ell", "invalid --every '1ell'"),
         ("skeleton-exact in.json --gap -1um", "'-1um'"),
-        ("skeleton-exact in.json --what points --every 0um", "'0um'"),
         ("skeleton-exact in.json --what offset -d 0um,2", "a distance is 0"),
         ("skeleton-exact in.json --what offset -d 1mm,1000um --pixel-size 1mm", "the distance 1 is there 2 times"),
         ("skeleton-exact in.json --prune angle=2um", "'2um'"),
         ("skeleton-exact in.json --prune length=-2um", "expected a length from 0"),
         ("skeleton-exact in.json --what points --every 1e300km --pixel-size 1e-20nm", "invalid --every '1e300km'"),
-        ("skeleton-exact in.json --what points --every 1e-300nm --pixel-size 1e30km", "invalid --every '1e-300nm'"),
         ("tessellate in.csv --max-distance 1e999um --pixel-size 1um", "expected a decimal"),
     ],
 )

@@ -91,9 +91,7 @@ def test_squares_of_a_spacing_have_the_table_of_a_pixel_size(run, dots, side):
 MALFORMED = [
     ("0,1", "'0,1'"),
     ("1", "'1'"),
-    ("a", "'a'"),
     ("-1,1", "'-1,1'"),
-    ("1,2,3,4", "'1,2,3,4'"),
     ("1e-9,1", "expected sides that are at most 2097152 times the largest length which divides them all"),
     ("1um,1", "'1um,1'"),
     ("1furlong,1um", "expected one unit for all sides"),
@@ -110,10 +108,7 @@ def test_malformed_ones_are_refused(run, dots, form, message):
 
 REFUSED = [
     (["--spacing", "1,2,3"], "--spacing"),
-    (
-        ["--spacing", "1,2", "--pixel-size", "3"],
-        "--pixel-size",
-    ),
+    (["--spacing", "1,2", "--pixel-size", "3"], "--pixel-size"),
     (["--spacing", "1,2", "--method", "propagation"], "--spacing"),
     (["--spacing", "auto"], "--spacing"),
     (["--spacing", "1,2", "--max-distance", "3um"], "--max-distance 3um"),

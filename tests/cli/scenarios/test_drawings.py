@@ -118,11 +118,7 @@ def test_notes(run, folder):
         (["tessellate", "plate.dxf", "-o", "a.png"], 3, "plate.dxf"),
         (["skeleton-exact", "logo.svg", "--flatten", "0"], 2, "'0'"),
         (["skeleton-exact", "logo.svg", "--max-sites", "9"], 5, "logo.svg holds"),
-        (
-            ["skeleton-exact", "a.json", "--join-tolerance", "1"],
-            2,
-            "--join-tolerance",
-        ),
+        (["skeleton-exact", "a.json", "--join-tolerance", "1"], 2, "--join-tolerance"),
         (["skeleton-exact", "a.json", "--flatten", "1", "-f", "csv"], 2, "--flatten"),
         (["skeleton-exact", "logo.svg", "--what", "table", "-f", "dxf"], 2, "table cannot be written as dxf"),
         (["skeleton-exact", "logo.svg", "--threshold", "1"], 2, "--threshold"),

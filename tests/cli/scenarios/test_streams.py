@@ -96,11 +96,7 @@ def test_lines_of_a_shell(folder, tmp_path_factory, line, same):
     ("line", "code", "words"),
     [
         ("V tessellate - - < dots.csv", 2, "the input - and the input - are one stream"),
-        (
-            "V tessellate - --overlay /dev/stdin --what colour -o y.png < mask.pbm",
-            2,
-            "--overlay /dev/stdin",
-        ),
+        ("V tessellate - --overlay /dev/stdin --what colour -o y.png < mask.pbm", 2, "--overlay /dev/stdin"),
         ("V delaunay - --what cells --clip /dev/fd/0 < dots.csv", 2, "are one stream, which is read once"),
         ("V tessellate --files-from - - --out-dir x < dots.csv", 2, "--files-from -"),
         ("V tessellate <(cat dots.csv) <(cat dots.csv) --out-dir x", 2, "which this process alone can read"),

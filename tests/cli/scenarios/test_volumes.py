@@ -421,11 +421,7 @@ REFUSED = [
     ("stack.tif --volume --pixel-size 1 --what table", 2, "--pixel-size"),
     ("stack.tif --volume --max-distance 1um -o a.tif", 2, "but that of the voxels is not known: give --spacing"),
     ("stack.tif --volume --overlay stack.tif --what colour -o a.png", 2, "--overlay"),
-    (
-        "stack.tif --volume --min-area 2um3 -o a.tif",
-        2,
-        "--min-area 2um3",
-    ),
+    ("stack.tif --volume --min-area 2um3 -o a.tif", 2, "--min-area 2um3"),
     ("stack.tif --volume --fill-holes 2um2 --spacing 1,1,2um -o a.tif", 2, "voxels have volumes, such as 5um3"),
     ("stack.tif --volume --slice 1 -o a.tif", 2, "--slice"),
     ("stack.tif --volume --slice 7 --what colour -o a.png", 2, "--slice 7"),

@@ -114,10 +114,7 @@ def test_many_lines_are_read_at_once(written):
         ('{"x":1,"y":2} {"x":1,"y":2}\n', "line 1, column 15"),
         ('{"x":1,"y":2}\n{"x":1}\n', "row 2"),
         ('{"type":"Point","coordinates":[1,2]}\n{"x":1}\n', "line 2"),
-        (
-            '{"type":"Point","coordinates":[1,2]}\n{"type":"Point","coordinates":[1]}\n',
-            r"feature 2",
-        ),
+        ('{"type":"Point","coordinates":[1,2]}\n{"type":"Point","coordinates":[1]}\n', r"feature 2"),
         ('\x1e{"x":1,\n"y":2}\n\x1e{"x":\n1,}', "line 4, column 2"),
         ("[" * 200, "nest"),
         ("", "a.jsonl is empty: JSON was expected"),

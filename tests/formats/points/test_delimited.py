@@ -107,30 +107,15 @@ def test_no_points(text):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        (
-            "x,y\n1,2\n# c\n\n3,abc\n",
-            "line 5: 'abc' in column 2",
-        ),
+        ("x,y\n1,2\n# c\n\n3,abc\n", "line 5: 'abc' in column 2"),
         ("1,2\n3,\n", "line 2: column 2"),
         ("1,2\nNaN,3\n", "line 2: 'NaN' in column 1"),
         ("inf,2\n", "line 1: 'inf' in column 1"),
-        (
-            "x;y\r\n1;2\r\n1,5;2\r\n",
-            "line 3: '1,5' in column 1",
-        ),
+        ("x;y\r\n1;2\r\n1,5;2\r\n", "line 3: '1,5' in column 1"),
         ("1,5;2,5\n", "line 1: '1,5' in column 1"),
-        (
-            "1,2\n3,4\n5,6,7\n",
-            "line 3",
-        ),
-        (
-            "#\nx,y\n1\n",
-            "line 3",
-        ),
-        (
-            '1,2\n3,"4\n5,6\n',
-            "line 2",
-        ),
+        ("1,2\n3,4\n5,6,7\n", "line 3"),
+        ("#\nx,y\n1\n", "line 3"),
+        ('1,2\n3,"4\n5,6\n', "line 2"),
         (
             "x,y,label\n1,2,3\n\n4,5,0\n",
             "line 4: the label 0 is not a whole number from 1 to 4294967295; correct it, or "
@@ -143,10 +128,7 @@ def test_no_points(text):
             "leave the label out "
             "of columns",
         ),
-        (
-            "x,y,label\n1,2,b\n",
-            "line 2: 'b' in column 3",
-        ),
+        ("x,y,label\n1,2,b\n", "line 2: 'b' in column 3"),
     ],
 )
 def test_bad_lines(text, message):
@@ -177,10 +159,7 @@ def test_bad_lines(text, message):
             'columns="lng,lat" '
             "(its columns are 1 = lng, 2 = lat)",
         ),
-        (
-            "1|2\n",
-            "'1|2'",
-        ),
+        ("1|2\n", "'1|2'"),
     ],
 )
 def test_unknown_columns(text, message):

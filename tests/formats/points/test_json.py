@@ -138,24 +138,12 @@ def test_geojson_notes():
             "a.geojson, feature 2: 'Polygon' is not a point; replace it by its centroid or its vertices "
             "(skeleton_exact takes polygons and lines)",
         ),
-        (
-            collection(feature([1, 2]), feature([1, "2"])),
-            "a.geojson, feature 2: [1, '2']",
-        ),
+        (collection(feature([1, 2]), feature([1, "2"])), "a.geojson, feature 2: [1, '2']"),
         (collection(feature(None)), "a.geojson, feature 1"),
         (collection(5), "a.geojson, feature 1"),
-        (
-            collection(feature([1, 2], properties=[])),
-            "a.geojson, feature 1",
-        ),
-        (
-            collection({"type": "Feature", "geometry": "x"}),
-            "a.geojson, feature 1",
-        ),
-        (
-            '{"type": "FeatureCollection"}',
-            "FeatureCollection",
-        ),
+        (collection(feature([1, 2], properties=[])), "a.geojson, feature 1"),
+        (collection({"type": "Feature", "geometry": "x"}), "a.geojson, feature 1"),
+        ('{"type": "FeatureCollection"}', "FeatureCollection"),
         ('{"type": "Circle"}', "a.geojson: 'Circle'"),
         ("[]", "a.geojson"),
         ('{"a":' * 1000, "a.geojson, line 1"),

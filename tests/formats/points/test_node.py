@@ -24,30 +24,12 @@ def test_node_with_a_short_header():
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        (
-            "",
-            ".node",
-        ),
-        (
-            "1.5 2\n",
-            "line 1: '1.5 2'",
-        ),
-        (
-            "#\n1 3 0 0\n1 0 0 0\n",
-            "line 2",
-        ),
-        (
-            "2 2 0 0\n1 0 0\n",
-            "line 1",
-        ),
-        (
-            "1 2 0 0\n1 0 0\n2 0 0\n",
-            "line 1",
-        ),
-        (
-            "2 2 0 0\n1 0 0\n#\n3 0 0\n",
-            "line 4: vertex 3",
-        ),
+        ("", ".node"),
+        ("1.5 2\n", "line 1: '1.5 2'"),
+        ("#\n1 3 0 0\n1 0 0 0\n", "line 2"),
+        ("2 2 0 0\n1 0 0\n", "line 1"),
+        ("1 2 0 0\n1 0 0\n2 0 0\n", "line 1"),
+        ("2 2 0 0\n1 0 0\n#\n3 0 0\n", "line 4: vertex 3"),
         ("1 2 0 0\n1 0 b\n", "line 2: 'b' in column 3"),
         (
             "1 2 1 0\n1 0 0\n",

@@ -31,20 +31,14 @@ SHAPE = "{{'descr': '<f8', 'fortran_order': False, 'shape': {}}}"
 @pytest.mark.parametrize(
     ("data", "message"),
     [
-        (
-            npy(np.array([[1, "a"]], dtype=object), allow_pickle=True),
-            "holds pickled objects, which are never loaded",
-        ),
+        (npy(np.array([[1, "a"]], dtype=object), allow_pickle=True), "holds pickled objects, which are never loaded"),
         (npy(np.array([["1", "2"]])), "holds <U1, not numbers"),
         (npy(np.array([[1j, 2]])), "holds complex128, not numbers"),
         (npy(np.ones((3, 2), bool)), "holds truth values, not numbers; save an (n, 2)"),
         (npy(np.zeros((3, 4))), "(3, 4)"),
         (npy(np.zeros(4)), "holds an array of shape (4,)"),
         (npy(np.zeros((1, 2), dtype=[("x", "f8")])), "holds [('x', '<f8')], not numbers"),
-        (
-            npy(np.zeros((5, 2)))[:-1],
-            "(5, 2)",
-        ),
+        (npy(np.zeros((5, 2)))[:-1], "(5, 2)"),
         (b"\x93NUMPY\x01\x00", "version 1"),
         (b"", "version 1"),
         (header("{"), "version 1"),
@@ -53,14 +47,8 @@ SHAPE = "{{'descr': '<f8', 'fortran_order': False, 'shape': {}}}"
         (header(SHAPE.format("(2, 2)"), size=65535), "version 1"),
         (header(SHAPE.format("(-1, 2)")), "(-1, 2)"),
         (header(SHAPE.format("(1, 2)"), b"\x03\x00"), "version 1"),
-        (
-            npy(np.array([[1, 2], [3, math.nan]])),
-            "row 2",
-        ),
-        (
-            npy(np.array([[1.0, 2, 1], [3, 4, 0.5]])),
-            "row 2",
-        ),
+        (npy(np.array([[1, 2], [3, math.nan]])), "row 2"),
+        (npy(np.array([[1.0, 2, 1], [3, 4, 0.5]])), "row 2"),
         (npy(np.array([[1, 2, -1]])), "row 1"),
         (npy(np.array([[1.0, 2, math.nan]])), "row 1"),
     ],

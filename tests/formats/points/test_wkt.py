@@ -40,10 +40,7 @@ def test_wkt_without_points(text):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        (
-            "POINT (1 2)\n\nPOINT (1 b)\n",
-            "a.wkt, line 3: 'POINT (1 b)'",
-        ),
+        ("POINT (1 2)\n\nPOINT (1 b)\n", "a.wkt, line 3: 'POINT (1 b)'"),
         ("1,2\n", "a.wkt, line 1: '1,2'"),
         (
             "POINT (1 2)\nLINESTRING (0 0, 1 1)\n",

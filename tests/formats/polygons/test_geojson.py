@@ -91,20 +91,14 @@ def test_degrees_are_told_by_the_reference_system_alone_and_heights_are_left_out
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        (
-            collection(feature("Polygon", [SHELL]), feature("Point", [1, 2])),
-            "a.geojson, feature 2: 'Point'",
-        ),
+        (collection(feature("Polygon", [SHELL]), feature("Point", [1, 2])), "a.geojson, feature 2: 'Point'"),
         (collection(feature("Circle", [])), "a.geojson, feature 1: 'Circle'"),
         (collection(feature(None, [])), "a.geojson, feature 1: None"),
         (collection(feature("Polygon", None)), "a.geojson, feature 1"),
         (collection(feature("Polygon", [5])), "a.geojson, feature 1"),
         (collection(feature("Polygon", [[1, 2]])), "a.geojson, feature 1, vertex 1"),
         (collection(feature("MultiPolygon", [5])), "a.geojson, feature 1"),
-        (
-            collection(feature("MultiPolygon", [SHELL])),
-            "a.geojson, feature 1, vertex 1",
-        ),
+        (collection(feature("MultiPolygon", [SHELL])), "a.geojson, feature 1, vertex 1"),
         (collection(feature("MultiLineString", [5])), "a.geojson, feature 1"),
         (
             collection(feature("LineString", SHELL), feature("MultiPolygon", [[SHELL], [SHELL, HOLE, [[1, 2], [1]]]])),

@@ -65,15 +65,9 @@ def test_nothing_and_too_little():
             "a.wkt, line 3: 'POLYGON ((0 0, 1 0, 0 1))' is not WKT; write for example POLYGON ((0 0, 4 0, 0 3, 0 0)), "
             "each ring closed",
         ),
-        (
-            "LINESTRING (0 0, 1 1)\nPOINT (1 2)",
-            "a.wkt, line 2",
-        ),
+        ("LINESTRING (0 0, 1 1)\nPOINT (1 2)", "a.wkt, line 2"),
         ("GEOMETRYCOLLECTION (MULTIPOINT (1 2))", "a.wkt, line 1"),
-        (
-            "LINESTRING (0 0, 1 1)\nLINESTRING (0 0, 1 inf)",
-            "'LINESTRING (0 0, 1 inf)'",
-        ),
+        ("LINESTRING (0 0, 1 1)\nLINESTRING (0 0, 1 inf)", "'LINESTRING (0 0, 1 inf)'"),
         ("POLYGON ((0 0, nan 0, 1 1, 0 0))", "a.wkt, line 1: vertex 2"),
         ("LINESTRING (0 0, 1 1e999)", "a.wkt, line 1: vertex 2"),
         ("GEOMETRYCOLLECTION (" * 5000, "a.wkt, line 1"),

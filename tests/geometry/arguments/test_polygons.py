@@ -188,10 +188,7 @@ def test_extended_text_names_its_system():
         ({"type": "Point", "coordinates": [1, 2]}, "item 1"),
         (pd.DataFrame({"x": [1], "y": [2]}), "DataFrame"),
         (np.ones((9, 9), int), r"an image\? vorotool.outlines\(shapes\)"),
-        (
-            vorotool.Raster(np.ones((9, 9), bool)),
-            r"Raster",
-        ),
+        (vorotool.Raster(np.ones((9, 9), bool)), r"Raster"),
         (np.ones((9, 3)), r"shapes\[:, :2\] leaves the heights out"),
         (np.ones((2, 9)), r"give the transpose, \.T"),
         (

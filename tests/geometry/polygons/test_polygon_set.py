@@ -55,10 +55,7 @@ def test_no_polygons():
         ({"properties": {"name": "abc"}}, "name must hold one value a polygon"),
         ({"feature": [0]}, "feature must hold one value a polygon"),
         ({"feature": [1, 0]}, "feature must not fall"),
-        (
-            {"xy": [*XY[:4], [np.nan, 1], *XY[5:]]},
-            r"^polygon 1, hole 1, vertex 2",
-        ),
+        ({"xy": [*XY[:4], [np.nan, 1], *XY[5:]]}, r"^polygon 1, hole 1, vertex 2"),
     ],
 )
 def test_what_is_refused(changed, message):
