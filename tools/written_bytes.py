@@ -112,22 +112,30 @@ def sums(commit: str, of: str, commands: dict[str, str], jobs: int) -> dict[str,
         return found
     tree = built(commit)
     tell(f"running {len(commands)} commands by {commit[:12]}")
-    with ThreadPoolExecutor(jobs) as pool:
-        made = dict(zip(commands, pool.map(lambda line: digest(tree, line), commands.values()), strict=True))
+    with ThreadPoolExecutor(jobs) as pool, tempfile.TemporaryDirectory() as name:
+        samples = make_samples(tree, Path(name) / "samples")
+        made = dict(zip(commands, pool.map(lambda line: digest(tree, samples, line), commands.values()), strict=True))
     made |= figures(tree)
     kept.write_text(json.dumps(made, indent=1) + "\n", encoding="utf-8")
     return made
 
 
-def digest(tree: Path, line: str) -> str:
+def make_samples(tree: Path, folder: Path) -> Path:
+    """Make the folder that each command gets a copy of."""
+    folder.mkdir()
+    subprocess.run([tree / ".venv/bin/vorotool", "sample", "--all", "-o", "."], cwd=folder, check=True)
+    subprocess.run(["cp", "-r", tree / "docs/pipeline", folder / "pipeline"], check=True)
+    make_inputs(folder)
+    return folder
+
+
+def digest(tree: Path, samples: Path, line: str) -> str:
     """Run a line in a folder of samples: its exit code, and the sum of what it writes, says and counts."""
     variables = {name: value for name, value in os.environ.items() if not name.startswith("VOROTOOL_")}
     variables["PATH"] = f"{tree / '.venv/bin'}{os.pathsep}{variables['PATH']}"
     with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        subprocess.run([tree / ".venv/bin/vorotool", "sample", "--all", "-o", "."], cwd=folder, check=True)
-        subprocess.run(["cp", "-r", tree / "docs/pipeline", folder / "pipeline"], check=True)
-        make_inputs(folder)
+        folder = Path(name) / "work"
+        subprocess.run(["cp", "-rp", samples, folder], check=True)
         done = subprocess.run(
             ["bash", "-c", line], cwd=folder, env=variables, stdin=subprocess.DEVNULL, capture_output=True, check=False
         )
