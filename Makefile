@@ -51,7 +51,7 @@ docs: build gallery $(BUILD)/.docs ## build the documentation as a site that nee
 	$(RUN) tools/check_site.py $(SITE)
 
 $(BUILD)/.docs: $(BUILD)/.venv
-	$(BIN)/$(PIP) $$($(NEEDED) docs)
+	$(BIN)/$(PIP) $$($(NEEDED) docs frames graphs gis)
 	@touch $@
 
 .PHONY: test-all
@@ -86,8 +86,8 @@ stubs: build ## write the types of the compiled core (src/vorotool/_core/*.pyi) 
 	$(RUN) -m nanobind.stubgen --quiet --recursive --module vorotool._core --output-dir $(STUBS)
 
 .PHONY: notebooks
-notebooks: build $(BUILD)/.tests ## run the notebooks of docs, and keep in them what they show
-	$(RUN) docs/scripts/notebooks.py
+notebooks: build $(BUILD)/.tests ## run the notebooks of docs
+	$(RUN) -m pytest -n auto tests/documents/test_notebooks.py
 
 .PHONY: bench
 bench: build $(BUILD)/.tests ## measure beside the peers, in one run

@@ -16,7 +16,9 @@ html_title = f"vorotool {release}"
 extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.autosummary", "numpydoc", "sphinx_copybutton"]
 exclude_patterns = ["man", "scripts"]
 source_suffix = {".md": "myst-nb", ".ipynb": "myst-nb"}
-nb_execution_mode = "off"  # `make notebooks` runs them, and the tests do
+nb_execution_mode = "force"  # they are kept without outputs
+nb_execution_in_temp = nb_execution_raise_on_error = nb_merge_streams = True
+nb_execution_timeout = 300  # seconds a notebook
 myst_heading_anchors = 3
 smartquotes = False  # -- begins an option
 copybutton_prompt_text = "$ "
