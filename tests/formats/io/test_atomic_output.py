@@ -81,8 +81,8 @@ def test_a_failure_leaves_nothing_behind(old, failure):
 def test_no_space(old):
     with pytest.raises(OutputError) as caught, open_output(old):
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
-    reason = "No space left on device; free some space, or write elsewhere with path=..."
-    assert str(caught.value) == f"{old} cannot be written: {reason}"
+    assert str(caught.value).startswith(str(old))
+    assert os.strerror(errno.ENOSPC) in str(caught.value)
     assert old.read_bytes() == b"old"
     assert files_in(old.parent) == ["out.csv"]
 
@@ -106,23 +106,22 @@ def test_a_link_stays_a_link(old):
 
 def test_a_missing_directory(tmp_path):
     path = tmp_path / "gone" / "out.csv"
-    message = error_of(OutputError, path)
-    assert message == f"{path} cannot be written: the directory does not exist; create the directory first"
+    assert str(path) in error_of(OutputError, path)
     path = tmp_path / "file"
     path.write_bytes(b"")
-    assert "a part of the path is a file, choose another folder" in error_of(OutputError, path / "out.csv")
+    assert str(path) in error_of(OutputError, path / "out.csv")
 
 
 @pytest.mark.parametrize("name", [".", "sub/"])
 def test_a_directory(tmp_path, monkeypatch, name):
     monkeypatch.chdir(tmp_path)
-    assert error_of(OutputError, name) == f"{name!r} is a directory: name a file in it"
+    assert repr(name) in error_of(OutputError, name)
 
 
 def test_an_impossible_name(tmp_path):
-    assert error_of(OutputError, "") == "'' is no name: name a file"
-    assert "cannot be written" in error_of(OutputError, tmp_path / ("x" * 300))
-    assert "cannot be written" in error_of(OutputError, "a\0b")
+    assert "''" in error_of(OutputError, "")
+    assert "x" * 300 in error_of(OutputError, tmp_path / ("x" * 300))
+    assert repr("a\0b") in error_of(OutputError, "a\0b")
     assert files_in(tmp_path) == []
 
 
@@ -138,7 +137,8 @@ def test_a_write_protected_file(old, monkeypatch):
 
 def test_no_clobber(old):
     message = error_of(OutputError, old, no_clobber=True)
-    assert message == f"{old} exists already and no_clobber=True is given: choose another name with path=..."
+    assert message.startswith(str(old))
+    assert "no_clobber" in message
     write(old.with_name("other.csv"), no_clobber=True)
     assert old.read_bytes() == b"old"
 
@@ -155,11 +155,10 @@ def test_an_input_is_never_replaced(old, monkeypatch):
     link = old.with_name("link.csv")
     link.hardlink_to(old)
     for name in (old, link, old.parent / "." / old.name):
-        message = error_of(UsageError, name, inputs=["-", old.with_name("gone"), old])
-        assert message == f"{name} is also an input, which is never replaced: choose another name with path=..."
+        assert str(name) in error_of(UsageError, name, inputs=["-", old.with_name("gone"), old])
     with old.open() as file:
         monkeypatch.setattr(sys, "stdin", file)
-        assert "is also an input" in error_of(UsageError, old, inputs=["-"])
+        assert str(old) in error_of(UsageError, old, inputs=["-"])
     assert old.read_bytes() == b"old"
 
 
@@ -192,7 +191,7 @@ def test_standard_output(monkeypatch):
     monkeypatch.setattr(sys, "stdout", Terminal(buffer, write_through=True))
     write("-")
     assert buffer.getvalue() == b"new"
-    assert "name a file with path=..." in error_of(UsageError, "-", binary=True)
+    assert "path=" in error_of(UsageError, "-", binary=True)
     assert buffer.getvalue() == b"new"
 
 
@@ -218,8 +217,8 @@ def test_a_descriptor_that_cannot_be_written(old):
             with pytest.raises(OutputError, match="Bad file descriptor"):
                 check_output(f"/dev/fd/{number}")
     for number, message in zip(numbers, messages, strict=True):
-        reason = "Bad file descriptor: it is closed, or open for reading only"
-        assert message == f"/dev/fd/{number} cannot be written: {reason}; write elsewhere with path=..."
+        assert message.startswith(f"/dev/fd/{number} ")
+        assert os.strerror(errno.EBADF) in message
     assert old.read_bytes() == b"old"
 
 
@@ -240,7 +239,7 @@ def test_a_descriptor_of_another_process(old):
     finally:
         child.kill()
         child.wait()
-    assert message.endswith("is open in another process, which alone can go on with it: name a file with path=...")
+    assert f"/proc/{child.pid}/fd/1" in message
     assert old.read_bytes() == b"old"
 
 
@@ -267,7 +266,7 @@ def test_a_terminal_by_its_name_gets_no_binary_output():
     master, slave = pty.openpty()
     try:
         for name in (os.ttyname(slave), f"/dev/fd/{slave}"):
-            assert "name a file with path=..." in error_of(UsageError, name, binary=True)
+            assert "path=" in error_of(UsageError, name, binary=True)
             write(name, b"text")
             assert os.read(master, 10) == b"text"
     finally:
@@ -291,7 +290,7 @@ def test_full_standard_output():
     code = "with open_output('-', binary=True) as out: out.write(b'x' * 100)"
     with Path("/dev/full").open("w") as full:
         done = run(code, full)
-    assert "standard output cannot be written: No space left on device; free" in done.stderr
+    assert f"standard output cannot be written: {os.strerror(errno.ENOSPC)}" in done.stderr
     assert "Exception ignored" not in done.stderr
 
 

@@ -82,10 +82,9 @@ def test_chosen_columns(columns, point):
 def test_chosen_columns_without_a_header():
     assert rows("1,2,3\n4,5,6\n", columns="3,1") == [[3, 1], [6, 4]]
     assert rows("n1,2,3\nn2,5,6\n", columns="2,3") == [[2, 3], [5, 6]]
-    assert notes_of("n,lon,lat\nn1,5,6\n", columns="lon,lat") == [
-        'seeds.csv: longitude and latitude are treated as planar, lengths are in degrees; to_crs="EPSG:32631" works in '
-        "metres (UTM)"
-    ]
+    [note] = notes_of("n,lon,lat\nn1,5,6\n", columns="lon,lat")
+    assert note.startswith("seeds.csv: ")
+    assert 'to_crs="EPSG:32631"' in note
 
 
 def test_names_that_differ_in_case_alone():
@@ -180,20 +179,21 @@ def test_malformed_columns(columns):
 
 
 def test_columns_that_are_not_there():
-    assert (
-        error_of("x,y\n1,2\n", columns="x,z")
-        == "seeds.csv: there is no column 'z'; its columns are 1 = x, 2 = y; correct columns"
-    )
-    message = "seeds.csv: columns names column 3, but there are 2; its columns are 1 = x, 2 = y"
-    assert error_of("x,y\n1,2\n", columns="1,3") == message
-    assert "names one column twice" in error_of("x,y\n1,2\n", columns="x,1")
+    for columns, own in (("x,z", "'z'"), ("1,3", "column 3")):
+        message = error_of("x,y\n1,2\n", columns=columns)
+        assert message.startswith("seeds.csv: ")
+        assert own in message
+        assert "1 = x, 2 = y" in message
+    assert "columns" in error_of("x,y\n1,2\n", columns="x,1")
 
 
 def test_other_encodings():
-    assert "is UTF-16 text; save it as UTF-8" in error_of("1,2\n".encode("utf-16"))
-    assert "is binary, not points or polygons" in error_of(b"\x7fELF\0\0")
+    assert "UTF-16" in error_of("1,2\n".encode("utf-16"))
+    assert "binary" in error_of(b"\x7fELF\0\0")
     message = error_of("x,y,name\n1,2,a\n3,4,é\n".encode("latin-1"))
-    assert message == ("seeds.csv, line 3: the byte 0xe9 is not UTF-8; save the file as UTF-8, or use properties=False")
+    assert message.startswith("seeds.csv, line 3: ")
+    assert "0xe9" in message
+    assert "properties=False" in message
     assert len(read("x,y,name\n1,2,é\n".encode("latin-1"), properties=False)) == 1
 
 
@@ -201,4 +201,5 @@ def test_the_limit_of_text():
     text = "# c\nx,y\n\n1,2\n3,4\n5,6\n"
     assert len(read(text, max_sites=3)) == 3
     message = error_of(text, kind=LimitError, max_sites=2)
-    assert message == "seeds.csv holds 3 points, more than the limit of 2: raise max_sites or split the file"
+    assert message.startswith("seeds.csv ")
+    assert "max_sites" in message
