@@ -64,8 +64,3 @@ def is_known(unit: str) -> bool:
 def metres(unit: str | None) -> Fraction | None:
     """Give the metres of a unit of the metric system, by its one name; None of any other."""
     return None if unit is None or unit in _IMPERIAL else _LENGTHS.get(unit)
-
-
-def same_unit(a: str | None, b: str | None) -> bool:
-    """Tell whether two units are one."""
-    return a == b if a is None or b is None else unit_name(a) == unit_name(b)

@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.arrangement.lattice_rings import PlacedShapes, placed_shapes
-from vorotool.engines.arrangement.planar_graph import graph_for_skeletons
+from vorotool.engines.arrangement.lattice_rings import PlacedShapes
 from vorotool.engines.skeleton.contraction import without_equal_nodes
 from vorotool.engines.skeleton.exact import (
     Frame,
@@ -107,24 +106,6 @@ class ApproximateSkeleton:
     open_corners: int  # corners under 180 degrees that could not be joined
     # (p,) int32 array: into how many parts each piece of an edge should be divided for a tolerance
     parts: NDArray[np.int32]
-
-
-def sampled_shapes(
-    polygons: Any,
-    *,
-    step: float,
-    sampling: str | None = None,
-    strict: bool = False,
-    most: int = MOST_SEEDS,
-    threads: int = 0,
-    progress: Progress = None,
-) -> SampledShapes:
-    """Place polygons, sample them, and compute the Voronoi diagram; arguments and errors as of `skeleton_approx`."""
-    options = SamplingOptions(step, None, sampling)
-    threads = checked_threads(threads)
-    graph = graph_for_skeletons(polygons, strict=strict, threads=threads, progress=progress)
-    placed = placed_shapes(graph, threads=threads)
-    return sampled_graph(graph, placed, options, most=most, threads=threads, progress=progress)
 
 
 def sampled_graph(

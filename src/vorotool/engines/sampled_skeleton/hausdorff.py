@@ -49,11 +49,6 @@ def deviation(skeleton: Skeleton, other: Skeleton) -> Deviation | None:
     return Deviation(float(distance[at]), float(distance.mean()), x, y, at // places.shape[1])
 
 
-def compare_with_exact(found: ApproximateSkeleton, *, side: str = "interior", threads: int = 0) -> dict[str, Any]:
-    """Measure how far an approximate skeleton is from the exact one, both ways."""
-    return {name: _as_dict(way) for name, (way, _) in _both_ways(found, side=side, threads=threads).items()}
-
-
 def compare_parts(found: FeatureApproximation, *, side: str = "interior", threads: int = 0) -> dict[str, Any]:
     """Measure how far an approximate skeleton of features is from the exact one, part by part."""
     sides = [side] * len(found.parts)
