@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from fuzz.runner import Cases, options
+from support.few import slow
 from support.processes.ended import ended_python
 
 FUZZ = Path(__file__).parents[1] / "fuzz"
@@ -35,14 +36,14 @@ def test_a_script_that_compares_nothing_fails(script):
     ("script", "arguments", "said"),
     [
         ("tessellate.py", "--pixels 400000 --seed 7", ", 0 wrong, "),
-        ("spacing.py", "--pixels 100000 --first 1 --seed 7", ", 0 wrong, "),
-        ("volumes.py", "--voxels 200000 --first 1 --seed 7", ", 0 wrong, "),
-        ("digital.py", "--sets 12 --seed 3", "0 failures"),
-        ("written.py", "--sets 40 --seed 2", "0 failures"),
         ("voronoi.py", "--cases 72 --seed 2", "0 failures"),
-        ("voronoi_cuts.py", "--cases 36 --seed 2", "0 failures"),
-        ("bytes.py", "--cases 2000 --minutes 5 --seed 7 --commands 0.02", "2,000 inputs, 0 failures"),
-        (
+        slow("spacing.py", "--pixels 100000 --first 1 --seed 7", ", 0 wrong, "),
+        slow("volumes.py", "--voxels 200000 --first 1 --seed 7", ", 0 wrong, "),
+        slow("digital.py", "--sets 12 --seed 3", "0 failures"),
+        slow("written.py", "--sets 40 --seed 2", "0 failures"),
+        slow("voronoi_cuts.py", "--cases 36 --seed 2", "0 failures"),
+        slow("bytes.py", "--cases 2000 --minutes 5 --seed 7 --commands 0.02", "2,000 inputs, 0 failures"),
+        slow(
             "faults.py",
             "--writers png,csv,zarr --kills 6 --places 12 --batches 0 --pairs 0",
             "kills that left a temporary: 6",

@@ -23,8 +23,13 @@ def written(folder, image, chunks, threads=1):
     return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
 
 
-@pytest.mark.parametrize("chunks", [(70, 50), (16, 16), (1, 50), (7, 9)])
-@pytest.mark.parametrize("dtype", [np.uint8, np.uint16, np.uint32, np.uint64, np.int32, np.float32])
+@pytest.mark.parametrize(
+    ("dtype", "chunks"),
+    [
+        *((np.uint8, (70, 50)), (np.uint16, (16, 16)), (np.uint32, (7, 9)), (np.uint64, (1, 50))),
+        *((np.int32, (16, 16)), (np.float32, (7, 9))),
+    ],
+)
 def test_zarr_reads_what_is_written(tmp_path, chunks, dtype):
     image = IMAGE.astype(dtype)
     files = written(tmp_path / "a", image, chunks)
