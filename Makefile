@@ -38,7 +38,11 @@ include figures.mk
 
 .PHONY: test
 test: build lint $(BUILD)/.tests ## lint, then run all tests but the slow ones and those of the documents, on all cores
-	$(RUN) -m pytest -n auto -m "not slow" --ignore tests/documents
+	$(RUN) -m pytest -n auto -m "not slow and not more" --ignore tests/documents
+
+.PHONY: test-slow
+test-slow: build $(BUILD)/.tests ## run the tests that take seconds a case
+	$(RUN) -m pytest -n auto -m "slow and not more" --ignore tests/documents
 
 .PHONY: test-docs
 test-docs: build $(BUILD)/.tests ## run the commands, examples and notebooks of README and docs, check pages, links, pictures
@@ -55,8 +59,8 @@ $(BUILD)/.docs: $(BUILD)/.venv
 	@touch $@
 
 .PHONY: test-all
-test-all: test test-docs ## make test, make test-docs, then the slow tests
-	$(RUN) -m pytest -n auto -m slow --ignore tests/documents
+test-all: test test-slow test-docs ## all tests, with all seeds
+	$(RUN) -m pytest -n auto -m more --ignore tests/documents
 
 .PHONY: lint
 lint: build $(BUILD)/.tests ## ruff, mypy --strict, import-linter, clang-format, codespell

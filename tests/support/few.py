@@ -7,11 +7,15 @@ import pytest
 
 
 def few(values: Iterable[Any], count: int = 6) -> list[Any]:
-    """Return the values for `parametrize`, those after the first `count` marked slow."""
+    """Return the values for `parametrize`, those after the first `count` marked as more of the same."""
     listed = list(values)
-    return listed[:count] + [slow(*value) if isinstance(value, tuple) else slow(value) for value in listed[count:]]
+    return listed[:count] + [_marked(value, pytest.mark.more) for value in listed[count:]]
 
 
 def slow(*values: Any) -> Any:
     """Return one set of parameters, marked slow."""
-    return pytest.param(*values, marks=pytest.mark.slow)
+    return _marked(values, pytest.mark.slow)
+
+
+def _marked(value: Any, mark: pytest.MarkDecorator) -> Any:
+    return pytest.param(*(value if isinstance(value, tuple) else (value,)), marks=mark)
