@@ -4,6 +4,8 @@ import pytest
 
 from support.processes.machine_runs import Setting, differences, narrowest, numpy_levels, run, smoke
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def usual():

@@ -71,7 +71,7 @@ def test_against_scipy():
 
 @families
 def test_threads_change_nothing(name):
-    points = draw(name, 3000, 4)  # several parts of 1024 points
+    points = draw(name, 2100, 4)  # several parts of 1024 points
     one = quietly(points, threads=1)
     for threads in (2, 5):
         other = quietly(points, threads=threads)

@@ -79,7 +79,7 @@ def bands(request, monkeypatch):
     monkeypatch.setattr("vorotool.engines.tessellation.streamed_image.SWEEP_PIXELS", labelled)
 
 
-@pytest.mark.parametrize(("name", "mask"), few(IMAGES, 10))
+@pytest.mark.parametrize(("name", "mask"), few(IMAGES, 4))
 @pytest.mark.parametrize(("mode", "connectivity"), [("components", 8), ("components", 4), ("pixels", 8)])
 def test_masks(name, mask, mode, connectivity, bands):
     values = mask.astype(np.uint8)
