@@ -136,7 +136,8 @@ BOTH_WAYS = [VECTORS[place] for place in (0, 4, 7, 10, 12)]
 def test_vectors_are_those_of_pixels_on_the_map(run, tmp_path, command, transform):
     values = DOTS if "pixels" in command else MASK
     write(tmp_path / "in.tif", values, transform)
-    flatten = ["--flatten", "1e-6"] if command.startswith("skeleton") else []
+    closeness = 1e-4 if "offset" in command or "shape" in command.split() else 1e-6  # these have many arcs
+    flatten = ["--flatten", closeness] if command.startswith("skeleton") else []
     on_map = run(*command.split(), "in.tif", "-f", "geojson", *flatten)
     assert (on_map.code, "in.tif" in on_map.err) == (0, True)
     pixels = run(*command.split(), "in.tif", "-f", "geojson", "--pixel-size", "1", *flatten)
@@ -147,7 +148,7 @@ def test_vectors_are_those_of_pixels_on_the_map(run, tmp_path, command, transfor
     assert len(on_map["features"]) == len(pixels["features"]) > 0
     a, b, c, d, e, f = tuple(transform)[:6]
     placed = affine_transform(geometry(pixels["features"]), [a, b, d, e, c + a / 2, f + e / 2])
-    assert placed.hausdorff_distance(geometry(on_map["features"])) < 1e-5 * a
+    assert placed.hausdorff_distance(geometry(on_map["features"])) < 10 * closeness * a
     rings = [
         each["geometry"] for each in on_map["features"] if each["geometry"] and each["geometry"]["type"] == "Polygon"
     ]
