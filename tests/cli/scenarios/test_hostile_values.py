@@ -7,6 +7,7 @@ import click
 import numpy as np
 import pytest
 
+from support.few import few
 from vorotool.cli.main import COMMANDS
 from vorotool.cli.options.shared import OPTIONS
 
@@ -95,8 +96,15 @@ def cases():
             yield pytest.param(name, option, VALUES[number :: len(few)], id=f"{name} {option.opts[-1]}")
 
 
+CASES = sorted(enumerate(cases()), key=lambda numbered: (numbered[0] % 4, numbered[0]))
+"""Every fourth comes first: it is run with the slow tests, the others are more of the same."""
+
+
 @pytest.mark.slow
-@pytest.mark.parametrize(("name", "option", "values"), list(cases()))
+@pytest.mark.parametrize(
+    ("name", "option", "values"),
+    few([case for _, case in CASES], -(-len(CASES) // 4)),
+)
 def test_no_value_of_an_option_is_a_defect(run, folder, name, option, values):
     (folder / "shape.wkt").write_text("POLYGON ((0 0, 9 0, 9 4, 0 4, 0 0))\n")
     (folder / "space.csv").write_text("x,y,z\n1,2,0\n4,0,2\n")
