@@ -39,62 +39,62 @@ def skeleton_exact(
     threads: int = 0,
     progress: Progress = None,
 ) -> Skeleton:
-    """Compute the skeleton of polygons: where the nearest place on the boundary is not one alone.
+    """Compute the exact skeleton of polygons: the points with more than one nearest boundary point.
 
-    The polygons are placed on a lattice of 31 bits, and from there on every decision is exact: the Voronoi diagram of
-    the vertices and open edges is made, and of its edges those between an edge and its own end are deleted. With holes
-    the result is exact just the same. What is inside a feature, one item of the input with all its parts, is what it
-    would be if there were no others: they may touch it, overlap it, or lie in it. What is outside is of all features.
-    The skeleton of crack outlines goes through corners that pixels hang together at: see :func:`vorotool.outlines`.
+    The polygons are rounded to a lattice of 31 bits; after that every decision is exact. The skeleton is the Voronoi
+    diagram of the vertices and open edges without the Voronoi edges between an edge and its own end; this holds with
+    holes too. The interior skeleton of a feature, one item of the input with all its parts, ignores all other features:
+    they may touch it, overlap it, or lie in it. The exterior skeleton is that of all features. The skeleton of crack
+    outlines passes through corners where pixels touch: see :func:`vorotool.outlines`.
 
     Parameters
     ----------
     polygons : PolygonSet, shapely geometry, GeoSeries, GeoDataFrame, GeoJSON, (n, 2) array, …, or a list of these
-        An array is the shell of one polygon; a mapping has ``shell`` and ``holes``, or ``line``. Of a list each item is
+        An array is the shell of one polygon; a mapping has ``shell`` and ``holes``, or ``line``. Each item of a list is
         one feature, and so is each row.
     side : {"interior", "exterior", "both"}
         Inside polygons, outside all of them, or both.
     features : {"separate", "together"}
-        Take each feature by itself, or all of them, and open lines among them, as boundaries of one diagram.
+        Treat each feature by itself, or all features, open lines included, as boundaries of one diagram.
     gap : float
-        Shorten each edge by so much at both ends, as the paper does (Figure 10): then nothing leads to the corners,
-        and the result is no longer exact. The new ends go to the nearest points of the lattice.
+        Length by which each edge is shortened at both ends, as in the paper (Figure 10): no branch then leads to a
+        corner, and the result is no longer exact. The new ends are rounded to the lattice.
     complete : bool
-        With a gap, add the straight lines that lead from the skeleton to the corners.
+        With a gap, add the straight lines from the skeleton to the corners.
     frame : Box or (x, y, w, h), optional
-        Rectangle that arcs outside are cut by; by default the bounds and a tenth of their larger side around them.
+        Rectangle that clips the exterior arcs; by default the bounds, widened by a tenth of their longer side.
     border : Box or (x, y, w, h), optional
-        Rectangle that cuts the polygons, such as that of an image: where their edges are on its border they go on
-        beyond it. These edges are no sites, so that the skeleton is that of the rest of the outline, cut by the
-        rectangle: it runs to the border, and does not fork into the corners there. For what is inside features, each
-        by itself, without a gap.
+        Rectangle that cuts off the polygons, such as that of an image: polygons with edges on its border continue
+        beyond it. These edges are not sites: the skeleton is that of the rest of the outline, clipped to the rectangle.
+        It runs to the border and does not fork into the corners there. Only for the interior of separate features,
+        without a gap.
     strict : bool
-        Refuse polygons that would be repaired.
+        Refuse polygons that need repair.
     threads : int
-        0 uses all.
+        Number of threads; 0 uses all.
     progress : callable, optional
         Called with the fraction done of each step.
 
     Returns
     -------
     Skeleton
-        Without arcs where there is no such side.
+        The skeleton, without arcs where the polygons have no such side.
 
     Raises
     ------
     InputError
-        If a coordinate is not finite or beyond the border, an edge is not longer than twice the gap, or `strict` and
-        something would be repaired.
+        If a coordinate is not finite or beyond the border, an edge is at most twice the gap long, or if `strict` and a
+        polygon needs repair.
     UsageError
-        If the side, the gap, the frame or the border is none, or there is a border with another side, with features
-        together or with a gap.
+        If the side, the gap, the frame or the border is invalid, or a border is combined with another side, with
+        features together or with a gap.
     LimitError
         If there are too many vertices.
 
     Warns
     -----
     VorotoolWarning
-        If polygons were repaired, or none has an inside and that is asked for.
+        If polygons were repaired, or the interior is requested and no polygon has one.
 
     References
     ----------
@@ -136,61 +136,61 @@ def skeleton_approx(
     threads: int = 0,
     progress: Progress = None,
 ) -> Skeleton:
-    """Approximate the skeleton of polygons by the Voronoi diagram of samples, with a certified error of every arc.
+    """Approximate the skeleton of polygons by the Voronoi diagram of samples, with an error bound for each arc.
 
-    The edges are sampled, and each seed has the labels of the edges that it is on. Of the Voronoi diagram of the seeds,
-    the edges between seeds with a label in common are deleted, and those that the polygons cross. All that is decided
-    exactly. No point of an arc is farther from the exact skeleton than its `error_bound`. What is inside a feature is
-    what it would be if there were no others, as of :func:`skeleton_exact`; what is outside is of all features.
+    The edges are sampled, and each sample has the labels of the edges it lies on. Voronoi edges between samples with a
+    common label are deleted, and so are those that cross the polygons. These decisions are exact. No point of an arc is
+    farther from the exact skeleton than its `error_bound`. The interior skeleton of a feature ignores all other
+    features, as in :func:`skeleton_exact`; the exterior skeleton is that of all features.
 
     Parameters
     ----------
     polygons : PolygonSet, shapely geometry, GeoSeries, GeoDataFrame, GeoJSON, (n, 2) array, …, or a list of these
-        An array is the shell of one polygon; a mapping has ``shell`` and ``holes``, or ``line``. Of a list each item is
+        An array is the shell of one polygon; a mapping has ``shell`` and ``holes``, or ``line``. Each item of a list is
         one feature, and so is each row.
     step : float
-        Between samples, in input units.
+        Distance between samples, in input units.
     tolerance : float
-        Instead of a step: edges are sampled as finely as it takes for all error bounds to be at most this. The bounds
-        are from approximate to exact; where corners of nearly 180 degrees have nearly invisible branches, the exact
-        skeleton may be farther away.
+        Largest error bound, instead of a step: edges are sampled finely enough to meet it. The bounds are distances
+        from the approximate to the exact skeleton; at corners of nearly 180 degrees, whose branches are nearly
+        invisible, the exact skeleton may be farther away.
     sampling : {"paper", "symmetric"}
-        Every edge from its first end, the last gap being between h/2 and 3h/2, as the paper prints it (by default with
-        a step); or the same distances from each corner on all of its edges (always with a tolerance).
+        Sample every edge from its first end, the last gap being between h/2 and 3h/2, as in the paper (default with a
+        step); or at the same distances from each corner on all of its edges (always with a tolerance).
     side : {"interior", "exterior", "both"}
         Inside polygons, outside all of them, or both.
     features : {"separate", "together"}
-        Take each feature by itself, or all of them, and open lines among them, as boundaries of one diagram.
+        Treat each feature by itself, or all features, open lines included, as boundaries of one diagram.
     complete : bool, optional
-        Join corners under 180 degrees by a line along the bisector to the first arc; by default with a tolerance.
+        Join corners under 180 degrees to the first arc by a line along the bisector; default with a tolerance.
     frame : Box or (x, y, w, h), optional
-        Rectangle that arcs outside are cut by; by default the bounds and a tenth of their larger side around them.
+        Rectangle that clips the exterior arcs; by default the bounds, widened by a tenth of their longer side.
     strict : bool
-        Refuse polygons that would be repaired.
+        Refuse polygons that need repair.
     threads : int
-        0 uses all.
+        Number of threads; 0 uses all.
     progress : callable, optional
         Called with the fraction done of each step.
 
     Returns
     -------
     Skeleton
-        Of straight arcs. Radii are clearances: distances from the polygons. Error bounds are NaN where nothing is
-        proved, which is so in a few places where edges are much nearer to each other than samples.
+        The skeleton, with straight arcs. Radii are clearances: distances from the polygons. Error bounds are NaN where
+        nothing is proved: in a few places where edges are much nearer to each other than samples.
 
     Raises
     ------
     InputError
-        If a coordinate is not finite, or `strict` and something would be repaired.
+        If a coordinate is not finite, or if `strict` and a polygon needs repair.
     UsageError
-        If the step or the tolerance is none, or both or neither is given; of the other options likewise.
+        If the step, the tolerance or another option is invalid, or not exactly one of step and tolerance is passed.
     LimitError
         If there are too many seeds, or the tolerance cannot be met.
 
     Warns
     -----
     VorotoolWarning
-        If polygons were repaired, or none has an inside and that is asked for.
+        If polygons were repaired, or the interior is requested and no polygon has one.
 
     References
     ----------

@@ -80,59 +80,59 @@ def read(
     flatten: Flatten = None,
     join_tolerance: float | None = None,
 ) -> PointSet | PolygonSet | Raster | Skeleton | Offsets | VoronoiMap | Volume | VolumePoints:
-    """Read points, polygons and lines, an image, or a skeleton, offset curves or a Voronoi map as JSON has them.
+    """Read a file: points, polygons and lines, an image, a volume, or a result of vorotool in JSON.
 
-    A plain JSON list of pairs holds points, unless ``geometry`` is polygons. GeoJSON and WKT hold either points or
-    polygons and lines: what their first geometry is.
+    A plain JSON list of pairs holds points, unless ``geometry`` is polygons. GeoJSON and WKT hold either points, or
+    polygons and lines, by their first geometry.
 
     Parameters
     ----------
     path : str or path
         The file; ``-`` is standard input.
     geometry : {"points", "polygons", "volume", "space"}, optional
-        What must be in a file that is no image; by default its content tells. A volume is all pages of a TIFF as slices
-        (those of ImageJ and OME with the sides of the voxels), or an NPY, Zarr or OME-Zarr array of three axes, z, y
-        and x. Space is points with a z: a column of this name, or the third number of a position.
+        Expected content of a file that is not an image; by default it is detected. A volume is all pages of a TIFF as
+        slices (with the sides of the voxels from ImageJ and OME), or an NPY, Zarr or OME-Zarr array with axes z, y and
+        x. Space means points with a z: a column of this name, or the third number of a position.
     input_format : str, optional
         One of csv, csv-wkt, node, npy, npz, geojson, jsonl, wkt, wkb, json, poly, gpkg, fgb, shp, kml, gpx, parquet,
-        svg, dxf, png, tiff, pnm, zarr, jpeg, bmp, gif, webp and avif (or another usual extension of one), where
-        extension and content leave it unclear.
+        svg, dxf, png, tiff, pnm, zarr, jpeg, bmp, gif, webp and avif (or another usual extension), if extension and
+        content are ambiguous.
     columns : str, optional
-        ``X,Y[,LABEL]`` of a point list, by name or number from 1; of points of space ``X,Y,z=Z[,LABEL]``.
+        Columns ``X,Y[,LABEL]`` of a point list, by name or number from 1; for points in space ``X,Y,z=Z[,LABEL]``.
     page : int, optional
         Page of an image stack, from 0; picture of an animation.
     max_pixels, max_sites : int
-        Larger inputs are refused before memory is taken; of a volume voxels are counted.
+        Limits checked before memory is allocated; for a volume voxels are counted.
     properties : bool
-        Keep the further columns of a point list, and the properties of polygons.
+        Keep the other columns of a point list, and the properties of polygons.
     threads : int
-        0 uses all.
+        Number of threads; 0 uses all.
     note : callable, optional
-        Told in words what was recognised.
+        Called with a text that describes what was recognised.
     crs : str, optional
-        The coordinate reference system of points or polygons that name none, such as EPSG:3857.
+        Coordinate reference system of points or polygons without one, such as EPSG:3857.
     to_crs : str, optional
-        The system in which the coordinates are wanted: those of an input in another one are transformed.
+        Coordinate reference system to transform the coordinates to.
     layer : str, optional
-        The layer of a map that has several.
+        Layer to read from a file with several.
     flatten : float or "auto", optional
-        How far lines may be from the curves of a drawing or a map; by default, or with "auto", 1/2000 of the diagonal
-        of the box of each piece, and in a drawing 0.01 mm where the unit is known.
+        Largest distance of lines from the curves of a drawing or a map; by default, or with "auto", 1/2000 of the
+        diagonal of the box of each piece, and in a drawing 0.01 mm if the unit is known.
     join_tolerance : float, optional
-        How far ends of the lines of a DXF drawing may be apart that are joined; by default 0.005 mm, or 1/100000 of its
-        extent where the unit is not known.
+        Largest distance between ends of lines of a DXF drawing that are joined; by default 0.005 mm, or 1/100000 of its
+        extent if the unit is not known.
 
     Returns
     -------
     PointSet, PolygonSet, Raster, Skeleton, Offsets, VoronoiMap, Volume or VolumePoints
-        What is in the file.
+        The content of the file.
 
     Raises
     ------
     InputError
-        If the file cannot be read; the message names the place and what to do.
+        If the file cannot be read; the message names the position and what to do.
     LimitError
-        If it is too large.
+        If the file is too large.
     UsageError
         If an option is malformed, or does not fit the input.
 

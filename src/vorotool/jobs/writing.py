@@ -46,57 +46,56 @@ def write(
     overwrite: bool = False,
     threads: int = 0,
 ) -> None:
-    """Write a value in any format that has a place for it, or draw it.
+    """Write a result to a file, in any format that can hold it, or as a picture.
 
     Parameters
     ----------
     value : value of the library
-        What to write: any result of the library, in the formats that its command writes it in. The PNG of a
-        `LabelImage` holds its labels. A `LabelVolume` or a `Volume` goes into TIFF, as a stack that is described as its
-        input was (see `VoxelGrid`), NPY and Zarr.
+        Any result of the library, in the formats of its command. The PNG of a `LabelImage` holds its labels. A
+        `LabelVolume` or a `Volume` is written as TIFF, a stack described like its input (see `VoxelGrid`), NPY or Zarr.
     path : str or path
         The file, replaced atomically.
     fmt : str, optional
-        Format, or a usual extension of it; by default that of the path.
+        Format, or a usual extension of it; by default from the extension of the path.
     what : str, optional
-        Which part, by the name that ``--what`` has for it: of a triangulation ``edges``, ``triangles`` or ``table``,
-        of an alpha shape ``edges``, ``polygons``, ``complex``, ``general``, ``points`` or ``table``, of a skeleton
-        ``skeleton``, ``elements``, ``branches`` or ``table``, of points along one ``points`` or ``transects``, of a
-        label image ``labels`` or ``colour``, its picture as PNG. By default what the format is for, else the first.
+        Part to write, as for ``--what``. Triangulation: ``edges``, ``triangles`` or ``table``; alpha shape: ``edges``,
+        ``polygons``, ``complex``, ``general``, ``points`` or ``table``; skeleton: ``skeleton``, ``elements``,
+        ``branches`` or ``table``; points along a skeleton: ``points`` or ``transects``; label image: ``labels`` or
+        ``colour``, its picture as PNG. By default what the format is for, else the first.
     flatten : float or "auto", optional
-        Of curves in formats without them: how far lines may be from them; by default, or with "auto", each by its size.
+        Largest distance of lines from curves in formats without curves; by default, or with "auto", by their size.
     decimals : int, optional
-        Decimals of coordinates; polygons are valid with them. By default all that read back the same.
+        Decimals of coordinates; polygons stay valid. By default as many as are needed to read back the same values.
     precision : int, optional
-        Significant digits of other floating-point numbers in text; by default the shortest that reads back the same.
+        Significant digits of other floating-point numbers in text; by default the shortest that read back the same.
     layers : sequence of str, optional
-        Of a picture, as the command line has them.
+        Layers of a picture, as on the command line.
     width : int, optional
-        Of a picture, in px; by default 1000. The PNG of a label image has its own size.
+        Width of a picture, in px; by default 1000. The PNG of a label image has the size of the image.
     y_up : bool, optional
-        Draw y upwards; by default as the input is drawn.
+        Draw y upwards; by default as for the input.
     color : mapping of str to str, optional
-        Of layers of a picture, by their names: ``#rrggbb``, or names as in CSS; of areas of many colours, as cells are,
-        that of their borders.
+        Colours of layers of a picture, by layer name: ``#rrggbb``, or names as in CSS; for areas with many colours,
+        such as cells, the colour of their borders.
     line_width : mapping of str to float, optional
-        Of the lines of layers of a picture, in px; 0 draws none.
+        Line widths of layers of a picture, in px; 0 draws no line.
     background : str, optional
-        Colour of the ground of a picture, or ``"none"``; by default white.
+        Background colour of a picture, or ``"none"``; by default white.
     label_by : str, optional
         Column of the properties that names objects or sites in a picture, instead of their ids.
     legend, scale_bar : bool
-        Draw the names of the layers with their colours, and a length, in corners of a picture.
+        Draw a legend of the layers, and a scale bar, in corners of a picture.
     overwrite : bool
-        Replace a GeoPackage that has other layers than the one that is written.
+        Replace a GeoPackage that has layers other than the one written.
     threads : int
-        0 uses all.
+        Number of threads; 0 uses all.
 
     Raises
     ------
     OutputError
-        If the file cannot be written, or is a GeoPackage with other layers; an older one is untouched.
+        If the file cannot be written, or is a GeoPackage with other layers; an existing file is untouched.
     UsageError
-        If the value cannot be written in this format, or an option is not for it.
+        If the value cannot be written in this format, or an option does not apply to it.
     LimitError
         If a PNG picture would be too large.
 
@@ -165,24 +164,24 @@ def _checked_path(path: Any) -> str:
 
 
 def to_geojson(value: Any, *, what: str | None = None, flatten: Flatten = None) -> dict[str, Any]:
-    """Give a value as GeoJSON, with ids and properties, if it has any.
+    """Return a value as GeoJSON, with its ids and properties.
 
     Parameters
     ----------
     value : value of the library
         Polygons, cells, a triangulation, an alpha shape or hull, a skeleton, points along one, offsets or centerlines.
     what, flatten : optional
-        As of `write`.
+        As for `write`.
 
     Returns
     -------
     dict
-        A feature collection, as `json.dumps` takes it.
+        A feature collection, ready for `json.dumps`.
 
     Raises
     ------
     UsageError
-        If it cannot be written so.
+        If the value cannot be written as GeoJSON.
 
     Examples
     --------

@@ -49,44 +49,44 @@ def alpha_complex(
     threads: int = 0,
     progress: Progress = None,
 ) -> AlphaComplex:
-    """Compute the radii at which each Delaunay edge enters and leaves the alpha shape: all shapes at once.
+    """Compute the alpha shapes of all radii: the interval of radii of each Delaunay edge.
 
-    Every decision is exact: which edges are Gabriel edges, which radii are equal, the order of all of them. Radii are
-    correctly rounded. It does not matter which diagonals the triangulation has in cocircular polygons.
+    Every decision is exact: which edges are Gabriel edges, which radii are equal, and the order of the radii. Radii are
+    correctly rounded. The diagonals of cocircular polygons in the triangulation do not affect the result.
 
     Parameters
     ----------
     points : PointSet, SeedSet, Triangulation, DigitalTriangulation, (n, 2) array, data frame, GeoSeries, …
-        At least two distinct ones, unless fewer are allowed. A triangulation is taken as it is; of a digital one only
-        edges are right.
+        At least two distinct points, unless `allow_empty`. A triangulation is used unchanged; for a digital one only
+        the edges are right.
     rule : {"corrected", "printed"}
         ``printed`` follows the paper's text, which is wrong where an edge is no Gabriel edge; intervals are open.
     strict : bool
-        Refuse points that lie on another one, and fewer than two distinct points in any case.
+        Refuse duplicate points, and fewer than two distinct points in any case.
     allow_empty : bool, optional
-        Give an empty family where there are fewer than two distinct points; by default of the seeds of an image, so
-        that one of many images that has no more does not stop the others.
+        Return an empty family if there are fewer than two distinct points; default for the seeds of an image, so that
+        one nearly empty image does not stop a batch.
     threads : int
-        0 uses all.
+        Number of threads; 0 uses all.
     progress : callable, optional
         Called with the fraction done.
 
     Returns
     -------
     AlphaComplex
-        The edges, and the interval of radii of each.
+        The edges, each with its interval of radii.
 
     Raises
     ------
     InputError
-        If there are fewer than two distinct points where these are refused, or a coordinate is not finite.
+        If there are fewer than two distinct points, unless `allow_empty`, or a coordinate is not finite.
     UsageError
         If the rule is unknown.
 
     Warns
     -----
     VorotoolWarning
-        If the family is empty because there is one distinct point; that there is none was told with the image.
+        If the family is empty because there is one distinct point; an image without any is reported when it is read.
 
     References
     ----------
@@ -133,16 +133,16 @@ def _edges_and_sides(
 def alpha_edges(
     family: AlphaComplex, r: Radius, *, threads: int = 0, progress: Progress = None
 ) -> tuple[NDArray[np.int32], NDArray[np.uint8]]:
-    """Scan for the edges of the shape of one radius: all that a further radius costs.
+    """Return the edges of the alpha shape of one radius, by one scan of the family.
 
     Parameters
     ----------
     family : AlphaComplex
         The shapes of all radii.
     r : float or Fraction
-        The radius; positive, infinity gives the hull.
+        The radius, positive; infinity gives the hull.
     threads : int
-        0 uses all.
+        Number of threads; 0 uses all.
     progress : callable, optional
         Called with the fraction done.
 
@@ -151,7 +151,7 @@ def alpha_edges(
     edge_index : (k,) int32 array
         Edges of the family that are singular or boundary, increasing.
     kind : (k,) uint8 array
-        1 of singular ones, 2 of boundary ones.
+        1 for singular edges, 2 for boundary edges.
 
     Examples
     --------
@@ -208,41 +208,40 @@ def alpha_shape(
     threads: int = 0,
     progress: Progress = None,
 ) -> AlphaShape:
-    """Compute the alpha shape of points for one radius: edges with their classes, regions and polygons.
+    """Compute the alpha shape of points for one radius: classified edges, regions and polygons.
 
-    Without ``r`` and ``alpha``: the smallest r whose shape is one region that contains every point.
+    The default radius is the smallest r whose shape is one region that contains every point.
 
     Parameters
     ----------
     points : AlphaComplex, PointSet, SeedSet, Triangulation, (n, 2) array, data frame, GeoSeries, …
-        From a complex, any number of shapes are made.
+        Points, or a complex to compute several shapes from.
     r : float or Fraction, optional
         The radius, in input units.
     alpha : float or Fraction, optional
         The paper's α = -1/r, negative.
     regions : int
-        How many regions the automatic choice allows.
+        Largest number of regions allowed by the automatic choice of the radius.
     hole_threshold, region_threshold : number, optional
-        First, cavities of at most this area are filled; then regions of at most this area are left out.
+        Cavities of at most the first area are filled; then regions of at most the second area are dropped.
     rule, strict : optional
         As for `alpha_complex`.
     allow_empty : bool, optional
-        As for `alpha_complex`; and give the shape of radii that join no points, where the automatic choice finds no
-        triangle.
+        As for `alpha_complex`; also return the shape of isolated points where the automatic choice finds no triangle.
     threads, progress : optional
         As for `alpha_complex`.
 
     Returns
     -------
     AlphaShape
-        Its radius, edges, regions and polygons.
+        The shape, with its radius, edges, regions and polygons.
 
     Raises
     ------
     InputError
-        If there are fewer than two distinct points, or the automatic choice finds no triangle, where that is refused.
+        If there are fewer than two distinct points, or the automatic choice finds no triangle, unless `allow_empty`.
     UsageError
-        If r is not positive, alpha not negative, both are given, or ``regions`` with one of them.
+        If r is not positive, alpha is not negative, or more than one of r, alpha and ``regions`` is passed.
 
     References
     ----------
@@ -354,14 +353,14 @@ def automatic_rank(family: AlphaComplex, *, regions: int = 1, progress: Progress
 
 
 def alpha_curves(family: AlphaComplex, *, progress: Progress = None) -> Table:
-    """Area, perimeter, regions, cavities and edges of the shapes of all radii, by one sweep.
+    """Compute area, perimeter and counts of the alpha shapes of all radii in one sweep.
 
-    Row k holds from the radius k of the spectrum on until the next one; below the first there are isolated points only.
+    Row k holds from radius k of the spectrum to the next one; below the first radius all points are isolated.
 
     Parameters
     ----------
     family : AlphaComplex
-        The shapes of all radii; with the corrected rule.
+        The shapes of all radii, by the corrected rule.
     progress : callable, optional
         Called with the fraction done.
 
@@ -369,13 +368,13 @@ def alpha_curves(family: AlphaComplex, *, progress: Progress = None) -> Table:
     -------
     Table
         ``r, area, perimeter, regions, cavities, edges``: the area of the triangles, the length of the boundary edges,
-        the regions (triangles joined through edges), the bounded components of what they leave, and the number of
+        the regions (triangles joined through edges), the bounded components of their complement, and the number of
         singular and boundary edges.
 
     Raises
     ------
     UsageError
-        If the rule is the printed one, whose edges do not go with its triangles.
+        If the rule is the printed one, whose edges do not match its triangles.
 
     Examples
     --------

@@ -46,7 +46,7 @@ def persistence(
     Raises
     ------
     InputError
-        As `alpha_complex`.
+        As for `alpha_complex`.
     UsageError
         If the rule of the complex is the printed one, whose edges do not go with its triangles.
 

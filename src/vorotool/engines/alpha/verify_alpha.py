@@ -37,14 +37,14 @@ def verify_alpha_shape(shape: AlphaShape, *, threads: int = 0, progress: Progres
     shape : AlphaShape
         With the corrected rule.
     threads : int
-        0 uses all.
+        Number of threads; 0 uses all.
     progress : callable, optional
         Called with the fraction done.
 
     Raises
     ------
     VerificationError
-        Naming the first fault.
+        If a check fails; the message names the first fault.
 
     Examples
     --------

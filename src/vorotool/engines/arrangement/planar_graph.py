@@ -186,14 +186,14 @@ def verify_planar_graph(graph: PlanarGraph, *, progress: Progress = None) -> Non
     Parameters
     ----------
     graph : PlanarGraph
-        However it was made.
+        From any source.
     progress : callable, optional
         Called with the fraction done.
 
     Raises
     ------
     VerificationError
-        Naming the first fault.
+        If a check fails; the message names the first fault.
 
     Examples
     --------

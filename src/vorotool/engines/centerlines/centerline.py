@@ -46,7 +46,7 @@ def centerline(
     ends: Ends = "middle",
     progress: Progress = None,
 ) -> Centerlines:
-    """Find the centerline of each polygon: the longest of the shortest paths between ends of its skeleton.
+    """Compute the centerline of each polygon: the longest shortest path between ends of its skeleton.
 
     An *end* is a leaf, or a fork of two arcs to both corners of one edge, as far as its longer arc reaches. The
     longest path is decided first; of those as long but for a millionth that at the first edges of the polygon (where
@@ -72,13 +72,13 @@ def centerline(
     Parameters
     ----------
     skeleton : Skeleton
-        Its arcs inside polygons are used.
+        A skeleton; only its arcs inside polygons are used.
     start, end : (x, y) or a point of shapely, GeoJSON or WKT, optional
         Give the one path between the places nearest to these on the skeleton whose forks are led to the middles of
         their edges, and whose round ends are left out: it goes up no corner of these. With one of the two, the path
         leads to the end that is farthest from there.
     ends : {"middle", "corner", "none"}
-        As told above; or paths lead along the whole skeleton, and from leaves inside straight on; or they stop at
+        As described above; or paths run along the whole skeleton, and straight on from leaves inside; or they stop at
         forks, where ends of strips begin, at round ends, and at leaves inside.
     progress : callable, optional
         Called with the fraction done.
@@ -86,19 +86,19 @@ def centerline(
     Returns
     -------
     Centerlines
-        In the order of the polygons.
+        The centerlines, in the order of the polygons.
 
     Raises
     ------
     InputError
-        If there is no path between the places that are given.
+        If there is no path between `start` and `end`.
     UsageError
-        If a place is not finite, or there is no such kind of ends.
+        If `start` or `end` is not finite, or `ends` is unknown.
 
     Warns
     -----
     VorotoolWarning
-        If polygons have none, with their number and names: there is no skeleton inside, or a single place.
+        If polygons have no centerline (no skeleton inside, or a single point): their number and names.
 
     Examples
     --------

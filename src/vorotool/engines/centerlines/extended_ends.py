@@ -33,7 +33,7 @@ def extend_ends(skeleton: Skeleton, *, threads: int = 0, progress: Progress = No
     skeleton : Skeleton
         Pruned or not. Its arcs inside polygons are used.
     threads : int
-        0 uses all.
+        Number of threads; 0 uses all.
     progress : callable, optional
         Called with the fraction done of the pruning.
 

@@ -36,7 +36,7 @@ def verify_extended(extended: ExtendedSkeleton, skeleton: Skeleton | None = None
     Raises
     ------
     VerificationError
-        Naming the first fault.
+        If a check fails; the message names the first fault.
 
     Examples
     --------

@@ -50,7 +50,7 @@ def cell_statistics(
     frame, clip : optional
         As for `voronoi_cells`; not for label images.
     threads : int
-        0 uses all.
+        Number of threads; 0 uses all.
     progress : callable, optional
         Called with the fraction done.
 
@@ -64,7 +64,7 @@ def cell_statistics(
     Raises
     ------
     InputError
-        As `voronoi_cells`.
+        As for `voronoi_cells`.
     UsageError
         If there is a label image and a frame or polygons.
 

@@ -50,7 +50,7 @@ def voronoi_cells(
     clip : polygons as for `skeleton_exact`, optional
         Cells are cut to these too, by shapely: they may fall in several parts and have holes.
     threads : int
-        0 uses all.
+        Number of threads; 0 uses all.
     progress : callable, optional
         Called with the fraction done.
 
@@ -221,14 +221,14 @@ def verify_cells(cells: CellSet, *, threads: int = 0, progress: Progress = None)
     cells : CellSet
         However it was made; its cells are rings.
     threads : int
-        0 uses all.
+        Number of threads; 0 uses all.
     progress : callable, optional
         Called with the fraction done.
 
     Raises
     ------
     VerificationError
-        Naming the first fault.
+        If a check fails; the message names the first fault.
     InputError
         If the cells were clipped to polygons.
 

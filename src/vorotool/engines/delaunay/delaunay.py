@@ -23,38 +23,38 @@ MOST_POINTS = 2**28
 
 
 def delaunay(points: SeedsLike, *, strict: bool = False, threads: int = 0, progress: Progress = None) -> Triangulation:
-    """Triangulate points so that no circle through the vertices of a triangle holds another point.
+    """Compute the Delaunay triangulation of points: the circumcircle of each triangle is empty.
 
-    Every decision is exact for all finite coordinates. The result depends on the points alone: other numbers of
-    threads change nothing, and a permutation of the points changes their numbers only.
+    Every decision is exact for all finite coordinates. The result depends on the points alone: the number of threads
+    does not change it, and a permutation of the points changes only their numbers.
 
     Parameters
     ----------
     points : PointSet, SeedSet, (n, 2) array, data frame, GeoSeries, …
-        Of a `SeedSet`, its sites.
+        Points to triangulate; the sites of a `SeedSet`.
     strict : bool
-        Refuse points that lie on another one.
+        Refuse duplicate points.
     threads : int
-        0 uses all.
+        Number of threads; 0 uses all.
     progress : callable, optional
         Called with the fraction done.
 
     Returns
     -------
     Triangulation
-        Collinear points, and fewer than three, give a chain of edges and no triangle.
+        A chain of edges without triangles if the points are collinear or fewer than three.
 
     Raises
     ------
     InputError
-        If a coordinate is not finite, or `strict` and a point lies on another.
+        If a coordinate is not finite, or if `strict` and there are duplicate points.
     LimitError
         If there are more than 2^28 points.
 
     Warns
     -----
     VorotoolWarning
-        If points lie on an earlier one: how many. `Triangulation.first` tells on which.
+        If points are duplicates: how many. `Triangulation.first` gives the first point at each location.
 
     References
     ----------
@@ -91,22 +91,22 @@ def report_duplicates(mesh: Triangulation, *, strict: bool) -> None:
 def verify_triangulation(mesh: Triangulation, *, threads: int = 0, progress: Progress = None) -> None:
     """Check a triangulation exactly, from its arrays alone.
 
-    Indices, orientations, each directed edge once, neighbours, a convex hull gone round once, every point used, edges,
-    Euler's relation, every edge locally Delaunay, fans in cocircular polygons, duplicates, chains.
+    The checks: indices, orientations, each directed edge once, neighbours, a convex hull traversed once, every point
+    used, edges, Euler's relation, every edge locally Delaunay, fans in cocircular polygons, duplicates, chains.
 
     Parameters
     ----------
     mesh : Triangulation
-        However it was made; finite points.
+        A triangulation from any source, with finite points.
     threads : int
-        0 uses all.
+        Number of threads; 0 uses all.
     progress : callable, optional
         Called with the fraction done.
 
     Raises
     ------
     VerificationError
-        Naming the first fault.
+        If a check fails; the message names the first fault.
 
     Examples
     --------

@@ -58,9 +58,9 @@ def insert_points(
         A point of `mesh`, by index, that is near to the further ones, or to each: the walk begins there. Without it the
         order of the triangles tells where to begin, in time O(log n).
     strict : bool
-        Refuse points that lie on another one.
+        Refuse duplicate points.
     threads : int
-        0 uses all.
+        Number of threads; 0 uses all.
     progress : callable, optional
         Called with the fraction done.
 

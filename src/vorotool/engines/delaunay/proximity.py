@@ -41,9 +41,9 @@ def proximity_graph(
         spanning tree joins all points by edges of the least total length; of equal lengths the edge that comes first
         in the triangulation is taken first. Each is part of the one before.
     strict : bool
-        Refuse points that lie on another one.
+        Refuse duplicate points.
     threads : int
-        0 uses all.
+        Number of threads; 0 uses all.
     progress : callable, optional
         Called with the fraction done.
 

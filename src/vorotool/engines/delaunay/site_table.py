@@ -43,7 +43,7 @@ def site_table(
     properties : bool
         Whether to add the input's own columns.
     threads : int
-        0 uses all.
+        Number of threads; 0 uses all.
     progress : callable, optional
         Called with the fraction done.
 

@@ -35,7 +35,7 @@ def verify_proximity_graph(graph: ProximityGraph) -> None:
     Parameters
     ----------
     graph : ProximityGraph
-        However it was made.
+        From any source.
 
     Raises
     ------

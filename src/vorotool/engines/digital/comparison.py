@@ -57,9 +57,9 @@ def compare_digital(
     strict : bool
         Refuse several seeds at one place.
     threads : int
-        0 uses all. The result does not depend on it.
+        Number of threads; 0 uses all. The result does not depend on it.
     max_pixels : int
-        Larger frames are refused before memory is taken.
+        Larger frames are refused before memory is allocated.
     progress : callable, optional
         Called with the fraction done of each step.
 

@@ -76,7 +76,7 @@ def digital_triangulation(
     strict : bool
         Refuse several seeds at one place.
     threads : int
-        0 uses all. The result does not depend on it.
+        Number of threads; 0 uses all. The result does not depend on it.
     progress : callable, optional
         Called with the fraction done.
 
@@ -90,7 +90,7 @@ def digital_triangulation(
     InputError
         If a seed is unusable, or the points have negative coordinates and no window.
     UsageError
-        If options do not go together.
+        If options contradict each other.
 
     References
     ----------
@@ -275,9 +275,9 @@ def repair_digital(
     strict : bool
         Refuse several seeds at one place.
     threads : int
-        0 uses all. The result does not depend on it.
+        Number of threads; 0 uses all. The result does not depend on it.
     max_pixels : int
-        Larger frames are refused before memory is taken: the labels of all pixels are held, 4 bytes each.
+        Larger frames are refused before memory is allocated: the labels of all pixels are held, 4 bytes each.
     progress : callable, optional
         Called with the fraction done of each step.
 

@@ -38,7 +38,7 @@ def verify_digital_triangulation(
     Parameters
     ----------
     found : DigitalTriangulation
-        However it was made.
+        From any source.
     source : what `tessellate` accepts
         What it was made from; no label image.
     shape, window : tuple of int, optional
@@ -48,7 +48,7 @@ def verify_digital_triangulation(
     spacing : float or (height, width), optional
         As in `digital_triangulation`.
     threads : int
-        0 uses all.
+        Number of threads; 0 uses all.
 
     Raises
     ------

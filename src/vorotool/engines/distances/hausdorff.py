@@ -36,7 +36,7 @@ def hausdorff(
     directed : bool
         Only from a to b: `Distances.from_b` is None.
     threads : int
-        0 uses all. The result does not depend on it.
+        Number of threads; 0 uses all. The result does not depend on it.
     progress : callable, optional
         Called with the fraction done of each part of the work.
 

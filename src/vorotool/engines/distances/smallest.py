@@ -17,7 +17,7 @@ def distance(a: Any, b: Any, *, boundary: bool = False, threads: int = 0, progre
     Parameters
     ----------
     a, b, boundary, threads, progress : optional
-        As of `vorotool.hausdorff`.
+        As for `vorotool.hausdorff`.
 
     Returns
     -------
@@ -28,7 +28,7 @@ def distance(a: Any, b: Any, *, boundary: bool = False, threads: int = 0, progre
     Raises
     ------
     InputError
-        As of `vorotool.hausdorff`.
+        As for `vorotool.hausdorff`.
 
     See Also
     --------

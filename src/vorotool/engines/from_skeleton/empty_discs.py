@@ -55,7 +55,7 @@ def largest_empty_discs(
         How many: first the largest, then the largest that is disjoint from those before, with its centre on the edges
         of the diagram or in a corner of the region, and so on. Discs may touch.
     threads : int
-        0 uses all.
+        Number of threads; 0 uses all.
     progress : callable, optional
         Called with the fraction done of each step.
 

@@ -46,7 +46,7 @@ def largest_discs(
     Parameters
     ----------
     polygons : PolygonSet, shapely geometry, GeoSeries, GeoDataFrame, GeoJSON, (n, 2) array, …, or a list of these
-        As of `vorotool.skeleton_exact`.
+        As for `vorotool.skeleton_exact`.
     count : int, optional
         How many of each feature, by default 1: first the largest, then the largest of the axis that is disjoint from
         those before, and so on. Discs may touch. Of a segment between parallel edges on which some discs are not
@@ -54,11 +54,11 @@ def largest_discs(
     local : bool
         Instead all discs that are larger than those around them, by default as many as there are. They may overlap.
     features : {"separate", "together"}
-        As of `vorotool.skeleton_exact`.
+        As for `vorotool.skeleton_exact`.
     strict : bool
-        Refuse polygons that would be repaired.
+        Refuse polygons that need repair.
     threads : int
-        0 uses all.
+        Number of threads; 0 uses all.
     progress : callable, optional
         Called with the fraction done of each step.
 
@@ -70,14 +70,14 @@ def largest_discs(
     Raises
     ------
     InputError, LimitError
-        As of `vorotool.skeleton_exact`.
+        As for `vorotool.skeleton_exact`.
     UsageError
         If the count is no positive whole number.
 
     Warns
     -----
     VorotoolWarning
-        As of `vorotool.skeleton_exact`.
+        As for `vorotool.skeleton_exact`.
 
     Examples
     --------

@@ -36,7 +36,7 @@ def points_along(
     every : float
         The step, in input units.
     threads : int
-        Threads; 0 uses all. Results do not depend on it.
+        Number of threads; 0 uses all. The result does not depend on it.
     progress : callable, optional
         Called with the fraction that is done; returning False stops with KeyboardInterrupt.
 

@@ -29,7 +29,7 @@ def verify_joining(joined: Skeleton, skeleton: Skeleton) -> None:
     Raises
     ------
     VerificationError
-        Naming the first fault.
+        If a check fails; the message names the first fault.
 
     Examples
     --------

@@ -72,37 +72,37 @@ def outlines(
     progress: Progress = None,
     note: Note = None,
 ) -> PolygonSet:
-    """Give the outlines of the objects of a mask or a label image, with holes, as polygons.
+    """Return the outlines of the objects of a mask or a label image as polygons with holes.
 
-    The crack outline goes around the pixels of an object, so that its corners are at half-integers and its area is the
-    number of pixels. The contour is that of marching squares, as scikit-image draws it around an image in a frame of
-    background: it goes half-way between the centres of pixels inside and outside, or with a threshold to where the grey
-    value, interpolated between them, reaches it.
+    The crack outline follows the sides of the pixels of an object: its corners are at half-integers, and its area is
+    the number of pixels. The contour is that of marching squares, as in scikit-image for an image padded with
+    background: it runs half-way between the centres of pixels inside and outside, or, with a threshold, where the
+    interpolated grey value equals it.
 
-    An object is a component of a mask, or what has one label; each component of a label is a polygon. Touching labels
-    are never merged: their outlines have the stretch between them in common, vertex by vertex.
+    An object is a component of a mask, or all pixels of one label; each component of a label is a polygon. Touching
+    labels are never merged: their outlines share the border between them, vertex by vertex.
 
-    Where two pixels meet at a corner only, 8-connectivity takes them for connected, and the background there for apart.
-    The crack outline then touches itself in that corner, and a skeleton goes through it, with radius 0; the contour
-    leaves a passage, where two labels cross only to the smaller one. With 4-connectivity it is the other way round: the
-    object ends there, the background goes through, and no ring of a crack outline visits a corner twice.
+    Where two pixels meet only at a corner, 8-connectivity connects them and separates the background there. The crack
+    outline then touches itself in that corner, and a skeleton passes through it with radius 0; the contour leaves a
+    passage, where two labels cross only for the smaller one. With 4-connectivity it is the other way round: the object
+    ends there, the background passes, and no ring of a crack outline visits a corner twice.
 
     Parameters
     ----------
     image : Raster, LabelImage, or (H, W) array of any library
         Nonzero pixels are foreground. Pixel (x, y) is in column x and row y, and covers half a unit on each side.
     outline : {"crack", "contour"}
-        Which line.
+        The kind of outline.
     border : {"closed", "open"}
-        What contours do at the border of the image: they go around its corners and those of objects there, or meet it
-        at a right angle, as if the outermost pixels went on beyond it. See ``border`` of `skeleton_exact`.
+        Contours at the border of the image: closed around its corners and those of objects there, or meeting it at a
+        right angle, as if the outermost pixels continued beyond it. See ``border`` of `skeleton_exact`.
     mode : {"components", "labels"}, optional
-        What an object is; by default a component of a mask, whose only value besides 0 is 1, 255, the largest of its
-        type, or True; else a label.
+        Kind of objects: by default components of a mask (its only value besides 0 is 1, 255, the largest of its type,
+        or True), else labels.
     connectivity : {8, 4}
         Of the pixels of an object.
     threshold : float or "otsu", optional
-        Foreground is what is larger.
+        Pixels above the threshold are foreground.
     invert : bool
         Exchange foreground and background.
     min_area : number, optional
@@ -110,29 +110,29 @@ def outlines(
     fill_holes : bool or number
         Whether to fill the holes of the objects of a mask first; a number fills those of at most so many pixels.
     simplify : float, optional
-        Leave out vertices where outlines move by no more than this; borders in common stay in common.
+        Largest distance that outlines may move when vertices are dropped; shared borders stay shared.
     strict : bool
         Refuse an image without foreground.
     max_sites : int
-        More vertices are refused before memory is taken for them.
+        More vertices are refused before memory is allocated for them.
     threads : int
-        0 uses all.
+        Number of threads; 0 uses all.
     progress : callable, optional
         Called with the fraction done.
     note : callable, optional
-        Called with what was taken for a mask or a label, where that may surprise.
+        Called with a text if an image was taken for a mask or for labels and that may surprise.
 
     Returns
     -------
     PolygonSet
-        In the order of labels, and of first pixels, row by row. The id of a polygon is its label; components of a mask
-        have the labels 1, 2, …. Shells have a positive area, holes a negative one.
+        Polygons in the order of labels, then of first pixels, row by row. The id of a polygon is its label; components
+        of a mask have the labels 1, 2, …. Shells have a positive area, holes a negative one.
 
     Raises
     ------
     InputError
-        If the image has colours or looks like a photograph and there is no threshold, or a value is not finite; if it
-        holds labels, and a mask is to be cleaned; or there is no foreground, and `strict`.
+        If the image has colours or looks like a photograph and there is no threshold; if a value is not finite; if a
+        cleaning option is used on labels; or if `strict` and there is no foreground.
     LimitError
         If there are more vertices than `max_sites`.
     UsageError
@@ -141,7 +141,7 @@ def outlines(
     Warns
     -----
     VorotoolWarning
-        If there is no foreground, and so no polygon.
+        If there is no foreground, hence no polygon.
 
     References
     ----------

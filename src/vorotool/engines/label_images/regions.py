@@ -98,7 +98,7 @@ def region_table(
     properties : bool
         Whether to add the input's own columns.
     threads : int
-        0 for all; the result is the same for any number.
+        Number of threads; 0 uses all. The result does not depend on it.
     progress : callable, optional
         Called with the fraction done.
 
@@ -178,7 +178,7 @@ def neighbour_table(
     measures : RegionMeasures or VolumeMeasures, optional
         The result of `measure_regions` for this image, or of `measure_volume`.
     threads : int
-        0 for all; the result is the same for any number.
+        Number of threads; 0 uses all. The result does not depend on it.
     progress : callable, optional
         Called with the fraction done.
 
@@ -242,7 +242,7 @@ def voronoi_diagram(
     out : uint8 array of the same shape, optional
         C-contiguous array to write to; it must not overlap the labels.
     threads : int
-        0 for all; the result is the same for any number.
+        Number of threads; 0 uses all. The result does not depend on it.
     progress : callable, optional
         Called with the fraction done.
 
@@ -307,7 +307,7 @@ def colour_regions(
     measures : RegionMeasures or VolumeMeasures, optional
         The result of `measure_regions` for this image, or of `measure_volume`.
     threads : int
-        0 for all; the result is the same for any number.
+        Number of threads; 0 uses all. The result does not depend on it.
     progress : callable, optional
         Called with the fraction done.
 

@@ -58,7 +58,7 @@ def necks(
     features : {"separate", "together"}
         Take each feature by itself, or all of them as one drawing.
     strict, threads, progress : optional
-        As of :func:`vorotool.skeleton_exact`.
+        As for :func:`vorotool.skeleton_exact`.
 
     Returns
     -------
@@ -68,7 +68,7 @@ def necks(
     Raises
     ------
     InputError
-        As of :func:`vorotool.skeleton_exact`.
+        As for :func:`vorotool.skeleton_exact`.
     UsageError
         If the ratio is not from 0 to 1, or the skeleton is approximate, pruned, or has a gap.
 

@@ -51,13 +51,13 @@ def parts(
     Parameters
     ----------
     polygons : PolygonSet, shapely geometry, GeoSeries, GeoJSON, (n, 2) array, …, a list of these, or Skeleton
-        As of :func:`necks`.
+        As for :func:`necks`.
     neck : float
         The largest ratio of necks that are cut, from 0 to 1: 1 cuts all.
     features : {"separate", "together"}
         Take each feature by itself, or all of them as one drawing.
     strict, threads, progress : optional
-        As of :func:`vorotool.skeleton_exact`.
+        As for :func:`vorotool.skeleton_exact`.
 
     Returns
     -------
@@ -68,7 +68,7 @@ def parts(
     Raises
     ------
     InputError
-        As of :func:`vorotool.skeleton_exact`.
+        As for :func:`vorotool.skeleton_exact`.
     UsageError
         If the ratio is none, or the skeleton is approximate, pruned, or has a gap.
 

@@ -42,14 +42,14 @@ def verify_necks(necks: Necks, *, threads: int = 0, progress: Progress = None) -
     necks : Necks
         However they were found.
     threads : int
-        0 uses all.
+        Number of threads; 0 uses all.
     progress : callable, optional
         Called with the fraction done.
 
     Raises
     ------
     VerificationError
-        Naming the first fault.
+        If a check fails; the message names the first fault.
 
     Examples
     --------
@@ -97,12 +97,12 @@ def verify_parts(parts: Parts, *, threads: int = 0, progress: Progress = None) -
     parts : Parts
         However they were made.
     threads, progress : optional
-        As of `verify_necks`.
+        As for `verify_necks`.
 
     Raises
     ------
     VerificationError
-        Naming the first fault.
+        If a check fails; the message names the first fault.
 
     Examples
     --------

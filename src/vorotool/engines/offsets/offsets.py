@@ -73,9 +73,9 @@ def offset(
         Inwards, take each feature by itself, or the regions between the edges of all of them; of a skeleton as it was
         made, and of a diagram together.
     strict : bool
-        Refuse polygons that would be repaired.
+        Refuse polygons that need repair.
     threads : int
-        0 uses all.
+        Number of threads; 0 uses all.
     progress : callable, optional
         Called with the fraction done of each step.
 

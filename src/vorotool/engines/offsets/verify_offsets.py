@@ -56,7 +56,7 @@ def verify_offsets(
     distances : sequence of float
         What was asked for: there may be nothing at some of them.
     threads : int
-        0 uses all.
+        Number of threads; 0 uses all.
     progress : callable, optional
         Called with the fraction done of each step.
 

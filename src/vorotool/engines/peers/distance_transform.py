@@ -77,9 +77,9 @@ def distance_transform(
     return_distances, return_indices : bool
         What is wanted.
     threads : int
-        0 uses all.
+        Number of threads; 0 uses all.
     max_pixels : int
-        Larger images are refused before memory is taken.
+        Larger images are refused before memory is allocated.
 
     Returns
     -------

@@ -50,9 +50,9 @@ def expand_labels(
         Sides of a pixel or voxel in the unit of `distance`, by default 1. With it floats are the decimal numbers that
         they are written as: three pixels of 0.1 are within 0.3.
     threads : int
-        0 uses all.
+        Number of threads; 0 uses all.
     max_pixels : int
-        Larger images are refused before memory is taken.
+        Larger images are refused before memory is allocated.
 
     Returns
     -------

@@ -50,9 +50,9 @@ def local_thickness(
     spacing : float or (height, width), optional
         Sides of a pixel, by default 1. A float is the decimal number that it is written as.
     threads : int
-        0 uses all; the result is the same.
+        Number of threads; 0 uses all. The result does not depend on it.
     max_pixels : int
-        Larger images are refused before memory is taken.
+        Larger images are refused before memory is allocated.
     progress : callable, optional
         Called with the fraction done of each step.
 

@@ -49,7 +49,7 @@ def medial_axis(
     return_distance : bool
         Give the distances to the background as well.
     threads : int
-        0 uses all.
+        Number of threads; 0 uses all.
 
     Returns
     -------

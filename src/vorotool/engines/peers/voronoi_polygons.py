@@ -33,7 +33,7 @@ def voronoi_polygons(
     extend_to : geometry of shapely, optional
         The cells fill its bounds, too.
     threads : int
-        0 uses all.
+        Number of threads; 0 uses all.
 
     Returns
     -------

@@ -79,7 +79,7 @@ def prune(
         junction's disc. It is a measure without a unit that needs neither the boundary nor what else hangs there:
         the branch to a corner of 90 degrees has 1.41 if the disc of its junction touches both edges.
     threads : int
-        0 uses all.
+        Number of threads; 0 uses all.
     progress : callable, optional
         Called with the fraction done of each step.
 

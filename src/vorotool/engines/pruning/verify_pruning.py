@@ -39,7 +39,7 @@ def verify_pruning(pruned: Skeleton, skeleton: Skeleton) -> None:
     Raises
     ------
     VerificationError
-        Naming the first fault.
+        If a check fails; the message names the first fault.
 
     Examples
     --------

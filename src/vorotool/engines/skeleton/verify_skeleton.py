@@ -54,16 +54,16 @@ def verify_skeleton(skeleton: Skeleton, *, threads: int = 0, progress: Progress 
     Parameters
     ----------
     skeleton : Skeleton
-        However it was made. With a gap only distances are checked.
+        From any source. With a gap only distances are checked.
     threads : int
-        0 uses all.
+        Number of threads; 0 uses all.
     progress : callable, optional
         Called with the fraction done.
 
     Raises
     ------
     VerificationError
-        Naming the first fault.
+        If a check fails; the message names the first fault.
 
     References
     ----------

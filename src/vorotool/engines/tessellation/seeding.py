@@ -147,7 +147,7 @@ def seeds_from_raster(
     connectivity : {8, 4}
         Neighbourhood of components.
     threshold : float or "otsu", optional
-        Foreground is what is larger.
+        Pixels above the threshold are foreground.
     invert : bool
         Exchange foreground and background.
     min_area : number, optional
@@ -157,10 +157,10 @@ def seeds_from_raster(
     strict : bool
         Refuse an image without foreground, and centroids that would have to move to the lattice of seeds.
     max_sites : int
-        More seeds, which are the foreground pixels unless centroids are taken, are refused before memory is
-        taken for them.
+        More seeds, which are the foreground pixels unless centroids are taken, are refused before memory is allocated
+        for them.
     note : callable, optional
-        Called with what was taken for a mask or a label, where that may surprise.
+        Called with a text if an image was taken for a mask or for labels and that may surprise.
 
     Returns
     -------
@@ -175,12 +175,12 @@ def seeds_from_raster(
     LimitError
         If there are more seeds than `max_sites`.
     UsageError
-        If options do not go together.
+        If options contradict each other.
 
     Warns
     -----
     VorotoolWarning
-        If there is no foreground, and so no seed.
+        If there is no foreground, hence no seed.
 
     Examples
     --------

@@ -138,34 +138,34 @@ def tessellate(
     Parameters
     ----------
     seeds : SeedSet, points, image, VolumeSeeds, VolumePoints or volume
-        Where the regions come from: points in an array, a data frame, a GeoSeries, …, or an image, as a mask or a label
-        image. Point i of an array has label i + 1; objects of images are those of `seeds_from_raster`.
-        An array of three axes is a volume, but for those of colours, which are uint8 and have three or four at the end;
-        its objects are those of `seeds_from_volume`. Points of space are x, y, z, and need a shape of three numbers.
+        Generators of the regions: points in an array, a data frame, a GeoSeries, …, or an image (a mask or a label
+        image). Point i of an array has label i + 1; objects of images are those of `seeds_from_raster`. An array with
+        three axes is a volume, except color images: uint8 with a last axis of three or four. Its objects are those of
+        `seeds_from_volume`. Points in space are x, y, z, and need a shape of three numbers.
     shape : (H, W) or (D, H, W), optional
         Rows and columns of the image, or slices, rows and columns of the volume; the first pixel is at the origin.
     window : (x, y, w, h) or (x, y, z, w, h, d), optional
-        The same with an origin. By default an image's own frame, or what just holds the points.
+        Frame with an origin. By default the frame of the image, or the smallest one that holds the points.
     image : bool, optional
-        Whether an array is an image. By default arrays of truth values are, and those of integers but for two or three
-        columns, which are points.
+        Whether an array is an image. By default boolean arrays are images, and so are integer arrays unless they have
+        two or three columns: these are points.
     method : {"exact", "propagation"}
-        "propagation" is the paper's algorithm to the letter, whose labels are nearly always right; for images only.
+        "propagation" is the paper's algorithm to the letter, whose labels are nearly always right; images only.
     passes : {2, 1}
         Passes of the propagation.
     max_distance : float or Fraction, optional
         Pixels farther than this from every seed get label 0.
     spacing : float, (height, width) or (depth, height, width), optional
-        Sides of a pixel, in whose unit distances are, by default those of a label image, else 1; coordinates of points
-        are in pixels. A float is the decimal number that it is written as.
+        Sides of a pixel and so the unit of distances; by default those of a label image, else 1. Coordinates of points
+        are in pixels. A float stands for the decimal number it prints as.
     dtype : dtype, optional
         As in `Tessellator.labels`.
     out : (H, W) or (D, H, W) array, optional
         As in `Tessellator.labels`.
     threads : int
-        0 uses all. The result does not depend on it.
+        Number of threads; 0 uses all. The result does not depend on it.
     max_pixels : int
-        Larger images are refused before memory is taken.
+        Larger images are refused before memory is allocated.
     progress : callable, optional
         Called with the fraction done.
 
@@ -179,9 +179,9 @@ def tessellate(
     InputError
         If there is no seed, a seed is unusable, or the points have negative coordinates and no window.
     LimitError
-        If the frame has more than `max_pixels` pixels; or none is given, and the points need more than 2^28.
+        If the frame has more than `max_pixels` pixels, or, without a frame, the points need more than 2^28.
     UsageError
-        If options do not go together.
+        If options contradict each other.
 
     References
     ----------
@@ -276,16 +276,16 @@ def verify_tessellation(
     Parameters
     ----------
     image : LabelImage or LabelVolume
-        With its seeds and the sides of its pixels, as `tessellate` gives it.
+        Result of `tessellate`, with its seeds and the sides of its pixels.
     max_distance : float or Fraction, optional
-        The limit that the tessellation was made with.
+        The limit used for the tessellation.
     threads : int
-        0 uses all.
+        Number of threads; 0 uses all.
 
     Raises
     ------
     VerificationError
-        If a label is wrong; the first such pixel is named.
+        If a label is wrong; the message names the first such pixel.
     UsageError
         If the image carries no seeds.
 

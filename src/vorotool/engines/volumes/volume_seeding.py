@@ -122,7 +122,7 @@ def seeds_from_volume(
     connectivity : {26, 6}
         Neighbourhood of components: by corners, too, or by faces.
     threshold : float or "otsu", optional
-        Foreground is what is larger.
+        Voxels above the threshold are foreground.
     invert : bool
         Exchange foreground and background.
     min_area : number, optional
@@ -134,7 +134,7 @@ def seeds_from_volume(
     max_sites : int
         More seeds are refused.
     note : callable, optional
-        Called with what was taken for a mask or a label, where that may surprise.
+        Called with a text if an image was taken for a mask or for labels and that may surprise.
 
     Returns
     -------
@@ -151,12 +151,12 @@ def seeds_from_volume(
     LimitError
         If there are more seeds than `max_sites`.
     UsageError
-        If options do not go together.
+        If options contradict each other.
 
     Warns
     -----
     VorotoolWarning
-        If there is no foreground, and so no seed.
+        If there is no foreground, hence no seed.
 
     Examples
     --------

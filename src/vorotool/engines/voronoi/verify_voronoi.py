@@ -53,7 +53,7 @@ def verify_voronoi(cells: VoronoiMap, *, places: int = 1000) -> None:
     Parameters
     ----------
     cells : VoronoiMap
-        However it was made.
+        From any source.
     places : int
         Random places in the frame, and as many borders.
 
@@ -62,7 +62,7 @@ def verify_voronoi(cells: VoronoiMap, *, places: int = 1000) -> None:
     InputError
         If it is no Voronoi map.
     VerificationError
-        Naming the first fault.
+        If a check fails; the message names the first fault.
 
     Examples
     --------

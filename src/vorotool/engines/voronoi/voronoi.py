@@ -56,64 +56,64 @@ def voronoi(
     threads: int = 0,
     progress: Progress = None,
 ) -> VoronoiMap:
-    """Compute the Voronoi diagram of points, lines and polygons: for each the places that are nearest to it.
+    """Compute the Voronoi diagram of points, lines and polygons.
 
-    All sites are placed on a lattice of 31 bits and cut where they meet. From there on every decision is exact: the
-    Voronoi diagram of the vertices and open edges is made, and of its edges those between different sites are kept.
-    Polygons are filled: what is inside is at distance 0. Of sites that are equally near to a whole region, as where
-    polygons overlap or share a corner, the first has it; its cell may leave nothing for another one. A polygon is what
-    lies inside its rings by the even-odd rule; one without inside is a line.
+    Each site gets the places nearest to it. All sites are rounded to a lattice of 31 bits and split where they meet.
+    After that every decision is exact: of the Voronoi diagram of the vertices and open edges, the edges between
+    different sites are kept. Polygons are filled: distances inside are 0. A region equally near to several sites, as
+    where polygons overlap or share a corner, belongs to the first; another cell may be empty. The inside of a polygon
+    follows from its rings by the even-odd rule; a polygon without inside is a line.
 
     Parameters
     ----------
     sites : PolygonSet, PointSet, (n, 2) array-like, data frame, geometry of shapely, geopandas, GeoJSON or WKT, image
-        Each feature is a site, with all its parts; an array has a point in each row. Of a mask or a label image each
-        object is one, which its outline bounds, in coordinates of the map where the image lies on one.
+        Each feature is a site, with all its parts; each row of an array is a point. Each object of a mask or a label
+        image is a site, bounded by its outline, in map coordinates if the image is georeferenced.
     by : str or sequence, optional
-        Values that join features into sites: a column of the input, or one value a feature. Sites are numbered by first
-        appearance.
+        Values that join features into sites: a column of the input, or one value per feature. Sites are numbered by
+        first appearance.
     clip : PolygonSet, geometry of shapely, geopandas, GeoJSON or WKT, optional
-        Polygons that cells are cut by: a place in one of them is shared out. Sites outside count as well. Where the
-        frame has no area in common with it, all cells are empty.
+        Polygons that cells are clipped to. Sites outside them count as well. If the frame and the clip have no area in
+        common, all cells are empty.
     frame : Box or (x, y, w, h), optional
-        Rectangle that cells are cut by; by default the bounds and a tenth of their larger side around them, with a clip
-        nothing else.
+        Rectangle that cells are clipped to; by default the bounds, widened by a tenth of their longer side, but none
+        with a clip.
     max_distance : float, optional
-        How far from its site a place may be, in input units: what is farther from all sites belongs to none. Cells are
-        bounded there by parallels of edges and by circular arcs.
+        Largest distance from a site, in input units: places farther from every site belong to none. The limit is formed
+        by parallels of edges and by circular arcs.
     enclosures : PolygonSet, geometry of shapely, geopandas, GeoJSON or WKT, optional
-        Lines, and polygons for the lines around them, which cut the plane. Each face is shared out among the sites that
-        meet its inside, by distances to the whole site; one that no site meets is nobody's. The default frame is
-        around them too. A site that meets several faces has a part in each.
+        Lines and boundaries of polygons that divide the plane into faces. Each face is partitioned among the sites that
+        meet its inside, by distances to the whole site; a face without sites is unassigned. The default frame contains
+        the enclosures. A site that meets several faces has a part in each.
     threads : int
-        0 uses all.
+        Number of threads; 0 uses all.
     progress : callable, optional
         Called with the fraction done of each step.
 
     Returns
     -------
     VoronoiMap
-        With a cell for each site, in order; some may be empty.
+        A cell for each site, in order; some may be empty.
 
     Raises
     ------
     InputError
-        If `sites`, the frame, the clip or the enclosures are none, a coordinate is not finite, the clip has no area, or
-        a coordinate reference system is another one.
+        If `sites`, the frame, the clip or the enclosures are invalid, a coordinate is not finite, the clip has no area,
+        or the coordinate reference systems differ.
     UsageError
-        If the sides of the frame or `max_distance` are not above 0, that is too small beside the coordinates, or `by`
-        is no column.
+        If the sides of the frame or `max_distance` are not positive, `max_distance` is too small for the coordinates,
+        or `by` is not a column.
     LimitError
         If there are too many vertices.
     VerificationError
-        If a cut runs so close to a border that doubles do not tell them apart.
+        If the clip coincides with a cell border to within rounding.
 
     Warns
     -----
     RepairWarning
         If vertices are repeated, or an edge or a polygon bounds nothing.
     VorotoolWarning
-        If all cells are empty, as the frame and the clip have no area in common.
+        If all cells are empty because the frame and the clip have no area in common.
 
     References
     ----------

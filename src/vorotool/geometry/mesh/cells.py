@@ -50,13 +50,13 @@ class CellSet(Value, Tabular, Geometric, Pictured):
     labels : (n,) int64 array, optional
         The input's own labels. Without them point i has label i + 1.
     properties : dict of str to sequence, optional
-        Further columns of the input, one value a point.
+        Other columns of the input, one value per point.
     y_up : bool
-        Pictures of this input are drawn y upwards.
+        Whether pictures of this input are drawn with y upwards.
     crs : object, optional
         The ``crs`` member of a GeoJSON input.
     index : pandas Index, array or sequence, optional
-        What the input calls each point, as a data frame its rows: one entry a point.
+        Names of the points in the input, such as the row index of a data frame: one entry per point.
 
     Raises
     ------

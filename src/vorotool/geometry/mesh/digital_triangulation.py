@@ -37,13 +37,13 @@ class DigitalTriangulation(Value, Tabular, WithParts, Graph, Pictured):
     three_label_corners, four_label_corners : int
         Corners of the pixel lattice at which so many labels meet.
     properties : dict of str to sequence, optional
-        Further columns of the input, one value a site.
+        Other columns of the input, one value per site.
     y_up : bool
-        Pictures of this input are drawn y upwards.
+        Whether pictures of this input are drawn with y upwards.
     crs : object, optional
         The ``crs`` member of a GeoJSON input.
     index : pandas Index, array or sequence, optional
-        What the input calls each site, as a data frame its rows: one entry a site.
+        Names of the sites in the input, such as the row index of a data frame: one entry per site.
 
     Raises
     ------

@@ -54,15 +54,15 @@ class Triangulation(Value, Tabular, WithParts, Graph, Pictured):
     labels : (n,) int64 array, optional
         The input's own labels. Without them point i has label i + 1.
     properties : dict of str to sequence, optional
-        Further columns of the input, one value a point.
+        Other columns of the input, one value per point.
     y_up : bool
-        Pictures of this input are drawn y upwards.
+        Whether pictures of this input are drawn with y upwards.
     crs : object, optional
         The ``crs`` member of a GeoJSON input.
     first_number : {1, 0}
         Number of the first point in files of Triangle: that in the ``.node`` file that the points come from.
     index : pandas Index, array or sequence, optional
-        What the input calls each point, as a data frame its rows: one entry a point.
+        Names of the points in the input, such as the row index of a data frame: one entry per point.
 
     Raises
     ------

@@ -26,15 +26,15 @@ class PointSet(Value, Tabular, Geometric, Pictured):
     labels : (n,) int64 array, optional
         The input's own labels (each at least 1). Without them point i has label i + 1.
     properties : dict of str to sequence, optional
-        Further columns of the input, each of length n, copied to outputs that have one row or feature a point.
+        Other columns of the input, each of length n, copied to outputs that have one row or feature a point.
     y_up : bool
-        Pictures of this input are drawn y upwards (GeoJSON and WKT).
+        Whether pictures of this input are drawn with y upwards (GeoJSON and WKT).
     crs : object, optional
         The ``crs`` member of a GeoJSON input, copied to GeoJSON outputs.
     first_number : {1, 0}
         Number of the first point in the input's own file: a ``.node`` file may count from 0.
     index : pandas Index, array or sequence, optional
-        What the input calls each point, as a data frame its rows: one entry a point.
+        Names of the points in the input, such as the row index of a data frame: one entry per point.
 
     Raises
     ------

@@ -41,7 +41,7 @@ class SeedSet(Value, Tabular, Geometric, Pictured):
     object_area : (k,) int64 array, optional
         Pixels of each object, for components and labels.
     properties : dict of str to sequence
-        Further columns of the input, one value a site.
+        Other columns of the input, one value per site.
     snapped : int
         Seeds that were moved to the lattice.
     largest_move : float
@@ -49,7 +49,7 @@ class SeedSet(Value, Tabular, Geometric, Pictured):
     grid : PixelGrid, optional
         Sides and places of the pixels of the image that the seeds come from.
     index : pandas Index, array or sequence, optional
-        What the input calls each site, as a data frame its rows: one entry a site.
+        Names of the sites in the input, such as the row index of a data frame: one entry per site.
 
     Raises
     ------

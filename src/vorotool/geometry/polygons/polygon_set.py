@@ -44,9 +44,9 @@ class PolygonSet(Value, Tabular, Geometric, Pictured):
     feature : (p,) int32 array, optional
         The object of the input that each polygon is a part of, from 0, not decreasing. By default each is its own.
     properties : dict of str to sequence, optional
-        Further columns of the input, one value a polygon.
+        Other columns of the input, one value per polygon.
     y_up : bool
-        Pictures of this input are drawn y upwards (GeoJSON and WKT).
+        Whether pictures of this input are drawn with y upwards (GeoJSON and WKT).
     crs : object, optional
         The ``crs`` member of a GeoJSON input, copied to GeoJSON outputs.
     connectivity : {8, 4}, optional
@@ -55,7 +55,7 @@ class PolygonSet(Value, Tabular, Geometric, Pictured):
     unit : str, optional
         The unit of length of the coordinates, such as ``mm``, where the input says it.
     index : pandas Index, array or sequence, optional
-        What the input calls each polygon, as a data frame its rows: one entry a polygon.
+        Names of the polygons in the input, such as the row index of a data frame: one entry per polygon.
 
     Raises
     ------

@@ -159,7 +159,7 @@ def branch_table(skeleton: Skeleton, *, threads: int = 0) -> Table:
     skeleton : Skeleton
         Rows are in the order of its branches.
     threads : int
-        0 uses all.
+        Number of threads; 0 uses all.
 
     Returns
     -------
@@ -246,7 +246,7 @@ def polygon_table(skeleton: Skeleton, *, columns: Mapping[str, Any] | None = Non
     columns : mapping of str to array, optional
         Columns before these, one value a polygon, such as lengths and mean widths of centerlines.
     threads : int
-        0 uses all.
+        Number of threads; 0 uses all.
 
     Returns
     -------

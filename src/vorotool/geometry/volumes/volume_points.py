@@ -24,9 +24,9 @@ class VolumePoints(Value):
     labels : (n,) int64 array, optional
         The input's own labels (each at least 1). Without them point i has label i + 1.
     properties : dict of str to sequence, optional
-        Further columns of the input, each of length n.
+        Other columns of the input, each of length n.
     index : pandas Index, array or sequence, optional
-        What the input calls each point, as a data frame its rows: one entry a point.
+        Names of the points in the input, such as the row index of a data frame: one entry per point.
 
     Raises
     ------

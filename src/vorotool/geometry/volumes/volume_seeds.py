@@ -41,7 +41,7 @@ class VolumeSeeds(Value):
     object_volume : (k,) int64 array, optional
         Voxels of each object, for components and labels.
     properties : dict of str to sequence
-        Further columns of the input, one value a site.
+        Other columns of the input, one value per site.
     snapped : int
         Seeds that were moved to the lattice.
     largest_move : float
@@ -49,7 +49,7 @@ class VolumeSeeds(Value):
     grid : VoxelGrid, optional
         Sides of the voxels of the volume that the seeds come from.
     index : pandas Index, array or sequence, optional
-        What the input calls each site, as a data frame its rows: one entry a site.
+        Names of the sites in the input, such as the row index of a data frame: one entry per site.
     filled : (n,) bool array, optional
         Of the outer voxels of objects, in the order of z, y and x: whether voxels inside the object, which are no
         seeds, follow a seed on its row, up to the next seed. None where all voxels of the objects are seeds.

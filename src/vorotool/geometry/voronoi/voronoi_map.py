@@ -75,9 +75,9 @@ class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
     ids : list, optional
         The input's name of each site, or the value that its features were joined by.
     properties : dict of str to list
-        Further columns of the input, one value a site.
+        Other columns of the input, one value per site.
     index : pandas Index, array or sequence, optional
-        What the input calls each site, as a data frame its rows.
+        Names of the sites in the input, such as the row index of a data frame.
     max_distance : float, optional
         The limit of distance: what is farther from all sites belongs to none.
     clip : PolygonSet, optional
