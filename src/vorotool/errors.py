@@ -145,7 +145,7 @@ class Message(str):
 
 
 class VorotoolError(Exception):
-    """Base of all errors raised on purpose; a bare one is a defect of ours (exit 1).
+    """Base class of all errors of vorotool; raised itself, it is an internal error (exit 1).
 
     Parameters
     ----------
@@ -155,9 +155,9 @@ class VorotoolError(Exception):
     Attributes
     ----------
     source : str or None
-        The input that the words name; None where they name none.
+        The input named in the message, or None.
     marked : str
-        The words in both readings, of which other messages can be made: `str` reads options as parameters.
+        The message template for both readings, command line and library; `str` names options as parameters.
     """
 
     exit_code = 1
@@ -172,12 +172,12 @@ class VorotoolError(Exception):
 
     @property
     def typed(self) -> Message:
-        """The words as the command line says them."""
+        """Message as printed on the command line."""
         return Message(_typed(self.marked), source=self.source)
 
 
 class VerificationError(VorotoolError):
-    """A shipped checker found a result wrong (exit 1).
+    """Error for a result that a checker found wrong (exit 1).
 
     Parameters
     ----------
@@ -187,7 +187,7 @@ class VerificationError(VorotoolError):
 
 
 class UsageError(VorotoolError, ValueError):
-    """Options that do not go together, or an option's value out of range (exit 2).
+    """Error for conflicting options, or an option's value out of range (exit 2).
 
     Parameters
     ----------
@@ -199,7 +199,7 @@ class UsageError(VorotoolError, ValueError):
 
 
 class InputError(VorotoolError, ValueError):
-    """Input that cannot be used: the message names the file, the place, the value and what to do (exit 3).
+    """Error for unusable input; the message names the file, the place, the value and what to do (exit 3).
 
     Parameters
     ----------
@@ -211,7 +211,7 @@ class InputError(VorotoolError, ValueError):
 
 
 class OutputError(VorotoolError, OSError):
-    """Output that cannot be written; an older file is untouched (exit 4).
+    """Error for output that cannot be written; an existing file is untouched (exit 4).
 
     Parameters
     ----------
@@ -223,7 +223,7 @@ class OutputError(VorotoolError, OSError):
 
 
 class LimitError(VorotoolError):
-    """A limit would be exceeded; found before memory is taken (exit 5).
+    """Error for a limit that would be exceeded; raised before memory is allocated (exit 5).
 
     Parameters
     ----------
@@ -247,7 +247,7 @@ class BatchError(VorotoolError):
 
 
 class VorotoolWarning(UserWarning):
-    """Something was repaired, snapped or guessed; one line that counts what was done.
+    """Warning that something was repaired, snapped or guessed: one line with counts.
 
     Parameters
     ----------
@@ -261,7 +261,7 @@ class VorotoolWarning(UserWarning):
 
     @property
     def message(self) -> Message:
-        """The line."""
+        """Message of the warning, one line."""
         return Message.of(*self.args)
 
 

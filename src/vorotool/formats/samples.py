@@ -12,7 +12,7 @@ from vorotool.products.samples import SAMPLES
 
 
 def sample(name: str) -> Path:
-    """Return the path of a sample, a small file that comes with the package.
+    """Return the path of a sample file of the package.
 
     Parameters
     ----------

@@ -34,28 +34,28 @@ _PROBES = (0.02, 0.25, 0.5, 0.75, 0.98)
 
 
 def alpha_hull(shape: AlphaShape) -> AlphaHull:
-    """Compute the boundary of what all empty open discs of radius r leave.
+    """Compute the alpha hull: the complement of all empty open discs of radius r.
 
     Each boundary edge of the alpha shape is a chord of an empty disc, on the side without a triangle, and its arc
-    within the triangle bounds the hull; but where arcs of two edges cross, what lies beyond is covered by the other
-    disc. A singular edge gives none: the discs on its two sides cover each other's arcs.
+    within the triangle bounds the hull; where arcs of two edges cross, the other disc covers the part beyond. A
+    singular edge has no arc: the discs on its two sides cover each other's arcs.
 
     Parameters
     ----------
     shape : AlphaShape
-        Without thresholds; of a finite radius.
+        A shape without thresholds and with a finite radius.
 
     Returns
     -------
     AlphaHull
-        The arcs, and the points that are hull by themselves.
+        The arcs, and the isolated points of the hull.
 
     Raises
     ------
     UsageError
-        If the radius is infinite: the hull is the convex hull then.
+        If the radius is infinite: the alpha hull is then the convex hull.
     InputError
-        If the radius is beyond all proportion to an edge, so that nothing tells its arc from it.
+        If the radius is so large that an arc cannot be told from its edge.
 
     References
     ----------

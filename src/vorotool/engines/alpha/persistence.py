@@ -26,29 +26,29 @@ def persistence(
     threads: int = 0,
     progress: Progress = None,
 ) -> RegionPersistence:
-    """Find the radii at which each region of the alpha shapes is born, and at which it merges with an older one.
+    """Compute the radii at which regions of the alpha shapes are born and merge with older ones.
 
-    Which radii are equal is decided exactly, and it does not matter which diagonals the triangulation has in cocircular
-    polygons, but for the count of triangles.
+    Equal radii are recognized exactly. The diagonals of cocircular polygons in the triangulation affect only the counts
+    of triangles.
 
     Parameters
     ----------
     points : AlphaComplex, PointSet, SeedSet, Triangulation, (n, 2) array, data frame, GeoSeries, …
-        A complex is used as it is.
+        Points, or a complex, which is used unchanged.
     strict, allow_empty, threads, progress : optional
         As for `alpha_complex`.
 
     Returns
     -------
     RegionPersistence
-        One row a region; collinear points have none.
+        One row per region; collinear points have no region.
 
     Raises
     ------
     InputError
         As for `alpha_complex`.
     UsageError
-        If the rule of the complex is the printed one, whose edges do not go with its triangles.
+        If the rule of the complex is the printed one, whose edges do not match its triangles.
 
     References
     ----------

@@ -27,15 +27,15 @@ _SMALL = 2.0**-900
 
 
 def verify_alpha_shape(shape: AlphaShape, *, threads: int = 0, progress: Progress = None) -> None:
-    """Check an alpha shape from its triangulation, exactly.
+    """Check an alpha shape exactly from its triangulation.
 
-    The triangulation; each triangle's circumradius against r, unless small holes or regions were changed; for each edge
-    whether it is a Gabriel edge, half its length against r, and so its class; regions, and every ring of the polygons.
+    The checks: the triangulation; each circumradius against r, unless small holes or regions were changed; for each
+    edge the Gabriel property, half its length against r, and so its class; regions and polygon rings.
 
     Parameters
     ----------
     shape : AlphaShape
-        With the corrected rule.
+        A shape by the corrected rule.
     threads : int
         Number of threads; 0 uses all.
     progress : callable, optional

@@ -44,7 +44,7 @@ def compare_digital(
     max_pixels: int = MAX_PIXELS,
     progress: Progress = None,
 ) -> DigitalComparison:
-    """Compare what the paper's rule finds with the exact triangulation of the same seeds.
+    """Compare the digital triangulation of the paper's rule with the exact one of the same seeds.
 
     Parameters
     ----------
@@ -66,11 +66,11 @@ def compare_digital(
     Returns
     -------
     DigitalComparison
-        Causes, the first that holds: ``cocircular`` (a tie: nothing is wrong) · ``no_region`` (a site that is nearest
-        to no pixel) · ``off_frame`` (the Voronoi vertex, or all of the Voronoi edge but a short part, lies beyond the
-        outermost pixel centres) · ``four_labels`` (where four labels meet at a corner every triple is a triangle, and
-        no diagonal an edge) · ``split_region`` (a region that is not 4-connected) · ``short_edge`` (a Voronoi edge
-        shorter than 1.5 pixels) · ``other``.
+        Precision, recall and differences. The cause of each is the first of these that holds: ``cocircular`` (a tie:
+        nothing is wrong) · ``no_region`` (a site that is nearest to no pixel) · ``off_frame`` (the Voronoi vertex, or
+        all of the Voronoi edge but a short part, lies beyond the outermost pixel centres) · ``four_labels`` (where four
+        labels meet at a corner every triple is a triangle, and no diagonal an edge) · ``split_region`` (a region that
+        is not 4-connected) · ``short_edge`` (a Voronoi edge shorter than 1.5 pixels) · ``other``.
 
     Raises
     ------

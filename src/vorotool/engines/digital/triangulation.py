@@ -55,7 +55,7 @@ def digital_triangulation(
     threads: int = 0,
     progress: Progress = None,
 ) -> DigitalTriangulation:
-    """Read edges and triangles off the digital tessellation by the paper's rule, to the letter.
+    """Extract edges and triangles from the digital tessellation by the paper's rule, to the letter.
 
     Edges link neighbouring regions, those with 4-neighbouring pixels ("by linking the neighboring seeds we obtain
     the correct Delaunay triangulation"). Triangles come from a pixel and two of its 4-neighbours that are
@@ -65,8 +65,8 @@ def digital_triangulation(
     Parameters
     ----------
     source : LabelImage, or what `tessellate` accepts
-        Seeds are tessellated exactly, band by band: memory does not grow with the height of the frame. Of a label
-        image without seeds, the centroids of the regions are the sites.
+        Seeds are tessellated exactly, band by band: memory does not grow with the height of the frame. The sites of a
+        label image without seeds are the centroids of its regions.
     shape, window : tuple of int, optional
         As in `tessellate`; not for a label image.
     image : bool, optional
@@ -83,7 +83,7 @@ def digital_triangulation(
     Returns
     -------
     DigitalTriangulation
-        Empty if there are no seeds.
+        The triangulation, empty if there are no seeds.
 
     Raises
     ------
@@ -218,9 +218,9 @@ class DigitalRepair:
 
 
 def digital_delaunay(source: SeedsLike, **options: Any) -> Triangulation:
-    """Give the Delaunay triangulation of seeds from their digital tessellation, repaired and certified.
+    """Compute the Delaunay triangulation of seeds by repairing and certifying their digital triangulation.
 
-    The result is that of ``delaunay(seeds)``, array by array.
+    The result equals ``delaunay(seeds)``, array by array.
 
     Parameters
     ----------
@@ -254,12 +254,12 @@ def repair_digital(
     max_pixels: int = MAX_PIXELS,
     progress: Progress = None,
 ) -> tuple[Triangulation, DigitalRepair]:
-    """Repair the triangulation that the digital tessellation shows, certify it, and tell what that took.
+    """Repair and certify the triangulation of a digital tessellation, and count the repairs.
 
-    Regions are made 4-connected by flooding; each corner of three labels becomes a triangle, of four labels two;
-    sites with only two neighbours are taken out; the hull is closed along the frame by Graham's scan; sides are
-    flipped until all are Delaunay; sites without a triangle are inserted. Then `verify_triangulation` checks the
-    result. Where a step cannot be carried out, all sites are inserted one by one, with a warning.
+    Flooding makes regions 4-connected; each corner of three labels becomes a triangle, of four labels two; sites with
+    only two neighbours are removed; Graham's scan closes the hull along the frame; sides are flipped until all are
+    Delaunay; sites without a triangle are inserted. Then `verify_triangulation` checks the result. If a step fails, all
+    sites are inserted one by one, with a warning.
 
     Parameters
     ----------

@@ -30,7 +30,7 @@ def verify_digital_triangulation(
     spacing: Spacing | None = None,
     threads: int = 0,
 ) -> None:
-    """Check edges and triangles against the definitions of section 2.1, band by band.
+    """Check a digital triangulation against the definitions of section 2.1, band by band.
 
     The labels of every band are checked by an independent search for the nearest seed; then each pixel is compared
     with its neighbours.
@@ -40,7 +40,7 @@ def verify_digital_triangulation(
     found : DigitalTriangulation
         From any source.
     source : what `tessellate` accepts
-        What it was made from; no label image.
+        The source of the triangulation, but not a label image.
     shape, window : tuple of int, optional
         As in `digital_triangulation`.
     image : bool, optional
@@ -53,7 +53,7 @@ def verify_digital_triangulation(
     Raises
     ------
     VerificationError
-        Naming the first edge or triangle that is missing, or should not be there.
+        If an edge or triangle is missing or false; the message names the first.
 
     Examples
     --------

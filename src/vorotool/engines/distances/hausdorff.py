@@ -21,20 +21,20 @@ def hausdorff(
     threads: int = 0,
     progress: Progress = None,
 ) -> Distances:
-    """Compute the Hausdorff distance between two shapes: how far a place of one can be from the other one at most.
+    """Compute the Hausdorff distance between two shapes.
 
-    All places count, those inside edges and polygons as well: nothing is sampled. Of edges the places are found at
-    which another edge becomes the nearest one; inside polygons, vertices of the Voronoi diagram of the other shape.
+    All places count, inside edges and polygons as well: nothing is sampled. Candidates on edges are the places where
+    the nearest edge changes; inside polygons, the vertices of the Voronoi diagram of the other shape.
 
     Parameters
     ----------
     a, b : object
         Points, lines and polygons, mixed as they come, as `vorotool.voronoi` takes them: an (n, 2) array is n points.
-        All of each is one shape.
+        Each argument is one shape.
     boundary : bool
-        Polygons are their outlines, as `shapely.hausdorff_distance` takes them; by default they are filled.
+        Whether polygons stand for their outlines, as in `shapely.hausdorff_distance`; by default they are filled.
     directed : bool
-        Only from a to b: `Distances.from_b` is None.
+        Compute only the distance from a to b: `Distances.from_b` is None.
     threads : int
         Number of threads; 0 uses all. The result does not depend on it.
     progress : callable, optional
@@ -43,14 +43,14 @@ def hausdorff(
     Returns
     -------
     Distances
-        With `distance`, and for both directions the place that is farthest, and the nearest one of the other shape.
-        Distances and places are right to a few ulp of the coordinates. Of several places as far, that of the first
-        vertex is taken, if it is a vertex; a place on an edge is taken before one inside a polygon.
+        The `distance`, and for both directions the farthest place with the nearest place of the other shape. Distances
+        and places are right to a few ulp of the coordinates. Of several equally far places the first vertex is taken,
+        if one is a vertex; a place on an edge is taken before one inside a polygon.
 
     Raises
     ------
     InputError
-        If a shape has no place, the two are in different coordinate reference systems, or coordinates are out of range.
+        If a shape is empty, the coordinate reference systems differ, or coordinates are out of range.
 
     See Also
     --------

@@ -12,7 +12,7 @@ from vorotool.geometry.progress import Progress
 
 
 def distance(a: Any, b: Any, *, boundary: bool = False, threads: int = 0, progress: Progress = None) -> Distances:
-    """Compute the smallest distance between two shapes, and a place of each where it is reached.
+    """Compute the smallest distance between two shapes, and the closest pair of places.
 
     Parameters
     ----------
@@ -22,8 +22,8 @@ def distance(a: Any, b: Any, *, boundary: bool = False, threads: int = 0, progre
     Returns
     -------
     Distances
-        With `Distances.smallest`. Whether the shapes meet, so that the distance is 0, is decided exactly; else it is
-        right to a few ulp of the coordinates. Of several pairs of edges as close, the first ones are taken.
+        Result with `Distances.smallest`. A distance of 0, where the shapes meet, is decided exactly; others are right
+        to a few ulp of the coordinates. The first of several equally close pairs of edges is taken.
 
     Raises
     ------

@@ -24,7 +24,7 @@ INNER_PARTS = 256
 
 
 def verify_distances(found: Distances) -> None:
-    """Check the distances between two shapes, with nothing that they were computed by.
+    """Check the distances between two shapes independently of their computation.
 
     Both places are on their shapes, and as far apart as is said, and so is the one from the other shape. None is
     beyond: edges are halved until the distance from what is nearest at both ends, which is convex, leaves no room for
@@ -34,7 +34,7 @@ def verify_distances(found: Distances) -> None:
     Parameters
     ----------
     found : Distances
-        As `vorotool.hausdorff` or `vorotool.distance` gives them.
+        Result of `vorotool.hausdorff` or `vorotool.distance`.
 
     Raises
     ------

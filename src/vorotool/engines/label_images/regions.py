@@ -80,7 +80,7 @@ def region_table(
     threads: int = 0,
     progress: Progress = None,
 ) -> Table:
-    """Tabulate the regions of a tessellation: one row a site, in increasing label order.
+    """Tabulate the regions of a tessellation: one row per site, in increasing label order.
 
     Parameters
     ----------
@@ -169,7 +169,7 @@ def neighbour_table(
     threads: int = 0,
     progress: Progress = None,
 ) -> Table:
-    """Tabulate the neighbouring regions: one row a pair of labels that share a pixel side (section 2.1), or a face.
+    """Tabulate neighbouring regions: one row per pair of labels that share a pixel side (section 2.1) or a face.
 
     Parameters
     ----------
@@ -298,7 +298,7 @@ def colour_regions(
     threads: int = 0,
     progress: Progress = None,
 ) -> NDArray[Any]:
-    """Colour the regions, as an array to index by label: ``colours[image.labels]``.
+    """Return colours of the regions, as an array indexed by label: ``colours[image.labels]``.
 
     Parameters
     ----------

@@ -25,19 +25,19 @@ CLASSES = ("outside", "singular", "boundary", "interior")
 
 @dataclass(frozen=True, eq=False, repr=False)
 class AlphaComplex(Value, Tabular, Geometric, Pictured):
-    """For each Delaunay edge the radii r at which it enters the alpha shape, bounds it, and goes inside.
+    """Family of alpha shapes: the radii at which each Delaunay edge enters, bounds and leaves the shape.
 
     The paper's α is -1/r. An edge is in the shape for r_min ≤ r < r_max. r_min is half its length, if it is a Gabriel
     edge, else r_mid, the smaller circumradius of its triangles, from which on it bounds a triangle of the shape; r_max
-    is the larger one. They are infinite where there are not so many triangles. A triangle is in the shape if its
-    circumradius is at most r. The paper has open intervals; the shapes differ only at radii of the spectrum.
+    is the larger one. Radii of missing triangles are infinite. A triangle is in the shape if its circumradius is at
+    most r. The paper has open intervals; the shapes differ only at radii of the spectrum.
 
-    Radii are correctly rounded. Comparisons go by ranks, which are places in the spectrum and exact.
+    Radii are correctly rounded. Comparisons use ranks, exact indices in the spectrum.
 
     Parameters
     ----------
     mesh : Triangulation
-        Whose edges these are.
+        Triangulation of the points.
     edges : (e, 2) int32 array
         Ends of each edge, the smaller index first, in the order of the triangles.
     sides : (e, 2) int32 array
@@ -45,9 +45,9 @@ class AlphaComplex(Value, Tabular, Geometric, Pictured):
     r_min, r_mid, r_max : (e,) float64 array
         Radii in input units; infinite where there is none.
     rank_min, rank_mid, rank_max : (e,) int32 array
-        Their places in the spectrum; its length for infinite ones.
+        Indices of these radii in the spectrum; its length for infinite radii.
     triangle_rank : (t,) int32 array
-        Places of the circumradii.
+        Indices of the circumradii in the spectrum.
     spectrum : (m,) float64 array
         Radii at which the shape changes, each exact value once, increasing; two of them may round to one double.
     witness : (m,) int32 array
@@ -92,11 +92,11 @@ class AlphaComplex(Value, Tabular, Geometric, Pictured):
         return self.mesh.points
 
     def reached(self, r: Radius) -> int:
-        """Count the critical radii that are at most r, exactly: ranks below this number have come."""
+        """Return the exact number of critical radii that are at most r: lower ranks are reached."""
         return self._count(r, or_equal=True)
 
     def entered(self, r: Radius) -> int:
-        """Count the critical radii at which an edge is in the shape of r: with open intervals, those below r."""
+        """Return the number of critical radii reached at r; with open intervals, of those below r."""
         return self._count(r, or_equal=self.rule != "printed")
 
     def _count(self, r: Radius, *, or_equal: bool) -> int:
@@ -114,7 +114,7 @@ class AlphaComplex(Value, Tabular, Geometric, Pictured):
         return low
 
     def squared_radius(self, rank: int) -> Fraction:
-        """Exact square of a radius of the spectrum."""
+        """Return the exact square of a radius of the spectrum."""
         item = int(self.witness[rank])
         triangles = len(self.triangle_rank)
         corners = self.mesh.triangles[item] if item < triangles else self.edges[item - triangles]
@@ -128,9 +128,9 @@ class AlphaComplex(Value, Tabular, Geometric, Pictured):
         return product / (4 * (ux * vy - uy * vx) ** 2)
 
     def radius_from(self, rank: int) -> Radius:
-        """Give a radius with which the shape of a rank begins: at least the critical one, less than the next.
+        """Return a radius for the shape of a rank: at least the critical radius, less than the next.
 
-        A double if there is one, the least; else a decimal fraction.
+        The radius is the least such double, or a decimal fraction if there is none.
         """
         square = self.squared_radius(rank)
         rounded = float(self.spectrum[rank])
@@ -152,7 +152,7 @@ class AlphaComplex(Value, Tabular, Geometric, Pictured):
             digits += 5
 
     def classes(self, r: Radius) -> NDArray[np.uint8]:
-        """(e,) place of each edge's class in `CLASSES` for the shape of r.
+        """Return the (e,) indices of the classes of the edges in `CLASSES` for the shape of r.
 
         Raises
         ------
@@ -163,7 +163,7 @@ class AlphaComplex(Value, Tabular, Geometric, Pictured):
         return classes_of(self, reached, entered)
 
     def lengths(self) -> NDArray[np.float64]:
-        """(e,) lengths of the edges; relative error below 1e-15, infinite beyond the largest double."""
+        """Return the (e,) lengths of the edges, to a relative error of 1e-15; infinite beyond the largest double."""
         a, b = self.points[self.edges[:, 0]], self.points[self.edges[:, 1]]
         with np.errstate(over="ignore"):
             lengths: NDArray[np.float64] = hypotenuse(*(b - a).T)

@@ -21,10 +21,10 @@ FINENESS = 7.529816085545908e-05
 
 @dataclass(frozen=True, eq=False, repr=False)
 class AlphaHull(Value, Tabular, Geometric, Pictured):
-    """The complement of all open discs of radius r that hold no point.
+    """Alpha hull: the complement of all open discs of radius r that contain no point.
 
-    Arcs go clockwise around their centres, so that the hull is on their left; one begins where another one ends. Those
-    of each ring follow one another.
+    Arcs run clockwise around their centres, with the hull on their left. The arcs of each ring are consecutive: each
+    begins where another one ends.
 
     Parameters
     ----------
@@ -37,7 +37,7 @@ class AlphaHull(Value, Tabular, Geometric, Pictured):
     ring_start : (q + 1,) int64 array
         The first arc of each ring, and k.
     points : (p,) int32 array
-        Points of the hull that are on no arc and not inside: the hull has no extent around them.
+        Isolated points of the hull: those neither on an arc nor inside.
 
     References
     ----------
@@ -57,7 +57,7 @@ class AlphaHull(Value, Tabular, Geometric, Pictured):
 
     @property
     def r(self) -> float:
-        """The radius of all arcs."""
+        """Radius of all arcs."""
         return float(self.shape.r)
 
     @cached_property
@@ -71,7 +71,7 @@ class AlphaHull(Value, Tabular, Geometric, Pictured):
         return float(self.angles.sum() * self.r)
 
     def flattened(self, tolerance: float) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-        """Replace arcs by chords that are off by at most a length.
+        """Return the rings as polygons, with chords within a tolerance of the arcs.
 
         Returns
         -------
@@ -95,7 +95,7 @@ class AlphaHull(Value, Tabular, Geometric, Pictured):
         return xy, starts_of(counts)[self.ring_start]
 
     def polygons(self) -> list[list[NDArray[np.float64]]]:
-        """Flattened rings of each polygon: a counter-clockwise one, then the clockwise ones just inside it."""
+        """Return the flattened rings of each polygon: the counter-clockwise shell, then its clockwise holes."""
         import shapely
 
         xy, starts = self.flattened(self.r * FINENESS)
@@ -115,9 +115,9 @@ class AlphaHull(Value, Tabular, Geometric, Pictured):
         return [polygons[k] for k in sorted(polygons)]
 
     def table(self) -> Table:
-        """Give one row an arc: ``x0, y0, x1, y1, cx, cy, r, label_a, label_b, ring``.
+        """Return a table of the arcs: ``x0, y0, x1, y1, cx, cy, r, label_a, label_b, ring``.
 
-        The labels are those of the points of its circle; rings count from 1.
+        The labels are those of the points on the circle of the arc; rings count from 1.
         """
         family = self.shape.family
         labels = family.mesh.label_array

@@ -13,28 +13,28 @@ from vorotool.geometry.values import Tabular, Value, counted
 
 @dataclass(frozen=True, eq=False, repr=False)
 class RegionPersistence(Value, Tabular):
-    """Regions of the alpha shapes of all radii: the radii at which each is born and dies.
+    """Persistence of the regions of all alpha shapes: the radii at which each is born and dies.
 
-    A region is triangles joined through edges. It is born with its first triangle, and dies where it merges with one
-    that was born earlier (the elder rule); of several born at one radius that with the most points lives on, then the
-    one whose first triangle comes first. Regions are in the order of their births, then of these triangles. Regions
-    that would merge at the radius of their birth are one.
+    A region consists of triangles joined through edges. It is born with its first triangle, and dies when it merges
+    with one born earlier (the elder rule); of several born at one radius the one with the most points survives, then
+    the one whose first triangle comes first. Regions are ordered by birth, then by these triangles. Regions that would
+    merge at the radius of their birth are one.
 
     Parameters
     ----------
     birth : (k,) float64 array
-        Radii from which on they are there.
+        Radii at which the regions are born.
     death : (k,) float64 array
-        Radii at which they become part of another; infinite if they never do.
+        Radii at which the regions merge into older ones; infinite if they never do.
     into : (k,) int32 array
-        That other region, or -1.
+        The older region, or -1.
     points, triangles : (k,) int32 arrays
-        Vertices and triangles of the region just before it dies, or at last.
+        Numbers of vertices and triangles just before the death, or for the largest shape.
     area : (k,) float64 array
-        Of these triangles.
+        Area of these triangles.
     joined : float
-        The least radius at which one region holds every point, or the largest radius of all if there is none: what
-        stands for a death that never comes where persistences are compared.
+        Smallest radius at which one region holds every point, or the largest radius if there is none; it replaces
+        infinite deaths when persistences are compared.
 
     Examples
     --------
@@ -59,17 +59,17 @@ class RegionPersistence(Value, Tabular):
 
     @property
     def persistence(self) -> NDArray[np.float64]:
-        """(k,) death less birth; of regions that never die the radius at which all points are joined less birth."""
+        """(k,) death minus birth; for regions that never die `joined` minus birth."""
         death = np.where(np.isinf(self.death), np.maximum(self.joined, self.birth), self.death)
         there = np.isfinite(self.birth)  # of circles beyond the largest double nothing can be told
         return np.subtract(death, self.birth, out=np.zeros(len(self)), where=there)
 
     @property
     def suggested(self) -> int:
-        """How many regions stand out: those above the largest gap between persistences that follow one another.
+        """Number of regions that stand out: those above the largest gap between successive persistences.
 
-        The last gap is that between the least persistence and 0; of equal gaps the one with fewer regions counts. One
-        point far away makes the first gap large: then look at the table.
+        The last gap is between the least persistence and 0; of equal gaps the one with fewer regions counts. One
+        distant point makes the first gap large: look at the table in that case.
         """
         ordered = np.append(np.sort(self.persistence)[::-1], 0.0)
         gaps = ordered[:-1] - ordered[1:]
@@ -77,14 +77,14 @@ class RegionPersistence(Value, Tabular):
 
     @property
     def apart_until(self) -> float:
-        """The least radius at which one of the regions that stand out dies: below it they are apart."""
+        """Smallest radius at which one of the regions that stand out dies: below it they are separate."""
         standing = np.argsort(-self.persistence, kind="stable")[: self.suggested]
         return float(self.death[standing].min(initial=np.inf))
 
     def table(self) -> Table:
-        """Give one row a region: ``region, birth, death, persistence, into, points, triangles, area``.
+        """Return a table of the regions: ``region, birth, death, persistence, into, points, triangles, area``.
 
-        Regions count from 1. Of one that never dies ``death`` and ``into`` do not exist.
+        Regions count from 1. Regions that never die have no ``death`` and no ``into``.
         """
         return Table(
             {

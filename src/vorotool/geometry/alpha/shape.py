@@ -18,7 +18,7 @@ POINT_CLASSES = ("isolated", "singular", "boundary", "interior")
 
 @dataclass(frozen=True, eq=False, repr=False)
 class AlphaShape(Value, Tabular, WithParts, Pictured):
-    """The shape of points for one radius r (the paper's α is -1/r).
+    """Alpha shape of points for one radius r (the paper's α is -1/r).
 
     Parameters
     ----------
@@ -29,14 +29,14 @@ class AlphaShape(Value, Tabular, WithParts, Pictured):
     edge_index : (k,) int32 array
         Edges of the family that are singular or boundary, increasing.
     kind : (k,) uint8 array
-        Their places in `CLASSES`.
+        Indices of their classes in `CLASSES`.
     region : (t,) int32 array
-        Region of each triangle of the mesh, from 0; -1 of one that is not in the shape.
+        Region of each triangle of the mesh, from 0; -1 for triangles outside the shape.
     polygons : PolygonSet
-        One polygon a region, in this order, with ids from 1: a counter-clockwise shell and clockwise holes, each ring
-        without repeated vertices. Regions, and rings of one region, may touch at points.
+        One polygon per region, in their order, with ids from 1: a counter-clockwise shell and clockwise holes, each
+        ring without repeated vertices. Regions, and rings of one region, may touch at points.
     cavity_count : int
-        Bounded components of what the triangles leave: one that several regions enclose is a hole of no polygon.
+        Bounded components of the complement; one enclosed by several regions is not a hole of any polygon.
     has_thresholds : bool
         Whether small holes were filled or small regions left out.
 
@@ -106,7 +106,7 @@ class AlphaShape(Value, Tabular, WithParts, Pictured):
         return np.bincount(self.region[inside], areas, self.region_count).astype(np.float64)
 
     def edge_classes(self) -> NDArray[np.uint8]:
-        """(e,) place of the class of each edge of the family in `CLASSES`."""
+        """Return the (e,) indices of the classes of all edges of the family in `CLASSES`."""
         classes = np.zeros(len(self.family), dtype=np.uint8)
         sides = self.family.sides
         both = np.append(self.inside, False)[sides].all(axis=1)  # side -1 is none
@@ -115,7 +115,7 @@ class AlphaShape(Value, Tabular, WithParts, Pictured):
         return classes
 
     def point_classes(self) -> NDArray[np.uint8]:
-        """(n,) place of each point in `POINT_CLASSES`; a duplicate is what the first point at its place is."""
+        """Return the (n,) indices of the classes of the points in `POINT_CLASSES`; duplicates share one."""
         found = np.zeros(len(self.points), dtype=np.uint8)
         mesh = self.family.mesh
         found[mesh.triangles[self.inside].reshape(-1)] = POINT_CLASSES.index("interior")
@@ -127,7 +127,7 @@ class AlphaShape(Value, Tabular, WithParts, Pictured):
         return found[mesh.first]
 
     def point_regions(self) -> NDArray[np.int32]:
-        """(n,) the first region that each point is a vertex of, from 0; -1 if there is none."""
+        """Return the (n,) first region of which each point is a vertex, from 0; -1 if there is none."""
         mesh, none = self.family.mesh, np.iinfo(np.int32).max
         found = np.full(len(self.points), none, dtype=np.int32)
         inside = self.inside
@@ -137,14 +137,14 @@ class AlphaShape(Value, Tabular, WithParts, Pictured):
 
     @property
     def isolated(self) -> NDArray[np.int32]:
-        """Points on no edge of the shape: 0-based, the first of each place."""
+        """Return the 0-based points on no edge of the shape, without duplicates."""
         mesh = self.family.mesh
         is_first = mesh.first == np.arange(len(mesh.first))
         return np.flatnonzero((self.point_classes() == 0) & is_first).astype(np.int32)
 
     @property
     def hole_count(self) -> int:
-        """Holes of all polygons."""
+        """Number of holes of all polygons."""
         return int((self.polygons.ring_kind == HOLE).sum())
 
     def holes_of_regions(self) -> NDArray[np.int64]:

@@ -43,9 +43,9 @@ GraphLike = (
 def to_networkx(
     value: GraphLike, *, by: str | None = None, flatten: Flatten = None
 ) -> networkx.Graph[int] | networkx.MultiGraph[int]:
-    """Give a value as an undirected graph of networkx, which has to be installed.
+    """Return a result as an undirected networkx graph; networkx must be installed.
 
-    The graph has ``crs`` if the input had. What does not exist is left out of the attributes.
+    The graph has ``crs`` if the input had. Missing values are left out of the attributes.
 
     Parameters
     ----------
@@ -62,20 +62,20 @@ def to_networkx(
         Voronoi map nodes are numbers of its cells, from 0, with the columns of its table, edges join neighbours, with
         ``border_length`` and ``distance``.
     by : {"branch", "arc"}, optional
-        What an edge of a skeleton is; by default a branch. A closed branch joins a node with itself.
+        Meaning of an edge of a skeleton; by default a branch. A closed branch joins a node with itself.
     flatten : float or "auto", optional
-        How far the geometry may be from parabolas; by default, or with "auto", as of `Skeleton.flattened`.
+        Largest distance of the geometry from parabolas; by default, or with "auto", as for `Skeleton.flattened`.
 
     Returns
     -------
     networkx.Graph or networkx.MultiGraph
-        The latter of skeletons.
+        A graph; a multigraph for skeletons.
 
     Raises
     ------
     UsageError
-        If networkx is not installed, there is no graph of the value, ``by`` is something else, the tolerance is not
-        positive, or one of both is given for what is no skeleton.
+        If networkx is not installed, the value has no graph, ``by`` is unknown, the tolerance is not positive, or
+        ``by`` or ``flatten`` is passed for a value that is not a skeleton.
 
     Examples
     --------

@@ -54,23 +54,23 @@ class IndexedTable(NamedTuple):
 
 
 def table(value: Any) -> dict[str, NDArray[Any]]:
-    """Give the columns of a table as arrays: of the edges of a triangulation, arcs, points along these, or offsets.
+    """Return the columns of the table of a result as arrays.
 
     Parameters
     ----------
     value : Table, or a value of the library that has one
-        What to tell about, by one row an edge of a triangulation, a region of a label image, a label volume or an alpha
-        shape, an arc of a skeleton; fields that do not exist are masked, None, or NaN.
+        A result, with one row per edge of a triangulation, region of a label image, a label volume or an alpha shape,
+        arc of a skeleton, …; fields that do not exist are masked, None, or NaN.
 
     Returns
     -------
     dict of arrays
-        By the names of the columns; all have one length.
+        Arrays of one length, by column name.
 
     Raises
     ------
     UsageError
-        If there is no table of it.
+        If the value has no table.
 
     Examples
     --------

@@ -18,14 +18,14 @@ HAUSDORFF, FROM_A, FROM_B, SMALLEST = "hausdorff", "a to b", "b to a", "smallest
 
 @dataclass(frozen=True)
 class PlacePair:
-    """A place of a shape a, the nearest one of a shape b or the other way round, and how far they are apart.
+    """A place of a shape, the nearest place of another shape, and their distance.
 
     Parameters
     ----------
     distance : float
         In the units of the input.
     on_a, on_b : tuple of float
-        Their x and y.
+        The x and y of the place on a, and of that on b.
     """
 
     distance: float
@@ -38,7 +38,7 @@ class PlacePair:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Distances(Value, Tabular, Geometric, Pictured):
-    """How far two shapes a and b are apart: by the Hausdorff distance, the smallest distance, or both.
+    """Distances between two shapes a and b: the Hausdorff distance, the smallest distance, or both.
 
     Parameters
     ----------
@@ -48,11 +48,11 @@ class Distances(Value, Tabular, Geometric, Pictured):
     from_b : PlacePair, optional
         The place of b that is farthest from a, and the place of a that is nearest to it.
     smallest : PlacePair, optional
-        A place of each that are closest to each other.
+        The closest pair of places.
     shapes : tuple of PolygonSet
-        Both, a and b.
+        The shapes a and b.
     is_boundary : bool
-        Polygons are their outlines; else they are filled.
+        Whether polygons stand for their outlines; else they are filled.
 
     Examples
     --------
@@ -70,7 +70,7 @@ class Distances(Value, Tabular, Geometric, Pictured):
 
     @property
     def distance(self) -> float:
-        """The Hausdorff distance: the larger one of those that there are; without any, the smallest distance."""
+        """Hausdorff distance, the larger of the directed ones computed; without them the smallest distance."""
         rows = self.rows
         return (rows.get(HAUSDORFF) or rows.get(FROM_A) or rows.get(FROM_B) or rows[SMALLEST]).distance
 
@@ -79,7 +79,7 @@ class Distances(Value, Tabular, Geometric, Pictured):
 
     @property
     def rows(self) -> dict[str, PlacePair]:
-        """The distances by name: ``hausdorff``, ``a to b``, ``b to a``, ``smallest``, as far as there are any."""
+        """Distances by name: those of ``hausdorff``, ``a to b``, ``b to a`` and ``smallest`` that exist."""
         found: dict[str, PlacePair] = {}
         if self.from_a is not None and self.from_b is not None:
             found[HAUSDORFF] = self.from_a if self.from_a.distance >= self.from_b.distance else self.from_b
@@ -103,7 +103,7 @@ class Distances(Value, Tabular, Geometric, Pictured):
         return np.array([(each.on_a, each.on_b) for each in self.rows.values()]).reshape(-1, 2, 2)
 
     def table(self) -> Table:
-        """Give one row a distance.
+        """Return a table with one row per distance.
 
         Returns
         -------

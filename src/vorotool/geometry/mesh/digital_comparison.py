@@ -10,7 +10,7 @@ from vorotool.geometry.values import Tabular, Value
 
 @dataclass(frozen=True, eq=False, repr=False)
 class DigitalComparison(Value, Tabular):
-    """Precision, recall, and every difference with its cause.
+    """Precision and recall of a digital triangulation, and every difference with its cause.
 
     Ties are allowed: an edge or triangle is right if some Delaunay triangulation of the sites has it, and must be
     there if all of them have it.
@@ -18,15 +18,15 @@ class DigitalComparison(Value, Tabular):
     Parameters
     ----------
     edge_precision, edge_recall, triangle_precision, triangle_recall : float
-        Right ones among those found; found ones among those that must be there. 1 where there are none.
+        Fraction of the results that are right, and of the required ones that are found; 1 if there are none.
     table : Table
-        One row a difference: ``kind`` (edge or triangle), ``difference`` (missing, false or tie), ``label_a``,
+        One row per difference: ``kind`` (edge or triangle), ``difference`` (missing, false or tie), ``label_a``,
         ``label_b``, ``label_c`` (of triangles), ``cause``, and ``voronoi_length``: pixels of the Voronoi edge that
         explains it, inside the frame, where there is one.
     counts : dict of str to int
         Differences by ``kind difference cause``.
     suggestion : str
-        A frame or scale that would show most of what is missing.
+        A frame or scale at which most of the missing ones would be found.
 
     Examples
     --------
@@ -43,7 +43,7 @@ class DigitalComparison(Value, Tabular):
     suggestion: str
 
     def summary(self) -> str:
-        """Say it in one line."""
+        """Return a summary in one line."""
         parts = [
             f"edges: precision {self.edge_precision:.3f}, recall {self.edge_recall:.3f}",
             f"triangles: precision {self.triangle_precision:.3f}, recall {self.triangle_recall:.3f}",

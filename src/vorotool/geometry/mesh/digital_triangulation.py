@@ -17,9 +17,9 @@ from vorotool.geometry.values import Graph, Pictured, Tabular, Value, WithParts,
 
 @dataclass(frozen=True, eq=False, repr=False)
 class DigitalTriangulation(Value, Tabular, WithParts, Graph, Pictured):
-    """Edges and triangles read off a label image by the rule of section 2.1; indices are 0-based and of type int32.
+    """Edges and triangles of a label image by the rule of section 2.1, as 0-based int32 indices.
 
-    This is no `Triangulation`: triangles may overlap or be flat, and a side of a triangle need not be an edge.
+    It is not a `Triangulation`: triangles may overlap or be flat, and a side of a triangle need not be an edge.
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ class DigitalTriangulation(Value, Tabular, WithParts, Graph, Pictured):
     labels : (n,) int64 array
         Label of each region.
     three_label_corners, four_label_corners : int
-        Corners of the pixel lattice at which so many labels meet.
+        Numbers of corners of the pixel lattice at which three and four labels meet.
     properties : dict of str to sequence, optional
         Other columns of the input, one value per site.
     y_up : bool
@@ -98,15 +98,15 @@ class DigitalTriangulation(Value, Tabular, WithParts, Graph, Pictured):
 
     @property
     def label_array(self) -> NDArray[np.int64]:
-        """(n,) labels of the regions."""
+        """Return the (n,) labels of the regions."""
         return self.labels
 
     def edge_lengths(self, rows: slice = ALL) -> NDArray[np.float64]:
-        """(e,) distances between the sites of the edges, or of some of them."""
+        """Return the (e,) distances between the sites of all or some edges."""
         return lengths_of(self.points, self.edges[rows])
 
     def sides(self) -> NDArray[np.int32]:
-        """(s, 2) sides of the triangles, each once, the smaller index first, in lexicographic order."""
+        """Return the (s, 2) sides of the triangles, each once, smaller index first, in lexicographic order."""
         pairs = self.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
         sides: NDArray[np.int32] = np.unique(np.sort(pairs, axis=1), axis=0)
         return sides

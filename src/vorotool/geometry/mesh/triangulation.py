@@ -28,13 +28,12 @@ CHUNK = 1 << 14
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Triangulation(Value, Tabular, WithParts, Graph, Pictured):
-    """Triangles, edges and hull of points; indices are 0-based and of type int32.
+    """Triangles, edges and hull of points, as 0-based int32 indices.
 
-    The order of triangles and edges is that of a Morton curve through the points: it depends on where they are, not on
-    how they are numbered. Triangles and edges come with their vertex that is earliest on the curve, counter-clockwise
-    around it from its earliest neighbour; a triangle begins with that vertex. Collinear points, and fewer than three,
-    have no triangles: their edges are a chain. Each cocircular polygon is a fan from its lexicographically smallest
-    vertex.
+    Triangles and edges follow a Morton curve through the points: their order depends on the coordinates, not on the
+    numbering. They are grouped by their vertex that is earliest on the curve, counter-clockwise around it from its
+    earliest neighbour; a triangle begins with that vertex. Collinear points, and fewer than three, have no triangles:
+    their edges form a chain. Each cocircular polygon is a fan from its lexicographically smallest vertex.
 
     Parameters
     ----------
@@ -47,10 +46,10 @@ class Triangulation(Value, Tabular, WithParts, Graph, Pictured):
     edges : (e, 2) int32 array
         Ends of each edge, the smaller index first.
     hull : (h,) int32 array
-        Vertices on the hull, those inside its sides too, counter-clockwise from the lexicographically smallest; the
-        whole chain if there are no triangles.
+        Vertices on the hull, including those inside its sides, counter-clockwise from the lexicographically smallest;
+        the whole chain if there are no triangles.
     first : (n,) int32 array
-        For each point the first one at the same place: itself unless it is a duplicate. Duplicates are in no triangle.
+        Index of the first point at the place of each point. Duplicates are in no triangle.
     labels : (n,) int64 array, optional
         The input's own labels. Without them point i has label i + 1.
     properties : dict of str to sequence, optional
@@ -60,7 +59,7 @@ class Triangulation(Value, Tabular, WithParts, Graph, Pictured):
     crs : object, optional
         The ``crs`` member of a GeoJSON input.
     first_number : {1, 0}
-        Number of the first point in files of Triangle: that in the ``.node`` file that the points come from.
+        Number of the first point in files of Triangle, as in the ``.node`` file of the input.
     index : pandas Index, array or sequence, optional
         Names of the points in the input, such as the row index of a data frame: one entry per point.
 
@@ -114,15 +113,15 @@ class Triangulation(Value, Tabular, WithParts, Graph, Pictured):
 
     @property
     def duplicates(self) -> int:
-        """Number of points that lie on an earlier one."""
+        """Number of duplicate points."""
         return int(np.count_nonzero(self.first != np.arange(len(self.first))))
 
     def edge_lengths(self, rows: slice = ALL) -> NDArray[np.float64]:
-        """(e,) lengths of the edges, or of some; relative error below 1e-15, infinite beyond the largest double."""
+        """Return the (e,) lengths of all or some edges, to a relative error of 1e-15; infinite on overflow."""
         return lengths_of(self.points, self.edges[rows])
 
     def hull_edges(self) -> NDArray[np.bool_]:
-        """(e,) whether each edge is a side of the hull; all are, where there is no triangle."""
+        """Return the (e,) mask of edges on the hull; without triangles all edges are."""
         if not len(self.triangles):
             return np.ones(len(self.edges), dtype=bool)
         onward = np.full(len(self.points), -1, dtype=np.int32)  # next vertex on the hull
@@ -132,7 +131,7 @@ class Triangulation(Value, Tabular, WithParts, Graph, Pictured):
         return found
 
     def circumcentres(self) -> NDArray[np.float64]:
-        """(t, 2) centres of the circles through the vertices of each triangle.
+        """Return the (t, 2) circumcentres of the triangles.
 
         The error is at most about 1e-9 times the circumradius, nearly always about 1e-15 times, plus the rounding of
         the result. A centre beyond the largest double is infinite.
@@ -140,11 +139,11 @@ class Triangulation(Value, Tabular, WithParts, Graph, Pictured):
         return self._circles()[0]
 
     def circumradii(self) -> NDArray[np.float64]:
-        """(t,) radii of these circles, with a relative error of at most about 1e-9, nearly always about 1e-15."""
+        """Return the (t,) circumradii, to a relative error of at most about 1e-9, nearly always about 1e-15."""
         return self._circles()[1]
 
     def areas(self) -> NDArray[np.float64]:
-        """(t,) areas of the triangles, positive.
+        """Return the (t,) positive areas of the triangles.
 
         The error is about 1e-15 times the product of the two shorter sides; triangles flat beyond that are exact to
         rounding.
