@@ -35,7 +35,7 @@ class Box:
     InputError
         If it has no area or a side is not finite.
     UsageError
-        If a side is no number.
+        If a side is not a number.
 
     Examples
     --------

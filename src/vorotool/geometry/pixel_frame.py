@@ -26,7 +26,7 @@ class Frame:
     InputError
         If the frame is empty, or begins farther than 2^44 pixels from the origin.
     UsageError
-        If a number is no integer.
+        If a number is not an integer.
 
     Examples
     --------

@@ -103,19 +103,19 @@ class Table(dict[str, Any], Tabular):
         return super().__iter__()
 
     def get(self, name: str, default: Any = None) -> Any:
-        """Give a column, or something else if there is none."""
+        """Return a column, or a default if there is none."""
         return self[name] if name in self.keys() else default
 
     def values(self) -> ValuesView[Any]:  # type: ignore[override]  # dict's shows what is stored
-        """Give the columns."""
+        """Return the columns."""
         return ValuesView(self)
 
     def items(self) -> ItemsView[str, Any]:  # type: ignore[override]
-        """Give the columns with their names."""
+        """Return the columns with their names."""
         return ItemsView(self)
 
     def copy(self) -> Table:
-        """Give a table of the same columns."""
+        """Return a table of the same columns."""
         return Table(self)
 
     def __or__(self, other: Mapping[str, Any]) -> dict[str, Any]:  # type: ignore[override]  # dict's has what is stored

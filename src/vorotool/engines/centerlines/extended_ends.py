@@ -19,7 +19,7 @@ from vorotool.geometry.skeleton.skeleton import INTERIOR, Skeleton
 
 
 def extend_ends(skeleton: Skeleton, *, threads: int = 0, progress: Progress = None) -> ExtendedSkeleton:
-    """Lead the ends of a skeleton on to the boundary, so that it reaches the ends of strokes.
+    """Extend the ends of a skeleton to the boundary, so that it reaches the ends of strokes.
 
     First, the forks at the ends of strokes are left out, and the hooks that outlines of pixels make there: pieces
     whose radii fall as fast as into a corner of 45 degrees or more. No branch is left out, not even of a stroke on a
@@ -40,7 +40,7 @@ def extend_ends(skeleton: Skeleton, *, threads: int = 0, progress: Progress = No
     Returns
     -------
     ExtendedSkeleton
-        Branches with the places that they are led on to.
+        Branches with the places that they are extended to.
 
     Examples
     --------

@@ -22,12 +22,12 @@ PRECISION = 2.0**-40
 
 
 def verify_extended(extended: ExtendedSkeleton, skeleton: Skeleton | None = None) -> None:
-    """Check the straight lines that lead on: from leaves inside, within their polygon, to its boundary.
+    """Check that the lines that extend a skeleton run from leaves inside polygons to the boundary.
 
     Parameters
     ----------
     extended : ExtendedSkeleton
-        As `vorotool.extend_ends` made it.
+        Result of `vorotool.extend_ends`.
     skeleton : Skeleton, optional
         The skeleton it was made of: nothing of it may be missing but ends. From each node that
         is missing, the skeleton beyond it ends within 3.62 radii of that node, as it does in corners of 45 degrees or

@@ -35,7 +35,7 @@ def voronoi_cells(
     threads: int = 0,
     progress: Progress = None,
 ) -> CellSet:
-    """Give each point the part of a frame that is nearer to it than to any other point.
+    """Compute the Voronoi cells of points, clipped to a frame.
 
     Which vertices a cell has is decided exactly, and every vertex is the place nearest to the exact one that doubles
     hold: neighbouring cells share vertices bit for bit, and the cells tile the frame. Points outside the frame are
@@ -44,7 +44,7 @@ def voronoi_cells(
     Parameters
     ----------
     points : Triangulation, PointSet, SeedSet, (n, 2) array, data frame, GeoSeries, …
-        A triangulation is used as it is.
+        Points, or a triangulation, which is used unchanged.
     frame : Box or (x, y, width, height), optional
         By default the bounds of the points, widened by a tenth of the longer side; with `clip`, its bounds.
     clip : polygons as for `skeleton_exact`, optional
@@ -57,7 +57,7 @@ def voronoi_cells(
     Returns
     -------
     CellSet
-        One cell a point, in their order. A point that lies on an earlier one has an empty cell.
+        One cell per point, in the order of the points. Duplicate points have empty cells.
 
     Raises
     ------
@@ -101,7 +101,7 @@ def _box(frame: FrameLike | None, mesh: Triangulation, area: Any) -> Box:
 
 
 def cell_colours(mesh: Triangulation, *, progress: Progress = None) -> NDArray[np.uint32]:
-    """Colour points so that neighbours in the triangulation, and with them neighbouring cells, never share a colour.
+    """Colour points so that neighbours in the triangulation, and so neighbouring cells, differ.
 
     Parameters
     ----------

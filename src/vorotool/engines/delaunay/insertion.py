@@ -36,7 +36,7 @@ def insert_points(
     threads: int = 0,
     progress: Progress = None,
 ) -> Triangulation:
-    """Insert points into a Delaunay triangulation where they lie: exactly, and without touching the rest.
+    """Insert points into a Delaunay triangulation, exactly and locally.
 
     The result is that of `delaunay` for all the points, array by array. Each point is searched for by a walk over the
     triangles, and edges around it are flipped until all circles are empty (Lawson 1977): for m points that takes time
@@ -81,7 +81,7 @@ def insert_points(
     Warns
     -----
     VorotoolWarning
-        If points lie on an earlier one: how many of all.
+        If points are duplicates: how many of all.
 
     References
     ----------

@@ -26,7 +26,7 @@ def proximity_graph(
     threads: int = 0,
     progress: Progress = None,
 ) -> ProximityGraph:
-    """Join points that are near to each other: by a subgraph of their Delaunay triangulation.
+    """Compute a proximity graph of points, a subgraph of their Delaunay triangulation.
 
     Every decision is exact, and the graph is one of the points alone: which diagonals the triangulation has in
     cocircular polygons changes nothing.

@@ -30,7 +30,7 @@ def site_table(
     threads: int = 0,
     progress: Progress = None,
 ) -> Table:
-    """Tabulate the points of a triangulation: one row a point, in the order of the input.
+    """Tabulate the points of a triangulation: one row per point, in the order of the input.
 
     Parameters
     ----------

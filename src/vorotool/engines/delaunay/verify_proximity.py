@@ -28,7 +28,7 @@ Test = Callable[[Places, Ends, NDArray[np.intp]], NDArray[np.bool_]]
 
 
 def verify_proximity_graph(graph: ProximityGraph) -> None:
-    """Check that a graph has those edges of its triangulation that its rule asks for, and no others.
+    """Check that a graph has exactly the edges of its triangulation that its rule requires.
 
     The triangulation itself is taken as it is: `verify_triangulation` checks that.
 
@@ -40,7 +40,7 @@ def verify_proximity_graph(graph: ProximityGraph) -> None:
     Raises
     ------
     VerificationError
-        Naming the first edge that is wrong.
+        If an edge is wrong; the message names the first.
 
     Examples
     --------

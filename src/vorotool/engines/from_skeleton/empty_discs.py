@@ -40,7 +40,7 @@ def largest_empty_discs(
     threads: int = 0,
     progress: Progress = None,
 ) -> Discs:
-    """Find the largest disc that no point, line or polygon enters, exact to rounding.
+    """Find the largest discs that no point, line or polygon enters, exact to rounding.
 
     Its centre is in a region; the disc may reach beyond. It is at a vertex of the Voronoi diagram of all vertices and
     edges, where one of its edges meets the border of the region, or in a corner of this.
@@ -68,9 +68,9 @@ def largest_empty_discs(
     Raises
     ------
     InputError
-        If the shapes or the region are none.
+        If the shapes or the region are invalid.
     UsageError
-        If the count is no positive whole number.
+        If the count is not a positive integer.
     LimitError
         If there are too many vertices.
 

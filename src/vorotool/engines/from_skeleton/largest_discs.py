@@ -37,7 +37,7 @@ def largest_discs(
     threads: int = 0,
     progress: Progress = None,
 ) -> Discs:
-    """Find the largest disc inside each feature, or several: the pole of inaccessibility, exact to rounding.
+    """Find the largest discs inside each feature (poles of inaccessibility), exact to rounding.
 
     Centres are on the axis of a feature: its skeleton, which is computed exactly. There is no tolerance. Radii that
     differ by less than rounding are the same; of such discs the one with the smallest x comes first, and of these that
@@ -72,7 +72,7 @@ def largest_discs(
     InputError, LimitError
         As for `vorotool.skeleton_exact`.
     UsageError
-        If the count is no positive whole number.
+        If the count is not a positive integer.
 
     Warns
     -----

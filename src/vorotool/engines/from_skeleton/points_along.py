@@ -26,7 +26,7 @@ MOST_POINTS = 1 << 27
 def points_along(
     skeleton: Skeleton | LedOn, *, every: float, threads: int = 0, progress: Progress = None
 ) -> SkeletonPoints:
-    """Give places along each branch or centerline: at its beginning, and on at equal steps of true arc length.
+    """Return points along each branch or centerline at equal steps of true arc length from its beginning.
 
     Parameters
     ----------

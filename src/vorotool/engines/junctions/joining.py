@@ -23,7 +23,7 @@ SNAP = 2.0**-30
 
 
 def join_junctions(skeleton: Skeleton) -> Skeleton:
-    """Make one junction of those that are joined by branches shorter than the radius at the largest of them.
+    """Merge junctions joined by branches shorter than the radius at the largest of them.
 
     A junction is a node where more than two arcs end. The largest one, of equally large ones that with the smallest
     (x, y), takes all that paths of junctions shorter than its radius lead to: they are in its disc. The others follow

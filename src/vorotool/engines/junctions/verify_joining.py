@@ -13,7 +13,7 @@ from vorotool.geometry.skeleton.tables import branch_table
 
 
 def verify_joining(joined: Skeleton, skeleton: Skeleton) -> None:
-    """Check that one skeleton is another one whose near junctions were joined.
+    """Check that a skeleton is another one with nearby junctions merged.
 
     Each arc is a part of an arc between the same sites, or it is straight, ends at a junction that there was with the
     same radius, is no longer than the radii at its ends together, and goes on from such a part or from a node that
@@ -24,7 +24,7 @@ def verify_joining(joined: Skeleton, skeleton: Skeleton) -> None:
     Parameters
     ----------
     joined, skeleton : Skeleton
-        What was made, and of what.
+        The skeleton with merged junctions, and the original one.
 
     Raises
     ------

@@ -70,7 +70,7 @@ def parts(
     InputError
         As for :func:`vorotool.skeleton_exact`.
     UsageError
-        If the ratio is none, or the skeleton is approximate, pruned, or has a gap.
+        If the ratio is invalid, or the skeleton is approximate, pruned, or has a gap.
 
     References
     ----------

@@ -33,7 +33,7 @@ _AREA_ERROR = 1e-9
 
 
 def verify_necks(necks: Necks, *, threads: int = 0, progress: Progress = None) -> None:
-    """Check necks: both feet are on their sites, as far apart as the width tells, and the middle is right.
+    """Check necks: both feet lie on their sites, the width is their distance, and the middle is right.
 
     Nothing of the boundary is nearer to the middle, so that the cut is inside; on both sides there are larger discs.
 

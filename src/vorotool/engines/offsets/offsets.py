@@ -51,7 +51,7 @@ def offset(
     threads: int = 0,
     progress: Progress = None,
 ) -> Offsets:
-    """Compute the curves at some distances from polygons and lines, as exact lines and circular arcs.
+    """Compute offset curves of polygons and lines as exact lines and circular arcs.
 
     Outwards (a distance above 0) the shapes grow into what is outside of all of them: they join where they come close,
     and holes shrink. Inwards (below 0) each feature shrinks as if there were no others, each region in it by itself; it
@@ -82,14 +82,14 @@ def offset(
     Returns
     -------
     Offsets
-        In the order of the distances; for each by polygon, what is around several polygons last.
+        Shapes in the order of the distances, then by polygon; those around several polygons come last.
 
     Raises
     ------
     InputError
         If a coordinate is not finite, or `strict` and something would be repaired.
     UsageError
-        If there is no distance, or one is 0, not finite, there twice, or beyond all proportion to the shapes.
+        If there is no distance, or one is 0, not finite, repeated, or too large for the shapes.
     LimitError
         If there are too many vertices.
 

@@ -54,7 +54,7 @@ def verify_offsets(
     offsets : Offsets
         What to check.
     distances : sequence of float
-        What was asked for: there may be nothing at some of them.
+        The distances requested; some may have no shape.
     threads : int
         Number of threads; 0 uses all.
     progress : callable, optional
@@ -63,7 +63,7 @@ def verify_offsets(
     Raises
     ------
     VerificationError
-        If something is wrong; the message says what and where.
+        If a check fails; the message says what and where.
 
     Examples
     --------

@@ -62,7 +62,7 @@ def distance_transform(
     threads: int = 0,
     max_pixels: int = MAX_PIXELS,
 ) -> NDArray[np.float64] | NDArray[np.int32] | tuple[NDArray[np.float64], NDArray[np.int32]]:
-    """Give the distance of each nonzero pixel or voxel to the nearest zero one, and which that is.
+    """Compute the distance of each nonzero pixel or voxel to the nearest zero one, and its indices.
 
     As `scipy.ndimage.distance_transform_edt`, between centres. Squared distances are exact integers, whose roots are
     rounded once. Of several nearest pixels it is the first one, row by row, that the indices name; SciPy names any.
@@ -75,7 +75,7 @@ def distance_transform(
         Sides of a pixel or voxel, by default 1; SciPy's ``sampling``. A float is the decimal number that it is written
         as.
     return_distances, return_indices : bool
-        What is wanted.
+        Which results to return.
     threads : int
         Number of threads; 0 uses all.
     max_pixels : int

@@ -33,7 +33,7 @@ def expand_labels(
     threads: int = 0,
     max_pixels: int = MAX_PIXELS,
 ) -> NDArray[Any]:
-    """Give each background pixel the label that is nearest to it, up to a distance.
+    """Expand labels into the background, up to a distance.
 
     As `skimage.segmentation.expand_labels`: labels do not grow into each other. Whether a pixel is within the distance
     is decided exactly, and of several labels at one distance the smallest has the pixel; scikit-image compares rounded
@@ -66,7 +66,7 @@ def expand_labels(
     LimitError
         If the image has more than `max_pixels` pixels.
     UsageError
-        If the distance is below 0 or none, or the spacing is none.
+        If the distance is negative or NaN, or the spacing is invalid.
 
     References
     ----------

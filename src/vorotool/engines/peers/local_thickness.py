@@ -31,7 +31,7 @@ def local_thickness(
     max_pixels: int = MAX_PIXELS,
     progress: Progress = None,
 ) -> NDArray[np.float64]:
-    """Give for each pixel of a mask or a label image the diameter of the largest inscribed disc that covers it.
+    """Compute for each pixel of an object the diameter of the largest inscribed disc that covers it.
 
     That is the local thickness of bone and pore analysis, of each component of a mask, or of each label, by itself.
     The discs are inside the outline of the object (see :func:`vorotool.outlines`), and their centres are all places of
@@ -68,7 +68,7 @@ def local_thickness(
     LimitError
         If it has more than `max_pixels` pixels.
     UsageError
-        If an option is none.
+        If an option is invalid.
 
     References
     ----------

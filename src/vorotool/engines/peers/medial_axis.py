@@ -47,7 +47,7 @@ def medial_axis(
     mask : (H, W) array
         Nonzero pixels are foreground.
     return_distance : bool
-        Give the distances to the background as well.
+        Return the distances to the background as well.
     threads : int
         Number of threads; 0 uses all.
 

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 def voronoi_polygons(
     points: MeshLike, *, extend_to: HasGeoInterface | None = None, threads: int = 0
 ) -> shapely.GeometryCollection:
-    """Give the exact Voronoi cells of points as polygons of shapely.
+    """Return the exact Voronoi cells of points as shapely polygons.
 
     As `shapely.voronoi_polygons` with ``ordered=True``: the cells fill the bounds of the points, widened on all sides
     by the longer side, and those of `extend_to`. Which cells meet is decided exactly, and vertices are rounded once.
@@ -49,7 +49,7 @@ def voronoi_polygons(
     Warns
     -----
     VorotoolWarning
-        If points lie on an earlier one: how many.
+        If points are duplicates: how many.
 
     References
     ----------

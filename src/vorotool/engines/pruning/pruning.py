@@ -48,7 +48,7 @@ def prune(
     threads: int = 0,
     progress: Progress = None,
 ) -> Skeleton:
-    """Remove pieces of a skeleton that hang on the rest and matter less than a threshold.
+    """Prune the pieces of a skeleton whose significance is below a threshold.
 
     A piece hangs on a place p if it is all that the skeleton has beyond p. It goes if what the criterion tells of it is
     below the threshold, so that pieces may end inside an arc, which is cut there. No order of peeling is chosen: what
@@ -91,7 +91,7 @@ def prune(
     Raises
     ------
     UsageError
-        If not exactly one threshold is given, or it is none.
+        If not exactly one threshold is passed, or it is invalid.
 
     References
     ----------
@@ -174,7 +174,7 @@ def _pruned_part(
 
 
 def critical_values(skeleton: Skeleton, criterion: Criterion, *, progress: Progress = None) -> CriticalValues:
-    """Compute for all places of a skeleton the smallest threshold that removes them.
+    """Compute the smallest threshold that removes each place of a skeleton.
 
     Parameters
     ----------
@@ -193,7 +193,7 @@ def critical_values(skeleton: Skeleton, criterion: Criterion, *, progress: Progr
     Raises
     ------
     UsageError
-        If there is no such criterion.
+        If the criterion is unknown.
 
     Examples
     --------
@@ -214,7 +214,7 @@ def critical_values(skeleton: Skeleton, criterion: Criterion, *, progress: Progr
 
 
 def arc_profiles(skeleton: Skeleton) -> ArcProfiles:
-    """Tell how the two nearest places on the boundary lie along each arc.
+    """Compute the positions of the two nearest boundary places along each arc.
 
     Parameters
     ----------

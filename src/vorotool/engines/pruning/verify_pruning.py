@@ -26,7 +26,7 @@ _INSIDE = (0.0, 0.25, 0.5, 0.75, 1.0)
 
 
 def verify_pruning(pruned: Skeleton, skeleton: Skeleton) -> None:
-    """Check that one skeleton is what is left of another where pieces that hang on the rest were removed.
+    """Check that a skeleton is a pruned version of another.
 
     Each arc is a part of an arc between the same sites: five places on it, its radii and its length. There are as many
     connected parts as before, and as many independent cycles, on each side of each polygon.
@@ -34,7 +34,7 @@ def verify_pruning(pruned: Skeleton, skeleton: Skeleton) -> None:
     Parameters
     ----------
     pruned, skeleton : Skeleton
-        What is left, and what it was made of.
+        The pruned and the original skeleton.
 
     Raises
     ------

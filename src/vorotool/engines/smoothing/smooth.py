@@ -45,14 +45,14 @@ def smooth(lines: Skeleton | LedOn, tolerance: float, *, progress: Progress = No
     Returns
     -------
     SmoothLines
-        A line for each branch, in their order.
+        A line for each branch, in the order of the branches.
 
     Raises
     ------
     InputError
         If the tolerance is too small.
     UsageError
-        If it is no positive number.
+        If the tolerance is not a positive number.
 
     References
     ----------

@@ -32,7 +32,7 @@ BEND = 2.0**-20
 
 
 def verify_smooth(smoothed: SmoothLines) -> None:
-    """Check smooth lines against what they are near to.
+    """Check smooth lines against the lines they approximate.
 
     Lines begin and end where branches do, and their curves follow each other with one tangent; places along both are
     no farther from the other than the error says.
@@ -40,12 +40,12 @@ def verify_smooth(smoothed: SmoothLines) -> None:
     Parameters
     ----------
     smoothed : SmoothLines
-        As `vorotool.smooth` made it.
+        Result of `vorotool.smooth`.
 
     Raises
     ------
     VerificationError
-        If something is wrong, with the number of the line.
+        If a check fails; the message names the line.
 
     Examples
     --------

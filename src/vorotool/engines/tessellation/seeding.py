@@ -51,7 +51,7 @@ FrameOf = Frame | Callable[[SeedSet], Frame | None] | None
 
 
 def seeds_from_points(points: PointsLike, *, frame: Frame | None = None, strict: bool = False) -> SeedSet:
-    """Put points on the lattice of seeds.
+    """Convert points to seeds on a lattice.
 
     Parameters
     ----------
@@ -134,7 +134,7 @@ def seeds_from_raster(
     max_sites: int = LARGEST_LABEL,
     note: Note = None,
 ) -> SeedSet:
-    """Take seeds from an image.
+    """Extract seeds from an image.
 
     Parameters
     ----------

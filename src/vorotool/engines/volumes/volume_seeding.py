@@ -45,7 +45,7 @@ _CONNECTIVITY = (26, 6)
 def seeds_from_xyz(
     points: VolumePointsLike, *, strict: bool = False, check: Check = None, name: str = "points"
 ) -> VolumeSeeds:
-    """Put points of space on the lattice of seeds.
+    """Convert points in space to seeds on a lattice.
 
     Parameters
     ----------
@@ -54,9 +54,9 @@ def seeds_from_xyz(
     strict : bool
         Refuse points that would have to move.
     check : callable, optional
-        Called with the seeds before that they moved is told of: raises an error where they need no telling.
+        Called with the seeds before the snapping warning; may raise an error instead.
     name : str
-        Of the parameter, for messages.
+        Name of the parameter, for messages.
 
     Returns
     -------
@@ -109,7 +109,7 @@ def seeds_from_volume(
     max_sites: int = MOST_SEEDS,
     note: Note = None,
 ) -> VolumeSeeds:
-    """Take seeds from a volume.
+    """Extract seeds from a volume.
 
     Parameters
     ----------

@@ -40,7 +40,7 @@ _SEED = 20
 
 
 def verify_voronoi(cells: VoronoiMap, *, places: int = 1000) -> None:
-    """Check a Voronoi map, with nothing that it was made by.
+    """Check a Voronoi map independently of its computation.
 
     Every side of an arc is passed by one ring of its cell, rings are closed, shells go counter-clockwise and holes
     clockwise, and the areas of all cells add up to that of the frame, or of the clip in it, unless a limit or
@@ -60,7 +60,7 @@ def verify_voronoi(cells: VoronoiMap, *, places: int = 1000) -> None:
     Raises
     ------
     InputError
-        If it is no Voronoi map.
+        If `cells` is not a Voronoi map.
     VerificationError
         If a check fails; the message names the first fault.
 

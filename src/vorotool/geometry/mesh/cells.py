@@ -28,7 +28,7 @@ class Nesting(NamedTuple):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class CellSet(Value, Tabular, Geometric, Pictured):
-    """The Voronoi cells of points, clipped: one a point, in the order of the points.
+    """Clipped Voronoi cells, one per point, in the order of the points.
 
     A cell that meets its frame nowhere, or in no area, is empty; so is that of a point which lies on an earlier one.
 
@@ -61,7 +61,7 @@ class CellSet(Value, Tabular, Geometric, Pictured):
     Raises
     ------
     InputError
-        If the arrays do not go together.
+        If the arrays do not fit together.
 
     Examples
     --------

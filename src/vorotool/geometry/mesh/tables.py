@@ -13,7 +13,7 @@ from vorotool.geometry.table import Computed, Lookup, Table
 
 
 def edge_table(mesh: AnyTriangulation | ProximityGraph) -> Table:
-    """Give one row an edge: its labels, its ends and its length.
+    """Tabulate the edges: labels, ends and length.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ def end_columns(mesh: AnyTriangulation | ProximityGraph, edges: NDArray[np.int32
 
 
 def triangle_table(mesh: AnyTriangulation) -> Table:
-    """Give one row a triangle: its labels, counter-clockwise.
+    """Tabulate the triangles: their labels, counter-clockwise.
 
     Parameters
     ----------
@@ -68,7 +68,7 @@ def triangle_table(mesh: AnyTriangulation) -> Table:
 
 
 def point_table(mesh: Triangulation) -> Table:
-    """Give one row a point, in the order of the input.
+    """Tabulate the points, in the order of the input.
 
     Parameters
     ----------

@@ -15,7 +15,7 @@ from vorotool.geometry.values import counted, placed
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Centerlines(LedOn):
-    """Paths along a skeleton, at most one a polygon, and straight lines that lead on from these.
+    """Paths along a skeleton, at most one per polygon, with straight lines that extend them.
 
     Parameters
     ----------

@@ -27,7 +27,7 @@ SHOWN_FEET = 3
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Discs(Value, Tabular, Curved, Pictured):
-    """Discs that no shape enters, from the largest to the smallest of each feature.
+    """Discs that no shape enters, by feature and from the largest to the smallest.
 
     Parameters
     ----------
@@ -106,7 +106,7 @@ class Discs(Value, Tabular, Curved, Pictured):
         return self.polygons.y_up
 
     def feet_of(self, disc: int) -> NDArray[np.float64]:
-        """Places where a disc touches the boundary, by the numbers of their sites."""
+        """Return the places where a disc touches the boundary, by the numbers of their sites."""
         return self.feet[self.foot_start[disc] : self.foot_start[disc + 1]]
 
     def held_by(self) -> NDArray[np.int64]:
@@ -128,7 +128,7 @@ class Discs(Value, Tabular, Curved, Pictured):
         return made
 
     def table(self) -> Table:
-        """Give one row a disc.
+        """Return a table with one row per disc.
 
         Returns
         -------
@@ -159,7 +159,7 @@ class Discs(Value, Tabular, Curved, Pictured):
         return Table(columns)
 
     def flattened(self, tolerance: float | None = None) -> PolygonSet:
-        """Circles as polygons, arcs as chords between places on them.
+        """Return the circles as polygons, with arcs replaced by chords.
 
         Parameters
         ----------

@@ -11,7 +11,7 @@ from vorotool.geometry.values import counted, placed
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ExtendedSkeleton(LedOn):
-    """A skeleton, and straight lines that lead on from its ends to the boundary, as `vorotool.extend_ends` makes it.
+    """Skeleton with straight lines that extend its ends to the boundary; see `vorotool.extend_ends`.
 
     Parameters
     ----------

@@ -90,14 +90,14 @@ class Necks(Value, Tabular, Geometric, Pictured):
         return np.minimum(self.width / 2 / self.beside[:, 0], 1.0)
 
     def taken(self, chosen: NDArray[np.bool_] | NDArray[np.integer]) -> Necks:
-        """Give some of them."""
+        """Return a selection of the necks."""
         return Necks(
             self.skeleton,
             *(getattr(self, name)[chosen] for name in ("arc", "xy", "width", "feet", "sites", "beside")),
         )
 
     def table(self) -> Table:
-        """Give one row a neck.
+        """Return a table with one row per neck.
 
         Returns
         -------

@@ -173,7 +173,7 @@ class Offsets(Value, Tabular, Curved, Pictured):
         return self.polygons.y_up
 
     def flattened(self, tolerance: float | None = None) -> PolygonSet:
-        """Shapes as polygons, arcs as chords between places on them.
+        """Return the shapes as polygons, with arcs replaced by chords.
 
         Parameters
         ----------
@@ -215,7 +215,7 @@ class Offsets(Value, Tabular, Curved, Pictured):
         return {"ids": ids, "properties": {**properties, name: self.distance.tolist()}}
 
     def table(self) -> Table:
-        """Give one row a piece.
+        """Return a table with one row per piece.
 
         Returns
         -------

@@ -96,7 +96,7 @@ class Parts(Value, Tabular, Geometric, Pictured):
         return np.bincount(self.between.reshape(-1), minlength=len(self))
 
     def neighbours(self) -> list[list[int]]:
-        """Give the pieces beyond the cuts of each piece, ascending."""
+        """Return the pieces beyond the cuts of each piece, ascending."""
         found: list[set[int]] = [set() for _ in range(len(self))]
         for a, b in self.between.tolist():
             found[a].add(b)
@@ -104,7 +104,7 @@ class Parts(Value, Tabular, Geometric, Pictured):
         return [sorted(each) for each in found]
 
     def table(self) -> Table:
-        """Give one row a piece.
+        """Return a table with one row per piece.
 
         Returns
         -------
@@ -126,7 +126,7 @@ class Parts(Value, Tabular, Geometric, Pictured):
         )
 
     def described(self) -> PolygonSet:
-        """Give the pieces with what is told of them as properties, ``voro_`` before a name that the input has, too.
+        """Return the pieces with their measures as properties, prefixed ``voro_`` on a clash with the input.
 
         Examples
         --------

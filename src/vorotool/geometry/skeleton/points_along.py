@@ -20,7 +20,7 @@ from vorotool.geometry.values import Pictured, Tabular, Value, WithParts, counte
 
 @dataclass(frozen=True, eq=False, repr=False)
 class SkeletonPoints(Value, Tabular, WithParts, Pictured):
-    """Centers of discs along the branches of a skeleton, or places along centerlines, in the order of these.
+    """Points along the branches of a skeleton, or along centerlines, in their order.
 
     Parameters
     ----------
@@ -105,7 +105,7 @@ class SkeletonPoints(Value, Tabular, WithParts, Pictured):
         return replace(self, skeleton=skeleton, xy=xy, feet=feet)
 
     def table(self) -> Table:
-        """Give one row a point.
+        """Return a table with one row per point.
 
         Returns
         -------
@@ -143,7 +143,7 @@ class SkeletonPoints(Value, Tabular, WithParts, Pictured):
         return {name: np.ma.array(ring, mask=ring < 0) for name, ring in sides}
 
     def transects(self) -> SkeletonPoints:
-        """Give those with a segment from foot to foot."""
+        """Return the points with a segment from foot to foot."""
         kept = self.spans
         rings = None if self.rings is None else self.rings[kept]
         places = self.along[kept], self.xy[kept], self.radius[kept], self.feet[kept]

@@ -223,7 +223,7 @@ class Skeleton(Value, Tabular, Branched, Pictured):
 
     @cached_property
     def as_given(self) -> Skeleton:
-        """The same with corners where the input has them: `polygons` and `vertices` are on a lattice."""
+        """Skeleton with its corners at the input coordinates: `polygons` and `vertices` are on a lattice."""
         given = self.polygons.as_given
         return self if given is self.polygons else self.with_corners(given)
 
@@ -238,7 +238,7 @@ class Skeleton(Value, Tabular, Branched, Pictured):
         return replace(self, vertices=vertices, polygons=polygons)
 
     def site_ends_on(self, threads: int) -> NDArray[np.float64]:
-        """Compute `site_ends` on several threads, if they are not there yet; 0 uses all."""
+        """Compute `site_ends` on several threads, unless they are known; 0 uses all."""
         if "site_ends" not in self.__dict__:
             made = np.empty((len(self.site_table), 2, 2))
 
@@ -266,14 +266,14 @@ class Skeleton(Value, Tabular, Branched, Pictured):
         return self.arc_radii_on(1)
 
     def arc_radii_on(self, threads: int) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-        """Compute `arc_radii` on several threads, if they are not there yet; 0 uses all."""
+        """Compute `arc_radii` on several threads, unless they are known; 0 uses all."""
         if "arc_radii" not in self.__dict__:
             self.__dict__["arc_radii"] = arc_radii(len(self), self._arc_arrays, threads=threads)
         found: tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]] = self.__dict__["arc_radii"]
         return found
 
     def measures(self, arcs: NDArray[np.integer]) -> ArcMeasures:
-        """Places, radii and lengths along some arcs, which may come more than once."""
+        """Return places, radii and lengths along some arcs, which may be repeated."""
         return ArcMeasures(*self._arc_arrays(arcs))
 
     def _arc_arrays(self, arcs: Any) -> tuple[NDArray[Any], ...]:
@@ -291,7 +291,7 @@ class Skeleton(Value, Tabular, Branched, Pictured):
         )
 
     def flattened(self, tolerance: float | None = None) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-        """Arcs as polylines, parabolas divided evenly in their parameter.
+        """Return the arcs as polylines, with parabolas divided evenly in their parameter.
 
         Parameters
         ----------

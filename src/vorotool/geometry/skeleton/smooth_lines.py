@@ -73,7 +73,7 @@ class SmoothLines(Value, Tabular, Curved, Pictured):
 
     @property
     def path(self) -> Skeleton:
-        """The arcs that the curves are near to, without what leads on."""
+        """Arcs approximated by the curves, without extensions."""
         return self.lines if isinstance(self.lines, Skeleton) else self.lines.path
 
     @cached_property
@@ -97,7 +97,7 @@ class SmoothLines(Value, Tabular, Curved, Pictured):
         return owners(np.diff(self.start))
 
     def flattened(self, tolerance: float | None = None) -> tuple[Floats, NDArray[np.int64]]:
-        """Lines as polylines.
+        """Return the lines as polylines.
 
         Parameters
         ----------
@@ -120,7 +120,7 @@ class SmoothLines(Value, Tabular, Curved, Pictured):
         return chained(*cubic_polylines(self.control, each), self.start[:-1])
 
     def table(self) -> Table:
-        """Give one row a curve, line by line.
+        """Return a table with one row per curve, line by line.
 
         Returns
         -------

@@ -28,7 +28,7 @@ BRANCH_COLUMNS = (
 
 
 def arc_table(skeleton: Skeleton) -> Table:
-    """Give one row an arc: polygon, ends with radii, control point of a parabola, sites, length.
+    """Tabulate the arcs: polygon, ends with radii, control point of a parabola, sites, length.
 
     Parameters
     ----------
@@ -80,7 +80,7 @@ def arc_table(skeleton: Skeleton) -> Table:
 
 
 def element_table(skeleton: Skeleton) -> Table:
-    """Give one row a site: vertices and edges, as the paper decomposes shapes (Figure 10).
+    """Tabulate the sites: vertices and edges, as the paper decomposes shapes (Figure 10).
 
     Parameters
     ----------
@@ -152,7 +152,7 @@ def ids_of(polygons: PolygonSet, polygon: NDArray[np.int32]) -> Lookup:
 
 
 def branch_table(skeleton: Skeleton, *, threads: int = 0) -> Table:
-    """Give one row a branch, a chain of arcs between nodes with one arc or more than two.
+    """Tabulate the branches, chains of arcs between nodes with one arc or more than two.
 
     Parameters
     ----------
@@ -237,7 +237,7 @@ def _length(x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float6
 
 
 def polygon_table(skeleton: Skeleton, *, columns: Mapping[str, Any] | None = None, threads: int = 0) -> Table:
-    """Give one row a polygon, with what the skeleton inside tells of it.
+    """Tabulate the polygons, with the measures of their interior skeletons.
 
     Parameters
     ----------

@@ -26,7 +26,7 @@ class VoxelFrame:
     LimitError
         If a side has more than 2^30 voxels.
     UsageError
-        If a number is no integer.
+        If a number is not an integer.
 
     Examples
     --------

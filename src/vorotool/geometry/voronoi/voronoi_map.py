@@ -32,7 +32,7 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False, repr=False)
 class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
-    """Cells of sites in a frame: all places nearest to each site, inside its polygons at distance 0.
+    """Voronoi cells of sites in a frame: the places nearest to each site, at distance 0 inside its polygons.
 
     Of sites that are equally near to a whole region the smallest has it. Cells are bounded by arcs, straight lines,
     parabolas or circular ones, which two cells share, or a cell and what belongs to none. Each arc leads from the
@@ -67,7 +67,7 @@ class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
     cell_start : (s + 1,) int64 array
         The first polygon of each cell, and q. Cell i is of site i; it may be empty, or of several polygons.
     frame : (x, y, w, h)
-        The rectangle that cells were cut by; with a clip or enclosures the bounds of what is shared out.
+        The rectangle that cells were cut by; with a clip or enclosures the bounds of the divided area.
     polygons : PolygonSet
         The input; points are lines of one vertex.
     polygon_site : (p,) int32 array
@@ -79,11 +79,11 @@ class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
     index : pandas Index, array or sequence, optional
         Names of the sites in the input, such as the row index of a data frame.
     max_distance : float, optional
-        The limit of distance: what is farther from all sites belongs to none.
+        The limit of distance: places farther from all sites belong to none.
     clip : PolygonSet, optional
-        What cells were cut by as well.
+        Polygons that cells were clipped to as well.
     enclosures : PolygonSet, optional
-        Lines and polygons whose faces were shared out each by itself.
+        Lines and polygons whose faces were partitioned separately.
 
     Raises
     ------
@@ -171,7 +171,7 @@ class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
 
     @cached_property
     def mixed_arcs(self) -> MixedArcs:
-        """The arcs with their ends, for measures and polylines."""
+        """Arcs with their ends, for measures and polylines."""
         source, target = self.vertices[self.arcs[:, 0]], self.vertices[self.arcs[:, 1]]
         return MixedArcs(source, target, self.control, self.center, self.sites[:, 0] != OUTSIDE)
 
@@ -206,7 +206,7 @@ class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
 
     @cached_property
     def perimeters(self) -> Floats:
-        """(s,) lengths of all that bounds the cells, cuts too."""
+        """(s,) lengths of the boundaries of the cells, cuts included."""
         total = np.zeros(len(self))
         for hand in (0, 1):
             inner = self.sites[:, hand] != OUTSIDE
@@ -232,7 +232,7 @@ class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
 
     @property
     def edges(self) -> Table:
-        """The borders between cells; see `vorotool.geometry.voronoi.tables.border_table`."""
+        """Table of the borders between cells; see `vorotool.geometry.voronoi.tables.border_table`."""
         made: Table = resolved(f"{_TABLES}:border_table")(self)
         return made
 
@@ -244,12 +244,12 @@ class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
 
     @property
     def table(self) -> Table:
-        """One row a cell; see `vorotool.geometry.voronoi.tables.cell_table`."""
+        """Table with one row per cell; see `vorotool.geometry.voronoi.tables.cell_table`."""
         made: Table = resolved(f"{_TABLES}:cell_table")(self)
         return made
 
     def to_adjacency(self) -> pandas.DataFrame:
-        """Give the pairs of neighbours as libpysal takes them, which needs pandas.
+        """Return the pairs of neighbours in the format of libpysal; pandas must be installed.
 
         ``libpysal.graph.Graph.from_adjacency(cells.to_adjacency())`` is their graph, with the names of the rows of
         `to_geopandas`.
@@ -274,7 +274,7 @@ class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
         return resolved("geometry.any.frames:adjacency")(self)
 
     def rings_of(self, cell: int) -> list[list[NDArray[np.int32]]]:
-        """The arcs along the rings of each polygon of a cell."""
+        """Return the arcs along the rings of each polygon of a cell."""
         polygons = range(*self.cell_start[cell : cell + 2].tolist())
         return [
             [
