@@ -55,10 +55,11 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("revision", help="whose commands are run")
     parser.add_argument("other", nargs="?", help="what is compared with it")
+    parser.add_argument("--every", type=int, default=1, metavar="N", help="run each N-th command, and draw all figures")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="commands that run at once")
     chosen = parser.parse_args()
     first = commit_of(chosen.revision)
-    commands = commands_of(built(first))
+    commands = dict(list(commands_of(built(first)).items())[:: chosen.every])
     usual = sums(first, first, commands, chosen.jobs)
     if chosen.other is not None:
         found = sums(commit_of(chosen.other), first, commands, chosen.jobs)
@@ -106,7 +107,7 @@ def typed(block: str) -> Iterator[str]:
 
 def sums(commit: str, of: str, commands: dict[str, str], jobs: int) -> dict[str, str]:
     """Give the sum of what each command writes, from the file where it is kept, or by running them."""
-    kept = WORK / f"{commit[:12]}-commands-of-{of[:12]}.json"
+    kept = WORK / f"{commit[:12]}-{len(commands)}-commands-of-{of[:12]}.json"
     if kept.exists():
         found: dict[str, str] = json.loads(kept.read_text(encoding="utf-8"))
         return found
