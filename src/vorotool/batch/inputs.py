@@ -19,7 +19,7 @@ from vorotool.formats.zarr.store import is_folder, is_store
 STANDARD_INPUT = "-"
 HEAD = 2**16
 """Bytes of a text by which data and prose are told apart."""
-_NUMBER = re.compile(rb"(?<![\w.])[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?(?![\w.])")
+_NUMBER = re.compile(rb"(?<![\w.])[-+]?(?:\d++(?:\.\d*+)?|\.\d++)(?:[eE][-+]?\d+)?(?![\w.])")
 
 
 @dataclass(frozen=True)

@@ -67,10 +67,10 @@ def _columns(headers: Iterable[Iterable[bytes]]) -> list[bytes]:
 
 # ---- CSV and TSV ---------------------------------------------------------------------------------
 # The texts of fields stay as they were written, with their quotes.
-_RECORD = re.compile(rb'(?:[^"\n]+|"[^"]*")*\n')
+_RECORD = re.compile(rb'(?:[^"\n]++|"[^"]*+")*+\n')
 _FIELDS = {
-    b",": re.compile(rb'(?:^|,)((?:[^",]+|"[^"]*")*)'),
-    b"\t": re.compile(rb'(?:^|\t)((?:[^"\t]+|"[^"]*")*)'),
+    b",": re.compile(rb'(?:^|,)((?:[^",]++|"[^"]*+")*+)'),
+    b"\t": re.compile(rb'(?:^|\t)((?:[^"\t]++|"[^"]*+")*+)'),
 }
 
 

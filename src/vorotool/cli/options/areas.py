@@ -14,10 +14,11 @@ from vorotool.cli.options.shared import Decimal, Decorator, together
 from vorotool.geometry.length_units import METRES
 from vorotool.jobs.units import Measured
 
-_NUMBER = r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
+_NUMBER = r"[-+]?(?:[0-9]++(?:\.[0-9]*+)?|\.[0-9]++)(?:[eE][-+]?[0-9]+)?"
 _AREA = re.compile(rf"({_NUMBER})(?:\s*([^\W\d_]{{1,16}})\^?([23²³]))?")
 _LIKE_AREA = re.compile(
-    rf"-?[0-9]*\.?[0-9]+(e[-+]?[0-9]+)?\s*([^\W\d_]{{1,16}}\^?[0-9²³]|{'|'.join(METRES)}|px|pixels?|voxels?)?",
+    r"-?(?:[0-9]++(?:\.[0-9]++)?|\.[0-9]++)(e[-+]?[0-9]+)?"
+    rf"\s*([^\W\d_]{{1,16}}\^?[0-9²³]|{'|'.join(METRES)}|px|pixels?|voxels?)?",
     re.IGNORECASE,
 )
 """An argument that is an area, or was to be one; a file whose name has an extension is none."""

@@ -13,7 +13,7 @@ from vorotool.cli.options.parameter_types import ParameterType
 from vorotool.cli.options.shared import Decimal
 from vorotool.jobs.units import Measured
 
-_WITH_UNIT = re.compile(r"([-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?)\s*([^\W\d_]{1,16})")
+_WITH_UNIT = re.compile(r"([-+]?(?:[0-9]++(?:\.[0-9]*+)?|\.[0-9]++)(?:[eE][-+]?[0-9]+)?)\s*([^\W\d_]{1,16})")
 
 
 def measured(text: Any, *, is_exact: bool = False) -> Measured | None:

@@ -13,7 +13,7 @@ _TAKERS = option("skeleton-exact, skeleton-approx or draw", "skeleton_exact or s
 SUFFIXES = {".svg": "svg", ".svgz": "svg", ".dxf": "dxf"}
 _HEAD = 4096
 _SVG = re.compile(
-    rb"(\xef\xbb\xbf)?\s*(<\?xml[^>]*>|<!--.*?-->|<!DOCTYPE[^>\[]*(\[.*?\]\s*)?>|\s)*<([\w-]+:)?svg[\s>]", re.DOTALL
+    rb"(\xef\xbb\xbf)?(<\?xml[^>]*>|<!--.*?-->|<!DOCTYPE[^>\[]*(\[.*?\]\s*)?>|\s++)*+<([\w-]+:)?svg[\s>]", re.DOTALL
 )
 _DXF = re.compile(rb"(\xef\xbb\xbf)?\s*(999[ \t]*\r?\n[^\n]*\n\s*)*0[ \t]*\r?\n[ \t]*SECTION[ \t]*\r?\n")
 BINARY_DXF = b"AutoCAD Binary DXF\r\n\x1a\0"

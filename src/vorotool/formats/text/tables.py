@@ -77,7 +77,7 @@ def _with_unit(table: Table) -> dict[str, Any]:
 # ---- CSV and TSV ---------------------------------------------------------------------------------
 _SAFE: ContextVar[bool] = ContextVar("safe", default=False)
 _FORMULA = re.compile(r"[=+\-@\t\r]")
-_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
+_NUMBER = re.compile(r"[+-]?(\d++(?:\.\d*+)?|\.\d++)([eE][+-]?\d+)?")
 
 
 @contextmanager
