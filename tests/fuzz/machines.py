@@ -74,17 +74,17 @@ def all_in_turn(seed: int, numbers: Iterable[int]) -> Iterable[tuple[Setting, li
         yield setting, commands[begin : begin + SLICE]
 
 
-def few_at_a_time(seed: int) -> Iterable[tuple[Setting, list[str]]]:
+def few_at_a_time(seed: int, few: int = FEW) -> Iterable[tuple[Setting, list[str]]]:
     """Give a few commands with a few settings, without end; a command comes again when all have come."""
     systematic = settings()[1:]
     for turn in count():
         commands = list(whole())
         random.Random(f"{seed} {turn}").shuffle(commands)
-        for first in range(0, len(commands), FEW):
+        for first in range(0, len(commands), few):
             rng = random.Random(f"{seed} {turn} {first}")
             drawn = [drawn_setting(rng) for _ in range(RANDOM)]
             for setting in [*drawn, *rng.sample(systematic, SYSTEMATIC)]:
-                yield setting, commands[first : first + FEW]
+                yield setting, commands[first : first + few]
 
 
 def main() -> int:
@@ -92,6 +92,7 @@ def main() -> int:
     parser = argparse.ArgumentParser()
     parser.add_argument("--settings", dest="count", type=int, default=40, help="random ones, after the systematic ones")
     parser.add_argument("--seconds", type=float, help="a few commands at a time, and none begun after so many")
+    parser.add_argument("--few", type=int, default=FEW, help="commands that are drawn together with --seconds")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--first", type=int, default=0, help="of the random ones")
     arguments = parser.parse_args()
@@ -101,7 +102,7 @@ def main() -> int:
         for setting, commands in all_in_turn(arguments.seed, numbers):
             comparison.compare(setting, commands)
     else:
-        for setting, commands in islice(few_at_a_time(arguments.seed), arguments.first, None):
+        for setting, commands in islice(few_at_a_time(arguments.seed, arguments.few), arguments.first, None):
             comparison.compare(setting, commands)
             if time.monotonic() - start >= arguments.seconds:
                 break

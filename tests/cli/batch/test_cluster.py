@@ -150,32 +150,29 @@ def test_a_lost_worker_leaves_the_same_store(run, process, dots, cluster):
     assert not list(dots.glob(".*"))
 
 
-@pytest.mark.parametrize("what", ["distance", "distance2"])
-def test_distances_and_a_failing_cluster(run, dots, cluster, monkeypatch, what):
+def test_what_bands_give_and_a_failing_cluster(run, dots, cluster, monkeypatch):
+    import zarr
+
     address, workers = cluster
-    options = ("tessellate", "dots.csv", "--size", "300x200", "--what", what, "--chunk", "100x64", "-q")
-    assert run(*options, "-o", "here.zarr").code == 0
-    assert run(*options, "-o", "there.zarr", "--cluster", address).code == 0
-    assert contents(dots / "there.zarr") == contents(dots / "here.zarr")
+    monkeypatch.setattr("vorotool.engines.tessellation.streamed_image.BAND_PIXELS", 37 * 200)
+    mask = (np.random.default_rng(3).random((150, 200)) < 0.02).astype(np.uint8)
+    zarr.create_array(dots / "seeds.zarr", data=mask, chunks=(64, 64))
+    options = ("dots.csv", "--size", "300x200", "--chunk", "100x64", "-q", "--what")
+    for name, command in {
+        "tiles of seeds": ("tessellate", "seeds.zarr", "--chunk", "64x50", "-q"),
+        "distance": ("tessellate", *options, "distance"),
+        "distance2": ("tessellate", *options, "distance2"),
+    }.items():
+        assert run(*command, "-o", f"here {name}.zarr").code == 0
+        assert run(*command, "-o", f"there {name}.zarr", "--cluster", address).code == 0
+        assert contents(dots / f"there {name}.zarr") == contents(dots / f"here {name}.zarr"), name
     for worker in workers:
         worker.kill()
         worker.wait()
     monkeypatch.setattr("vorotool.batch.dask_cluster.FIRST_WORKER", 0.2)
-    wait_until(lambda: "nobody works there" in run(*options, "-o", "there.zarr", "--cluster", address).err)
-    assert contents(dots / "there.zarr") == contents(dots / "here.zarr")
+    wait_until(lambda: "nobody works there" in run(*command, "-o", f"there {name}.zarr", "--cluster", address).err)
+    assert contents(dots / f"there {name}.zarr") == contents(dots / f"here {name}.zarr")
     assert not list(dots.glob(".*"))
-
-
-def test_tiles_of_an_image_as_seeds(run, dots, cluster, monkeypatch):
-    import zarr
-
-    monkeypatch.setattr("vorotool.engines.tessellation.streamed_image.BAND_PIXELS", 37 * 200)
-    mask = (np.random.default_rng(3).random((150, 200)) < 0.02).astype(np.uint8)
-    zarr.create_array(dots / "seeds.zarr", data=mask, chunks=(64, 64))
-    options = ("tessellate", "seeds.zarr", "--chunk", "64x50", "-q")
-    assert run(*options, "-o", "here.zarr").code == 0
-    assert run(*options, "-o", "there.zarr", "--cluster", cluster[0]).code == 0
-    assert contents(dots / "there.zarr") == contents(dots / "here.zarr")
 
 
 def test_an_interrupt_ends_the_cluster_that_was_started(process, dots):

@@ -69,6 +69,7 @@ def test_plans_and_what_was_done_before(run, stack):
     assert sum(map(len, shards)) == 3
 
 
+@pytest.mark.usefixtures("workers")
 def test_processes(run, stack):
     options = ["tessellate", "stack.tif", "--page", "all", "-f", "npy", "-q", "--out-dir"]
     assert run(*options, "one").code == 0

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from support.families.mask_folders import write_many_points
+from support.few import few
 from support.processes.leftovers import contents, wait_until
 
 POINTS = "x,y,name\n{0},1,a\n7,5,b\n1,6,c\n4,{0},d\n"
@@ -52,6 +53,16 @@ COMMANDS = {
 
 @pytest.mark.parametrize("command", COMMANDS)
 def test_each_input_gives_what_it_gives_alone(run, inputs, command):
+    check_that_many_give_what_each_gives(run, inputs, command)
+
+
+@pytest.mark.usefixtures("workers")
+@pytest.mark.parametrize("command", few(COMMANDS, 1))
+def test_workers_give_what_each_input_gives_alone(run, inputs, command):
+    check_that_many_give_what_each_gives(run, inputs, command)
+
+
+def check_that_many_give_what_each_gives(run, inputs, command):
     folder, *options = COMMANDS[command]
     if command == "draw":
         assert run("tessellate", "points", "--out-dir", "pictures", "-q", "-f", "npy").code == 0
@@ -129,6 +140,7 @@ def test_what_was_done_by_other_options_is_done_again(run, inputs):
     assert [record["status"] for record in plan] == ["planned", "kept", "kept"]
 
 
+@pytest.mark.usefixtures("workers")
 def test_failures_are_told(run, inputs):
     (inputs / "points/p1.csv").write_text("x,y\n1,2\n3,abc\n")
     done = run("tessellate", "points", "--out-dir", "out", "--stats", "s.json", "--keep-going")

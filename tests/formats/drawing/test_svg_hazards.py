@@ -8,7 +8,7 @@ from support.readers.svg_reading import read, svg
 from vorotool.errors import InputError, LimitError
 
 RECT = '<rect class="a" width="4" height="3"/>'
-MANY = 300_000
+MANY = 60_000
 
 
 @pytest.mark.parametrize(
@@ -30,11 +30,11 @@ def test_styles_take_no_longer(style):
 
 
 def test_many_rules_and_many_elements():
-    rules = "".join(f".a{{stroke:none}}.b{k}{{fill:none}}" for k in range(20_000))
-    body = '<rect class="a" width="1" height="1"/><rect class="b7" width="1" height="1"/>' * 10_000
+    rules = "".join(f".a{{stroke:none}}.b{k}{{fill:none}}" for k in range(4000))
+    body = '<rect class="a" width="1" height="1"/><rect class="b7" width="1" height="1"/>' * 2000
     drawing, notes = svg(f"<style>{rules}</style>{body}")
-    assert len(drawing) == 10_000
-    assert any("10000" in note for note in notes)
+    assert len(drawing) == 2000
+    assert any("2000" in note for note in notes)
 
 
 @pytest.mark.parametrize(
@@ -65,7 +65,7 @@ def test_long_transforms(step):
 
 def test_declared_attributes_are_not_given_to_elements():
     declared = f'<!DOCTYPE svg [<!ATTLIST g a CDATA "{"y" * 100_000}"><!ATTLIST rect height CDATA "3">]>'
-    text = f'{declared}<svg>{"<g/>" * 5000}<rect width="4"/></svg>'
+    text = f'{declared}<svg>{"<g/>" * 1000}<rect width="4"/></svg>'
     tracemalloc.start()
     try:
         assert len(read(text)[0]) == 0
@@ -88,7 +88,7 @@ def tens_of_tens(inner):
 
 
 def test_long_paths_are_not_repeated_without_end():
-    defined = tens_of_tens(f"<path id='a0' d='M0 0{'l1 1' * 5000}V0z'/>")
+    defined = tens_of_tens(f"<path id='a0' d='M0 0{'l1 1' * 2000}V0z'/>")
     with pytest.raises(LimitError, match=r"path #a0.*split the drawing"):
         svg(f"{defined}<use href='#a4'/>")
     assert len(svg(f"{defined}<use href='#a1'/>")[0]) == 10
