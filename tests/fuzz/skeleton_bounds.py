@@ -132,11 +132,11 @@ def check_steps(shape: Shape, places: int) -> tuple[int, Any, Any]:
     return violations, ratio, orders[is_usual & np.isfinite(orders)]
 
 
-def check_tolerances(shape: Shape) -> int:
+def check_tolerances(shape: Shape, tolerances: tuple[float, ...] = TOLERANCES) -> int:
     """Failures; prints a line."""
     failures, words = 0, []
     flattest = shape.flattest()
-    for tolerance in TOLERANCES:
+    for tolerance in tolerances:
         wanted = tolerance * shape.extent
         found = skeleton_within(shape.graph, shape.placed, wanted)
         there, back = deviation(found.skeleton, shape.exact), deviation(shape.exact, found.skeleton)

@@ -45,7 +45,7 @@ def hull_polygon(hull, tolerance=1e-7):
 @families
 def test_membership_by_brute_force(name):
     checked = 0
-    for seed in range(3):
+    for seed in range(2):
         rng = np.random.default_rng(seed)
         points = np.unique(draw(name, 30, seed), axis=0)
         family = alpha_complex(points)
@@ -53,21 +53,21 @@ def test_membership_by_brute_force(name):
         for r in np.quantile(spectrum[spectrum > 0], [0.3, 0.6, 0.75, 0.9, 0.97]) * 1.01:
             hull = alpha_hull(alpha_shape(family, r=float(r)))
             area, lines = hull_polygon(hull, tolerance=r * 1e-6)
-            triangles = points[family.mesh.triangles[rng.integers(0, len(family.mesh.triangles), 120)]]
-            probes = (triangles * rng.dirichlet([1, 1, 1], 120)[..., None]).sum(axis=1)
+            triangles = points[family.mesh.triangles[rng.integers(0, len(family.mesh.triangles), 80)]]
+            probes = (triangles * rng.dirichlet([1, 1, 1], 80)[..., None]).sum(axis=1)
             centres = empty_centres(points, r, rng, probes)
             inside = shapely.contains_xy(area, *probes.T)
             distance = np.min(np.hypot(*(probes[:, None] - centres).transpose(2, 0, 1)), axis=1)
-            clear = shapely.distance(lines, shapely.points(probes)) > 1e-4 * r if len(hull) else np.ones(120, bool)
+            clear = shapely.distance(lines, shapely.points(probes)) > 1e-4 * r if len(hull) else np.ones(80, bool)
             covered = distance < r * (1 - 1e-9)
             np.testing.assert_array_equal(inside[clear], ~covered[clear])
             checked += int(clear.sum())
-    assert checked > 1000
+    assert checked > 500
 
 
 @families
 def test_arcs_are_on_empty_circles_and_follow_one_another(name):
-    for seed in range(4):
+    for seed in range(3):
         points = np.unique(draw(name, 60, seed), axis=0)
         family = alpha_complex(points)
         for r in np.quantile(family.spectrum, [0.5, 0.8, 0.95]) * 1.003:

@@ -127,7 +127,7 @@ def _middle(way, step):
 
 @pytest.mark.parametrize("count", [3, 4, 5])
 def test_ties_are_settled_by_edges_however_lengths_are_rounded(count):
-    for k in range(40):
+    for k in range(12):
         ring = np.add(arms(count, 0.1 * k), [k * 100, k])
         (ends_of,) = vorotool.centerline(vorotool.skeleton_exact(ring.tolist())).ends
         middles = (ring[::3] + ring[1::3]) / 2
@@ -201,7 +201,7 @@ def regular(count, turn):
 @pytest.mark.parametrize("count", [5, 6, 8, 9, 24])
 def test_a_regular_polygon_is_gone_through_straight_however_it_is_turned(count):
     found = []
-    for turn in np.arange(12) * 0.15:
+    for turn in np.arange(6) * 0.3:
         line = np.array(places(regular(count, turn).tolist()))
         corner, middle = sorted(line[[0, -1]], key=lambda place: -np.hypot(*place))
         assert np.hypot(*corner) == pytest.approx(10)
@@ -268,7 +268,7 @@ def has_strip_ends(skeleton):
 
 def test_brute_force_agrees():
     compared = 0
-    for polygon, skeleton in random_skeletons(300):
+    for polygon, skeleton in random_skeletons(90):
         brute = expected(skeleton)
         if brute is None or has_strip_ends(skeleton):
             continue
@@ -281,11 +281,11 @@ def test_brute_force_agrees():
         )
         assert line.path.length.sum() == pytest.approx(brute[1], rel=1e-9)
         compared += 1
-    assert compared > 150
+    assert compared > 45
 
 
 def test_centerlines_stay_inside():
-    for polygon, skeleton in random_skeletons(60):
+    for polygon, skeleton in random_skeletons(25):
         shape = shapely.Polygon(polygon).buffer(1e-6)
         for kind in ("middle", "corner", "none"):
             with warnings.catch_warnings(action="ignore", category=VorotoolWarning):
@@ -295,7 +295,7 @@ def test_centerlines_stay_inside():
 
 def test_lines_move_with_their_polygons():
     turn = np.array([[0, 1], [-1, 0]])
-    for polygon, skeleton in random_skeletons(40):
+    for polygon, skeleton in random_skeletons(12):
         expected_line = vorotool.centerline(skeleton).flattened(1e-3)[0]
         for moved, back in (
             (polygon @ turn, lambda line: line @ turn.T),

@@ -44,7 +44,7 @@ def test_ends_are_those_of_the_whole_skeleton(polygon):
 
 def test_no_twig_is_added_to_a_whole_skeleton():
     random = np.random.default_rng(5)
-    for _ in range(40):
+    for _ in range(15):
         hull = shapely.MultiPoint(random.integers(0, 64, (12, 2))).convex_hull
         shape = hull.union(shapely.box(20, 20, 90, 40)).difference(shapely.box(28, 28, 32, 31))
         shell, *holes = (list(ring.coords)[:-1] for ring in (shape.exterior, *shape.interiors))
@@ -95,7 +95,7 @@ def drawn(skeleton):
 def test_what_is_added_is_what_was_pruned():
     random = np.random.default_rng(11)
     added = 0
-    for _ in range(60):
+    for _ in range(25):
         whole = vorotool.skeleton_exact([convex_polygon(random)])
         for criterion in ({"scale": 1.2}, {"angle": 100}, {"length": 500}, {"ratio": 1.5}, {"chord": 300}):
             pruned = vorotool.prune(whole, **criterion)
@@ -107,4 +107,4 @@ def test_what_is_added_is_what_was_pruned():
             if not {"angle", "chord"} & set(criterion):  # these leave parts of twigs
                 far = drawn(made).hausdorff_distance(drawn(whole))
             assert far < 1e-3
-    assert added > 1000
+    assert added > 400

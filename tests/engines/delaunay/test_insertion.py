@@ -62,10 +62,12 @@ def always_local(monkeypatch):
 @pytest.mark.parametrize("n", [5, 12, 60, 300])
 def test_every_family_is_as_triangulated_at_once(name, n, always_local):
     if name == "any_double":  # exact arithmetic of thousands of bits
-        n = min(n, 40)
+        n = min(n, 20)
+    if name == "tiny_y":
+        n = min(n, 100)
     for seed in range(2):
         points = outermost_first(draw(name, n, seed))
-        for count in (0, 1, 4, n // 2, n - 1, n):
+        for count in sorted({0, 1, 4, n // 2, n - 1, n}):
             check(points, count)
     if name in ("uniform", "grid", "circle", "offset_1e9") and n >= 60:
         assert sum(always_local) >= 6
@@ -74,7 +76,7 @@ def test_every_family_is_as_triangulated_at_once(name, n, always_local):
 @families
 def test_any_bounds(name):
     for seed in range(4):
-        check(draw(name, 40, seed), 33)
+        check(draw(name, 20 if name == "any_double" else 40, seed), 14 if name == "any_double" else 33)
 
 
 def test_outside_the_hull_and_within_the_bounds(always_local):
@@ -128,9 +130,9 @@ def test_hints_change_nothing(always_local):
 
 
 def test_threads_change_nothing(always_local):
-    points = outermost_first(draw("uniform", 80_000, 2))
+    points = outermost_first(draw("uniform", 40_000, 2))
     for threads in (1, 2, 5):
-        check(points, 79_000, threads=threads)
+        check(points, 39_500, threads=threads)
     assert all(always_local)
 
 

@@ -8,8 +8,8 @@ import pytest
 
 import vorotool
 from fuzz.skeleton_approx import failure
-from fuzz.skeleton_bounds import Shape, check_steps, check_tolerances, random_shapes
-from support.families.skeleton_shapes import FAMILIES, regular, under_symmetries
+from fuzz.skeleton_bounds import TOLERANCES, Shape, check_steps, check_tolerances, random_shapes
+from support.families.skeleton_shapes import FAMILIES, regular, small, under_symmetries
 from support.readers.written import assert_same
 from vorotool.engines.arrangement.lattice_rings import placed_shapes
 from vorotool.engines.arrangement.planar_graph import planar_graph
@@ -25,18 +25,17 @@ SHAPES = random_shapes(np.random.default_rng(1))
 @pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.__name__)
 def test_broken_shapes_pass_the_checker(family):
     with warnings.catch_warnings(action="ignore"):
-        rng = np.random.default_rng(5)
-        assert failure(family(rng), rng) is None
+        assert failure(small(family, 5), np.random.default_rng(5)) is None
 
 
 @pytest.mark.parametrize("name", ["random 0", "random 1", "holes 0"])
 def test_bounds_hold_and_tolerances_are_met(name):
     shape = Shape(name, SHAPES[name])
-    violations, ratio, orders = check_steps(shape, 20)
+    violations, ratio, orders = check_steps(shape, 8)
     assert violations == 0
     assert np.median(ratio) <= 3
     assert 1.5 <= np.median(orders) <= 2.5
-    assert check_tolerances(shape) == 0
+    assert check_tolerances(shape, TOLERANCES[:3]) == 0
 
 
 def test_bounds_hold_and_are_small_where_shapes_are_round():
@@ -56,7 +55,7 @@ def test_arcs_beside_edges_with_common_seeds_are_in_their_polygons(order):
         [[0, 0], [417237024, 284508826], [417237026, 284508828]],
         [[0, 0], [417237021, 284508830], [0, 2]],
     ]
-    for shape in under_symmetries([triangles[i] for i in order]):
+    for shape in list(under_symmetries([triangles[i] for i in order]))[order[0] :: 3]:
         graph = planar_graph(shape)
         found = skeleton_within(graph, placed_shapes(graph), 950000.0, side="interior", most=100000)
         seeds = found.shapes.samples.seeds
@@ -91,16 +90,22 @@ def test_steps_are_kept_where_edges_are_too_near_to_each_other(fan, sampling):
     verify_approximate(approximate_skeleton(shapes), step=1e6)
 
 
+FAR_APART = [[[x, 0], [x + 0.5, 0], [x, 0.5]] for x in (0, 2**29)]  # on a lattice of steps of 1/2
+FINEST = 2**-17
+
+
 @pytest.mark.parametrize("sampling", ["paper", "symmetric"])
 @pytest.mark.parametrize("features", ["separate", "together"])
 def test_steps_below_the_spacing_of_samples_are_refused(sampling, features):
-    shapes = [[[x, 0], [x + 1, 0], [x, 1]] for x in (0, 2**29)]  # on a lattice of steps of 1/2
-    finest = 2**-17
-    with pytest.raises(LimitError, match=f"use at least {finest!r}"):
-        vorotool.skeleton_approx(shapes, step=finest * 0.99, sampling=sampling, features=features)
-    graph = planar_graph(shapes)
-    found = sampled_graph(graph, placed_shapes(graph), SamplingOptions(finest, None, sampling))
-    check_samples(found.samples, finest)
+    with pytest.raises(LimitError, match=f"use at least {FINEST!r}"):
+        vorotool.skeleton_approx(FAR_APART, step=FINEST * 0.99, sampling=sampling, features=features)
+
+
+@pytest.mark.parametrize("sampling", ["paper", "symmetric"])
+def test_the_spacing_of_samples_is_a_step(sampling):
+    graph = planar_graph(FAR_APART)
+    found = sampled_graph(graph, placed_shapes(graph), SamplingOptions(FINEST, None, sampling))
+    check_samples(found.samples, FINEST)
 
 
 def test_results_do_not_depend_on_threads():

@@ -95,7 +95,7 @@ def test_borders_of_neighbours_count_both_kinds_of_sides(spacing):
 
 @pytest.mark.parametrize("threads", [1, 2])
 def test_vertical_sides_are_counted_over_bands(threads):
-    labels = np.random.default_rng(3).integers(0, 4, (3000, 700)).astype(np.uint8)
+    labels = np.random.default_rng(3).integers(0, 4, (1500, 300)).astype(np.uint8)
     measures = measure_regions(LabelImage(labels), threads=threads)
     vertical, horizontal = sides_between(labels)
     for row, label in enumerate(measures.labels.tolist()):

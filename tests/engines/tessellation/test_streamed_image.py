@@ -41,10 +41,10 @@ def blobs(shape, share):
 
 
 def images():
-    yield "noise", rng.random((61, 47)) < 0.3
-    yield "dense", rng.random((61, 47)) < 0.8
-    yield "sparse", rng.random((90, 70)) < 0.003
-    yield "blobs", blobs((120, 90), 0.7)
+    yield "noise", rng.random((41, 37)) < 0.3
+    yield "dense", rng.random((41, 37)) < 0.8
+    yield "sparse", rng.random((60, 50)) < 0.005
+    yield "blobs", blobs((60, 45), 0.7)
     yield "one pixel", np.pad([[1]], ((40, 9), (3, 30)))
     yield "a full row", np.pad(np.ones((1, 33), np.uint8), ((20, 20), (0, 0)))
     yield "a column", np.pad(np.ones((50, 1), np.uint8), ((0, 0), (9, 9)))
@@ -86,8 +86,8 @@ def test_masks(name, mask, mode, connectivity, bands):
     seeds = seeds_from_raster(values, mode=mode, connectivity=connectivity)
     whole = Tessellator(seeds, max_distance=8)
     source = ObjectRows(Held(values), mode, connectivity)
-    for heights in ([1000], [7, 1, 16]):
-        for what, expected in (("labels", whole.labels()), ("distance", whole.distances())):
+    for what, expected in (("labels", whole.labels()), ("distance", whole.distances())):
+        for heights in ([1000], [7, 1, 16]) if what == "labels" else ([7, 1, 16],):
             found = streamed(source, what, expected.dtype, heights, 8 if what == "labels" else None)
             np.testing.assert_array_equal(found, expected, f"{name}, {what}")
     squares = whole.squared_distances()

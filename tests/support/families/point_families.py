@@ -157,6 +157,9 @@ FAMILIES = {
         by_ulps,
     )
 }
+SLOW_LAST = sorted(FAMILIES, key="any_double".__eq__)
+"""Arithmetic of thousands of bits makes any_double by far the slowest."""
+QUICK = len(FAMILIES) - 1
 
 
 def draw(name, n, seed):

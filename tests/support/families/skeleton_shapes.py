@@ -1,6 +1,7 @@
 """Random polygons and lines, most of them broken: inputs of the skeleton tests."""
 
 from dataclasses import replace
+from itertools import count
 from pathlib import Path
 
 import numpy as np
@@ -30,9 +31,9 @@ RINGS = (
 
 def star(rng):
     """Around the origin, with spikes; whole coordinates up to 10^9."""
-    count = rng.integers(3, 25)
-    angle = np.sort(rng.random(count)) * 2 * np.pi
-    radius = rng.random(count) * 10 ** rng.integers(1, 10)
+    corners = rng.integers(3, 25)
+    angle = np.sort(rng.random(corners)) * 2 * np.pi
+    radius = rng.random(corners) * 10 ** rng.integers(1, 10)
     return np.round(np.stack([radius * np.cos(angle), radius * np.sin(angle)], axis=1))
 
 
@@ -104,6 +105,12 @@ TOUCHING = (straight, mask, labels)
 """Polygons with straight vertices, many of which touch."""
 
 
+def small(family, seed, most=20):
+    """The first shape of a family, from a seed on, with no more corners than that."""
+    shapes = (family(np.random.default_rng(k)) for k in count(seed))
+    return next(shape for shape in shapes if len(as_polygons(shape).xy) <= most)
+
+
 def under_symmetries(shape):
     """A shape under the 8 symmetries of the square."""
     polygons = as_polygons(shape)
@@ -111,7 +118,7 @@ def under_symmetries(shape):
         yield replace(polygons, xy=xy)
 
 
-def regular(count, radius=1000.0):
+def regular(corners, radius=1000.0):
     """A regular polygon."""
-    angle = 2 * np.pi * np.arange(count) / count
+    angle = 2 * np.pi * np.arange(corners) / corners
     return radius * np.stack([np.cos(angle), np.sin(angle)], axis=1)

@@ -8,6 +8,7 @@ does not hold bound s from one side each by a rational number, and the radius gi
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import lru_cache
 from itertools import combinations
 from math import isqrt
 
@@ -54,18 +55,20 @@ def bounds(a, b, places):
     return low, high
 
 
+@lru_cache(maxsize=4)
+def pairs_with_bounds(places):
+    """Pairs of places, the squares of their lengths, and their bounds: the same for all radii."""
+    pairs = ((a, b, bounds(a, b, places)) for a, b in combinations(places, 2))
+    return [(a, b, (a[0] - b[0]) ** 2 + (a[1] - b[1]) ** 2, *limits) for a, b, limits in pairs if limits is not None]
+
+
 def alpha_edges(points, square):
     """Pairs of places that are joined for the radius whose square is given: "singular" or "boundary"."""
-    places = sorted({(Fraction(x), Fraction(y)) for x, y in points})
+    places = tuple(sorted({(Fraction(x), Fraction(y)) for x, y in points}))
     found = {}
-    for a, b in combinations(places, 2):
-        length2 = (a[0] - b[0]) ** 2 + (a[1] - b[1]) ** 2
+    for a, b, length2, low, high in pairs_with_bounds(places):
         if 4 * square < length2:
             continue
-        limits = bounds(a, b, places)
-        if limits is None:
-            continue
-        low, high = limits
         s2 = (square - length2 / 4) / length2
         # s in (σ, σ + ε) with σ² = s2, and -s in it
         above = (high is None or exceeds_root(high, s2, or_equal=False)) and (

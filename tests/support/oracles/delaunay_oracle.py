@@ -5,6 +5,8 @@ from __future__ import annotations
 from fractions import Fraction
 from itertools import combinations, pairwise
 
+from support.oracles.whole_numbers import in_units
+
 
 def cross(a, b, c):
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
@@ -29,19 +31,29 @@ def hull_of_cocircular(points):
     return [start, *order]
 
 
+def on_empty_circle(a, b, c, sites):
+    """The sites on the circle through three of them, whose coordinates are integers; None if one is inside."""
+    bx, by, cx, cy = b[0] - a[0], b[1] - a[1], c[0] - a[0], c[1] - a[1]
+    d, b2, c2 = 2 * (bx * cy - by * cx), bx * bx + by * by, cx * cx + cy * cy
+    x, y = cy * b2 - by * c2, bx * c2 - cx * b2  # the centre is (x / d, y / d) from a
+    square, on_circle = x * x + y * y, []
+    for p in sites:
+        distance = ((p[0] - a[0]) * d - x) ** 2 + ((p[1] - a[1]) * d - y) ** 2
+        if distance < square:
+            return None
+        if distance == square:
+            on_circle.append(p)
+    return tuple(on_circle)
+
+
 def delaunay_triangles(points):
     """Triangles as sets of coordinates: empty circles, each cocircular polygon a fan from its smallest vertex."""
-    sites = sorted({(Fraction(x), Fraction(y)) for x, y in points})
-    polygons = {}
-    for a, b, c in combinations(sites, 3):
-        if cross(a, b, c) == 0:
-            continue
-        centre, square = circle(a, b, c)
-        distances = [(p[0] - centre[0]) ** 2 + (p[1] - centre[1]) ** 2 for p in sites]
-        if min(distances) >= square:
-            polygons[centre, square] = [p for p, d in zip(sites, distances, strict=True) if d == square]
+    places, scale = in_units(points)
+    sites = sorted(set(places))
+    polygons = {on_empty_circle(a, b, c, sites) for a, b, c in combinations(sites, 3) if cross(a, b, c) != 0} - {None}
     triangles = set()
-    for polygon in polygons.values():
+    for polygon in polygons:
         start, *others = hull_of_cocircular(polygon)
         triangles |= {frozenset((start, p, q)) for p, q in pairwise(others)}
-    return triangles
+    exact = {site: (Fraction(site[0], scale), Fraction(site[1], scale)) for site in sites}
+    return {frozenset(exact[site] for site in triangle) for triangle in triangles}

@@ -1,14 +1,15 @@
-"""Proximity graphs by their definitions, in rational numbers: no triangulation, no code of the package."""
+"""Proximity graphs by their definitions, in exact numbers: no triangulation, no code of the package."""
 
 from __future__ import annotations
 
-from fractions import Fraction
 from itertools import combinations
+
+from support.oracles.whole_numbers import in_units
 
 
 def squares_of(points):
-    """Squared distances of all pairs."""
-    places = [(Fraction(x), Fraction(y)) for x, y in points]
+    """Squared distances of all pairs, in the square of a common unit of these points."""
+    places, _ = in_units(points)
     return {
         frozenset((a, b)): (places[a][0] - places[b][0]) ** 2 + (places[a][1] - places[b][1]) ** 2
         for a, b in combinations(range(len(places)), 2)

@@ -50,6 +50,7 @@ class Sampled:
         self.anchored = set(np.flatnonzero(skeleton.on_frame).tolist())
         self.place, self.radius = skeleton.vertices.tolist(), skeleton.radius.tolist()
         self.segments, self.arc, self.middle, self.seen = [], [], [], []
+        self.hanging = {}  # by node and segment, once they are asked for
         for arc, (source, target) in enumerate(skeleton.arcs.tolist()):
             steps = sorted({*np.linspace(0, 1, samples + 2).tolist(), self.widest(arc)})
             nodes = [source]
@@ -131,7 +132,9 @@ class Sampled:
         place, radius = np.array(self.place), np.array(self.radius)
         for node in around:
             for segment in around[node] - removed:
-                found = hangs(node, segment, self.segments, around, self.anchored)
+                if (node, segment) not in self.hanging:
+                    self.hanging[node, segment] = hangs(node, segment, self.segments, around, self.anchored)
+                found = self.hanging[node, segment]
                 if found is None:
                     continue
                 beyond, q = found[0], list(found[1])
@@ -141,12 +144,15 @@ class Sampled:
         return removed
 
 
-def in_short_pieces(skeleton, threshold, relative):
-    """Arcs in pieces on junctions whose longest path to a leaf is too short, and that hold no middle of a tree."""
+def pieces_on_junctions(skeleton):
+    """Pieces that hang on a junction and hold no middle of a tree: junction, arcs, longest path to a leaf."""
     edges = [tuple(pair) for pair in skeleton.arcs.tolist()]
     around, anchored = incidence(edges), set(np.flatnonzero(skeleton.on_frame).tolist())
-    length, radius, removed = skeleton.length.tolist(), skeleton.radius, set()
+    length, half, pieces = skeleton.length.tolist(), {}, []
     for node in around:
+        if node not in half:
+            nodes, size = half_diameter(node, edges, around, anchored, length)
+            half |= dict.fromkeys(nodes, size)
         if len(around[node]) < 3:
             continue
         for edge in around[node]:
@@ -154,10 +160,15 @@ def in_short_pieces(skeleton, threshold, relative):
             if found is None:
                 continue
             far = farthest(node, found[0], edges, around, length)
-            limit = threshold * (radius[node] if relative else 1)
-            if far < limit and far <= half_diameter(node, edges, around, anchored, length) * (1 + 1e-12):
-                removed |= found[0]
-    return removed
+            if far <= half[node] * (1 + 1e-12):
+                pieces.append((node, found[0], far))
+    return pieces
+
+
+def in_short_pieces(skeleton, pieces, threshold, relative):
+    """Arcs in pieces on junctions whose longest path to a leaf is too short."""
+    radius = skeleton.radius
+    return set().union(*(arcs for node, arcs, far in pieces if far < threshold * (radius[node] if relative else 1)))
 
 
 def farthest(node, allowed, edges, around, length):
@@ -173,7 +184,7 @@ def farthest(node, allowed, edges, around, length):
 
 
 def half_diameter(node, edges, around, anchored, length):
-    """Of the tree that a node is in; infinite if it is no tree."""
+    """The nodes that a node hangs together with, and half the diameter of their tree; infinite if it is no tree."""
     nodes, arcs, todo = {node}, set(), [node]
     while todo:
         at = todo.pop()
@@ -183,9 +194,9 @@ def half_diameter(node, edges, around, anchored, length):
             nodes |= new
             todo += new
     if nodes & anchored or len(arcs) != len(nodes) - 1:
-        return np.inf
+        return nodes, np.inf
     leaves = [n for n in nodes if len(around[n]) == 1]
-    return max(farthest(leaf, arcs, edges, around, length) for leaf in leaves) / 2
+    return nodes, max(farthest(leaf, arcs, edges, around, length) for leaf in leaves) / 2
 
 
 # ---- the library beside it -------------------------------------------------------------------------
@@ -236,10 +247,11 @@ def disagreement(skeleton, rng):
         wrong = differing(arcs, values, threshold, 1e-7, skeleton)
         if wrong:
             return f"scale {threshold}: arcs {wrong}"
+    pieces = pieces_on_junctions(skeleton)
     for criterion in ("length", "ratio"):
         values = critical_values(skeleton, criterion)
         for threshold in thresholds(values, rng):
-            arcs = in_short_pieces(skeleton, threshold, criterion == "ratio")
+            arcs = in_short_pieces(skeleton, pieces, threshold, criterion == "ratio")
             if any(values.ends[arc].max() < threshold for arc in values.kept_arc):
                 arcs |= {k for k in range(len(skeleton)) if values.most[k] < threshold}  # a whole component
             wrong = differing(arcs, values, threshold, 1e-9, skeleton)

@@ -8,7 +8,7 @@ from support.families.segment_families import coarse, draw
 from support.oracles.boost_oracle import boost_edges, differences
 from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi
 
-GRAPH = coarse(*draw("two_boxes", 30, 11), 1000)
+GRAPH = coarse(*draw("two_boxes", 20, 11), 1000)
 OURS, BOOST = segment_voronoi(*GRAPH), boost_edges(*GRAPH)
 
 
