@@ -96,8 +96,8 @@ Columns boundary_rings(const PlanarGraph& graph, const Indices& face_start, cons
   return result;
 }
 
-std::optional<std::string> find_fault(const IndexRows& points, const IndexRows& segments,
-                                      const std::optional<IndexRows>& faces, const Progress& progress) {
+std::optional<std::string> fault_of_graph(const IndexRows& points, const IndexRows& segments,
+                                          const std::optional<IndexRows>& faces, const Progress& progress) {
   core::kernel::PlanarGraphView graph{rows<LatticePoint>(points), rows<IndexPair>(segments), {}};
   if (faces) graph.faces = rows<IndexPair>(*faces);
   if (faces && graph.faces.size() != graph.segments.size())
@@ -141,7 +141,7 @@ void bind_arrangement(nb::module_& room) {
            "threads"_a, "progress"_a.none(),
            "Of each polygon 1 if it is not seen to be one simple ring, 2 if it clashes with others of its "
            "coverage.");
-  room.def("find_fault", &find_fault, "points"_a, "segments"_a, "faces"_a.none(), "progress"_a.none());
+  room.def("find_fault", &fault_of_graph, "points"_a, "segments"_a, "faces"_a.none(), "progress"_a.none());
 }
 
 }  // namespace vorotool::bindings

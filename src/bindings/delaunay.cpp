@@ -77,7 +77,8 @@ auto nearest_neighbours(const Places& points, const IndexRows& edges,
   return std::make_tuple(to_numpy(std::move(found.nearest)), to_numpy(std::move(found.count)));
 }
 
-std::optional<std::string> find_fault(const Triangulation& mesh, unsigned threads, const Progress& progress) {
+std::optional<std::string> fault_of_mesh(const Triangulation& mesh, unsigned threads,
+                                         const Progress& progress) {
   return run_interruptible(progress, core::delaunay::find_fault, mesh.view(), threads);
 }
 
@@ -95,7 +96,7 @@ void bind_delaunay(nb::module_& room) {
   room.def("insert_points", &insert_points, "mesh"_a, "points"_a, "hints"_a, "threads"_a, "progress"_a.none(),
            "Of the points of the mesh and further ones triangles, neighbours, edges, hull and first; None "
            "where the order of triangles that stay would change.");
-  room.def("find_fault", &find_fault, "mesh"_a, "threads"_a, "progress"_a.none());
+  room.def("find_fault", &fault_of_mesh, "mesh"_a, "threads"_a, "progress"_a.none());
   room.def("nearest_neighbours", &nearest_neighbours, "points"_a, "edges"_a, "labels"_a, "progress"_a.none(),
            "Index of the nearest point of each, -1 without any, and its number of neighbours.");
 }

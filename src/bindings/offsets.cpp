@@ -40,7 +40,7 @@ void check(const core::segment_voronoi::build::DiagramView& diagram, const Indic
   check_faces(diagram, edge_face, face_polygon);
 }
 
-Columns as_dict(OffsetCurves&& curves) {
+Columns curves_as_dict(OffsetCurves&& curves) {
   Columns result;
   result["start"] = two_columns(std::move(curves.start));
   result["end"] = two_columns(std::move(curves.end));
@@ -70,7 +70,7 @@ auto offset_curves(const SegmentDiagram& input, const Indices& edge_face, const 
     return all;
   });
   std::vector<Columns> result;
-  for (OffsetCurves& curves : made) result.push_back(as_dict(std::move(curves)));
+  for (OffsetCurves& curves : made) result.push_back(curves_as_dict(std::move(curves)));
   return result;
 }
 

@@ -67,8 +67,8 @@ Columns take_arrays(SegmentVoronoi& diagram, const std::optional<Vector<const st
   return result;
 }
 
-std::optional<std::string> find_fault(const SegmentDiagram& diagram, unsigned threads,
-                                      const Progress& progress) {
+std::optional<std::string> fault_of_diagram(const SegmentDiagram& diagram, unsigned threads,
+                                            const Progress& progress) {
   return run_interruptible(progress, core::segment_voronoi::verify::find_fault, diagram.unchecked(), threads);
 }
 
@@ -105,7 +105,7 @@ void bind_segment_voronoi(nb::module_& room) {
                     const std::optional<IndexRows>&>(),
            "points"_a, "segments"_a, "vertices"_a, "radius"_a, "vertex_start"_a, "vertex_sites"_a, "edges"_a,
            "edge_sites"_a, "segment_faces"_a.none());
-  room.def("find_fault", &find_fault, "diagram"_a, "threads"_a, "progress"_a.none());
+  room.def("find_fault", &fault_of_diagram, "diagram"_a, "threads"_a, "progress"_a.none());
 }
 
 }  // namespace vorotool::bindings
