@@ -2,10 +2,13 @@
 
 import subprocess
 import sys
+from contextlib import nullcontext
 from dataclasses import dataclass
 
 import pytest
 
+from support.processes.batches_here import results_here
+from support.processes.fed_input import fed_input
 from support.readers.written import rows_of
 from vorotool.cli.main import main
 
@@ -22,14 +25,29 @@ class Outcome:
         return rows_of(self.out)
 
 
+@pytest.fixture(autouse=True)
+def tasks_are_done_here(request, monkeypatch):
+    """Have this process do the tasks of a batch, unless the test asks for workers."""
+    if "workers" not in request.fixturenames:
+        monkeypatch.setattr("vorotool.batch.process_pool.local_results", results_here)
+
+
+@pytest.fixture
+def workers():
+    """Have a batch start processes, as it does for users."""
+
+
 @pytest.fixture
 def run(tmp_path, monkeypatch, capfd):
-    """Run a command in an empty folder; a traceback fails the test whatever the command was."""
+    """Run a command in an empty folder, with data on standard input if there are any.
+
+    A traceback fails the test whatever the command was.
+    """
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(sys, "unraisablehook", sys.unraisablehook)  # which the command sets
 
-    def call(*arguments):
-        with pytest.raises(SystemExit) as end:
+    def call(*arguments, data=None):
+        with nullcontext() if data is None else fed_input(data), pytest.raises(SystemExit) as end:
             main([str(argument) for argument in arguments])
         out, err = capfd.readouterr()
         assert "Traceback" not in err

@@ -52,12 +52,12 @@ def test_all_point_formats_are_read(run, folder, name):
     assert len(expected.splitlines()) == 6
 
 
-def test_standard_input_and_columns(process, folder):
+def test_standard_input_and_columns(run, process, folder):
     child = process("delaunay", "-", "--columns", "3,1", stdin=-1)
     out, err = child.communicate(b"1,a,2\n5,b,7\n6,c,1\n9.5,d,9\n")
     np.save(folder / "a.npy", np.array(POINTS))
-    expected, _ = process("delaunay", "a.npy").communicate()
-    assert (out, err) == (expected, b"")
+    expected = run("delaunay", "a.npy").out
+    assert (out.decode(), err) == (expected, b"")
 
 
 def test_labels_of_the_input_are_kept(run, folder):

@@ -204,12 +204,10 @@ def test_text_is_for_people(run, tmp_path):
     )
 
 
-def test_standard_input(process):
-    done = process("info", "-", "--json", stdin=-1)
-    out, err = done.communicate(b"POINT (1 2)")
-    assert (json.loads(out)["input"], json.loads(out)["points"], err) == ("-", 1, b"")
-    done = process("info", "-", stdin=-1)
-    assert done.communicate(b"POINT (1 2)")[0].startswith(b"standard input\n  format     wkt\n")
+def test_standard_input(run):
+    done = run("info", "-", "--json", data=b"POINT (1 2)")
+    assert (json.loads(done.out)["input"], json.loads(done.out)["points"], done.err) == ("-", 1, "")
+    assert run("info", "-", data=b"POINT (1 2)").out.startswith("standard input\n  format     wkt\n")
 
 
 def test_a_pipe_with_a_name(run, tmp_path):
@@ -221,13 +219,13 @@ def test_a_pipe_with_a_name(run, tmp_path):
     assert "kind       mask\n" in done.out
 
 
-def test_a_name_that_is_no_text(process, tmp_path):
+def test_a_name_that_is_no_text(run, process, tmp_path):
     name = os.fsencode(tmp_path) + b"/\xff.csv"
     Path(os.fsdecode(name)).write_bytes(b"x,y\n1,2\n")
     done = process("info", os.fsdecode(name))
     out, _ = done.communicate()
     assert out.startswith(name + b"\n")
-    assert json.loads(process("info", os.fsdecode(name), "--json").communicate()[0])["points"] == 1
+    assert json.loads(run("info", os.fsdecode(name), "--json").out)["points"] == 1
 
 
 def test_folders_and_patterns(info, folder):

@@ -358,12 +358,10 @@ def test_columns_are_left_out(run, mixed):
 
 
 # ---- streams and batches -----------------------------------------------------------------------------
-def test_streams(process, mixed):
-    made = process("voronoi", "-", "-f", "geojson", "-q", stdin=subprocess.PIPE)
-    out, err = made.communicate(mixed.read_bytes())
-    assert (made.returncode, err) == (0, b"")
-    alone = process("voronoi", str(mixed), "-q").communicate()[0]
-    assert out == alone
+def test_streams(run, mixed):
+    done = run("voronoi", "-", "-f", "geojson", "-q", data=mixed.read_bytes())
+    assert (done.code, done.err) == (0, "")
+    assert done.out == run("voronoi", mixed, "-q").out
     piped = subprocess.run(
         f"cat mixed.geojson | {sys.executable} -m vorotool voronoi - -q -f json >> all.json; "
         f"cat all.json | {sys.executable} -m vorotool draw - -f svg | head -c 5",
@@ -374,14 +372,13 @@ def test_streams(process, mixed):
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no named pipes")
-def test_named_pipes(process, mixed):
+def test_named_pipes(run, mixed):
     os.mkfifo(mixed.parent / "pipe")
     feeder = threading.Thread(target=lambda: (mixed.parent / "pipe").write_bytes(mixed.read_bytes()))
     feeder.start()
-    done = process("voronoi", "pipe", "-q", "--what", "table")
-    out, _ = done.communicate(timeout=600)
+    done = run("voronoi", "pipe", "-q", "--what", "table")
     feeder.join()
-    assert (done.returncode, len(rows_of(out.decode()))) == (0, 6)
+    assert (done.code, len(done.rows)) == (0, 6)
 
 
 def test_batches(run, folder, mixed, labels):
@@ -389,7 +386,7 @@ def test_batches(run, folder, mixed, labels):
     mixed.rename(folder / "in" / "mixed.geojson")
     labels.rename(folder / "in" / "deep" / "labels.png")
     (folder / "in" / "points.csv").write_text("x,y\n1,2\n5,9\n")
-    done = run("voronoi", "in", "--out-dir", "out", "-j", "2", "--table", "all.csv", "-q")
+    done = run("voronoi", "in", "--out-dir", "out", "--table", "all.csv", "-q")
     assert done.code == 0, done.err
     assert sorted(path.relative_to(folder / "out").as_posix() for path in (folder / "out").rglob("*.geojson")) == [
         "deep/labels.geojson", "mixed.geojson", "points.geojson",
@@ -400,7 +397,7 @@ def test_batches(run, folder, mixed, labels):
     ]  # fmt: skip
     alone = run("voronoi", "in/deep/labels.png")
     assert (folder / "out" / "deep" / "labels.geojson").read_text() == alone.out
-    again = run("voronoi", "in", "--out-dir", "out", "-j", "2", "--table", "all.csv", "--resume", "-q")
+    again = run("voronoi", "in", "--out-dir", "out", "--table", "all.csv", "--resume", "-q")
     assert again.code == 0
 
 

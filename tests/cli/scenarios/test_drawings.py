@@ -34,24 +34,18 @@ def folder(tmp_path):
     return tmp_path
 
 
-def called(folder, *arguments, data=b""):
-    """Run the command as a process of its own."""
-    command = [sys.executable, "-m", "vorotool", *arguments]
-    return subprocess.run(command, cwd=folder, input=data, capture_output=True, check=False)
-
-
-def test_streams_give_the_same_bytes(folder):
-    from_file = called(folder, "skeleton-exact", "logo.svg", "-f", "dxf")
-    assert from_file.returncode == 0
+def test_streams_give_the_same_bytes(run, folder):
+    from_file = run("skeleton-exact", "logo.svg", "-f", "dxf")
+    assert from_file.code == 0
     for data in (LOGO.read_bytes(), gzip.compress(LOGO.read_bytes())):
-        assert called(folder, "skeleton-exact", "-", "-f", "dxf", data=data).stdout == from_file.stdout
+        assert run("skeleton-exact", "-", "-f", "dxf", data=data).out == from_file.out
     os.mkfifo(folder / "pipe")
     feeder = threading.Thread(target=lambda: (folder / "pipe").write_bytes(LOGO.read_bytes()))
     feeder.start()
-    assert called(folder, "skeleton-exact", "pipe", "-f", "dxf").stdout == from_file.stdout
+    assert run("skeleton-exact", "pipe", "-f", "dxf").out == from_file.out
     feeder.join()
-    again = called(folder, "draw", "-", "-f", "svg", data=from_file.stdout)
-    assert (again.returncode, b"<path" in again.stdout) == (0, True)
+    again = run("draw", "-", "-f", "svg", data=from_file.out.encode())
+    assert (again.code, "<path" in again.out) == (0, True)
 
 
 def test_batches(run, folder):
@@ -62,8 +56,8 @@ def test_batches(run, folder):
     assert done.code == 6
     assert "more.svg, line 1" in done.err
     assert sorted(path.name for path in (folder / "out").glob("*.dxf")) == ["logo.dxf", "plate.dxf"]
-    alone = called(folder, "skeleton-exact", "plate.dxf", "-f", "dxf")
-    assert (folder / "out/plate.dxf").read_bytes() == alone.stdout
+    assert run("skeleton-exact", "plate.dxf", "-o", "alone.dxf").code == 0
+    assert (folder / "out/plate.dxf").read_bytes() == (folder / "alone.dxf").read_bytes()
 
 
 def test_from_a_logo_to_the_way_of_a_bit(run, folder):

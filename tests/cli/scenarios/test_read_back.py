@@ -87,7 +87,7 @@ def test_points_of_tables_are_the_same_from_each_format(made, command, what, for
 
 
 @pytest.mark.parametrize("what", ["table", "points"])
-def test_what_follows_from_points_is_the_same_from_each_format_and_through_pipes(run, process, made, what):
+def test_what_follows_from_points_is_the_same_from_each_format_and_through_pipes(run, made, what):
     command = "tessellate" if what == "table" else "alphashape"
     written = {fmt: made(command, what, fmt) for fmt in ROWS}
     expected = run("delaunay", written["csv"], "--columns", "x,y,label", "--no-properties").out
@@ -95,7 +95,7 @@ def test_what_follows_from_points_is_the_same_from_each_format_and_through_pipes
     for fmt, path in written.items():
         assert run("delaunay", path, "--columns", "x,y,label", "--no-properties").out == expected
         words = ["delaunay", "-", "--columns", "x,y,label", "--no-properties"]
-        assert process(*words, stdin=-1).communicate(path.read_bytes())[0].decode() == expected, fmt
+        assert run(*words, data=path.read_bytes()).out == expected, fmt
 
 
 def features():
@@ -137,12 +137,11 @@ def test_each_format_of_tables_is_written_where_any_is():
     assert FORMATS["tsv"].is_text
 
 
-def test_lines_of_a_one_row_table_come_back_through_a_pipe(run, process, tmp_path):
+def test_lines_of_a_one_row_table_come_back_through_a_pipe(run, tmp_path):
     (tmp_path / "one.csv").write_text("x,y\n2,1\n")
     made = run("tessellate", "one.csv", "--size", "4x3", "--what", "table", "-f", "jsonl").out
     assert json.loads(made)["x"] == 2
-    done = process("info", "-", stdin=-1)
-    assert b"points     1\n" in done.communicate(made.encode())[0]
+    assert "points     1\n" in run("info", "-", data=made.encode()).out
 
 
 def test_arrays_of_places_are_points_for_other_commands(run, tmp_path):

@@ -135,9 +135,7 @@ def test_areas_in_the_unit_of_the_file(run, scans, command):
 
 def test_a_batch_is_cleaned_as_each_alone(run, scans):
     options = ["--fill-holes", "50", "--min-area", "5", "-q"]
-    assert (
-        run("skeleton-exact", "ink.tif", "specks.tif", *options, "--out-dir", "out", "-f", "json", "-j", "2").code == 0
-    )
+    assert run("skeleton-exact", "ink.tif", "specks.tif", *options, "--out-dir", "out", "-f", "json").code == 0
     for name in ("ink", "specks"):
         assert run("skeleton-exact", f"{name}.tif", *options, "-o", "alone.json").code == 0
         assert (scans / "out" / f"{name}.json").read_bytes() == (scans / "alone.json").read_bytes()

@@ -299,24 +299,20 @@ def test_an_interrupt_leaves_nothing(process, tmp_path):
 
 
 # ---- streams and batches -------------------------------------------------------------------------
-def test_streams(process, stack):
+@pytest.mark.parametrize(("fmt", "name"), [("npy", "out.npy"), ("tiff", "out.tif")])
+def test_streams(run, process, stack, fmt, name):
     data = (stack / "stack.tif").read_bytes()
-    running = process("tessellate", "--volume", "-", "-f", "npy", "-o", "-", "-q", stdin=-1)
+    running = process("tessellate", "--volume", "-", "-f", fmt, "-o", "-", "-q", stdin=-1)
     out, err = running.communicate(data)
     assert (running.returncode, err) == (0, b"")
-    assert process("tessellate", "--volume", "stack.tif", "-o", "out.npy", "-q").communicate() == (b"", b"")
-    assert out == (stack / "out.npy").read_bytes()
-    running = process("tessellate", "--volume", "-", "-f", "tiff", "-o", "-", "-q", stdin=-1)
-    out, _ = running.communicate(data)
-    assert process("tessellate", "--volume", "stack.tif", "-o", "out.tif", "-q").communicate() == (b"", b"")
-    assert out == (stack / "out.tif").read_bytes()
+    assert run("tessellate", "--volume", "stack.tif", "-o", name, "-q").code == 0
+    assert out == (stack / name).read_bytes()
 
 
-def test_points_through_a_stream(process, points):
-    running = process("tessellate", "-", "--size", "9x8x7", "--what", "table", "-q", stdin=-1)
-    out, err = running.communicate((points / "points.csv").read_bytes())
-    assert (running.returncode, err) == (0, b"")
-    assert len(rows_of(out.decode())) == 5
+def test_points_through_a_stream(run, points):
+    data = (points / "points.csv").read_bytes()
+    done = run("tessellate", "-", "--size", "9x8x7", "--what", "table", "-q", data=data)
+    assert (done.code, done.err, len(done.rows)) == (0, "", 5)
 
 
 def test_a_folder_of_stacks(run, tmp_path):
