@@ -24,22 +24,14 @@ def cases(language):
     return [pytest.param(block, id=name, marks=slow["--cluster" in block]) for name, block in blocks(language)]
 
 
-@pytest.fixture
-def folder(tmp_path):
-    """A folder with what a reader has there: the samples, and the pipeline that a page explains."""
-    write_all_samples(str(tmp_path))
-    shutil.copytree(ROOT / "docs/pipeline", tmp_path / "docs/pipeline")
-    return tmp_path
-
-
 @pytest.mark.parametrize("block", cases("console"))
-def test_console_block(block, folder):
+def test_console_block(block, folder, warm_bash):
     for part in re.split(r"^\$ ", block, flags=re.MULTILINE)[1:]:
         first, following, expected = re.fullmatch(r"([^\n]*\n?)((?:> [^\n]*\n)*)(.*)", part, re.DOTALL).groups()
         command = first + re.sub(r"^> ", "", following, flags=re.MULTILINE)
         if "| jq " in command and shutil.which("jq") is None:
             pytest.skip("jq is not there")
-        done = ended_bash(command, folder)
+        done = warm_bash(command, folder)
         assert done.returncode == 0, f"{command}\n{done.stderr}"
         assert done.stderr == ""
         assert done.stdout == expected, command
@@ -50,8 +42,8 @@ def test_console_block(block, folder):
 
 
 @pytest.mark.parametrize("block", cases("python"))
-def test_python_block(block, folder):
-    done = ended_python("-c", block, cwd=folder)
+def test_python_block(block, folder, warm_python):
+    done = warm_python(block, folder)
     assert done.returncode == 0, done.stderr
     write_all_samples(str(folder))
 
@@ -99,11 +91,11 @@ def test_the_manual_pages_are_read_without_warnings(command):
 
 
 @pytest.mark.parametrize("arguments", [[], *([name] for name in COMMANDS)], ids=" ".join)
-def test_the_example_of_the_help_runs_in_an_empty_folder(arguments, tmp_path):
+def test_the_example_of_the_help_runs_in_an_empty_folder(arguments, tmp_path, warm_bash):
     """All lines of it, which use samples that come with the package."""
-    text = ended_bash(f"vorotool {' '.join(arguments)} --help", tmp_path).stdout
+    text = warm_bash(f"vorotool {' '.join(arguments)} --help", tmp_path).stdout
     example = re.search(r"Example:\s*\n((?:\s*vorotool .*\n)+)", text)
     assert example, "the help opens with an example"
-    done = ended_bash(f"set -e\n{example[1]}", tmp_path)
+    done = warm_bash(f"set -e\n{example[1]}", tmp_path)
     assert (done.returncode, done.stderr) == (0, ""), example[1]
     assert done.stdout or any(tmp_path.iterdir())

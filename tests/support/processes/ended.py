@@ -25,4 +25,4 @@ def ended_python(*arguments, **options):
 
 def ended_bash(line, folder, **options):
     """Run a line of a shell, all of whose commands must succeed."""
-    return ended("bash", "-o", "pipefail", "-c", line, cwd=folder, env=ENVIRONMENT, **options)
+    return ended("bash", "-o", "pipefail", "-c", line, **{"cwd": folder, "env": ENVIRONMENT, **options})
