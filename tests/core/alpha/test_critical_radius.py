@@ -60,7 +60,7 @@ def compared(p, q):
     return int(np.sign(ranks[0] - ranks[1]))
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=50, deadline=None)
 @given(supports, st.booleans())
 def test_correctly_rounded(support, is_edge):
     support = edge_of(support) if is_edge else support
@@ -72,9 +72,9 @@ def test_correctly_rounded(support, is_edge):
 @pytest.mark.parametrize("scale", [1.0, 1e-3, 2.0**-600, 1e200])
 def test_many_correctly_rounded(scale):
     rng = np.random.default_rng(5)
-    triangles = rng.random((3000, 6)) * scale
-    triangles[:1000, 4:] = triangles[:1000, :2] + (triangles[:1000, 2:4] - triangles[:1000, :2]) * rng.choice(
-        [0.5, 2.0, -1.0], (1000, 1)
+    triangles = rng.random((900, 6)) * scale
+    triangles[:300, 4:] = triangles[:300, :2] + (triangles[:300, 2:4] - triangles[:300, :2]) * rng.choice(
+        [0.5, 2.0, -1.0], (300, 1)
     )  # flat but for rounding
     _, found = ranked(triangles)
     for support, radius in zip(triangles.tolist(), found.tolist(), strict=True):

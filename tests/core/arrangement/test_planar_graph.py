@@ -57,7 +57,7 @@ def check(vertices, rings):
 @pytest.mark.parametrize("name", FAMILIES)
 @pytest.mark.parametrize("n", [1, 2, 3, 4, 5, 6, 8, 11])
 def test_small_inputs_beside_the_definition(name, n):
-    for seed in range(5):
+    for seed in range(5 if n < 6 else 2):
         check(*draw(name, n, [seed, n]))
 
 
@@ -90,8 +90,8 @@ def test_holes_without_an_area(hole, polygon):
 
 @pytest.mark.parametrize("name", FAMILIES)
 def test_large_inputs_are_planar(name):
-    for seed in range(3):
-        graph = graph_of(*draw(name, 400, [7, seed]))
+    for seed in range(2):
+        graph = graph_of(*draw(name, 300, [7, seed]))
         assert fault(graph) is None
 
 
@@ -163,10 +163,10 @@ def test_disturbances_that_spread_too_far():
 def test_every_lattice_point_of_a_crossing_of_many():
     """Lines through one point, on the lattice and beside it."""
     for centre in ((0, 0), (1, 0), (1, 1)):
-        ends = [(a, b) for a in range(-9, 10) for b in range(-9, 10) if max(abs(a), abs(b)) == 9]
+        ends = [(a, b) for a in range(-6, 7) for b in range(-6, 7) if max(abs(a), abs(b)) == 6]
         xy = [p for a, b in ends for p in ((a, b), (centre[0] - a, centre[1] - b))]
         vertices = np.array(xy, dtype=np.int32)
-        graph = check(vertices[: 2 * 18], rings_of([2] * 18, [LINE] * 18))
+        graph = check(vertices[: 2 * 14], rings_of([2] * 14, [LINE] * 14))
         assert fault(graph) is None
 
 
@@ -231,7 +231,7 @@ def test_the_checker_agrees_with_brute_force():
 def test_the_fuzz_target_runs():
     script = Path(__file__).parents[2] / "fuzz" / "planar_graph.py"
     done = subprocess.run(
-        [sys.executable, script, "--cases", "63", "--seed", "5"], capture_output=True, text=True, check=False
+        [sys.executable, script, "--cases", "18", "--seed", "5"], capture_output=True, text=True, check=False
     )
     assert done.returncode == 0, done.stdout + done.stderr
-    assert "63 cases, 0 failures" in done.stdout
+    assert "18 cases, 0 failures" in done.stdout

@@ -28,7 +28,7 @@ def site_ends(placed):
 @pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.__name__)
 def test_every_site_is_where_the_graph_has_it(family):
     rng = np.random.default_rng(3)
-    for _ in range(30):
+    for _ in range(10):
         graph = graph_of(family(rng))
         placed = placed_shapes(graph)
         points = graph.coordinates()
@@ -43,7 +43,7 @@ def test_every_site_is_where_the_graph_has_it(family):
 @pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.__name__)
 def test_sources_are_in_the_input(family):
     rng = np.random.default_rng(4)
-    for _ in range(30):
+    for _ in range(10):
         graph = graph_of(family(rng))
         sites, given = placed_shapes(graph).sites, graph.polygons
         known = np.flatnonzero(sites.source_ring >= 0)
@@ -55,7 +55,7 @@ def test_sources_are_in_the_input(family):
 @pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.__name__)
 def test_faces_are_in_the_part_that_holds_them(family):
     rng = np.random.default_rng(6)
-    for _ in range(30):
+    for _ in range(10):
         graph = graph_of(family(rng))
         placed = placed_shapes(graph)
         assert ((placed.face_polygon >= 0) == graph.is_inside).all()

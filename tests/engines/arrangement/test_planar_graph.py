@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import shapely
 
+from support.few import few
 from support.processes.heard_signals import stop
 from support.readers.written import assert_same
 from vorotool import (
@@ -170,7 +171,7 @@ def test_lines_beside_geos():
         assert shapely.MultiLineString(list(graph.coordinates()[graph.segments])).length == pytest.approx(noded.length)
 
 
-@pytest.mark.parametrize("name", ["110m_lakes", "110m_land", "50m_lakes", "50m_land"])
+@pytest.mark.parametrize("name", few(["110m_lakes", "110m_land", "50m_lakes", "50m_land"], 3))
 def test_natural_earth(name):
     shapes = read(DATA / f"ne_{name}.geojson")
     graph, said = quietly(shapes)

@@ -82,7 +82,7 @@ def test_what_is_outside_is_left_out():
 @pytest.mark.parametrize("is_curved", [False, True])
 def test_strokes_of_masks_reach_their_ends(cap, is_curved):
     random, off, one_way = np.random.default_rng(3), [], []
-    for _ in range(15):
+    for _ in range(6):
         shape, true = stroke(random, cap, is_curved=is_curved)
         skeleton = vorotool.prune(vorotool.skeleton_exact(vorotool.outlines(mask(shape))), scale=1.5)
         extended = vorotool.extend_ends(skeleton)

@@ -95,10 +95,10 @@ def test_bands_and_threads_change_nothing(pixels, monkeypatch):
 
 def test_many_rows_in_pieces():
     """More pixels than a piece of work, of labels at random."""
-    image = np.random.default_rng(3).integers(1, 40, (900, 900)).astype(np.uint8)
+    image = np.random.default_rng(3).integers(1, 40, (600, 600)).astype(np.uint8)
     found = digital_triangulation(LabelImage(image), threads=2)
     scan = _core.digital.DigitalTriangulationScan()
-    for y in range(899):
+    for y in range(599):
         scan.add_rows(image[y : y + 2], 1, None)
     one_by_one = scan.finish()
     np.testing.assert_array_equal(found.labels[found.edges[:, 0]], one_by_one["edge_a"])

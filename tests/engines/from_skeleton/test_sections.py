@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import shapely
 
+from support.few import few
 from vorotool import VerificationError, centerline, extend_ends, points_along, prune, skeleton_exact
 from vorotool.engines.from_skeleton.verify_sections import verify_sections
 
@@ -26,7 +27,7 @@ def wide(shape, scale=1.3):
     return prune(skeleton_exact(shape), scale=scale)
 
 
-@pytest.mark.parametrize("every", [0.31, 1, 100])
+@pytest.mark.parametrize("every", [0.41, 1, 100])
 @pytest.mark.parametrize("ends", ["middle", "corner", "none"])
 @pytest.mark.parametrize("name", SHAPES)
 def test_steps_go_on_from_end_to_end(name, ends, every):
@@ -42,7 +43,7 @@ def test_steps_go_on_from_end_to_end(name, ends, every):
     assert last.distance(shapely.Point(points.xy[-1])) <= every
 
 
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", few(range(6), 2))
 def test_feet_are_the_first_crossings_of_the_outline(seed):
     random = np.random.default_rng(seed)
     angle = np.sort(random.uniform(0, 2 * np.pi, 60))

@@ -17,7 +17,7 @@ from vorotool.errors import VerificationError
 from vorotool.geometry.skeleton.tables import connected_roots
 
 SIDE, ACROSS = 64, 20
-COUNT = 200
+COUNT = 80
 
 
 def letter(random):
@@ -107,7 +107,7 @@ def test_components_and_cycles_with_4_connectivity():
 @pytest.mark.parametrize("outline", ["crack", "contour"])
 @pytest.mark.parametrize("connectivity", [4, 8])
 def test_the_checker_passes_all_of_them(outline, connectivity):
-    for seed in range(100, 103):
+    for seed in range(100, 102):
         image = random_labels(np.random.default_rng(seed), 20)
         if not image.any():
             continue

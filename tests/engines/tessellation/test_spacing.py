@@ -7,6 +7,7 @@ import pytest
 from scipy import ndimage
 
 import vorotool
+from support.few import few
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.engines.tessellation.verify_tessellation import verify_label_image
 from vorotool.errors import UsageError, VerificationError
@@ -44,7 +45,7 @@ def seeds_of(random, count, frame, scale, reach):
 
 @pytest.mark.parametrize("sides", SIDES)
 @pytest.mark.parametrize("scale", [1, 4, 256])
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", few(range(6), 3))
 def test_every_pixel_has_the_smallest_label_of_its_nearest_seeds(sides, scale, seed):
     random = np.random.default_rng([seed, scale, sides.x])
     frame = Frame(-3, 5, int(random.integers(1, 40)), int(random.integers(1, 40)))
@@ -113,12 +114,12 @@ def test_limits_are_exact(sides, limit):
 
 
 def test_large_objects_need_their_outer_pixels_only():
-    image = np.zeros((40, 50), np.uint16)
-    image[5:30, 5:30], image[10:38, 31:49] = 1, 2
+    image = np.zeros((24, 30), np.uint16)
+    image[3:18, 3:18], image[6:23, 19:29] = 1, 2
     sides = (0.2, 1.0)
     grown = vorotool.expand_labels(image, float("inf"), spacing=sides)
     y, x = np.nonzero(image)
-    labels, _ = brute(SeedSet(x, y, image[y, x]), Frame(0, 0, 50, 40), pixel_sides(sides))
+    labels, _ = brute(SeedSet(x, y, image[y, x]), Frame(0, 0, 30, 24), pixel_sides(sides))
     assert np.array_equal(grown, labels)
 
 
@@ -128,9 +129,10 @@ def test_distances_are_those_of_scipy(spacing):
     ours, indices = vorotool.distance_transform(mask, spacing=spacing, return_indices=True)
     sampling = [float(side) for side in spacing]
     theirs = ndimage.distance_transform_edt(mask, sampling=sampling)
-    assert ours == pytest.approx(theirs, rel=1e-14)
+    np.testing.assert_allclose(ours, theirs, rtol=1e-14, atol=1e-12)
     y, x = np.indices(mask.shape)
-    assert np.hypot((indices[0] - y) * sampling[0], (indices[1] - x) * sampling[1]) == pytest.approx(ours, rel=1e-14)
+    away = np.hypot((indices[0] - y) * sampling[0], (indices[1] - x) * sampling[1])
+    np.testing.assert_allclose(away, ours, rtol=1e-14, atol=1e-12)
     if all(side == int(side) for side in spacing):
         assert np.array_equal(ours, theirs)  # whole numbers below 2^53: the last bit too
 

@@ -50,7 +50,7 @@ def seed_sets(low, high, most=25):
     st.tuples(st.integers(-8, 8), st.integers(-8, 8), st.integers(1, 12), st.integers(1, 12)),
     st.none() | st.integers(0, 300),
 )
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=25, deadline=None)
 def test_random_seeds_with_ties_and_shared_labels(points, scale, window, limit):
     x, y, labels = (np.array(v) for v in zip(*points, strict=True))
     check_both_ways(SeedSet(x, y, labels, scale), Frame(*window), limit)

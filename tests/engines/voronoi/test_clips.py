@@ -10,6 +10,7 @@ from tests.support.families.site_families import mixed_sites, row_houses, square
 from tests.support.oracles.cut_oracle import assert_cut_coverage, assert_nearest_in_regions
 
 import vorotool
+from support.few import few
 from vorotool import verify_voronoi, voronoi
 from vorotool.errors import InputError, RepairWarning
 from vorotool.geometry.arguments.polygons import as_polygons
@@ -23,7 +24,7 @@ def quietly(sites, **options):
 
 
 @pytest.mark.parametrize("side", [4, 8, 1000])
-@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("seed", few(range(12), 4))
 def test_everything_on_a_lattice(side, seed):
     random = np.random.default_rng(seed)
     sites = lattice_sites(random, side)
@@ -136,7 +137,7 @@ def test_with_a_limit_of_distance():
     assert nothing.areas.tolist() == [0]
 
 
-@pytest.mark.parametrize("name", ["ne_110m_lakes", "great-lakes"])
+@pytest.mark.parametrize("name", few(["ne_110m_lakes", "great-lakes"], 1))
 def test_lakes_on_land(name):
     lakes, land = vorotool.read(f"data/{name}.geojson"), vorotool.read("data/ne_110m_land.geojson")
     with warnings.catch_warnings(action="ignore"):
