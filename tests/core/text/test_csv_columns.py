@@ -5,6 +5,7 @@ import io
 import math
 import random
 import struct
+from functools import cache
 
 import numpy as np
 import pytest
@@ -208,14 +209,18 @@ def test_results_do_not_depend_on_threads(quotes):
     assert {_core.text.count_rows(text, ",", threads=threads) for threads in (1, 2, 5)} == {rows}
 
 
-@pytest.mark.parametrize("quotes", [False, True])
-@pytest.mark.parametrize("threads", [1, 2, 3, 8])
-def test_the_first_error_is_reported_whatever_the_threads(quotes, threads):
+@cache
+def text_with_errors(quotes):
     rows = [[b"%d" % i, b"2", b'"q"' if quotes else b"q"] for i in range(4 * PIECE // 12)]
     for bad in (30000, 50000, 80000):
         rows[bad][1] = b"bad%d" % bad
-    text = b"\n".join(map(b",".join, rows))
-    assert error_of(text, threads=threads) == ("not_number", 30001, 1, "bad30000", 0, 0)
+    return b"\n".join(map(b",".join, rows))
+
+
+@pytest.mark.parametrize("quotes", [False, True])
+@pytest.mark.parametrize("threads", [1, 2, 3, 8])
+def test_the_first_error_is_reported_whatever_the_threads(quotes, threads):
+    assert error_of(text_with_errors(quotes), threads=threads) == ("not_number", 30001, 1, "bad30000", 0, 0)
 
 
 def test_multi_line_records_keep_line_numbers_across_pieces():

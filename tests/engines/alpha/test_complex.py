@@ -89,7 +89,7 @@ def exact_radii(family):
 
 
 @families
-@pytest.mark.parametrize("n", [12, 40])
+@pytest.mark.parametrize("n", [8, 30])
 def test_radii_are_correctly_rounded_and_ranked(name, n):
     points = draw(name, n, 3)
     if distinct(points) < 2:
@@ -180,7 +180,7 @@ def test_a_radius_is_compared_exactly():
 def test_two_radii_in_one_double():
     """By ulps: different exact radii that round to one double keep their order, and a decimal tells them apart."""
     found = 0
-    for seed in range(25):
+    for seed in range(12):
         family = quietly(draw("by_ulps", 30, seed))
         for k in np.flatnonzero(np.diff(family.spectrum) == 0):
             r = family.radius_from(int(k))

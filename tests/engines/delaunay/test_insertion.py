@@ -59,7 +59,7 @@ def always_local(monkeypatch):
 
 
 @families
-@pytest.mark.parametrize("n", [5, 12, 60, 300])
+@pytest.mark.parametrize("n", [5, 12, 60, 150])
 def test_every_family_is_as_triangulated_at_once(name, n, always_local):
     if name == "any_double":  # exact arithmetic of thousands of bits
         n = min(n, 20)

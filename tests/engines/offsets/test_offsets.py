@@ -17,7 +17,7 @@ ROOMS = [[0, 0], [4, 0], [4, 1], [6, 1], [6, 0], [10, 0], [10, 4], [6, 4], [6, 2
 @pytest.mark.parametrize("family", SHAPES, ids=lambda family: family.__name__)
 def test_offsets_are_those_of_shapely(family):
     with warnings.catch_warnings(action="ignore"):
-        assert failure(small(family, 3, most=14), np.random.default_rng(3)) is None
+        assert failure(small(family, 3, most=10), np.random.default_rng(3)) is None
 
 
 def test_a_square_has_round_corners_outside():

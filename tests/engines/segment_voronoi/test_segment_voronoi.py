@@ -42,14 +42,14 @@ def rings(diagram):
 @pytest.mark.parametrize("name", [name for name in FAMILIES if name not in ("contour", "partition")])
 def test_brute_force_agrees(name):
     points, segments = next(
-        graph for n in range(9, 0, -1) for graph in [draw(name, n, 1)] if len(graph[0]) + len(graph[1]) <= SMALL
+        graph for n in range(7, 0, -1) for graph in [draw(name, n, 1)] if len(graph[0]) + len(graph[1]) <= SMALL
     )
     assert_right(points, segments)
 
 
 @pytest.mark.parametrize("name", FAMILIES)
 def test_boost_agrees_on_small_coordinates(name):
-    for seed in range(6):
+    for seed in range(4):
         points, segments = coarse(*draw(name, 40, seed), 2**12)
         diagram = segment_voronoi(points, segments, threads=1)
         assert not boost_oracle.differences(diagram, boost_oracle.boost_edges(points, segments))
@@ -93,7 +93,7 @@ def test_graphs_that_were_wrong_once(points, segments):
     for k, turned in enumerate(symmetries(np.array(points, np.int32))):
         diagram = segment_voronoi(turned, np.array(segments, np.int32), threads=1)
         verify_segment_voronoi(diagram, threads=1)
-        if k % 3 == 0 or len(points) < 6:
+        if k % 4 == 0 or len(points) < 6:
             assert not differences(diagram, voronoi_diagram(turned, segments))
 
 

@@ -45,7 +45,7 @@ def test_right_diagrams_pass(size):
 
 @pytest.mark.parametrize("name", ["regular", "tiled", "needles", "strips", "wheel", "chains", "clusters", "crowded"])
 def test_right_diagrams_of_families_pass(name):
-    verify_segment_voronoi(right(*segment_families.draw(name, 7, 4)))
+    verify_segment_voronoi(right(*segment_families.draw(name, 5, 4)))
 
 
 @pytest.mark.parametrize("points", [[], [(3, 4)], [(3, 4), (5, 6)], [(0, 0), (1, 2), (3, 6)]])

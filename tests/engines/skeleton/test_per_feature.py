@@ -232,13 +232,19 @@ def test_a_broken_polygon_keeps_its_points_and_segments():
     assert sorted(vorotool.polygon_table(made)["holes"].tolist()) == [0, 2]
 
 
-@pytest.mark.parametrize("distances", [[-1.0, -0.3], [-1.0, 2.0], [3.0]])
-def test_offsets_inwards_are_of_each_feature(distances):
-    for seed in range(len(FAMILIES)):
-        shapes = as_set(FAMILIES[seed](np.random.default_rng(seed + 20)))
-        with warnings.catch_warnings(action="ignore"):
-            made = vorotool.offset(shapes, distances)
-        vorotool.verify_offsets(made, distances=distances)
+DISTANCES = [[-1.0, -0.3], [-1.0, 2.0], [3.0]]
+EACH_ONCE = [(k, DISTANCES[(k + turn) % 3]) for turn in range(3) for k in range(len(FAMILIES))]
+
+
+@pytest.mark.parametrize(("family", "distances"), few(EACH_ONCE, len(FAMILIES)))
+def test_offsets_inwards_are_of_each_feature(family, distances):
+    shapes = as_set(FAMILIES[family](np.random.default_rng(family)))
+    with warnings.catch_warnings(action="ignore"):
+        made = vorotool.offset(shapes, distances)
+    vorotool.verify_offsets(made, distances=distances)
+
+
+def test_offsets_inwards_of_nested_features():
     nested = vorotool.offset([OUTER, INNER], [-1.0])
     assert nested.area.tolist() == [64, 4]
 

@@ -18,7 +18,7 @@ SHAPE = as_polygons(
 def test_random_shapes_by_random_angles():
     worst = {}
     with warnings.catch_warnings(action="ignore"):
-        wrong = [failure(case, np.random.default_rng([1, case]), worst) for case in range(4)]
+        wrong = [failure(case, np.random.default_rng([1, case]), worst) for case in range(5)]
     assert set(wrong) <= {None, "repaired"}
     assert wrong.count(None) > 2
     assert 0 < worst[90] < 6.9

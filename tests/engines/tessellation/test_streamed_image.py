@@ -41,10 +41,10 @@ def blobs(shape, share):
 
 
 def images():
-    yield "noise", rng.random((41, 37)) < 0.3
-    yield "dense", rng.random((41, 37)) < 0.8
-    yield "sparse", rng.random((60, 50)) < 0.005
-    yield "blobs", blobs((60, 45), 0.7)
+    yield "noise", rng.random((31, 27)) < 0.3
+    yield "dense", rng.random((31, 27)) < 0.8
+    yield "sparse", rng.random((50, 40)) < 0.005
+    yield "blobs", blobs((48, 36), 0.7)
     yield "one pixel", np.pad([[1]], ((40, 9), (3, 30)))
     yield "a full row", np.pad(np.ones((1, 33), np.uint8), ((20, 20), (0, 0)))
     yield "a column", np.pad(np.ones((50, 1), np.uint8), ((0, 0), (9, 9)))

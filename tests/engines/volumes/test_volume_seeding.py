@@ -8,6 +8,7 @@ from scipy import ndimage
 from skimage.filters import threshold_otsu
 
 import vorotool
+from support.few import few
 from vorotool.engines.volumes.inner_voxels import paint_inner
 from vorotool.engines.volumes.volume_objects import HeldSlices, VolumeObjects
 from vorotool.engines.volumes.volume_seeding import seeds_from_volume, seeds_from_xyz, seeds_of_slabs
@@ -83,12 +84,18 @@ def test_slabs_give_what_the_whole_gives(mode, connectivity):
 
 
 # ---- outer voxels are enough -----------------------------------------------------------------------
-@pytest.mark.parametrize(
-    "units",
-    [(1, 1, 1), pytest.param((5, 2, 3), marks=pytest.mark.slow), pytest.param((1, 7, 1), marks=pytest.mark.slow)],
-)
-@pytest.mark.parametrize("limit", [None, 0, 1, Fraction(7, 2)])
-@pytest.mark.parametrize("window", [None, (-3, 2, -2, 12, 30, 9), (6, 6, 4, 5, 5, 5), (40, 1, 2, 6, 7, 4)])
+UNITS = [(1, 1, 1), (5, 2, 3), (1, 7, 1)]
+LIMITS = [None, 0, 1, Fraction(7, 2)]
+WINDOWS = [None, (-3, 2, -2, 12, 30, 9), (6, 6, 4, 5, 5, 5), (40, 1, 2, 6, 7, 4)]
+PAIRS_FIRST = [
+    (UNITS[(i + j + turn) % 3], limit, window)
+    for turn in range(3)
+    for i, limit in enumerate(LIMITS)
+    for j, window in enumerate(WINDOWS)
+]
+
+
+@pytest.mark.parametrize(("units", "limit", "window"), few(PAIRS_FIRST, len(LIMITS) * len(WINDOWS)))
 def test_outer_voxels_give_what_all_voxels_give(window, limit, units):
     random = np.random.default_rng(7)
     labels = np.zeros((13, 18, 22), np.uint16)

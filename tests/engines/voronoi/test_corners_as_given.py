@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import shapely
 
+from support.few import few
 from vorotool import read, verify_voronoi, voronoi, write
 from vorotool.engines.voronoi.assembly import Arcs, Rings
 from vorotool.engines.voronoi.moves import Moves, moved_vertices
@@ -34,8 +35,10 @@ def houses(random, *, side=6):
     return made
 
 
-@pytest.mark.parametrize("others", [[], [FAR]])
-@pytest.mark.parametrize("name", CUTS)
+EITHER = [(name, [[], [FAR]][(k + turn) % 2]) for turn in (0, 1) for k, name in enumerate(CUTS)]
+
+
+@pytest.mark.parametrize(("name", "others"), few(EITHER, len(CUTS)))
 def test_vertices_are_those_of_the_input(name, others, tmp_path):
     sites, cuts = [*houses(np.random.default_rng(1)), *others], CUTS[name]
     cells = voronoi(sites, **cuts)

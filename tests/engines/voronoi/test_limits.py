@@ -77,8 +77,11 @@ def test_discs_that_overlap_touch_and_are_apart():
 
 
 # ---- ties, all at once -------------------------------------------------------------------------------
-@pytest.mark.parametrize("limit", [1, 2, 2 * 2**0.5, 3, 2 * 5**0.5, 4, 5])
-@pytest.mark.parametrize("are_joined", [False, True])
+MEETING = [1, 2, 2 * 2**0.5, 3, 2 * 5**0.5, 4, 5]
+EITHER = [(limit, k % 2 == turn) for turn in (0, 1) for k, limit in enumerate(MEETING)]
+
+
+@pytest.mark.parametrize(("limit", "are_joined"), few(EITHER, len(MEETING)))
 def test_lattices_whose_discs_meet_in_places(limit, are_joined):
     places = [shapely.Point(4 * x, 4 * y) for x in range(4) for y in range(3)]
     sites = [shapely.MultiPoint(places[::2]), *places[1::2]] if are_joined else places
