@@ -293,7 +293,7 @@ def test_the_checker_finds_faults():
 
 @pytest.mark.parametrize("name", FAMILIES)
 def test_every_family_passes_the_checker(name):
-    points = draw(name, 20 if name == "any_double" else 100, 9)
+    points = draw(name, 16 if name == "any_double" else 70, 9)
     family = quietly(points)
     for k in (0, len(family.spectrum) // 2, len(family.spectrum) - 1):
         verify_alpha_shape(alpha_shape(family, r=family.radius_from(k)))

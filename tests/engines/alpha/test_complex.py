@@ -125,7 +125,7 @@ def test_radii_are_correctly_rounded_and_ranked(name, n):
 
 @families
 def test_threads_change_nothing(name):
-    points = draw(name, 200 if name == "any_double" else 3000, 4)  # exact levels take their time
+    points = draw(name, 100 if name == "any_double" else 3000, 4)  # exact levels take their time
     one = quietly(points, threads=1)
     for threads in (2, 5):
         other = quietly(points, threads=threads)
@@ -134,7 +134,7 @@ def test_threads_change_nothing(name):
 
 @families
 def test_permuting_the_points_permutes_their_numbers_only(name):
-    points = draw(name, 60 if name == "any_double" else 200, 5)
+    points = draw(name, 40 if name == "any_double" else 200, 5)
     order = np.random.default_rng(6).permutation(len(points))
     family, other = quietly(points), quietly(points[order])
     assert_same(ARRAYS[2:], other, family)

@@ -268,7 +268,7 @@ def has_strip_ends(skeleton):
 
 def test_brute_force_agrees():
     compared = 0
-    for polygon, skeleton in random_skeletons(90):
+    for polygon, skeleton in random_skeletons(60):
         brute = expected(skeleton)
         if brute is None or has_strip_ends(skeleton):
             continue
@@ -281,7 +281,7 @@ def test_brute_force_agrees():
         )
         assert line.path.length.sum() == pytest.approx(brute[1], rel=1e-9)
         compared += 1
-    assert compared > 45
+    assert compared > 30
 
 
 def test_centerlines_stay_inside():

@@ -7,6 +7,8 @@ import numpy as np
 
 def nearest_labels(x, y, labels, frame, scale=1, most_squared=None):
     """Label every pixel by looking at every seed: smallest squared distance, then smallest label."""
+    if frame[3] > frame[2]:  # long rows are done at once
+        return nearest_labels(y, x, labels, (frame[1], frame[0], frame[3], frame[2]), scale, most_squared).T
     x, y, labels = (np.asarray(v, dtype=np.int64) for v in (x, y, labels))
     order = np.argsort(labels, kind="stable")
     x, y, labels = x[order], y[order], labels[order]

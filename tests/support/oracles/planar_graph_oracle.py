@@ -4,6 +4,7 @@ The input is that of the core: lattice vertices, and rings as (first vertex, one
 """
 
 from fractions import Fraction
+from functools import lru_cache
 from itertools import combinations, pairwise
 
 from support.oracles.delaunay_oracle import cross
@@ -25,10 +26,12 @@ def common_point(s, t):
     denominator = p[0] * q[1] - p[1] * q[0]
     if denominator == 0:
         return None
-    u = Fraction((c[0] - a[0]) * q[1] - (c[1] - a[1]) * q[0], denominator)
-    v = Fraction((c[0] - a[0]) * p[1] - (c[1] - a[1]) * p[0], denominator)
-    if not (0 <= u <= 1 and 0 <= v <= 1):
+    sign = 1 if denominator > 0 else -1
+    u = ((c[0] - a[0]) * q[1] - (c[1] - a[1]) * q[0]) * sign
+    v = ((c[0] - a[0]) * p[1] - (c[1] - a[1]) * p[0]) * sign
+    if not (0 <= u <= abs(denominator) and 0 <= v <= abs(denominator)):
         return None
+    u = Fraction(u, abs(denominator))
     return a[0] + u * p[0], a[1] + u * p[1]
 
 
@@ -36,8 +39,12 @@ def rounded(point):
     return tuple((c + HALF).__floor__() for c in point)
 
 
+@lru_cache(maxsize=10_000)
 def stay_in_cell(segment, centre):
     """The middle parameter of the part of a segment in the half-open cell of a lattice point, or None."""
+    a, b = segment
+    if any(2 * max(a[i], b[i]) < 2 * centre[i] - 1 or 2 * min(a[i], b[i]) > 2 * centre[i] + 1 for i in (0, 1)):
+        return None
     low, high = Fraction(0), Fraction(1)
     for i in (0, 1):
         start, step = segment[0][i], segment[1][i] - segment[0][i]
