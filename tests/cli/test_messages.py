@@ -5,6 +5,7 @@ import os
 
 import pytest
 
+from support.processes.ended import ended_python
 from vorotool.errors import Kind, Message
 
 POLYGON = {"type": "Polygon", "coordinates": [[[0, 0], [40, 0], [40, 30], [0, 0]]]}
@@ -113,14 +114,31 @@ def test_names_of_files_do_not_drive_the_terminal(run, tmp_path, arguments, cont
         assert "a\\x1b[31m\\nb\\u202e.csv" in shown
 
 
+SEVERAL = """
+import os, sys
+from vorotool.cli.main import main
+for arguments in %r:
+    child = os.fork()
+    if not child:
+        main(arguments)
+    code = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+    print(f"\\n{arguments[0]} ends with {code}", flush=True)
+"""
+
+
 @pytest.mark.parametrize("encoding", ["ascii", "cp1252", "gbk"])
-@pytest.mark.parametrize("arguments", [["sample"], ["alphashape", "--help"], ["voronoi", "-h"], ["info", "日.csv"]])
-def test_any_encoding_of_the_terminal_will_do(process, tmp_path, encoding, arguments):
+def test_any_encoding_of_the_terminal_will_do(tmp_path, encoding):
     (tmp_path / "日.csv").write_text("x,y\n1,2\n")
-    done = process(*arguments, env={**os.environ, "PYTHONIOENCODING": encoding})
-    out, err = done.communicate()
-    assert (done.returncode, err) == (0, b"")
-    assert out
+    commands = [["sample"], ["alphashape", "--help"], ["voronoi", "-h"], ["info", "日.csv"]]
+    environment = {**os.environ, "PYTHONIOENCODING": encoding}
+    done = ended_python("-c", SEVERAL % commands, cwd=tmp_path, env=environment, text=False)
+    assert (done.returncode, done.stderr) == (0, b"")
+    out = done.stdout
+    for name, *_ in commands:
+        said, end, out = out.partition(f"\n{name} ends with 0\n".encode())
+        assert len(said) > 20
+        assert end
+    assert out == b""
 
 
 def test_standard_input_is_described_once(run):

@@ -73,7 +73,7 @@ def test_objects_are_named_by_a_column(run, folder, command, column, expected):
     assert done.code == 0, done.err
     assert sorted(texts(done.out)) == sorted(expected)
     assert groups(done.out)["labels"].get("paint-order") == "stroke"
-    plain = [*command, "-q", "--what", "colour"] if command[0] == "tessellate" else [*command, "-q"]
+    plain = [*command, "-q", *(["--what", "colour"] if command[0] == "tessellate" else ["--width", "300"])]
     assert run(*plain, "-o", "plain.png").code == 0
     assert run(*plain, "--label-by", column, "-o", "named.png").code == 0
     assert Path("plain.png").read_bytes() != Path("named.png").read_bytes()

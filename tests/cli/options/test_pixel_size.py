@@ -7,6 +7,7 @@ import re
 import numpy as np
 import pytest
 
+from support.few import few
 from support.readers.written import rows_of
 from vorotool.batch.tables import join_tables
 from vorotool.errors import InputError
@@ -50,10 +51,11 @@ def write_inputs(folder, command, factor):
     return folder / "in.csv"
 
 
-def outputs(run, command, folder, options, *, r, more=()):
-    """Bytes of all results in all formats with units, by their names."""
+def outputs(run, command, folder, options, *, r, more=(), of=None):
+    """Bytes of all results in all formats with units, or in some, by their names."""
     formats = formats_of(command)
     wanted = [(what, fmt) for what in formats for fmt in formats[what] if not FORMATS[fmt].is_image]
+    wanted = [(what, fmt) for what, fmt in wanted if of is None or fmt in of]
     wanted = [(what, fmt) for what, fmt in wanted if what != "compare"]  # goes with nothing else
     if "--side" in options:  # necks are inside
         wanted = [(what, fmt) for what, fmt in wanted if what not in ("necks", "parts")]
@@ -85,19 +87,26 @@ def without_unit(data):
     return re.sub(rb"(\$INSUNITS\n 70\n)\d+", rb"\1", data)
 
 
-CASES = [(command, tuple(options)) for command, each in OPTIONS.items() for options in each]
+FIRST = [(command, tuple(each[0]), None) for command, each in OPTIONS.items()]
+TEXTS = ("csv", "json", "geojson")
+OTHERS = [(command, tuple(options), TEXTS) for command, each in OPTIONS.items() for options in each[1:]]
+"""Each option is tried with texts, and one of each command with all formats; `make test-all` tries all with all."""
 
 
-@pytest.mark.parametrize(("command", "options"), CASES)
-def test_results_are_those_of_a_larger_input(run, tmp_path, command, options):
+@pytest.mark.parametrize(
+    ("command", "options", "of"),
+    few([*FIRST, *OTHERS, *((command, options, None) for command, options, _ in OTHERS)], len(FIRST) + len(OTHERS)),
+)
+def test_results_are_those_of_a_larger_input(run, tmp_path, command, options, of):
     small, large = tmp_path / "small", tmp_path / "large"
     write_inputs(small, command, 1)
     write_inputs(large, command, 2)
-    scaled = outputs(run, command, small, list(options), r=1.5, more=["--pixel-size", "2"])
-    doubled = outputs(run, command, large, list(options), r=3)
+    scaled = outputs(run, command, small, list(options), r=1.5, more=["--pixel-size", "2"], of=of)
+    doubled = outputs(run, command, large, list(options), r=3, of=of)
     assert scaled.keys() == doubled.keys()
     assert [name for name in scaled if scaled[name] != doubled[name]] == []
-    assert scaled != outputs(run, command, small, list(options), r=1.5)
+    plain = outputs(run, command, small, list(options), r=1.5, of=("csv",))
+    assert plain.items() - scaled.items()
 
 
 KEPT = {

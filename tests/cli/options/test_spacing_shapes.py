@@ -115,7 +115,7 @@ def test_cells_of_centroids(run, masks):
 @pytest.mark.parametrize("command", ["skeleton-exact", "voronoi", "delaunay --seeds pixels"])
 @pytest.mark.parametrize("fmt", ["svg", "png"])
 def test_pictures_have_the_aspect(run, masks, command, fmt):
-    args = [*command.split(), "mask.png", "--spacing", "0.5,1um", "-o", f"a.{fmt}", "--scale-bar"]
+    args = [*command.split(), "mask.png", "--spacing", "0.5,1um", "-o", f"a.{fmt}", "--scale-bar", "--width", "300"]
     assert run(*args).code == 0
     if fmt == "png":
         with Image.open(masks / "a.png") as picture:

@@ -121,9 +121,14 @@ VECTORS = [
 ]
 
 
-@pytest.mark.parametrize("transform", [NORTH_UP, SOUTH_UP])
-@pytest.mark.parametrize("command", VECTORS)
-@pytest.mark.parametrize("is_fine", few([False, True], 1))
+def vectors():
+    """Commands with the two ways that rows go, in turn, and then with the other one and finer."""
+    ways = [(command, (NORTH_UP, SOUTH_UP)[number % 2]) for number, command in enumerate(VECTORS)]
+    others = [(command, (SOUTH_UP, NORTH_UP)[number % 2]) for number, command in enumerate(VECTORS)]
+    return few([(*way, is_fine) for is_fine in (False, True) for way in (*ways, *others)], len(ways))
+
+
+@pytest.mark.parametrize(("command", "transform", "is_fine"), vectors())
 def test_vectors_are_those_of_pixels_on_the_map(run, tmp_path, command, transform, is_fine):
     values = DOTS if "pixels" in command else MASK
     write(tmp_path / "in.tif", values, transform)

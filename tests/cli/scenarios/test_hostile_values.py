@@ -128,9 +128,10 @@ WAYS = [
     f"{command} {options}"
     for command, ways in {
         "tessellate": ("-f text", "--size 20x20 -f text", "--size 20x20 --what table"),
-        "delaunay": ("", "--what cells", "--what cells -f svg", "--what table", "-f geojson", "-f png -o a.png",
+        "delaunay": ("", "--what cells", "--what cells -f svg", "--what table", "-f geojson",
+                     "-f png -o a.png --width 90",
                      "--method digital --size 9x9", "--verify"),
-        "alphashape": ("", "-r 3", "-f html -o a.html", "-f svg", "-f png -o a.png", "--what hull",
+        "alphashape": ("", "-r 3", "-f html -o a.html", "-f svg", "-f png -o a.png --width 90", "--what hull",
                        "--what hull -r 1e300", "--what hull -r 1e300 -f geojson", "--what hull -r 1e-308 -f svg",
                        "--what curves -f svg", "--what family", "--what spectrum", "--what points", "--what general",
                        "--what complex --pixel-size 1e90", "--pixel-size 1e-90 --verify", "-r 1e400",
@@ -139,7 +140,7 @@ WAYS = [
         "skeleton-approx": ("--input-format json", "--step 1", "--tolerance 1"),
         "voronoi": ("", "--what table", "--what edges", "--what neighbours", "-f svg", "-f json", "--verify",
                     "--max-distance 1", "--max-distance 1e300 --what table", "--max-distance 1e-308 -f svg"),
-        "draw": ("-f svg", "-o a.png"),
+        "draw": ("-f svg", "-o a.png --width 90"),
     }.items()
     for options in ways
 ]  # fmt: skip

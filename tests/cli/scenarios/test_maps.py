@@ -11,6 +11,7 @@ import pytest
 import shapely
 
 from support.families.vector_files import DRIVERS, frame, load, save
+from support.processes.ended import ended_python
 
 FORMATS = list(DRIVERS)
 LAKES = [shapely.box(8.0, 47.0, 8.3, 47.1), shapely.box(8.5, 47.2, 8.55, 47.5)]
@@ -143,15 +144,21 @@ def test_what_lacks_is_named_with_the_way_to_get_it(lakes, arguments, lacking, m
     assert not list(lakes.glob("a.*"))
 
 
+IMPORTED = """
+import sys
+from vorotool.cli.main import main
+for arguments in %r:
+    try:
+        main(arguments)
+    except SystemExit:
+        print(sorted({"pyogrio", "pyarrow", "pyproj"} & sys.modules.keys()), file=sys.stderr)
+"""
+
+
 def test_nothing_of_an_extra_is_imported_unasked(folder):
-    for arguments in (["--help"], ["delaunay", "--help"], ["delaunay", "dots.csv", "-q", "-f", "geojson"]):
-        program = (
-            f"import atexit, sys; from vorotool.cli.main import main\n"
-            f"atexit.register(lambda: print(sorted({{'pyogrio', 'pyarrow', 'pyproj'}} & sys.modules.keys()), "
-            f"file=sys.stderr))\nmain({arguments})"
-        )
-        done = subprocess.run([sys.executable, "-c", program], cwd=folder, capture_output=True, text=True, check=False)
-        assert done.stderr == "[]\n"
+    commands = (["--help"], ["delaunay", "--help"], ["delaunay", "dots.csv", "-q", "-f", "geojson"])
+    done = ended_python("-c", IMPORTED % (commands,), cwd=folder)
+    assert done.stderr == "[]\n" * len(commands)
 
 
 def test_numbers_of_a_table_are_numbers_in_a_map(run, folder):

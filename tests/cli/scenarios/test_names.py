@@ -91,7 +91,7 @@ def test_points_have_their_labels_beside_them(run, folder):
     for command, layers in (("delaunay", "edges,points"), ("alphashape", "polygons,points")):
         for fmt in ("svg", "png"):
             for name, chosen in (("without", layers), ("with", f"{layers},labels")):
-                assert run(command, DOTS, "--layers", chosen, "-o", f"{name}.{fmt}").code == 0
+                assert run(command, DOTS, "--layers", chosen, "-o", f"{name}.{fmt}", "--width", 500).code == 0
         assert len(texts(folder / "with.svg")) == 53
         assert (folder / "with.png").read_bytes() != (folder / "without.png").read_bytes()
 

@@ -1,10 +1,9 @@
 """The checker of discs within little memory, however thin a shape is and wherever it lies."""
 
-import pytest
 import shapely
 import shapely.affinity
 
-from support.processes.peak_memory import watched
+from support.processes.peak_memory import watched_together
 
 MEMORY = 250e6
 TURNED = shapely.affinity.rotate(shapely.box(0, 0, 12, 1e-5), 30)
@@ -18,13 +17,16 @@ SHAPES = {
 }
 
 
-@pytest.mark.parametrize(
-    ("command", "name"), [*(("skeleton-exact", name) for name in SHAPES), ("voronoi", "thin"), ("voronoi", "upright")]
-)
-def test_thin_shapes(command, name, tmp_path):
-    (tmp_path / "shape.wkt").write_text(SHAPES[name] + "\n")
-    arguments = [command, "shape.wkt", "--what", "discs", "--verify", "-o", "discs.csv"]
-    code, errors, peak = watched(arguments, tmp_path)
-    assert code == 0, errors
+COMMANDS = [("skeleton-exact", name) for name in SHAPES] + [("voronoi", "thin"), ("voronoi", "upright")]
+
+
+def test_thin_shapes(tmp_path):
+    commands = []
+    for command, name in COMMANDS:
+        (tmp_path / f"{name}.wkt").write_text(SHAPES[name] + "\n")
+        commands.append([command, f"{name}.wkt", "--what", "discs", "--verify", "-o", f"{command} {name}.csv"])
+    codes, errors, peak = watched_together(commands, tmp_path)
+    assert codes == [0] * len(commands), errors
     assert peak < MEMORY
-    assert len((tmp_path / "discs.csv").read_text().splitlines()) > 1
+    for command, name in COMMANDS:
+        assert len((tmp_path / f"{command} {name}.csv").read_text().splitlines()) > 1, (command, name)

@@ -80,10 +80,10 @@ def test_many_inputs_give_many_stores(run, tmp_path, seeds):
 
 
 def test_limits_are_known_before(run, tmp_path, seeds, monkeypatch):
-    failed = run("tessellate", "seeds.csv", "--size", "400x300", "-o", "a.zarr", "--max-pixels", "1000")
+    failed = run("tessellate", "seeds.csv", "--size", "80x60", "-o", "a.zarr", "--max-pixels", "1000")
     assert failed.code == 5
     assert "--max-pixels 1000" in failed.err
-    make(run, "a.zarr", "--size", "400x300", "--chunk", "50x2", "--max-pixels", "1000")
+    make(run, "a.zarr", "--chunk", "50x2", "--max-pixels", "1000")
     monkeypatch.setattr("shutil.disk_usage", lambda folder: type("Usage", (), {"free": 1000}))
     for name in ("b.zarr", "b.npy", "b.tif", "b.txt"):
         failed = run("tessellate", "seeds.csv", "--size", "400x300", "-o", name)
@@ -108,7 +108,7 @@ def test_memory_is_that_of_a_row_of_chunks(tmp_path):
 
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
 def test_an_interrupt_leaves_nothing(process, tmp_path, seeds, number, code):
-    child = process("tessellate", "seeds.csv", "--size", "40000x400000", "-o", "a.zarr", "--chunk", "2048x64")
+    child = process("tessellate", "seeds.csv", "--size", "20000x400000", "-o", "a.zarr", "--chunk", "2048x64")
     wait_until(lambda: len(list(tmp_path.glob(".vorotool-*.tmp/c/*"))) >= 3, child)
     child.send_signal(number)
     out, err = child.communicate(timeout=600)

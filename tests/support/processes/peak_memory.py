@@ -1,16 +1,20 @@
 """The command line in a process of its own that tells how much memory it has taken at most."""
 
+import json
 import subprocess
 import sys
 
 SCRIPT = """
-import re, sys
+import json, re, sys
 from vorotool.cli.main import main
-try:
-    main(sys.argv[1:])
-except SystemExit as end:
-    print(re.search(r"VmHWM:\\s*([0-9]+) kB", open("/proc/self/status").read())[1], file=sys.stderr)
-    sys.exit(end.code)
+codes = []
+for arguments in json.loads(sys.argv[1]):
+    try:
+        main(arguments)
+    except SystemExit as end:
+        codes.append(end.code)
+peak = re.search(r"VmHWM:\\s*([0-9]+) kB", open("/proc/self/status").read())[1]
+print(json.dumps([codes, 1024 * int(peak)]), file=sys.stderr)
 """
 
 
@@ -23,7 +27,16 @@ def peak_memory(arguments, folder):
 
 def watched(arguments, folder):
     """Run a command; its exit code, the lines of its messages, and the peak of its memory."""
-    command = [sys.executable, "-c", SCRIPT, *map(str, arguments)]
-    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
-    *errors, peak = done.stderr.splitlines()
-    return done.returncode, errors, int(peak) * 1024
+    (code,), errors, peak = watched_together([arguments], folder)
+    return code, errors, peak
+
+
+def watched_together(commands, folder):
+    """Run commands in one process; their exit codes, the lines of their messages, and the peak of its memory."""
+    words = json.dumps([[str(word) for word in command] for command in commands])
+    done = subprocess.run(
+        [sys.executable, "-c", SCRIPT, words], cwd=folder, capture_output=True, text=True, check=False
+    )
+    *errors, last = done.stderr.splitlines()
+    codes, peak = json.loads(last)
+    return codes, errors, peak
