@@ -4,10 +4,12 @@ import inspect
 from pathlib import Path
 
 import pytest
+from click.testing import CliRunner
 
 import vorotool
 from cli_reference import reference
 from support.processes.ended import ended_python
+from vorotool.cli.main import vorotool as vorotool_command
 from vorotool.products.formats import EXTENSIONS, FORMATS, PICTURES, TABLE_WRITER
 from vorotool.products.registry import PRODUCTS, all_layers, formats_of
 from vorotool.products.writing import resolved
@@ -91,10 +93,27 @@ EXPECTED = {
 }
 
 
+APART = "\n---- apart ----\n"
+
+
+@pytest.fixture(scope="module")
+def said_with_a_format_more():
+    """What one process says in each place."""
+    lines = [
+        f"try:\n    exec({code!r})\n"
+        "except SystemExit:\n    pass\n"
+        f"sys.stdout.flush(); sys.stderr.flush(); os.write(1, {APART.encode()!r})\n"
+        for code in READ.values()
+    ]
+    done = ended_python(
+        "-c", ADDED + "import os\n" + "".join(lines), cwd=ROOT, capture_output=False, stdout=-1, stderr=-2
+    )
+    return dict(zip(READ, done.stdout.split(APART), strict=False))
+
+
 @pytest.mark.parametrize("place", READ)
-def test_a_format_is_one_file_and_one_line(place):
-    done = ended_python("-c", ADDED + READ[place], cwd=ROOT)
-    text = done.stdout + done.stderr
+def test_a_format_is_one_file_and_one_line(place, said_with_a_format_more):
+    text = said_with_a_format_more[place]
     assert EXPECTED[place] in (" ".join(text.split()) if place == "help" else text)
 
 
@@ -106,15 +125,17 @@ def test_completion_offers_a_format_more():
     assert done.stdout == "plain,drawing\n"
 
 
-def help_of(command):
-    return ended_python("-m", "vorotool", command, "--help", check=True).stdout
+@pytest.fixture(scope="module")
+def documents():
+    return reference()
 
 
 @pytest.mark.parametrize("command", PRODUCTS)
-def test_help_and_documents_name_all_formats(command):
+def test_help_and_documents_name_all_formats(command, documents):
     formats = dict.fromkeys(fmt for those in formats_of(command).values() for fmt in those)
-    assert f"Format of the output: {', '.join(formats)};" in " ".join(help_of(command).split())
-    section = reference().partition(f"## vorotool {command}\n")[2].partition("\n## ")[0]
+    shown = CliRunner().invoke(vorotool_command, [command, "--help"])
+    assert f"Format of the output: {', '.join(formats)};" in " ".join(shown.output.split())
+    section = documents.partition(f"## vorotool {command}\n")[2].partition("\n## ")[0]
     for what, those in formats_of(command).items():
         (row,) = (line for line in section.splitlines() if line.startswith(f"| `{what}` |"))
         assert all(ending in row for fmt in those for ending in FORMATS[fmt].endings)

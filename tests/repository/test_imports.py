@@ -1,55 +1,58 @@
 """What is imported when: `--help` loads nothing heavy, a usual run nothing that only an extra brings."""
 
-import os
+import re
 from pathlib import Path
-
-import pytest
 
 from support.processes.ended import ended_python
 
 ROOT = Path(__file__).parents[2]
 
 
-@pytest.mark.parametrize(
-    ("line", "completed"),
-    [("--version", False), ("tessellate --help", False), ("vorotool skeleton-exact --prune angle=30 --what ", True)],
-)
-def test_neither_help_nor_completion_loads_a_heavy_module(line, completed):
+def test_neither_help_nor_completion_loads_a_heavy_module():
+    """One process does all three: what any of them loads is still there."""
+    completed = "vorotool skeleton-exact --prune angle=30 --what "
+    asked = {"_VOROTOOL_COMPLETE": "bash_complete", "COMP_WORDS": completed, "COMP_CWORD": str(completed.count(" "))}
     script = (
-        "import sys, vorotool\n"
+        "import os, sys, vorotool\n"
         "from vorotool.cli.main import main\n"
-        "try:\n    main(sys.argv[1:])\n"
-        "except SystemExit as end:\n"
-        "    heavy = {'numpy', 'vorotool._core', 'PIL', 'skimage', 'shapely', 'orjson'} & set(sys.modules)\n"
-        "    sys.exit(f'loaded {heavy}' if heavy or end.code else 0)\n"
+        "for line in ('--version', 'tessellate --help', ''):\n"
+        f"    os.environ.update({{}} if line else {asked})\n"
+        "    try:\n        main(line.split())\n"
+        "    except SystemExit as end:\n"
+        "        heavy = {'numpy', 'vorotool._core', 'PIL', 'skimage', 'shapely', 'orjson'} & set(sys.modules)\n"
+        "        print(f'ended: {line} {end.code} {heavy}')\n"
     )
-    asked = {"_VOROTOOL_COMPLETE": "bash_complete", "COMP_WORDS": line, "COMP_CWORD": str(line.count(" "))}
-    words = () if completed else line.split()
-    done = ended_python("-c", script, *words, env={**os.environ, **(asked if completed else {})})
+    done = ended_python("-c", script)
     assert done.returncode == 0, done.stderr
-    assert done.stdout
+    ends = [line for line in done.stdout.splitlines() if line.startswith("ended: ")]
+    assert ends == [f"ended: {line} 0 set()" for line in ("--version", "tessellate --help", "")]
+    first, second, third = re.split("^ended: .*$", done.stdout, flags=re.MULTILINE)[:3]
+    assert "version" in first
+    assert "Usage: " in second
+    assert "plain,table" in third
 
 
 UNUSED = {"zarr", "numcodecs", "dask", "distributed", "networkx", "pandas", "geopandas", "pyarrow", "matplotlib"}
 UNUSED |= {"imageio", "svgelements", "ezdxf"}  # which are for inputs of other kinds
 
 
-@pytest.mark.parametrize(
-    "arguments",
-    [
-        ["tessellate", "data/blobs.png", "-o", "{}.png"],
-        ["delaunay", "data/dots.csv", "-o", "{}.geojson"],
-        ["skeleton-exact", "data/ne_110m_lakes.geojson", "-o", "{}.svg"],
-    ],
-    ids=lambda arguments: arguments[0],
+USUAL = (
+    "tessellate data/blobs.png -o {}/a.png",
+    "delaunay data/dots.csv -o {}/a.geojson",
+    "skeleton-exact data/ne_110m_lakes.geojson -o {}/a.svg",
 )
-def test_a_usual_run_loads_no_extra(arguments, tmp_path):
+
+
+def test_a_usual_run_loads_no_extra(tmp_path):
+    """One process does all of them: what any of them loads is still there."""
     script = (
         "import sys\n"
         "from vorotool.cli.main import main\n"
-        "try:\n    main(sys.argv[1:])\n"
-        f"finally:\n    print('loaded:', *{UNUSED} & set(sys.modules), file=sys.stderr)\n"
+        f"for line in {USUAL}:\n"
+        "    try:\n        main([*line.format(sys.argv[1]).split(), '-q'])\n"
+        "    except SystemExit as end:\n"
+        f"        print(line.split()[0], end.code, *{UNUSED} & set(sys.modules))\n"
     )
-    done = ended_python("-c", script, *(word.format(tmp_path / "out") for word in arguments), "-q", cwd=ROOT)
-    assert done.returncode == 0, done.stderr
-    assert done.stderr.splitlines()[-1] == "loaded:"
+    done = ended_python("-c", script, tmp_path, cwd=ROOT)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout.splitlines() == [f"{line.split()[0]} 0" for line in USUAL]

@@ -84,7 +84,7 @@ def parquet(**columns):
 coordinates = st.floats(allow_nan=False, allow_infinity=False, min_value=-1e12, max_value=1e12)
 
 
-@settings(deadline=None, max_examples=50)
+@settings(deadline=None, max_examples=15)
 @given(st.lists(st.tuples(coordinates, coordinates), min_size=1, max_size=8))
 def test_all_formats_agree(points):
     pairs = [list(point) for point in points]

@@ -63,7 +63,7 @@ def test_nothing_is_nothing():
 
 @pytest.mark.parametrize("threads", [1, 3])
 def test_many_slices(threads):
-    mesh = vorotool.delaunay(draw("uniform", 30_000, 7))
+    mesh = vorotool.delaunay(draw("uniform", 12_000, 7))
     *lines, _ = lines_of(mesh, threads=threads)
     assert len(lines) == len(mesh.edges) == len(set(lines))
     assert json.loads(lines[-1]) == vorotool.to_geojson(mesh)["features"][-1]

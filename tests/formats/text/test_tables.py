@@ -188,7 +188,7 @@ def test_lazy_columns_are_written_like_others():
 
 def test_lazy_columns_of_many_slices():
     rng = np.random.default_rng(2)
-    values, index = rng.normal(size=1000), rng.integers(0, 1000, 200_000).astype(np.int32)
+    values, index = rng.normal(size=1000), rng.integers(0, 1000, 70_000).astype(np.int32)
     table = Table({"x": Lookup(values, index), "square": Computed(lambda rows: values[index[rows]] ** 2, len(index))})
     for fmt in TABLES:
         assert len({written(table, fmt, threads=threads) for threads in (1, 2, 3)}) == 1

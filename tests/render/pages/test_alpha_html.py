@@ -13,6 +13,7 @@ import pytest
 from PIL import Image
 
 from support.families.point_families import draw
+from support.few import few
 from vorotool import LimitError, alpha_complex, alpha_curves, alpha_shape
 from vorotool.geometry.alpha.complex import CLASSES
 from vorotool.render.canvas.palettes import BOUNDARY, CELLS, SEED, SINGULAR
@@ -57,7 +58,7 @@ def page(tmp_path_factory):
 
 
 @needs_browser
-@pytest.mark.parametrize("r", [None, 0.8, 50.0])
+@pytest.mark.parametrize("r", few([None, 0.8, 50.0], 2))
 def test_the_page_counts_what_the_library_does(page, r):
     family, path = page
     document = browse("--dump-dom", f"{path.as_uri()}{'' if r is None else f'#r={r}'}")
