@@ -6,6 +6,7 @@ import shapely
 
 import vorotool
 from support.families.stems import disc_with_stems, letter, lines_of, lost, mask_of
+from support.few import few
 from vorotool.engines.centerlines.end_pieces import TIP
 
 DISC = [(40, 0), (28, 28), (8, 36), (8, 80), (-8, 80), (-8, 36), (-28, 28), (-40, 0), (-28, -28), (0, -40), (28, -28)]
@@ -37,7 +38,7 @@ def test_handles_of_masks_are_kept(length):
     assert np.hypot(*(ends - [60, 49.5 - length]).T).min() < 1
 
 
-@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("seed", few(range(12), 5))
 def test_stems_of_discs_are_kept(seed):
     shape, stems = disc_with_stems(np.random.default_rng(seed))
     mask, corner = mask_of(shape)
@@ -49,7 +50,7 @@ def test_stems_of_discs_are_kept(seed):
         assert lost(pruned, extended) == []
 
 
-@pytest.mark.parametrize("seed", range(9))
+@pytest.mark.parametrize("seed", few(range(9), 4))
 def test_letters_keep_their_strokes(seed):
     pytest.importorskip("matplotlib")
     _, shape = letter(np.random.default_rng(seed), (24, 60, 150)[seed % 3])

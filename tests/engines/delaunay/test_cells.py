@@ -86,14 +86,14 @@ corner = st.tuples(st.integers(-4, 3), st.integers(-4, 3), st.integers(1, 6), st
 floats = st.floats(allow_nan=False, allow_infinity=False, min_value=-1e200, max_value=1e200)
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=25, deadline=None)
 @given(lattice, corner)
 def test_any_lattice_points(points, frame):
     """Frames through sites, vertices and edges; exact halves and quarters."""
     check_by_cutting(points, (frame[0] / 2, frame[1] / 2, frame[2] / 2, frame[3] / 2))
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=25, deadline=None)
 @given(st.lists(st.tuples(floats, floats), min_size=1, max_size=6))
 def test_any_doubles(points):
     check_by_cutting(points, None)

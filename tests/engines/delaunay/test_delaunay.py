@@ -126,13 +126,13 @@ tiny_steps = st.integers(0, 3).map(lambda k: 0.5 + k * 2.0**-53)
 near = st.lists(st.tuples(tiny_steps | st.integers(0, 2).map(float), tiny_steps | floats), max_size=9)
 
 
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=40, deadline=None)
 @given(lattice)
 def test_any_lattice_points(points):
     check_by_definition(points)
 
 
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=40, deadline=None)
 @given(near | st.lists(st.tuples(floats, floats), max_size=7))
 def test_any_doubles(points):
     check_by_definition(points)

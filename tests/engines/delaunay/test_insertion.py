@@ -65,12 +65,12 @@ def test_every_family_is_as_triangulated_at_once(name, n, always_local):
         n = min(n, 20)
     if name == "tiny_y":
         n = min(n, 100)
-    for seed in range(2):
+    for seed in range(2 if n < 60 else 1):
         points = outermost_first(draw(name, n, seed))
         for count in sorted({0, 1, 4, n // 2, n - 1, n}):
             check(points, count)
     if name in ("uniform", "grid", "circle", "offset_1e9") and n >= 60:
-        assert sum(always_local) >= 6
+        assert sum(always_local) >= 3
 
 
 @families
@@ -140,7 +140,7 @@ lattice = st.lists(st.tuples(st.integers(-4, 4), st.integers(-4, 4)), max_size=1
 corners = [(-5, -5), (5, -5), (-5, 5), (5, 5)]
 
 
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=40, deadline=None)
 @given(lattice, lattice)
 def test_any_lattice_points(old, new):
     check(np.array([*corners, *old, *new], dtype=float), 4 + len(old))
@@ -149,7 +149,7 @@ def test_any_lattice_points(old, new):
 floats = st.floats(-1e100, 1e100)
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=25, deadline=None)
 @given(st.lists(st.tuples(floats, floats), min_size=4, max_size=9), st.integers(1, 8))
 def test_any_doubles(points, further):
     points = outermost_first(np.array(points))

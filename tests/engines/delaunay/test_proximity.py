@@ -48,7 +48,7 @@ def test_the_check_finds_every_edge_that_is_wrong(name, kind):
     graph = proximity_graph(points, kind)
     verify_proximity_graph(graph)
     rng = np.random.default_rng(1)
-    for number in rng.permutation(len(graph.mesh.edges))[:8].tolist():
+    for number in rng.permutation(len(graph.mesh.edges))[:5].tolist():
         index = np.setxor1d(graph.edge_index, [number]).astype(np.int32)
         a, b = sorted((graph.mesh.edges[number] + 1).tolist())
         with pytest.raises(VerificationError, match=f"from point {a} to point {b} (is missing|does not belong)"):

@@ -27,9 +27,16 @@ def wide(shape, scale=1.3):
     return prune(skeleton_exact(shape), scale=scale)
 
 
-@pytest.mark.parametrize("every", [0.41, 1, 100])
-@pytest.mark.parametrize("ends", ["middle", "corner", "none"])
-@pytest.mark.parametrize("name", SHAPES)
+EVERY, ENDS = [0.41, 1, 100], ["middle", "corner", "none"]
+PAIRS_FIRST = [
+    (name, end, EVERY[(k + i + turn) % 3])
+    for turn in range(3)
+    for k, name in enumerate(SHAPES)
+    for i, end in enumerate(ENDS)
+]
+
+
+@pytest.mark.parametrize(("name", "ends", "every"), few(PAIRS_FIRST, len(SHAPES) * len(ENDS)))
 def test_steps_go_on_from_end_to_end(name, ends, every):
     lines = centerline(wide(SHAPES[name]), ends=ends)
     points = points_along(lines, every=every)

@@ -7,6 +7,7 @@ import pytest
 
 import vorotool
 from support.families.skeleton_shapes import FAMILIES, small
+from support.few import few
 from vorotool import VerificationError, skeleton_approx, verify_skeleton
 from vorotool.geometry.arguments.polygons import as_polygons
 
@@ -21,9 +22,16 @@ OPTIONS = ({"step": 0.4}, {"step": 0.4, "sampling": "symmetric", "complete": Tru
 pytestmark = pytest.mark.filterwarnings("ignore::vorotool.errors.VorotoolWarning")
 
 
-@pytest.mark.parametrize("features", ["separate", "together"])
-@pytest.mark.parametrize("side", ["interior", "exterior", "both"])
-@pytest.mark.parametrize("name", SHAPES)
+SIDES, FEATURES = ["interior", "exterior", "both"], ["separate", "together"]
+PAIRS_FIRST = [
+    (name, side, FEATURES[(k + i + turn) % 2])
+    for turn in range(2)
+    for k, name in enumerate(SHAPES)
+    for i, side in enumerate(SIDES)
+]
+
+
+@pytest.mark.parametrize(("name", "side", "features"), few(PAIRS_FIRST, len(SHAPES) * len(SIDES)))
 def test_approximate_skeletons_pass_whatever_their_side(name, side, features):
     for options in OPTIONS:
         verify_skeleton(skeleton_approx(SHAPES[name], side=side, features=features, **options))

@@ -7,6 +7,7 @@ import pytest
 
 import vorotool
 from support.families.families import fine_case
+from support.few import few
 from support.oracles.oracles import nearest_labels_of_fine_seeds
 from vorotool.engines.tessellation.bands import SeedBand, SeedBands
 from vorotool.engines.tessellation.seed_lattice import finest_scale
@@ -19,7 +20,7 @@ from vorotool.geometry.spacing import pixel_sides
 pytestmark = pytest.mark.filterwarnings("ignore:.*seeds (moved|lie)")
 
 
-@pytest.mark.parametrize("seed", range(60))
+@pytest.mark.parametrize("seed", few(range(60), 20))
 def test_labels_of_fine_seeds_in_one_and_in_bands(seed):
     rng = np.random.default_rng(seed)
     _, x, y, labels, scale, where, sides = fine_case(rng)

@@ -66,7 +66,7 @@ def test_polygons_with_any_rings(seed, step):
     assert (rasterized(polygon_set(shapes), FRAME) == expected(shapes)).all()
 
 
-@pytest.mark.parametrize("seed", range(30))
+@pytest.mark.parametrize("seed", few(range(30), 10))
 def test_lines_in_general_places(seed):
     rng = np.random.default_rng(seed)
     lines = [rng.uniform(-3, 14, (4, 2)), rng.uniform(0, 9, (2, 2))]

@@ -108,7 +108,7 @@ def test_lattices_of_squares(gap, factor):
     assert cells.components.tolist() == [1] * 9
 
 
-@pytest.mark.parametrize("seed", few(range(20), 6))
+@pytest.mark.parametrize("seed", few(range(20), 3))
 def test_limits_just_at_vertices(seed):
     random = np.random.default_rng(seed)
     sites = mixed_sites(random, int(random.integers(2, 9)), grid=4)
@@ -137,7 +137,7 @@ def test_holes_as_small_as_rounding(part):
 
 
 # ---- random ------------------------------------------------------------------------------------------
-@pytest.mark.parametrize("seed", few(range(24), 6))
+@pytest.mark.parametrize("seed", few(range(24), 3))
 def test_random_sites(seed):
     random = np.random.default_rng(seed)
     sites = mixed_sites(random, int(random.integers(1, 12)), grid=(None, 4, 0.1)[seed % 3])

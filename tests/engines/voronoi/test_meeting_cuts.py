@@ -16,7 +16,7 @@ TWO = [shapely.Point(0, 0), shapely.Point(1, 1)]
 CORNER = shapely.Polygon([(9, 9), (10, 9), (9, 10)])
 
 
-@pytest.mark.parametrize("seed", few(range(60), 15))
+@pytest.mark.parametrize("seed", few(range(60), 6))
 def test_scenes_on_a_lattice(seed):
     check_scene(seed)
 
