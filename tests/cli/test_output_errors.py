@@ -2,7 +2,6 @@
 
 import json
 import os
-import subprocess
 from pathlib import Path
 
 import numpy as np
@@ -60,13 +59,10 @@ def test_binary_never_goes_to_a_terminal(folder):
     assert "-o" in done.stderr
 
 
-def test_binary_goes_through_a_pipe(process, folder):
-    one = process("tessellate", "dots.csv", "-f", "png", "-o", "-")
-    png, _ = one.communicate()
+def test_binary_goes_through_a_pipe(run, process, folder):
+    png, _ = process("tessellate", "dots.csv", "-f", "png", "-o", "-").communicate()
     assert png.startswith(b"\x89PNG")
-    two = process("draw", "-", "-f", "svg", stdin=subprocess.PIPE)
-    svg, _ = two.communicate(png)
-    assert b"</svg>" in svg
+    assert "</svg>" in run("draw", "-", "-f", "svg", data=png).out
 
 
 def test_broken_pipe_is_quiet(folder):

@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import zlib
+from functools import cache
 
 import numcodecs.blosc
 import pytest
@@ -19,15 +20,22 @@ MEMORY = 300e6
 SECONDS = 10  # of work, whatever else the machine does: ten times what it takes
 
 
-def repeated(compressor, flush):
-    """A stream of a gigabyte of zeros, made piece by piece."""
-    piece = bytes(2**24)
-    return b"".join([compressor.compress(piece) for _ in range(HUGE // len(piece))] + [flush()])
+PIECE = 2**24
+"""Zeros that are packed; what they give is repeated: nothing in it leads back beyond its own start."""
 
 
+@cache
 def deflated(window):
-    compressor = zlib.compressobj(1, zlib.DEFLATED, window)
-    return repeated(compressor, compressor.flush)
+    """A stream of a gigabyte of zeros, of zlib or gzip."""
+    compressor = zlib.compressobj(1, zlib.DEFLATED, -15)
+    piece = compressor.compress(bytes(PIECE)) + compressor.flush(zlib.Z_FULL_FLUSH)
+    body = piece * (HUGE // PIECE) + compressor.flush()
+    if window == 15:
+        return bytes.fromhex("7801") + body + (1 + (HUGE % 65521 << 16)).to_bytes(4, "big")
+    crc = 0
+    for _ in range(HUGE // PIECE):
+        crc = zlib.crc32(bytes(PIECE), crc)
+    return bytes.fromhex("1f8b08000000000004ff") + body + crc.to_bytes(4, "little") + HUGE.to_bytes(4, "little")
 
 
 def lzw_of_literals(count):
@@ -37,9 +45,29 @@ def lzw_of_literals(count):
     return block * (count // 231 + 1)
 
 
+@cache
 def lzma_bomb():
-    compressor = lzma.LZMACompressor(preset=0)
-    return repeated(compressor, compressor.flush)
+    """A gigabyte of zeros in one block of a file of xz, without a checksum of what it holds."""
+    packed = lzma.compress(bytes(PIECE), lzma.FORMAT_RAW, filters=[{"id": lzma.FILTER_LZMA2, "preset": 0}])
+    body = packed[:-1] * (HUGE // PIECE) + packed[-1:]  # the last byte ends the block
+    start = with_sum(bytes([2, 0, 0x21, 1, 18]) + bytes(3))
+    index = with_sum(padded(b"\0\1" + varint(len(start) + len(body)) + varint(HUGE)))
+    end = (len(index) // 4 - 1).to_bytes(4, "little") + b"\0\0"
+    footer = zlib.crc32(end).to_bytes(4, "little") + end + b"YZ"
+    return b"\xfd7zXZ\0" + with_sum(b"\0\0") + start + padded(body) + index + footer
+
+
+def with_sum(data):
+    return data + zlib.crc32(data).to_bytes(4, "little")
+
+
+def padded(data):
+    return data + bytes(-len(data) % 4)
+
+
+def varint(number):
+    low = [number >> shift & 127 for shift in range(0, number.bit_length(), 7)]
+    return bytes([*(each | 128 for each in low[:-1]), low[-1]])
 
 
 def zstd_bomb(is_stated=False):

@@ -96,41 +96,59 @@ def test_lines_of_a_shell(folder, tmp_path_factory, line, same):
     assert leftovers(folder) == []
 
 
-@pytest.mark.parametrize(
-    ("line", "code", "words"),
-    [
-        ("V tessellate - - < dots.csv", 2, "the input - and the input - are one stream"),
-        ("V tessellate - --overlay /dev/stdin --what colour -o y.png < mask.pbm", 2, "--overlay /dev/stdin"),
-        ("V delaunay - --what cells --clip /dev/fd/0 < dots.csv", 2, "are one stream, which is read once"),
-        ("V tessellate --files-from - - --out-dir x < dots.csv", 2, "--files-from -"),
-        ("V tessellate <(cat dots.csv) <(cat dots.csv) --out-dir x", 2, "which this process alone can read"),
-        ("mkfifo x; V tessellate x dots.csv --table y.csv", 2, "x is a pipe, which this process alone can read"),
-        ("V delaunay dots.csv mask.pbm --what cells --clip <(cat) --out-dir x", 2, "not every input can read"),
-        (f"{TABLE} -o - --stats /dev/stdout", 2, "--stats /dev/stdout"),
-        (f"{TABLE} -o /dev/fd/1 --stats -", 2, "/dev/fd/1"),
-        ("mkfifo x; V tessellate dots.csv -o x --stats x", 2, "--stats"),
-        (f"{TABLE} --out-dir x --table /dev/stdout --stats -", 2, "/dev/stdout"),
-        ("V tessellate dots.csv --what table,labels -o /dev/stdout", 2, "several results need -o STEM"),
-        ("V tessellate dots.csv -f zarr -o /dev/stdout", 2, "/dev/stdout"),
-        ("V tessellate dots.csv -q -o /dev/stdout >&-", 4, "/dev/stdout"),
-        ("V tessellate dots.csv -q -o y.png --stats /dev/stderr 2>&-", 4, ""),
-        ("V tessellate dots.csv -q -o /dev/fd/9", 4, "/dev/fd/9"),
-        ("V tessellate dots.csv -q -o /dev/stdin < dots.csv", 4, "open for reading only"),
-        ("V tessellate /dev/fd/9 -o y.png", 3, "/dev/fd/9"),
-        ("V tessellate /dev/stdin -o y.png <&-", 3, "/dev/stdin"),
-        ("V tessellate /dev/null -o y.png", 3, "/dev/null"),
-        ("mkfifo x.csv; : > x.csv & V tessellate x.csv -o y.png", 3, "x.csv"),
-        ("mkfifo x.png; head -c 9 mask.pbm > x.png & V tessellate x.png -o y.png", 3, "x.png"),
-        ("ln -s b a; ln -s a b; V tessellate dots.csv -o a -f npy", 4, "a cannot be written: its links lead back"),
-        ("V delaunay dots.csv --clip x.json --what cells -o x.json", 3, "x.json"),
-        ("cp dots.csv x; V delaunay dots.csv --clip x --what cells -f csv -o x", 2, "x is also an input"),
-    ],
-)
-def test_what_is_refused(folder, line, code, words):
+REFUSED = [
+    ("V tessellate - -", 2, "the input - and the input - are one stream"),
+    ("V tessellate - --overlay /dev/stdin --what colour -o y.png", 2, "--overlay /dev/stdin"),
+    ("V delaunay - --what cells --clip /dev/fd/0", 2, "are one stream, which is read once"),
+    ("V tessellate --files-from - - --out-dir x", 2, "--files-from -"),
+    ("mkfifo x; V tessellate x dots.csv --table y.csv", 2, "x is a pipe, which this process alone can read"),
+    (f"{TABLE} -o - --stats /dev/stdout", 2, "--stats /dev/stdout"),
+    (f"{TABLE} -o /dev/fd/1 --stats -", 2, "/dev/fd/1"),
+    ("mkfifo x; V tessellate dots.csv -o x --stats x", 2, "--stats"),
+    (f"{TABLE} --out-dir x --table /dev/stdout --stats -", 2, "/dev/stdout"),
+    ("V tessellate dots.csv --what table,labels -o /dev/stdout", 2, "several results need -o STEM"),
+    ("V tessellate dots.csv -f zarr -o /dev/stdout", 2, "/dev/stdout"),
+    ("V tessellate dots.csv -q -o /dev/fd/999", 4, "/dev/fd/999"),
+    ("V tessellate /dev/fd/999 -o y.png", 3, "/dev/fd/999"),
+    ("V tessellate /dev/null -o y.png", 3, "/dev/null"),
+    ("ln -s b a; ln -s a b; V tessellate dots.csv -o a -f npy", 4, "a cannot be written: its links lead back"),
+    ("V delaunay dots.csv --clip x.json --what cells -o x.json", 3, "x.json"),
+    ("cp dots.csv x; V delaunay dots.csv --clip x --what cells -f csv -o x", 2, "x is also an input"),
+]
+
+REFUSED_OF_A_SHELL = [
+    ("V tessellate <(cat dots.csv) <(cat dots.csv) --out-dir x", 2, "which this process alone can read"),
+    ("V delaunay dots.csv mask.pbm --what cells --clip <(cat) --out-dir x", 2, "not every input can read"),
+    ("V tessellate dots.csv -q -o /dev/stdout >&-", 4, "/dev/stdout"),
+    ("V tessellate dots.csv -q -o y.png --stats /dev/stderr 2>&-", 4, ""),
+    ("V tessellate dots.csv -q -o /dev/stdin < dots.csv", 4, "open for reading only"),
+    ("V tessellate /dev/stdin -o y.png <&-", 3, "/dev/stdin"),
+    ("mkfifo x.csv; : > x.csv & V tessellate x.csv -o y.png", 3, "x.csv"),
+    ("mkfifo x.png; head -c 9 mask.pbm > x.png & V tessellate x.png -o y.png", 3, "x.png"),
+]
+
+
+@pytest.mark.parametrize(("line", "code", "words"), REFUSED)
+def test_what_is_refused(run, folder, line, code, words):
+    """A shell makes the files, and the command runs here."""
+    before, _, command = line.rpartition("V ")
+    assert bash(folder, before).returncode == 0
+    done = run(*command.split(), data=(folder / "dots.csv").read_bytes())
+    assert (done.code, done.out) == (code, ""), done
+    assert words in done.err
+    check_that_nothing_is_left(folder)
+
+
+@pytest.mark.parametrize(("line", "code", "words"), REFUSED_OF_A_SHELL)
+def test_what_is_refused_to_a_shell(folder, line, code, words):
     done = bash(folder, line)
     assert (done.returncode, done.stdout) == (code, b""), done
     assert words in done.stderr.decode()
     assert b"Traceback" not in done.stderr
+    check_that_nothing_is_left(folder)
+
+
+def check_that_nothing_is_left(folder):
     assert leftovers(folder) == []
     assert not (folder / "y.png").exists()
     assert (folder / "dots.csv").read_text().startswith("x,y,name\n2,1,a")
@@ -149,7 +167,7 @@ def test_pipes_in_a_folder_are_left_out(run, folder):
     assert Path("out/dots.npy").exists()
 
 
-def test_standard_input_that_does_not_wait(folder, process):
+def test_standard_input_that_does_not_wait(run, folder, process):
     reading, writing = os.pipe()
     os.set_blocking(reading, False)
     child = process("tessellate", "-", "--size", "9x9", "-f", "text", stdin=reading)
@@ -157,8 +175,8 @@ def test_standard_input_that_does_not_wait(folder, process):
     lines = (folder / "dots.csv").read_bytes().splitlines(keepends=True)
     for line in lines:
         os.write(writing, line)
-        time.sleep(0.3)
+        time.sleep(0.2)
     os.close(writing)
     out, err = child.communicate(timeout=600)
     assert (child.returncode, err) == (0, b"")
-    assert out == bash(folder, "V tessellate dots.csv --size 9x9 -f text -q").stdout
+    assert out.decode() == run("tessellate", "dots.csv", "--size", "9x9", "-f", "text", "-q").out
