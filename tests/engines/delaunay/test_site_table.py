@@ -1,11 +1,10 @@
 from __future__ import annotations
 
-from fractions import Fraction
-
 import numpy as np
 import pytest
 
 from support.families.point_families import draw
+from support.oracles.whole_numbers import in_units
 from vorotool import Box, InputError, PointSet, delaunay, site_table, voronoi_cells
 
 NAMES = [
@@ -26,12 +25,10 @@ NAMES = [
 
 def nearest_by_definition(points, labels):
     """Label of the nearest other point, exactly; ties to the smallest label."""
-    found = []
+    found, (points, _) = [], in_units(points)
     for p in points:
         others = [
-            (sum((Fraction(a) - Fraction(b)) ** 2 for a, b in zip(p, q, strict=True)), label)
-            for q, label in zip(points, labels, strict=True)
-            if q != p
+            ((p[0] - q[0]) ** 2 + (p[1] - q[1]) ** 2, label) for q, label in zip(points, labels, strict=True) if q != p
         ]
         found.append(min(others)[1] if others else None)
     return found

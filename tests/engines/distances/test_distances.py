@@ -21,7 +21,7 @@ RING = shapely.box(0, 0, 9, 9) - shapely.box(1, 1, 8, 8)
 
 @pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.__name__)
 def test_distances_are_within_the_bounds_of_brute_force(family):
-    for seed in range(4):
+    for seed in range(3):
         assert failure(*family(np.random.default_rng(seed)), is_verified=True) is None
 
 

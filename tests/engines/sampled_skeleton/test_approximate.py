@@ -25,7 +25,7 @@ SHAPES = random_shapes(np.random.default_rng(1))
 @pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.__name__)
 def test_broken_shapes_pass_the_checker(family):
     with warnings.catch_warnings(action="ignore"):
-        assert failure(small(family, 5), np.random.default_rng(5)) is None
+        assert failure(small(family, 5, most=14), np.random.default_rng(5)) is None
 
 
 @pytest.mark.parametrize("name", ["random 0", "random 1", "holes 0"])

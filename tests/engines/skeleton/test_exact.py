@@ -166,12 +166,11 @@ def test_no_polygons_at_all():
 @pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.__name__)
 def test_random_shapes(family, seed):
     rng = np.random.default_rng([5, seed])
-    for _ in range(2):
-        shape = family(rng)
-        for side in SIDES:
-            skeleton_of(shape, side=side)
-        with warnings.catch_warnings(action="ignore", category=VorotoolWarning):
-            verify_exterior(shape_diagram(shape))
+    shape = family(rng)
+    for side in SIDES:
+        skeleton_of(shape, side=side)
+    with warnings.catch_warnings(action="ignore", category=VorotoolWarning):
+        verify_exterior(shape_diagram(shape))
 
 
 @pytest.mark.parametrize(

@@ -42,7 +42,7 @@ def test_features_of_any_family_are_what_they_are_alone(family, seed):
     count = int(polygons.feature.max())
     gap = 2.0**-20 * float(np.ptp(polygons.xy))
     made = feature_elements(polygons, gap, threads=2).skeleton
-    for feature in range(count):
+    for feature in range(min(count, 12)):
         given = fuzz.chosen(polygons, [feature, count])
         alone = feature_elements(given, gap, threads=1).skeleton
         assert fuzz.differing(fuzz.inside_of(made, feature, polygons), fuzz.inside_of(alone, 0, given)) is None

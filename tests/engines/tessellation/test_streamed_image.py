@@ -71,16 +71,30 @@ def streamed(source, what, dtype, heights, limit=None, threads=1):
     return np.concatenate(made)
 
 
-@pytest.fixture(params=[(10**9, 10**9), (300, 130), (1, 1)], ids=["whole", "bands", "rows"])
+BANDS = {"whole": (10**9, 10**9), "bands": (300, 130), "rows": (1, 1)}
+"""Pixels of the bands that are read, and of the pieces that are labelled."""
+
+
+@pytest.fixture(params=BANDS)
 def bands(request, monkeypatch):
-    """Pixels of the bands that are read, and of the pieces that are labelled."""
-    read, labelled = request.param
+    read, labelled = BANDS[request.param]
     monkeypatch.setattr("vorotool.engines.tessellation.streamed_image.BAND_PIXELS", read)
     monkeypatch.setattr("vorotool.engines.tessellation.streamed_image.SWEEP_PIXELS", labelled)
 
 
-@pytest.mark.parametrize(("name", "mask"), few(IMAGES, 4))
-@pytest.mark.parametrize(("mode", "connectivity"), [("components", 8), ("components", 4), ("pixels", 8)])
+MODES = [("components", 8), ("components", 4), ("pixels", 8)]
+CASES = [
+    (name, mask, *MODES[(k + i + turn) % 3], bands)
+    for images in (IMAGES[:4], IMAGES[4:])
+    for turn in range(3)
+    for k, (name, mask) in enumerate(images)
+    for i, bands in enumerate(BANDS)
+]
+
+
+@pytest.mark.parametrize(
+    ("name", "mask", "mode", "connectivity", "bands"), few(CASES, 4 * len(BANDS)), indirect=["bands"]
+)
 def test_masks(name, mask, mode, connectivity, bands):
     values = mask.astype(np.uint8)
     seeds = seeds_from_raster(values, mode=mode, connectivity=connectivity)

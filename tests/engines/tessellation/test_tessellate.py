@@ -40,7 +40,7 @@ def sweep_of(x, y, labels, frame, scale=1, **options):
 @pytest.mark.parametrize("seed", few(range(12), 4))
 def test_labels_are_those_of_brute_force(simd, seed):
     rng = np.random.default_rng(seed)
-    for case in range(60):
+    for case in range(40):
         name, x, y, labels, scale, frame = random_case(rng)
         right = nearest_labels(x, y, labels, frame, scale)
         sweep = sweep_of(x, y, labels, frame, scale, threads=1 + case % 5)
