@@ -11,6 +11,7 @@ from types import SimpleNamespace
 
 import pytest
 
+from support.few import few
 from support.processes.leftovers import leftovers
 from vorotool import signals
 
@@ -32,11 +33,17 @@ def started(folder, arguments):
     return subprocess.Popen(arguments, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
 
 
+def halves(values):
+    """Every second moment of each, beginning with the first or the second in turn; the moments between are more."""
+    first = [(value, number % 2) for number, value in enumerate(values)]
+    return few([*first, *((value, 1 - begin) for value, begin in first)], len(first))
+
+
 @pytest.mark.slow
-@pytest.mark.parametrize("number", CODES)
-def test_a_signal_ends_quietly_from_our_first_line_on(folder, number):
+@pytest.mark.parametrize(("number", "begin"), halves(CODES))
+def test_a_signal_ends_quietly_from_our_first_line_on(folder, number, begin):
     ended = set()
-    for step in range(24):
+    for step in range(begin, 24, 2):
         child = started(folder, [sys.executable, "-c", HERE, *COMMAND, "-q"])
         assert child.stdout.read(1) == b"."
         time.sleep(step * 0.0125)
@@ -51,9 +58,9 @@ def test_a_signal_ends_quietly_from_our_first_line_on(folder, number):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("entry", ENTRIES)
-def test_an_interrupt_during_the_start_shows_nothing_of_ours(folder, entry):
-    for step in range(20):
+@pytest.mark.parametrize(("entry", "begin"), halves(ENTRIES))
+def test_an_interrupt_during_the_start_shows_nothing_of_ours(folder, entry, begin):
+    for step in range(begin, 20, 2):
         child = started(folder, [*ENTRIES[entry], *COMMAND, "-q"])
         time.sleep(step * 0.015)
         child.send_signal(signal.SIGINT)

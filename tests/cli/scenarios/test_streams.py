@@ -15,7 +15,7 @@ from support.processes.leftovers import leftovers
 COMMANDS = sorted({case.command for case in CASES})
 
 
-RUNS = 5
+RUNS = 3
 """Of each command, of two of its cases: all commands together are given each way of each side."""
 
 
