@@ -15,6 +15,7 @@ from numpy.typing import DTypeLike, NDArray
 from vorotool.geometry.crs import crs_name
 from vorotool.geometry.equality import is_equal
 from vorotool.products.formats import resolved
+from vorotool.types.fields import Record
 
 if TYPE_CHECKING:
     import geopandas
@@ -29,7 +30,7 @@ _FRAMES = "geometry.any.frames"
 _SHOWING = "jobs.showing"
 
 
-class Value:
+class Value(Record):
     """A value: equal to another one of its type if all fields are; like an array it is no key of a dictionary."""
 
     def __eq__(self, other: object) -> bool:

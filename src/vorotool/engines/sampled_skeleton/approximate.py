@@ -251,5 +251,4 @@ def whole_sampled_diagram(shapes: SampledShapes, *, frame: Frame | None = None, 
         made.pop(name)
     made["group"][:] = len(placed.polygons)
     whole = skeleton_of_arrays(made, graph, placed, clip)
-    whole.side[:] = -1
-    return without_equal_nodes(whole)
+    return without_equal_nodes(replace(whole, side=np.full(len(whole), -1)))

@@ -148,8 +148,7 @@ def whole_diagram(shapes: ShapeDiagram, *, frame: Frame | None = None, threads: 
         joins=False,
         threads=checked_threads(threads),
     )
-    everything.side[:] = -1
-    return everything
+    return replace(everything, side=np.full(len(everything), -1))
 
 
 def face_groups(placed: PlacedShapes, side: str) -> NDArray[np.int32]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fractions import Fraction
 from math import floor, inf, isqrt
 from typing import Any
@@ -15,6 +14,8 @@ from vorotool.geometry.curves.inverse_functions import hypotenuse
 from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.numbers import nearest_double, real_number, shown_number
 from vorotool.geometry.values import Geometric, Pictured, Tabular, Value, counted, placed
+from vorotool.types import fields as f
+from vorotool.types.fields import record
 
 Radius = float | Fraction
 """A radius: a double, or an exact fraction such as a decimal number."""
@@ -23,7 +24,7 @@ CLASSES = ("outside", "singular", "boundary", "interior")
 """Classes of edges by number: outside of a shape, alone in it, on one triangle of it, between two."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@record
 class AlphaComplex(Value, Tabular, Geometric, Pictured):
     """Family of alpha shapes: the radii at which each Delaunay edge enters, bounds and leaves the shape.
 
@@ -69,18 +70,18 @@ class AlphaComplex(Value, Tabular, Geometric, Pictured):
     (2, 3)
     """
 
-    mesh: Triangulation
-    edges: NDArray[np.int32]
-    sides: NDArray[np.int32]
-    r_min: NDArray[np.float64]
-    r_mid: NDArray[np.float64]
-    r_max: NDArray[np.float64]
-    rank_min: NDArray[np.int32]
-    rank_mid: NDArray[np.int32]
-    rank_max: NDArray[np.int32]
-    triangle_rank: NDArray[np.int32]
-    spectrum: NDArray[np.float64]
-    witness: NDArray[np.int32]
+    mesh: Triangulation = f.nested()
+    edges: NDArray[np.int32] = f.index("edges", 2)
+    sides: NDArray[np.int32] = f.index("edges", 2)
+    r_min: NDArray[np.float64] = f.length("edges")
+    r_mid: NDArray[np.float64] = f.length("edges")
+    r_max: NDArray[np.float64] = f.length("edges")
+    rank_min: NDArray[np.int32] = f.index("edges")
+    rank_mid: NDArray[np.int32] = f.index("edges")
+    rank_max: NDArray[np.int32] = f.index("edges")
+    triangle_rank: NDArray[np.int32] = f.index("triangles")
+    spectrum: NDArray[np.float64] = f.length("radii")
+    witness: NDArray[np.int32] = f.index("radii")
     rule: str = "corrected"
 
     def __len__(self) -> int:

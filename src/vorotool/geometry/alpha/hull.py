@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
 from math import sqrt
 
@@ -14,12 +13,14 @@ from vorotool.geometry.curves.inverse_functions import PI, cosine_and_sine, hypo
 from vorotool.geometry.ragged import owners, starts_of, within
 from vorotool.geometry.table import Lookup, Table
 from vorotool.geometry.values import Geometric, Pictured, Tabular, Value, counted, placed
+from vorotool.types import fields as f
+from vorotool.types.fields import record
 
 FINENESS = 7.529816085545908e-05
 """Of the radius: how far the chords of flattened hulls may be from their arcs: 1 - cos(π/256), 256 to a circle."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@record
 class AlphaHull(Value, Tabular, Geometric, Pictured):
     """Alpha hull: the complement of all open discs of radius r that contain no point.
 
@@ -44,13 +45,13 @@ class AlphaHull(Value, Tabular, Geometric, Pictured):
     Melkemi and Vandorpe, "Voronoi Diagrams and Applications", section 2.3; Edelsbrunner, Kirkpatrick and Seidel 1983.
     """
 
-    shape: AlphaShape
-    start: NDArray[np.float64]
-    end: NDArray[np.float64]
-    centre: NDArray[np.float64]
-    edge: NDArray[np.int32]
-    ring_start: NDArray[np.int64]
-    points: NDArray[np.int32]
+    shape: AlphaShape = f.nested()
+    start: NDArray[np.float64] = f.position("arcs", 2)
+    end: NDArray[np.float64] = f.position("arcs", 2)
+    centre: NDArray[np.float64] = f.position("arcs", 2)
+    edge: NDArray[np.int32] = f.index("arcs")
+    ring_start: NDArray[np.int64] = f.starts("rings", "arcs", least=1)
+    points: NDArray[np.int32] = f.index("points")
 
     def __len__(self) -> int:
         return len(self.start)

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.geometry.table import Table
 from vorotool.geometry.values import Tabular, Value, counted
+from vorotool.types import fields as f
+from vorotool.types.fields import record
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@record
 class RegionPersistence(Value, Tabular):
     """Persistence of the regions of all alpha shapes: the radii at which each is born and dies.
 
@@ -46,13 +46,13 @@ class RegionPersistence(Value, Tabular):
     2
     """
 
-    birth: NDArray[np.float64]
-    death: NDArray[np.float64]
-    into: NDArray[np.int32]
-    points: NDArray[np.int32]
-    triangles: NDArray[np.int32]
-    area: NDArray[np.float64]
-    joined: float
+    birth: NDArray[np.float64] = f.length("regions")
+    death: NDArray[np.float64] = f.length("regions")
+    into: NDArray[np.int32] = f.index("regions")
+    points: NDArray[np.int32] = f.index("regions")
+    triangles: NDArray[np.int32] = f.index("regions")
+    area: NDArray[np.float64] = f.area("regions")
+    joined: float = f.length()
 
     def __len__(self) -> int:
         return len(self.birth)

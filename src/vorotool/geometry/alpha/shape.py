@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -11,12 +9,14 @@ from vorotool.geometry.alpha.complex import CLASSES, AlphaComplex, Radius
 from vorotool.geometry.numbers import nearest_double
 from vorotool.geometry.polygons.polygon_set import HOLE, PolygonSet
 from vorotool.geometry.values import Pictured, Tabular, Value, WithParts, counted, placed
+from vorotool.types import fields as f
+from vorotool.types.fields import record
 
 POINT_CLASSES = ("isolated", "singular", "boundary", "interior")
 """Classes of points in a shape: on no edge of it, on edges without a triangle only, on the boundary, inside."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@record
 class AlphaShape(Value, Tabular, WithParts, Pictured):
     """Alpha shape of points for one radius r (the paper's α is -1/r).
 
@@ -50,12 +50,12 @@ class AlphaShape(Value, Tabular, WithParts, Pictured):
     (6.0, 12.0, [[4.0, 0.0], [0.0, 3.0], [0.0, 0.0]])
     """
 
-    family: AlphaComplex
-    r: Radius
-    edge_index: NDArray[np.int32]
-    kind: NDArray[np.uint8]
-    region: NDArray[np.int32]
-    polygons: PolygonSet
+    family: AlphaComplex = f.nested()
+    r: Radius = f.length()
+    edge_index: NDArray[np.int32] = f.index("edges")
+    kind: NDArray[np.uint8] = f.numbers(np.uint8, "edges")
+    region: NDArray[np.int32] = f.index("triangles")
+    polygons: PolygonSet = f.nested()
     cavity_count: int
     has_thresholds: bool = False
 

@@ -10,27 +10,10 @@ from typing import Any
 import numpy as np
 
 from vorotool.errors import UsageError
-from vorotool.geometry.alpha.complex import AlphaComplex
-from vorotool.geometry.alpha.hull import AlphaHull
-from vorotool.geometry.alpha.shape import AlphaShape
 from vorotool.geometry.box import Box
-from vorotool.geometry.mesh.cells import CellSet
-from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation
-from vorotool.geometry.mesh.proximity import ProximityGraph
-from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.polygons.polygon_set import PolygonSet
-from vorotool.geometry.skeleton.centerline import Centerlines
-from vorotool.geometry.skeleton.discs import Discs
-from vorotool.geometry.skeleton.extended import ExtendedSkeleton
-from vorotool.geometry.skeleton.necks import Necks
-from vorotool.geometry.skeleton.offsets import Offsets
-from vorotool.geometry.skeleton.parts import Parts
-from vorotool.geometry.skeleton.points_along import SkeletonPoints
-from vorotool.geometry.skeleton.skeleton import SiteTable, Skeleton
-from vorotool.geometry.skeleton.smooth_lines import SmoothLines
-from vorotool.geometry.skeleton.thickness import ThicknessImage
 from vorotool.geometry.table import Table
-from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
+from vorotool.types.fields import Declared, Meaning, Record, declared
 
 Place = tuple[float, float] | None
 
@@ -45,56 +28,34 @@ AREAS = frozenset({"area", "object_area"})
 """Columns of tables that are lengths, coordinates included, and areas; the others are numbers, labels and names."""
 
 
-_LENGTHS_OF = {
-    PolygonSet: "xy",
-    Triangulation: "points",
-    DigitalTriangulation: "points",
-    ProximityGraph: "mesh",
-    CellSet: "sites coordinates frame",
-    AlphaComplex: "mesh r_min r_mid r_max spectrum",
-    AlphaShape: "family r polygons",
-    AlphaHull: "shape start end centre",
-    SiteTable: "ends",
-    Skeleton: "polygons site_table frame vertices radius control length error_bound gap",
-    Centerlines: "path ends",
-    ExtendedSkeleton: "path ends",
-    SmoothLines: "lines control error",
-    SkeletonPoints: "skeleton along xy radius feet",
-    Discs: "polygons site_table xy radius feet within",
-    Necks: "skeleton xy width feet beside",
-    Parts: "polygons radius centre necks",
-    Offsets: "polygons site_table start end centre distance",
-    ThicknessImage: "values",
-    VoronoiMap: "polygons clip enclosures vertices radius control center frame max_distance",
-}
-"""What of each type is a length, or has lengths; all else stays."""
-
-_DISTANCES = frozenset(
-    {
-        *("r", "r_min", "r_mid", "r_max", "spectrum", "radius", "length"),
-        *("error_bound", "error", "gap", "along", "distance", "max_distance", "values", "width", "beside"),
-    }
-)
-"""What of these is a length, and no place."""
-
-
 def scaled(
     value: Any, factor: Fraction, origin: Place = None, *, unit: str | None = None, of_steps: bool = False
 ) -> Any:
     """Give a result in units of which one is ``1 / factor`` of the old."""
-    if type(value) not in _LENGTHS_OF:
+    measures = {name: each for name, each in _declared(value).items() if each.meaning is not Meaning.NUMBER}
+    if not measures:
         raise UsageError(f"a {type(value).__name__} is not scaled")
-    parts = {
-        name: _scaled(getattr(value, name), factor, None if name in _DISTANCES else origin, unit, of_steps=of_steps)
-        for name in _LENGTHS_OF[type(value)].split()
-    }
+    parts: dict[str, Any] = {}
+    for name, each in measures.items():
+        part = getattr(value, name)
+        if part is not None and each.meaning is Meaning.VALUE:
+            parts[name] = scaled(part, factor, origin, unit=unit, of_steps=of_steps)
+        elif part is not None:
+            moved = origin if each.meaning is Meaning.POSITION else None
+            parts[name] = _scaled(
+                part, factor * factor if each.meaning is Meaning.AREA else factor, moved, of_steps=of_steps
+            )
     if not isinstance(value, PolygonSet):
         return replace(value, **parts)
     made = replace(value, **parts, unit=unit)
     if value.as_given is value:
         return made
-    as_given = _scaled(value.as_given.xy, factor, origin, unit, of_steps=of_steps)
+    as_given = _scaled(value.as_given.xy, factor, origin, of_steps=of_steps)
     return replace(made, xy=as_given).moved(made.xy)
+
+
+def _declared(value: Any) -> dict[str, Declared]:
+    return declared(value) if isinstance(value, Record) else {}
 
 
 def _scale(factor: Fraction, *, of_steps: bool) -> tuple[float, float]:
@@ -102,20 +63,17 @@ def _scale(factor: Fraction, *, of_steps: bool) -> tuple[float, float]:
     return (float(factor.numerator), float(factor.denominator)) if of_steps else (float(factor), 1.0)
 
 
-def _scaled(part: Any, factor: Fraction, origin: Place, unit: str | None, *, of_steps: bool) -> Any:
-    if type(part) in _LENGTHS_OF:
-        return scaled(part, factor, origin, unit=unit, of_steps=of_steps)
+def _scaled(part: Any, factor: Fraction, origin: Place, *, of_steps: bool) -> Any:
+    """Give a number, an array, a box, or a tuple x, y, width, height."""
     times, over = _scale(factor, of_steps=of_steps)
     if isinstance(part, Box):
         sides = (side * times / over for side in part.sides)
         return Box(
             *(sides if origin is None else (side + shift for side, shift in zip(sides, 2 * origin, strict=True)))
         )
-    if isinstance(part, tuple):  # a frame: x, y, width, height
+    if isinstance(part, tuple):
         shifts = (*(origin or (0.0, 0.0)), 0.0, 0.0)
         return tuple(side * times / over + shift for side, shift in zip(part, shifts, strict=True))
-    if part is None:
-        return None
     made = part * factor if isinstance(part, Fraction) else part * times / over
     return made if origin is None else made + np.asarray(origin)
 

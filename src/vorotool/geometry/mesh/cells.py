@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -10,12 +10,13 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.geometry.box import Box
-from vorotool.geometry.checks import set_rows
 from vorotool.geometry.curves.inverse_functions import hypotenuse
 from vorotool.geometry.ragged import divides, following, starts_of
 from vorotool.geometry.row_index import check_index
 from vorotool.geometry.values import Geometric, Pictured, Tabular, Value, counted, placed
 from vorotool.products.formats import resolved
+from vorotool.types import fields as f
+from vorotool.types.fields import record
 
 
 class Nesting(NamedTuple):
@@ -26,7 +27,7 @@ class Nesting(NamedTuple):
     cells: NDArray[np.int64]
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@record
 class CellSet(Value, Tabular, Geometric, Pictured):
     """Clipped Voronoi cells, one per point, in the order of the points.
 
@@ -73,10 +74,10 @@ class CellSet(Value, Tabular, Geometric, Pictured):
     'POLYGON ((2 0, 4 0, 4 2, 2 2, 2 0))'
     """
 
-    sites: NDArray[np.float64]
-    coordinates: NDArray[np.float64]
+    sites: NDArray[np.float64] = f.position("sites", 2)
+    coordinates: NDArray[np.float64] = f.position("vertices", 2)
     starts: NDArray[np.int64]
-    frame: Box
+    frame: Box = f.position()
     polygon_starts: NDArray[np.int64] | None = None
     cell_starts: NDArray[np.int64] | None = None
     labels: NDArray[np.int64] | None = None
@@ -86,8 +87,7 @@ class CellSet(Value, Tabular, Geometric, Pictured):
     index: Any = None
 
     def __post_init__(self) -> None:
-        for name in ("sites", "coordinates"):
-            set_rows(self, name, np.float64, 2)
+        super().__post_init__()
         if (self.polygon_starts is None) != (self.cell_starts is None):
             raise InputError("polygon_starts and cell_starts go together: give both or none")
         count = len(self.coordinates)

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError
-from vorotool.geometry.checks import check_as_long
 from vorotool.geometry.mesh.triangulation import ALL, Triangulation, lengths_of
 from vorotool.geometry.row_index import check_index
 from vorotool.geometry.values import Graph, Pictured, Tabular, Value, WithParts, counted, placed
+from vorotool.types import fields as f
+from vorotool.types.fields import record
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@record
 class DigitalTriangulation(Value, Tabular, WithParts, Graph, Pictured):
     """Edges and triangles of a label image by the rule of section 2.1, as 0-based int32 indices.
 
@@ -62,11 +62,11 @@ class DigitalTriangulation(Value, Tabular, WithParts, Graph, Pictured):
     (1, [[0, 1], [0, 2], [1, 2]])
     """
 
-    points: NDArray[np.float64]
-    edges: NDArray[np.int32]
-    triangles: NDArray[np.int32]
-    at_four: NDArray[np.bool_]
-    labels: NDArray[np.int64]
+    points: NDArray[np.float64] = f.position("points", 2)
+    edges: NDArray[np.int32] = f.index("edges", 2)
+    triangles: NDArray[np.int32] = f.index("triangles", 3)
+    at_four: NDArray[np.bool_] = f.numbers(np.bool_, "triangles")
+    labels: NDArray[np.int64] = f.numbers(np.int64, "points")
     three_label_corners: int = 0
     four_label_corners: int = 0
     properties: dict[str, Any] = field(default_factory=dict)
@@ -75,22 +75,7 @@ class DigitalTriangulation(Value, Tabular, WithParts, Graph, Pictured):
     index: Any = None
 
     def __post_init__(self) -> None:
-        kinds = {
-            "points": (np.float64, (-1, 2)),
-            "edges": (np.int32, (-1, 2)),
-            "triangles": (np.int32, (-1, 3)),
-            "at_four": (np.bool_, (-1,)),
-            "labels": (np.int64, (-1,)),
-        }
-        for name, (dtype, shape) in kinds.items():
-            array: NDArray[Any] = np.ascontiguousarray(getattr(self, name), dtype=dtype)
-            if array.size == 0:
-                array = array.reshape((0, *shape[1:]))
-            if array.ndim != len(shape) or array.shape[1:] != shape[1:]:
-                raise InputError(f"{name} must have shape {('n', *shape[1:])}, but has shape {array.shape}")
-            object.__setattr__(self, name, array)
-        check_as_long(self, "labels", "points")
-        check_as_long(self, "at_four", "triangles")
+        super().__post_init__()
         check_index(self.index, len(self.points), "site")
 
     def __len__(self) -> int:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -10,12 +9,14 @@ from numpy.typing import NDArray
 
 from vorotool.geometry.mesh.triangulation import ALL, Triangulation, lengths_of
 from vorotool.geometry.values import Geometric, Graph, Pictured, Tabular, Value, counted, placed
+from vorotool.types import fields as f
+from vorotool.types.fields import record
 
 KINDS = ("gabriel", "relative", "mst")
 """Gabriel graph, relative neighbourhood graph, minimum spanning tree: each is part of the one before."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@record
 class ProximityGraph(Value, Tabular, Geometric, Graph, Pictured):
     """Edges of a Delaunay triangulation whose ends are near to each other by some rule.
 
@@ -36,9 +37,9 @@ class ProximityGraph(Value, Tabular, Geometric, Graph, Pictured):
     ([[0, 3], [1, 3], [2, 3]], [1.41, 3.16, 2.24])
     """
 
-    mesh: Triangulation
+    mesh: Triangulation = f.nested()
     kind: str
-    edge_index: NDArray[np.int32]
+    edge_index: NDArray[np.int32] = f.index("edges")
 
     def __len__(self) -> int:
         return len(self.edge_index)

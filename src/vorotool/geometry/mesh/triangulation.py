@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from fractions import Fraction
 from math import sqrt
 from typing import Any
@@ -10,11 +10,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.checks import check_as_long, set_rows
 from vorotool.geometry.curves.inverse_functions import hypotenuse
 from vorotool.geometry.numbers import nearest_double
 from vorotool.geometry.row_index import check_index
 from vorotool.geometry.values import Graph, Pictured, Tabular, Value, WithParts, counted, placed
+from vorotool.types import fields as f
+from vorotool.types.fields import record
 
 FLAT = 2.0**-20
 """Triangles whose largest angle has a smaller sine are computed in rationals: floating point would lose half."""
@@ -26,7 +27,7 @@ CHUNK = 1 << 14
 """Edges that are measured at a time, so that their ends stay in the cache."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@record
 class Triangulation(Value, Tabular, WithParts, Graph, Pictured):
     """Triangles, edges and hull of points, as 0-based int32 indices.
 
@@ -80,12 +81,12 @@ class Triangulation(Value, Tabular, WithParts, Graph, Pictured):
     ([[2.0, 1.5]], [2.5], [6.0])
     """
 
-    points: NDArray[np.float64]
-    triangles: NDArray[np.int32]
-    neighbours: NDArray[np.int32]
-    edges: NDArray[np.int32]
-    hull: NDArray[np.int32]
-    first: NDArray[np.int32]
+    points: NDArray[np.float64] = f.position("points", 2)
+    triangles: NDArray[np.int32] = f.index("triangles", 3)
+    neighbours: NDArray[np.int32] = f.index("triangles", 3)
+    edges: NDArray[np.int32] = f.index("edges", 2)
+    hull: NDArray[np.int32] = f.index("hull")
+    first: NDArray[np.int32] = f.index("points")
     labels: NDArray[np.int64] | None = None
     properties: dict[str, Any] = field(default_factory=dict)
     y_up: bool = False
@@ -94,11 +95,7 @@ class Triangulation(Value, Tabular, WithParts, Graph, Pictured):
     index: Any = None
 
     def __post_init__(self) -> None:
-        columns = {"points": 2, "triangles": 3, "neighbours": 3, "edges": 2, "hull": 0, "first": 0}
-        for name, width in columns.items():
-            set_rows(self, name, np.float64 if name == "points" else np.int32, width)
-        check_as_long(self, "neighbours", "triangles")
-        check_as_long(self, "first", "points")
+        super().__post_init__()
         check_index(self.index, len(self.points), "point")
 
     def __len__(self) -> int:

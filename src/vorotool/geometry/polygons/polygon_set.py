@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import cached_property
 from typing import Any
 
@@ -15,6 +15,8 @@ from vorotool.geometry.coordinates import coordinate_rows
 from vorotool.geometry.ragged import divides, following, starts_of, within
 from vorotool.geometry.row_index import check_index
 from vorotool.geometry.values import Geometric, Pictured, Tabular, Value, counted, placed
+from vorotool.types import fields as f
+from vorotool.types.fields import record
 
 SHELL, HOLE, LINE = 0, 1, 2
 """Kinds of rings: the outer boundary of a polygon, a hole in it, an open line."""
@@ -22,7 +24,7 @@ SHELL, HOLE, LINE = 0, 1, 2
 _KIND_NAMES = ("shell", "hole", "line")
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@record
 class PolygonSet(Value, Tabular, Geometric, Pictured):
     """Polygons and open lines in the order of the input, each vertex once: rings do not repeat their first one.
 
@@ -70,7 +72,7 @@ class PolygonSet(Value, Tabular, Geometric, Pictured):
     (2, [[1.0, 1.0], [2.0, 1.0], [1.0, 2.0]], [1, 1])
     """
 
-    xy: NDArray[np.float64]
+    xy: NDArray[np.float64] = f.position("vertices", 2)
     ring_start: NDArray[np.int64]
     ring_kind: NDArray[np.int8]
     ring_polygon: NDArray[np.int32]
@@ -85,6 +87,7 @@ class PolygonSet(Value, Tabular, Geometric, Pictured):
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "xy", coordinate_rows(self.xy, "vertex"))
+        super().__post_init__()
         for name, dtype in (("ring_start", np.int64), ("ring_kind", np.int8), ("ring_polygon", np.int32)):
             object.__setattr__(self, name, _integers(getattr(self, name), dtype, name))
         _check_rings(self.ring_start, self.ring_kind, self.ring_polygon, len(self.xy))

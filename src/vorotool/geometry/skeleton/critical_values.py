@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.geometry.values import Tabular, Value, counted
+from vorotool.types.fields import index, numbers, record
 
 CRITERIA = ("angle", "chord", "scale", "length", "ratio")
 """By which skeletons are pruned: angles in degrees, chord and length in input units, the others without a unit."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@record
 class CriticalValues(Value, Tabular):
     """The smallest thresholds that remove the places of a skeleton.
 
@@ -45,10 +44,10 @@ class CriticalValues(Value, Tabular):
     """
 
     criterion: str
-    ends: NDArray[np.float64]
-    most: NDArray[np.float64]
-    kept_arc: NDArray[np.int32]
-    kept_place: NDArray[np.float64]
+    ends: NDArray[np.float64] = numbers(np.float64, "arcs", 2)
+    most: NDArray[np.float64] = numbers(np.float64, "arcs")
+    kept_arc: NDArray[np.int32] = index("components")
+    kept_place: NDArray[np.float64] = numbers(np.float64, "components")
 
     def __len__(self) -> int:
         return len(self.most)
@@ -57,13 +56,19 @@ class CriticalValues(Value, Tabular):
         return f"{self.criterion} of {counted(len(self), 'arc')}"
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@record
 class ArcProfiles(Value):
     """How the two nearest places on the boundary lie along arcs: what cuts inside arcs are computed from."""
 
-    kind: NDArray[np.int8]  # (a,) int8 array: `BETWEEN_LINES`, `BETWEEN_POINTS`, or `FROM_FOCUS`
-    ends: NDArray[np.float64]  # (a, 2) float64 array: x at the source and at the target; 0 between lines
-    size: NDArray[np.float64]  # (a,) float64 array: h; between lines the tangent of half the angle
+    kind: NDArray[np.int8] = numbers(
+        np.int8, "arcs"
+    )  # (a,) int8 array: `BETWEEN_LINES`, `BETWEEN_POINTS`, or `FROM_FOCUS`
+    ends: NDArray[np.float64] = numbers(
+        np.float64, "arcs", 2
+    )  # (a, 2) float64 array: x at the source and at the target; 0 between lines
+    size: NDArray[np.float64] = numbers(
+        np.float64, "arcs"
+    )  # (a,) float64 array: h; between lines the tangent of half the angle
 
     def _summary(self) -> str:
         return counted(len(self.kind), "arc")

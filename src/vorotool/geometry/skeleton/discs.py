@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.checks import set_array
 from vorotool.geometry.coordinate_grid import on_grid
 from vorotool.geometry.curves.circular_arcs import chords_of
 from vorotool.geometry.curves.flatten import circle_tolerances
@@ -20,12 +18,14 @@ from vorotool.geometry.skeleton.skeleton import SiteTable
 from vorotool.geometry.skeleton.tables import ids_of
 from vorotool.geometry.table import Table
 from vorotool.geometry.values import Curved, Pictured, Tabular, Value, counted, placed
+from vorotool.types import fields as f
+from vorotool.types.fields import record
 
 SHOWN_FEET = 3
 """Feet that a row of the table has: as many as it takes to hold a disc."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@record
 class Discs(Value, Tabular, Curved, Pictured):
     """Discs that no shape enters, by feature and from the largest to the smallest.
 
@@ -71,31 +71,18 @@ class Discs(Value, Tabular, Curved, Pictured):
     [[4.0, 0.0], [4.0, 2.0]]
     """
 
-    xy: NDArray[np.float64]
-    radius: NDArray[np.float64]
-    polygon: NDArray[np.int32]
-    rank: NDArray[np.int32]
-    foot_start: NDArray[np.int64]
-    feet: NDArray[np.float64]
-    foot_site: NDArray[np.int32]
-    site_table: SiteTable
-    polygons: PolygonSet
+    xy: NDArray[np.float64] = f.position("discs", 2)
+    radius: NDArray[np.float64] = f.length("discs")
+    polygon: NDArray[np.int32] = f.index("discs")
+    rank: NDArray[np.int32] = f.index("discs")
+    foot_start: NDArray[np.int64] = f.starts("discs", "feet")
+    feet: NDArray[np.float64] = f.position("feet", 2)
+    foot_site: NDArray[np.int32] = f.index("feet")
+    site_table: SiteTable = f.nested()
+    polygons: PolygonSet = f.nested()
     local: bool = False
     features: str = "separate"
-    within: PolygonSet | None = None
-
-    def __post_init__(self) -> None:
-        count, feet = len(self.radius), len(self.foot_site)
-        for name, dtype, shape in (
-            ("xy", np.float64, (count, 2)),
-            ("radius", np.float64, (count,)),
-            ("polygon", np.int32, (count,)),
-            ("rank", np.int32, (count,)),
-            ("foot_start", np.int64, (count + 1,)),
-            ("feet", np.float64, (feet, 2)),
-            ("foot_site", np.int32, (feet,)),
-        ):
-            set_array(self, name, dtype, shape)
+    within: PolygonSet | None = f.nested(default=None)
 
     def __len__(self) -> int:
         return len(self.radius)

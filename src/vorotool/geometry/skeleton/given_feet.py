@@ -25,7 +25,7 @@ def moved_feet(skeleton: Skeleton, site: NDArray[np.integer], feet: Floats, *, b
     together = skeleton.features == "together"
     polygon = skeleton.site_table.polygon[site].reshape(-1)
     moved = places_as_given(feet.reshape(-1, 2), polygon, polygons, together=together, back=back)
-    moved = moved.reshape(-1, 2, 2)
+    moved = moved.reshape(-1, 2, 2).copy()
     is_inner = (t > 0) & (t < 1)
     moved[is_inner] = projected(there[is_inner], feet[is_inner])
     return moved

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import Self
 
@@ -18,6 +18,8 @@ from vorotool.geometry.skeleton.skeleton import KINDS, Skeleton
 from vorotool.geometry.skeleton.tables import ids_of
 from vorotool.geometry.table import Lookup, Table
 from vorotool.geometry.values import Curved, Pictured, Tabular, Value
+from vorotool.types import fields as f
+from vorotool.types.fields import record
 
 Floats = NDArray[np.float64]
 
@@ -25,7 +27,7 @@ EXTENSION = "extension"
 """Kind of the straight lines that lead on to the ends."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@record
 class LedOn(Value, Tabular, Curved, Pictured):
     """Branches of a skeleton, and straight lines that lead on from their ends.
 
@@ -42,14 +44,14 @@ class LedOn(Value, Tabular, Curved, Pictured):
         If `ends` has another shape.
     """
 
-    path: Skeleton
-    ends: Floats
+    path: Skeleton = f.nested()
+    ends: Floats = f.position("lines", 2, 2)
 
     def __post_init__(self) -> None:
-        ends = np.ascontiguousarray(self.ends, dtype=np.float64)
-        if ends.shape != (len(self.arc_start) - 1, 2, 2):
-            raise InputError(f"ends must have shape ({len(self.arc_start) - 1}, 2, 2), but have {ends.shape}")
-        object.__setattr__(self, "ends", ends)
+        super().__post_init__()
+        lines = len(self.arc_start) - 1
+        if len(self.ends) != lines:
+            raise InputError(f"ends must have shape ({lines}, 2, 2), but have {self.ends.shape}")
 
     def __len__(self) -> int:
         """Give the number of lines."""

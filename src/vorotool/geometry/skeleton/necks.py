@@ -2,22 +2,22 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.checks import set_array
 from vorotool.geometry.skeleton.skeleton import EDGE, Skeleton
 from vorotool.geometry.skeleton.tables import ids_of
 from vorotool.geometry.table import Lookup, Table
 from vorotool.geometry.values import Geometric, Pictured, Tabular, Value, counted, placed
+from vorotool.types import fields as f
+from vorotool.types.fields import record
 
 SITE_KINDS = ("vertex", "edge")
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@record
 class Necks(Value, Tabular, Geometric, Pictured):
     """Places of a skeleton where the clearance is least in both directions, polygon by polygon, by x and then by y.
 
@@ -56,20 +56,13 @@ class Necks(Value, Tabular, Geometric, Pictured):
     ([[[5.0, 1.5], [5.0, 2.5]]], [[2.0, 3.0]], [0.25])
     """
 
-    skeleton: Skeleton
-    arc: NDArray[np.int32]
-    xy: NDArray[np.float64]
-    width: NDArray[np.float64]
-    feet: NDArray[np.float64]
-    sites: NDArray[np.int32]
-    beside: NDArray[np.float64]
-
-    def __post_init__(self) -> None:
-        count = len(self.width)
-        for name, shape in (("width", (count,)), ("xy", (count, 2)), ("feet", (count, 2, 2)), ("beside", (count, 2))):
-            set_array(self, name, np.float64, shape)
-        for name, shape in (("arc", (count,)), ("sites", (count, 2))):
-            set_array(self, name, np.int32, shape)
+    skeleton: Skeleton = f.nested()
+    arc: NDArray[np.int32] = f.index("necks")
+    xy: NDArray[np.float64] = f.position("necks", 2)
+    width: NDArray[np.float64] = f.length("necks")
+    feet: NDArray[np.float64] = f.position("necks", 2, 2)
+    sites: NDArray[np.int32] = f.index("necks", 2)
+    beside: NDArray[np.float64] = f.length("necks", 2)
 
     def __len__(self) -> int:
         return len(self.width)

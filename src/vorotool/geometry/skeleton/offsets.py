@@ -2,32 +2,31 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError
-from vorotool.geometry.checks import set_array
 from vorotool.geometry.curves.circular_arcs import chords_of
 from vorotool.geometry.curves.flatten import circle_tolerances
 from vorotool.geometry.curves.inverse_functions import inverse_sine
 from vorotool.geometry.numbers import checked_flatten
 from vorotool.geometry.polygons.polygon_set import HOLE, SHELL, PolygonSet
-from vorotool.geometry.ragged import divides, owners
+from vorotool.geometry.ragged import owners
 from vorotool.geometry.row_index import index_of_rows
 from vorotool.geometry.skeleton.skeleton import SiteTable
 from vorotool.geometry.skeleton.tables import ids_of
 from vorotool.geometry.table import Lookup, Table
 from vorotool.geometry.values import Curved, Pictured, Tabular, Value, counted, placed
+from vorotool.types import fields as f
+from vorotool.types.fields import record
 
 PIECE_KINDS = ("line", "arc")
 RING_KINDS = ("shell", "hole")
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@record
 class Offsets(Value, Tabular, Curved, Pictured):
     """Shapes bounded by offset curves, distance by distance, each a shell and holes.
 
@@ -75,35 +74,18 @@ class Offsets(Value, Tabular, Curved, Pictured):
     ([-0.5, 1.0], [4, 8], [3.0, 23.141593])
     """
 
-    start: NDArray[np.float64]
-    end: NDArray[np.float64]
-    centre: NDArray[np.float64]
-    site: NDArray[np.int32]
-    ring_start: NDArray[np.int64]
-    shape_start: NDArray[np.int64]
-    distance: NDArray[np.float64]
-    polygon: NDArray[np.int32]
-    site_table: SiteTable
-    polygons: PolygonSet
+    start: NDArray[np.float64] = f.position("pieces", 2)
+    end: NDArray[np.float64] = f.position("pieces", 2)
+    centre: NDArray[np.float64] = f.position("pieces", 2)
+    site: NDArray[np.int32] = f.index("pieces")
+    ring_start: NDArray[np.int64] = f.starts("rings", "pieces", least=1)
+    shape_start: NDArray[np.int64] = f.starts("shapes", "rings", least=1)
+    distance: NDArray[np.float64] = f.length("shapes")
+    polygon: NDArray[np.int32] = f.index("shapes")
+    site_table: SiteTable = f.nested()
+    polygons: PolygonSet = f.nested()
     features: str = "separate"
     origin: tuple[float, float] = (0.0, 0.0)
-
-    def __post_init__(self) -> None:
-        pieces, rings, shapes = len(self.site), len(self.ring_start) - 1, len(self.shape_start) - 1
-        for name, dtype, shape in (
-            ("start", np.float64, (pieces, 2)),
-            ("end", np.float64, (pieces, 2)),
-            ("centre", np.float64, (pieces, 2)),
-            ("site", np.int32, (pieces,)),
-            ("ring_start", np.int64, (rings + 1,)),
-            ("shape_start", np.int64, (shapes + 1,)),
-            ("distance", np.float64, (shapes,)),
-            ("polygon", np.int32, (shapes,)),
-        ):
-            set_array(self, name, dtype, shape)
-        for name, last in (("ring_start", pieces), ("shape_start", rings)):
-            if not divides(getattr(self, name), last, least=1):
-                raise InputError(f"{name} must rise from 0 to {last}")
 
     def __len__(self) -> int:
         """Give the number of shapes."""

@@ -2,23 +2,24 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.checks import set_array
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.ragged import following
 from vorotool.geometry.skeleton.necks import Necks
 from vorotool.geometry.skeleton.tables import ids_of
 from vorotool.geometry.table import Table
 from vorotool.geometry.values import Geometric, Pictured, Tabular, Value, counted, placed
+from vorotool.types import fields as f
+from vorotool.types.fields import record
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@record
 class Parts(Value, Tabular, Geometric, Pictured):
     """Pieces of polygons, polygon by polygon, by the least x of each and then by y.
 
@@ -53,19 +54,12 @@ class Parts(Value, Tabular, Geometric, Pictured):
     ([17.0, 37.0], [2.0, 3.0], [[0, 1]])
     """
 
-    polygons: PolygonSet
-    source: NDArray[np.int32]
-    radius: NDArray[np.float64]
-    centre: NDArray[np.float64]
-    necks: Necks
-    between: NDArray[np.int32]
-
-    def __post_init__(self) -> None:
-        count = len(self.polygons)
-        set_array(self, "source", np.int32, (count,))
-        set_array(self, "radius", np.float64, (count,))
-        set_array(self, "centre", np.float64, (count, 2))
-        set_array(self, "between", np.int32, (len(self.necks), 2))
+    polygons: PolygonSet = f.nested("parts")
+    source: NDArray[np.int32] = f.index("parts")
+    radius: NDArray[np.float64] = f.length("parts")
+    centre: NDArray[np.float64] = f.position("parts", 2)
+    necks: Necks = f.nested("cuts")
+    between: NDArray[np.int32] = f.index("cuts", 2)
 
     def __len__(self) -> int:
         return len(self.polygons)

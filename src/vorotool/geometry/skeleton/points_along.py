@@ -2,23 +2,24 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.checks import set_array
 from vorotool.geometry.curves.inverse_functions import hypotenuse
 from vorotool.geometry.skeleton.given_feet import moved_feet
 from vorotool.geometry.skeleton.skeleton import SIDES, Skeleton
 from vorotool.geometry.skeleton.tables import ids_of
 from vorotool.geometry.table import Lookup, Table
 from vorotool.geometry.values import Pictured, Tabular, Value, WithParts, counted, placed
+from vorotool.types import fields as f
+from vorotool.types.fields import record
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@record
 class SkeletonPoints(Value, Tabular, WithParts, Pictured):
     """Points along the branches of a skeleton, or along centerlines, in their order.
 
@@ -54,20 +55,13 @@ class SkeletonPoints(Value, Tabular, WithParts, Pictured):
     [[[1.0, 2.0], [1.0, 0.0]], [[3.0, 2.0], [3.0, 0.0]], [[5.0, 2.0], [5.0, 0.0]], [[7.0, 2.0], [7.0, 0.0]]]
     """
 
-    skeleton: Skeleton
-    arc: NDArray[np.int64]
-    along: NDArray[np.float64]
-    xy: NDArray[np.float64]
-    radius: NDArray[np.float64]
-    feet: NDArray[np.float64]
-    rings: NDArray[np.int32] | None = None
-
-    def __post_init__(self) -> None:
-        count = len(self.arc)
-        if self.rings is not None:
-            set_array(self, "rings", np.int32, (count, 2))
-        for name, shape in (("along", (count,)), ("xy", (count, 2)), ("radius", (count,)), ("feet", (count, 2, 2))):
-            set_array(self, name, np.float64, shape)
+    skeleton: Skeleton = f.nested()
+    arc: NDArray[np.int64] = f.numbers(np.int64, "points")
+    along: NDArray[np.float64] = f.length("points")
+    xy: NDArray[np.float64] = f.position("points", 2)
+    radius: NDArray[np.float64] = f.length("points")
+    feet: NDArray[np.float64] = f.position("points", 2, 2)
+    rings: NDArray[np.int32] | None = f.index("points", 2, default=None)
 
     def __len__(self) -> int:
         return len(self.arc)

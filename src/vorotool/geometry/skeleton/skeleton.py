@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import fields, replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError
-from vorotool.geometry.checks import set_array
 from vorotool.geometry.curves.flatten import curve_tolerances, least_focal_distances, polylines
 from vorotool.geometry.numbers import checked_flatten
 from vorotool.geometry.parallel import in_chunks
@@ -18,6 +16,8 @@ from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.skeleton.arc_measures import ArcMeasures
 from vorotool.geometry.skeleton.arc_radii import arc_radii
 from vorotool.geometry.values import Branched, Pictured, Tabular, Value, counted, placed
+from vorotool.types import fields as f
+from vorotool.types.fields import Record, record
 
 INTERIOR, EXTERIOR = 0, 1
 """Sides of an arc: inside a polygon, or in none."""
@@ -28,38 +28,29 @@ VERTEX, EDGE = 0, 1
 """Kinds of sites."""
 
 
-@dataclass(frozen=True, eq=False)
-class SiteTable:
+@record
+class SiteTable(Record):
     """The elements of sites: a vertex of a polygon as it was used, or the open edge that begins at a vertex."""
 
-    kind: NDArray[np.int8]  # (s,) int8 array: `VERTEX` or `EDGE`
+    kind: NDArray[np.int8] = f.numbers(np.int8, "sites")  # (s,) int8 array: `VERTEX` or `EDGE`
     # (s,) int32 array: the polygon; its ring, 0 for the shell or a line; the vertex in the ring, or the one where the
     # edge begins
-    polygon: NDArray[np.int32]
+    polygon: NDArray[np.int32] = f.index("sites")
     # (s,) int32 array: the polygon; its ring, 0 for the shell or a line; the vertex in the ring, or the one where the
     # edge begins
-    ring: NDArray[np.int32]
+    ring: NDArray[np.int32] = f.index("sites")
     # (s,) int32 array: the polygon; its ring, 0 for the shell or a line; the vertex in the ring, or the one where the
     # edge begins
-    index: NDArray[np.int32]
+    index: NDArray[np.int32] = f.index("sites")
     # (s,) int32 array: the ring of the input, counted over all polygons, and the vertex or edge there that it is, or
     # is a part of; -1 for a crossing of edges
-    source_ring: NDArray[np.int32]
+    source_ring: NDArray[np.int32] = f.index("sites")
     # (s,) int32 array: the ring of the input, counted over all polygons, and the vertex or edge there that it is, or
     # is a part of; -1 for a crossing of edges
-    source_index: NDArray[np.int32]
+    source_index: NDArray[np.int32] = f.index("sites")
     # (s, 2, 2) float64 array: where sites are that need not be whole edges of the polygons, or their vertices: those
     # of what is outside, where features overlap. NaN for others
-    ends: NDArray[np.float64] | None = None
-
-    def __post_init__(self) -> None:
-        if self.ends is not None:
-            set_array(self, "ends", np.float64, (len(self.kind), 2, 2))
-        for name in ("kind", "polygon", "ring", "index", "source_ring", "source_index"):
-            array = np.ascontiguousarray(getattr(self, name), dtype=np.int8 if name == "kind" else np.int32)
-            if array.ndim != 1 or len(array) != len(self.kind):
-                raise InputError(f"{name} of the sites must be one value a site, but has shape {array.shape}")
-            object.__setattr__(self, name, array)
+    ends: NDArray[np.float64] | None = f.position("sites", 2, 2, default=None)
 
     def __len__(self) -> int:
         return len(self.kind)
@@ -71,7 +62,7 @@ class SiteTable:
         return SiteTable(*taken)
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@record
 class Skeleton(Value, Tabular, Branched, Pictured):
     """A graph of arcs, each a straight line or a part of a parabola, in the units of the input.
 
@@ -136,40 +127,27 @@ class Skeleton(Value, Tabular, Branched, Pictured):
     (5, [(0.0, 0.0), (0.0, 2.0), (1.0, 1.0), (3.0, 1.0), (4.0, 0.0), (4.0, 2.0)])
     """
 
-    vertices: NDArray[np.float64]
-    radius: NDArray[np.float64]
-    arcs: NDArray[np.int32]
-    control: NDArray[np.float64]
-    sites: NDArray[np.int32]
-    site_table: SiteTable
-    polygon: NDArray[np.int32]
-    side: NDArray[np.int8]
-    branch: NDArray[np.int32]
-    length: NDArray[np.float64]
-    error_bound: NDArray[np.float64]
-    polygons: PolygonSet
-    frame: tuple[float, float, float, float] | None = None
-    gap: float = 0.0
+    vertices: NDArray[np.float64] = f.position("nodes", 2)
+    radius: NDArray[np.float64] = f.length("nodes")
+    arcs: NDArray[np.int32] = f.index("arcs", 2)
+    control: NDArray[np.float64] = f.position("arcs", 2)
+    sites: NDArray[np.int32] = f.index("arcs", 2)
+    site_table: SiteTable = f.nested()
+    polygon: NDArray[np.int32] = f.index("arcs")
+    side: NDArray[np.int8] = f.numbers(np.int8, "arcs")
+    branch: NDArray[np.int32] = f.index("arcs")
+    length: NDArray[np.float64] = f.length("arcs")
+    error_bound: NDArray[np.float64] = f.length("arcs")
+    polygons: PolygonSet = f.nested()
+    frame: tuple[float, float, float, float] | None = f.position(default=None)
+    gap: float = f.length(default=0.0)
     features: str = "separate"
     origin: tuple[float, float] = (0.0, 0.0)
     scale: float = 0.0
     border: str = "closed"
 
     def __post_init__(self) -> None:
-        nodes, arcs = len(self.radius), len(self.arcs)
-        for name, dtype, count, width in (
-            ("vertices", np.float64, nodes, 2),
-            ("radius", np.float64, nodes, 0),
-            ("arcs", np.int32, arcs, 2),
-            ("control", np.float64, arcs, 2),
-            ("sites", np.int32, arcs, 2),
-            ("polygon", np.int32, arcs, 0),
-            ("side", np.int8, arcs, 0),
-            ("branch", np.int32, arcs, 0),
-            ("length", np.float64, arcs, 0),
-            ("error_bound", np.float64, arcs, 0),
-        ):
-            set_array(self, name, dtype, (count, width) if width else (count,))
+        super().__post_init__()
         if self.frame is not None:
             x, y, w, h = map(float, self.frame)
             object.__setattr__(self, "frame", (x, y, w, h))

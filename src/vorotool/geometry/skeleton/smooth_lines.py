@@ -2,28 +2,28 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError
-from vorotool.geometry.checks import set_array
 from vorotool.geometry.curves.cubics import cubic_polylines
 from vorotool.geometry.curves.flatten import chained, curve_tolerances
 from vorotool.geometry.numbers import checked_flatten
-from vorotool.geometry.ragged import divides, owners
+from vorotool.geometry.ragged import owners
 from vorotool.geometry.skeleton.led_on import LedOn
 from vorotool.geometry.skeleton.skeleton import Skeleton
 from vorotool.geometry.skeleton.tables import ids_of
 from vorotool.geometry.table import Table
 from vorotool.geometry.values import Curved, Pictured, Tabular, Value, counted, placed
+from vorotool.types import fields as f
+from vorotool.types.fields import record
 
 Floats = NDArray[np.float64]
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@record
 class SmoothLines(Value, Tabular, Curved, Pictured):
     """Cubic Bézier curves along the branches of a skeleton or along centerlines, as `vorotool.smooth` fits them.
 
@@ -54,18 +54,10 @@ class SmoothLines(Value, Tabular, Curved, Pictured):
     [[[0.0, 1.0], [2.0, 1.0], [4.0, 1.0], [6.0, 1.0]]]
     """
 
-    lines: Skeleton | LedOn
-    control: Floats
-    start: NDArray[np.int64]
-    error: Floats
-
-    def __post_init__(self) -> None:
-        count = len(self.error)
-        set_array(self, "control", np.float64, (len(self.control), 4, 2))
-        set_array(self, "start", np.int64, (count + 1,))
-        set_array(self, "error", np.float64, (count,))
-        if not divides(self.start, len(self.control), least=1):
-            raise InputError(f"start must go from 0 to {len(self.control)}, with a curve or more a line")
+    lines: Skeleton | LedOn = f.nested()
+    control: Floats = f.position("curves", 4, 2)
+    start: NDArray[np.int64] = f.starts("lines", "curves", least=1)
+    error: Floats = f.length("lines")
 
     def __len__(self) -> int:
         """Give the number of lines."""

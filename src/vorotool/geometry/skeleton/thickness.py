@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.geometry.pixel_grid import PixelGrid
+from vorotool.types import fields as f
+from vorotool.types.fields import Record, record
 
 
-@dataclass(frozen=True, eq=False)
-class ThicknessImage:
+@record
+class ThicknessImage(Record):
     """The diameter of the largest inscribed disc over each pixel."""
 
-    values: NDArray[np.float64]  # (H, W) float64 array: 0 where there is no object
+    values: NDArray[np.float64] = f.length("rows", "columns")  # (H, W) float64 array: 0 where there is no object
     grid: PixelGrid | None = None  # sides and places of the pixels, where the file says them
 
     @property

@@ -3,21 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError
-from vorotool.geometry.checks import set_array
 from vorotool.geometry.curves.mixed_arcs import MixedArcs
 from vorotool.geometry.polygons.polygon_set import PolygonSet
-from vorotool.geometry.ragged import divides, owners
+from vorotool.geometry.ragged import owners
 from vorotool.geometry.table import Table
 from vorotool.geometry.values import Curved, Graph, Pictured, Tabular, Value, counted, placed
 from vorotool.products.formats import resolved
+from vorotool.types import fields as f
+from vorotool.types.fields import record
 
 if TYPE_CHECKING:
     import pandas
@@ -30,7 +30,7 @@ _TABLES = "geometry.voronoi.tables"
 Floats = NDArray[np.float64]
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@record
 class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
     """Voronoi cells of sites in a frame: the places nearest to each site, at distance 0 inside its polygons.
 
@@ -98,51 +98,26 @@ class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
     ([16.0, 24.0, 24.0], 3, [4.0])
     """
 
-    vertices: Floats
-    radius: Floats
-    arcs: NDArray[np.int32]
-    sites: NDArray[np.int32]
-    control: Floats
-    center: Floats
-    is_cut: NDArray[np.bool_]
-    ring_arcs: NDArray[np.int32]
-    ring_start: NDArray[np.int64]
-    polygon_start: NDArray[np.int64]
-    cell_start: NDArray[np.int64]
-    frame: tuple[float, float, float, float]
-    max_distance: float | None = field(default=None, kw_only=True)
-    clip: PolygonSet | None = field(default=None, kw_only=True)
-    enclosures: PolygonSet | None = field(default=None, kw_only=True)
-    polygons: PolygonSet
-    polygon_site: NDArray[np.int32]
+    vertices: Floats = f.position("vertices", 2)
+    radius: Floats = f.length("vertices")
+    arcs: NDArray[np.int32] = f.index("arcs", 2)
+    sites: NDArray[np.int32] = f.index("arcs", 2)
+    control: Floats = f.position("arcs", 2)
+    center: Floats = f.position("arcs", 2)
+    is_cut: NDArray[np.bool_] = f.numbers(np.bool_, "arcs")
+    ring_arcs: NDArray[np.int32] = f.index("ring_arcs")
+    ring_start: NDArray[np.int64] = f.starts("rings", "ring_arcs", least=1)
+    polygon_start: NDArray[np.int64] = f.starts("shapes", "rings", least=1)
+    cell_start: NDArray[np.int64] = f.starts("cells", "shapes")
+    frame: tuple[float, float, float, float] = f.position()
+    max_distance: float | None = f.length(default=None, kw_only=True)
+    clip: PolygonSet | None = f.nested(default=None, kw_only=True)
+    enclosures: PolygonSet | None = f.nested(default=None, kw_only=True)
+    polygons: PolygonSet = f.nested("polygons")
+    polygon_site: NDArray[np.int32] = f.index("polygons")
     ids: Sequence[Any] | None = None
     properties: dict[str, Any] = field(default_factory=dict)
     index: Any = None
-
-    def __post_init__(self) -> None:
-        arcs, vertices = len(self.arcs), len(self.vertices)
-        for name, dtype, shape in (
-            ("vertices", np.float64, (vertices, 2)),
-            ("radius", np.float64, (vertices,)),
-            ("arcs", np.int32, (arcs, 2)),
-            ("sites", np.int32, (arcs, 2)),
-            ("control", np.float64, (arcs, 2)),
-            ("center", np.float64, (arcs, 2)),
-            ("is_cut", np.bool_, (arcs,)),
-            ("ring_arcs", np.int32, (len(self.ring_arcs),)),
-            ("ring_start", np.int64, (len(self.ring_start),)),
-            ("polygon_start", np.int64, (len(self.polygon_start),)),
-            ("cell_start", np.int64, (len(self.cell_start),)),
-            ("polygon_site", np.int32, (len(self.polygons),)),
-        ):
-            set_array(self, name, dtype, shape)
-        for name, last, least in (
-            ("ring_start", len(self.ring_arcs), 1),
-            ("polygon_start", len(self.ring_start) - 1, 1),
-            ("cell_start", len(self.polygon_start) - 1, 0),
-        ):
-            if not divides(getattr(self, name), last, least=least):
-                raise InputError(f"{name} must rise from 0 to {last}")
 
     def __len__(self) -> int:
         """Give the number of cells, empty ones too."""

@@ -1,0 +1,1 @@
+"""Public values and how they declare what they hold."""

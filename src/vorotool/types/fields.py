@@ -1,0 +1,165 @@
+"""Fields of values, each declared once: its shape, its type, and whether it is a length, a position, an index.
+
+A declaration is what a field is assigned in the body of its class. From it follow the checks of what is given, arrays
+that nobody changes, and what becomes of the field in another unit of length.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import MISSING, dataclass, field, fields
+from enum import Enum
+from typing import Any, TypeVar, dataclass_transform
+
+import numpy as np
+from numpy.typing import DTypeLike, NDArray
+
+from vorotool.errors import InputError
+
+_KEY = "declared"
+Axis = int | str
+"""Length of an axis: a number, or a name that stands for one number in all fields of a value."""
+
+
+class Meaning(Enum):
+    """What the numbers of a field are."""
+
+    LENGTH = "length"
+    AREA = "area"
+    POSITION = "position"
+    NUMBER = "number"
+    VALUE = "value"
+
+
+@dataclass(frozen=True)
+class Declared:
+    """What a field holds."""
+
+    meaning: Meaning
+    shape: tuple[Axis, ...] = ()  # of an array; () for a single number, or a value
+    dtype: DTypeLike | None = None
+    rows_of: Axis | None = None  # of starts of rows: how many items the rows have together
+    least: int = 0  # items of each row
+    is_optional: bool = False
+
+    def settle(self, given: Any, name: str, sizes: dict[str, int]) -> Any:
+        """Check a field and return it as it is kept; lengths that its axes name are noted in `sizes`."""
+        if given is None and self.is_optional:
+            return None
+        if self.meaning is Meaning.VALUE:
+            self._measure(self.shape, (len(given),) if self.shape else (), name, sizes)
+            return given
+        if not self.shape:
+            return given
+        array = np.ascontiguousarray(given, dtype=self.dtype)
+        widths = self.shape[1:]
+        if array.size == 0 and self.rows_of is None and all(isinstance(width, int) for width in widths):
+            array = array.reshape((0, *widths))  # type: ignore[arg-type]
+        if self.rows_of is None:
+            self._measure(self.shape, array.shape, name, sizes)
+        else:
+            self._check_starts(array, name, sizes)
+        return _read_only(array)
+
+    def _measure(self, shape: tuple[Axis, ...], found: tuple[int, ...], name: str, sizes: dict[str, int]) -> None:
+        """Compare a shape with the declared one; the first field that has a named axis says how long it is."""
+        known = tuple(axis if isinstance(axis, int) else sizes.get(axis, axis) for axis in shape)
+        if len(known) != len(found) or any(a != b for a, b in zip(known, found, strict=True) if isinstance(a, int)):
+            raise InputError(f"{name} must have shape {_text(known)}, but has shape {_text(found)}")
+        sizes.update((axis, size) for axis, size in zip(known, found, strict=True) if isinstance(axis, str))
+
+    def _check_starts(self, starts: NDArray[Any], name: str, sizes: dict[str, int]) -> None:
+        """Check starts of rows: 0 first, the number of items last."""
+        (rows,) = self.shape
+        if starts.ndim != 1 or not len(starts):
+            raise InputError(f"{name} must have one dimension and a first entry, but has shape {_text(starts.shape)}")
+        self._measure((rows,), (len(starts) - 1,), name, sizes)
+        last = self.rows_of if isinstance(self.rows_of, int) else sizes.setdefault(str(self.rows_of), int(starts[-1]))
+        if starts[0] != 0 or starts[-1] != last or (np.diff(starts) < self.least).any():
+            empty = ", without empty rows" if self.least else ""
+            raise InputError(f"{name} must rise from 0 to {last}{empty}")
+
+
+def _read_only(array: NDArray[Any]) -> NDArray[Any]:
+    """Return a view that nothing is written through; the caller's own array stays as it is."""
+    if not array.flags.writeable:
+        return array
+    view = array.view()
+    view.flags.writeable = False
+    return view
+
+
+def _text(shape: tuple[Axis, ...]) -> str:
+    return f"({', '.join(map(str, shape))}{',' if len(shape) == 1 else ''})"
+
+
+def _field(
+    meaning: Meaning, shape: tuple[Axis, ...], dtype: DTypeLike | None, default: Any = MISSING, *, kw_only: bool = False
+) -> Any:
+    metadata = {_KEY: Declared(meaning, shape, dtype, is_optional=default is None)}
+    if default is MISSING:
+        return field(metadata=metadata, kw_only=kw_only)
+    return field(default=default, metadata=metadata, kw_only=kw_only)
+
+
+def position(*shape: Axis, default: Any = MISSING, kw_only: bool = False) -> Any:
+    """Declare coordinates: an array whose last axis is x, y; without a shape a box, or a tuple x, y, width, height."""
+    return _field(Meaning.POSITION, shape, np.float64, default, kw_only=kw_only)
+
+
+def length(*shape: Axis, default: Any = MISSING, kw_only: bool = False) -> Any:
+    """Declare lengths: an array, or one number without a shape."""
+    return _field(Meaning.LENGTH, shape, np.float64, default, kw_only=kw_only)
+
+
+def area(*shape: Axis) -> Any:
+    """Declare areas."""
+    return _field(Meaning.AREA, shape, np.float64)
+
+
+def numbers(dtype: DTypeLike, *shape: Axis, default: Any = MISSING) -> Any:
+    """Declare an array of numbers that no unit changes: ratios, labels, counts, flags, indices."""
+    return _field(Meaning.NUMBER, shape, dtype, default)
+
+
+def index(*shape: Axis, default: Any = MISSING) -> Any:
+    """Declare an int32 array of indices from 0."""
+    return numbers(np.int32, *shape, default=default)
+
+
+def starts(rows: Axis, items: Axis, *, least: int = 0) -> Any:
+    """Declare an int64 array of where each row begins among the items of all, and at its end their number."""
+    return field(metadata={_KEY: Declared(Meaning.NUMBER, (rows,), np.int64, rows_of=items, least=least)})
+
+
+def nested(size: Axis | None = None, *, default: Any = MISSING, kw_only: bool = False) -> Any:
+    """Declare another value that has lengths or positions, and its length where other fields have to be as long."""
+    return _field(Meaning.VALUE, () if size is None else (size,), None, default, kw_only=kw_only)
+
+
+def declared(value: object) -> dict[str, Declared]:
+    """Return the declarations of the fields of a value."""
+    return {each.name: each.metadata[_KEY] for each in fields(value) if _KEY in each.metadata}  # type: ignore[arg-type]
+
+
+T = TypeVar("T")
+
+
+@dataclass_transform(
+    eq_default=False,
+    frozen_default=True,
+    field_specifiers=(field, position, length, area, numbers, index, starts, nested),
+)
+def record(kind: type[T]) -> type[T]:
+    """Make a frozen data class of one with declared fields."""
+    decorate: Callable[[type[T]], type[T]] = dataclass(frozen=True, eq=False, repr=False)
+    return decorate(kind)
+
+
+class Record:
+    """A frozen data class whose declared fields are checked when it is made."""
+
+    def __post_init__(self) -> None:
+        sizes: dict[str, int] = {}
+        for name, each in declared(self).items():
+            object.__setattr__(self, name, each.settle(getattr(self, name), name, sizes))
