@@ -137,7 +137,7 @@ def test_what_cannot_be_read():
         digital_triangulation(image)
     with pytest.raises(InputError, match=r"triangles must have shape"):
         vorotool.DigitalTriangulation([[0, 0]], [], [[0, 1]], [False], [1])
-    with pytest.raises(InputError, match="at_four must be as long as triangles"):
+    with pytest.raises(InputError, match="at_four must have shape"):
         vorotool.DigitalTriangulation([[0, 0]], [], [[0, 0, 0]], [], [1])
 
 

@@ -76,11 +76,11 @@ class CellSet(Value, Tabular, Geometric, Pictured):
 
     sites: NDArray[np.float64] = f.position("sites", 2)
     coordinates: NDArray[np.float64] = f.position("vertices", 2)
-    starts: NDArray[np.int64]
+    starts: NDArray[np.int64] = f.numbers(np.int64, "starts")
     frame: Box = f.position()
-    polygon_starts: NDArray[np.int64] | None = None
-    cell_starts: NDArray[np.int64] | None = None
-    labels: NDArray[np.int64] | None = None
+    polygon_starts: NDArray[np.int64] | None = f.numbers(np.int64, "shells", default=None)
+    cell_starts: NDArray[np.int64] | None = f.numbers(np.int64, "cells", default=None)
+    labels: NDArray[np.int64] | None = f.numbers(np.int64, "sites", default=None)
     properties: dict[str, Any] = field(default_factory=dict)
     y_up: bool = False
     crs: Any = None

@@ -87,7 +87,7 @@ class Triangulation(Value, Tabular, WithParts, Graph, Pictured):
     edges: NDArray[np.int32] = f.index("edges", 2)
     hull: NDArray[np.int32] = f.index("hull")
     first: NDArray[np.int32] = f.index("points")
-    labels: NDArray[np.int64] | None = None
+    labels: NDArray[np.int64] | None = f.numbers(np.int64, "points", default=None)
     properties: dict[str, Any] = field(default_factory=dict)
     y_up: bool = False
     crs: Any = None

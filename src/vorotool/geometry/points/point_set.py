@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any
 
 import numpy as np
@@ -13,9 +13,11 @@ from vorotool.geometry.checks import whole_numbers
 from vorotool.geometry.coordinates import coordinate_rows
 from vorotool.geometry.row_index import check_index
 from vorotool.geometry.values import Geometric, Pictured, Tabular, Value, counted, placed
+from vorotool.types import fields as f
+from vorotool.types.fields import record
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@record
 class PointSet(Value, Tabular, Geometric, Pictured):
     """A list of points in the order of the input.
 
@@ -48,8 +50,8 @@ class PointSet(Value, Tabular, Geometric, Pictured):
     array([1, 2])
     """
 
-    xy: NDArray[np.float64]
-    labels: NDArray[np.int64] | None = None
+    xy: NDArray[np.float64] = f.position("points", 2)
+    labels: NDArray[np.int64] | None = f.numbers(np.int64, "points", default=None)
     properties: dict[str, Any] = field(default_factory=dict)
     y_up: bool = False
     crs: Any = None
@@ -60,6 +62,7 @@ class PointSet(Value, Tabular, Geometric, Pictured):
         object.__setattr__(self, "xy", finite_rows(self.xy, 2))
         if self.labels is not None:
             object.__setattr__(self, "labels", checked_labels(self.labels, len(self.xy)))
+        super().__post_init__()
         check_index(self.index, len(self.xy), "point")
 
     def __len__(self) -> int:

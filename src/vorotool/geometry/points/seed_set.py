@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cached_property
 from typing import Any
 
@@ -15,12 +15,14 @@ from vorotool.geometry.pixel_frame import Frame
 from vorotool.geometry.pixel_grid import PixelGrid
 from vorotool.geometry.row_index import check_index
 from vorotool.geometry.values import Geometric, Pictured, Tabular, Value, counted
+from vorotool.types import fields as f
+from vorotool.types.fields import record
 
 SCALES = tuple(2**k for k in range(41))
 """Lattice steps a pixel: up to those of the smallest frame, see `finest_scale`."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@record
 class SeedSet(Value, Tabular, Geometric, Pictured):
     """Generators of a digital Voronoi tessellation, several of which may share a label.
 
@@ -63,14 +65,14 @@ class SeedSet(Value, Tabular, Geometric, Pictured):
     (1, 2)
     """
 
-    x: NDArray[np.int64]
-    y: NDArray[np.int64]
-    labels: NDArray[np.uint32]
+    x: NDArray[np.int64] = f.numbers(np.int64, "seeds")
+    y: NDArray[np.int64] = f.numbers(np.int64, "seeds")
+    labels: NDArray[np.uint32] = f.numbers(np.uint32, "seeds")
     scale: int = 1
     frame: Frame | None = None
-    sites: NDArray[np.float64] | None = None
-    site_labels: NDArray[np.uint32] | None = None
-    object_area: NDArray[np.int64] | None = None
+    sites: NDArray[np.float64] | None = f.numbers(np.float64, "sites", 2, default=None)
+    site_labels: NDArray[np.uint32] | None = f.numbers(np.uint32, "sites", default=None)
+    object_area: NDArray[np.int64] | None = f.numbers(np.int64, "sites", default=None)
     properties: dict[str, Any] = field(default_factory=dict)
     snapped: int = 0
     largest_move: float = 0.0
@@ -95,6 +97,7 @@ class SeedSet(Value, Tabular, Geometric, Pictured):
             sites = np.stack([self.x[chosen], self.y[chosen]], axis=1) / self.scale
             object.__setattr__(self, "sites", sites)
             object.__setattr__(self, "site_labels", labels)
+        super().__post_init__()
         assert self.sites is not None
         check_index(self.index, len(self.sites), "site")
 

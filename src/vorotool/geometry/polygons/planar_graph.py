@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cached_property
 
 import numpy as np
@@ -11,6 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 from vorotool.errors import InputError
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.values import Geometric, Graph, Pictured, Tabular, Value, counted, placed
+from vorotool.types import fields as f
+from vorotool.types.fields import record
 
 REPAIRS = (
     "repeated_vertices",
@@ -26,7 +28,7 @@ _FAR = 2.0**30
 """Beyond all points of a lattice."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@record
 class PlanarGraph(Value, Tabular, Geometric, Graph, Pictured):
     """Distinct lattice points, and segments between them that meet at common ends only.
 
@@ -92,14 +94,14 @@ class PlanarGraph(Value, Tabular, Geometric, Graph, Pictured):
     (2, [False, True])
     """
 
-    points: NDArray[np.int32]
-    segments: NDArray[np.int32]
-    point_vertex: NDArray[np.int32]
-    source_start: NDArray[np.int32]
-    source_edge: NDArray[np.int32]
-    segment_faces: NDArray[np.int32]
-    face_start: NDArray[np.int32]
-    face_polygon: NDArray[np.int32]
+    points: NDArray[np.int32] = f.index("points", 2)
+    segments: NDArray[np.int32] = f.index("segments", 2)
+    point_vertex: NDArray[np.int32] = f.index("points")
+    source_start: NDArray[np.int32] = f.index("sources")
+    source_edge: NDArray[np.int32] = f.index("edges")
+    segment_faces: NDArray[np.int32] = f.index("segments", 2)
+    face_start: NDArray[np.int32] = f.index("faces")
+    face_polygon: NDArray[np.int32] = f.index("polygons")
     origin: tuple[float, float] = (0.0, 0.0)
     scale: float = 1.0
     largest_move: float = 0.0
@@ -109,16 +111,8 @@ class PlanarGraph(Value, Tabular, Geometric, Graph, Pictured):
     point_holes: NDArray[np.int32] = field(default_factory=lambda: np.empty((0, 3), dtype=np.int32))
 
     def __post_init__(self) -> None:
-        pairs = {"points", "segments", "segment_faces"}
-        for name in ("point_vertex", "source_start", "source_edge", "face_start", "face_polygon", *sorted(pairs)):
-            array = np.ascontiguousarray(getattr(self, name), dtype=np.int32)
-            if name in pairs and array.size == 0:
-                array = array.reshape(0, 2)
-            if array.ndim != 1 + (name in pairs) or (name in pairs and array.shape[1] != 2):
-                raise InputError(f"{name} must have shape {'(…, 2)' if name in pairs else '(…,)'}, not {array.shape}")
-            object.__setattr__(self, name, array)
-        lengths = (len(self.points), len(self.segments), len(self.segments))
-        if (len(self.point_vertex), len(self.segment_faces), len(self.source_start) - 1) != lengths:
+        super().__post_init__()
+        if len(self.source_start) - 1 != len(self.segments):
             raise InputError("the arrays of a planar graph have lengths that do not go together")
 
     def __len__(self) -> int:

@@ -73,11 +73,11 @@ class PolygonSet(Value, Tabular, Geometric, Pictured):
     """
 
     xy: NDArray[np.float64] = f.position("vertices", 2)
-    ring_start: NDArray[np.int64]
-    ring_kind: NDArray[np.int8]
-    ring_polygon: NDArray[np.int32]
+    ring_start: NDArray[np.int64] = f.numbers(np.int64, "starts")
+    ring_kind: NDArray[np.int8] = f.numbers(np.int8, "rings")
+    ring_polygon: NDArray[np.int32] = f.index("rings")
     ids: Sequence[Any] | None = None
-    feature: NDArray[np.int32] | None = None
+    feature: NDArray[np.int32] | None = f.index("polygons", default=None)
     properties: dict[str, Any] = field(default_factory=dict)
     y_up: bool = False
     crs: Any = None
@@ -87,13 +87,13 @@ class PolygonSet(Value, Tabular, Geometric, Pictured):
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "xy", coordinate_rows(self.xy, "vertex"))
-        super().__post_init__()
         for name, dtype in (("ring_start", np.int64), ("ring_kind", np.int8), ("ring_polygon", np.int32)):
             object.__setattr__(self, name, _integers(getattr(self, name), dtype, name))
         _check_rings(self.ring_start, self.ring_kind, self.ring_polygon, len(self.xy))
         count = len(self)
         feature = np.arange(count) if self.feature is None else self.feature
         object.__setattr__(self, "feature", _checked_features(feature, count))
+        super().__post_init__()
         for name, values in [*self.properties.items(), ("ids", self.ids)]:
             if values is not None and len(values) != count:
                 raise InputError(f"{name} must hold one value a polygon, {count}, but holds {len(values)}")

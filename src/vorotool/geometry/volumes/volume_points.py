@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any
 
 import numpy as np
@@ -11,9 +11,11 @@ from numpy.typing import DTypeLike, NDArray
 from vorotool.geometry.points.point_set import checked_labels, finite_rows
 from vorotool.geometry.row_index import check_index
 from vorotool.geometry.values import Value, counted
+from vorotool.types import fields as f
+from vorotool.types.fields import record
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@record
 class VolumePoints(Value):
     """A list of points of space in the order of the input.
 
@@ -40,8 +42,8 @@ class VolumePoints(Value):
     array([1, 2])
     """
 
-    xyz: NDArray[np.float64]
-    labels: NDArray[np.int64] | None = None
+    xyz: NDArray[np.float64] = f.position("points", 3)
+    labels: NDArray[np.int64] | None = f.numbers(np.int64, "points", default=None)
     properties: dict[str, Any] = field(default_factory=dict)
     index: Any = None
 
@@ -49,6 +51,7 @@ class VolumePoints(Value):
         object.__setattr__(self, "xyz", finite_rows(self.xyz, 3))
         if self.labels is not None:
             object.__setattr__(self, "labels", checked_labels(self.labels, len(self.xyz)))
+        super().__post_init__()
         check_index(self.index, len(self.xyz), "point")
 
     def __len__(self) -> int:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cached_property
 from typing import Any
 
@@ -15,12 +15,14 @@ from vorotool.geometry.row_index import check_index
 from vorotool.geometry.values import Value, counted
 from vorotool.geometry.volumes.voxel_frame import VoxelFrame
 from vorotool.geometry.volumes.voxel_grid import VoxelGrid
+from vorotool.types import fields as f
+from vorotool.types.fields import record
 
 FINEST_SCALE = 256
 """Lattice steps a voxel at most: coordinates are kept to 1/256 of a voxel."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@record
 class VolumeSeeds(Value):
     """Generators of the digital Voronoi tessellation of a volume, several of which may share a label.
 
@@ -66,13 +68,13 @@ class VolumeSeeds(Value):
     (1, 2)
     """
 
-    places: NDArray[np.int64]
-    labels: NDArray[np.uint32]
+    places: NDArray[np.int64] = f.numbers(np.int64, "seeds", 3)
+    labels: NDArray[np.uint32] = f.numbers(np.uint32, "seeds")
     scale: int = 1
     frame: VoxelFrame | None = None
-    sites: NDArray[np.float64] | None = None
-    site_labels: NDArray[np.uint32] | None = None
-    object_volume: NDArray[np.int64] | None = None
+    sites: NDArray[np.float64] | None = f.numbers(np.float64, "sites", 3, default=None)
+    site_labels: NDArray[np.uint32] | None = f.numbers(np.uint32, "sites", default=None)
+    object_volume: NDArray[np.int64] | None = f.numbers(np.int64, "sites", default=None)
     properties: dict[str, Any] = field(default_factory=dict)
     snapped: int = 0
     largest_move: float = 0.0
@@ -98,6 +100,7 @@ class VolumeSeeds(Value):
             labels, first = np.unique(self.labels, return_index=True)
             object.__setattr__(self, "sites", self.places[first] / self.scale)
             object.__setattr__(self, "site_labels", labels)
+        super().__post_init__()
         assert self.sites is not None
         check_index(self.index, len(self.sites), "site")
 

@@ -1,0 +1,116 @@
+"""Values declare their fields: these are checked and read-only, and arrays of the caller stay as they are."""
+
+from dataclasses import fields, replace
+from importlib import import_module
+
+import numpy as np
+import pytest
+
+import vorotool
+from vorotool import InputError
+from vorotool.geometry.values import Value
+from vorotool.types import fields as f
+from vorotool.types.fields import Meaning, Record, declared, record
+
+ROOM = [[0, 0], [4, 0], [4, 1.5], [6, 1.5], [6, 0], [12, 0], [12, 6], [6, 6], [6, 2.5], [4, 2.5], [4, 4], [0, 4]]
+POINTS = [[0, 0], [4, 0], [0, 3], [5, 5], [2, 1]]
+
+
+VALUES = {
+    "points": lambda: vorotool.PointSet(POINTS, labels=[3, 1, 2, 5, 4]),
+    "seeds": lambda: vorotool.SeedSet([1, 2], [3, 4], [1, 2]),
+    "mesh": lambda: vorotool.delaunay(POINTS),
+    "cells": lambda: vorotool.voronoi_cells(vorotool.delaunay(POINTS)),
+    "graph": lambda: vorotool.proximity_graph(POINTS, "gabriel"),
+    "shape": lambda: vorotool.alpha_shape(POINTS, r=3),
+    "family": lambda: vorotool.alpha_complex(POINTS),
+    "hull": lambda: vorotool.alpha_hull(vorotool.alpha_shape(POINTS, r=3)),
+    "skeleton": lambda: vorotool.skeleton_exact(ROOM),
+    "polygons": lambda: vorotool.skeleton_exact(ROOM).polygons,
+    "sites": lambda: vorotool.skeleton_exact(ROOM).site_table,
+    "necks": lambda: vorotool.necks(ROOM),
+    "parts": lambda: vorotool.parts(ROOM),
+    "offsets": lambda: vorotool.offset(ROOM, [-0.25]),
+    "discs": lambda: vorotool.largest_discs(ROOM, count=2),
+    "points along": lambda: vorotool.points_along(vorotool.skeleton_exact(ROOM), every=1),
+    "centerlines": lambda: vorotool.centerline(ROOM),
+    "critical values": lambda: vorotool.critical_values(vorotool.skeleton_exact(ROOM), "angle"),
+    "map": lambda: vorotool.voronoi([ROOM]),
+}
+
+
+@pytest.mark.parametrize("value", VALUES)
+def test_arrays_of_values_are_read_only_and_of_their_types(value):
+    value = VALUES[value]()
+    arrays = {name: each for name, each in declared(value).items() if each.dtype is not None and each.shape}
+    arrays = {name: each for name, each in arrays.items() if getattr(value, name) is not None}
+    assert arrays
+    for name, each in arrays.items():
+        array = getattr(value, name)
+        assert array.dtype == each.dtype
+        with pytest.raises(ValueError, match="read-only"):
+            array[...] = array[...]
+    assert replace(value) == value
+
+
+def test_every_array_of_a_value_is_declared():
+    for make in VALUES.values():
+        value = make()
+        kept = {each.name for each in fields(value) if isinstance(getattr(value, each.name), np.ndarray)}
+        assert kept <= declared(value).keys() | {"vertices", "point_holes"}, type(value).__name__
+
+
+def test_the_array_that_is_given_stays_the_callers():
+    xy = np.array(POINTS, dtype=float)
+    mesh = vorotool.delaunay(xy)
+    kept = mesh.points.copy()
+    xy[0] = 7
+    assert xy.flags.writeable
+    assert isinstance(mesh, Value)
+    assert (mesh.points == kept).all()
+
+
+@record
+class Strip(Record):
+    """What a value may declare."""
+
+    rows: np.ndarray = f.starts("rows", "items", least=1)
+    xy: np.ndarray = f.position("items", 2)
+    width: np.ndarray = f.length("rows")
+    other: np.ndarray | None = f.index("rows", default=None)
+
+
+GOOD = {"rows": [0, 2, 3], "xy": [[0, 0], [1, 0], [2, 0]], "width": [1, 2]}
+
+
+@pytest.mark.parametrize(
+    ("changed", "named"),
+    [
+        ({"xy": [[0, 0, 0]] * 3}, r"xy must have shape \(3, 2\), but has shape \(3, 3\)"),
+        ({"xy": [[0, 0]] * 2}, r"xy must have shape \(3, 2\)"),
+        ({"width": [1]}, r"width must have shape \(2,\), but has shape \(1,\)"),
+        ({"width": [[1, 2]]}, "width must have shape"),
+        ({"rows": [0, 0, 3]}, "rows must rise from 0 to 3, without empty rows"),
+        ({"rows": [1, 2, 3]}, "rows must rise from 0 to 3"),
+        ({"rows": []}, "rows must have one dimension"),
+        ({"other": [1, 2, 3]}, r"other must have shape \(2,\)"),
+    ],
+)
+def test_what_does_not_go_together_is_refused(changed, named):
+    assert Strip(**GOOD).other is None
+    assert Strip(**GOOD, other=[1, 0]).other.tolist() == [1, 0]
+    with pytest.raises(InputError, match=named):
+        Strip(**{**GOOD, **changed})
+
+
+def test_no_rows_need_no_shape():
+    empty = Strip([0], [], [])
+    assert (empty.xy.shape, empty.width.shape, empty.rows.tolist()) == ((0, 2), (0,), [0])
+
+
+def test_lengths_and_positions_scale_as_they_are_declared():
+    scaled = import_module("vorotool.geometry.any.scaling").scaled
+    made = scaled(Strip(**GOOD), 2, (10.0, 20.0))
+    assert made.width.tolist() == [2, 4]
+    assert made.xy.tolist() == [[10, 20], [12, 20], [14, 20]]
+    assert {each.meaning for each in declared(made).values()} == {Meaning.NUMBER, Meaning.POSITION, Meaning.LENGTH}
