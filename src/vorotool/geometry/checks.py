@@ -66,23 +66,6 @@ def set_rows(value: object, name: str, dtype: DTypeLike, width: int = 0) -> None
     object.__setattr__(value, name, array)
 
 
-def set_array(value: object, name: str, dtype: DTypeLike, shape: tuple[int, ...]) -> None:
-    """Give an array of a frozen value its type; its shape is known."""
-    array = np.ascontiguousarray(getattr(value, name), dtype=dtype)
-    if array.size == 0 and shape[0] == 0:
-        array = array.reshape(shape)
-    if array.shape != shape:
-        raise InputError(f"{name} must have shape {shape}, but has {array.shape}")
-    object.__setattr__(value, name, array)
-
-
-def check_as_long(value: object, name: str, like: str) -> None:
-    """Refuse two arrays of a value that differ in length."""
-    own, other = len(getattr(value, name)), len(getattr(value, like))
-    if own != other:
-        raise InputError(f"{name} must be as long as {like}, but they have {own} and {other} rows")
-
-
 def whole_numbers(values: Any, name: str, dtype: DTypeLike, least: int | None = None) -> NDArray[Any]:
     """Return integers in a type that holds them; nothing is rounded or wrapped."""
     kind = np.dtype(dtype)

@@ -257,7 +257,7 @@ def test_shapes_of_arrays():
     graph, _ = quietly(SQUARE)
     with pytest.raises(InputError, match="segments must have shape"):
         replace(graph, segments=np.zeros((2, 3)))
-    with pytest.raises(InputError, match="do not go together"):
+    with pytest.raises(InputError, match="point_vertex must have shape"):
         replace(graph, point_vertex=np.zeros(3))
     assert isinstance(graph, PlanarGraph)
     assert isinstance(graph.polygons, PolygonSet)

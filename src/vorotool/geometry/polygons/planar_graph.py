@@ -113,7 +113,7 @@ class PlanarGraph(Value, Tabular, Geometric, Graph, Pictured):
     def __post_init__(self) -> None:
         super().__post_init__()
         if len(self.source_start) - 1 != len(self.segments):
-            raise InputError("the arrays of a planar graph have lengths that do not go together")
+            raise InputError("source_start must have an entry more than there are segments")
 
     def __len__(self) -> int:
         return len(self.segments)

@@ -68,7 +68,7 @@ class VolumeSeeds(Value):
     (1, 2)
     """
 
-    places: NDArray[np.int64] = f.numbers(np.int64, "seeds", 3)
+    places: NDArray[np.int64]
     labels: NDArray[np.uint32] = f.numbers(np.uint32, "seeds")
     scale: int = 1
     frame: VoxelFrame | None = None
