@@ -11,10 +11,11 @@ ROOT = Path(__file__).parents[2]
 PICTURE = ROOT / "docs/images/front.svg"
 
 
-def test_it_is_drawn_by_its_rule(tmp_path):
+def test_it_is_drawn_by_its_rule(tmp_path, warm):
     if not (ROOT / "build" / ".installed").exists() or shutil.which("make") is None:
         pytest.skip("it is drawn by make, in an environment made by make")
     asked = ["make", "--silent", "front", f"FRONT_FOLDER={tmp_path}", f"FRONT_PICTURE={tmp_path}/front.svg"]
+    asked.append(f"VOROTOOL={shutil.which('vorotool', path=warm['PATH'])}")
     subprocess.run(asked, cwd=ROOT, check=True, capture_output=True)
     assert (tmp_path / "front.svg").read_bytes() == PICTURE.read_bytes()
 

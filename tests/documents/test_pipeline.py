@@ -6,14 +6,14 @@ from pathlib import Path
 
 import pytest
 
-from support.processes.ended import ENVIRONMENT, ended
+from support.processes.ended import ended
 
 ROOT = Path(__file__).parents[2]
 pytestmark = pytest.mark.skipif(shutil.which("make") is None, reason="make is not there")
 
 
 @pytest.fixture
-def make(tmp_path):
+def make(tmp_path, warm):
     """Run make in a folder with two lists of points and a mask; gives what it has run, and the exit code."""
     for folder, names in (("points", ("six-seeds.csv", "dots.csv")), ("masks", ("blobs.png",))):
         (tmp_path / folder).mkdir()
@@ -22,7 +22,7 @@ def make(tmp_path):
 
     def run(*arguments):
         makefile = ROOT / "docs/pipeline/Makefile"
-        done = ended("make", "-f", makefile, "-j", "2", "SIZE=400x400", *arguments, cwd=tmp_path, env=ENVIRONMENT)
+        done = ended("make", "-f", makefile, "-j", "2", "SIZE=400x400", *arguments, cwd=tmp_path, env=warm)
         commands = [line.split()[1:3] for line in done.stdout.splitlines() if line.startswith("vorotool ")]
         return sorted(commands), done.returncode, done.stderr
 

@@ -14,7 +14,7 @@ import socket
 import subprocess
 import sys
 import time
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 CLIENT = """#!{python} -IS
@@ -30,7 +30,7 @@ os._exit(code[0] if code else 70)
 """A program that has another process do its work, and ends as that one does; without the server, with code 70."""
 
 LIBRARIES = ("PIL.Image", "orjson", "numpy", "shapely", "click.shell_completion", "pyogrio", "pandas", "pyarrow")
-"""Further modules that nearly every command needs."""
+"""Further modules that commands and blocks need."""
 
 
 @contextmanager
@@ -63,7 +63,10 @@ def _serve(address):
 
     import vorotool
 
-    for name in (*LIBRARIES, *(module.name for module in pkgutil.walk_packages(vorotool.__path__, "vorotool."))):
+    for name in LIBRARIES:
+        with suppress(ImportError):  # it is of an extra that is not there
+            importlib.import_module(name)
+    for name in (module.name for module in pkgutil.walk_packages(vorotool.__path__, "vorotool.")):
         if not name.endswith("__main__"):
             importlib.import_module(name)
     gc.freeze()
