@@ -93,7 +93,7 @@ def test_an_interrupt_waits_for_what_is_being_written(tmp_path, monkeypatch, thr
         if (path.name == "zarr.json") == (step == "metadata"):
             if not interrupted:
                 interrupted.append(signal.pthread_kill(main, signal.SIGINT))
-            time.sleep(0.3)
+            time.sleep(0.15)
         return put(path, *arguments, **options)
 
     interrupted = []
@@ -101,5 +101,5 @@ def test_an_interrupt_waits_for_what_is_being_written(tmp_path, monkeypatch, thr
     with pytest.raises(KeyboardInterrupt):
         write_zarr(tmp_path / "a.zarr", np.ones((4, 9000), np.uint8), threads=threads)
     assert list(tmp_path.iterdir()) == []
-    time.sleep(0.5)
+    time.sleep(0.25)
     assert list(tmp_path.iterdir()) == []
