@@ -8,12 +8,13 @@ from math import sqrt
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from vorotool.geometry.curves.inverse_functions import hypotenuse
 from vorotool.geometry.numbers import nearest_double
 from vorotool.geometry.row_index import check_index
 from vorotool.geometry.values import Graph, Pictured, Tabular, Value, WithParts, counted, placed
+from vorotool.products.formats import resolved
 from vorotool.types import fields as f
 from vorotool.types.fields import record
 
@@ -100,6 +101,39 @@ class Triangulation(Value, Tabular, WithParts, Graph, Pictured):
 
     def __len__(self) -> int:
         return len(self.triangles)
+
+    @classmethod
+    def from_triangles(cls, points: Any, triangles: ArrayLike) -> Triangulation:
+        """Make a triangulation of points and triangles from elsewhere, such as scipy's or Triangle's.
+
+        Parameters
+        ----------
+        points : (n, 2) array, or points as `vorotool.delaunay` takes them
+            The points.
+        triangles : (t, 3) array of int
+            Indices from 0 of the corners of each triangle, in either direction.
+
+        Returns
+        -------
+        Triangulation
+            With the triangles in their order, all counter-clockwise. Whether it is Delaunay is for
+            `vorotool.verify_triangulation` to say.
+
+        Raises
+        ------
+        InputError
+            If an index is out of range, a triangle has no area, two overlap along an edge, or the triangles do not
+            fill one region without holes.
+
+        Examples
+        --------
+        >>> square = [[0, 0], [2, 0], [2, 1], [0, 1]]
+        >>> mesh = Triangulation.from_triangles(square, [[0, 1, 2], [3, 2, 0]])
+        >>> mesh.triangles.tolist(), mesh.neighbours.tolist(), mesh.hull.tolist()
+        ([[0, 1, 2], [3, 0, 2]], [[-1, 1, -1], [0, -1, -1]], [0, 1, 2, 3])
+        """
+        made: Triangulation = resolved("engines.delaunay.from_triangles:triangulation_of")(points, triangles)
+        return made
 
     @property
     def label_array(self) -> NDArray[np.int64]:
