@@ -5,7 +5,7 @@ VENV    := .venv
 BIN     := $(VENV)/bin
 RUN     := $(BIN)/python
 BUILD   := build
-PIP     := pip install --quiet --disable-pip-version-check
+PIP     := pip install --quiet --disable-pip-version-check --no-compile
 NEEDED  := $(PYTHON) tools/requirements.py
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
