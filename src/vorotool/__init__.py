@@ -19,6 +19,7 @@ _HOME = {
     "VerificationError": "vorotool.errors",
     "VorotoolError": "vorotool.errors",
     "VorotoolWarning": "vorotool.errors",
+    "RepairWarning": "vorotool.errors",
     "Box": "vorotool.geometry.box",
     "CellSet": "vorotool.geometry.mesh.cells",
     "Frame": "vorotool.geometry.pixel_frame",

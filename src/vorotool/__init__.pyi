@@ -225,6 +225,9 @@ from vorotool.errors import (
     OutputError as OutputError,
 )
 from vorotool.errors import (
+    RepairWarning as RepairWarning,
+)
+from vorotool.errors import (
     UsageError as UsageError,
 )
 from vorotool.errors import (

@@ -49,7 +49,6 @@ BAD_INPUTS = {
         3,
         ["label.npy: the image holds the value -7 in row 1, column 2"],
     ),
-    "label.csv": (b"x,y,label\n1,2,0\n", 3, ["label", "0"]),
     "deep.json": (b"[" * 100_000, 3, ["nested"]),
     "deep.wkt": (b"GEOMETRYCOLLECTION(" * 5000, 3, ["nested"]),
     "cut.json": (b"[[1, 2], [3", 3, ["cut.json"]),

@@ -30,7 +30,7 @@ MAP_NAMES = (*LONGITUDE_LATITUDE_NAMES, ("easting", "northing"), ("e", "n"))
 
 
 def coordinate_columns(names: Sequence[str]) -> list[int] | None:
-    """Find the columns of a table that are its coordinates, and its label where it has no others."""
+    """Find the columns of a table that are its coordinates, and then the one that is called label."""
     return _known_columns(names, COORDINATE_NAMES)
 
 
@@ -43,7 +43,7 @@ def _known_columns(names: Sequence[str], known: Sequence[tuple[str, ...]]) -> li
     plain = [plain_name(name) for name in names]
     for group in known:
         if all(plain.count(each) == 1 for each in group):
-            label = [plain.index("label")] if sorted(plain) == sorted(["label", *known[0]]) else []
+            label = [plain.index("label")] if plain.count("label") == 1 else []
             return [*(plain.index(each) for each in group), *label]
     return None
 

@@ -9,7 +9,17 @@ from numpy.typing import NDArray
 
 from vorotool.geometry.table import Table
 
+MEASURE = "measure"
+"""The first column of summaries: the name of what a row sums up."""
 _QUANTILES = {"min": 0.0, "lower_quartile": 0.25, "median": 0.5, "upper_quartile": 0.75, "max": 1.0}
+
+
+_POWERS = {"perimeter": "", "nearest_distance": "", "tree_length": "", "area": "2"}
+
+
+def unit_of_measure(name: str, unit: str) -> str | None:
+    """Return the unit of a row: of a length the unit, of an area its square, of counts and ratios none."""
+    return f"{unit}{_POWERS[name]}" if name in _POWERS else None
 
 
 def summary_table(measures: Mapping[str, NDArray[np.float64]]) -> Table:
@@ -19,7 +29,7 @@ def summary_table(measures: Mapping[str, NDArray[np.float64]]) -> Table:
     columns = np.array(rows).reshape(len(rows), len(names)).T
     numbers = {name: np.ma.masked_invalid(column) for name, column in zip(names, columns, strict=True)}
     counts = np.array([len(values) for values in measures.values()], dtype=np.int64)
-    return Table({"measure": list(measures), "count": counts, **numbers})
+    return Table({MEASURE: list(measures), "count": counts, **numbers})
 
 
 def _row(values: NDArray[np.float64]) -> list[float]:

@@ -30,7 +30,7 @@ from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.table import Table
 from vorotool.jobs.animations import check_size, layer_pixels, parts_of_whole, write_frames
-from vorotool.jobs.inputs import JobInput, frame_of, read_sites, window_of
+from vorotool.jobs.inputs import JobInput, frame_of, note_repeated_labels, read_sites, window_of
 from vorotool.jobs.names import OF_ONE_SHAPE, PLOTS
 from vorotool.jobs.options import AlphaShapeOptions
 from vorotool.jobs.picture_style import styled_page
@@ -107,7 +107,9 @@ class ShapeProducts:
 
         o = self.options
         if o.method == "exact" or not len(points):
-            return delaunay(points, strict=o.strict, threads=o.threads, progress=progress)
+            exact = delaunay(points, strict=o.strict, threads=o.threads, progress=progress)
+            note_repeated_labels(self.run, points, exact)
+            return exact
         seeds = points if isinstance(points, SeedSet) else seeds_in_frame(points, partial(frame_of, o), strict=o.strict)
         frame: Any = {"window": window_of(o, seeds), "strict": o.strict, "threads": o.threads}
         mesh: AnyTriangulation

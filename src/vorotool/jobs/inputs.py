@@ -22,6 +22,7 @@ from vorotool.jobs.units import known_length
 if TYPE_CHECKING:
     from vorotool.engines.tessellation.seeding import SeedMode
     from vorotool.formats.opening import Opened
+    from vorotool.geometry.mesh.triangulation import Triangulation
     from vorotool.geometry.pixel_frame import Frame
     from vorotool.geometry.points.point_set import PointSet
     from vorotool.geometry.points.raster import Raster
@@ -253,6 +254,12 @@ def note_other_size(run: Run, o: JobOptions, given: JobInput, shape: Sequence[in
         f"{o.overlay} has {width} x {height} pixels, the input {shape[1]} x {shape[0]}: both begin in one corner, and "
         "what lies beside the overlay is not drawn"
     )
+
+
+def note_repeated_labels(run: Run, points: PointSet | SeedSet, mesh: Triangulation) -> None:
+    """Say that labels name groups of points, where they repeat."""
+    if getattr(points, "labels", None) is not None and mesh.labels is None and len(mesh.points):
+        run.note("labels repeat: points are numbered from 1, and label is a column of its own")
 
 
 def refuse(options: Mapping[str, Any], reason: str) -> None:

@@ -20,7 +20,7 @@ from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.geometry.progress import Progress
 from vorotool.jobs.cuts import read_clip
-from vorotool.jobs.inputs import JobInput, read_sites
+from vorotool.jobs.inputs import JobInput, note_repeated_labels, read_sites
 from vorotool.jobs.options import Rectangle, TriangulationOptions
 from vorotool.jobs.picture_style import styled_page
 from vorotool.jobs.picture_world import check_column, world_of_sites
@@ -95,7 +95,9 @@ class MeshProducts:
 
     def _triangulate(self, points: PointSet | SeedSet, progress: Progress) -> AnyTriangulation:
         o = self.options
-        return delaunay(in_steps(o, points), strict=o.strict, threads=o.threads, progress=progress)
+        mesh = delaunay(in_steps(o, points), strict=o.strict, threads=o.threads, progress=progress)
+        note_repeated_labels(self.run, points, mesh)
+        return mesh
 
     def check(self, target: Target) -> None:
         """Refuse what cannot be written, and say what will be empty, before anything is written."""

@@ -190,7 +190,6 @@ def test_text_is_for_people(run, tmp_path):
         "  y          down\n"
         "  labels     the input's own\n"
         "  taken by   tessellate, delaunay, alphashape, voronoi, distance\n"
-        "  note       a.csv: columns x, y, label are read as x, y, label\n"
         "a.tif\n"
         "  format     tiff\n"
         "  kind       mask\n"

@@ -127,7 +127,7 @@ def test_columns_are_scaled_by_what_they_are(run, tmp_path, options):
     assert len(plain) == len(scaled) > 0
     for name in plain[0]:
         before, after = ([row[name] for row in rows] for rows in (plain, scaled))
-        assert {row["unit"] for row in scaled} == {"µm"}
+        assert {row["unit"] for row in scaled} == {"um"}
         own = name if name == "length" else name.removeprefix("voro_")
         if own in KEPT or own == "length":
             assert after == before, name
@@ -216,7 +216,7 @@ def values_of(path, name):
 def test_each_table_tells_its_unit_at_its_end(run, tmp_path, options, fmt):
     command, *more = options.split()
     source = write_inputs(tmp_path / "in", command, 1)
-    for size, unit in (("0.5um", "um"), ("0.5 µm", "µm"), ("0.5", None)):
+    for size, unit in (("0.5um", "um"), ("0.5 µm", "um"), ("0.5", None)):
         assert run(command, source, *more, "-q", "-o", f"a.{fmt}", "--pixel-size", size).code == 0
         units = values_of(tmp_path / f"a.{fmt}", "unit")
         assert units is None if unit is None else set(units) == {unit}
@@ -227,6 +227,19 @@ def test_each_table_tells_its_unit_at_its_end(run, tmp_path, options, fmt):
         assert plain == scaled, "no unit, no column"
         run(command, source, *more, "-q", "-o", "c.csv", "--pixel-size", "3mm")
         assert (tmp_path / "c.csv").read_text().splitlines()[0] == f"{plain},unit"
+
+
+@pytest.mark.parametrize("fmt", ["csv", "json", "npz"])
+def test_rows_of_measures_have_units_of_their_own(run, tmp_path, fmt):
+    source = write_inputs(tmp_path / "in", "delaunay", 1)
+    wanted = f"{tmp_path}/a.{fmt}"
+    assert run("delaunay", source, "--what", "statistics", "-q", "-o", wanted, "--pixel-size", "0.5um").code == 0
+    names, units = (values_of(tmp_path / f"a.{fmt}", name) for name in ("measure", "unit"))
+    found = {name: unit or None for name, unit in zip(names, units, strict=True)}
+    assert found == {
+        **{"area": "um2", "perimeter": "um", "nearest_distance": "um", "tree_length": "um"},
+        **dict.fromkeys(["roundness", "neighbours", "tree_normalised"]),
+    }
 
 
 def test_rows_of_arcs_and_cells_have_the_column_and_features_have_not(run, tmp_path):

@@ -155,7 +155,7 @@ def test_tables_are_those_of_the_library_in_the_unit_of_the_spacing(run, stack, 
     for name in table:
         found = [float(row[name]) if row[name] else np.nan for row in rows]
         np.testing.assert_allclose(found, np.ma.filled(np.ma.asarray(table[name], float), np.nan), err_msg=name)
-    assert {row["unit"] for row in rows} == {"µm"}
+    assert {row["unit"] for row in rows} == {"um"}
 
 
 def test_volumes_add_up(run, stack):

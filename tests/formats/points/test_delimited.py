@@ -35,7 +35,7 @@ def test_two_columns(text):
         ("x,y,lon,lat", "x, y", [1, 2]),
         ("Lat,Lon,z", "Lon, Lat", [2, 1]),
         ("latitude,longitude,z", "longitude, latitude", [2, 1]),
-        ("label,centroid-0,centroid-1", "centroid-1, centroid-0", [3, 2]),
+        ("name,centroid-0,centroid-1", "centroid-1, centroid-0", [3, 2]),
         ("index,axis-0,axis-1", "axis-1, axis-0", [3, 2]),
     ],
 )
@@ -62,13 +62,29 @@ def test_labels():
     points = read("label,x,y\n7,1,2\n9,3,4\n")
     assert points.labels.tolist() == [7, 9]
     assert points.properties == {}
-    assert notes_of("x,y,label\n1,2,7\n") == ["seeds.csv: columns x, y, label are read as x, y, label"]
-    points = read("x,y,label,name\n1,2,7,a\n")
-    assert points.labels is None
-    assert points.properties == {"label": ["7"], "name": ["a"]}
-    assert read("x,y,label,name\n1,2,7,a\n", columns="x,y,label").labels.tolist() == [7]
+    assert notes_of("x,y,label\n1,2,7\n") == []
+    for columns in (None, "x,y,label"):
+        points = read("x,y,label,name\n1,2,7,a\n", columns=columns)
+        assert points.labels.tolist() == [7]
+        assert points.properties == {"name": ["a"]}
     assert read("1,2,7\n", columns="1,2,3").labels.tolist() == [7]
     assert read("x,y,label\n1,2,4294967295.0\n").labels.tolist() == [4294967295]
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("x,y,label\n1,2,3\n\n4,5,0\n", "line 4: the label 0 "),
+        ("x,y,label\n1,2,1.5\n", "line 2: the label 1.5 "),
+        ("x,y,label\n1,2,b\n", "line 2: 'b' in column 3"),
+    ],
+)
+def test_labels_that_are_none(text, message):
+    assert message in error_of(text, columns="x,y,label")
+    points = read(text)
+    assert (points.labels, list(points.properties)) == (None, ["label"])
+    [note] = notes_of(text)
+    assert "label" in note
 
 
 @pytest.mark.parametrize(
@@ -115,19 +131,6 @@ def test_no_points(text):
         ("1,2\n3,4\n5,6,7\n", "line 3"),
         ("#\nx,y\n1\n", "line 3"),
         ('1,2\n3,"4\n5,6\n', "line 2"),
-        (
-            "x,y,label\n1,2,3\n\n4,5,0\n",
-            "line 4: the label 0 is not a whole number from 1 to 4294967295; correct it, or "
-            "leave the label out of "
-            "columns",
-        ),
-        (
-            "x,y,label\n1,2,1.5\n",
-            "line 2: the label 1.5 is not a whole number from 1 to 4294967295; correct it, or "
-            "leave the label out "
-            "of columns",
-        ),
-        ("x,y,label\n1,2,b\n", "line 2: 'b' in column 3"),
     ],
 )
 def test_bad_lines(text, message):

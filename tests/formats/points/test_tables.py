@@ -102,11 +102,13 @@ def test_rows_of_json_are_alike(tmp_path):
         ([{"x": 1, "y": 2}, 5], "row 2: 5 has other fields"),
         ([{"x": 1, "y": None}], "row 1: y is None, no finite number"),
         ([{"x": 1, "y": True}], "row 1: y is True, no finite number"),
-        ([{"x": 1, "y": 2, "label": 0.5}], "the label 0.5 is not a whole number"),
     ):
         path.write_text(json.dumps(rows))
         with pytest.raises(InputError, match=words):
             vorotool.read(path, geometry="points")
+    path.write_text(json.dumps([{"x": 1, "y": 2, "label": 0.5}]))
+    with pytest.raises(InputError, match=r"the label 0\.5"):
+        vorotool.read(path, geometry="points", columns="x,y,label")
 
 
 def test_columns_are_for_tables(tmp_path):

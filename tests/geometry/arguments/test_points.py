@@ -113,13 +113,13 @@ def test_names_of_columns_tell_as_in_files(columns, y_up, is_geographic, tmp_pat
     )
 
 
-def test_a_label_is_one_beside_x_and_y_alone():
+def test_a_column_called_label_is_one_if_it_holds_integers_from_1():
     frame = pd.DataFrame({"label": [4, 2], "x": [1, 2], "y": [3, 4]})
     assert as_points(frame).labels.tolist() == [4, 2]
     more = as_points(frame.assign(id=[8, 9]))
-    assert (more.labels, more.properties) == (None, {"label": [4, 2], "id": [8, 9]})
-    with pytest.raises(InputError, match="point 2"):
-        as_points(frame.assign(label=[1, 0]))
+    assert (more.labels.tolist(), more.properties) == ([4, 2], {"id": [8, 9]})
+    other = as_points(frame.assign(label=[1, 0]))
+    assert (other.labels, other.properties) == (None, {"label": [1, 0]})
 
 
 def test_columns_keep_types_and_gaps():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import reduce
 from math import ceil, floor
@@ -10,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import NO_PROPERTIES, STRICT, InputError, warn
+from vorotool.errors import STRICT, InputError, warn
 from vorotool.geometry.curves.inverse_functions import hypotenuse
 from vorotool.geometry.pixel_frame import Frame
 from vorotool.geometry.points.seed_set import SCALES, SeedSet
@@ -124,12 +125,28 @@ def sites_of_points(
         return {"sites": places, "site_labels": labels, "properties": points.properties, "index": points.index}
     order = np.argsort(labels, kind="stable")
     if len(labels) and (np.diff(labels[order].astype(np.int64)) == 0).any():
-        if points.properties:
-            raise InputError(f"points that share a label cannot bring further columns: use {NO_PROPERTIES}")
-        return {}
+        return {"properties": _columns_of_regions(points.properties, labels, order)}
     properties = {name: [column[i] for i in order] for name, column in points.properties.items()}
     index = index_of_rows(points.index, order)
     return {"sites": places[order], "site_labels": labels[order], "properties": properties, "index": index}
+
+
+def _columns_of_regions(
+    columns: Mapping[str, Sequence[Any]], labels: NDArray[np.uint32], order: NDArray[np.integer]
+) -> dict[str, list[Any]]:
+    """Return columns with one value a label, in the order of labels: those in which points of a label agree."""
+    ordered = labels[order]
+    first = order[np.searchsorted(ordered, ordered)]
+    chosen = order[np.flatnonzero(np.diff(ordered, prepend=0))]
+    kept = {
+        name: [column[i] for i in chosen.tolist()]
+        for name, column in columns.items()
+        if all(column[a] == column[b] for a, b in zip(order.tolist(), first.tolist(), strict=True))
+    }
+    if len(kept) < len(columns):
+        dropped = ", ".join(name for name in columns if name not in kept)
+        warn(f"columns that differ among points of one label are left out: {dropped}")
+    return kept
 
 
 def report_snapped(places: NDArray[np.float64], snapped: SnappedPlaces, *, strict: bool) -> None:

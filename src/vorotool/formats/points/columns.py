@@ -27,6 +27,7 @@ class Chosen(NamedTuple):
     y: int
     label: int | None = None
     z: int | None = None
+    is_named: bool = False  # by the user: then the label is no other column
 
     @property
     def coordinates(self) -> list[int]:
@@ -85,13 +86,18 @@ def _recognise(name: str, fields: list[str], options: ReadOptions) -> tuple[bool
         used = [fields[column] for column in chosen]
         plain = ["x", "y", "z"][: options.axes]
         meanings = [*plain, "label"][: len(chosen)]
-        if [plain_name(each) for each in used] != plain:  # plain x, y need no word
+        if [plain_name(each) for each in used] != meanings:  # plain x, y need no word
             options.note(f"{name}: columns {', '.join(used)} are read as {', '.join(meanings)}")
         return True, _chosen(chosen, options)
     header = not any(_looks_numeric(field) for field in fields) and any(fields)
     if not header and len(fields) == 2 and not options.wants_z:
         return False, Chosen(0, 1)
     raise _no_z(name, fields) if options.wants_z else _unknown_columns(name, fields, header)
+
+
+def note_no_label(name: str, options: ReadOptions) -> None:
+    """Say that a column that is called label holds something else."""
+    options.note(f"{name}: the column label holds other values than integers from 1: points are numbered from 1")
 
 
 def _chosen(columns: Sequence[int], options: ReadOptions) -> Chosen:
@@ -109,7 +115,7 @@ def _look_up(name: str, fields: list[str], wanted: Wanted, options: ReadOptions)
         if wanted.z is None and names.count("z") != 1:
             raise _no_z(name, fields)
         z = names.index("z") if wanted.z is None else _find_column(name, fields, wanted.z)
-    chosen = Chosen(plane[0], plane[1], plane[2] if len(plane) > 2 else None, z)
+    chosen = Chosen(plane[0], plane[1], plane[2] if len(plane) > 2 else None, z, is_named=True)
     if len(set(chosen.used)) < len(chosen.used):
         shown = _cut(",".join(wanted.all))
         raise InputError(f"{name}: {COLUMNS} {shown} names one column twice; {_listing(fields)}")

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -22,7 +22,7 @@ from vorotool.formats.parsing.reader_options import (
     ReadOptions,
     no_points,
 )
-from vorotool.formats.points.columns import COLUMNS, DECIMAL_COMMA, Chosen, choose, parse_columns
+from vorotool.formats.points.columns import COLUMNS, DECIMAL_COMMA, Chosen, choose, note_no_label, parse_columns
 from vorotool.formats.points.rows import PointRows, point_set
 from vorotool.geometry.coordinate_names import (
     coordinate_columns,
@@ -76,7 +76,14 @@ def text_rows(source: Source, options: ReadOptions) -> PointRows:
     if options.max_sites is not None and data.count(b"\n") >= options.max_sites:
         rows = _core.text.count_rows(data, delimiter, layout.header_records, options.threads)
         options.check_sites(source.name, rows)
-    return _read_rows(layout, options)
+    if chosen.label is None or chosen.is_named:
+        return _read_rows(layout, options)
+    try:
+        return _read_rows(layout, options)
+    except InputError:  # what is called label need not be one: then it is a column as others are
+        numbered = _read_rows(replace(layout, chosen=chosen._replace(label=None)), options)
+    note_no_label(source.name, options)
+    return numbered
 
 
 def header_fields(data: bytes) -> list[str]:

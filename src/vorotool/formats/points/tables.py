@@ -13,12 +13,12 @@ from vorotool.errors import InputError, option
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.npz_columns import npz_columns
 from vorotool.formats.parsing.reader_options import LARGEST_LABEL, ReadOptions, shortened
-from vorotool.formats.points.columns import chosen_columns
+from vorotool.formats.points.columns import Chosen, chosen_columns, note_no_label
 from vorotool.formats.points.delimited import placed_by
 from vorotool.formats.points.rows import PointRows, point_set
 from vorotool.geometry.coordinates import INEXACT, first_inexact
 from vorotool.geometry.numbers import shown_number
-from vorotool.geometry.points.point_set import PointSet
+from vorotool.geometry.points.point_set import PointSet, labels_of
 
 _MISSING = "_missing"
 
@@ -74,8 +74,10 @@ def rows_of_columns(name: str, columns: Mapping[str, list[Any]], options: ReadOp
     chosen = chosen_columns(name, names, options)
     coordinates = [names[column] for column in chosen.coordinates]
     found = np.stack([_numbers(name, each, columns[each]) for each in coordinates], axis=1)
-    labels = None if chosen.label is None else _labels(name, columns[names[chosen.label]])
-    used = {names[column] for column in chosen.used}
+    labels = _labels_of(name, columns[names[chosen.label]], chosen) if chosen.label is not None else None
+    if labels is None and chosen.label is not None:
+        note_no_label(name, options)
+    used = {names[column] for column in (chosen.used if labels is not None else chosen.coordinates)}
     properties = {each: columns[each] for each in names if each not in used} if options.properties else {}
     return PointRows(found, labels, properties, placed_by(coordinates[0], coordinates[1], options))
 
@@ -90,6 +92,11 @@ def _numbers(name: str, column: str, values: list[Any]) -> NDArray[np.float64]:
     if inexact is not None:
         raise InputError(f"{name}, row {inexact + 1}: {column} is {shown_number(values[inexact])}: {INEXACT}")
     return np.array(values, dtype=np.float64)
+
+
+def _labels_of(name: str, values: list[Any], chosen: Chosen) -> NDArray[np.int64] | None:
+    """Return labels; None where a column of that name holds something else, and the user has not named it."""
+    return _labels(name, values) if chosen.is_named else labels_of(values)
 
 
 def _labels(name: str, values: list[Any]) -> NDArray[np.int64]:

@@ -18,6 +18,7 @@ from vorotool.formats.text.row_writer import Column, RowShape, check_precision, 
 from vorotool.geometry.coordinate_grid import on_grid
 from vorotool.geometry.number_text import NumberText
 from vorotool.geometry.parallel import in_order
+from vorotool.geometry.summaries import MEASURE, unit_of_measure
 from vorotool.geometry.table import Computed, Lookup, Table
 
 _SLICE_VALUES = 1 << 16  # numbers of an array that are gathered and written at a time
@@ -58,8 +59,8 @@ _UNIT: ContextVar[str | None] = ContextVar("unit", default=None)
 
 @contextmanager
 def unit_column(unit: str | None) -> Iterator[None]:
-    """Give tables that are written within a last column ``unit``; with None they have none."""
-    token = _UNIT.set(unit)
+    """Give tables that are written within a last column ``unit``, in ASCII; with None they have none."""
+    token = _UNIT.set(None if unit is None else unit.replace("µ", "u").replace("\u03bc", "u"))
     try:
         yield
     finally:
@@ -70,7 +71,9 @@ def _with_unit(table: Table) -> dict[str, Any]:
     columns, unit = table.stored(), _UNIT.get()
     if unit is None or not columns:
         return columns
-    column = Lookup([unit], np.zeros(table.rows, dtype=np.int32))
+    column: Lookup | list[str | None] = Lookup([unit], np.zeros(table.rows, dtype=np.int32))
+    if next(iter(columns)) == MEASURE:  # a row is a measure: lengths, areas, and numbers without a unit
+        column = [unit_of_measure(name, unit) for name in columns[MEASURE]]
     return columns | {"voro_unit" if "unit" in columns else "unit": column}
 
 

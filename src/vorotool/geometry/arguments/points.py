@@ -16,7 +16,7 @@ from vorotool.geometry.coordinates import MOST_AXES, number_array
 from vorotool.geometry.numbers import pair_of_doubles
 from vorotool.geometry.points.conversion import part_numbers, single_points
 from vorotool.geometry.points.label_image import LabelImage
-from vorotool.geometry.points.point_set import PointSet
+from vorotool.geometry.points.point_set import LABEL, PointSet, labels_of
 from vorotool.geometry.points.raster import Raster
 from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.geometry.polygons.polygon_set import PolygonSet
@@ -118,7 +118,10 @@ def _points_of_features(held: HeldFeatures) -> PointSet:
     if held.is_map and parts.max(initial=1) > 1:
         properties["voro_part" if "part" in properties else "part"] = parts.tolist()
     index = index_of_rows(held.index, owners)
-    return PointSet(xy, None, properties, y_up=held.is_map, crs=held.crs, index=index)
+    labels = labels_of(properties[LABEL]) if LABEL in properties else None
+    if labels is not None:
+        del properties[LABEL]
+    return PointSet(xy, labels, properties, y_up=held.is_map, crs=held.crs, index=index)
 
 
 def _positions(held: HeldFeatures) -> tuple[NDArray[np.float64], NDArray[np.int64]]:

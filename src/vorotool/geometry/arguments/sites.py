@@ -42,7 +42,7 @@ class Sites:
     site: NDArray[np.int32]  # (p,) int32 array: that each polygon is a part of
     count: int  # sites, those without polygons too
     ids: list[Any] | None = None  # their names: the values that they were joined by, or those of the input
-    # further columns of the input, one value a site; none of sites that were joined
+    # further columns of the input, one value a site; of sites that were joined the one that they were joined by
     properties: dict[str, list[Any]] = field(default_factory=dict)
     index: Any = None  # pandas Index, array or sequence: what the input calls them, unless they were joined
 
@@ -53,7 +53,8 @@ def as_sites(source: Any, by: Any = None, name: str = "sites") -> Sites:
     if by is None:
         return features
     number, values = _first_appearances(_values(features, by))
-    return Sites(features.polygons, number[features.site], len(values), values)
+    kept = {by: values} if isinstance(by, str) and by != "id" else {}
+    return Sites(features.polygons, number[features.site], len(values), values, kept)
 
 
 def _features(source: Any, name: str) -> Sites:

@@ -20,7 +20,7 @@ from vorotool.geometry.coordinate_names import (
 from vorotool.geometry.coordinates import INEXACT, first_inexact, number_array
 from vorotool.geometry.crs import LONGITUDE_LATITUDE, crs_member
 from vorotool.geometry.numbers import shown_number
-from vorotool.geometry.points.point_set import PointSet
+from vorotool.geometry.points.point_set import PointSet, labels_of
 from vorotool.geometry.volumes.volume_points import VolumePoints
 
 ROWS_FIRST = ("y", "lat", "north", "row", "r", "i")
@@ -81,11 +81,12 @@ def _taken(table: Any, texts: list[str], columns: list[Any], chosen: list[int], 
     if len(lengths) > 1:
         *first, last = (texts[place] for place in chosen[:axes])
         raise InputError(f"the columns {', '.join(first)} and {last} differ in length")
-    label = chosen[axes:]
-    others = [place for place in range(len(texts)) if place not in chosen]
+    labels = labels_of(_labels(columns[chosen[axes]])) if len(chosen) > axes else None
+    used = chosen if labels is not None else chosen[:axes]
+    others = [place for place in range(len(texts)) if place not in used]
     return {
         "xy": np.stack([_numbers(columns[place], texts[place]) for place in chosen[:axes]], axis=1),
-        "labels": _labels(columns[label[0]]) if label else None,
+        "labels": labels,
         "properties": {texts[place]: listed(columns[place]) for place in others},
         "index": index_of(table),
     }

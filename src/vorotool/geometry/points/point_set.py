@@ -16,6 +16,9 @@ from vorotool.geometry.values import Geometric, Pictured, Tabular, Value, counte
 from vorotool.types import fields as f
 from vorotool.types.fields import record
 
+LABEL = "label"
+"""The column whose integers from 1 are the labels of points."""
+
 
 @record
 class PointSet(Value, Tabular, Geometric, Pictured):
@@ -83,8 +86,25 @@ class PointSet(Value, Tabular, Geometric, Pictured):
 
 
 def known_of_points(points: Any) -> dict[str, Any]:
-    """Give what is known of points beside their places, as what is made of them has it, too."""
-    return {name: getattr(points, name) for name in ("labels", "properties", "y_up", "crs", "index")}
+    """Return what is known of points beside their places, as results have it, too.
+
+    Labels that repeat name groups of points, not points: they become a property.
+    """
+    known = {name: getattr(points, name) for name in ("labels", "properties", "y_up", "crs", "index")}
+    labels = known["labels"]
+    if labels is not None and len(np.unique(labels)) < len(labels):
+        name = LABEL if LABEL not in known["properties"] else f"voro_{LABEL}"
+        known |= {"labels": None, "properties": {name: labels.tolist(), **known["properties"]}}
+    return known
+
+
+def labels_of(values: Any) -> NDArray[np.int64] | None:
+    """Return the values of a column as labels; None if one of them is not an integer from 1."""
+    try:
+        is_flag = np.asarray(values).dtype.kind == "b"
+        return None if is_flag else checked_labels(values, len(values))
+    except (InputError, ValueError):
+        return None
 
 
 def finite_rows(values: Any, axes: int) -> NDArray[np.float64]:

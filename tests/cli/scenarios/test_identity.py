@@ -1,0 +1,106 @@
+"""What points and sites are called in results: labels, columns named label, and columns that join sites."""
+
+import geopandas
+import numpy as np
+import pandas
+import pytest
+
+import vorotool
+
+ROWS = [(101, 0.0, 0.0, "a"), (102, 5.0, 1.0, "b"), (103, 2.0, 6.0, "c")]
+ORDERS = (
+    ("label", "x", "y", "type"),
+    ("x", "y", "type", "label"),
+    ("type", "x", "label", "y"),
+    ("lon", "lat", "label"),
+)
+
+
+def column(name):
+    return [row[{"label": 0, "x": 1, "lon": 1, "y": 2, "lat": 2, "type": 3}[name]] for row in ROWS]
+
+
+def text(names, labels=None):
+    columns = [labels if name == "label" and labels else column(name) for name in names]
+    return "\n".join([",".join(names), *(",".join(map(str, row)) for row in zip(*columns, strict=True))]) + "\n"
+
+
+@pytest.mark.parametrize("names", ORDERS, ids=",".join)
+@pytest.mark.parametrize("kind", ["csv", "npz", "frame", "features"])
+def test_labels_are_found_wherever_they_stand(names, kind, tmp_path):
+    frame = pandas.DataFrame({name: column(name) for name in names})
+    if kind == "csv":
+        (tmp_path / "in.csv").write_text(text(names))
+        points = vorotool.read(tmp_path / "in.csv")
+    elif kind == "npz":
+        np.savez(tmp_path / "in.npz", **{name: np.array(column(name)) for name in names})
+        points = vorotool.read(tmp_path / "in.npz")
+    elif kind == "frame":
+        points = vorotool.delaunay(frame)
+    else:
+        x, y = (column(name) for name in ("x", "y"))
+        others = frame[[name for name in names if name in ("label", "type")]]
+        points = vorotool.delaunay(geopandas.GeoDataFrame(others, geometry=geopandas.points_from_xy(x, y)))
+    assert points.labels.tolist() == [101, 102, 103]
+    assert points.properties == ({"type": ["a", "b", "c"]} if "type" in names else {})
+
+
+@pytest.mark.parametrize(
+    "labels", [["a", "b", "c"], [0, 1, 2], [1.5, 2, 3], [1, 2, 2**32], ["", 1, 2], [-1, 1, 2]], ids=str
+)
+def test_other_values_are_a_property(labels, tmp_path):
+    (tmp_path / "in.csv").write_text(text(ORDERS[0], labels))
+    points = vorotool.read(tmp_path / "in.csv")
+    assert points.labels is None
+    assert list(points.properties) == ["label", "type"]
+    found = vorotool.delaunay(pandas.DataFrame({"x": column("x"), "y": column("y"), "label": labels}))
+    assert found.labels is None
+    assert found.properties["label"] == labels
+
+
+def test_labels_that_the_user_names_are_refused_if_they_are_none(run, tmp_path):
+    (tmp_path / "in.csv").write_text(text(ORDERS[0], ["a", "b", "c"]))
+    done = run("delaunay", tmp_path / "in.csv", "--columns", "x,y,label")
+    assert done.code == 3
+    assert "'a'" in done.err
+
+
+def test_repeated_labels_share_a_region_and_are_a_property_of_triangulations(run, tmp_path):
+    (tmp_path / "in.csv").write_text(text(ORDERS[1], [7, 7, 8]))
+    made = run("tessellate", tmp_path / "in.csv", "--size", "8x8", "--what", "table", "-f", "csv")
+    assert [row["label"] for row in made.rows] == ["7", "8"]
+    assert "type" in made.err
+    (tmp_path / "same.csv").write_text(text(ORDERS[1], [7, 8, 7]).replace(",a", ",c"))
+    made = run("tessellate", tmp_path / "same.csv", "--size", "8x8", "--what", "table", "-f", "csv")
+    assert [(row["label"], row["type"]) for row in made.rows] == [("7", "c"), ("8", "b")]
+    assert not made.err
+    for command in ("delaunay", "alphashape"):
+        made = run(command, tmp_path / "in.csv", "--what", "edges", "-f", "csv")
+        assert made.code == 0
+        assert "label" in made.err
+        assert {row["label_a"] for row in made.rows} <= {"1", "2", "3"}
+    mesh = vorotool.delaunay(vorotool.read(tmp_path / "in.csv"))
+    assert mesh.labels is None
+    assert mesh.properties["label"] == [7, 7, 8]
+
+
+def test_tables_of_ours_are_read_with_their_labels(run, tmp_path):
+    (tmp_path / "in.csv").write_text(text(ORDERS[0]))
+    done = run("delaunay", tmp_path / "in.csv", "--what", "table", "-o", tmp_path / "table.csv")
+    assert done.code == 0
+    again = run("delaunay", tmp_path / "table.csv", "--what", "edges", "-f", "csv")
+    assert [(row["label_a"], row["label_b"]) for row in again.rows] == [("101", "103"), ("101", "102"), ("102", "103")]
+
+
+def test_the_column_that_sites_are_joined_by_stays(run, tmp_path):
+    squares = geopandas.GeoSeries.from_wkt([f"POLYGON (({x} 0, {x + 1} 0, {x} 1, {x} 0))" for x in (0, 5, 9)])
+    columns = {"tree": ["oak", "elm", "oak"], "kind.of": [1, 2, 1]}
+    frame = geopandas.GeoDataFrame(columns, geometry=squares, crs=3857)
+    frame.to_file(tmp_path / "in.geojson")
+    for by, values in (("tree", ["oak", "elm"]), ("kind.of", ["1", "2"])):
+        made = run("voronoi", tmp_path / "in.geojson", "--by", by, "--what", "table", "-f", "csv", "-q")
+        assert [(row["id"], row[by]) for row in made.rows] == [(value, value) for value in values]
+        run("voronoi", tmp_path / "in.geojson", "--by", by, "--what", "cells", "-o", f"{by}.gpkg", "-q")
+        read = geopandas.read_file(tmp_path / f"{by}.gpkg")
+        assert read[by].astype(str).tolist() == values
+    assert vorotool.voronoi(frame, by="tree").properties == {"tree": ["oak", "elm"]}
