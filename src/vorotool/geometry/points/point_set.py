@@ -92,7 +92,7 @@ def known_of_points(points: Any) -> dict[str, Any]:
     """
     known = {name: getattr(points, name) for name in ("labels", "properties", "y_up", "crs", "index")}
     labels = known["labels"]
-    if labels is not None and len(np.unique(labels)) < len(labels):
+    if labels is not None and not (labels[1:] > labels[:-1]).all() and len(np.unique(labels)) < len(labels):
         name = LABEL if LABEL not in known["properties"] else f"voro_{LABEL}"
         known |= {"labels": None, "properties": {name: labels.tolist(), **known["properties"]}}
     return known
