@@ -37,8 +37,11 @@ build: $(BUILD)/.installed ## build the C++ core and install the package into .v
 include figures.mk
 
 .PHONY: test
-test: build lint $(BUILD)/.tests ## lint, then run all tests but the slow ones and those of the documents, on all cores
-	$(RUN) -m pytest -n auto -m "not slow and not more" --ignore tests/documents
+test: lint test-fast ## lint, and run all tests but the slow ones and those of the documents, on all cores
+
+.PHONY: test-fast
+test-fast: build $(BUILD)/.tests ## run these tests alone
+	MAKEFLAGS= $(RUN) -m pytest -n auto -m "not slow and not more" --ignore tests/documents
 
 .PHONY: test-slow
 test-slow: build $(BUILD)/.tests ## run the tests that take seconds a case
