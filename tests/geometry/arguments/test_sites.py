@@ -52,7 +52,7 @@ def test_what_is_known_of_features():
     assert sites.index.tolist() == list("uvwxyz")
     assert sites.properties == {"name": list("abcdef")}
     joined = as_sites(frame, by="name")
-    assert (joined.ids, joined.index, joined.properties) == (list("abcdef"), None, {})
+    assert (joined.ids, joined.index, joined.properties) == (list("abcdef"), None, {"name": list("abcdef")})
     with pytest.raises(UsageError, match=r"'x'"):
         as_sites(frame, by="x")
 
