@@ -45,5 +45,6 @@ def written(folder, *texts):
     tasks = []
     for number, text in enumerate(texts):
         (folder / f"{number}.txt").write_text(text)
-        tasks.append(Task(str(folder / f"{number}.txt"), (str(folder / f"out/{number}.txt"),)))
+        outputs = (str(folder / f"out/{number}.txt"),)
+        tasks.append(Task(str(folder / f"{number}.txt"), outputs, tag=f"{number}-"))  # of a run each task has its own
     return tasks
