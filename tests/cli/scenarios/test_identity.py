@@ -70,6 +70,9 @@ def test_repeated_labels_share_a_region_and_are_a_property_of_triangulations(run
     made = run("tessellate", tmp_path / "in.csv", "--size", "8x8", "--what", "table", "-f", "csv")
     assert [row["label"] for row in made.rows] == ["7", "8"]
     assert "type" in made.err
+    refused = run("tessellate", tmp_path / "in.csv", "--size", "8x8", "--what", "table", "--strict")
+    assert refused.code == 3
+    assert "type" in refused.err
     (tmp_path / "same.csv").write_text(text(ORDERS[1], [7, 8, 7]).replace(",a", ",c"))
     made = run("tessellate", tmp_path / "same.csv", "--size", "8x8", "--what", "table", "-f", "csv")
     assert [(row["label"], row["type"]) for row in made.rows] == [("7", "c"), ("8", "b")]

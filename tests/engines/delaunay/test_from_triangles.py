@@ -45,6 +45,7 @@ def test_what_is_no_delaunay_triangulation_is_found():
         (SQUARE, [], "no triangles"),
         (SQUARE, [[0, 1]], r"\(1, 2\)"),
         (SQUARE, [[0.0, 1.0, 2.0]], "float64"),
+        (SQUARE, [[0, 1, 2], [0, 1]], "triangles"),
         (SQUARE, [[0, 1, 4]], "triangle 0 is"),
         (SQUARE, [[0, 1, -1]], "triangle 0 is"),
         (SQUARE, [[0, 1, 2], [1, 1, 2]], "triangle 1 has no area"),

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from vorotool import _core
 from vorotool.errors import InputError
 from vorotool.geometry.arguments.points import as_points
+from vorotool.geometry.checks import as_array
 from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.points.point_set import known_of_points
 
@@ -39,7 +40,7 @@ def triangulation_of(points: Any, triangles: ArrayLike) -> Triangulation:
 
 
 def _checked_triangles(triangles: ArrayLike, count: int) -> Indices:
-    array = np.asarray(triangles)
+    array = as_array(triangles, "triangles")
     if array.size == 0:
         return np.empty((0, 3), dtype=np.int32)
     if array.ndim != 2 or array.shape[1] != 3 or array.dtype.kind not in "iu":

@@ -118,21 +118,21 @@ def snapped_places(places: NDArray[np.float64], finest: int = FINEST_SCALE) -> S
 
 
 def sites_of_points(
-    places: NDArray[np.float64], labels: NDArray[np.uint32], points: PointSet | VolumePoints
+    places: NDArray[np.float64], labels: NDArray[np.uint32], points: PointSet | VolumePoints, *, strict: bool
 ) -> dict[str, Any]:
     """Give the sites in increasing label order; points that share a label leave the choice to the type of the seeds."""
     if points.labels is None:
         return {"sites": places, "site_labels": labels, "properties": points.properties, "index": points.index}
     order = np.argsort(labels, kind="stable")
     if len(labels) and (np.diff(labels[order].astype(np.int64)) == 0).any():
-        return {"properties": _columns_of_regions(points.properties, labels, order)}
+        return {"properties": _columns_of_regions(points.properties, labels, order, strict=strict)}
     properties = {name: [column[i] for i in order] for name, column in points.properties.items()}
     index = index_of_rows(points.index, order)
     return {"sites": places[order], "site_labels": labels[order], "properties": properties, "index": index}
 
 
 def _columns_of_regions(
-    columns: Mapping[str, Sequence[Any]], labels: NDArray[np.uint32], order: NDArray[np.integer]
+    columns: Mapping[str, Sequence[Any]], labels: NDArray[np.uint32], order: NDArray[np.integer], *, strict: bool
 ) -> dict[str, list[Any]]:
     """Return columns with one value a label, in the order of labels: those in which points of a label agree."""
     ordered = labels[order]
@@ -145,7 +145,10 @@ def _columns_of_regions(
     }
     if len(kept) < len(columns):
         dropped = ", ".join(name for name in columns if name not in kept)
-        warn(f"columns that differ among points of one label are left out: {dropped}")
+        what = f"points of one label differ in {dropped}"
+        if strict:
+            raise InputError(f"{what}: leave these columns out, or leave out {STRICT}")
+        warn(f"{what}: left out of the results")
     return kept
 
 

@@ -94,7 +94,7 @@ def seeds_in_frame(points: PointSet, frame: FrameOf, *, sides: PixelSides = SQUA
     whole, needed = None, frame if isinstance(frame, Frame) else least_frame(points.xy)
     while needed != whole:  # again, where a seed that decides on the frame moved, or the frame is another one
         whole = needed
-        seeds, snapped = _on_lattice(points, finest_scale(points.xy, whole, sides))
+        seeds, snapped = _on_lattice(points, finest_scale(points.xy, whole, sides), strict=strict)
         needed = _frame_for(seeds, points, frame)
     report_snapped(points.xy, snapped, strict=strict)
     return seeds
@@ -105,7 +105,7 @@ def _frame_for(seeds: SeedSet, points: PointSet, frame: FrameOf) -> Frame:
     return given or least_frame(points.xy)
 
 
-def _on_lattice(points: PointSet, finest: int) -> tuple[SeedSet, SnappedPlaces]:
+def _on_lattice(points: PointSet, finest: int, *, strict: bool) -> tuple[SeedSet, SnappedPlaces]:
     """Put points on a lattice with at most so many steps a pixel."""
     snapped = snapped_places(points.xy, finest)
     labels = points.label_array.astype(np.uint32)
@@ -116,7 +116,7 @@ def _on_lattice(points: PointSet, finest: int) -> tuple[SeedSet, SnappedPlaces]:
         scale=snapped.scale,
         snapped=snapped.moves,
         largest_move=snapped.largest_move,
-        **sites_of_points(points.xy, labels, points),
+        **sites_of_points(points.xy, labels, points, strict=strict),
     )
     return seeds, snapped
 

@@ -88,7 +88,7 @@ def seeds_from_xyz(
         scale=snapped.scale,
         snapped=snapped.moves,
         largest_move=snapped.largest_move,
-        **sites_of_points(snapped.steps / snapped.scale, labels, points),
+        **sites_of_points(snapped.steps / snapped.scale, labels, points, strict=strict),
     )
     if check is not None:
         check(seeds)
