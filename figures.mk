@@ -147,7 +147,7 @@ $(FRONT_FOLDER)/cells.svg: data/dots.csv $(BUILD)/.installed
 	$(VOROTOOL) delaunay $< --what cells --frame -0.5,-0.5,512,512 --layers cells,diagram,points -o $@
 $(FRONT_FOLDER)/regions.svg: data/blobs.png $(BUILD)/.installed
 	@mkdir -p $(@D)
-	$(VOROTOOL) tessellate $< --what colour --layers cells --overlay $< -o $@
+	$(VOROTOOL) tessellate $< --what color --layers cells --overlay $< -o $@
 $(FRONT_FOLDER)/skeletons.svg: data/two-shapes.json $(BUILD)/.installed
 	@mkdir -p $(@D)
 	$(VOROTOOL) skeleton-exact $< -o $@
@@ -167,7 +167,7 @@ $(FIGURES)/gallery-letters-all.svg: $(GALLERY)/letters.png $(BUILD)/.installed |
 $(FIGURES)/gallery-letters.svg: $(GALLERY)/letters.png $(BUILD)/.installed | $(FIGURES)
 	$(VOROTOOL) skeleton-exact $< -o $@
 
-# Purpose: the same, pruned by the angle under which centres see the boundary: no branch to a corner.
+# Purpose: the same, pruned by the angle under which centers see the boundary: no branch to a corner.
 $(FIGURES)/gallery-letters-angle.svg: $(GALLERY)/letters.png $(BUILD)/.installed | $(FIGURES)
 	$(VOROTOOL) skeleton-exact $< --prune angle=150 -o $@
 
@@ -175,7 +175,7 @@ $(FIGURES)/gallery-letters-angle.svg: $(GALLERY)/letters.png $(BUILD)/.installed
 $(FIGURES)/gallery-vessels.png: $(GALLERY)/vessels.png $(BUILD)/.installed | $(FIGURES)
 	$(VOROTOOL) skeleton-exact $< --overlay $< -o $@
 
-# Purpose: how thick it is, in colours: at each pixel the largest disc over it,
+# Purpose: how thick it is, in colors: at each pixel the largest disc over it,
 $(FIGURES)/gallery-thickness.png: $(GALLERY)/vessels.png $(BUILD)/.installed | $(FIGURES)
 	$(VOROTOOL) skeleton-exact $< --what thickness --legend -o $@
 
@@ -257,9 +257,9 @@ $(FIGURES)/gallery-territories.svg: data/nuclei.ome.tif $(BUILD)/.installed | $(
 
 # Purpose: territories of nuclei in three dimensions: slices across z, x and y.
 $(FIGURES)/gallery-nuclei.svg: data/nuclei.tif $(BUILD)/.installed | $(FIGURES)
-	$(VOROTOOL) tessellate $< --volume --spacing auto --max-distance 5um --what colour --width 918 -o $@
+	$(VOROTOOL) tessellate $< --volume --spacing auto --max-distance 5um --what color --width 918 -o $@
 
-# Purpose: cell sociology: the Voronoi cells of objects, relative neighbours,
+# Purpose: cell sociology: the Voronoi cells of objects, relative neighbors,
 $(FIGURES)/gallery-sociology.svg: data/blobs.png $(BUILD)/.installed | $(FIGURES)
 	$(VOROTOOL) delaunay $< --what cells --layers cells,edges,points --graph relative -o $@
 

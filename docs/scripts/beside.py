@@ -44,8 +44,8 @@ def draw_mask(folder: Path, name: str, command: list[str]) -> str:
     mask.with_suffix(".pgw").write_text(f"1\n0\n0\n-1\n0.5\n{height - 0.5}\n")
     run(*command, mask, "-o", folder / f"{name}-lines.geojson")
     run(*command, mask, "--width", str(WIDTH), "-o", folder / f"{name}-light.png")
-    colours = ["--color", "skeleton=#ffb000", "--color", "polygons=#9a9a9a"]
-    run(*command, mask, "--width", str(WIDTH), *DARK, *colours, "-o", folder / f"{name}-dark.png")
+    colors = ["--color", "skeleton=#ffb000", "--color", "polygons=#9a9a9a"]
+    run(*command, mask, "--width", str(WIDTH), *DARK, *colors, "-o", folder / f"{name}-dark.png")
     return f"{name} {WIDTH} {WIDTH * height // width} 0 0 {width} {height}\n"
 
 
@@ -53,8 +53,8 @@ def draw_cells(folder: Path) -> str:
     """Draw the cells of points likewise."""
     run(*CELLS, "-o", folder / "cells-areas.geojson")
     run(*CELLS, "--y-up", "--width", str(WIDTH), "-o", folder / "cells-light.png")
-    colours = ["--color", "cells=#1c1c1c", "--color", "points=white"]
-    run(*CELLS, "--y-up", "--width", str(WIDTH), *DARK, *colours, "-o", folder / "cells-dark.png")
+    colors = ["--color", "cells=#1c1c1c", "--color", "points=white"]
+    run(*CELLS, "--y-up", "--width", str(WIDTH), *DARK, *colors, "-o", folder / "cells-dark.png")
     return f"cells {WIDTH} {WIDTH} 0 0 512 512\n"
 
 

@@ -35,7 +35,7 @@ class Batch:
 
     @cached_property
     def diagram(self):
-        """Pixels with a 4-neighbour of larger label."""
+        """Pixels with a 4-neighbor of larger label."""
         v = np.pad(self.labels, ((0, 0), (1, 1), (1, 1)), constant_values=-1)
         around = [v[:, :-2, 1:-1], v[:, 2:, 1:-1], v[:, 1:-1, :-2], v[:, 1:-1, 2:]]
         return self.labels < np.max(around, axis=0)
@@ -48,8 +48,8 @@ class Batch:
         )
 
     @cached_property
-    def neighbours(self):
-        """(orders, k, k) whether two regions have 4-neighbouring pixels."""
+    def neighbors(self):
+        """(orders, k, k) whether two regions have 4-neighboring pixels."""
         m, k = self.members, len(self.sites)
         found = np.zeros((len(m), k, k), dtype=bool)
         for a, b in ((m[:, :, 1:], m[:, :, :-1]), (m[:, 1:], m[:, :-1])):
@@ -59,7 +59,7 @@ class Batch:
 
     @cached_property
     def triangles(self):
-        """(orders, k, k, k) whether a pixel and two of its 4-neighbours have three labels, as the paper says."""
+        """(orders, k, k, k) whether a pixel and two of its 4-neighbors have three labels, as the paper says."""
         m, k = self.members, len(self.sites)
         found = np.zeros((len(m), k, k, k), dtype=bool)
         a, b, c, d = m[:, :-1, :-1], m[:, :-1, 1:], m[:, 1:, :-1], m[:, 1:, 1:]
@@ -70,7 +70,7 @@ class Batch:
 
     @cached_property
     def circles(self):
-        """Triples that are not collinear, with the centre and whether no site is inside, and none but they on it."""
+        """Triples that are not collinear, with the center and whether no site is inside, and none but they on it."""
         found = {}
         for three in combinations(range(len(self.sites)), 3):
             corners = [self.sites[i] for i in three]
@@ -112,21 +112,21 @@ class Batch:
 
 
 def lacks_an_edge(batch):
-    """Section 2.1: linking neighbours gives the Delaunay triangulation, if no four seeds are cocircular."""
-    if not (batch.delaunay_edges & ~batch.neighbours).any() or not batch.has_no_four_cocircular:
+    """Section 2.1: linking neighbors gives the Delaunay triangulation, if no four seeds are cocircular."""
+    if not (batch.delaunay_edges & ~batch.neighbors).any() or not batch.has_no_four_cocircular:
         return np.zeros(len(batch.orders), dtype=bool)
-    return (batch.delaunay_edges & ~batch.neighbours).any(axis=(1, 2))
+    return (batch.delaunay_edges & ~batch.neighbors).any(axis=(1, 2))
 
 
 def has_a_false_edge(batch):
-    """The same: two neighbours that no Delaunay triangulation links."""
-    if not (batch.neighbours & ~batch.delaunay_edges).any() or not batch.has_no_four_cocircular:
+    """The same: two neighbors that no Delaunay triangulation links."""
+    if not (batch.neighbors & ~batch.delaunay_edges).any() or not batch.has_no_four_cocircular:
         return np.zeros(len(batch.orders), dtype=bool)
-    return (batch.neighbours & ~batch.delaunay_edges).any(axis=(1, 2))
+    return (batch.neighbors & ~batch.delaunay_edges).any(axis=(1, 2))
 
 
 def has_a_false_triangle(batch):
-    """Section 2.1: a pixel and two of its 4-neighbours show a Delaunay triangle."""
+    """Section 2.1: a pixel and two of its 4-neighbors show a Delaunay triangle."""
     if not (batch.triangles & ~batch.delaunay_triangles).any() or not batch.has_no_four_cocircular:
         return np.zeros(len(batch.orders), dtype=bool)
     return (batch.triangles & ~batch.delaunay_triangles).any(axis=(1, 2, 3))
@@ -161,7 +161,7 @@ def has_a_block(batch):
 
 
 def has_a_superfluous_pixel(batch):
-    """The same: a pixel between two of its 4-neighbours that are 8-neighbours of each other."""
+    """The same: a pixel between two of its 4-neighbors that are 8-neighbors of each other."""
     d = batch.diagram
     block = d[:, :-1, :-1].astype(int) + d[:, :-1, 1:] + d[:, 1:, :-1] + d[:, 1:, 1:]
     return (block >= 3).any(axis=(1, 2))

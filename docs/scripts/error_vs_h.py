@@ -30,7 +30,7 @@ AWAY = 0.04
 """Of the extent: the least clearance of arcs away from corners."""
 PLACES = 9
 PARABOLAS, STRAIGHT, NEAR = "parabolas", "straight, away from corners", "straight, near corners"
-COLOURS = {PARABOLAS: "#117733", STRAIGHT: RESULT, NEAR: SEED}
+COLORS = {PARABOLAS: "#117733", STRAIGHT: RESULT, NEAR: SEED}
 
 DECADES = (-6, -2)
 """Of the errors that are shown."""
@@ -63,7 +63,7 @@ def rows_of(name: str, side: str) -> list[Row]:
         true = distances_to(exact, spots).reshape(-1, PLACES).max(axis=1)
         edges = (skeleton.site_table.kind == EDGE)[skeleton.sites].sum(axis=1)
         is_away = skeleton.radius[skeleton.arcs].min(axis=1) > AWAY * extent
-        chosen = dict(zip(COLOURS, (edges == 1, (edges == 2) & is_away, (edges == 2) & ~is_away), strict=True))
+        chosen = dict(zip(COLORS, (edges == 1, (edges == 2) & is_away, (edges == 2) & ~is_away), strict=True))
         largest = [
             {kind: values[of].max() / extent if of.any() else np.nan for kind, of in chosen.items()}
             for values in (true, skeleton.error_bound)
@@ -81,11 +81,11 @@ def table(measures: dict[str, list[Row]]) -> str:
     ]
     for name, rows in measures.items():
         for row in rows:
-            pairs = {kind: _cell("{:.2e}, {:.2e}", row.measured[kind], row.bound[kind]) for kind in COLOURS}
+            pairs = {kind: _cell("{:.2e}, {:.2e}", row.measured[kind], row.bound[kind]) for kind in COLORS}
             constant = _cell("{:.2f}", row.measured[NEAR] / row.step)
             cells = [f"{row.step:g}", pairs[PARABOLAS], f"{row.estimate:.2e}", pairs[STRAIGHT], pairs[NEAR], constant]
             lines.append(f"| {name} | {' | '.join(cells)} |")
-        orders = {kind: _cell("order {:.2f}", order_of(rows, kind)) for kind in COLOURS}
+        orders = {kind: _cell("order {:.2f}", order_of(rows, kind)) for kind in COLORS}
         lines.append(f"| {name} | | {orders[PARABOLAS]} | order 2 | {orders[STRAIGHT]} | {orders[NEAR]} | |")
     return "\n".join(lines) + "\n"
 
@@ -106,16 +106,16 @@ def picture(measures: dict[str, list[Row]]) -> list[Layer]:
     for number, (name, rows) in enumerate(measures.items()):
         panel = Panel(number, np.array([row.step for row in rows]))
         layers += panel.axes(name)
-        for kind, colour in COLOURS.items():
+        for kind, color in COLORS.items():
             measured, bound = (np.array([getattr(row, of)[kind] for row in rows]) for of in ("measured", "bound"))
             if np.isfinite(bound).all():
-                layers += [panel.line(bound, colour), Points("measured", panel.places(measured), colour, 3.5)]
+                layers += [panel.line(bound, color), Points("measured", panel.places(measured), color, 3.5)]
         constant = max(np.nanmax([row.measured[STRAIGHT], row.measured[NEAR]]) / row.step for row in rows)
         layers.append(panel.line(np.array([row.estimate for row in rows]), INK, is_broken=True))
         layers.append(panel.line(constant * panel.steps, FAINT, is_broken=True))
-    legend = {"dots measured, lines bounds": INK, "broken: h²/(8 y0)": INK, "broken: C h": FAINT} | COLOURS
-    for k, (text, colour) in enumerate(legend.items()):
-        layers.append(Texts("legend", np.array([[0.9 + 3.1 * k, DECADE * (DECADES[0] - 0.9)]]), [text], colour, 12))
+    legend = {"dots measured, lines bounds": INK, "broken: h²/(8 y0)": INK, "broken: C h": FAINT} | COLORS
+    for k, (text, color) in enumerate(legend.items()):
+        layers.append(Texts("legend", np.array([[0.9 + 3.1 * k, DECADE * (DECADES[0] - 0.9)]]), [text], color, 12))
     return layers
 
 
@@ -130,12 +130,12 @@ class Panel(NamedTuple):
         across = PANEL * self.number + HALVING * np.log2(self.steps[0] / self.steps)
         return np.stack([across, DECADE * np.log10(errors)], axis=1)
 
-    def line(self, errors: NDArray[np.float64], colour: str, *, is_broken: bool = False) -> Curves:
+    def line(self, errors: NDArray[np.float64], color: str, *, is_broken: bool = False) -> Curves:
         """From step to step."""
         first = np.arange(len(errors) - 1, dtype=np.int32)
         pairs = np.stack([first, first + 1], axis=1)
         straight = np.full(len(first), -1, dtype=np.int32)
-        return Curves("line", self.places(errors), pairs, straight, colour, 1.5, is_broken)
+        return Curves("line", self.places(errors), pairs, straight, color, 1.5, is_broken)
 
     def axes(self, name: str) -> list[Layer]:
         """A line a power of ten, and what is measured below and above."""

@@ -21,12 +21,12 @@ def nuclei() -> NDArray[np.uint8]:
     room, mask = np.array(SHAPE) * SIDES, np.zeros(len(places), bool)
     taken: list[tuple[NDArray[np.float64], float]] = []
     while len(taken) < WANTED:
-        centre, radii = random.uniform(0, room), random.uniform(2.8, 4.6, 3)
-        if any(np.linalg.norm(centre - other) < max(radii) + reach + 1 for other, reach in taken):
+        center, radii = random.uniform(0, room), random.uniform(2.8, 4.6, 3)
+        if any(np.linalg.norm(center - other) < max(radii) + reach + 1 for other, reach in taken):
             continue
-        taken.append((centre, max(radii)))
+        taken.append((center, max(radii)))
         turn = np.linalg.qr(random.normal(size=(3, 3)))[0]
-        mask |= (((places - centre) @ turn / radii) ** 2).sum(axis=1) <= 1
+        mask |= (((places - center) @ turn / radii) ** 2).sum(axis=1) <= 1
     return 255 * mask.reshape(SHAPE).astype(np.uint8)
 
 

@@ -24,13 +24,13 @@ void check_indices(std::span<const std::int32_t> values, std::int32_t least, std
   core::base::check_range(values, least, end, "an index is out of range");
 }
 
-auto edges_of_triangles(const IndexRows& triangles, const IndexRows& neighbours, unsigned threads,
+auto edges_of_triangles(const IndexRows& triangles, const IndexRows& neighbors, unsigned threads,
                         const Progress& progress) {
-  if (triangles.shape(0) != neighbours.shape(0))
-    throw std::invalid_argument("each triangle must have neighbours");
-  check_indices(rows_of(neighbours, 3), -1, neighbours.shape(0));
+  if (triangles.shape(0) != neighbors.shape(0))
+    throw std::invalid_argument("each triangle must have neighbors");
+  check_indices(rows_of(neighbors, 3), -1, neighbors.shape(0));
   core::alpha::EdgeArrays found = run_interruptible(progress, core::alpha::edges_of_triangles,
-                                                    rows_of(triangles, 3), rows_of(neighbours, 3), threads);
+                                                    rows_of(triangles, 3), rows_of(neighbors, 3), threads);
   const std::size_t rows = found.ends.size() / 2;
   return std::make_tuple(to_numpy(std::move(found.ends), {rows, 2}),
                          to_numpy(std::move(found.sides), {rows, 2}));
@@ -154,7 +154,7 @@ void bind_alpha(nb::module_& room) {
   nb::enum_<AlphaRule>(room, "AlphaRule")
       .value("corrected", AlphaRule::corrected)
       .value("printed", AlphaRule::printed);
-  room.def("edges_of_triangles", &edges_of_triangles, "triangles"_a, "neighbours"_a, "threads"_a,
+  room.def("edges_of_triangles", &edges_of_triangles, "triangles"_a, "neighbors"_a, "threads"_a,
            "progress"_a.none(), "Edges, and the triangles on their sides.");
   room.def("alpha_complex", &alpha_complex, "points"_a, "triangles"_a, "edges"_a, "sides"_a, "rule"_a,
            "threads"_a, "progress"_a.none());

@@ -12,7 +12,7 @@
 #include "bindings/support/triangulation.hpp"
 #include "core/base/large_array.hpp"
 #include "core/delaunay/delaunay_triangulation.hpp"
-#include "core/delaunay/nearest_neighbours.hpp"
+#include "core/delaunay/nearest_neighbors.hpp"
 #include "core/delaunay/point_insertion.hpp"
 #include "core/delaunay/verify_triangulation.hpp"
 
@@ -27,7 +27,7 @@ Columns as_dict(core::delaunay::InsertedArrays&& made) {
   const std::size_t triangles = made.triangles.size() / 3, edges = made.edges.size() / 2;
   Columns result;
   result["triangles"] = to_numpy(std::move(made.triangles), {triangles, 3});
-  result["neighbours"] = to_numpy(std::move(made.neighbours), {triangles, 3});
+  result["neighbors"] = to_numpy(std::move(made.neighbors), {triangles, 3});
   result["edges"] = to_numpy(std::move(made.edges), {edges, 2});
   result["hull"] = to_numpy(std::move(made.hull));
   result["first"] = to_numpy(std::move(made.first));
@@ -49,7 +49,7 @@ Columns arrays_of(const DelaunayTriangulation& mesh, unsigned threads, const Pro
                                       {mesh.hull().begin(), mesh.hull().end()},
                                       {mesh.first().begin(), mesh.first().end()}};
   run_interruptible(progress, [&](const Monitor& monitor) {
-    mesh.write({made.triangles.data(), made.neighbours.data(), made.edges.data()}, threads, monitor);
+    mesh.write({made.triangles.data(), made.neighbors.data(), made.edges.data()}, threads, monitor);
   });
   return as_dict(std::move(made));
 }
@@ -66,14 +66,14 @@ std::optional<Columns> insert_points(const Triangulation& mesh, const Places& po
   return made ? std::optional(as_dict(std::move(*made))) : std::nullopt;
 }
 
-// The nearest point of each, and its number of neighbours.
-auto nearest_neighbours(const Places& points, const IndexRows& edges,
-                        const Vector<const std::int64_t>& labels, const Progress& progress) {
+// The nearest point of each, and its number of neighbors.
+auto nearest_neighbors(const Places& points, const IndexRows& edges, const Vector<const std::int64_t>& labels,
+                       const Progress& progress) {
   const std::span<const Point> sites = rows<Point>(points);
   const std::span<const std::int32_t> ends = rows_of(edges, 2);
   if (labels.size() != sites.size()) throw std::invalid_argument("there must be one label a point");
-  core::delaunay::NearestNeighbours found =
-      run_interruptible(progress, core::delaunay::nearest_neighbours, sites, ends, view(labels));
+  core::delaunay::NearestNeighbors found =
+      run_interruptible(progress, core::delaunay::nearest_neighbors, sites, ends, view(labels));
   return std::make_tuple(to_numpy(std::move(found.nearest)), to_numpy(std::move(found.count)));
 }
 
@@ -92,13 +92,13 @@ void bind_delaunay(nb::module_& room) {
   nb::class_<Triangulation>(room, "Triangulation")
       .def(nb::init<const Places&, const IndexRows&, const IndexRows&, const IndexRows&, const Indices&,
                     const Indices&>(),
-           "points"_a, "triangles"_a, "neighbours"_a, "edges"_a, "hull"_a, "first"_a);
+           "points"_a, "triangles"_a, "neighbors"_a, "edges"_a, "hull"_a, "first"_a);
   room.def("insert_points", &insert_points, "mesh"_a, "points"_a, "hints"_a, "threads"_a, "progress"_a.none(),
-           "Of the points of the mesh and further ones triangles, neighbours, edges, hull and first; None "
+           "Of the points of the mesh and further ones triangles, neighbors, edges, hull and first; None "
            "where the order of triangles that stay would change.");
   room.def("find_fault", &fault_of_mesh, "mesh"_a, "threads"_a, "progress"_a.none());
-  room.def("nearest_neighbours", &nearest_neighbours, "points"_a, "edges"_a, "labels"_a, "progress"_a.none(),
-           "Index of the nearest point of each, -1 without any, and its number of neighbours.");
+  room.def("nearest_neighbors", &nearest_neighbors, "points"_a, "edges"_a, "labels"_a, "progress"_a.none(),
+           "Index of the nearest point of each, -1 without any, and its number of neighbors.");
 }
 
 }  // namespace vorotool::bindings

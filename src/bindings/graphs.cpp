@@ -1,4 +1,4 @@
-// Paths in graphs of arcs, and colours of graphs.
+// Paths in graphs of arcs, and colors of graphs.
 #include <optional>
 #include <stdexcept>
 #include <tuple>
@@ -11,7 +11,7 @@
 #include "core/base/indices.hpp"
 #include "core/graphs/boundary_cycles.hpp"
 #include "core/graphs/connected_components.hpp"
-#include "core/graphs/graph_colouring.hpp"
+#include "core/graphs/graph_coloring.hpp"
 #include "core/graphs/longest_paths.hpp"
 #include "core/graphs/planar_map.hpp"
 
@@ -69,11 +69,11 @@ auto path_from(const IndexRows& arcs, const Vector<const double>& length, std::s
   return found;
 }
 
-auto colour_graph(std::size_t vertices, Vector<const std::uint32_t> a, Vector<const std::uint32_t> b,
-                  const Progress& progress) {
+auto color_graph(std::size_t vertices, Vector<const std::uint32_t> a, Vector<const std::uint32_t> b,
+                 const Progress& progress) {
   std::vector<core::graphs::Edge> edges(a.size());
   for (std::size_t k = 0; k < edges.size(); ++k) edges[k] = {a.data()[k], b.data()[k]};
-  return to_numpy(run_interruptible(progress, core::graphs::colour_graph, vertices, edges));
+  return to_numpy(run_interruptible(progress, core::graphs::color_graph, vertices, edges));
 }
 
 auto connected_components(const IndexRows& edges, std::size_t vertices) {
@@ -112,7 +112,7 @@ void bind_graphs(nb::module_& room) {
            "Where the arcs of each group's path begin, the arcs, and the node that each leads to.");
   room.def("path_from", &path_from, "arcs"_a, "length"_a, "nodes"_a, "first"_a, "last"_a, "progress"_a.none(),
            "Arcs of the shortest path, and the node that each leads to; with last -1 to the farthest leaf.");
-  room.def("colour_graph", &colour_graph, "vertices"_a, "a"_a, "b"_a, "progress"_a.none());
+  room.def("color_graph", &color_graph, "vertices"_a, "a"_a, "b"_a, "progress"_a.none());
   room.def("connected_components", &connected_components, "edges"_a, "vertices"_a,
            "The smallest vertex that each is connected with.");
   room.def("arcs_by_ends", &arcs_by_ends, "arcs"_a, "vertices"_a,

@@ -44,7 +44,7 @@ Columns curves_as_dict(OffsetCurves&& curves) {
   Columns result;
   result["start"] = two_columns(std::move(curves.start));
   result["end"] = two_columns(std::move(curves.end));
-  result["centre"] = two_columns(std::move(curves.centre));
+  result["center"] = two_columns(std::move(curves.center));
   result["site"] = to_numpy(std::move(curves.site));
   result["ring_start"] = to_numpy(std::move(curves.ring_start));
   result["shape_start"] = to_numpy(std::move(curves.shape_start));

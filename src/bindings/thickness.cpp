@@ -14,7 +14,7 @@ Array<double> local_thickness(const SkeletonInput& input, std::pair<double, doub
                               double slack, unsigned threads, const Progress& progress) {
   if (!(step.first > 0 && step.second > 0)) throw std::invalid_argument("steps must be positive");
   const core::skeleton::SkeletonView& skeleton = input.view();
-  const core::thickness::PixelCentres pixels{
+  const core::thickness::PixelCenters pixels{
       {first.first, first.second}, {step.first, step.second}, width, height};
   core::base::LargeArray<double> made(width * height);
   run_interruptible(progress, [&](const core::base::Monitor& monitor) {
@@ -29,7 +29,7 @@ Array<double> local_thickness(const SkeletonInput& input, std::pair<double, doub
 void bind_thickness(nb::module_& room) {
   room.def("local_thickness", &local_thickness, "skeleton"_a, "first"_a, "step"_a, "height"_a, "width"_a,
            "slack"_a, "threads"_a, "progress"_a.none(),
-           "Diameters, row by row; the centre of the first pixel, and the steps to the next, are x and y.");
+           "Diameters, row by row; the center of the first pixel, and the steps to the next, are x and y.");
 }
 
 }  // namespace vorotool::bindings

@@ -42,7 +42,7 @@ from vorotool.engines.delaunay.cell_statistics import (
     cell_statistics as cell_statistics,
 )
 from vorotool.engines.delaunay.cells import (
-    cell_colours as cell_colours,
+    cell_colors as cell_colors,
 )
 from vorotool.engines.delaunay.cells import (
     verify_cells as verify_cells,
@@ -120,10 +120,10 @@ from vorotool.engines.label_images.outlines import (
     outlines as outlines,
 )
 from vorotool.engines.label_images.regions import (
-    colour_regions as colour_regions,
+    color_regions as color_regions,
 )
 from vorotool.engines.label_images.regions import (
-    neighbour_table as neighbour_table,
+    neighbor_table as neighbor_table,
 )
 from vorotool.engines.label_images.regions import (
     region_table as region_table,

@@ -1,8 +1,8 @@
 """Measure the triangulation beside its peers, in one run: `make bench`.
 
 Nanoseconds a point, the least of several runs; ratios are what to compare, since machines differ. `mesh` makes the
-structure, `arrays` writes triangles, neighbours and edges from it; `delaunay` is the function of the library, which
-checks its input too. Peers give triangles: scipy (Qhull) with neighbours, shapely (GEOS), `triangle` (Shewchuk) and
+structure, `arrays` writes triangles, neighbors and edges from it; `delaunay` is the function of the library, which
+checks its input too. Peers give triangles: scipy (Qhull) with neighbors, shapely (GEOS), `triangle` (Shewchuk) and
 CGAL, which is given its own points: making them from an array takes longer still. A peer that is not installed is left
 out. MB are those that a process of its own takes at its peak, above what it had with the points loaded.
 """

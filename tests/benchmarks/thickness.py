@@ -2,7 +2,7 @@
 
 ``thickness.py [SIDE]``. The peer is what `porespy.filters.local_thickness` does by default, with SciPy's transform: for
 25 radii at even steps of their logarithm, from the largest distance to the background down to 1, all pixels nearer than
-the radius to a pixel that is so far from the background. Its values are these radii, and distances end in centres of
+the radius to a pixel that is so far from the background. Its values are these radii, and distances end in centers of
 pixels; how far they are from ours is printed, twice the radius less a pixel.
 """
 
@@ -28,8 +28,8 @@ def by_transforms(mask):
     distance = distance_transform_edt(mask)
     found = np.zeros(mask.shape)
     for radius in np.logspace(np.log10(distance.max()), 0, SIZES):
-        centres = distance >= radius
-        covered = distance_transform_edt(~centres) < radius
+        centers = distance >= radius
+        covered = distance_transform_edt(~centers) < radius
         found[(found == 0) & covered] = radius
     return found
 

@@ -39,7 +39,7 @@ import pytest
         (["tessellate", "dots.csv", "-o", "a.png", "--dtype", "uint32"], ["--dtype"]),
         (["tessellate", "dots.csv", "-o", "a.png", "--chunk", "64x64"], ["--chunk"]),
         (["tessellate", "dots.csv", "-f", "zarr"], ["a Zarr store is a folder"]),
-        (["tessellate", "dots.csv", "-o", "a.png", "--what", "colour", "--width", "99"], ["--width"]),
+        (["tessellate", "dots.csv", "-o", "a.png", "--what", "color", "--width", "99"], ["--width"]),
         (["tessellate", "dots.csv", "-o", "a.npy", "--precision", "3"], ["--precision"]),
         (
             ["tessellate", "missing.csv", "-o", "a.svg", "--layers", "diagram"],
@@ -54,7 +54,7 @@ import pytest
             ["--input-format 'xyz'"],
         ),
         (["paint"], ["paint"]),
-        (["--colour"], ["--colour"]),
+        (["--color"], ["--color"]),
     ],
 )
 def test_usage(run, folder, arguments, words):

@@ -5,7 +5,7 @@
 
 using namespace vorotool::tests;
 
-// Runs all tests and names those that failed. Seventeen digits tell every double from its neighbours.
+// Runs all tests and names those that failed. Seventeen digits tell every double from its neighbors.
 int main() {
   std::cout.precision(17);
   int failed = 0;

@@ -116,9 +116,9 @@ def _tiffs() -> list[tuple[str, str, bytes]]:
     files.append(_tiff(GREY, ome=True, metadata={"axes": "YX", "UUID": "urn:uuid:0", **sizes}))
     for compression in ("tiff_adobe_deflate", "tiff_lzw", "packbits"):
         files.append(_saved(Image.fromarray(GREY.astype(bool)), "TIFF", compression=compression))
-    colour = np.dstack([GREY, GREY + 1, GREY + 2])
+    color = np.dstack([GREY, GREY + 1, GREY + 2])
     for options in ({"planarconfig": "separate"}, {"planarconfig": "contig", "compression": "zlib"}):
-        value = np.moveaxis(colour, 2, 0) if options["planarconfig"] == "separate" else colour
+        value = np.moveaxis(color, 2, 0) if options["planarconfig"] == "separate" else color
         files.append(_tiff(value, photometric="rgb", metadata=None, **options))
     out = io.BytesIO()
     with tifffile.TiffWriter(out) as writer:
@@ -126,7 +126,7 @@ def _tiffs() -> list[tuple[str, str, bytes]]:
             writer.write(page, contiguous=False, metadata=None)
     files.append(out.getvalue())
     for compression in ("tiff_lzw", "packbits", "jpeg"):
-        files += [_saved(Image.fromarray(value), "TIFF", compression=compression) for value in (GREY, colour)]
+        files += [_saved(Image.fromarray(value), "TIFF", compression=compression) for value in (GREY, color)]
     files.append(_saved(Image.fromarray(GREY > 4), "TIFF", compression="group4"))
     four = GREY[:, :10] & 7
     files.append(tiff_file(grey(10, 13, bits=4), [(four[:, ::2] << 4 | four[:, 1::2]).tobytes()]))

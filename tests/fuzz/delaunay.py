@@ -29,9 +29,9 @@ def failure(points: np.ndarray, rng: np.random.Generator) -> str | None:
         return str(error)
     order = rng.permutation(len(points))
     other = delaunay(points[order], threads=int(rng.integers(1, 6)))
-    for name in ("triangles", "neighbours", "hull"):
+    for name in ("triangles", "neighbors", "hull"):
         ours, theirs = getattr(mesh, name), getattr(other, name)
-        if name != "neighbours":
+        if name != "neighbors":
             ours, theirs = points[ours], other.points[theirs]
         if not np.array_equal(ours, theirs):
             return f"a permutation changes {name}"

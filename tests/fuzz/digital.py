@@ -19,7 +19,7 @@ from fuzz.runner import Cases, options
 from vorotool import VorotoolError, delaunay, repair_digital, verify_triangulation
 
 SIDES = (64, 128, 256, 512, 1024)
-ARRAYS = ("triangles", "neighbours", "edges", "hull", "first")
+ARRAYS = ("triangles", "neighbors", "edges", "hull", "first")
 
 
 def uniform(rng, m, n):
@@ -27,8 +27,8 @@ def uniform(rng, m, n):
 
 
 def clustered(rng, m, n):
-    centres = rng.integers(0, m, (4, 2))
-    return np.rint(centres[rng.integers(0, 4, n)] + rng.normal(0, m / 12, (n, 2)))
+    centers = rng.integers(0, m, (4, 2))
+    return np.rint(centers[rng.integers(0, 4, n)] + rng.normal(0, m / 12, (n, 2)))
 
 
 def lattice(rng, m, n):

@@ -5,7 +5,7 @@ joins shapes into sites. Each map is checked by the shipped checker, and beside 
 and close to borders, where the first of equally near sites must have the place; its polygons are a coverage of the
 frame, and its areas add up to it. It must be the same, bit for bit, on another number of threads and but for the
 factor when everything is twice as large, and, where nothing ties over an area, for sites in another order. Under
-symmetries areas and neighbours stay, but for rounding. Where the lattice closes a needle of a polygon, which is then
+symmetries areas and neighbors stay, but for rounding. Where the lattice closes a needle of a polygon, which is then
 left out with a warning, only the map itself is checked.
 """
 
@@ -70,12 +70,12 @@ def unlike_the_first(cells: VoronoiMap, first: VoronoiMap) -> str | None:
     for one, other in (lengths, lengths[::-1]):
         lost = [pair for pair, length in one.items() if length > 10 * short and pair not in other]
         if lost:
-            return f"cells {lost[0]} are no neighbours under another symmetry"
+            return f"cells {lost[0]} are no neighbors under another symmetry"
     return None
 
 
 def _lengths(cells: VoronoiMap) -> list[tuple[tuple[int, int], float]]:
-    table = cells.neighbours
+    table = cells.neighbors
     pairs = zip(table["label_a"].tolist(), table["label_b"].tolist(), strict=True)
     return list(zip(pairs, table["border_length"].tolist(), strict=True))
 

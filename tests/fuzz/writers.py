@@ -19,7 +19,7 @@ WRITERS = {
     "npy": "tessellate points.csv --size 150x100 -o out.npy",
     "text": "tessellate points.csv --size 150x100 -o out.txt",
     "zarr": "tessellate points.csv --size 150x100 --chunk 64x64 -o out.zarr",
-    "colour png": "tessellate points.csv --size 150x100 --what colour -o out.png",
+    "color png": "tessellate points.csv --size 150x100 --what color -o out.png",
     "picture png": "delaunay points.csv -f png -o out.png",
     "svg": "delaunay points.csv -o out.svg",
     "csv": "delaunay points.csv --what table -o out.csv",

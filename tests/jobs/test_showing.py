@@ -61,10 +61,10 @@ def test_many_elements_are_pixels():
     assert f"<br>{mesh!r}</figure>" in mesh._repr_html_()
 
 
-def test_label_images_are_small_pictures_of_their_colours(tmp_path):
+def test_label_images_are_small_pictures_of_their_colors(tmp_path):
     image = label_image()
     assert image._repr_svg_() is None
-    vorotool.write(image, tmp_path / "a.png", what="colour", layers=["cells"])
+    vorotool.write(image, tmp_path / "a.png", what="color", layers=["cells"])
     np.testing.assert_array_equal(picture_of(image._repr_html_()), iio.imread(tmp_path / "a.png"))
     large = vorotool.LabelImage(np.kron(image.labels, np.ones((30, 30), np.uint16)))
     assert max(picture_of(large._repr_html_()).shape) <= 320
@@ -89,7 +89,7 @@ def test_rasters_are_grey(values, expected):
     np.testing.assert_array_equal(picture_of(html), np.repeat(np.array(expected)[..., None], 3, axis=2))
 
 
-def test_colours_stay():
+def test_colors_stay():
     values = np.random.default_rng(0).integers(0, 255, (4, 5, 4), dtype=np.uint8)
     np.testing.assert_array_equal(picture_of(vorotool.Raster(values)._repr_html_()), values[..., :3])
     assert axes_of(vorotool.Raster(values)).images[0].get_array().shape == (4, 5, 3)
@@ -206,9 +206,9 @@ def test_images_lie_in_their_frame_and_on_their_map():
     image = vorotool.tessellate([[12, 21], [15, 23]], window=(10, 20, 8, 6))
     shown = axes_of(image).images[0]
     assert shown.get_extent() == [9.5, 17.5, 25.5, 19.5]
-    colours = shown.get_array()
-    assert len({tuple(c) for c in colours.reshape(-1, 3).tolist()}) == 2
-    assert ((colours == colours[0, 0]).all(axis=2) == (image.labels == image.labels[0, 0])).all()
+    colors = shown.get_array()
+    assert len({tuple(c) for c in colors.reshape(-1, 3).tolist()}) == 2
+    assert ((colors == colors[0, 0]).all(axis=2) == (image.labels == image.labels[0, 0])).all()
     grid = map_grid((2.0, 0.0, 100.0, 0.0, -2.0, 60.0))
     ax = axes_of(vorotool.LabelImage(image.labels, grid=grid))
     assert ax.images[0].get_extent() == [100, 116, 48, 60]

@@ -216,13 +216,13 @@ IMAGE_FUNCTIONS = {
     "tessellate": (v.tessellate, "seeds", lambda image: image.labels),
     "digital_triangulation": (v.digital_triangulation, "source", lambda mesh: mesh.triangles),
     "region_table": (v.region_table, "image", lambda table: table["area"]),
-    "neighbour_table": (v.neighbour_table, "image", lambda table: table["border_length"]),
+    "neighbor_table": (v.neighbor_table, "image", lambda table: table["border_length"]),
     "voronoi_diagram": (v.voronoi_diagram, "image", np.asarray),
-    "colour_regions": (v.colour_regions, "image", np.asarray),
+    "color_regions": (v.color_regions, "image", np.asarray),
     "outlines": (v.outlines, "image", lambda polygons: polygons.xy),
     "seeds_from_raster": (v.seeds_from_raster, "raster", lambda seeds: seeds.labels),
 }
-VOLUME_FUNCTIONS = {"tessellate", "region_table", "neighbour_table", "voronoi_diagram", "colour_regions"}
+VOLUME_FUNCTIONS = {"tessellate", "region_table", "neighbor_table", "voronoi_diagram", "color_regions"}
 
 
 @pytest.mark.parametrize(
@@ -273,7 +273,7 @@ def test_what_is_no_image(function, form):
 
 
 @pytest.mark.parametrize("function", sorted(IMAGE_FUNCTIONS.keys() - {"outlines", "seeds_from_raster"}))
-def test_grey_values_and_colours_name_the_threshold(function):
+def test_grey_values_and_colors_name_the_threshold(function):
     call, name, _ = IMAGE_FUNCTIONS[function]
     for source in (LABELS / 2, np.zeros((9, 9, 3), np.uint8)):
         with pytest.raises(InputError, match=f"^invalid {name}: .*threshold="):

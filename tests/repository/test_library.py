@@ -74,9 +74,9 @@ def test_arrays_are_taken_for_images():
     seeds = vorotool.seeds_from_raster(image)
     assert seeds.labels.tolist() == vorotool.seeds_from_raster(vorotool.Raster(image)).labels.tolist() == [1, 2, 2]
     assert vorotool.region_table(image)["area"].tolist() == [3]
-    assert vorotool.neighbour_table(image).rows == 0
-    assert vorotool.colour_regions(image).tolist() == [0, 1]
-    for function in (vorotool.region_table, vorotool.neighbour_table, vorotool.colour_regions):
+    assert vorotool.neighbor_table(image).rows == 0
+    assert vorotool.color_regions(image).tolist() == [0, 1]
+    for function in (vorotool.region_table, vorotool.neighbor_table, vorotool.color_regions):
         with pytest.raises(InputError, match=r"^invalid image: expected truth values or integers"):
             function(np.ones((2, 2)))
     with pytest.raises(InputError, match=r"^invalid raster: expected an image"):

@@ -42,7 +42,7 @@ def test_labels_count_from_1_and_0_is_none():
         vorotool.point_table(MESH),
         vorotool.site_table(MESH),
         vorotool.region_table(IMAGE),
-        vorotool.neighbour_table(IMAGE),
+        vorotool.neighbor_table(IMAGE),
         vorotool.arc_table(SKELETON),
         vorotool.branch_table(SKELETON),
         vorotool.polygon_table(SKELETON),

@@ -20,16 +20,16 @@ inline std::span<const std::int32_t> rows_of(const IndexRows& array, std::size_t
 // Its arrays are kept, and go together in length; the core trusts no index.
 class Triangulation {
  public:
-  Triangulation(const Places& points, const IndexRows& triangles, const IndexRows& neighbours,
+  Triangulation(const Places& points, const IndexRows& triangles, const IndexRows& neighbors,
                 const IndexRows& edges, const Indices& hull, const Indices& first)
-      : kept_(keep(points, triangles, neighbours, edges, hull, first)),
+      : kept_(keep(points, triangles, neighbors, edges, hull, first)),
         view_{rows<core::kernel::Point>(points),
               rows_of(triangles, 3),
-              rows_of(neighbours, 3),
+              rows_of(neighbors, 3),
               rows_of(edges, 2),
               bindings::view(hull),
               bindings::view(first)} {
-    if (view_.first.size() != view_.points.size() || view_.neighbours.size() != view_.triangles.size()) {
+    if (view_.first.size() != view_.points.size() || view_.neighbors.size() != view_.triangles.size()) {
       throw std::invalid_argument("the arrays of a triangulation have lengths that do not go together");
     }
   }

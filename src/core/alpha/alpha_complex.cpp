@@ -25,10 +25,10 @@ constexpr std::size_t ahead = 16;                                // triangles or
 
 // Calls visit(side number) for the sides of triangles first ... end - 1 at which an edge is written.
 template <class Visit>
-void visit_edges(std::span<const std::int32_t> neighbours, std::size_t first, std::size_t end, Visit visit) {
+void visit_edges(std::span<const std::int32_t> neighbors, std::size_t first, std::size_t end, Visit visit) {
   for (std::size_t t = first; t < end; ++t) {
     for (std::size_t k = 3 * t; k < 3 * t + 3; ++k) {
-      if (neighbours[k] < 0 || neighbours[k] > static_cast<std::int32_t>(t)) visit(k);
+      if (neighbors[k] < 0 || neighbors[k] > static_cast<std::int32_t>(t)) visit(k);
     }
   }
 }
@@ -156,26 +156,26 @@ class AlphaBuilder {
 }  // namespace
 
 EdgeArrays edges_of_triangles(std::span<const std::int32_t> triangles,
-                              std::span<const std::int32_t> neighbours, unsigned threads,
+                              std::span<const std::int32_t> neighbors, unsigned threads,
                               const Monitor& monitor) {
   const std::size_t count = triangles.size() / 3;
   std::vector<std::size_t> start(base::piece_count(count, simplices_a_piece) + 1);
   for_pieces(count, simplices_a_piece, threads, monitor,
              [&](std::size_t piece, std::size_t first, std::size_t end) {
-               visit_edges(neighbours, first, end, [&](std::size_t) { ++start[piece + 1]; });
+               visit_edges(neighbors, first, end, [&](std::size_t) { ++start[piece + 1]; });
              });
   std::partial_sum(start.begin(), start.end(), start.begin());
   EdgeArrays out{LargeArray<std::int32_t>(2 * start.back()), LargeArray<std::int32_t>(2 * start.back())};
   for_pieces(count, simplices_a_piece, threads, monitor,
              [&](std::size_t piece, std::size_t first, std::size_t end) {
                std::size_t next = 2 * start[piece];
-               visit_edges(neighbours, first, end, [&](std::size_t k) {
+               visit_edges(neighbors, first, end, [&](std::size_t k) {
                  const std::size_t t = k / 3;
                  const std::int32_t a = triangles[3 * t + (k + 1) % 3], b = triangles[3 * t + (k + 2) % 3];
                  out.ends[next] = std::min(a, b);
                  out.ends[next + 1] = std::max(a, b);
                  out.sides[next] = static_cast<std::int32_t>(t);
-                 out.sides[next + 1] = neighbours[k];
+                 out.sides[next + 1] = neighbors[k];
                  next += 2;
                });
              });

@@ -4,7 +4,7 @@
 // For an edge with circumradii R1 <= R2 of the triangles on its sides (infinite where there is none):
 //   r_min = half its length, if neither opposite corner is strictly inside the disc on it as diameter (it is
 //           a Gabriel edge), else R1;   r_mid = R1;   r_max = R2.
-// A centre on the other side of a hull edge than the triangle is a corner inside that disc: one rule holds
+// A center on the other side of a hull edge than the triangle is a corner inside that disc: one rule holds
 // for all. If two triangles have one circle, all three radii are its own, and the edge is never in a shape:
 // it does not matter which diagonal of a cocircular polygon the triangulation has.
 #pragma once
@@ -23,10 +23,10 @@ struct EdgeArrays {
   base::LargeArray<std::int32_t> sides;  // [2 e] triangles with this edge, the second one -1 on the hull
 };
 
-// The edges of triangles whose neighbours are known, [3 t] each: in the order of the triangles, each edge
+// The edges of triangles whose neighbors are known, [3 t] each: in the order of the triangles, each edge
 // with the first triangle that has it.
 EdgeArrays edges_of_triangles(std::span<const std::int32_t> triangles,
-                              std::span<const std::int32_t> neighbours, unsigned threads,
+                              std::span<const std::int32_t> neighbors, unsigned threads,
                               const base::Monitor& monitor);
 
 struct AlphaInput {

@@ -73,18 +73,18 @@ class RingTracer {
     return best;
   }
 
-  // Whether the ray from the centre to p comes before that to q, turning counter-clockwise from the one to
+  // Whether the ray from the center to p comes before that to q, turning counter-clockwise from the one to
   // the start. No two of the three are the same.
-  static bool comes_earlier(const Point& centre, const Point& start, const Point& p, const Point& q) {
-    const bool p_in_first_half = is_in_first_half(centre, start, p),
-               q_in_first_half = is_in_first_half(centre, start, q);
+  static bool comes_earlier(const Point& center, const Point& start, const Point& p, const Point& q) {
+    const bool p_in_first_half = is_in_first_half(center, start, p),
+               q_in_first_half = is_in_first_half(center, start, q);
     if (p_in_first_half != q_in_first_half) return p_in_first_half;
-    return orient2d(centre, p, q) > 0;
+    return orient2d(center, p, q) > 0;
   }
 
   // Turned by less than 180 degrees.
-  static bool is_in_first_half(const Point& centre, const Point& start, const Point& p) {
-    return orient2d(centre, start, p) > 0;
+  static bool is_in_first_half(const Point& center, const Point& start, const Point& p) {
+    return orient2d(center, start, p) > 0;
   }
 
   // By the corner at the lexicographically smallest vertex: a ring is simple.

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/alpha/exact_radius.hpp"
-#include "core/kernel/circumcentre.hpp"
+#include "core/kernel/circumcenter.hpp"
 #include "core/numbers/double_double.hpp"
 #include "core/numbers/expansion.hpp"
 #include "core/numbers/int128.hpp"

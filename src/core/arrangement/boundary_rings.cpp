@@ -91,18 +91,18 @@ class Tracer {
     return static_cast<std::int32_t>(best - borders_.begin());
   }
 
-  // Whether a turn clockwise around a centre, from the direction of `start`, reaches a before b. The way back
+  // Whether a turn clockwise around a center, from the direction of `start`, reaches a before b. The way back
   // itself, if it is one, comes last.
-  static bool is_clockwise_first(LatticePoint centre, LatticePoint start, LatticePoint a, LatticePoint b) {
+  static bool is_clockwise_first(LatticePoint center, LatticePoint start, LatticePoint a, LatticePoint b) {
     const auto half = [&](LatticePoint p) {  // 0 within the half turn clockwise, 1 beyond; start is beyond
-      const std::int64_t area = turn(centre, start, p);
+      const std::int64_t area = turn(center, start, p);
       if (area != 0) return area < 0 ? 0 : 1;
       const bool is_opposite =
-          (start.x < centre.x) != (p.x < centre.x) || (start.y < centre.y) != (p.y < centre.y);
+          (start.x < center.x) != (p.x < center.x) || (start.y < center.y) != (p.y < center.y);
       return is_opposite ? 0 : 2;
     };
     if (half(a) != half(b)) return half(a) < half(b);
-    return turn(centre, b, a) > 0;
+    return turn(center, b, a) > 0;
   }
 
   // Follows borders until they close, and takes a ring off wherever a point is visited again.

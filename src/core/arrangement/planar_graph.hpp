@@ -19,7 +19,7 @@ enum class Repair {
   repeated_vertex,  // an edge without length is left out
   touching_vertex,  // a vertex inside an edge cuts it: once a vertex and straight stretch of edges
   crossing,         // edges that cross are cut there, at the nearest lattice point
-  moved_edge,       // an edge is led through the centres of cells that it meets: by less than a lattice step
+  moved_edge,       // an edge is led through the centers of cells that it meets: by less than a lattice step
   idle_segment,     // what is no border of any polygon, and of no line, is left out: spikes, overlaps, and
                     // holes without area that lie in no polygon of theirs
   empty_polygon,    // nothing is inside

@@ -124,10 +124,10 @@ int side_of(const LatticeSegment& s, const RationalPoint& p) {
 }
 
 bool meets_cell(const LatticeSegment& s, kernel::LatticePoint c) {
-  // the line misses the closed cell if its distance from the centre is more than (|d.x| + |d.y|) / (2 |d|)
+  // the line misses the closed cell if its distance from the center is more than (|d.x| + |d.y|) / (2 |d|)
   const std::int64_t dx = std::int64_t{s.b.x} - s.a.x, dy = std::int64_t{s.b.y} - s.a.y;
   if (magnitude(turn(s.a, s.b, c)) > (magnitude(dx) + magnitude(dy)) / 2) return false;
-  ParameterRange range;  // in half steps from the centre, the cell is [-1, 1) both ways
+  ParameterRange range;  // in half steps from the center, the cell is [-1, 1) both ways
   range.clip(2 * (std::int64_t{s.a.x} - c.x), 2 * dx, -1, 1);
   range.clip(2 * (std::int64_t{s.a.y} - c.y), 2 * dy, -1, 1);
   return !range.is_empty();

@@ -40,7 +40,7 @@ class Sweep {
   }
 
  private:
-  // Two segments that were neighbours before they cross; by then others may have come between them, all of
+  // Two segments that were neighbors before they cross; by then others may have come between them, all of
   // which pass through the same place.
   struct Event {
     RationalPoint at;
@@ -63,7 +63,7 @@ class Sweep {
     return segments_.upper_end[static_cast<std::size_t>(segment)];
   }
 
-  // All places whose segments pass through `at`, given one of them: they are neighbours.
+  // All places whose segments pass through `at`, given one of them: they are neighbors.
   template <class Place>
   Run run_through(std::int32_t place, const Place& at) {
     const auto holds = [&](std::int32_t other) {
@@ -149,7 +149,7 @@ class Sweep {
     }
   }
 
-  // Puts the segments passing_ and begin ... end - 1, all from one point, between two neighbours in the order
+  // Puts the segments passing_ and begin ... end - 1, all from one point, between two neighbors in the order
   // of their slopes: first into the places reused_.
   void insert_between(std::int32_t below, std::int32_t above, std::int32_t begin, std::int32_t end) {
     std::size_t used = 0, passed = 0;
@@ -186,7 +186,7 @@ class Sweep {
     place_of_[static_cast<std::size_t>(segment)] = place;
   }
 
-  // Two neighbours cross further on if the one that ends first ends on the wrong side of the other. Where it
+  // Two neighbors cross further on if the one that ends first ends on the wrong side of the other. Where it
   // ends on the other, or both end together, that is found at the point.
   void look_for_crossing(std::int32_t lower, std::int32_t upper) {
     if (lower == none || upper == none) return;

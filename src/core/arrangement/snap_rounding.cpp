@@ -145,7 +145,7 @@ class Snapping {
     return {loose_.begin() + static_cast<std::ptrdiff_t>(before), loose_.end()};
   }
 
-  // A segment meets cells in the order in which their centres lie along it: both coordinates are monotone.
+  // A segment meets cells in the order in which their centers lie along it: both coordinates are monotone.
   void write_chains() {
     result_.chain_start.reserve(met_.size() + 1);
     result_.chain_start.push_back(0);

@@ -1,16 +1,16 @@
 // Lattice segments that cross, touch or overlap to segments that meet at common ends only: snap rounding
-// (Hobby 1999; Guibas and Marimont 1998), confined to the neighbourhood of what has to move.
+// (Hobby 1999; Guibas and Marimont 1998), confined to the neighborhood of what has to move.
 //
 // Every point, and every place where segments meet, rounded to the lattice, is a node; its cell (hot pixel)
 // is [c - 1/2, c + 1/2) both ways. A segment that crosses another one at a place that is no lattice point has
-// to move: it is loose. A loose segment goes through the centres of all cells of nodes that it meets, in
-// order. A cell that a loose segment meets elsewhere than in its centre is disturbed, and every segment that
+// to move: it is loose. A loose segment goes through the centers of all cells of nodes that it meets, in
+// order. A cell that a loose segment meets elsewhere than in its center is disturbed, and every segment that
 // meets a disturbed cell is loose too. The others stay where they are, cut at the nodes that lie on them. A
 // round makes at least one more segment loose, so that this ends; after some rounds all are made loose, which
 // is the classical algorithm.
 //
 // Why no two pieces cross and no node lies inside a piece. On each loose segment take a point p in every
-// cell that it meets, and let p move to the centre c of the cell: p + t (c - p), 0 <= t <= 1. The pieces
+// cell that it meets, and let p move to the center c of the cell: p + t (c - p), 0 <= t <= 1. The pieces
 // between consecutive ones stay straight. With B = [-1/2, 1/2)^2, which is convex and holds 0, p - c is in
 // B, and so is any average of such differences. A point of a piece that moves is q + t d at time t, with q
 // on its segment between its ends, and -d in B.

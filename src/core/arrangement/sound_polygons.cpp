@@ -114,7 +114,7 @@ class EdgeMatches {
     }
   }
 
-  // The edges that match none, those of one neighbourhood near each other.
+  // The edges that match none, those of one neighborhood near each other.
   std::vector<std::int32_t> alone() const;
   const Edge& operator[](std::int32_t edge) const { return edges_[at(edge)]; }
 

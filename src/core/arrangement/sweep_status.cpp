@@ -53,7 +53,7 @@ std::int32_t SweepStatus::insert(std::int32_t segment, std::int32_t below, std::
   fresh.above = above;
   if (below != none) node(below).above = place;
   if (above != none) node(above).below = place;
-  // of two neighbours one is in the subtree of the other: the free place is right of the lower or left of the
+  // of two neighbors one is in the subtree of the other: the free place is right of the lower or left of the
   // upper
   if (below != none && node(below).right == none) {
     node(below).right = place;

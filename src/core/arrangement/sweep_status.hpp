@@ -37,7 +37,7 @@ class SweepStatus {
     return {none, low, high};
   }
 
-  // Puts a segment between two neighbours in the list, either of which may be none. Returns its place.
+  // Puts a segment between two neighbors in the list, either of which may be none. Returns its place.
   std::int32_t insert(std::int32_t segment, std::int32_t below, std::int32_t above);
   void erase(std::int32_t place);
 

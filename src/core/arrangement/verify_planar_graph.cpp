@@ -23,7 +23,7 @@ std::string named(LatticePoint p) {
 }
 
 // Sweeps a horizontal line upwards and keeps the segments that it cuts from left to right (Shamos and Hoey
-// 1976): if there is a fault, then two segments are neighbours below the lowest one.
+// 1976): if there is a fault, then two segments are neighbors below the lowest one.
 class CheckingSweep {
  public:
   CheckingSweep(const PlanarGraphView& graph, const Monitor& monitor)

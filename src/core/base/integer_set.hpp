@@ -1,4 +1,4 @@
-// A set of small integers that knows the neighbours of any integer in it.
+// A set of small integers that knows the neighbors of any integer in it.
 #pragma once
 
 #include <bit>

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/base/parallel.hpp"
-#include "core/kernel/circumcentre.hpp"
+#include "core/kernel/circumcenter.hpp"
 #include "core/kernel/predicates.hpp"
 #include "core/numbers/double_double.hpp"
 #include "core/numbers/elementary.hpp"

@@ -8,7 +8,7 @@
 
 #include "core/base/parallel.hpp"
 #include "core/delaunay/vertex_triangles.hpp"
-#include "core/kernel/circumcentre.hpp"
+#include "core/kernel/circumcenter.hpp"
 #include "core/kernel/predicates.hpp"
 
 namespace vorotool::core::cells {
@@ -158,7 +158,7 @@ class CellTracer {
 
   void leave(SideSet candidates, const Point& other) {
     left_ = side_crossed(candidates, other, false);
-    if (left_ < 0) throw std::invalid_argument("the circumcentres around a point do not go round it");
+    if (left_ < 0) throw std::invalid_argument("the circumcenters around a point do not go round it");
     ring_.push_back(frame_.crossing(left_, site_, other));
   }
 
@@ -232,9 +232,9 @@ class CellMaker {
   Stop stop_of(const Index* corners) const {
     const Point &a = at(corners[0]), &b = at(corners[1]), &c = at(corners[2]);
     if (kernel::orient2d(a, b, c) <= 0) throw std::invalid_argument("a triangle is not counter-clockwise");
-    const kernel::RoundedPoint centre = kernel::circumcentre(a, b, c);
-    const SideSet beyond = frame_.beyond(centre, [&] { return kernel::circumcentre_exactly(a, b, c); });
-    return {beyond, {centre.x.value + 0.0, centre.y.value + 0.0}};  // no negative zeros
+    const kernel::RoundedPoint center = kernel::circumcenter(a, b, c);
+    const SideSet beyond = frame_.beyond(center, [&] { return kernel::circumcenter_exactly(a, b, c); });
+    return {beyond, {center.x.value + 0.0, center.y.value + 0.0}};  // no negative zeros
   }
 
   void trace_piece(std::span<const Index> order, std::size_t piece, std::size_t begin, std::size_t end,
@@ -329,7 +329,7 @@ class CellMaker {
   const Frame frame_;
   const unsigned threads_;
   const Monitor& monitor_;
-  base::LargeArray<Stop> stops_;            // [triangles] their circumcentres
+  base::LargeArray<Stop> stops_;            // [triangles] their circumcenters
   std::vector<std::vector<Point>> pieces_;  // vertices of their cells, in the order of the sites
   std::vector<std::int64_t> starts_;        // [n + 1] first the sizes of the rings, each one place later
   std::atomic<bool> any_{false};            // whether any cell's boundary meets the frame

@@ -18,7 +18,7 @@ constexpr int piece_bits = 14;                             // vertices of a piec
 constexpr std::size_t piece_size = std::size_t{1} << piece_bits;
 constexpr std::uint32_t no_slot = 0xffffffff;  // fewer than 2^29 triangles, times four, stay below
 
-Vertex neighbour(Vertex entry) { return entry < 0 ? ~entry : entry; }
+Vertex neighbor(Vertex entry) { return entry < 0 ? ~entry : entry; }
 
 }  // namespace
 
@@ -91,16 +91,15 @@ DelaunayTriangulation::Piece DelaunayTriangulation::gather_piece(std::size_t num
     const auto v = static_cast<Vertex>(place);
     const std::span ring(vertices[place].ring(), vertices[place].degree());
     std::size_t from = 0;
-    for (std::size_t k = 1; k < ring.size(); ++k)
-      from = neighbour(ring[k]) < neighbour(ring[from]) ? k : from;
+    for (std::size_t k = 1; k < ring.size(); ++k) from = neighbor(ring[k]) < neighbor(ring[from]) ? k : from;
     edge_start_[place] = static_cast<std::uint32_t>(piece.edges);
     for (std::size_t k = 0; k < ring.size(); ++k) {
       const Vertex entry = ring[from];
       from = from + 1 == ring.size() ? 0 : from + 1;
-      const Vertex w = neighbour(entry);
+      const Vertex w = neighbor(entry);
       *next++ = entry;
       piece.edges += w > v;
-      piece.triangles += (w > v) & (neighbour(ring[from]) > v) & (entry >= 0);
+      piece.triangles += (w > v) & (neighbor(ring[from]) > v) & (entry >= 0);
     }
     ring_end_[place] = static_cast<std::uint32_t>(next - piece.rings.data());
   }
@@ -113,7 +112,7 @@ std::span<const Vertex> DelaunayTriangulation::ring(Vertex v) const {
   return {pieces_[place >> piece_bits].rings.data() + begin, ring_end_[place] - begin};
 }
 
-// A triangle is written at its earliest vertex v: what links it to its neighbours.
+// A triangle is written at its earliest vertex v: what links it to its neighbors.
 struct DelaunayTriangulation::Lead {
   Vertex w, u;                   // the others
   std::uint32_t edge_w, edge_u;  // numbers of the edges to them
@@ -134,8 +133,8 @@ void DelaunayTriangulation::visit_spokes(std::size_t piece, Visit visit) const {
     for (std::size_t k = 0; k < spokes.size(); ++k) {
       const bool last = k + 1 == spokes.size();
       const Vertex following = spokes[last ? 0 : k + 1];
-      const Vertex w = neighbour(entry);
-      const Vertex u = neighbour(following);
+      const Vertex w = neighbor(entry);
+      const Vertex u = neighbor(following);
       const std::uint32_t next_edge = last ? first : edge + (w > v);
       visit(v, w, u, edge, next_edge, w > v, (w > v) & (u > v) & (entry >= 0));
       entry = following;
@@ -146,7 +145,7 @@ void DelaunayTriangulation::visit_spokes(std::size_t piece, Visit visit) const {
 
 void DelaunayTriangulation::write(const MeshArrays& out, unsigned threads, const Monitor& monitor) const {
   if (edge_count_ == 0) return;
-  const bool link = out.neighbours != nullptr && triangle_count() > 0;
+  const bool link = out.neighbors != nullptr && triangle_count() > 0;
   base::LargeArray<std::uint32_t> slots(link ? 2 * edge_count_ : 0);
   const auto write = [&](std::size_t piece) { write_piece(piece, out, link ? slots.data() : nullptr); };
   parallel_for(pieces_.size() - 1, threads, write, monitor);
@@ -156,7 +155,7 @@ void DelaunayTriangulation::write(const MeshArrays& out, unsigned threads, const
   }
   const auto put = [&](std::uint32_t slot, std::uint32_t across) {
     if (slot == no_slot) return;
-    out.neighbours[3 * std::size_t{slot / 4} + slot % 4] =
+    out.neighbors[3 * std::size_t{slot / 4} + slot % 4] =
         across == no_slot ? -1 : static_cast<std::int32_t>(across / 4);
   };
   base::for_items(edge_count_, piece_size, threads, monitor, [&](std::size_t edge) {
@@ -194,7 +193,7 @@ void DelaunayTriangulation::write_piece(std::size_t piece, const MeshArrays& out
   if (slots) fill_slots(leads, first, slots);
 }
 
-// The slot of a side is where the neighbour across it belongs: the triangle on its left, times four, and the
+// The slot of a side is where the neighbor across it belongs: the triangle on its left, times four, and the
 // corner opposite to it. An edge has two: first that of its direction from the earlier vertex.
 void DelaunayTriangulation::fill_slots(const std::vector<Lead>& leads, std::size_t first,
                                        std::uint32_t* slots) const {
@@ -220,7 +219,7 @@ std::size_t DelaunayTriangulation::first_edge(Vertex v) const {
 std::size_t DelaunayTriangulation::edge_between(Vertex earlier, Vertex later) const {
   std::size_t edge = first_edge(earlier);
   for (const Vertex entry : ring(earlier)) {
-    const Vertex w = neighbour(entry);
+    const Vertex w = neighbor(entry);
     if (w == later) break;
     edge += w > earlier;
   }

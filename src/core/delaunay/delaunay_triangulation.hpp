@@ -19,11 +19,11 @@
 
 namespace vorotool::core::delaunay {
 
-// Where to write a mesh; null what is not wanted, neighbours only along with triangles.
+// Where to write a mesh; null what is not wanted, neighbors only along with triangles.
 struct MeshArrays {
   std::int32_t* triangles = nullptr;  // [3 triangle_count] points, counter-clockwise
   // [3 triangle_count] the triangle across the side opposite to each; or -1
-  std::int32_t* neighbours = nullptr;
+  std::int32_t* neighbors = nullptr;
   // [2 edge_count] ends, the smaller index first; of collinear points, a chain
   std::int32_t* edges = nullptr;
 };
@@ -54,7 +54,7 @@ class DelaunayTriangulation {
   void write(const MeshArrays& out, unsigned threads, const base::Monitor& monitor) const;
 
  private:
-  // Vertices are numbered along the curve, and a piece of them is worked on at a time. The neighbours of
+  // Vertices are numbered along the curve, and a piece of them is worked on at a time. The neighbors of
   // each, its ring, go counter-clockwise from the earliest one; ~w instead of w where the unbounded face
   // follows.
   struct Piece {

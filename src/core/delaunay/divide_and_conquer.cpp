@@ -125,7 +125,7 @@ class Builder {
     std::uint32_t in_left, in_right;
   };
 
-  // A neighbour of an end of the base that may make a triangle with it.
+  // A neighbor of an end of the base that may make a triangle with it.
   struct Candidate {
     Vertex vertex;
     kernel::Apex apex;
@@ -292,14 +292,14 @@ class Builder {
     }
   }
 
-  // The neighbour next to the base at one end of it. Neighbours whose circle with the base holds the one
+  // The neighbor next to the base at one end of it. Neighbors whose circle with the base holds the one
   // after them are taken out.
   template <Turn turn>
   Candidate candidate(const Base& base, Vertex end, Vertex other_end, std::uint32_t& base_place) {
     RingVertex& vertex = at(end);
     std::uint32_t place = turned<turn>(vertex, base_place);
     Candidate chosen = seen(base, vertex.ring()[place]);
-    // An end without other neighbours turns back to the base itself.
+    // An end without other neighbors turns back to the base itself.
     chosen.is_valid =
         chosen.vertex != other_end && side_of(base.left, base.right, chosen.vertex, chosen.apex) > 0;
     if (!chosen.is_valid) return chosen;

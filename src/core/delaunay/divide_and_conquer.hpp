@@ -20,7 +20,7 @@ struct OrderedPoints {
 
 // Further results of the construction. The ring of a vertex on the hull begins with the
 // next vertex of the hull, counter-clockwise, and ends with the one before: the unbounded face follows its
-// last neighbour.
+// last neighbor.
 struct Subdivision {
   std::vector<RingStore> stores;  // of long rings: to be kept along with the vertices
   Vertex start = -1;              // lexicographically smallest; none if there are no points

@@ -180,7 +180,7 @@ void FlipMesh::insert(Vertex v) {
   settle();
 }
 
-// Lists the neighbours of the vertex that a side leaves, from that of the side on. Returns how many sides
+// Lists the neighbors of the vertex that a side leaves, from that of the side on. Returns how many sides
 // leave it, one to infinity among them.
 FlipMesh::Side FlipMesh::make_ring(Side start, RingStore& store) {
   RingVertex& vertex = vertices_[static_cast<std::size_t>(origin(start))];

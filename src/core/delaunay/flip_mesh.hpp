@@ -36,7 +36,7 @@ class FlipMesh {
   void start(Vertex a, Vertex b, Vertex c);
 
   // Takes triangles of collinear corners out: the side between the outer two is flipped, which leaves proper
-  // triangles where the neighbour across it is one. Returns the number of such flips.
+  // triangles where the neighbor across it is one. Returns the number of such flips.
   std::uint64_t straighten();
   // Whether all triangles but ghosts are counter-clockwise.
   bool is_positive() const;

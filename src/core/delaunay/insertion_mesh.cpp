@@ -20,7 +20,7 @@ InsertionMesh::InsertionMesh(const TriangulationArrays& mesh, std::span<const Po
       corners_(3 * (slots_ + mesh.hull.size() + 2 * more)),
       across_(corners_.size()) {
   std::copy(mesh.triangles.begin(), mesh.triangles.end(), corners_.data());
-  std::copy(mesh.neighbours.begin(), mesh.neighbours.end(), across_.data());
+  std::copy(mesh.neighbors.begin(), mesh.neighbors.end(), across_.data());
   changed_.reserve(corners_.size() / 3);
   changed_.assign(slots_, 0);
   add_ghosts();

@@ -1,7 +1,7 @@
-// A Delaunay triangulation into which points can be inserted: triangles with neighbours, closed by ghosts.
+// A Delaunay triangulation into which points can be inserted: triangles with neighbors, closed by ghosts.
 //
 // Across each side of the hull lies a ghost triangle with a vertex at infinity, so that every triangle has
-// three neighbours and a point outside the hull is inserted like any other. A triangle keeps its slot, by
+// three neighbors and a point outside the hull is inserted like any other. A triangle keeps its slot, by
 // which arrays that are there already are changed in few places; FlipMesh, whose rings are made anew,
 // links the sides of triangles that it only adds. What they share is in core/delaunay/half_edge.hpp and
 // the predicates.

@@ -204,8 +204,8 @@ class Inserter {
   }
 
   struct Spoke {
-    Vertex neighbour;  // or infinity
-    Slot slot;         // the triangle counter-clockwise after it
+    Vertex neighbor;  // or infinity
+    Slot slot;        // the triangle counter-clockwise after it
   };
 
   void make_blocks() {
@@ -215,12 +215,12 @@ class Inserter {
       go_round(v, slot, ring);
       write_block(v, ring);
       near_.push_back(v);
-      for (const Spoke& spoke : ring) near_.push_back(spoke.neighbour);
+      for (const Spoke& spoke : ring) near_.push_back(spoke.neighbor);
     }
     blocks_.push_back({-1, new_triangles_.size(), new_edges_.size() / 2});
   }
 
-  // The neighbours of a vertex, counter-clockwise from the earliest one.
+  // The neighbors of a vertex, counter-clockwise from the earliest one.
   void go_round(Vertex v, Slot start, std::vector<Spoke>& ring) const {
     ring.clear();
     Slot s = start;
@@ -232,10 +232,10 @@ class Inserter {
         throw std::invalid_argument("the triangles around a point form no ring");
     } while (s != start);
     const auto before = [&](const Spoke& a, const Spoke& b) {
-      if (a.neighbour == InsertionMesh::infinity || b.neighbour == InsertionMesh::infinity) {
-        return b.neighbour == InsertionMesh::infinity && a.neighbour != InsertionMesh::infinity;
+      if (a.neighbor == InsertionMesh::infinity || b.neighbor == InsertionMesh::infinity) {
+        return b.neighbor == InsertionMesh::infinity && a.neighbor != InsertionMesh::infinity;
       }
-      return is_earlier(a.neighbour, b.neighbour);
+      return is_earlier(a.neighbor, b.neighbor);
     };
     std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end(), before), ring.end());
   }
@@ -243,10 +243,10 @@ class Inserter {
   void write_block(Vertex v, const std::vector<Spoke>& ring) {
     const auto is_later = [&](Vertex w) { return w != InsertionMesh::infinity && is_earlier(v, w); };
     for (std::size_t i = 0; i < ring.size(); ++i) {
-      if (!is_later(ring[i].neighbour)) continue;
-      new_edges_.push_back(std::min(v, ring[i].neighbour));
-      new_edges_.push_back(std::max(v, ring[i].neighbour));
-      if (!is_later(ring[(i + 1) % ring.size()].neighbour)) continue;
+      if (!is_later(ring[i].neighbor)) continue;
+      new_edges_.push_back(std::min(v, ring[i].neighbor));
+      new_edges_.push_back(std::max(v, ring[i].neighbor));
+      if (!is_later(ring[(i + 1) % ring.size()].neighbor)) continue;
       mesh_.rotate(ring[i].slot, mesh_.corner_of(ring[i].slot, v));
       new_triangles_.push_back(ring[i].slot);
     }
@@ -325,7 +325,7 @@ class Inserter {
       for (int k = 0; k < 3; ++k) {
         const std::size_t place = 3 * row + static_cast<std::size_t>(k);
         out.triangles[place] = mesh_.corner(slot_of[row], k);
-        out.neighbours[place] = row_of[static_cast<std::size_t>(mesh_.across(slot_of[row], k))];
+        out.neighbors[place] = row_of[static_cast<std::size_t>(mesh_.across(slot_of[row], k))];
       }
     });
   }

@@ -16,7 +16,7 @@ namespace vorotool::core::delaunay {
 
 // The arrays of a triangulation, as in TriangulationArrays.
 struct InsertedArrays {
-  base::LargeArray<std::int32_t> triangles, neighbours, edges;
+  base::LargeArray<std::int32_t> triangles, neighbors, edges;
   std::vector<std::int32_t> hull, first;
 };
 

@@ -78,9 +78,9 @@ class Checker {
     if (Fault fault = check_first()) return fault;
     if (Fault fault = check_indices()) return fault;
     if (triangles_ == 0) return check_chain();
-    for (const auto check : {&Checker::check_orientation, &Checker::check_sides, &Checker::check_neighbours,
-                             &Checker::check_hull, &Checker::check_vertices, &Checker::check_edges,
-                             &Checker::check_circles, &Checker::check_fans}) {
+    for (const auto check :
+         {&Checker::check_orientation, &Checker::check_sides, &Checker::check_neighbors, &Checker::check_hull,
+          &Checker::check_vertices, &Checker::check_edges, &Checker::check_circles, &Checker::check_fans}) {
       if (Fault fault = (this->*check)()) return fault;
     }
     return {};
@@ -89,7 +89,7 @@ class Checker {
  private:
   const Point& at(Index v) const { return in_.points[static_cast<std::size_t>(v)]; }
   Index corner(std::size_t t, int k) const { return in_.triangles[3 * t + static_cast<std::size_t>(k % 3)]; }
-  Index across(std::size_t t, int k) const { return in_.neighbours[3 * t + static_cast<std::size_t>(k % 3)]; }
+  Index across(std::size_t t, int k) const { return in_.neighbors[3 * t + static_cast<std::size_t>(k % 3)]; }
   bool is_point(Index v) const { return v >= 0 && static_cast<std::size_t>(v) < in_.points.size(); }
   // Whether v may be a vertex: of points at one place only the first is.
   bool is_vertex(Index v) const { return is_point(v) && in_.first[static_cast<std::size_t>(v)] == v; }
@@ -136,12 +136,12 @@ class Checker {
     if (const std::size_t bad = no_vertex(in_.hull); bad != none)
       return named("hull vertex ", bad, in_.hull[bad]);
     const auto no_triangle = [&](std::size_t i) {
-      const Index u = in_.neighbours[i];
+      const Index u = in_.neighbors[i];
       return u < -1 || (u >= 0 && static_cast<std::size_t>(u) >= triangles_);
     };
-    const std::size_t bad = find(in_.neighbours.size(), no_triangle);
+    const std::size_t bad = find(in_.neighbors.size(), no_triangle);
     if (bad == none) return {};
-    return text("a neighbour of triangle ", bad / 3) + " is " + std::to_string(in_.neighbours[bad]) +
+    return text("a neighbor of triangle ", bad / 3) + " is " + std::to_string(in_.neighbors[bad]) +
            ", which is no triangle";
   }
 
@@ -201,27 +201,27 @@ class Checker {
     return -1;
   }
 
-  Fault check_neighbours() {
+  Fault check_neighbors() {
     const auto wrong = [&](std::size_t i) {
       const std::size_t t = i / 3;
       const int k = static_cast<int>(i % 3);
-      if (in_.neighbours[i] < 0) return sides_.holds(corner(t, k + 2), corner(t, k + 1));
-      return opposite(t, k, static_cast<std::size_t>(in_.neighbours[i])) < 0;
+      if (in_.neighbors[i] < 0) return sides_.holds(corner(t, k + 2), corner(t, k + 1));
+      return opposite(t, k, static_cast<std::size_t>(in_.neighbors[i])) < 0;
     };
     const std::size_t bad = find(3 * triangles_, wrong);
     if (bad == none) return {};
-    return text("triangle ", bad / 3) + text(" has a wrong neighbour opposite to its corner ", bad % 3);
+    return text("triangle ", bad / 3) + text(" has a wrong neighbor opposite to its corner ", bad % 3);
   }
 
-  // The sides without a neighbour are the hull, gone round once. A closed walk that never turns right winds
+  // The sides without a neighbor are the hull, gone round once. A closed walk that never turns right winds
   // around as often as it turns from falling to rising in lexicographic order.
   Fault check_hull() {
     const std::size_t count = in_.hull.size();
-    const auto open = std::count(in_.neighbours.begin(), in_.neighbours.end(), -1);
+    const auto open = std::count(in_.neighbors.begin(), in_.neighbors.end(), -1);
     if (static_cast<std::size_t>(open) != count) {
       return text("the hull has ", count) +
              text(" vertices, but the triangles have ", static_cast<std::size_t>(open)) +
-             " sides without a neighbour";
+             " sides without a neighbor";
     }
     const auto vertex = [&](std::size_t i) { return in_.hull[i % count]; };
     std::size_t lows = 0;
@@ -285,7 +285,7 @@ class Checker {
     };
     const std::size_t bad = find(3 * triangles_, wrong);
     if (bad == none) return {};
-    const auto u = static_cast<std::size_t>(in_.neighbours[bad]);
+    const auto u = static_cast<std::size_t>(in_.neighbors[bad]);
     const int k = opposite(bad / 3, static_cast<int>(bad % 3), u);
     return text("the circle of triangle ", bad / 3) + " holds point " + std::to_string(corner(u, k));
   }
@@ -299,7 +299,7 @@ class Checker {
       return t;
     };
     for (std::size_t i = 0; i < cocircular_.size(); ++i) {
-      if (cocircular_[i]) parent[root(i / 3)] = root(static_cast<std::size_t>(in_.neighbours[i]));
+      if (cocircular_[i]) parent[root(i / 3)] = root(static_cast<std::size_t>(in_.neighbors[i]));
     }
     std::vector<Index> smallest(triangles_, -1);
     for (std::size_t i = 0; i < in_.triangles.size(); ++i) {

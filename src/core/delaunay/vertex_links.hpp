@@ -1,6 +1,6 @@
-// A planar subdivision as rings: each vertex with its neighbours in counter-clockwise order.
+// A planar subdivision as rings: each vertex with its neighbors in counter-clockwise order.
 //
-// A vertex with few neighbours is one cache line, with its coordinates: what is looked at together lies
+// A vertex with few neighbors is one cache line, with its coordinates: what is looked at together lies
 // together. An edge is in the rings of both of its ends, and no link leads from one to the other: short rings
 // are searched faster than links are followed.
 #pragma once
@@ -61,15 +61,15 @@ class alignas(64) RingVertex {
   std::uint32_t after(std::uint32_t place) const { return place + 1 == degree_ ? 0 : place + 1; }
   std::uint32_t before(std::uint32_t place) const { return (place == 0 ? degree_ : place) - 1; }
 
-  // The place of a neighbour in the ring.
-  std::uint32_t find(Vertex neighbour) const {
-    if (is_long_) return find_outwards(neighbour);
+  // The place of a neighbor in the ring.
+  std::uint32_t find(Vertex neighbor) const {
+    if (is_long_) return find_outwards(neighbor);
     std::uint32_t place = 0;
-    while (short_[place] != neighbour) ++place;
+    while (short_[place] != neighbor) ++place;
     return place;
   }
 
-  void insert(std::uint32_t place, Vertex neighbour, RingStore& store) {
+  void insert(std::uint32_t place, Vertex neighbor, RingStore& store) {
     const bool in_front = is_long_ && 2 * place < degree_;
     if (!has_room(in_front)) make_room(store);
     Vertex* entries = ring();
@@ -80,7 +80,7 @@ class alignas(64) RingVertex {
       std::copy_backward(entries + place, entries + degree_, entries + degree_ + 1);
     }
     ++degree_;
-    ring()[place] = neighbour;
+    ring()[place] = neighbor;
     if (is_long_) long_.changed = place;
   }
 
@@ -98,11 +98,11 @@ class alignas(64) RingVertex {
 
  private:
   // In a long ring it is mostly near the place of the last change.
-  std::uint32_t find_outwards(Vertex neighbour) const {
+  std::uint32_t find_outwards(Vertex neighbor) const {
     std::uint32_t high = std::min<std::uint32_t>(long_.changed, degree_ - 1), low = high;
     for (;;) {
-      if (long_.entries[high] == neighbour) return high;
-      if (long_.entries[low] == neighbour) return low;
+      if (long_.entries[high] == neighbor) return high;
+      if (long_.entries[low] == neighbor) return low;
       high += high + 1 < degree_;
       low -= low > 0;
     }

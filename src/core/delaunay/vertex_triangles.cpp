@@ -6,7 +6,7 @@ using base::check_range;
 
 void check_indices(const TriangulationArrays& mesh) {
   check_range(mesh.triangles, 0, mesh.points.size(), "a triangle names a point that does not exist");
-  check_range(mesh.neighbours, -1, mesh.triangles.size() / 3, "a neighbour is no triangle");
+  check_range(mesh.neighbors, -1, mesh.triangles.size() / 3, "a neighbor is no triangle");
   check_range(mesh.edges, 0, mesh.points.size(), "an edge names a point that does not exist");
   check_range(mesh.hull, 0, mesh.points.size(), "the hull names a point that does not exist");
   check_range(mesh.first, 0, mesh.points.size(), "first names a point that does not exist");
@@ -21,7 +21,7 @@ VertexTriangles::VertexTriangles(const TriangulationArrays& mesh)
     std::int32_t& first = first_[static_cast<std::size_t>(v)];
     if (first < 0) order_.push_back(v);
     // The side from v to the corner after it is opposite to the corner before it.
-    if (first < 0 || mesh.neighbours[preceding(i)] < 0) first = static_cast<std::int32_t>(i / 3);
+    if (first < 0 || mesh.neighbors[preceding(i)] < 0) first = static_cast<std::int32_t>(i / 3);
   }
 }
 

@@ -21,7 +21,7 @@ class VertexTriangles {
   // Refuses indices that do not exist with std::invalid_argument.
   explicit VertexTriangles(const TriangulationArrays& mesh);
 
-  // Vertices of triangles in the order in which they first occur: neighbours are close together in it.
+  // Vertices of triangles in the order in which they first occur: neighbors are close together in it.
   std::span<const std::int32_t> order() const { return order_; }
 
   // Calls visit(triangle, next, last) for the triangles at a vertex v, counter-clockwise: v, next, last are
@@ -35,7 +35,7 @@ class VertexTriangles {
     for (std::size_t steps = 0; steps < triangles_; ++steps) {
       const std::size_t k = corner_of(t, v);
       visit(t, corner(t, following(k)), corner(t, preceding(k)));
-      t = mesh_.neighbours[3 * base::at(t) + following(k)];
+      t = mesh_.neighbors[3 * base::at(t) + following(k)];
       if (t == start) return false;
       if (t < 0) return true;
     }
@@ -48,7 +48,7 @@ class VertexTriangles {
     for (std::size_t k = 0; k < 3; ++k) {
       if (corner(t, k) == v) return k;
     }
-    throw std::invalid_argument("a triangle has a neighbour that does not share its side");
+    throw std::invalid_argument("a triangle has a neighbor that does not share its side");
   }
 
   const TriangulationArrays& mesh_;

@@ -141,7 +141,7 @@ class Connector {
   }
 
   template <class Visit>
-  void for_neighbours(std::size_t pixel, Visit visit) const {
+  void for_neighbors(std::size_t pixel, Visit visit) const {
     const std::size_t column = pixel % frame_.width;
     if (pixel >= frame_.width) visit(pixel - frame_.width);
     if (column > 0) visit(pixel - 1);
@@ -156,7 +156,7 @@ class Connector {
       fronts.push({std::max(own, late), label, own, pixel});
     };
     for (const std::size_t pixel : free_) {
-      for_neighbours(pixel, [&](std::size_t from) {
+      for_neighbors(pixel, [&](std::size_t from) {
         const Label label = image_[from];
         if (label != 0) push(pixel, label, square(from, label));
       });
@@ -167,7 +167,7 @@ class Connector {
       fronts.pop();
       if (image_[front.pixel] != 0) continue;
       image_[front.pixel] = front.label;
-      for_neighbours(front.pixel, [&](std::size_t to) {
+      for_neighbors(front.pixel, [&](std::size_t to) {
         if (image_[to] == 0) push(to, front.label, front.late);
       });
     }

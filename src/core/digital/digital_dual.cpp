@@ -31,7 +31,7 @@ class DualReader {
       divide(around);
       return;
     }
-    // A connected region on both sides of the corner encloses one of the others: these are no neighbours.
+    // A connected region on both sides of the corner encloses one of the others: these are no neighbors.
     if (corner.upper_left == corner.lower_right || corner.upper_right == corner.lower_left) return;
     static_cast<void>(std::unique(around.begin(), around.end()));  // leaves the three in front
     ++dual.three_label_corners;
@@ -156,7 +156,7 @@ class TwinRemover {
     return false;
   }
 
-  // On the frame such a site lies between two stretches of one neighbour, which become one.
+  // On the frame such a site lies between two stretches of one neighbor, which become one.
   bool leave_ring(Vertex v) {
     if (times_[index(v)] == 0) return true;
     const std::int32_t i = place_[index(v)], p = before(i), n = after(i);

@@ -25,8 +25,8 @@ DigitalDual find_dual(std::span<const std::uint32_t> image, std::size_t width,
                       std::span<const delaunay::Vertex> vertex,
                       std::span<const delaunay::RingVertex> vertices, const base::Monitor& monitor);
 
-// Takes out the sites that have two neighbours only: their two triangles are the same, once each way round.
-// Others may have two neighbours only after that. Returns how many were taken out.
+// Takes out the sites that have two neighbors only: their two triangles are the same, once each way round.
+// Others may have two neighbors only after that. Returns how many were taken out.
 std::uint64_t remove_twins(DigitalDual& dual, std::size_t vertices);
 
 }  // namespace vorotool::core::digital

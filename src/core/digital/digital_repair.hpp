@@ -3,7 +3,7 @@
 //
 // 1. Regions are made 4-connected.
 // 2. A corner of three labels is a triangle, one of four labels two.
-// 3. Sites that are left with two neighbours are taken out.
+// 3. Sites that are left with two neighbors are taken out.
 // 4. The frame is closed: the labels around it are a polygon, whose reflex turns are filled.
 // 5. Sides that are not locally Delaunay are flipped.
 // 6. Sites that are in no triangle yet are inserted where they lie.
@@ -25,7 +25,7 @@ struct DigitalRepair {
   std::uint64_t moved_pixels = 0;
   std::uint64_t three_label_corners = 0;
   std::uint64_t four_label_corners = 0;
-  std::uint64_t twins = 0;         // sites with two neighbours, taken out
+  std::uint64_t twins = 0;         // sites with two neighbors, taken out
   std::uint64_t straightened = 0;  // triangles of collinear sites
   std::uint64_t filled = 0;        // turns of the frame
   std::uint64_t flipped = 0;       // sides, before sites were inserted

@@ -42,7 +42,7 @@ class Piece {
  public:
   explicit Piece(std::size_t width) : pair_(width), starts_(width) {}
 
-  // The neighbours within a row.
+  // The neighbors within a row.
   template <class Label>
   void link_row(std::span<const Label> row) {
     const std::size_t count = starts_.cut(row);
@@ -70,7 +70,7 @@ class Piece {
     linked_[std::uint64_t{std::min(a, b)} << 32 | std::max(a, b)] = 1;
   }
 
-  // Each of the four pixels with its two 4-neighbours, which are 8-neighbours of each other.
+  // Each of the four pixels with its two 4-neighbors, which are 8-neighbors of each other.
   void add_corner(const label_images::Corner& corner) {
     const int labels = corner.labels();
     if (labels < 3) return;

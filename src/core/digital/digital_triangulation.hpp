@@ -1,7 +1,7 @@
 // The triangulation that section 2.1 of the paper reads off a digital Voronoi tessellation, to the letter.
 //
-// Edges link neighbouring regions: two that have 4-neighbouring pixels. Triangles come from single pixels: a
-// pixel and two of its 4-neighbours that are 8-neighbours of each other, if their labels differ. Such three
+// Edges link neighboring regions: two that have 4-neighboring pixels. Triangles come from single pixels: a
+// pixel and two of its 4-neighbors that are 8-neighbors of each other, if their labels differ. Such three
 // pixels lie around one corner of the lattice. Where four labels meet, all four triples are triangles, which
 // overlap; a side of a triangle need not be an edge. Label 0 is no region.
 #pragma once

@@ -12,10 +12,10 @@ using kernel::Point;
 namespace {
 
 struct Square {
-  Point centre;
+  Point center;
   double half;  // of a side
 
-  // From the centre to any place of it, with more than what rounding takes away.
+  // From the center to any place of it, with more than what rounding takes away.
   double reach() const { return half * 1.4142135623731 * (1 + 0x1p-40); }
 };
 
@@ -24,11 +24,11 @@ enum class Known { no, yes, unknown };
 // Whether a square has a place inside one shape that is farther than `least` from another.
 Known goes_farther(const Square& square, const Shape& of, const Shape& to, double least) {
   const double reach = square.reach();
-  const double apart = std::sqrt(to.tree().nearest(square.centre).d2);
-  if (to.contains(square.centre)) return apart > reach || reach <= least ? Known::no : Known::unknown;
+  const double apart = std::sqrt(to.tree().nearest(square.center).d2);
+  if (to.contains(square.center)) return apart > reach || reach <= least ? Known::no : Known::unknown;
   if (apart + reach <= least * (1 - 0x1p-40)) return Known::no;
-  if (of.contains(square.centre)) return apart > least ? Known::yes : Known::unknown;
-  return std::sqrt(of.tree().nearest(square.centre).d2) > reach ? Known::no : Known::unknown;
+  if (of.contains(square.center)) return apart > least ? Known::yes : Known::unknown;
+  return std::sqrt(of.tree().nearest(square.center).d2) > reach ? Known::no : Known::unknown;
 }
 
 }  // namespace
@@ -53,7 +53,7 @@ bool may_go_farther_inside(const Shape& of, const Shape& to, double least, std::
     const double half = 0.5 * square.half;
     if (half < smallest) continue;
     for (const Point& way : std::array<Point, 4>{{{-1, -1}, {1, -1}, {-1, 1}, {1, 1}}})
-      open.push_back({{square.centre.x + way.x * half, square.centre.y + way.y * half}, half});
+      open.push_back({{square.center.x + way.x * half, square.center.y + way.y * half}, half});
   }
   return false;
 }

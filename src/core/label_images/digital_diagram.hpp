@@ -9,8 +9,8 @@
 
 namespace vorotool::core::label_images {
 
-// Writes 1 for the pixels with a 4-neighbour of larger label, else 0. Label 0 is no site: its pixels are
-// never of the diagram, and as a neighbour it is never larger.
+// Writes 1 for the pixels with a 4-neighbor of larger label, else 0. Label 0 is no site: its pixels are
+// never of the diagram, and as a neighbor it is never larger.
 //
 // `labels` and `diagram` are the row-major rows of a band, `width` wide. `above` and `below` are the rows
 // next to the band, or empty at the border of the image, so that an image can be streamed in bands of any

@@ -1,4 +1,4 @@
-// Regions of a label image (section 2.1): their measures, and which are neighbours.
+// Regions of a label image (section 2.1): their measures, and which are neighbors.
 #pragma once
 
 #include <cstdint>

@@ -40,7 +40,7 @@ constexpr std::uint32_t no_component = UINT32_MAX;
 // The runs of a row from left to right, and an end mark that starts at the width.
 using RunRow = std::vector<Run>;
 
-// A pair of runs of two neighbouring rows with `length` columns in common.
+// A pair of runs of two neighboring rows with `length` columns in common.
 struct Overlap {
   std::uint32_t above;
   std::uint32_t below;

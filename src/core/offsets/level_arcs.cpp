@@ -46,8 +46,8 @@ bool LevelArcs::is_between_aligned(const PolygonFaces& domain, const Piece& piec
 bool LevelArcs::is_lost(const Piece& piece) const {
   const std::int32_t about = site(piece);
   if (!diagram_.is_point(about)) return false;
-  const Point a = crossings_.place(piece.first) - centre_of(about),
-              b = crossings_.place(piece.last) - centre_of(about);
+  const Point a = crossings_.place(piece.first) - center_of(about),
+              b = crossings_.place(piece.last) - center_of(about);
   return dot(a, b) > 0 && cross(a, b) <= 0 && !(is_lone(about) && turn(piece) > std::numbers::pi);
 }
 
@@ -56,11 +56,11 @@ bool LevelArcs::is_long(const Piece& piece) const {
 }
 
 Point LevelArcs::middle(const Piece& piece) const {
-  const Point centre = centre_of(site(piece));
-  const Point a = crossings_.place(piece.first) - centre, b = crossings_.place(piece.last) - centre;
+  const Point center = center_of(site(piece));
+  const Point a = crossings_.place(piece.first) - center, b = crossings_.place(piece.last) - center;
   const Point across = dot(a, b) > 0 ? Point{-a.x - b.x, -a.y - b.y} : Point{b.y - a.y, a.x - b.x};
   const double part = level_ / std::sqrt(dot(across, across));
-  return {centre.x + part * across.x, centre.y + part * across.y};
+  return {center.x + part * across.x, center.y + part * across.y};
 }
 
 std::vector<LevelArcs::Circle> LevelArcs::circles(const PolygonFaces& domain, const LevelSet& level) const {
@@ -83,7 +83,7 @@ std::vector<LevelArcs::Circle> LevelArcs::circles(const PolygonFaces& domain, co
   return found;
 }
 
-Point LevelArcs::centre_of(std::int32_t point) const {
+Point LevelArcs::center_of(std::int32_t point) const {
   return {static_cast<double>(diagram_.point(point).x), static_cast<double>(diagram_.point(point).y)};
 }
 
@@ -91,8 +91,8 @@ Point LevelArcs::centre_of(std::int32_t point) const {
 // angles tell a small turn from a whole one.
 double LevelArcs::turn(const Piece& piece) const {
   const auto [first, last] = piece;
-  const Point centre = centre_of(site(piece));
-  Point before = crossings_.place(first) - centre;
+  const Point center = center_of(site(piece));
+  Point before = crossings_.place(first) - center;
   double sum = 0;
   const auto go_to = [&](const Point& direction) {
     sum += angle(before, direction);
@@ -103,10 +103,10 @@ double LevelArcs::turn(const Piece& piece) const {
     const std::int32_t head = borders_.head(h);
     if (head < 0) go_to(borders_.way(h));
     h = borders_.next(h);
-    const Point in = head < 0 ? borders_.way(h) : centre - diagram_.vertices[static_cast<std::size_t>(head)];
+    const Point in = head < 0 ? borders_.way(h) : center - diagram_.vertices[static_cast<std::size_t>(head)];
     go_to({-in.x, -in.y});
   } while (h != last);
-  go_to(crossings_.place(last) - centre);
+  go_to(crossings_.place(last) - center);
   return sum;
 }
 

@@ -42,7 +42,7 @@ class LevelArcs {
   };
   std::vector<Circle> circles(const PolygonFaces& domain, const LevelSet& level) const;
 
-  kernel::Point centre_of(std::int32_t point) const;
+  kernel::Point center_of(std::int32_t point) const;
 
  private:
   double turn(const Piece& piece) const;

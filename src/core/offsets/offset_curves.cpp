@@ -153,13 +153,13 @@ class CurveMaker {
       }
       const std::size_t count = curves_.site.size() - first;
       if (count > 2 ||
-          (count == 2 && !(std::isnan(curves_.centre[first].x) && std::isnan(curves_.centre[first + 1].x)))) {
+          (count == 2 && !(std::isnan(curves_.center[first].x) && std::isnan(curves_.center[first + 1].x)))) {
         curves_.ring_start.push_back(static_cast<std::int64_t>(first + count));
         continue;
       }
       curves_.start.resize(first);
       curves_.end.resize(first);
-      curves_.centre.resize(first);
+      curves_.center.resize(first);
       curves_.site.resize(first);
       if (ring == shape.rings[0]) return;
     }
@@ -168,10 +168,10 @@ class CurveMaker {
   }
 
   void write_circle(std::int32_t point) {
-    const Point centre = place_(arcs_.centre_of(point));
-    const Point right{centre.x + distance_, centre.y}, left{centre.x - distance_, centre.y};
-    write_piece(right, left, centre, point);
-    write_piece(left, right, centre, point);
+    const Point center = place_(arcs_.center_of(point));
+    const Point right{center.x + distance_, center.y}, left{center.x - distance_, center.y};
+    write_piece(right, left, center, point);
+    write_piece(left, right, center, point);
   }
 
   // Inwards the shape is what is far: the other way round.
@@ -197,27 +197,27 @@ class CurveMaker {
       write_directed(start, end, {nan, nan}, site);
       return;
     }
-    const Point centre = place_(arcs_.centre_of(site));
+    const Point center = place_(arcs_.center_of(site));
     if (!arcs_.is_long(piece)) {
-      write_directed(start, end, centre, site);
+      write_directed(start, end, center, site);
       return;
     }
     const Point middle = place_(arcs_.middle(piece));
     const std::pair<Point, Point> halves[2] = {{start, middle}, {middle, end}};
     for (const auto& half : {halves[domain_.is_outward ? 0 : 1], halves[domain_.is_outward ? 1 : 0]}) {
-      write_directed(half.first, half.second, centre, site);
+      write_directed(half.first, half.second, center, site);
     }
   }
 
-  void write_directed(const Point& start, const Point& end, const Point& centre, std::int32_t site) {
+  void write_directed(const Point& start, const Point& end, const Point& center, std::int32_t site) {
     if (start == end) return;
-    domain_.is_outward ? write_piece(start, end, centre, site) : write_piece(end, start, centre, site);
+    domain_.is_outward ? write_piece(start, end, center, site) : write_piece(end, start, center, site);
   }
 
-  void write_piece(const Point& start, const Point& end, const Point& centre, std::int32_t site) {
+  void write_piece(const Point& start, const Point& end, const Point& center, std::int32_t site) {
     curves_.start.push_back(start);
     curves_.end.push_back(end);
-    curves_.centre.push_back(centre);
+    curves_.center.push_back(center);
     curves_.site.push_back(site);
   }
 

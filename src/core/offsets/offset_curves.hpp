@@ -17,7 +17,7 @@ namespace vorotool::core::offsets {
 // holes. A piece begins where the one before it ends, to the bit. The shape is on the left.
 struct OffsetCurves {
   std::vector<kernel::Point> start, end;    // [k] in input units
-  std::vector<kernel::Point> centre;        // [k] NaN on straight lines; an arc is at most half a circle
+  std::vector<kernel::Point> center;        // [k] NaN on straight lines; an arc is at most half a circle
   std::vector<std::int32_t> site;           // [k] what it is at that distance from
   std::vector<std::int64_t> ring_start;     // [q + 1]
   std::vector<std::int64_t> shape_start;    // [s + 1] among the rings

@@ -40,7 +40,7 @@ std::vector<std::int32_t> edge_sides(const delaunay::TriangulationArrays& mesh) 
   const base::Groups<Partner> partners = edges_by_end(mesh);
   std::vector<std::int32_t> sides(mesh.edges.size() / 2, -1);
   for (std::size_t h = 0; h < mesh.triangles.size(); ++h) {
-    const std::int32_t across = mesh.neighbours[h];
+    const std::int32_t across = mesh.neighbors[h];
     if (across >= 0 && at(across) < h / 3) continue;
     const auto [a, b] =
         std::minmax(mesh.triangles[delaunay::following(h)], mesh.triangles[delaunay::preceding(h)]);

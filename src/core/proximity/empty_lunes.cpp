@@ -6,7 +6,7 @@
 
 #include "core/base/indices.hpp"
 #include "core/delaunay/half_edge.hpp"
-#include "core/kernel/circumcentre.hpp"
+#include "core/kernel/circumcenter.hpp"
 
 namespace vorotool::core::proximity {
 
@@ -74,7 +74,7 @@ bool EmptyLunes::is_empty(std::int32_t side) {
 }
 
 bool EmptyLunes::finds_inside(const Lune& lune, std::size_t side) {
-  const std::int32_t t = mesh_.neighbours[side];
+  const std::int32_t t = mesh_.neighbors[side];
   if (t < 0 || std::find(triangles_.begin(), triangles_.end(), t) != triangles_.end()) return false;
   triangles_.push_back(t);
   const std::int32_t from = mesh_.triangles[following(side)], to = mesh_.triangles[preceding(side)];

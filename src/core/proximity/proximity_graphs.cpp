@@ -10,7 +10,7 @@
 #include "core/base/indices.hpp"
 #include "core/base/parallel.hpp"
 #include "core/delaunay/half_edge.hpp"
-#include "core/kernel/circumcentre.hpp"
+#include "core/kernel/circumcenter.hpp"
 #include "core/proximity/edge_sides.hpp"
 #include "core/proximity/empty_lunes.hpp"
 
@@ -34,7 +34,7 @@ bool is_gabriel(const TriangulationArrays& mesh, std::int32_t side) {
   const auto point = [&](std::size_t i) -> const Point& { return mesh.points[at(mesh.triangles[i])]; };
   const Point &a = point(delaunay::following(h)), &b = point(delaunay::preceding(h));
   if (kernel::angle_sign(point(h), a, b) <= 0) return false;
-  const std::int32_t across = mesh.neighbours[h];
+  const std::int32_t across = mesh.neighbors[h];
   if (across < 0) return true;
   for (std::size_t k = 3 * at(across); k < 3 * at(across) + 3; ++k) {
     const std::int32_t v = mesh.triangles[k];
@@ -72,7 +72,7 @@ std::vector<std::int32_t> places_of(const Kept& kept) {
 }
 
 // Kruskal's algorithm. An edge with a point in its lune is the longest of a cycle, so that edges of relative
-// neighbours suffice.
+// neighbors suffice.
 Kept spanning_tree(const TriangulationArrays& mesh, std::span<const std::int32_t> edges, unsigned threads,
                    const Monitor& monitor) {
   const auto support_of = [&](std::size_t i) {

@@ -1,7 +1,7 @@
 // Graphs of points that are near to each other: subgraphs of their Delaunay triangulation.
 //
 // The Gabriel graph has an edge where no other point is in the closed disc with the edge as diameter (Gabriel
-// and Sokal 1969); the relative neighbourhood graph where no point is nearer to both ends than these are to
+// and Sokal 1969); the relative neighborhood graph where no point is nearer to both ends than these are to
 // each other (Toussaint 1980); the minimum spanning tree joins all points by edges of the least total length.
 // Each is part of the one before. They are graphs of the points alone: an edge that only some of the Delaunay
 // triangulations have is a diagonal of cocircular points, of which one is on or inside the disc over it.

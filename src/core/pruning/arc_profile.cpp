@@ -70,7 +70,7 @@ ArcProfile::ArcProfile(const skeleton::SkeletonView& skeleton, std::size_t arc)
   }
 }
 
-// The ways from the centre to both feet are across the lines; the tangent of half the angle between them is
+// The ways from the center to both feet are across the lines; the tangent of half the angle between them is
 // written so that nothing cancels.
 void ArcProfile::between_lines(const std::array<Point, 2>& left, const std::array<Point, 2>& right,
                                const Point& middle) {
@@ -105,7 +105,7 @@ void ArcProfile::from_focus(const Point& focus, const std::array<Point, 2>& line
     along = {-along.x, -along.y};
     height = -height;
   }
-  if (height == 0) {  // both feet are one: the centre is above the end of a line
+  if (height == 0) {  // both feet are one: the center is above the end of a line
     kind = Kind::lines;
     size = 0;
     return;

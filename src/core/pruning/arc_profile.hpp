@@ -1,4 +1,4 @@
-// Along an arc of a skeleton: the angle under which a centre sees its two feet, the chord between them, the
+// Along an arc of a skeleton: the angle under which a center sees its two feet, the chord between them, the
 // radius, and the length.
 #pragma once
 

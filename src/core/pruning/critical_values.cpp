@@ -257,7 +257,7 @@ class LongestPath : public Pruner {
 // than s r(p) at the ends of an arc. Along a line, between lines or between points, |p - q| and r are convex,
 // hence f is; along a parabola, by the parameter t of its tangent at the vertex, q'' is across that with
 // |q''| = r'', so that |p - q|'' >= -r'', and f'' >= (s - 1) r'' >= 0 for s >= 1. So f is less inside too. As
-// for p: that its neighbours in the piece do not hinder takes s |dr| >= |dp|, with r growing towards where
+// for p: that its neighbors in the piece do not hinder takes s |dr| >= |dp|, with r growing towards where
 // the skeleton goes on; along an arc r'(p) grows with r, so that s r(p) - |p - q| does not decrease from
 // there on, and the end of the arc is no worse than p.
 //
@@ -336,7 +336,7 @@ class EnlargedDiscs : public Pruner {
     return found;
   }
 
-  // Centres and radii are right to 32 ulp of the largest coordinate.
+  // Centers and radii are right to 32 ulp of the largest coordinate.
   double rounding() const { return 32 * std::numeric_limits<double>::epsilon() * skeleton_.reach; }
 
   // The root of a tree is on several arcs: on that which is removed last the place is kept.

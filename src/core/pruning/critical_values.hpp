@@ -14,7 +14,7 @@
 //   ratio   that length over the radius of p
 // Cycles, and what leads from one to another or to an anchored end, are never removed. A component without
 // these keeps at least one place: its anchored end if there is one, else that with the largest angle or
-// chord, of several the one with the largest radius; for scale the centre of the largest disc; for length and
+// chord, of several the one with the largest radius; for scale the center of the largest disc; for length and
 // ratio the middle of the longest path, on which pieces may hang too. What hangs on a place is away from
 // there.
 #pragma once

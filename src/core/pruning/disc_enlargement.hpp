@@ -13,7 +13,7 @@ struct Disc {
 // Discs in a fixed order, and boxes around groups of them that follow each other.
 class DiscEnlargement {
  public:
-  // By `rounding` centres and radii may be wrong.
+  // By `rounding` centers and radii may be wrong.
   DiscEnlargement(std::vector<Disc> discs, double rounding);
 
   // A factor, and the disc that needs it.

@@ -4,7 +4,7 @@
 // about q through f is empty.
 //
 // 1. While q moves along n, the disc that touches C in f grows, until it meets a place g of another edge:
-//    then its centre is on the skeleton. For any place g of the boundary that is so after
+//    then its center is on the skeleton. For any place g of the boundary that is so after
 //      t = (|q - g|^2 - d^2) / (2 h),    h = n (g - f) the height of g over the line of C,
 //    at the latest. Along the arc |q - g|^2 - d^2 is convex, so that t is largest at an end.
 //

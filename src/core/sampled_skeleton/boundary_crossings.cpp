@@ -22,7 +22,7 @@ using numbers::widen;
 
 namespace {
 
-// A parameter t = numerator / (2 denominator) along a piece where a cell is left for that of a neighbour.
+// A parameter t = numerator / (2 denominator) along a piece where a cell is left for that of a neighbor.
 // From core/sampled_skeleton/sample_mesh.hpp: both are below 2^108.
 struct Exit {
   numbers::int128 numerator, denominator;
@@ -37,7 +37,7 @@ int compare(const Exit& a, const Exit& b) {
   return (widen(a.numerator) * widen(b.denominator) - widen(b.numerator) * widen(a.denominator)).sign();
 }
 
-// A neighbour of the seed in whose cell a walk is.
+// A neighbor of the seed in whose cell a walk is.
 struct Spoke {
   std::int32_t seed;
   Side side;         // between both
@@ -109,7 +109,7 @@ class Walk {
     if (is_open) visit(last);
   }
 
-  // The circumcentres of triangles with two neighbours that take over at once.
+  // The circumcenters of triangles with two neighbors that take over at once.
   void note_touched(std::int32_t p) {
     const auto is_tied = [&](std::int32_t seed) {
       const auto same = [&](const Spoke& spoke) { return spoke.seed == seed; };

@@ -23,7 +23,7 @@ struct Crossing {
 struct Crossings {
   std::vector<Crossing> crossings;
   std::vector<Side> ridden;       // sides along whose Voronoi edges a piece runs
-  std::vector<Triangle> touched;  // triangles with a circumcentre on a piece
+  std::vector<Triangle> touched;  // triangles with a circumcenter on a piece
 };
 
 // Walks along pieces through the cells. Everything is decided exactly, for the pieces as straight lines
@@ -32,7 +32,7 @@ Crossings find_crossings(const SampleMesh& mesh, const delaunay::VertexTriangles
                          const SampleLabels& labels, std::span<const std::int32_t> pieces, unsigned threads,
                          const base::Monitor& monitor);
 
-// The order in which two pieces cross the Voronoi edge of a side, seen along it to the circumcentre of the
+// The order in which two pieces cross the Voronoi edge of a side, seen along it to the circumcenter of the
 // triangle on the left of the side: negative if the first one is farther from that. Pieces that cross it in
 // one place, as those do whose seeds are rounded to the same places, have the order of their segments.
 int compare_crossings(const SampleMesh& mesh, const SampleLabels& labels, const Crossing& one,

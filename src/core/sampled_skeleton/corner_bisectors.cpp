@@ -39,7 +39,7 @@ kernel::Point bisector_of(const LatticeVector& right, const LatticeVector& left)
   return {sum.x / length, sum.y / length};
 }
 
-// A neighbour of the corner in its sector, and a side between both. All but the last have the next triangle
+// A neighbor of the corner in its sector, and a side between both. All but the last have the next triangle
 // of the sector on the left of it.
 struct CornerSpoke {
   std::int32_t seed;
@@ -68,7 +68,7 @@ class Sector {
   }
 
  private:
-  // All seeds between the ones next to the corner on both edges; none if one of these is no neighbour.
+  // All seeds between the ones next to the corner on both edges; none if one of these is no neighbor.
   void find_spokes(const VertexTriangles& rings) {
     const SampleLabels& labels = diagram_.labels();
     const std::int32_t first = labels.seed_beside(line_.corner, line_.right);
@@ -164,7 +164,7 @@ CornerBisectors corner_bisectors(const SampleDiagram& diagram, std::span<const s
   CornerBisectors found{corners_of(diagram, face_group)};
   if (diagram.mesh().size() == 0) return {{}, found.lines.size()};
   const SampleMesh& mesh = diagram.mesh();
-  const delaunay::TriangulationArrays arrays{mesh.seeds, mesh.triangles, mesh.neighbours, {}, {}, {}};
+  const delaunay::TriangulationArrays arrays{mesh.seeds, mesh.triangles, mesh.neighbors, {}, {}, {}};
   const VertexTriangles rings(arrays);
   std::vector<std::uint8_t> is_met(found.lines.size());
   base::for_items(is_met.size(), grain, threads, monitor,

@@ -16,7 +16,7 @@ struct CornerBisector {
   std::int32_t corner;       // point of the graph
   std::int32_t right, left;  // segments: counter-clockwise from the first to the second
   std::int32_t face;
-  Triangle node = -1;             // it ends in the circumcentre of this
+  Triangle node = -1;             // it ends in the circumcenter of this
   Side side = -1;                 // or else inside the Voronoi edge of this side of the corner
   double along = 0;               // how far from the corner that is
   kernel::Point direction{0, 0};  // a unit vector

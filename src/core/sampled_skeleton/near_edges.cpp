@@ -37,7 +37,7 @@ std::vector<std::vector<NearEdge>> NearEdges::items(const kernel::PlanarGraphVie
 
 std::optional<std::span<const NearEdge>> NearEdges::find(const DiscPair& discs) {
   for (std::size_t i = 0; i < 2; ++i) {
-    if (!is_known(discs.centre[i], discs.radius[i], i)) search(discs.centre[i], discs.radius[i], discs_[i]);
+    if (!is_known(discs.center[i], discs.radius[i], i)) search(discs.center[i], discs.radius[i], discs_[i]);
   }
   if (is_crowded(0) || is_crowded(1)) return {};
   found_.clear();
@@ -51,25 +51,25 @@ std::optional<std::span<const NearEdge>> NearEdges::find(const DiscPair& discs) 
 }
 
 // Whether disc i is one of the last two, in its place now.
-bool NearEdges::is_known(const Point& centre, double radius, std::size_t i) {
-  const auto is = [&](const Found& found) { return found.centre == centre && found.radius == radius; };
+bool NearEdges::is_known(const Point& center, double radius, std::size_t i) {
+  const auto is = [&](const Found& found) { return found.center == center && found.radius == radius; };
   if (is(discs_[i])) return true;
   if (i == 1 || !is(discs_[1])) return false;
   std::swap(discs_[0], discs_[1]);
   return true;
 }
 
-void NearEdges::search(const Point& centre, double radius, Found& found) {
-  found.centre = centre;
+void NearEdges::search(const Point& center, double radius, Found& found) {
+  found.center = center;
   found.radius = radius;
   found.numbers.clear();
   const double reach = radius + distance_error;
   const auto visit = [&](std::uint32_t number) {
-    if (spatial::closed_distance(items_[number].site, centre) <= reach) found.numbers.push_back(number);
+    if (spatial::closed_distance(items_[number].site, center) <= reach) found.numbers.push_back(number);
     return found.numbers.size() <= most_;
   };
-  if (!is_surrounded(centre, reach)) {
-    hierarchy_.near(centre.x, centre.y, reach, visit);
+  if (!is_surrounded(center, reach)) {
+    hierarchy_.near(center.x, center.y, reach, visit);
     return;
   }
   for (const std::uint32_t number : surroundings_.numbers) {  // in the order of the hierarchy as well
@@ -77,18 +77,18 @@ void NearEdges::search(const Point& centre, double radius, Found& found) {
   }
 }
 
-bool NearEdges::is_surrounded(const Point& centre, double reach) {
-  const auto away = [&](const Point& p) { return distance(p, centre); };
+bool NearEdges::is_surrounded(const Point& center, double reach) {
+  const auto away = [&](const Point& p) { return distance(p, center); };
   const double moved = away(last_);
-  last_ = centre;
+  last_ = center;
   Found& found = surroundings_;
-  if (away(found.centre) + reach + distance_error > found.radius) {
+  if (away(found.center) + reach + distance_error > found.radius) {
     if (moved > wider / 8 * reach) return false;
-    found.centre = centre;
+    found.center = center;
     found.radius = reach * (1 + wider);
     found.numbers.clear();
-    hierarchy_.near(centre.x, centre.y, found.radius, [&](std::uint32_t number) {
-      if (spatial::closed_distance(items_[number].site, centre) <= found.radius + distance_error)
+    hierarchy_.near(center.x, center.y, found.radius, [&](std::uint32_t number) {
+      if (spatial::closed_distance(items_[number].site, center) <= found.radius + distance_error)
         found.numbers.push_back(number);
       return found.numbers.size() <= 2 * most_;
     });

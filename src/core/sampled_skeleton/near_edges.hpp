@@ -20,7 +20,7 @@ namespace vorotool::core::sampled_skeleton {
 // The discs about two points of a Voronoi edge hold those about all points between, if each goes through both
 // seeds or, squared, its radius is larger than that by the same for all.
 struct DiscPair {
-  std::array<kernel::Point, 2> centre;
+  std::array<kernel::Point, 2> center;
   std::array<double, 2> radius;
 };
 
@@ -44,21 +44,21 @@ class NearEdges {
  private:
   // The edges that meet one disc. Arcs that follow each other share one.
   struct Found {
-    kernel::Point centre{0, 0};
+    kernel::Point center{0, 0};
     double radius = -1;
     std::vector<std::uint32_t> numbers;
   };
-  bool is_known(const kernel::Point& centre, double radius, std::size_t i);
-  void search(const kernel::Point& centre, double radius, Found& found);
+  bool is_known(const kernel::Point& center, double radius, std::size_t i);
+  void search(const kernel::Point& center, double radius, Found& found);
   // Whether the surroundings hold a disc; they are gathered where it is hardly away from the last one.
-  bool is_surrounded(const kernel::Point& centre, double reach);
+  bool is_surrounded(const kernel::Point& center, double reach);
 
   std::span<const NearEdge> items_;
   const spatial::ObbTree& hierarchy_;
   std::size_t most_;
   std::array<Found, 2> discs_;
   Found surroundings_;        // what meets a wider disc: many that follow are within it
-  kernel::Point last_{0, 0};  // the centre of the disc that was searched for last
+  kernel::Point last_{0, 0};  // the center of the disc that was searched for last
   std::vector<NearEdge> found_;
 };
 

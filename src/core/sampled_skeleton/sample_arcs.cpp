@@ -5,7 +5,7 @@
 
 #include "core/base/indices.hpp"
 #include "core/base/parallel.hpp"
-#include "core/kernel/circumcentre.hpp"
+#include "core/kernel/circumcenter.hpp"
 #include "core/numbers/special_values.hpp"
 
 namespace vorotool::core::sampled_skeleton {
@@ -60,12 +60,12 @@ void SampleArcs::add_all() {
 }
 
 // The Voronoi edge leads across the side from its left to its right: the target of the side is on the left.
-// Between triangles with one circumcentre it has no length.
+// Between triangles with one circumcenter it has no length.
 void SampleArcs::add_side(Side s, std::int32_t group) {
-  const Triangle t = diagram_.same_centre(SampleMesh::triangle_of(s)), across = diagram_.mesh().across(s);
-  if (across >= 0 && diagram_.same_centre(across) == t) return;
+  const Triangle t = diagram_.same_center(SampleMesh::triangle_of(s)), across = diagram_.mesh().across(s);
+  if (across >= 0 && diagram_.same_center(across) == t) return;
   const std::int32_t source = node_of(t);
-  add_arc({source, across < 0 ? -1 : node_of(diagram_.same_centre(across)), diagram_.mesh().target(s),
+  add_arc({source, across < 0 ? -1 : node_of(diagram_.same_center(across)), diagram_.mesh().target(s),
            diagram_.mesh().origin(s), group},
           {s, -1});
 }
@@ -101,9 +101,9 @@ void SampleArcs::place_nodes(unsigned threads, const base::Monitor& monitor) {
   const SampleMesh& mesh = diagram_.mesh();
   base::for_items(place_.size(), grain, threads, monitor, [&](std::size_t i) {
     const Triangle t = node_triangle_[i];
-    const kernel::RoundedPoint centre = kernel::circumcentre(
+    const kernel::RoundedPoint center = kernel::circumcenter(
         mesh.seed(mesh.apex(3 * t)), mesh.seed(mesh.apex(3 * t + 1)), mesh.seed(mesh.apex(3 * t + 2)));
-    place_[i] = {centre.x.value, centre.y.value};
+    place_[i] = {center.x.value, center.y.value};
   });
 }
 
@@ -117,7 +117,7 @@ std::size_t SampleArcs::add_lines(std::span<const CornerBisector> lines,
     const Point corner{static_cast<double>(p.x), static_cast<double>(p.y)};
     std::int32_t target = -1;
     if (line.node >= 0) {
-      target = node_of_[at(diagram_.same_centre(line.node))];
+      target = node_of_[at(diagram_.same_center(line.node))];
     } else if (const std::optional<std::size_t> arc = arc_of(line.side)) {
       target = add_node({corner.x + line.along * line.direction.x, corner.y + line.along * line.direction.y},
                         FrameSide::none);

@@ -66,7 +66,7 @@ class SampleArcs {
   std::vector<skeleton::GraphArc> arcs_;
   std::vector<ArcOrigin> origin_;
   std::vector<std::int32_t> node_of_;    // [triangles] -1: none
-  std::vector<Triangle> node_triangle_;  // [nodes that are circumcentres]
+  std::vector<Triangle> node_triangle_;  // [nodes that are circumcenters]
   std::vector<kernel::Point> place_;
   std::vector<skeleton::FrameSide> side_;
 };

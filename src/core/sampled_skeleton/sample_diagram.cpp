@@ -59,15 +59,15 @@ struct GroupMeshes {
     const std::size_t begin = triangles.size(), size = 3 * mesh.triangle_count();
     if (size == 0) return;
     triangles.resize(begin + size);
-    neighbours.resize(begin + size);
-    mesh.write({triangles.data() + begin, neighbours.data() + begin, nullptr}, threads, monitor);
+    neighbors.resize(begin + size);
+    mesh.write({triangles.data() + begin, neighbors.data() + begin, nullptr}, threads, monitor);
     for (std::size_t i = begin; i < begin + size; ++i) {
       triangles[i] = members[at(triangles[i])];
-      if (neighbours[i] >= 0) neighbours[i] += static_cast<std::int32_t>(begin / 3);
+      if (neighbors[i] >= 0) neighbors[i] += static_cast<std::int32_t>(begin / 3);
     }
   }
 
-  std::vector<std::int32_t> triangles, neighbours, first;
+  std::vector<std::int32_t> triangles, neighbors, first;
 };
 
 LargeArray<std::int32_t> copied(const std::vector<std::int32_t>& values) {
@@ -88,12 +88,12 @@ SampleDiagram::Triangulation SampleDiagram::triangulate(const PlanarGraphView& g
     for (const auto& members : members_of(graph, segment, groups)) {
       all.add(seeds, members, groups.within, threads, monitor);
     }
-    return {copied(all.triangles), copied(all.neighbours), std::move(all.first), {}};
+    return {copied(all.triangles), copied(all.neighbors), std::move(all.first), {}};
   }
   const delaunay::DelaunayTriangulation mesh(seeds, threads, monitor, groups.within);
   const std::size_t size = 3 * mesh.triangle_count();
   Triangulation made{LargeArray<std::int32_t>(size), LargeArray<std::int32_t>(size), {}, {}};
-  if (size > 0) mesh.write({made.triangles.data(), made.neighbours.data(), nullptr}, threads, monitor);
+  if (size > 0) mesh.write({made.triangles.data(), made.neighbors.data(), nullptr}, threads, monitor);
   made.first.assign(mesh.first().begin(), mesh.first().end());
   if (size == 0) made.chain.assign(mesh.hull().begin(), mesh.hull().end());
   return made;
@@ -110,16 +110,16 @@ SampleDiagram::SampleDiagram(Triangulation&& made, const PlanarGraphView& graph,
                              const SampleGroups& groups, unsigned threads, const Monitor& monitor)
     : groups_(groups),
       triangles_(std::move(made.triangles)),
-      neighbours_(std::move(made.neighbours)),
+      neighbors_(std::move(made.neighbors)),
       first_(std::move(made.first)),
       chain_(std::move(made.chain)),
-      mesh_{seeds, {triangles_.data(), triangles_.size()}, {neighbours_.data(), neighbours_.size()}},
+      mesh_{seeds, {triangles_.data(), triangles_.size()}, {neighbors_.data(), neighbors_.size()}},
       labels_(graph, seeds, start, segment, first_),
       state_(mesh_.sides()) {
   std::vector<std::uint8_t> has_side(labels_.piece_count());
   classify_sides(has_side, threads, monitor);
   find_walked(has_side);
-  join_centres(threads, monitor);
+  join_centers(threads, monitor);
   cross_out(threads, monitor);
   count_deleted();
 }
@@ -166,7 +166,7 @@ bool SampleDiagram::is_alone_on(Side s) const {
   return twin < 0 || sign_of_dot(mesh_.seed(mesh_.apex(twin)), p, q) > 0;
 }
 
-void SampleDiagram::join_centres(unsigned threads, const Monitor& monitor) {
+void SampleDiagram::join_centers(unsigned threads, const Monitor& monitor) {
   std::vector<std::vector<Side>> found(base::piece_count(mesh_.size(), triangles_a_piece));
   for_each_side(mesh_, threads, monitor, [&](std::size_t piece, Side s) {
     if (mesh_.across(s) < 0) return;
@@ -189,17 +189,16 @@ void SampleDiagram::cross_out(unsigned threads, const Monitor& monitor) {
   Crossings found;
   std::vector<std::uint8_t> is_on_shape;
   if (!walked_.empty()) {
-    const delaunay::TriangulationArrays arrays{mesh_.seeds, mesh_.triangles, mesh_.neighbours, {},
-                                               {},          first_};
+    const delaunay::TriangulationArrays arrays{mesh_.seeds, mesh_.triangles, mesh_.neighbors, {}, {}, first_};
     found = find_crossings(mesh_, delaunay::VertexTriangles(arrays), labels_, walked_, threads, monitor);
   }
   for (const Crossing& crossing : found.crossings) mark_crossed(crossing.side);
   for (const Side s : found.ridden) mark_crossed(s);
   if (!found.touched.empty()) {
     is_on_shape.resize(mesh_.size());
-    for (const Triangle t : found.touched) is_on_shape[at(same_centre(t))] = 1;
+    for (const Triangle t : found.touched) is_on_shape[at(same_center(t))] = 1;
     for (std::size_t t = 0; t < is_on_shape.size(); ++t) {
-      is_on_shape[t] = is_on_shape[at(same_centre(static_cast<Triangle>(t)))];
+      is_on_shape[t] = is_on_shape[at(same_center(static_cast<Triangle>(t)))];
     }
     for (std::size_t s = 0; s < mesh_.sides(); ++s) {
       if (is_on_shape[s / 3]) mark_crossed(static_cast<Side>(s));

@@ -66,16 +66,16 @@ class SampleDiagram {
   // The ends of a side follow each other on an edge, and no seed is in the closed disc about the piece
   // between.
   bool has_own_piece(Side s) const { return (state_[static_cast<std::size_t>(s)] & own_piece) != 0; }
-  // The face of the graph that the circumcentre of a triangle is in; -1 where it is on a piece.
+  // The face of the graph that the circumcenter of a triangle is in; -1 where it is on a piece.
   std::int32_t face(Triangle t) const { return face_[static_cast<std::size_t>(t)]; }
-  // One triangle, the first, for all with the same circumcentre.
-  Triangle same_centre(Triangle t) const { return root_.empty() ? t : root_[static_cast<std::size_t>(t)]; }
+  // One triangle, the first, for all with the same circumcenter.
+  Triangle same_center(Triangle t) const { return root_.empty() ? t : root_[static_cast<std::size_t>(t)]; }
   // Pieces that no side has as its own, ascending.
   std::span<const std::int32_t> walked_pieces() const { return walked_; }
 
  private:
   struct Triangulation {
-    base::LargeArray<std::int32_t> triangles, neighbours;
+    base::LargeArray<std::int32_t> triangles, neighbors;
     std::vector<std::int32_t> first, chain;
   };
   static Triangulation triangulate(const kernel::PlanarGraphView& graph, std::span<const kernel::Point> seeds,
@@ -90,18 +90,18 @@ class SampleDiagram {
   void classify_sides(std::vector<std::uint8_t>& has_side, unsigned threads, const base::Monitor& monitor);
   std::uint8_t state_of(Side s, std::vector<std::uint8_t>& has_side) const;
   bool is_alone_on(Side s) const;
-  void join_centres(unsigned threads, const base::Monitor& monitor);
+  void join_centers(unsigned threads, const base::Monitor& monitor);
   void cross_out(unsigned threads, const base::Monitor& monitor);
   void mark_crossed(Side s);
   void count_deleted();
 
   SampleGroups groups_;
-  base::LargeArray<std::int32_t> triangles_, neighbours_;
+  base::LargeArray<std::int32_t> triangles_, neighbors_;
   std::vector<std::int32_t> first_, chain_;
   SampleMesh mesh_;
   SampleLabels labels_;
   base::LargeArray<std::uint8_t> state_;  // [sides] of both sides of an edge
-  std::vector<Triangle> root_;            // empty while all centres differ
+  std::vector<Triangle> root_;            // empty while all centers differ
   std::vector<std::int32_t> walked_;
   std::vector<std::int32_t> face_;
   SampleDiagramCounts counts_;

@@ -48,7 +48,7 @@ class FaceFinder {
     return unknown;
   }
 
-  // From the origin of a side to its target the circumcentre on the left of it is on the left of the piece.
+  // From the origin of a side to its target the circumcenter on the left of it is on the left of the piece.
   void take_from_crossings() {
     std::vector<Crossing> all;
     for (Crossing c : in_.crossings) {
@@ -99,7 +99,7 @@ class FaceFinder {
     }
   }
 
-  // Takes the face of a neighbour that has one, and tells those that have none.
+  // Takes the face of a neighbor that has one, and tells those that have none.
   void settle(Triangle t, std::vector<Triangle>& next) {
     const auto visit_open = [&](const auto& visit) {
       for (Side s = 3 * t; s < 3 * t + 3; ++s) {

@@ -16,7 +16,7 @@ struct SampleFaceInput {
   const SampleMesh& mesh;
   const SampleLabels& labels;
   std::span<const std::uint8_t> state;        // [sides] SideState, the same of both sides of an edge
-  std::span<const std::uint8_t> is_on_shape;  // [triangles] whose circumcentre is on a piece; or empty
+  std::span<const std::uint8_t> is_on_shape;  // [triangles] whose circumcenter is on a piece; or empty
   std::span<const Crossing> crossings;        // by pieces that are not the own ones of sides
 };
 

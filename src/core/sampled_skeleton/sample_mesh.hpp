@@ -1,7 +1,7 @@
 // The Delaunay triangulation of seeds, side by side, and differences of seeds.
 //
 // A side has its triangle on its left. Its Voronoi edge goes from the
-// circumcentre of t to that of the neighbour across it, or to infinity.
+// circumcenter of t to that of the neighbor across it, or to infinity.
 #pragma once
 
 #include <cmath>
@@ -30,7 +30,7 @@ enum SideState : std::uint8_t {
 
 struct SampleMesh {
   std::span<const kernel::Point> seeds;
-  std::span<const std::int32_t> triangles, neighbours;  // [3 t] as of core/delaunay/triangulation.hpp
+  std::span<const std::int32_t> triangles, neighbors;  // [3 t] as of core/delaunay/triangulation.hpp
 
   std::size_t size() const { return triangles.size() / 3; }
   std::size_t sides() const { return triangles.size(); }
@@ -47,7 +47,7 @@ struct SampleMesh {
     return s;
   }
   // The triangle across a side, or -1.
-  Triangle across(Side s) const { return neighbours[base::at(s)]; }
+  Triangle across(Side s) const { return neighbors[base::at(s)]; }
   // The same side of the triangle across it, or -1.
   Side twin(Side s) const {
     const Triangle u = across(s);

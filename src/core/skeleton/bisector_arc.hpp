@@ -6,7 +6,7 @@
 
 namespace vorotool::core::skeleton {
 
-// The end of an arc: the centre of a disc that touches both sites.
+// The end of an arc: the center of a disc that touches both sites.
 struct ArcEnd {
   kernel::Point place;
   double radius;

@@ -150,7 +150,7 @@ class Courses {
     around_apex(arc, ends, focus, side_of_focus > 0 ? u : -u);
   }
 
-  // The apex is where (centre - point) * direction is 0; the arc goes along the direction.
+  // The apex is where (center - point) * direction is 0; the arc goes along the direction.
   void around_apex(std::size_t arc, const std::array<ArcEndSites, 2>& ends, const LatticePoint& point,
                    const LatticeVector& direction) {
     const int first = radius(ends[0]) > 0 ? side(ends[0], point, direction, true) : 0;
@@ -168,7 +168,7 @@ class Courses {
            (c.y - point.y) * static_cast<double>(direction.y);
   }
 
-  // The sign of (centre - point) * direction. The differences err by that of the centre and a rounding, the products
+  // The sign of (center - point) * direction. The differences err by that of the center and a rounding, the products
   // by that of the direction and their own, the sum by one more: less than 6 u of the products in all.
   int side(const ArcEndSites& end, const LatticePoint& point, const LatticeVector& direction,
            bool touches_point) const {
@@ -186,7 +186,7 @@ class Courses {
                  bool touches_point) const {
     const auto sites = node_sites_.of(end.node);
     const auto is_third = [&](std::int32_t site) { return site != end.left && site != end.right; };
-    // A disc that touches a segment at its end has its centre across it from there.
+    // A disc that touches a segment at its end has its center across it from there.
     for (const std::int32_t site : sites) {
       const LatticeSite& q = place(site);
       if (touches_point && !q.is_point() && (q.a == point || q.b == point) && is_third(site) &&
@@ -199,7 +199,7 @@ class Courses {
       const std::array<LatticeSite, 3> triple{place(end.right), place(end.left), place(site)};
       const auto disc = segment_voronoi::discs::find_exact_disc(triple);
       if (disc && is_at(*disc, end.node)) {
-        return segment_voronoi::discs::side_of_centre(*disc, point, direction);
+        return segment_voronoi::discs::side_of_center(*disc, point, direction);
       }
     }
     return 0;

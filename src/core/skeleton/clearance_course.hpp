@@ -32,7 +32,7 @@ struct ClearanceCourse {
 
 // Between two lines the clearance is linear, and the same everywhere if they are parallel; else there is an apex,
 // where it is least, half-way between the two sites. Whether a node comes before the apex is the sign of
-// (node - point) * direction, the point being a site: doubles tell, or the node as the centre of the exact disc that
+// (node - point) * direction, the point being a site: doubles tell, or the node as the center of the exact disc that
 // touches both sites and a third one, which another arc there has. Where there is no third one, as where an arc was cut,
 // doubles decide.
 ClearanceCourse clearance_course(const PlacedSkeleton& skeleton, unsigned threads,

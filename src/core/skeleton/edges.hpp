@@ -19,7 +19,7 @@ struct SkeletonEdges {
 // graph.
 //
 // No coordinate of a vertex is looked at: a point's cell is in its sector over 180 degrees, an edge from a
-// corner between two segments, an unbounded edge in face 0; the rest is in the faces of its neighbours.
+// corner between two segments, an unbounded edge in face 0; the rest is in the faces of its neighbors.
 SkeletonEdges skeleton_edges(const segment_voronoi::build::DiagramView& diagram, unsigned threads,
                              const base::Monitor& monitor);
 

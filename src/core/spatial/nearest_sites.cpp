@@ -16,7 +16,7 @@ std::vector<NearestOther> nearest_other_sites(const std::array<std::span<const d
   constexpr std::size_t piece_size = 4096;
   const Tree tree(columns, labels, monitor);
   std::vector<NearestOther> result(tree.size());
-  // In the order of the tree, where neighbours share most of their paths.
+  // In the order of the tree, where neighbors share most of their paths.
   base::for_items(tree.size(), piece_size, threads, monitor, [&](std::size_t i) {
     const typename Tree::Site& site = tree.site(static_cast<std::ptrdiff_t>(i));
     const typename Tree::Nearest found = tree.nearest(site.at, {}, site.index);

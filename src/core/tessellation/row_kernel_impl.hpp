@@ -86,7 +86,7 @@ struct RowKernelOn {
 
   // Pruning.
 
-  // Candidate i is strictly above the lower envelope of its neighbours a and b everywhere, hence nowhere
+  // Candidate i is strictly above the lower envelope of its neighbors a and b everywhere, hence nowhere
   // nearest, when its boundary with b lies left of its boundary with a. A tie keeps it: its label may be the
   // smallest.
   static bool hidden_exactly(const Candidates<Arithmetic> c, std::int32_t a, std::int32_t i, std::int32_t b) {
@@ -127,7 +127,7 @@ struct RowKernelOn {
     return hidden;
   }
 
-  // One round: copies the candidates that are not hidden by their neighbours. All hidden ones may go at once:
+  // One round: copies the candidates that are not hidden by their neighbors. All hidden ones may go at once:
   // what hides a candidate at some x is lower there, and the lowest is hidden by nothing.
   template <bool tells>
   static std::int32_t prune_round(const Candidates<Arithmetic> from, std::int32_t n, bool products_exact,

@@ -26,7 +26,7 @@ void fill_labels(const RowKernel<Arithmetic>& kernel, const Envelope<Arithmetic>
   kernel.fill32(envelope, row);
 }
 
-// All candidates equally near to a pixel are neighbours in the envelope, and the pixel holds the label of one
+// All candidates equally near to a pixel are neighbors in the envelope, and the pixel holds the label of one
 // of them: the smallest over the ties at that pixel is the smallest of all.
 template <class Arithmetic, class Label>
 void settle_ties(const Envelope<Arithmetic>& envelope, Label* row) {

@@ -14,7 +14,7 @@ struct Steps {
   std::int64_t x, y;
 };
 
-// Pixel (c, r) of the frame has its centre at (scale * (x + c), scale * (y + r)) in the coordinates of seeds, of which
+// Pixel (c, r) of the frame has its center at (scale * (x + c), scale * (y + r)) in the coordinates of seeds, of which
 // one is `unit` steps of the lattice along each axis: pixels are rectangles of scale * unit steps.
 struct FrameOnLattice {
   std::int64_t x, y;

@@ -41,7 +41,7 @@ double squared(double value) { return value * value; }
 Crescent::Crescent(const ArcEnd& upper, const ArcEnd& lower, const std::array<std::array<Point, 2>, 2>& feet,
                    double margin)
     : quadrilateral_{feet[1][0], feet[0][0], feet[0][1], feet[1][1]},
-      centre_(lower.place),
+      center_(lower.place),
       radius_(lower.radius),
       margin_(margin),
       rows_(nothing) {
@@ -49,7 +49,7 @@ Crescent::Crescent(const ArcEnd& upper, const ArcEnd& lower, const std::array<st
   const Point chord = b - a;
   const Point moved{(a.x - feet[0][0].x) + (b.x - feet[0][1].x), (a.y - feet[0][0].y) + (b.y - feet[0][1].y)};
   const Point down = lower.place - upper.place;
-  // Of a parabola the way of the foot on the line tells which side is outwards: the centre may go around the
+  // Of a parabola the way of the foot on the line tells which side is outwards: the center may go around the
   // focus. Between two points no foot moves.
   const Point& way = moved == Point{0, 0} ? down : moved;
   const double length = norm(chord);
@@ -62,7 +62,7 @@ Crescent::Crescent(const ArcEnd& upper, const ArcEnd& lower, const std::array<st
   chord_ = length > 0 ? std::min(dot(a, outwards_), dot(b, outwards_)) - margin : -infinity;
   for (const Point& corner : quadrilateral_) include(rows_, corner.y);
   for (const double side : {-radius_, radius_}) {
-    if (is_beyond({centre_.x, centre_.y + side})) include(rows_, centre_.y + side);
+    if (is_beyond({center_.x, center_.y + side})) include(rows_, center_.y + side);
   }
   rows_ = {rows_.first - margin, rows_.last + margin};
 }
@@ -81,9 +81,9 @@ Interval Crescent::columns(double y) const {
       include(found, p.x + part * (q.x - p.x));
     }
   }
-  const double half = squared(radius_ + margin_) - squared(y - centre_.y);
+  const double half = squared(radius_ + margin_) - squared(y - center_.y);
   if (half >= 0) {
-    Interval disc{centre_.x - std::sqrt(half), centre_.x + std::sqrt(half)};
+    Interval disc{center_.x - std::sqrt(half), center_.x + std::sqrt(half)};
     const double rest = chord_ - y * outwards_.y;
     if (outwards_.x > 0) disc.first = std::max(disc.first, rest / outwards_.x);
     if (outwards_.x < 0) disc.last = std::min(disc.last, rest / outwards_.x);
@@ -155,7 +155,7 @@ double CoveringArc::radius_over(const Point& place) const {
   return found < lower_.radius && lower_covers(place) ? lower_.radius : found;
 }
 
-// The disc through both points and the place: its centre is at x = cot of the angle under which the place
+// The disc through both points and the place: its center is at x = cot of the angle under which the place
 // sees the points. Where coordinates are small integers, or half of these, no product is rounded.
 double CoveringArc::between_points(const Point& place) const {
   const Point &left = sites_[0][0], &right = sites_[1][0];
@@ -170,7 +170,7 @@ double CoveringArc::on_parabola_at(double x) const {
 }
 
 // The discs through the focus and the place that touch the line. In units of h, with the focus in the origin
-// and the place at (u, v), its distance from the line is 1 + v; a centre at x has the place on its disc where
+// and the place at (u, v), its distance from the line is 1 + v; a center at x has the place on its disc where
 // v x^2 + 2 u x - (v + u^2 + v^2) = 0. A quarter of the discriminant is (u^2 + v^2) (1 + v).
 double CoveringArc::on_parabola(const Point& place) const {
   const Point way = place - sites_[0][0];

@@ -1,4 +1,4 @@
-// Which discs centred on an arc of a skeleton cover a place, and where pixels lie that they alone may cover.
+// Which discs centered on an arc of a skeleton cover a place, and where pixels lie that they alone may cover.
 #pragma once
 
 #include <array>
@@ -46,7 +46,7 @@ class Crescent {
   bool is_beyond(const kernel::Point& p) const { return dot(p, outwards_) >= chord_; }
 
   std::array<kernel::Point, 4> quadrilateral_;  // in order around it
-  kernel::Point centre_, outwards_;             // of the lower disc; across the chord
+  kernel::Point center_, outwards_;             // of the lower disc; across the chord
   double radius_, chord_;                       // products with `outwards_` are larger beyond the chord
   double margin_;
   Interval rows_;

@@ -9,7 +9,7 @@
 #include "core/base/parallel.hpp"
 #include "core/thickness/covering_arc.hpp"
 
-// A place that a disc centred on an arc covers is covered by the disc of the arc's upper node, or is in the
+// A place that a disc centered on an arc covers is covered by the disc of the arc's upper node, or is in the
 // arc's crescent. The upper node is a summit, or the lower node of another arc. So it is enough to draw the
 // discs of all summits, and to look at the arcs that places in their crescents are covered from.
 //
@@ -34,7 +34,7 @@ struct Range {
   bool is_empty() const { return first >= last; }
 };
 
-// The pixels whose centres are in an interval, of `count` ones.
+// The pixels whose centers are in an interval, of `count` ones.
 Range pixels_in(const Interval& interval, double first, double step, std::size_t count) {
   if (!(interval.first <= interval.last)) return {};
   const double most = static_cast<double>(count);
@@ -86,7 +86,7 @@ class Bands {
 
 class Raster {
  public:
-  Raster(const SkeletonView& skeleton, const PixelCentres& pixels, double slack)
+  Raster(const SkeletonView& skeleton, const PixelCenters& pixels, double slack)
       : skeleton_(skeleton),
         pixels_(pixels),
         slack_(slack),
@@ -112,7 +112,7 @@ class Raster {
   Range rows_in_band(const Item& item, std::size_t band) const;
 
   const SkeletonView& skeleton_;
-  const PixelCentres& pixels_;
+  const PixelCenters& pixels_;
   double slack_, margin_;
 };
 
@@ -157,13 +157,13 @@ Range Raster::rows_of_disc(std::size_t node) const {
 }
 
 Range Raster::columns_of_disc(std::size_t node, std::size_t row) const {
-  const Point& centre = skeleton_.vertices[node];
-  const double radius = skeleton_.radius[node] + slack_, up = row_y(row) - centre.y;
+  const Point& center = skeleton_.vertices[node];
+  const double radius = skeleton_.radius[node] + slack_, up = row_y(row) - center.y;
   const double half = std::sqrt(std::max(0.0, radius * radius - up * up));
-  return columns_in({centre.x - half, centre.x + half});
+  return columns_in({center.x - half, center.x + half});
 }
 
-// Rows without pixels are left out at both ends: most crescents are between the centres of pixels.
+// Rows without pixels are left out at both ends: most crescents are between the centers of pixels.
 Range Raster::rows_of_crescent(const Crescent& crescent) const {
   Range rows = rows_in(crescent.rows());
   const auto is_empty = [&](std::int32_t row) {
@@ -222,7 +222,7 @@ void Raster::draw_crescents(const Bands& crescents, std::size_t band, double* ra
 
 }  // namespace
 
-void local_thickness(const SkeletonView& skeleton, const PixelCentres& pixels, double slack,
+void local_thickness(const SkeletonView& skeleton, const PixelCenters& pixels, double slack,
                      std::span<double> diameters, unsigned threads, const base::Monitor& monitor) {
   const Raster raster(skeleton, pixels, slack);
   const std::size_t bands = base::piece_count(pixels.height, band_rows);

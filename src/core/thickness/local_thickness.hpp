@@ -10,8 +10,8 @@
 
 namespace vorotool::core::thickness {
 
-// Centres of pixels: first + (column * step.x, row * step.y); steps are positive.
-struct PixelCentres {
+// Centers of pixels: first + (column * step.x, row * step.y); steps are positive.
+struct PixelCenters {
   kernel::Point first, step;
   std::size_t width, height;
 
@@ -20,10 +20,10 @@ struct PixelCentres {
   }
 };
 
-// Writes into `diameters`, row by row, the diameter of the largest disc that covers the centre of each pixel; 0
-// where none does. The discs are those centred on the skeleton, which is whole, and whose outlines have the
-// skeleton's sites. A disc covers what is nearer to its centre than its radius and `slack`.
-void local_thickness(const skeleton::SkeletonView& skeleton, const PixelCentres& pixels, double slack,
+// Writes into `diameters`, row by row, the diameter of the largest disc that covers the center of each pixel; 0
+// where none does. The discs are those centered on the skeleton, which is whole, and whose outlines have the
+// skeleton's sites. A disc covers what is nearer to its center than its radius and `slack`.
+void local_thickness(const skeleton::SkeletonView& skeleton, const PixelCenters& pixels, double slack,
                      std::span<double> diameters, unsigned threads, const base::Monitor& monitor);
 
 }  // namespace vorotool::core::thickness

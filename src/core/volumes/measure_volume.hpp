@@ -1,4 +1,4 @@
-// Regions of a label volume (section 2.1, with one more axis): their measures, and which are neighbours.
+// Regions of a label volume (section 2.1, with one more axis): their measures, and which are neighbors.
 #pragma once
 
 #include <array>

@@ -48,7 +48,7 @@ std::span<SlabScan::Run> SlabScan::cut(std::span<const Label> row) {
   return runs;
 }
 
-// A row and its neighbour across an axis.
+// A row and its neighbor across an axis.
 template <std::size_t Axis>
 void SlabScan::join_row(std::span<const Run> other, std::span<Run> row) {
   const std::size_t last = row.size() - 2;

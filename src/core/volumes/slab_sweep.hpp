@@ -1,6 +1,6 @@
 // The sweep over a slab of slices: which seeds are nearest on each row, and where they meet.
 //
-// On a row, whose voxels differ in x only, at most one seed a column of equal x matters, and between neighbours a and b
+// On a row, whose voxels differ in x only, at most one seed a column of equal x matters, and between neighbors a and b
 // the seed i is nowhere nearest when (F_b - F_i) (x_i - x_a) < (F_i - F_a) (x_b - x_i). Differences of F are linear in
 // the row and the slice: so what hides a seed on one row hides it on a half-plane of rows and slices, whatever becomes
 // of a and b. A seed waits outside that half-plane's complement: until a row of this slice, until a slice, or for good.

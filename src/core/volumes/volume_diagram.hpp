@@ -9,8 +9,8 @@
 
 namespace vorotool::core::volumes {
 
-// Writes 1 for the voxels with a neighbour across a face of larger label, else 0. Label 0 is no site: its voxels
-// are never of the diagram, and as a neighbour it is never larger.
+// Writes 1 for the voxels with a neighbor across a face of larger label, else 0. Label 0 is no site: its voxels
+// are never of the diagram, and as a neighbor it is never larger.
 //
 // `labels` and `diagram` are slices of width * height voxels. `before` and `after` are the slices next to them, or
 // empty at the border of the volume, so that a volume can be streamed in slabs of any depth. `labels` and `diagram`

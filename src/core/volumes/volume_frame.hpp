@@ -8,7 +8,7 @@
 
 namespace vorotool::core::volumes {
 
-// Voxel (c, r, s) has its centre at scale * (x + c, y + r, z + s) in the coordinates of seeds; one of these along z is
+// Voxel (c, r, s) has its center at scale * (x + c, y + r, z + s) in the coordinates of seeds; one of these along z is
 // `unit_z` steps of the lattice on which squared distances are sums of squares.
 struct VolumeFrame {
   tessellation::FrameOnLattice plane;

@@ -15,7 +15,7 @@ class AlphaRule(enum.Enum):
 
     printed = 1
 
-def edges_of_triangles(triangles: numpy.typing.NDArray[numpy.int32], neighbours: numpy.typing.NDArray[numpy.int32], threads: int, progress: Callable[[float], object] | None) -> tuple[numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32]]:
+def edges_of_triangles(triangles: numpy.typing.NDArray[numpy.int32], neighbors: numpy.typing.NDArray[numpy.int32], threads: int, progress: Callable[[float], object] | None) -> tuple[numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32]]:
     """Edges, and the triangles on their sides."""
 
 def alpha_complex(points: numpy.typing.NDArray[numpy.float64], triangles: numpy.typing.NDArray[numpy.int32], edges: numpy.typing.NDArray[numpy.int32], sides: numpy.typing.NDArray[numpy.int32], rule: AlphaRule, threads: int, progress: Callable[[float], object] | None) -> dict[str, Any]: ...

@@ -1,5 +1,5 @@
 """
-Paths in graphs of arcs, which are pairs of nodes, and colours of graphs.
+Paths in graphs of arcs, which are pairs of nodes, and colors of graphs.
 """
 
 from collections.abc import Callable
@@ -18,7 +18,7 @@ def path_from(arcs: numpy.typing.NDArray[numpy.int32], length: numpy.typing.NDAr
     Arcs of the shortest path, and the node that each leads to; with last -1 to the farthest leaf.
     """
 
-def colour_graph(vertices: int, a: numpy.typing.NDArray[numpy.uint32], b: numpy.typing.NDArray[numpy.uint32], progress: Callable[[float], object] | None) -> numpy.typing.NDArray[numpy.uint32]: ...
+def color_graph(vertices: int, a: numpy.typing.NDArray[numpy.uint32], b: numpy.typing.NDArray[numpy.uint32], progress: Callable[[float], object] | None) -> numpy.typing.NDArray[numpy.uint32]: ...
 
 def connected_components(edges: numpy.typing.NDArray[numpy.int32], vertices: int) -> numpy.typing.NDArray[numpy.int32]:
     """The smallest vertex that each is connected with."""

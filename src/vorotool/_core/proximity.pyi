@@ -1,5 +1,5 @@
 """
-Gabriel graphs, relative neighbourhood graphs and minimum spanning trees.
+Gabriel graphs, relative neighborhood graphs and minimum spanning trees.
 """
 
 from collections.abc import Callable

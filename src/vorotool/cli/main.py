@@ -121,7 +121,7 @@ def vorotool() -> None:
     \b
     Example:
       vorotool sample dots.csv -o dots.csv
-      vorotool tessellate dots.csv --size 512x512 --what colour -o picture.png
+      vorotool tessellate dots.csv --size 512x512 --what color -o picture.png
     """
 
 

@@ -55,7 +55,7 @@ def map_frame(
 
 
 def in_cells(xy: NDArray[np.float64], grid: PixelGrid) -> NDArray[np.float64]:
-    """Coordinates in cells: (0, 0) is the centre of the first one, y goes down."""
+    """Coordinates in cells: (0, 0) is the center of the first one, y goes down."""
     assert grid.transform is not None
     a, _, c, _, e, f = grid.transform
     return (xy - (c, f)) / (a, e) - 0.5

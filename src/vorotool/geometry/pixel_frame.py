@@ -12,12 +12,12 @@ FARTHEST = 2**44
 
 @dataclass(frozen=True)
 class Frame:
-    """A window of pixels: pixel (0, 0) of the image has its centre at (``x``, ``y``).
+    """A window of pixels: pixel (0, 0) of the image has its center at (``x``, ``y``).
 
     Parameters
     ----------
     x, y : int
-        Coordinates of the centre of the first pixel.
+        Coordinates of the center of the first pixel.
     width, height : int
         Size in pixels, each at least 1.
 

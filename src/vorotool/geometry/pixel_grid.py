@@ -51,7 +51,7 @@ class PixelGrid:
     Examples
     --------
     >>> grid = PixelGrid(Fraction(30), Fraction(30), "m", "map", (30, 0, 2600000, 0, -30, 1200000))
-    >>> grid.is_square, grid.is_upright, grid.centre
+    >>> grid.is_square, grid.is_upright, grid.center
     (True, True, (2600015.0, 1199985.0))
     """
 
@@ -99,8 +99,8 @@ class PixelGrid:
         return self.transform is not None and self.transform[4] < 0
 
     @property
-    def centre(self) -> tuple[float, float]:
-        """Where on the map the centre of the first pixel is."""
+    def center(self) -> tuple[float, float]:
+        """Where on the map the center of the first pixel is."""
         assert self.transform is not None
         a, b, c, d, e, f = self.transform
         return (c + (a + b) / 2, f + (d + e) / 2)

@@ -375,7 +375,7 @@ class Pictured:
     """A value that there is a picture of."""
 
     def plot(self, ax: Axes | None = None, **style: Any) -> Axes:
-        """Draw it by matplotlib, in the colours of our pictures and the coordinates of the data.
+        """Draw it by matplotlib, in the colors of our pictures and the coordinates of the data.
 
         Parameters
         ----------

@@ -285,7 +285,7 @@ def _of_image(value: Raster, note: Callable[[str], None]) -> Description:
     height, width = value.shape
     told = {"kind": "", **_of_pixels(width, height, value.values.dtype, value.grid)}
     commands = list(TAKEN_BY["image"])
-    if value.is_colour:
+    if value.is_color:
         told["channels"] = value.values.shape[2]
     try:
         objects = foreground_values(value, None, invert=False)

@@ -37,9 +37,9 @@ from vorotool.products.inputs import DRAWN_NAMES, Holds, known_input_format
 from vorotool.products.registry import PRODUCTS, Product
 
 _SKELETONS = PRODUCTS["skeleton-exact"]
-_COLOURED = PRODUCTS["tessellate"]["colour"].layers
+_COLORED = PRODUCTS["tessellate"]["color"].layers
 LABEL_LAYERS = {
-    fmt: [layer for layer in layers if layer not in ("objects", "seeds")] for fmt, layers in _COLOURED.items()
+    fmt: [layer for layer in layers if layer not in ("objects", "seeds")] for fmt, layers in _COLORED.items()
 }
 """A label image from a file has no seeds."""
 
@@ -128,7 +128,7 @@ def _note(run: Run, message: str) -> None:
 
 
 def _of_labels(run: Run, o: DrawingOptions, given: JobInput, image: LabelImage, fmt: str) -> Drawing:
-    from vorotool.engines.label_images.object_colours import object_colours
+    from vorotool.engines.label_images.object_colors import object_colors
     from vorotool.engines.label_images.regions import region_table
     from vorotool.render.label_images.svg import check_size
 
@@ -137,17 +137,17 @@ def _of_labels(run: Run, o: DrawingOptions, given: JobInput, image: LabelImage, 
     check_column(o.label_by, ())
     note_other_size(run, o, given, image.shape)
     image = _objects(run, image)
-    with run.phase("colour"):
-        colours = object_colours(image, threads=o.threads)
-    counts = {"shape": image.shape, "colours": int(colours[1].max(initial=0))}
+    with run.phase("color"):
+        colors = object_colors(image, threads=o.threads)
+    counts = {"shape": image.shape, "colors": int(colors[1].max(initial=0))}
     if is_page:
         check_size(image.shape, "HTML")
         table = region_table(image, threads=o.threads)
-        page = partial(write_label_page, image=image, colours=colours, table=table, y_up=bool(o.y_up))
+        page = partial(write_label_page, image=image, colors=colors, table=table, y_up=bool(o.y_up))
         return page, counts
     picture = LabelPicture(
         image,
-        colours,
+        colors,
         o.drawn(default_layers(image, ("cells", "labels") if fmt == "svg" else ("cells",))),
         o.looks.style(world_of(run, o.looks, frame=image.frame).scale_bar),
         width=o.width or 1000,

@@ -23,7 +23,7 @@ BAND_ROWS = 256
 """Rows of a picture that are composed at a time."""
 
 LARGEST_TABLE = 1 << 20
-"""Entries that a table of colours by label may have in any case; beyond, it must be mostly used."""
+"""Entries that a table of colors by label may have in any case; beyond, it must be mostly used."""
 
 LEAST_SPACING = 6.0
 """Pixels between the middles of cells, below which borders in PNG would hide them."""
@@ -34,11 +34,11 @@ class LabelPicture:
     """A label image, and how it is drawn."""
 
     image: LabelImage  # with seeds, if these are drawn
-    # pair of (k,) integer arrays: the labels that occur, increasing, and the colour class of each: what
-    # `region_colours` gives
-    colours: tuple[NDArray[Any], NDArray[Any]]
+    # pair of (k,) integer arrays: the labels that occur, increasing, and the color class of each: what
+    # `region_colors` gives
+    colors: tuple[NDArray[Any], NDArray[Any]]
     layers: Sequence[str]  # of cells, diagram (PNG), objects, seeds and labels
-    style: PictureStyle  # ground, colours and widths of lines
+    style: PictureStyle  # ground, colors and widths of lines
     width: int = 1000  # pixels across an SVG
     y_up: bool = False  # draw the last row on top
     backdrop: Backdrop | None = None  # the image, whose size the picture has
@@ -63,13 +63,13 @@ class LabelPicture:
     def shows_borders(self) -> bool:
         """Whether cells are wide enough for borders of a pixel."""
         labelled = int(np.count_nonzero(self.image.labels))
-        return labelled >= LEAST_SPACING**2 * len(self.colours[0])
+        return labelled >= LEAST_SPACING**2 * len(self.colors[0])
 
 
 def write_label_page(
     out: BinaryIO,
     image: LabelImage,
-    colours: tuple[NDArray[Any], NDArray[Any]],
+    colors: tuple[NDArray[Any], NDArray[Any]],
     table: Table,
     more: Mapping[str, Sequence[Any]] | None = None,
     *,
@@ -79,10 +79,10 @@ def write_label_page(
     from vorotool.render.pages.cells_html import shapes_of_labels, write_cells_html
 
     rows = {int(label): row for row, label in enumerate(table["label"])}
-    chosen = [rows[int(label)] for label in colours[0]]
+    chosen = [rows[int(label)] for label in colors[0]]
     columns = {name: [table[name][row] for row in chosen] for name in table if name != "label"}
     write_cells_html(
-        out, shapes_of_labels(image.labels, y_up=y_up, sides=image.sides), colours[1], columns | dict(more or {})
+        out, shapes_of_labels(image.labels, y_up=y_up, sides=image.sides), colors[1], columns | dict(more or {})
     )
 
 
@@ -133,7 +133,7 @@ def _write_svg(out: BinaryIO, picture: LabelPicture) -> None:
     write_label_svg(
         out,
         picture.image,
-        colour_of_label=dict(zip(picture.colours[0].tolist(), picture.colours[1].tolist(), strict=True)),
+        color_of_label=dict(zip(picture.colors[0].tolist(), picture.colors[1].tolist(), strict=True)),
         width=picture.width,
         layers=picture.layers,
         backdrop=picture.backdrop,
@@ -166,14 +166,14 @@ def _insets(picture: LabelPicture, page: Page, *, has_outlines: bool) -> list[La
     nowhere, none = np.empty((0, 2)), np.empty((0, 2), np.int32)
     corners, rings = np.empty(0, np.int32), np.zeros(1, np.int64)
 
-    def colour(layer: str, usual: str) -> str:
+    def color(layer: str, usual: str) -> str:
         return picture.style.of(layer)[0] or usual
 
-    seeds = colour("seeds", SEED)
+    seeds = color("seeds", SEED)
     made: dict[str, Layer] = {
-        "cells": Polygons("cells", nowhere, corners, rings, colours=CELLS[:1], edge=colour("cells", EDGE)),
-        "diagram": Lines("diagram", nowhere, none, colour("diagram", LINE)),
-        "objects": Polygons("objects", nowhere, corners, rings, colours=[colour("objects", seeds)]),
+        "cells": Polygons("cells", nowhere, corners, rings, colors=CELLS[:1], edge=color("cells", EDGE)),
+        "diagram": Lines("diagram", nowhere, none, color("diagram", LINE)),
+        "objects": Polygons("objects", nowhere, corners, rings, colors=[color("objects", seeds)]),
         "seeds": Lines("seeds", nowhere, none, seeds) if has_outlines else Points("seeds", nowhere, seeds),
     }
     return insets([layer for name, layer in made.items() if name in picture.layers], page)
@@ -190,7 +190,7 @@ def _write_png(out: BinaryIO, picture: LabelPicture) -> None:
     palette, has_alpha = marks.palette, picture.style.ground is None
     bands, depth = _indexed(picture, marks), palette.bit_depth
     write_png(
-        out, bands, picture.image.shape, bit_depth=depth, palette=palette.colours, has_alpha=has_alpha, threads=threads
+        out, bands, picture.image.shape, bit_depth=depth, palette=palette.colors, has_alpha=has_alpha, threads=threads
     )
 
 
@@ -199,13 +199,13 @@ def _indexed(picture: LabelPicture, marks: _Marks) -> Iterator[NDArray[np.uint8]
     from vorotool.render.label_images.png import picture_bands
 
     image = picture.image
-    number, colour_of_number = _numbering(*picture.colours)
+    number, color_of_number = _numbering(*picture.colors)
     starts = range(0, image.shape[0], BAND_ROWS)
     return picture_bands(
         (number(image.labels[row : row + BAND_ROWS]) for row in starts),
         shape=image.shape,
         palette=marks.palette,
-        colour_of_label=colour_of_number,
+        color_of_label=color_of_number,
         diagram=None if marks.diagram is None else (marks.diagram[row : row + BAND_ROWS] for row in starts),
         marks=marks.below,
         seeds=image.seeds,
@@ -224,7 +224,7 @@ def _pixels(picture: LabelPicture, marks: _Marks) -> NDArray[np.uint8]:
 
     bands, backdrop = _indexed(picture, marks), picture.backdrop
     if backdrop is None:
-        pixels: NDArray[np.uint8] = marks.palette.colours[np.concatenate(list(bands))]
+        pixels: NDArray[np.uint8] = marks.palette.colors[np.concatenate(list(bands))]
     else:
         assert picture.image.frame is not None  # LabelImage has filled it in
         pixels = over_image(bands, backdrop, marks.palette, picture.image.frame).reshape(backdrop.pixels.shape)
@@ -237,7 +237,7 @@ def _pixels(picture: LabelPicture, marks: _Marks) -> NDArray[np.uint8]:
 
 
 class _Marks:
-    """What is drawn over the cells of a PNG, pixel by pixel, and in which colours."""
+    """What is drawn over the cells of a PNG, pixel by pixel, and in which colors."""
 
     def __init__(self, picture: LabelPicture) -> None:
         from vorotool.engines.label_images.label_places import outermost_pixels
@@ -253,11 +253,11 @@ class _Marks:
             self.outlines = widened(outermost_pixels(objects), style.width_of("seeds"))
         lines = [each for each in (self.diagram, self.outlines) if each is not None]
         halo = around(np.logical_or.reduce(lines)) if over and lines else None
-        chosen = {layer: colour for layer, colour in style.colours.items() if layer in layers}
+        chosen = {layer: color for layer, color in style.colors.items() if layer in layers}
         if style.ground is not None:
             chosen["ground"] = style.ground
         self.palette = picture_palette(
-            int(picture.colours[1].max(initial=0)),
+            int(picture.colors[1].max(initial=0)),
             has_halo=over or self.names is not None or borders is not None,
             has_halos=over,
             chosen=chosen,
@@ -282,7 +282,7 @@ def _borders(picture: LabelPicture) -> NDArray[np.bool_] | None:
     from vorotool.render.label_images.png import widened
 
     chosen = picture.style.of("cells")[1]
-    if "cells" not in picture.layers or chosen == 0 or not len(picture.colours[0]):
+    if "cells" not in picture.layers or chosen == 0 or not len(picture.colors[0]):
         return None
     if chosen is None and not picture.shows_borders:
         return None
@@ -294,7 +294,7 @@ def _borders(picture: LabelPicture) -> NDArray[np.bool_] | None:
 def _numbering(
     labels: NDArray[Any], classes: NDArray[Any]
 ) -> tuple[Callable[[NDArray[Any]], NDArray[Any]], NDArray[Any]]:
-    """Numbers that a table of colours is indexed by: the labels, or their ranks from 1 where labels are sparse."""
+    """Numbers that a table of colors is indexed by: the labels, or their ranks from 1 where labels are sparse."""
     largest = int(labels.max(initial=0))
     if largest > 4 * len(labels) + LARGEST_TABLE:
         known = np.append(0, labels)

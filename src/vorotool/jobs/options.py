@@ -51,7 +51,7 @@ class JobOptions:
     width: int | None
     y_up: bool | None
     background: str | None
-    colours: tuple[tuple[str, str], ...]
+    colors: tuple[tuple[str, str], ...]
     line_widths: tuple[tuple[str, float], ...]
     label_by: str | None
     legend: bool
@@ -88,7 +88,7 @@ class JobOptions:
             paper.scale,
             paper.unit,
             self.background,
-            self.colours,
+            self.colors,
             self.line_widths,
             self.label_by,
             self.legend,

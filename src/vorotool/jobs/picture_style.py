@@ -1,4 +1,4 @@
-"""The looks of pictures that are chosen: size on paper, ground, colours and widths of layers."""
+"""The looks of pictures that are chosen: size on paper, ground, colors and widths of layers."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ class Looks(NamedTuple):
     scale: Scale | None = None
     drawing_unit: str | None = None  # of the input, if it names none
     background: str | None = None  # `#rrggbb` or `none`
-    colours: tuple[tuple[str, str], ...] = ()
+    colors: tuple[tuple[str, str], ...] = ()
     line_widths: tuple[tuple[str, float], ...] = ()
     label_by: str | None = None  # column that names objects
     has_legend: bool = False  # they are drawn
@@ -65,7 +65,7 @@ class Looks(NamedTuple):
         ground = WHITE if self.background is None else self.background
         return PictureStyle(
             None if ground == "none" else ground,
-            dict(self.colours),
+            dict(self.colors),
             dict(self.line_widths),
             has_legend=self.has_legend,
             scale_bar=scale_bar if self.has_scale_bar else None,
@@ -102,7 +102,7 @@ def check_style(
         raise UsageError("--scale S is millimetres a unit: leave out --unit, or use --scale 1:N")
     if looks.background is not None and o.overlay is not None:
         raise UsageError("--overlay is the ground: leave out --background")
-    for option, chosen in (("color", looks.colours), ("line-width", looks.line_widths)):
+    for option, chosen in (("color", looks.colors), ("line-width", looks.line_widths)):
         for layer, _ in chosen:
             if not any(layer in layers[fmt] for fmt in pictures):
                 known = dict.fromkeys(each for fmt in pictures for each in layers[fmt])
@@ -118,16 +118,16 @@ def looks_of(
     ground = (
         background
         if background is None or (isinstance(background, str) and background == "none")
-        else _colour(background, "background")
+        else _color(background, "background")
     )
-    colours = tuple((layer, _colour(each, f"color of {layer}")) for layer, each in _by_layer(color, "color"))
+    colors = tuple((layer, _color(each, f"color of {layer}")) for layer, each in _by_layer(color, "color"))
     widths = tuple(
         (layer, finite_double(each, f"line_width of {layer}")) for layer, each in _by_layer(line_width, "line_width")
     )
     for layer, width in widths:
         if not 0 <= width < LARGEST_WIDTH:
             raise UsageError(f"invalid line_width of {layer} {width}: expected a number of px from 0 on")
-    return Looks(None, None, ground, colours, widths)
+    return Looks(None, None, ground, colors, widths)
 
 
 def _by_layer(given: Any, name: str) -> list[tuple[str, Any]]:
@@ -143,19 +143,19 @@ def _by_layer(given: Any, name: str) -> list[tuple[str, Any]]:
     return list(given.items())
 
 
-def _colour(text: object, what: str) -> str:
-    code = colour_code(text) if isinstance(text, str) else None
+def _color(text: object, what: str) -> str:
+    code = color_code(text) if isinstance(text, str) else None
     if code is None:
-        raise UsageError(f"invalid {what} {text!r}: expected a colour such as '#aa3344' or 'navy'")
+        raise UsageError(f"invalid {what} {text!r}: expected a color such as '#aa3344' or 'navy'")
     return code
 
 
 def check_layers(looks: Looks, drawn: Sequence[str]) -> None:
-    """Refuse colours and widths of layers that a picture has not."""
+    """Refuse colors and widths of layers that a picture has not."""
     from vorotool.render.canvas.styles import DRAWN_AS
 
     known = [*dict.fromkeys([*drawn, *(DRAWN_AS[layer] for layer in drawn if layer in DRAWN_AS)])]
-    for option, chosen in (("color", looks.colours), ("line_width", looks.line_widths)):
+    for option, chosen in (("color", looks.colors), ("line_width", looks.line_widths)):
         for layer, _ in chosen:
             if layer not in known:
                 raise UsageError(f"invalid {option} of {layer!r}: expected a layer of the picture, {', '.join(known)}")
@@ -189,8 +189,8 @@ def styled_page(page: Page, looks: Looks, world: World) -> Page:
     return page
 
 
-def colour_code(text: str) -> str | None:
-    """Give a colour, ``#rrggbb`` or a name as in CSS, as ``#rrggbb``; None if it is none."""
+def color_code(text: str) -> str | None:
+    """Give a color, ``#rrggbb`` or a name as in CSS, as ``#rrggbb``; None if it is none."""
     from PIL import ImageColor
 
     try:

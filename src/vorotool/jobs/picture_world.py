@@ -158,7 +158,7 @@ def _unit_of(crs: Any) -> str | None:
 
 
 def _sides(frame: Frame, size: PixelSize | None) -> tuple[float, float, float, float]:
-    """The outer sides of the pixels, whose centres are at integers, or at steps of ``--spacing``."""
+    """The outer sides of the pixels, whose centers are at integers, or at steps of ``--spacing``."""
     across, down = (1, 1) if size is None or size.sides is None else (size.sides.x, size.sides.y)
     left, low = frame.x - 0.5, frame.y - 0.5
     return (left * across, low * down, (left + frame.width) * across, (low + frame.height) * down)

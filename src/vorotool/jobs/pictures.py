@@ -150,8 +150,8 @@ def _drawings() -> list[tuple[Any, Callable[..., Page], Callable[..., list[Layer
 
 
 def _cell_layers(cells: CellSet, page: Page, layers: Sequence[str]) -> list[Layer]:
-    """Cells in colours that neighbours never share, which their triangulation tells."""
-    from vorotool.engines.delaunay.cells import cell_colours
+    """Cells in colors that neighbors never share, which their triangulation tells."""
+    from vorotool.engines.delaunay.cells import cell_colors
     from vorotool.engines.delaunay.delaunay import delaunay
     from vorotool.render.canvas.layers import Points
     from vorotool.render.label_images.png import checked_layers
@@ -164,7 +164,7 @@ def _cell_layers(cells: CellSet, page: Page, layers: Sequence[str]) -> list[Laye
         with warnings.catch_warnings():  # that points lie on others was said where the cells were made
             warnings.simplefilter("ignore", VorotoolWarning)
             mesh = delaunay(cells.sites)
-        made.append(cell_polygons(cells, cell_colours(mesh), page))
+        made.append(cell_polygons(cells, cell_colors(mesh), page))
     if "diagram" in wanted:
         made.append(cell_lines(cells, page))
     if "points" in wanted:

@@ -118,7 +118,7 @@ def _on_map(run: Run, given: JobInput, grid: PixelGrid, o: ComputingOptions) -> 
         where = "on a map" if grid.crs is None else f"in {crs_name(grid.crs)}"
         run.note(f"{given.name} lies {where}: results are in its coordinates; {in_pixels}")
     size = _spacing_of(grid) if is_spacing else PixelSize(grid.width, grid.unit)
-    return size._replace(origin=grid.centre, y_up=grid.is_north_up, crs=grid.crs)
+    return size._replace(origin=grid.center, y_up=grid.is_north_up, crs=grid.crs)
 
 
 def _mirrored_places(o: Options) -> Options:

@@ -150,13 +150,13 @@ def _step(shape: tuple[int, int]) -> int:
 
 
 def _labels_png(image: LabelImage) -> bytes:
-    from vorotool.engines.label_images.object_colours import object_colours
+    from vorotool.engines.label_images.object_colors import object_colors
     from vorotool.render.canvas.styles import PictureStyle
 
     step = _step(image.shape)
     small = LabelImage(np.ascontiguousarray(image.labels[::step, ::step]))
-    colours = object_colours(small)
-    picture = LabelPicture(small, colours, ("cells",), PictureStyle())
+    colors = object_colors(small)
+    picture = LabelPicture(small, colors, ("cells",), PictureStyle())
     return _written(lambda out: picture.write(out, "png"))
 
 
@@ -236,8 +236,8 @@ def _show_image(ax: Axes, image: LabelImage | Raster, style: dict[str, Any]) -> 
     given: dict[str, Any] = {"extent": extent, "interpolation": "nearest"}
     pixels: NDArray[Any]
     if isinstance(image, LabelImage):
-        pixels = _coloured(image)
-    elif image.is_colour:
+        pixels = _colored(image)
+    elif image.is_color:
         pixels = _visible(image.values)
     else:
         pixels, given["cmap"] = image.values, "gray"
@@ -245,13 +245,13 @@ def _show_image(ax: Axes, image: LabelImage | Raster, style: dict[str, Any]) -> 
     return bool(is_map and grid is not None and grid.is_north_up)
 
 
-def _coloured(image: LabelImage) -> NDArray[np.uint8]:
-    """(H, W, 3) colours of the pixels, as pictures of label images have them."""
-    from vorotool.engines.label_images.object_colours import object_colours
+def _colored(image: LabelImage) -> NDArray[np.uint8]:
+    """(H, W, 3) colors of the pixels, as pictures of label images have them."""
+    from vorotool.engines.label_images.object_colors import object_colors
     from vorotool.render.canvas.palettes import picture_palette
 
-    labels, classes = object_colours(image)
-    palette = picture_palette(int(classes.max(initial=0))).colours
+    labels, classes = object_colors(image)
+    palette = picture_palette(int(classes.max(initial=0))).colors
     known, number = np.append(0, labels), np.append(0, classes)
     made: NDArray[np.uint8] = palette[number[np.searchsorted(known, np.maximum(image.labels, 0))]]
     return made

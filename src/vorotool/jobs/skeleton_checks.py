@@ -232,4 +232,4 @@ def _check_thickness(o: ExactSkeletonOptions, targets: list[Target]) -> None:
         **{f"--{name}": name in o.looks.given() for name in ("color", "line-width", "label-by", "aspect", "extent")},
     }
     for name in (name for name, is_given in given.items() if is_given):
-        raise UsageError(f"a picture of thickness has the pixels of the image and colours of its own: leave out {name}")
+        raise UsageError(f"a picture of thickness has the pixels of the image and colors of its own: leave out {name}")

@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 from vorotool.engines.label_images.regions import (
     RegionMeasures,
     measure_regions,
-    neighbour_table,
-    region_colours,
+    neighbor_table,
+    region_colors,
     region_table,
     voronoi_diagram,
 )
@@ -160,13 +160,13 @@ class Products:
 
     @cached_property
     def measures(self) -> RegionMeasures:
-        """Areas, borders and boxes of the regions: one pass that tables and colours share."""
+        """Areas, borders and boxes of the regions: one pass that tables and colors share."""
         return measure_regions(self.image, threads=self.options.threads)
 
     @cached_property
-    def colours(self) -> tuple[NDArray[np.uint32], NDArray[np.uint32]]:
-        """Labels, and the colour class of each."""
-        return region_colours(self.image, measures=self.measures)
+    def colors(self) -> tuple[NDArray[np.uint32], NDArray[np.uint32]]:
+        """Labels, and the color class of each."""
+        return region_colors(self.image, measures=self.measures)
 
     def check(self, target: Target) -> None:
         """Refuse what cannot be written in the format of a target, before anything is."""
@@ -185,7 +185,7 @@ class Products:
             _ = self._exact_rows().square_dtype
         if fmt == "zarr":
             check_chunks(self.options, self.rows.frame, self._stream(what).dtype)
-        if what in ("table", "neighbours") or self._is_picture(target):
+        if what in ("table", "neighbors") or self._is_picture(target):
             require_memory(self.rows.frame, self.options.max_pixels)
 
     def write(self, target: Target, *, inputs: Sequence[str]) -> None:
@@ -202,7 +202,7 @@ class Products:
                 self._write_html(out)
             elif self._is_picture(target):
                 self._write_picture(out, target)
-            elif what in ("table", "neighbours"):
+            elif what in ("table", "neighbors"):
                 table, product = getattr(self, f"_{what}")(), PRODUCTS["tessellate"][what]
                 write_product(
                     out, table, product, target.fmt, precision=o.precision, threads=o.threads, path=target.path
@@ -213,7 +213,7 @@ class Products:
     def _is_picture(self, target: Target) -> bool:
         """Whether it is drawn from the whole image."""
         is_diagram = (target.what, target.fmt) == ("diagram", "png")
-        return target.what == "colour" or target.fmt == "svg" or (is_diagram and self.options.draws_diagram)
+        return target.what == "color" or target.fmt == "svg" or (is_diagram and self.options.draws_diagram)
 
     def _tell(self, target: Target) -> None:
         """Say what may surprise in a result."""
@@ -221,7 +221,7 @@ class Products:
         is_png = (target.what, target.fmt) == ("labels", "png")
         if is_png and seeds.largest_label < DARK_LABELS and sys.stderr.isatty():
             self.run.note(
-                f"labels up to {seeds.largest_label} look black in a 16-bit PNG: --what colour draws a picture"
+                f"labels up to {seeds.largest_label} look black in a 16-bit PNG: --what color draws a picture"
             )
         if target.what != "distance2":
             return
@@ -277,8 +277,8 @@ class Products:
         properties = self.rows.seeds.properties
         return table_in_units(self.options.pixel_size, table, properties=properties, has_rows=True)
 
-    def _neighbours(self) -> Table:
-        return table_in_units(self.options.pixel_size, neighbour_table(self.image, measures=self.measures))
+    def _neighbors(self) -> Table:
+        return table_in_units(self.options.pixel_size, neighbor_table(self.image, measures=self.measures))
 
     def _write_picture(self, out: BinaryIO, target: Target) -> None:
         if target.fmt in ANIMATIONS:
@@ -293,8 +293,8 @@ class Products:
     def _write_html(self, out: BinaryIO) -> None:
         from vorotool.jobs.label_pictures import write_label_page
 
-        more = unit_columns(self.options.pixel_size, len(self.colours[0]))
-        write_label_page(out, self.image, self.colours, self._table(), more, y_up=self._is_y_up)
+        more = unit_columns(self.options.pixel_size, len(self.colors[0]))
+        write_label_page(out, self.image, self.colors, self._table(), more, y_up=self._is_y_up)
 
     def _picture(self, target: Target) -> LabelPicture:
         from vorotool.jobs.label_pictures import LabelPicture, default_layers
@@ -303,7 +303,7 @@ class Products:
         layers = o.drawn(default_layers(self.image, PRODUCTS["tessellate"][target.what].usual_layers))
         return LabelPicture(
             self.image,
-            self.colours,
+            self.colors,
             layers,
             o.looks.style(self._scale_bar),
             width=o.width or 1000,

@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple, cast
 
 from vorotool.engines.delaunay.cell_statistics import statistics_of
-from vorotool.engines.delaunay.cells import cell_colours, verify_cells, voronoi_cells
+from vorotool.engines.delaunay.cells import cell_colors, verify_cells, voronoi_cells
 from vorotool.engines.delaunay.delaunay import delaunay, verify_triangulation
 from vorotool.engines.delaunay.proximity import proximity_graph
 from vorotool.engines.delaunay.site_table import site_table
@@ -202,7 +202,7 @@ class MeshProducts:
         of_mesh = [name for name in wanted if name in mesh_layers.LAYERS]
         made: dict[str, Layer] = {layer.name: layer for layer in mesh_layers.mesh_layers(self.edged, page, of_mesh)}
         if "cells" in wanted:
-            made["cells"] = cell_polygons(self.cells, cell_colours(self.mesh), page)
+            made["cells"] = cell_polygons(self.cells, cell_colors(self.mesh), page)
             if "triangles" in made:  # which would hide the cells
                 made["triangles"] = replace(cast("Polygons", made["triangles"]), is_sheer=True)
         if "diagram" in wanted:
@@ -219,7 +219,7 @@ class MeshProducts:
         columns: dict[str, Any] = {name: values.tolist() for name, values in measures.items()}
         columns |= unit_columns(self.options.pixel_size, len(cells))
         shapes = shapes_of_cells(cells, y_up=self.options.y_up)
-        write_cells_html(out, shapes, cell_colours(self.mesh), columns | cells.properties)
+        write_cells_html(out, shapes, cell_colors(self.mesh), columns | cells.properties)
 
     def verify(self, progress: Progress) -> None:
         """Check the triangulation exactly, from its arrays alone; and cells before they are clipped to polygons."""

@@ -32,7 +32,7 @@ class PixelSize(NamedTuple):
     factor: Fraction  # the side; with `sides` 1, as results are in their unit already
     unit: str | None
     is_auto: bool = False  # it is yet to be read from the file
-    origin: tuple[float, float] | None = None  # (float, float): where on the map the centre of the first pixel is
+    origin: tuple[float, float] | None = None  # (float, float): where on the map the center of the first pixel is
     y_up: bool = False  # rows go down on the map: what is made of the image is made with y upwards
     crs: Any = None  # the coordinate reference system of the map
     is_spacing: bool = False  # it is that of `--spacing`

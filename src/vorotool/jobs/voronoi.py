@@ -74,7 +74,7 @@ class VoronoiProducts:
 
     @cached_property
     def discs(self) -> Discs:
-        """The largest discs between all sites, with centres in what is shared out."""
+        """The largest discs between all sites, with centers in what is shared out."""
         from vorotool.engines.from_skeleton.empty_discs import largest_empty_discs, shared_region
 
         o = self.options
@@ -101,7 +101,7 @@ class VoronoiProducts:
             self.run.warn(Message("there are no discs: no place is outside of all sites", Kind.EMPTY_RESULT))
         if not self.features:
             self.run.warn(Message("there are no cells: the input is empty", Kind.EMPTY_RESULT))
-        elif target.what in ("edges", "neighbours") and not self.cells.is_border.any():
+        elif target.what in ("edges", "neighbors") and not self.cells.is_border.any():
             count = len(self.cells)
             self.run.warn(Message(f"there are no {target.what} of {count} site{'s' * (count != 1)}", Kind.EMPTY_RESULT))
 
@@ -139,13 +139,13 @@ class VoronoiProducts:
         )
 
     def _write_page(self, out: BinaryIO) -> None:
-        from vorotool.render.layers.voronoi import map_colours
+        from vorotool.render.layers.voronoi import map_colors
         from vorotool.render.pages.cells_html import shapes_of_map, write_cells_html
 
         cells = in_units(self.options.pixel_size, self.cells)
         shapes = shapes_of_map(cells, y_up=self.options.y_up)
         columns = {name: column for name, column in cells.table.items() if name not in ("label", "id")}
-        write_cells_html(out, shapes, map_colours(cells), columns | unit_columns(self.options.pixel_size, len(cells)))
+        write_cells_html(out, shapes, map_colors(cells), columns | unit_columns(self.options.pixel_size, len(cells)))
 
     def _drawing(self, what: str) -> Drawing:
         o = self.options

@@ -61,7 +61,7 @@ def write(
         Part to write, as for ``--what``. Triangulation: ``edges``, ``triangles`` or ``table``; alpha shape: ``edges``,
         ``polygons``, ``complex``, ``general``, ``points`` or ``table``; skeleton: ``skeleton``, ``elements``,
         ``branches`` or ``table``; points along a skeleton: ``points`` or ``transects``; label image: ``labels`` or
-        ``colour``, its picture as PNG. By default what the format is for, else the first.
+        ``color``, its picture as PNG. By default what the format is for, else the first.
     flatten : float or "auto", optional
         Largest distance of lines from curves in formats without curves; by default, or with "auto", by their size.
     decimals : int, optional
@@ -75,12 +75,12 @@ def write(
     y_up : bool, optional
         Draw y upwards; by default as for the input.
     color : mapping of str to str, optional
-        Colours of layers of a picture, by layer name: ``#rrggbb``, or names as in CSS; for areas with many colours,
-        such as cells, the colour of their borders.
+        Colors of layers of a picture, by layer name: ``#rrggbb``, or names as in CSS; for areas with many colors,
+        such as cells, the color of their borders.
     line_width : mapping of str to float, optional
         Line widths of layers of a picture, in px; 0 draws no line.
     background : str, optional
-        Background colour of a picture, or ``"none"``; by default white.
+        Background color of a picture, or ``"none"``; by default white.
     label_by : str, optional
         Column of the properties that names objects or sites in a picture, instead of their ids.
     legend, scale_bar : bool
@@ -274,17 +274,17 @@ def _draw_plot(found: RegionPersistence, wanted: _Picture) -> None:
 
 
 def _draw_labels(image: LabelImage, wanted: _Picture) -> None:
-    from vorotool.engines.label_images.object_colours import object_colours
+    from vorotool.engines.label_images.object_colors import object_colors
     from vorotool.formats.io.atomic_output import open_output
     from vorotool.jobs.label_pictures import LabelPicture, default_layers, site_texts
 
-    if wanted.what not in (None, "colour", "color", "labels"):
-        raise UsageError(f"what={wanted.what!r} is no picture of a LabelImage: use colour, or leave it out")
+    if wanted.what not in (None, "color", "colour", "labels"):
+        raise UsageError(f"what={wanted.what!r} is no picture of a LabelImage: use color, or leave it out")
     if wanted.fmt == "png" and wanted.width is not None:
         raise UsageError("the PNG of a label image has its own size: leave width out, or use fmt='svg'")
-    usual = parts_of(image)["labels" if wanted.what == "labels" else "colour"].usual_layers
+    usual = parts_of(image)["labels" if wanted.what == "labels" else "color"].usual_layers
     shown = [layer for layer in default_layers(image, usual) if layer != "seeds" or image.seeds is not None]
-    colours = object_colours(image, threads=wanted.threads)
+    colors = object_colors(image, threads=wanted.threads)
     chosen, label_by = list(wanted.layers or shown), wanted.looks.label_by
     columns = {} if image.seeds is None else image.seeds.properties
     check_column(label_by, columns, "label_by")
@@ -292,7 +292,7 @@ def _draw_labels(image: LabelImage, wanted: _Picture) -> None:
         chosen.append("labels")
     picture = LabelPicture(
         image,
-        colours,
+        colors,
         chosen,
         wanted.looks.style(world_of(None, wanted.looks, frame=image.frame, size=_pixel_size(image)).scale_bar),
         width=wanted.width or 1000,

@@ -67,36 +67,36 @@ _TABLES = " ".join(TABLES)
 # ---- tessellate ----------------------------------------------------------------------------------
 _IMAGES = "png tiff npy text"
 _LABELS = Writer("formats.images.label_images:write_labels", ("fmt", "threads"))
-_COLOURED = {"png": ("cells", "diagram", "objects", "seeds", "labels"), "svg": ("cells", "labels", "objects", "seeds")}
+_COLORED = {"png": ("cells", "diagram", "objects", "seeds", "labels"), "svg": ("cells", "labels", "objects", "seeds")}
 _TESSELLATE = (
     _product(
         "labels",
         "LabelImage",
         f"{_IMAGES} zarr",
         _LABELS,
-        {"svg": _COLOURED["svg"]},
+        {"svg": _COLORED["svg"]},
         "cells seeds labels",
         has_page=True,
     ),
-    _product("diagram", "", _IMAGES, None, {"png": _COLOURED["png"]}, "diagram"),
-    _product("colour", "LabelImage", "", None, _COLOURED, "cells seeds", has_page=True, moves=True),
+    _product("diagram", "", _IMAGES, None, {"png": _COLORED["png"]}, "diagram"),
+    _product("color", "LabelImage", "", None, _COLORED, "cells seeds", has_page=True, moves=True),
     _product("distance", "", "tiff npy zarr"),
     _product("distance2", "", "tiff npy zarr text"),
     _product("table", "Table", _TABLES, TABLE_WRITER),
-    _product("neighbours", "", _TABLES, TABLE_WRITER),
+    _product("neighbors", "", _TABLES, TABLE_WRITER),
 )
 
 # ---- tessellate, of volumes ----------------------------------------------------------------------
 _STACKS = "tiff npy zarr"
-_SLICES = {fmt: (*layers[:1], *(name for name in layers[1:] if name != "objects")) for fmt, layers in _COLOURED.items()}
+_SLICES = {fmt: (*layers[:1], *(name for name in layers[1:] if name != "objects")) for fmt, layers in _COLORED.items()}
 _VOLUMES = (
     _product("labels", "LabelVolume", _STACKS, has_page=True),
     _product("diagram", "", _STACKS),
-    _product("colour", "", "", None, _SLICES, "cells seeds", has_page=True),
+    _product("color", "", "", None, _SLICES, "cells seeds", has_page=True),
     _product("distance", "", _STACKS),
     _product("distance2", "", _STACKS),
     _product("table", "Table", _TABLES, TABLE_WRITER),
-    _product("neighbours", "", _TABLES, TABLE_WRITER),
+    _product("neighbors", "", _TABLES, TABLE_WRITER),
 )
 
 # ---- delaunay ------------------------------------------------------------------------------------
@@ -220,7 +220,7 @@ _VORONOI = (
         is_curved=True,
     ),
     _product("edges", "VoronoiMap", f"{_TABLES} geojson wkt", _MAP, _MAP_LAYERS, "edges objects", is_curved=True),
-    _product("neighbours", "VoronoiMap", _TABLES, _MAP),
+    _product("neighbors", "VoronoiMap", _TABLES, _MAP),
     _product("table", "VoronoiMap", _TABLES, _MAP),
     _DISC_PRODUCT,
 )

@@ -43,7 +43,7 @@ def records(path):
 
 
 COMMANDS = {
-    "tessellate": ["points", "--what", "labels,table,colour"],
+    "tessellate": ["points", "--what", "labels,table,color"],
     "delaunay": ["points", "--what", "edges", "-f", "geojson"],
     "alphashape": ["points", "-f", "svg", "--what", "polygons,hull"],
     "skeleton-exact": ["shapes", "--what", "skeleton,branches"],
@@ -245,7 +245,7 @@ def test_shards_have_tables_and_statistics_of_their_own(run, inputs):
         ("points/p0.csv --table all.png -o out.png", 2, "all.png"),
         ("points/p0.csv --cluster local", 2, "--cluster"),
         ("points - --out-dir out", 2, "- is standard input"),
-        ("points --out-dir out --what colour --overlay -", 2, "--overlay -"),
+        ("points --out-dir out --what color --overlay -", 2, "--overlay -"),
         ("points --out-dir out --shard 3/2", 2, "'3/2': expected I/N"),
         ("points --out-dir out -j 2 --cluster tcp://127.0.0.1:1", 2, "-j is for this machine"),
         ("points --table all.csv --resume", 2, "--resume needs --out-dir"),

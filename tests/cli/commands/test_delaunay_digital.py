@@ -24,7 +24,7 @@ def test_the_rule_to_the_letter(run):
     assert (done.code, done.err) == (0, "")
     found = vorotool.digital_triangulation(vorotool.read(DOTS), shape=(512, 512))
     assert pairs(done.out) == [tuple(edge) for edge in (found.edges + 1).tolist()]
-    table = run("tessellate", DOTS, *FRAME, "--what", "neighbours")
+    table = run("tessellate", DOTS, *FRAME, "--what", "neighbors")
     assert pairs(done.out) == pairs(table.out)
     triangles = run("delaunay", DOTS, *FRAME, "--method", "digital", "--what", "triangles")
     assert [tuple(map(int, row.values())) for row in triangles.rows] == [
@@ -53,7 +53,7 @@ def test_formats_of_the_rule(run, folder, what):
 def test_regions_of_images_are_linked(run, folder):
     done = run("delaunay", DATA / "blobs.png", "--method", "digital", "--verify")
     assert (done.code, done.err) == (0, "")
-    table = run("tessellate", DATA / "blobs.png", "--what", "neighbours")
+    table = run("tessellate", DATA / "blobs.png", "--what", "neighbors")
     assert pairs(done.out) == pairs(table.out)
     sites = {row["label"]: (row["x"], row["y"]) for row in run("delaunay", DATA / "blobs.png", "--what", "table").rows}
     assert all(sites[row["label_a"]] == (row["x_a"], row["y_a"]) for row in done.rows)

@@ -12,7 +12,7 @@ SHAPES = Path(__file__).parents[3] / "data" / "two-shapes.json"
 
 def test_the_picture_is_that_of_tessellate(run, folder):
     assert run("tessellate", "dots.csv", "-o", "labels.png").code == 0
-    assert run("tessellate", "dots.csv", "--what", "colour", "--layers", "cells", "-o", "a.png").code == 0
+    assert run("tessellate", "dots.csv", "--what", "color", "--layers", "cells", "-o", "a.png").code == 0
     assert run("draw", "labels.png", "-o", "b.png").code == 0
     assert (folder / "a.png").read_bytes() == (folder / "b.png").read_bytes()
 
@@ -35,7 +35,7 @@ def test_what_is_no_label_image_is_refused(run, folder):
 
 
 @pytest.mark.parametrize("extension", ["png", "svg"])
-def test_sparse_labels_have_the_colours_of_dense_ones(run, folder, extension):
+def test_sparse_labels_have_the_colors_of_dense_ones(run, folder, extension):
     dense = np.kron(np.arange(12, dtype=np.uint32).reshape(3, 4), np.ones((20, 30), np.uint32))
     np.save(folder / "dense.npy", dense)
     np.save(folder / "sparse.npy", dense * np.uint32(390_000_000))
@@ -44,7 +44,7 @@ def test_sparse_labels_have_the_colours_of_dense_ones(run, folder, extension):
         assert done.code == 0, done.err
     drawn = [(folder / f"{name}.{extension}").read_text("latin-1") for name in ("dense", "sparse")]
     assert re.sub('id="cell-[0-9]+"', "", drawn[0]) == re.sub('id="cell-[0-9]+"', "", drawn[1])
-    done = run("tessellate", "sparse.npy", "--seeds", "labels", "--what", "colour", "-o", f"c.{extension}")
+    done = run("tessellate", "sparse.npy", "--seeds", "labels", "--what", "color", "-o", f"c.{extension}")
     assert done.code == 0, done.err
 
 
@@ -144,7 +144,7 @@ def test_what_is_said_of_shapes(run, folder, content, options, code, words):
 
 @pytest.mark.parametrize("dtype", [bool, np.uint8, np.uint16])
 @pytest.mark.parametrize("value", [1, 255])
-def test_objects_of_a_mask_have_their_own_colours(run, folder, dtype, value):
+def test_objects_of_a_mask_have_their_own_colors(run, folder, dtype, value):
     mask = np.zeros((50, 60), np.uint16)
     mask[5:20, 5:20] = mask[5:20, 35:50] = mask[30:45, 5:50] = value
     np.save(folder / "mask.npy", mask.astype(dtype))
@@ -153,7 +153,7 @@ def test_objects_of_a_mask_have_their_own_colours(run, folder, dtype, value):
     assert (done.code, done.err) == (0, note if dtype == np.uint16 else "")
     cells = re.findall(r'<path id="(cell-\d+)" fill="(#\w+)"', (folder / "a.svg").read_text())
     assert [name for name, _ in cells] == ["cell-1", "cell-2", "cell-3"]
-    assert len({colour for _, colour in cells}) == 3
+    assert len({color for _, color in cells}) == 3
     np.save(folder / "labels.npy", np.where(mask, 7, 0).astype(np.uint8))
     done = run("draw", "labels.npy", "-f", "svg")
     assert (re.findall("cell-[0-9]+", done.out), done.err) == (["cell-7"], "")

@@ -106,11 +106,11 @@ def test_dots_an_inch_are_of_paper(info, tmp_path):
 def test_pictures_say_what_to_do(run, info, tmp_path):
     chance = np.random.default_rng(6)
     iio.imwrite(tmp_path / "grey.png", chance.integers(0, 255, (64, 64), dtype=np.uint8))
-    iio.imwrite(tmp_path / "colour.png", chance.integers(0, 255, (8, 9, 3), dtype=np.uint8))
+    iio.imwrite(tmp_path / "color.png", chance.integers(0, 255, (8, 9, 3), dtype=np.uint8))
     iio.imwrite(tmp_path / "photo.jpg", chance.integers(0, 255, (8, 9), dtype=np.uint8))
     for told, words in zip(
-        info("grey.png", "colour.png", "photo.jpg"),
-        ("a photograph?", "a colour image", "the file is lossy"),
+        info("grey.png", "color.png", "photo.jpg"),
+        ("a photograph?", "a color image", "the file is lossy"),
         strict=True,
     ):
         assert told["kind"] == "picture"
@@ -148,7 +148,7 @@ def test_large_images_are_told_by_their_headers(info, tmp_path, monkeypatch):
 
 # ---- which commands ------------------------------------------------------------------------------
 OPTIONS = {"tessellate": ["--size", "600x600"], "skeleton-approx": ["--step", "9"], "draw": ["-f", "svg"]}
-OF_IMAGES = {"png": [], "tif": ["--volume", "--what", "colour"]}
+OF_IMAGES = {"png": [], "tif": ["--volume", "--what", "color"]}
 """Options of `tessellate` for them."""
 
 

@@ -108,14 +108,14 @@ def test_nothing_in_the_foreground(run, folder):
         ((BLOBS, "--max-sites", "100"), 5, "--max-sites 100"),
         ((BLOBS, "--max-pixels", "100"), 5, "--max-pixels"),
         (("noise.png",), 3, "noise.png"),
-        (("colour.png",), 3, "colour.png"),
+        (("color.png",), 3, "color.png"),
         ((BLOBS, "--page", "3"), 3, "--page 3"),
     ],
 )
 def test_what_is_refused(run, folder, arguments, code, words):
     random = np.random.default_rng(0)
     Image.fromarray(random.integers(0, 256, (64, 64), dtype=np.uint8)).save(folder / "noise.png")
-    Image.fromarray(random.integers(0, 256, (8, 8, 3), dtype=np.uint8)).save(folder / "colour.png")
+    Image.fromarray(random.integers(0, 256, (8, 8, 3), dtype=np.uint8)).save(folder / "color.png")
     done = run("skeleton-exact", *arguments, "-o", "out.json")
     assert done.code == code
     assert words in done.err

@@ -60,7 +60,7 @@ def test_a_batch_of_fields_goes_on_without_foreground(run, fields):
     assert run("tessellate", *names, "--out-dir", "strict", "-f", "npy", "--strict", "--keep-going").code == 6
 
 
-@pytest.mark.parametrize("what", ["table", "neighbours"])
+@pytest.mark.parametrize("what", ["table", "neighbors"])
 def test_tables_without_foreground_have_the_header_of_others(run, fields, what):
     empty, other = (run("tessellate", name, "--what", what, "--verify") for name in ("empty.npy", "one.npy"))
     assert (empty.code, empty.err) == (0, f"{NO_FOREGROUND}\n")
@@ -68,7 +68,7 @@ def test_tables_without_foreground_have_the_header_of_others(run, fields, what):
 
 
 @pytest.mark.parametrize("method", ["exact", "propagation"])
-@pytest.mark.parametrize("name", ["labels.npy", "labels.png", "labels.tif", "labels.svg", "diagram.png", "colour.png"])
+@pytest.mark.parametrize("name", ["labels.npy", "labels.png", "labels.tif", "labels.svg", "diagram.png", "color.png"])
 def test_images_and_pictures_without_foreground(run, fields, name, method):
     what = name.partition(".")[0]
     done = run("tessellate", "empty.npy", "--what", what, "-o", name, "--method", method, "--verify")

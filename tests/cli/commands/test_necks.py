@@ -42,14 +42,14 @@ def test_cuts_are_lines(run):
     assert [shapely.from_wkt(text).length for text in done.out.splitlines()] == pytest.approx(expected.width.tolist())
 
 
-def test_parts_have_ids_areas_and_neighbours(run):
+def test_parts_have_ids_areas_and_neighbors(run):
     done = run("skeleton-exact", SHAPES, "--what", "parts", "--neck", "0.95", "-f", "geojson", "--verify")
     assert (done.code, done.err) == (0, "")
     found = json.loads(done.out)["features"]
     expected = vorotool.parts(vorotool.read(SHAPES), neck=0.95)
     own = [each["properties"] for each in found]
     assert [each["piece"] for each in own] == list(range(len(expected)))
-    assert [each["neighbours"] for each in own] == expected.neighbours()
+    assert [each["neighbors"] for each in own] == expected.neighbors()
     assert [each["area"] for each in own] == expected.area.tolist()
     assert [shapely.geometry.shape(each["geometry"]).area for each in found] == pytest.approx(expected.area.tolist())
     rows = run("skeleton-exact", SHAPES, "--what", "parts", "--neck", "0.95", "-f", "csv").rows
@@ -94,7 +94,7 @@ def test_statistics_count(run, folder):
     }
 
 
-def test_pictures_have_colours_that_differ_along_cuts(run, folder):
+def test_pictures_have_colors_that_differ_along_cuts(run, folder):
     done = run("skeleton-exact", SHAPES, "--what", "parts", "--neck", "1", "-f", "svg", "--layers", "parts,cuts,labels")
     assert done.code == 0
     assert all(f'<g id="{name}"' in done.out for name in ("parts", "cuts", "labels"))

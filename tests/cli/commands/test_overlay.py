@@ -11,7 +11,7 @@ from scipy import ndimage
 DATA = Path(__file__).parents[3] / "data"
 BLOBS = DATA / "blobs.png"
 COMMANDS = {
-    "tessellate": (BLOBS, "--what", "colour"),
+    "tessellate": (BLOBS, "--what", "color"),
     "delaunay": (BLOBS,),
     "delaunay cells": (BLOBS, "--what", "cells"),
     "delaunay digital": (BLOBS, "--method", "digital"),
@@ -61,7 +61,7 @@ def test_a_point_is_drawn_where_its_pixel_is(run, folder, photo):
 
 def test_labels_in_a_window_lie_there(run, folder, photo):
     (folder / "dots.csv").write_text("x,y\n12,22\n")
-    options = ("--window", "10,20,5,5", "--what", "colour", "--layers", "cells", "--overlay", "photo.png")
+    options = ("--window", "10,20,5,5", "--what", "color", "--layers", "cells", "--overlay", "photo.png")
     assert run("tessellate", "dots.csv", *options, "-o", "a.png").code == 0
     made, image = (np.asarray(Image.open(folder / path)) for path in ("a.png", "photo.png"))
     y, x = np.nonzero((made != image).any(axis=2))

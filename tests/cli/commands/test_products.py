@@ -70,7 +70,7 @@ def test_layers_are_those_that_are_drawn():
 @pytest.mark.parametrize(
     ("command", "what", "extension"),
     [
-        *(("tessellate", "labels", "png"), ("tessellate", "labels", "tif"), ("tessellate", "colour", "png")),
+        *(("tessellate", "labels", "png"), ("tessellate", "labels", "tif"), ("tessellate", "color", "png")),
         *(("tessellate", "table", "csv"), ("delaunay", "edges", "csv"), ("delaunay", "edges", "npz")),
         *(("delaunay", "triangles", "geojson"), ("delaunay", "triangles", "png"), ("alphashape", "curves", "csv")),
         *(("alphashape", "hull", "geojson"), ("alphashape", "edges", "csv"), ("skeleton-exact", "skeleton", "json")),

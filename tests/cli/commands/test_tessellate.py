@@ -71,7 +71,7 @@ def test_table_has_the_columns_of_the_input(run, folder):
     done = run("tessellate", "dots.csv", "--columns", "x,y", "--what", "table")
     header, *rows = (line.split(",") for line in done.out.splitlines())
     assert header == [
-        *["label", "x", "y", "area", "perimeter", "neighbours", "nearest_label", "nearest_distance", "touches_frame"],
+        *["label", "x", "y", "area", "perimeter", "neighbors", "nearest_label", "nearest_distance", "touches_frame"],
         *["max_distance", "components", "bbox_x", "bbox_y", "bbox_w", "bbox_h", "name"],
     ]
     assert [row[-1] for row in rows] == ["a", "b", "c"]
@@ -98,7 +98,7 @@ def test_components_of_a_mask(run, folder):
     assert [row["object_area"] for row in json.loads(done.out)] == [28]
 
 
-def test_neighbours(run, folder):
+def test_neighbors(run, folder):
     done = run("tessellate", "dots.csv", "--what", "neighbors")  # either spelling
     header, *rows = (line.split(",") for line in done.out.splitlines())
     assert header == ["label_a", "label_b", "border_length", "centroid_distance"]
@@ -127,7 +127,7 @@ def test_pictures(run, folder):
 
 def test_pictures_of_maps_are_drawn_y_upwards(run, folder):
     (folder / "dots.wkt").write_text("POINT (2 1)\nPOINT (7 5)\nPOINT (1 6)\n")
-    options = ("--size", "8x7", "--what", "colour", "--layers", "cells")
+    options = ("--size", "8x7", "--what", "color", "--layers", "cells")
     run("tessellate", "dots.csv", *options, "-o", "down.png")
     run("tessellate", "dots.wkt", *options, "-o", "up.png")
     run("tessellate", "dots.wkt", *options, "--y-down", "-o", "down2.png")
@@ -137,8 +137,8 @@ def test_pictures_of_maps_are_drawn_y_upwards(run, folder):
 
 
 def test_several_results_are_named(run, folder):
-    run("tessellate", "dots.csv", "--what", "labels,table,colour", "-o", "result")
-    assert {p.name for p in folder.glob("result*")} == {"result.labels.png", "result.table.csv", "result.colour.png"}
+    run("tessellate", "dots.csv", "--what", "labels,table,color", "-o", "result")
+    assert {p.name for p in folder.glob("result*")} == {"result.labels.png", "result.table.csv", "result.color.png"}
     run("tessellate", "dots.csv", "--what", "labels,table", "-o", "other.tif")
     assert {p.name for p in folder.glob("other*")} == {"other.labels.tif", "other.table.csv"}
     (folder / "out").mkdir()

@@ -67,7 +67,7 @@ def test_maps_keep_their_place(run, folder, expected):
         np.testing.assert_allclose(made.asarray(), 2 * expected, rtol=1e-6)
 
 
-def test_a_picture_has_a_colour_for_each_thickness(run, folder, expected):
+def test_a_picture_has_a_color_for_each_thickness(run, folder, expected):
     thickness(run, "-o", "a.png")
     made = np.asarray(Image.open(folder / "a.png").convert("RGB")).astype(int)
     assert made.shape[:2] == expected.shape
@@ -77,7 +77,7 @@ def test_a_picture_has_a_colour_for_each_thickness(run, folder, expected):
     assert (np.diff(light[np.argsort(expected[expected > 0], kind="stable")]) >= -12).all()
 
 
-def test_a_legend_is_a_bar_of_the_colours(run, folder):
+def test_a_legend_is_a_bar_of_the_colors(run, folder):
     thickness(run, "-o", "a.png", "--background", "none")
     assert np.asarray(Image.open(folder / "a.png").convert("RGBA"))[0, 0, 3] == 0
     thickness(run, "-o", "a.png", "--background", "black")

@@ -311,13 +311,13 @@ def test_threads_change_nothing(run, mixed):
 
 # ---- what is written ---------------------------------------------------------------------------------
 def test_several_results_at_once(run, mixed, folder, right):
-    done = run("voronoi", mixed, "-q", "--what", "cells,edges,neighbours,table", "-o", "out")
+    done = run("voronoi", mixed, "-q", "--what", "cells,edges,neighbors,table", "-o", "out")
     assert done.code == 0
-    names = {"out.cells.geojson", "out.edges.csv", "out.neighbours.csv", "out.table.csv"}
+    names = {"out.cells.geojson", "out.edges.csv", "out.neighbors.csv", "out.table.csv"}
     assert {path.name for path in folder.glob("out.*")} == names
-    pairs = [(int(row["label_a"]), int(row["label_b"])) for row in rows_of((folder / "out.neighbours.csv").read_text())]
-    assert pairs == list(zip(right.neighbours["label_a"], right.neighbours["label_b"], strict=True))
-    assert run("voronoi", mixed, "-q", "--what", "neighbors").out == (folder / "out.neighbours.csv").read_text()
+    pairs = [(int(row["label_a"]), int(row["label_b"])) for row in rows_of((folder / "out.neighbors.csv").read_text())]
+    assert pairs == list(zip(right.neighbors["label_a"], right.neighbors["label_b"], strict=True))
+    assert run("voronoi", mixed, "-q", "--what", "neighbors").out == (folder / "out.neighbors.csv").read_text()
 
 
 @pytest.mark.parametrize("name", ["a.gpkg", "a.fgb", "a.shp", "a.parquet"])
@@ -495,7 +495,7 @@ def test_files_are_told_of(run, mixed):
     assert told["commands"] == ["voronoi", "skeleton-approx", "skeleton-exact", "distance", "draw"]
 
 
-@pytest.mark.parametrize("what", ["cells", "edges", "neighbours", "table", "discs"])
+@pytest.mark.parametrize("what", ["cells", "edges", "neighbors", "table", "discs"])
 @pytest.mark.parametrize("frame", ["0,0,2,2", "8,8,1,2"])
 def test_a_clip_outside_of_the_frame_is_an_empty_result(run, folder, what, frame):
     (folder / "two.wkt").write_text("POINT (0 0)\nPOINT (1 1)\n")

@@ -34,7 +34,7 @@ def test_svg_is_that_of_the_library(run, folder):
     assert re.search(r"A[\d.]+ [\d.]+ 0 0 ", text)
 
 
-def test_names_legend_and_colours(run, folder):
+def test_names_legend_and_colors(run, folder):
     looks = ("--label-by", "name", "--legend", "--scale-bar", "--color", "objects=red", "--background", "none")
     assert run("voronoi", LAKES, "-o", "a.svg", *looks).code == 0
     text = (folder / "a.svg").read_text()
@@ -72,8 +72,8 @@ def test_a_page_names_cells(run, folder, options):
 
 def test_tables_have_the_measures(run, labels):
     rows = run("voronoi", labels, "--what", "table").rows
-    assert list(rows[0]) == ["label", "id", "area", "perimeter", "neighbours", "own_area", "max_distance", "components"]
+    assert list(rows[0]) == ["label", "id", "area", "perimeter", "neighbors", "own_area", "max_distance", "components"]
     assert [float(row["own_area"]) for row in rows] == np.bincount(LABELS.ravel())[1:].tolist()
-    rows = run("voronoi", labels, "--what", "neighbours", "--pixel-size", "2").rows
+    rows = run("voronoi", labels, "--what", "neighbors", "--pixel-size", "2").rows
     assert list(rows[0]) == ["label_a", "label_b", "border_length", "distance"]
     assert [float(row["distance"]) for row in rows] == [12, 0, 24]  # 1 and 3 meet at a corner

@@ -39,7 +39,7 @@ def pixels(path):
 
 @pytest.mark.parametrize("fmt", ["gif", "apng", "webp"])
 def test_cells_grow(run, folder, fmt):
-    style = ["--size", "60x60", "--what", "colour", "--line-width", "cells=0"]
+    style = ["--size", "60x60", "--what", "color", "--line-width", "cells=0"]
     done = run("tessellate", "dots.csv", *style, "-o", f"out.{fmt}", "--frames", "5", "--fps", "4")
     assert done.code == 0, done.err
     found = frames_of(f"out.{fmt}")
@@ -57,7 +57,7 @@ def test_cells_grow(run, folder, fmt):
 
 
 def test_cells_grow_up_to_a_distance(run, folder):
-    style = ["--size", "60x60", "--what", "colour", "--max-distance", "6.5", "--line-width", "cells=0"]
+    style = ["--size", "60x60", "--what", "color", "--max-distance", "6.5", "--line-width", "cells=0"]
     assert run("tessellate", "dots.csv", *style, "-o", "out.gif", "--frames", "3").code == 0
     assert run("tessellate", "dots.csv", *style, "-o", "last.png").code == 0
     np.testing.assert_array_equal(frames_of("out.gif")[-1] == 255, pixels("last.png") == 255)
@@ -90,7 +90,7 @@ def test_offsets_grow(run, folder):
 
 
 def test_what_animate_stands_for(run, folder):
-    command = ["tessellate", "dots.csv", "--size", "20x20", "--what", "colour", "--animate", "--frames", "2"]
+    command = ["tessellate", "dots.csv", "--size", "20x20", "--what", "color", "--animate", "--frames", "2"]
     for name, kind in (("a.gif", b"GIF89a"), ("a.png", b"\x89PNG"), ("a.webp", b"RIFF"), ("a", b"GIF89a")):
         assert run(*command, "-o", name).code == 0
         assert (folder / name).read_bytes().startswith(kind)
@@ -100,36 +100,36 @@ def test_what_animate_stands_for(run, folder):
     assert [path.name for path in (folder / "out").iterdir()] == ["dots.gif"]
 
 
-def test_many_colours_share_a_palette(run, folder):
+def test_many_colors_share_a_palette(run, folder):
     rng = np.random.default_rng(1)
     Image.fromarray(rng.integers(0, 256, (60, 60, 3), dtype=np.uint8)).save("photo.png")
-    style = ["--size", "60x60", "--what", "colour", "--layers", "seeds", "--overlay", "photo.png"]
+    style = ["--size", "60x60", "--what", "color", "--layers", "seeds", "--overlay", "photo.png"]
     assert run("tessellate", "dots.csv", *style, "-o", "out.gif", "--frames", "2").code == 0
     difference = np.abs(frames_of("out.gif")[0].astype(int) - pixels("photo.png"))
-    assert difference.mean() < 40  # 256 colours for 3600
+    assert difference.mean() < 40  # 256 colors for 3600
 
 
 def test_time_of_frames(run, folder):
-    style = ["--size", "30x30", "--what", "colour", "--frames", "3", "--fps", "2"]
+    style = ["--size", "30x30", "--what", "color", "--frames", "3", "--fps", "2"]
     assert run("tessellate", "dots.csv", *style, "-o", "out.gif").code == 0
     with Image.open("out.gif") as image:
         assert (image.info["duration"], image.info["loop"]) == (500, 0)
 
 
 REFUSED = [
-    (["tessellate", "dots.csv", "--what", "colour", "--animate", "-o", "a.svg"], 2, "--animate"),
-    (["tessellate", "dots.csv", "--what", "colour", "--frames", "3", "-o", "a.png"], 2, "--frames"),
-    (["tessellate", "dots.csv", "--what", "colour", "--fps", "3", "-o", "a.png"], 2, "--fps"),
-    (["tessellate", "dots.csv", "--what", "colour", "--frames", "1", "-o", "a.gif"], 2, "1 is not in the range"),
+    (["tessellate", "dots.csv", "--what", "color", "--animate", "-o", "a.svg"], 2, "--animate"),
+    (["tessellate", "dots.csv", "--what", "color", "--frames", "3", "-o", "a.png"], 2, "--frames"),
+    (["tessellate", "dots.csv", "--what", "color", "--fps", "3", "-o", "a.png"], 2, "--fps"),
+    (["tessellate", "dots.csv", "--what", "color", "--frames", "1", "-o", "a.gif"], 2, "1 is not in the range"),
     (["tessellate", "dots.csv", "--what", "labels", "-o", "a.gif"], 2, "labels cannot be written as gif"),
     (
-        ["tessellate", "dots.csv", "--what", "colour", "--method", "propagation", "-o", "a.gif"],
+        ["tessellate", "dots.csv", "--what", "color", "--method", "propagation", "-o", "a.gif"],
         2,
         "animations are of the exact tessellation",
     ),
     (["alphashape", "dots.csv", "-r", "9", "--method", "digital", "-o", "a.gif"], 2, "--method"),
     (["skeleton-exact", "shapes.json", "-o", "a.gif"], 2, "skeleton cannot be written as gif: use --what offset"),
-    (["tessellate", "dots.csv", "--what", "colour", "--size", "6000x6000", "-o", "a.gif"], 5, f"{MOST_PIXELS}"),
+    (["tessellate", "dots.csv", "--what", "color", "--size", "6000x6000", "-o", "a.gif"], 5, f"{MOST_PIXELS}"),
 ]
 
 
@@ -142,4 +142,4 @@ def test_what_is_refused(run, folder, command, code, message):
 
 def test_the_library_has_none(folder):
     with pytest.raises(vorotool.UsageError, match="'gif'"):
-        vorotool.write(vorotool.tessellate([[1, 1]], shape=(3, 3)), "a.gif", what="colour")
+        vorotool.write(vorotool.tessellate([[1, 1]], shape=(3, 3)), "a.gif", what="color")

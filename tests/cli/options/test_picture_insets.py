@@ -73,7 +73,7 @@ def test_objects_are_named_by_a_column(run, folder, command, column, expected):
     assert done.code == 0, done.err
     assert sorted(texts(done.out)) == sorted(expected)
     assert groups(done.out)["labels"].get("paint-order") == "stroke"
-    plain = [*command, "-q", *(["--what", "colour"] if command[0] == "tessellate" else ["--width", "300"])]
+    plain = [*command, "-q", *(["--what", "color"] if command[0] == "tessellate" else ["--width", "300"])]
     assert run(*plain, "-o", "plain.png").code == 0
     assert run(*plain, "--label-by", column, "-o", "named.png").code == 0
     assert Path("plain.png").read_bytes() != Path("named.png").read_bytes()
@@ -102,7 +102,7 @@ def test_legend_has_a_row_a_layer(run, folder):
     found = groups(done.out)
     assert found["legend-points"].get("fill") == found["points"].get("fill")
     assert found["legend-edges"].get("stroke") == found["edges"].get("stroke")
-    drawn = run("tessellate", "labels.png", "-f", "svg", "--what", "colour", "--legend", "--color", "seeds=red", "-q")
+    drawn = run("tessellate", "labels.png", "-f", "svg", "--what", "color", "--legend", "--color", "seeds=red", "-q")
     assert texts(drawn.out, "legend-names") == ["seeds", "cells"]
     assert groups(drawn.out)["legend-seeds"].get("stroke") == "#ff0000"
 
@@ -111,7 +111,7 @@ def test_legends_of_png_are_opaque(run, folder):
     Image.new("L", (300, 200), 0).save("dark.png")
     Image.fromarray(np.pad(read("labels.png", "L"), ((0, 150), (0, 200)))).save("large.png")
     for options in (["--overlay", "dark.png"], []):
-        done = run("tessellate", "large.png", "--what", "colour", "--legend", "-o", "out.png", "-q", *options)
+        done = run("tessellate", "large.png", "--what", "color", "--legend", "-o", "out.png", "-q", *options)
         assert done.code == 0, done.err
         pixels = read("out.png")
         assert pixels.shape == (200, 300, 3)
@@ -130,7 +130,7 @@ BARS = [
     (["delaunay", "dots.csv", "--pixel-size", "3mm"], 1000 / (9 * 1.04) / 3, "5 mm"),
     (["skeleton-exact", "labels.png", "--pixel-size", "0.325um"], 10 / 0.325, "5 µm"),
     (["skeleton-exact", "labels.png"], 10, "20 px"),
-    (["tessellate", "labels.png", "--what", "colour", "--pixel-size", "0.5um"], 1000 / 104 / 0.5, "10 µm"),
+    (["tessellate", "labels.png", "--what", "color", "--pixel-size", "0.5um"], 1000 / 104 / 0.5, "10 µm"),
     (["draw", "labels.png"], 1000 / 104, "20 px"),
 ]
 
@@ -234,8 +234,8 @@ def test_the_library_draws_alike(run, folder):
     assert run("delaunay", "dots.csv", "-o", "command.svg", *given).code == 0
     assert Path("library.svg").read_text() == Path("command.svg").read_text()
     seeds = vorotool.tessellate(points, shape=(60, 80))
-    vorotool.write(seeds, "library.svg", what="colour", **options)
-    done = run("tessellate", "dots.csv", "--size", "80x60", "--what", "colour", "-o", "command.svg", *given, "--y-down")
+    vorotool.write(seeds, "library.svg", what="color", **options)
+    done = run("tessellate", "dots.csv", "--size", "80x60", "--what", "color", "-o", "command.svg", *given, "--y-down")
     assert done.code == 0, done.err
     assert Path("library.svg").read_text() == Path("command.svg").read_text()
     skeleton = vorotool.skeleton_exact(vorotool.read("shapes.geojson"))

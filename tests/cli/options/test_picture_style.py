@@ -64,7 +64,7 @@ def test_pictures_to_scale(run, folder, source, options, size, what):
     assert np.ptp(shapes.ring(0), axis=0) == pytest.approx([size, 0.75 * size], abs=1e-3)
 
 
-def test_colours_of_png(run, folder):
+def test_colors_of_png(run, folder):
     done = run(
         "draw", "shapes.json", "-o", "out.png", "--color", "shape=#123456", "--background", "#abcdef", "--width", "400"
     )
@@ -94,7 +94,7 @@ REFUSED = [
     (["-f", "svg", "--scale", "1e9"], "the page would be"),
     (["-f", "svg", "--color", "cells=red"], "--color"),
     (["-f", "svg", "--scale", "2:1"], "'2:1'"),
-    (["-f", "svg", "--color", "skeleton=nocolour"], "'nocolour'"),
+    (["-f", "svg", "--color", "skeleton=nocolor"], "'nocolor'"),
     (["-f", "svg", "--color", "red"], "'red'"),
     (["-f", "svg", "--line-width", "skeleton=-1"], "'-1'"),
 ]
@@ -108,7 +108,7 @@ def test_what_is_refused(run, folder, options, message):
     assert not done.out
 
 
-def test_label_images_have_no_layers_to_colour(run, folder):
+def test_label_images_have_no_layers_to_color(run, folder):
     Image.fromarray(np.array([[0, 3], [7, 7]], dtype=np.uint8)).save("labels.png")
     done = run("draw", "labels.png", "-f", "svg", "--scale", "2")
     assert done.code == 2

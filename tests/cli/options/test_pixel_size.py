@@ -110,7 +110,7 @@ def test_results_are_those_of_a_larger_input(run, tmp_path, command, options, of
 
 
 KEPT = {
-    *("label", "neighbours", "nearest_label", "touches_frame", "components", "label_a", "label_b", "label_c"),
+    *("label", "neighbors", "nearest_label", "touches_frame", "components", "label_a", "label_b", "label_c"),
     *("kind", "difference", "cause", "regions", "holes", "cavities", "edges", "on_hull", "duplicate_of_label"),
 }
 """Columns of tables that are scaled by the names of their columns, and are no lengths."""
@@ -118,7 +118,7 @@ KEPT = {
 
 @pytest.mark.parametrize(
     "options",
-    ["tessellate --what table", "tessellate --what neighbours", "delaunay --what table", "alphashape --what curves",
+    ["tessellate --what table", "tessellate --what neighbors", "delaunay --what table", "alphashape --what curves",
      "delaunay --what compare"],
 )  # fmt: skip
 def test_columns_are_scaled_by_what_they_are(run, tmp_path, options):
@@ -208,7 +208,7 @@ def values_of(path, name):
     [
         *(("tessellate --what table", fmt) for fmt in ("csv", "tsv", "json", "jsonl", "npz")),
         *(("skeleton-exact --what branches", fmt) for fmt in ("csv", "jsonl", "npz")),
-        *(("tessellate --what neighbours", "csv"), ("delaunay --what table", "csv")),
+        *(("tessellate --what neighbors", "csv"), ("delaunay --what table", "csv")),
         *(("alphashape --what points -r 9", "csv"), ("skeleton-exact --what table", "json")),
         ("skeleton-approx --step 2 --what elements", "csv"),
     ],
@@ -238,7 +238,7 @@ def test_rows_of_measures_have_units_of_their_own(run, tmp_path, fmt):
     found = {name: unit or None for name, unit in zip(names, units, strict=True)}
     assert found == {
         **{"area": "um2", "perimeter": "um", "nearest_distance": "um", "tree_length": "um"},
-        **dict.fromkeys(["roundness", "neighbours", "tree_normalised"]),
+        **dict.fromkeys(["roundness", "neighbors", "tree_normalised"]),
     }
 
 

@@ -58,8 +58,8 @@ def test_tables_are_in_the_unit_which_they_name(run, dots):
     for name in table:
         assert [float(row[name]) for row in rows] == table[name].tolist()
     assert {row["unit"] for row in rows} == {"um"}
-    rows = run("tessellate", "dots.csv", *FRAME, "--spacing", "0.325,0.5um", "--what", "neighbours").rows
-    borders = vorotool.neighbour_table(image)
+    rows = run("tessellate", "dots.csv", *FRAME, "--spacing", "0.325,0.5um", "--what", "neighbors").rows
+    borders = vorotool.neighbor_table(image)
     assert [float(row["border_length"]) for row in rows] == borders["border_length"].tolist()
     assert [float(row["centroid_distance"]) for row in rows] == borders["centroid_distance"].tolist()
 
@@ -194,7 +194,7 @@ def test_a_map_with_pixels_that_are_no_squares(run, tmp_path):
     asked = run("tessellate", "in.tif", "--what", "table", "--pixel-size", "auto")
     assert (asked.code, "--pixel-size 1" in asked.err) == (3, True)
     rows = run("tessellate", "in.tif", "--what", "table", "--spacing", "auto").rows
-    # 42 pixels in columns 4 to 10 and rows 3 to 8: centre (7, 5.5)
+    # 42 pixels in columns 4 to 10 and rows 3 to 8: center (7, 5.5)
     assert (float(rows[0]["x"]), float(rows[0]["y"])) == (2600000 + 7.5 * 30, 1200000 - 6 * 25)
     assert float(rows[0]["object_area"]) == 42 * 750
     for row, mask in zip(
@@ -229,7 +229,7 @@ def test_images_that_pass_by_have_the_same_bytes(run, tmp_path, monkeypatch, wha
 @pytest.mark.parametrize("fmt", ["svg", "png", "html", "gif"])
 def test_pictures(run, dots, fmt):
     options = ["--animate", "--frames", "3"] if fmt == "gif" else [] if fmt == "html" else ["--scale-bar"]
-    args = ["tessellate", "dots.csv", *FRAME, "--what", "colour", *options]
+    args = ["tessellate", "dots.csv", *FRAME, "--what", "color", *options]
     assert run(*args, "--spacing", "0.325,0.65um", "-o", f"a.{fmt}").code == 0
     if fmt == "svg":
         text = (dots / "a.svg").read_text()

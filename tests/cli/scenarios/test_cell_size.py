@@ -26,7 +26,7 @@ def write(path, geometries, crs="EPSG:2056"):
     path.write_text(json.dumps({"type": "FeatureCollection", **named, "features": features}))
 
 
-def centres(transform, shape):
+def centers(transform, shape):
     a, _, c, _, e, f = tuple(transform)[:6]
     x, y = np.meshgrid(c + a * (np.arange(shape[1]) + 0.5), f + e * (np.arange(shape[0]) + 0.5))
     return np.stack([x, y], axis=2)
@@ -34,7 +34,7 @@ def centres(transform, shape):
 
 def nearest_misses(labels, transform, sites):
     """Pixels whose label is farther than the nearest site, by more than sites were moved."""
-    distances = np.linalg.norm(centres(transform, labels.shape)[:, :, None] - sites, axis=3)
+    distances = np.linalg.norm(centers(transform, labels.shape)[:, :, None] - sites, axis=3)
     chosen = np.take_along_axis(distances, labels[:, :, None].astype(int) - 1, axis=2)[:, :, 0]
     return (chosen > distances.min(axis=2) + 2 * transform.a / 256).sum()
 
@@ -98,7 +98,7 @@ def test_lines(run, tmp_path):
     write(tmp_path / "in.geojson", lines)
     assert run("tessellate", "in.geojson", "--cell-size", "20", "-o", "out.tif", "--what", "labels", "-q").code == 0
     labels, transform, _, _ = read(tmp_path / "out.tif")
-    distance = np.array([shapely.distance(shapely.points(centres(transform, labels.shape)), line) for line in lines])
+    distance = np.array([shapely.distance(shapely.points(centers(transform, labels.shape)), line) for line in lines])
     chosen = np.take_along_axis(distance, labels[None].astype(int) - 1, axis=0)[0]
     assert (chosen <= distance.min(axis=0) + 20 * np.sqrt(2)).all()
     assert (labels[distance[0] < 5] == 1).mean() > 0.95

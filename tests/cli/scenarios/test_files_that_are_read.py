@@ -24,7 +24,7 @@ def read(folder):
     [
         "delaunay dots.csv --clip clip.wkt --what cells -o x.json --stats clip.wkt",
         "delaunay dots.csv --clip clip.wkt --what cells -f wkt -o clip.wkt",
-        "tessellate dots.csv --what colour --overlay mask.pbm -o x.png --stats mask.pbm",
+        "tessellate dots.csv --what color --overlay mask.pbm -o x.png --stats mask.pbm",
         "delaunay dots.csv dots.csv --clip clip.wkt --what cells --out-dir out --stats clip.wkt",
         "delaunay mask.pbm dots.csv --clip clip.wkt --what cells --out-dir out --stats clip.wkt",
         "tessellate --files-from list.csv --table x.csv --stats list.csv",

@@ -180,11 +180,11 @@ def test_the_table_of_regions(run, tmp_path, transform):
             assert box == pytest.approx([left, low, right - left, high - low])
             assert float(row["area"]) == pytest.approx(len(x) * side**2)
         masses = [shapely.centroid(shapely.MultiPoint(np.argwhere(component(k))[:, ::-1])) for k in range(3)]
-        centres = [placed(transform, mass.x + 0.5, mass.y + 0.5) for mass in masses]
-        assert np.allclose([(float(row["x"]), float(row["y"])) for row in rows], centres, rtol=1e-12)
-    neighbours = run("tessellate", "in.tif", "--what", "neighbours", "-q").rows
-    metres = run("tessellate", "in.tif", "--what", "neighbours", "-q", "--pixel-size", str(side)).rows
-    assert neighbours == metres
+        centers = [placed(transform, mass.x + 0.5, mass.y + 0.5) for mass in masses]
+        assert np.allclose([(float(row["x"]), float(row["y"])) for row in rows], centers, rtol=1e-12)
+    neighbors = run("tessellate", "in.tif", "--what", "neighbors", "-q").rows
+    metres = run("tessellate", "in.tif", "--what", "neighbors", "-q", "--pixel-size", str(side)).rows
+    assert neighbors == metres
 
 
 def test_points_along_lie_on_the_skeleton(run, tmp_path):

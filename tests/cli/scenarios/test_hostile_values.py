@@ -71,7 +71,7 @@ NEEDED = {
     "chunk": {"": ("-f", "zarr")},
     "threshold": {"": ("mask.pgm",)},
     "connectivity": {"": ("mask.pgm",)},
-    "slice": {"": ("space.csv", "--size", "5x4x3", "--what", "colour", "-f", "svg")},
+    "slice": {"": ("space.csv", "--size", "5x4x3", "--what", "color", "-f", "svg")},
     "page": {"": ("mask.pgm",)},
     "simplify": {"": ("mask.pgm",)},
     "width": {"": ("-f", "svg")},
@@ -138,7 +138,7 @@ WAYS = [
                        "--hole-threshold 1e400", "--region-threshold 1e-400", "--alpha=-1e-400", "--alpha=1e-400"),
         "skeleton-exact": ("--input-format json", "--what table", "--what offset -d 1", "-f svg", "--verify"),
         "skeleton-approx": ("--input-format json", "--step 1", "--tolerance 1"),
-        "voronoi": ("", "--what table", "--what edges", "--what neighbours", "-f svg", "-f json", "--verify",
+        "voronoi": ("", "--what table", "--what edges", "--what neighbors", "-f svg", "-f json", "--verify",
                     "--max-distance 1", "--max-distance 1e300 --what table", "--max-distance 1e-308 -f svg"),
         "draw": ("-f svg", "-o a.png --width 90"),
     }.items()

@@ -26,7 +26,7 @@ CODES = {signal.SIGINT: 130, signal.SIGTERM: 143, signal.SIGHUP: 129}
 PYTHON_ENDS = (-signal.SIGINT, 1)
 """Before our first line Python tells of an interrupt as it likes: by the signal itself, or as a fault of its start."""
 
-COMMAND = ["tessellate", "dots.csv", "--what", "labels,table,colour", "-o", "out"]
+COMMAND = ["tessellate", "dots.csv", "--what", "labels,table,color", "-o", "out"]
 
 
 def started(folder, arguments):

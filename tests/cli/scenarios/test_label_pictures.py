@@ -1,4 +1,4 @@
-"""Pictures of label images: borders, outlines of objects, colours, widths and ground, as PNG and SVG."""
+"""Pictures of label images: borders, outlines of objects, colors, widths and ground, as PNG and SVG."""
 
 import re
 import xml.etree.ElementTree as ET
@@ -32,8 +32,8 @@ def pixels(path="out.png", mode="RGB"):
     return np.asarray(Image.open(path).convert(mode))
 
 
-def is_colour(image, colour):
-    return (image == np.array(colour)).all(axis=2)
+def is_color(image, color):
+    return (image == np.array(color)).all(axis=2)
 
 
 def outermost(labels):
@@ -44,42 +44,42 @@ def outermost(labels):
 
 
 def test_cells_have_borders_of_a_pixel(run, nuclei):
-    done = run("tessellate", "labels.png", "--what", "colour", "--layers", "cells", "-o", "out.png")
+    done = run("tessellate", "labels.png", "--what", "color", "--layers", "cells", "-o", "out.png")
     assert done.code == 0, done.err
     cells = vorotool.tessellate(vorotool.seeds_from_raster(nuclei)).labels
     right, below = np.zeros((2, *cells.shape), bool)
     right[:, :-1], below[:-1] = cells[:, :-1] < cells[:, 1:], cells[:-1] < cells[1:]
     right[:, 1:] |= cells[:, 1:] < cells[:, :-1]
     below[1:] |= cells[1:] < cells[:-1]
-    found = is_colour(pixels(), WHITE)
+    found = is_color(pixels(), WHITE)
     np.testing.assert_array_equal(found, right | below)
     assert not (found & ~find_boundaries(cells, connectivity=1, mode="thick")).any()
     plain = run(
-        "tessellate", "labels.png", "--what", "colour", "--layers", "cells", "--line-width", "cells=0", "-o", "b.png"
+        "tessellate", "labels.png", "--what", "color", "--layers", "cells", "--line-width", "cells=0", "-o", "b.png"
     )
     assert plain.code == 0
-    assert not is_colour(pixels("b.png"), WHITE).any()
+    assert not is_color(pixels("b.png"), WHITE).any()
 
 
 def test_small_cells_have_none(run, tmp_path):
     rng = np.random.default_rng(5)
     np.savetxt(tmp_path / "dots.csv", rng.permutation(1600)[:200, None] // [[40, 1]] % 40, fmt="%d", delimiter=",")
-    done = run("tessellate", "dots.csv", "--size", "40x40", "--what", "colour", "--layers", "cells", "-o", "out.png")
+    done = run("tessellate", "dots.csv", "--size", "40x40", "--what", "color", "--layers", "cells", "-o", "out.png")
     assert done.code == 0, done.err
-    assert not is_colour(pixels(), WHITE).any()
+    assert not is_color(pixels(), WHITE).any()
 
 
 @pytest.mark.parametrize("seeds", ["labels", "components"])
 def test_objects_are_outlines(run, nuclei, seeds):
-    done = run("tessellate", "labels.png", "--what", "colour", "--seeds", seeds, "-o", "out.png")
+    done = run("tessellate", "labels.png", "--what", "color", "--seeds", seeds, "-o", "out.png")
     assert done.code == 0, done.err
     objects = vorotool.seeds_from_raster(nuclei, mode=seeds)
     labels = np.zeros(nuclei.shape, int)
     labels[objects.y, objects.x] = objects.labels
-    np.testing.assert_array_equal(is_colour(pixels(), VIOLET), outermost(labels))
-    filled = run("tessellate", "labels.png", "--what", "colour", "--layers", "cells,objects", "-o", "out.png")
+    np.testing.assert_array_equal(is_color(pixels(), VIOLET), outermost(labels))
+    filled = run("tessellate", "labels.png", "--what", "color", "--layers", "cells,objects", "-o", "out.png")
     assert filled.code == 0
-    np.testing.assert_array_equal(is_colour(pixels(), VIOLET), nuclei > 0)
+    np.testing.assert_array_equal(is_color(pixels(), VIOLET), nuclei > 0)
 
 
 def test_one_path_an_object(run, nuclei):
@@ -104,15 +104,15 @@ def test_pixels_as_seeds_stay_discs(run, nuclei):
     assert done.out.count("<circle") == 8
 
 
-def test_neighbours_that_touch_differ(run, nuclei):
+def test_neighbors_that_touch_differ(run, nuclei):
     assert run("draw", "labels.png", "-o", "out.png").code == 0
     image = pixels()
-    colours = {tuple(image[y, x]) for y, x in ((33, 18), (33, 29))}
-    assert len(colours) == 2
-    assert colours <= PALETTE
+    colors = {tuple(image[y, x]) for y, x in ((33, 18), (33, 29))}
+    assert len(colors) == 2
+    assert colors <= PALETTE
 
 
-@pytest.mark.parametrize("command", [["draw", "labels.png"], ["tessellate", "labels.png", "--what", "colour"]])
+@pytest.mark.parametrize("command", [["draw", "labels.png"], ["tessellate", "labels.png", "--what", "color"]])
 def test_looks_of_png(run, nuclei, command):
     style = ["--color", "cells=navy", "--line-width", "cells=3", "--background", "#102030"]
     done = run(*command, "--layers", "cells", *style, "-o", "out.png")
@@ -120,12 +120,12 @@ def test_looks_of_png(run, nuclei, command):
     image = pixels()
     thin = run(*command, "--layers", "cells", "--color", "cells=navy", "-o", "thin.png")
     assert thin.code == 0
-    wide, narrow = is_colour(image, ImageColor.getrgb("navy")), is_colour(pixels("thin.png"), ImageColor.getrgb("navy"))
+    wide, narrow = is_color(image, ImageColor.getrgb("navy")), is_color(pixels("thin.png"), ImageColor.getrgb("navy"))
     grown = np.zeros_like(wide)
     for y, x in np.argwhere(narrow):
         grown[max(y - 1, 0) : y + 2, max(x - 1, 0) : x + 2] = True
     np.testing.assert_array_equal(wide, grown)
-    np.testing.assert_array_equal(is_colour(image, (0x10, 0x20, 0x30)), (nuclei == 0) & ~wide & (command[0] == "draw"))
+    np.testing.assert_array_equal(is_color(image, (0x10, 0x20, 0x30)), (nuclei == 0) & ~wide & (command[0] == "draw"))
 
 
 def test_nothing_beneath(run, nuclei):
@@ -151,16 +151,16 @@ def test_looks_of_svg(run, nuclei):
 
 
 @pytest.mark.parametrize("ground", [0, 255])
-@pytest.mark.parametrize("what", [["--what", "diagram", "--layers", "diagram,seeds"], ["--what", "colour"]])
+@pytest.mark.parametrize("what", [["--what", "diagram", "--layers", "diagram,seeds"], ["--what", "color"]])
 def test_lines_show_on_any_ground(run, nuclei, ground, what):
     """Each line has white or dark pixels beside it, whatever the image is."""
     Image.new("L", (80, 60), ground).save("ground.png")
     done = run("tessellate", "labels.png", *what, "--overlay", "ground.png", "-o", "out.png")
     assert done.code == 0, done.err
     image = pixels()
-    dark = is_colour(image, VIOLET) | is_colour(image, (0, 0, 0)) & (ground > 0)
-    white = is_colour(image, WHITE)
-    for y, x in np.argwhere(is_colour(image, VIOLET)):
+    dark = is_color(image, VIOLET) | is_color(image, (0, 0, 0)) & (ground > 0)
+    white = is_color(image, WHITE)
+    for y, x in np.argwhere(is_color(image, VIOLET)):
         around = (slice(max(y - 1, 0), y + 2), slice(max(x - 1, 0), x + 2))
         assert white[around].any()
         assert dark[around].any()
@@ -171,8 +171,8 @@ def test_the_library_draws_alike(run, nuclei):
     looks = {"color": {"seeds": "red", "cells": "#00f"}, "line_width": {"seeds": 2}, "background": "none"}
     given = ["--color", "seeds=red", "--color", "cells=#00f", "--line-width", "seeds=2", "--background", "none"]
     for name in ("out.svg", "out.png"):
-        vorotool.write(image, f"library-{name}", what="colour", **looks)
-        assert run("tessellate", "labels.png", "--what", "colour", *given, "-o", name).code == 0
+        vorotool.write(image, f"library-{name}", what="color", **looks)
+        assert run("tessellate", "labels.png", "--what", "color", *given, "-o", name).code == 0
         assert Path(name).read_bytes() == Path(f"library-{name}").read_bytes()
     mesh = vorotool.delaunay([[0, 0], [4, 0], [0, 3]])
     vorotool.write(mesh, "mesh.svg", color={"edges": "teal"}, line_width={"edges": 0.5}, background="none")
@@ -185,7 +185,7 @@ def test_the_library_draws_alike(run, nuclei):
         ({"color": {"seed": "red"}}, "'seed'"),
         ({"color": {"seeds": "reddish"}}, "'reddish'"),
         ({"line_width": {"seeds": -1}}, "line_width"),
-        ({"background": 3}, "invalid background 3: expected a colour"),
+        ({"background": 3}, "invalid background 3: expected a color"),
     ],
 )
 def test_the_library_refuses(tmp_path, looks, message):

@@ -64,7 +64,7 @@ def test_ids_of_a_tessellation_are_on_the_objects(run, folder, objects, mode):
     ("command", "layers", "options"),
     [
         ("draw", "cells", ()),
-        ("tessellate", "cells,seeds", ("--what", "colour")),
+        ("tessellate", "cells,seeds", ("--what", "color")),
         ("skeleton-exact", "polygons,skeleton", ()),
     ],
 )
@@ -74,14 +74,14 @@ def test_png_pictures_show_them_too(run, folder, objects, command, layers, optio
     without, named = (np.asarray(Image.open(folder / f"{name}.png").convert("RGB")) for name in ("without", "with"))
     changed = (without != named).any(axis=2)
     assert changed.any()
-    kinds = {tuple(colour) for colour in np.unique(named[changed], axis=0).tolist()}
+    kinds = {tuple(color) for color in np.unique(named[changed], axis=0).tolist()}
     assert (255, 255, 255) in kinds  # the halo
     assert min(map(sum, kinds)) < 110  # the letters
 
 
 def test_over_a_dark_image_ids_can_be_read(run, folder, objects):
     Image.fromarray(np.zeros((60, 80), np.uint8)).save(folder / "dark.png")
-    options = ("--what", "colour", "--layers", "labels", "--overlay", "dark.png")
+    options = ("--what", "color", "--layers", "labels", "--overlay", "dark.png")
     assert run("tessellate", "objects.npy", *options, "-o", "a.png").code == 0
     shown = np.asarray(Image.open(folder / "a.png").convert("L"))
     assert np.unique(shown).tolist() == [0, 255]

@@ -96,7 +96,7 @@ EMPTY_RESULTS = {
     "tessellate --size 4x2 -f text": "0 0 0 0\n0 0 0 0\n",
     "tessellate --window -1,-1,3,1 -f text --method propagation": "0 0 0\n",
     "tessellate --cell-size 5 --window 0,0,15,5 -f text --max-distance 2": "0 0 0\n",
-    "tessellate --size 4x2 --what neighbours": "label_a,label_b,border_length,centroid_distance\n",
+    "tessellate --size 4x2 --what neighbors": "label_a,label_b,border_length,centroid_distance\n",
     "delaunay -f geojson": '{"type":"FeatureCollection","features":[]}\n',
     "delaunay --method digital": None,
     "alphashape -f geojson --verify": '{"type":"FeatureCollection","features":[]}\n',

@@ -12,7 +12,7 @@ MASK[8:40, 8:40] = MASK[16:56, 56:88] = 255
 
 @pytest.fixture
 def photographs(folder):
-    """One scene as each kind of file, noise and colours in those that may have them."""
+    """One scene as each kind of file, noise and colors in those that may have them."""
     noise = np.random.default_rng(1).integers(-20, 21, (*MASK.shape, 3))
     photo = Image.fromarray(np.clip(MASK[:, :, None] + noise, 0, 255).astype(np.uint8))
     photo.save(folder / "a.jpg", quality=95)
@@ -58,7 +58,7 @@ def test_exact_pictures_are_masks_and_drawn(run, photographs, name):
 @pytest.mark.parametrize("words", [["tessellate", "-o", "b.npy"], ["skeleton-exact", "-o", "b.json"]])
 def test_photographs_need_a_threshold(run, photographs, words):
     Image.open(photographs / "a.jpg").convert("L").save(photographs / "grey.jpg")
-    for name, reason in (("a.jpg", "a colour image holds no objects"), ("grey.jpg", "its values are no labels")):
+    for name, reason in (("a.jpg", "a color image holds no objects"), ("grey.jpg", "its values are no labels")):
         done = run(words[0], name, *words[1:])
         assert done.code == 3
         assert done.err.startswith(f"error: {name}: ")

@@ -34,7 +34,7 @@ def coordinates_of(command, what):
 
 
 NOT_OF_PLACES = {
-    *("neighbours", "triangles", "compare", "family", "spectrum", "curves", "branches", "statistics", "persistence"),
+    *("neighbors", "triangles", "compare", "family", "spectrum", "curves", "branches", "statistics", "persistence"),
     *("alphashape table", "skeleton-exact table", "skeleton-approx table"),
 }
 """Tables of what has no place."""

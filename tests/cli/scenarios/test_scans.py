@@ -23,14 +23,14 @@ def scans(tmp_path):
     grey = (np.where(SPECKS, 40, 225) + noise).clip(0, 255).astype(np.uint8)
     Image.fromarray(grey).save(tmp_path / "scan.jpg", quality=97)
     Image.fromarray(grey).save(tmp_path / "scan.png")
-    Image.fromarray(np.dstack([grey, grey, grey // 2])).save(tmp_path / "colour.png")
+    Image.fromarray(np.dstack([grey, grey, grey // 2])).save(tmp_path / "color.png")
     Image.fromarray(255 - grey).save(tmp_path / "dark.png")
     for name, mask in (("ink", INK), ("specks", SPECKS), ("clean", CLEAN)):
         tifffile.imwrite(tmp_path / f"{name}.tif", mask.astype(np.uint8) * 255)
     return tmp_path
 
 
-@pytest.mark.parametrize("name", ["scan.jpg", "scan.png", "colour.png"])
+@pytest.mark.parametrize("name", ["scan.jpg", "scan.png", "color.png"])
 def test_messages_say_what_makes_a_mask_of_a_scan(run, scans, name):
     done = run("tessellate", name, "-o", "a.png")
     assert (done.code, "--threshold" in done.err) == (3, True)

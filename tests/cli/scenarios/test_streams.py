@@ -102,7 +102,7 @@ def test_lines_of_a_shell(run, folder, line, same):
 
 REFUSED = [
     ("V tessellate - -", 2, "the input - and the input - are one stream"),
-    ("V tessellate - --overlay /dev/stdin --what colour -o y.png", 2, "--overlay /dev/stdin"),
+    ("V tessellate - --overlay /dev/stdin --what color -o y.png", 2, "--overlay /dev/stdin"),
     ("V delaunay - --what cells --clip /dev/fd/0", 2, "are one stream, which is read once"),
     ("V tessellate --files-from - - --out-dir x", 2, "--files-from -"),
     ("mkfifo x; V tessellate x dots.csv --table y.csv", 2, "x is a pipe, which this process alone can read"),

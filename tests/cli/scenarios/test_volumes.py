@@ -146,11 +146,11 @@ def test_the_largest_distance_leaves_objects_whole(run, stack):
 
 
 # ---- tables --------------------------------------------------------------------------------------
-@pytest.mark.parametrize("what", ["table", "neighbours"])
+@pytest.mark.parametrize("what", ["table", "neighbors"])
 def test_tables_are_those_of_the_library_in_the_unit_of_the_spacing(run, stack, what):
     result = vorotool.tessellate(vorotool.read(stack / "stack.tif", geometry="volume"), spacing=SPACING)
     squares = VolumeSweep(result.seeds, result.frame, sides=result.sides).squared_distances()
-    table = vorotool.region_table(result, distance2=squares) if what == "table" else vorotool.neighbour_table(result)
+    table = vorotool.region_table(result, distance2=squares) if what == "table" else vorotool.neighbor_table(result)
     rows = run("tessellate", "--volume", "stack.tif", "--spacing", "auto", "--what", what, "-q").rows
     for name in table:
         found = [float(row[name]) if row[name] else np.nan for row in rows]
@@ -166,7 +166,7 @@ def test_volumes_add_up(run, stack):
     assert "unit" not in plain[0]
 
 
-@pytest.mark.parametrize("what", ["table", "neighbours"])
+@pytest.mark.parametrize("what", ["table", "neighbors"])
 def test_tables_are_streamed(run, points, monkeypatch, what):
     options = ["points.csv", "--size", "40x30x50", "--spacing", "1,1,2.5", "--what", what, "-q"]
     expected = run("tessellate", *options).out
@@ -185,7 +185,7 @@ def test_tables_are_streamed(run, points, monkeypatch, what):
     assert run("tessellate", *options, "--max-pixels", "1200").out == expected
     passes = 2 if what == "table" else 1
     assert sorted(seen) == [2] * passes + [3] * 16 * passes
-    run("tessellate", *options[:-3], "--what", f"{what},colour", "-o", "both", "-q")  # a picture holds the volume
+    run("tessellate", *options[:-3], "--what", f"{what},color", "-o", "both", "-q")  # a picture holds the volume
     assert (points / f"both.{what}.csv").read_text(encoding="utf-8") == expected
 
 
@@ -341,23 +341,23 @@ def test_a_folder_of_stacks(run, tmp_path):
 @pytest.mark.parametrize("fmt", ["png", "svg"])
 @pytest.mark.parametrize("options", [[], ["--slice", "2"], ["--layers", "cells,labels"], ["--scale-bar", "--legend"]])
 def test_pictures(run, stack, fmt, options):
-    start = ["tessellate", "--volume", "stack.tif", "--spacing", "auto", "--what", "colour", "-q", "-o", f"a.{fmt}"]
+    start = ["tessellate", "--volume", "stack.tif", "--spacing", "auto", "--what", "color", "-q", "-o", f"a.{fmt}"]
     assert run(*start, *options).code == 0
     first = (stack / f"a.{fmt}").read_bytes()
     assert run(*start, *options, "--threads", "1").code == 0
     assert (stack / f"a.{fmt}").read_bytes() == first
 
 
-def test_neighbours_never_share_a_colour_in_a_slice(run, stack):
+def test_neighbors_never_share_a_color_in_a_slice(run, stack):
     from PIL import Image
 
     options = ["--layers", "cells", "--line-width", "cells=0", "-q"]
-    run("tessellate", "--volume", "stack.npy", "--what", "colour", "-o", "a.png", "--slice", "4", *options)
+    run("tessellate", "--volume", "stack.npy", "--what", "color", "-o", "a.png", "--slice", "4", *options)
     labels = vorotool.tessellate(MASK != 0).labels[4]
-    colours = np.asarray(Image.open(stack / "a.png").convert("RGB")).reshape(*labels.shape, 3)
-    assert len({tuple(colours[labels == label][0]) for label in np.unique(labels)}) == len(np.unique(labels))
+    colors = np.asarray(Image.open(stack / "a.png").convert("RGB")).reshape(*labels.shape, 3)
+    assert len({tuple(colors[labels == label][0]) for label in np.unique(labels)}) == len(np.unique(labels))
     for label in np.unique(labels):
-        assert len(np.unique(colours[labels == label], axis=0)) == 1
+        assert len(np.unique(colors[labels == label], axis=0)) == 1
 
 
 def test_the_page(run, stack):
@@ -412,22 +412,22 @@ REFUSED = [
     ("points.csv --size 9x8x7 --spacing auto -o a.tif", 2, "--spacing"),
     ("points.csv --size 9x8x7 --spacing 1,2 -o a.tif", 2, "--spacing"),
     ("points.csv --size 9x8 --slice 1 -o a.png", 2, "--slice"),
-    ("stack.tif --volume -o a.png", 2, "labels cannot be written as png: use --what colour, or one of tiff, npy, zarr"),
+    ("stack.tif --volume -o a.png", 2, "labels cannot be written as png: use --what color, or one of tiff, npy, zarr"),
     ("stack.tif --volume --method propagation -o a.tif", 2, "volumes are tessellated exactly, leave it out"),
     ("stack.tif --volume --pixel-size 1 --what table", 2, "--pixel-size"),
     ("stack.tif --volume --max-distance 1um -o a.tif", 2, "but that of the voxels is not known: give --spacing"),
-    ("stack.tif --volume --overlay stack.tif --what colour -o a.png", 2, "--overlay"),
+    ("stack.tif --volume --overlay stack.tif --what color -o a.png", 2, "--overlay"),
     ("stack.tif --volume --min-area 2um3 -o a.tif", 2, "--min-area 2um3"),
     ("stack.tif --volume --fill-holes 2um2 --spacing 1,1,2um -o a.tif", 2, "voxels have volumes, such as 5um3"),
     ("stack.tif --volume --slice 1 -o a.tif", 2, "--slice"),
-    ("stack.tif --volume --slice 7 --what colour -o a.png", 2, "--slice 7"),
+    ("stack.tif --volume --slice 7 --what color -o a.png", 2, "--slice 7"),
     ("stack.tif --volume --levels 1 -o a.zarr", 2, "--levels"),
     ("stack.tif --volume --levels 31 -o a.ome.zarr", 2, "expected a number of coarser copies up to 30, or auto"),
     ("stack.tif --volume --chunk 9x9 -o a.zarr", 2, "--chunk 9x9"),
-    ("stack.tif --volume --layers objects --what colour -o a.png", 2, "--layers"),
+    ("stack.tif --volume --layers objects --what color -o a.png", 2, "--layers"),
     ("stack.tif --volume --max-pixels 98 -o a.tif", 5, "--max-pixels 98"),
     (
-        "stack.tif --volume --max-pixels 692 --what colour -o a.png",
+        "stack.tif --volume --max-pixels 692 --what color -o a.png",
         5,
         "the volume has 11 x 9 x 7 = 693 voxels, more than",
     ),
@@ -474,11 +474,11 @@ def test_volumes_are_cleaned_as_by_scipy(run, tmp_path, area):
 def test_nuclei(run, tmp_path):
     run("sample", "nuclei.tif", "-o", "nuclei.tif")
     options = ["tessellate", "--volume", "nuclei.tif", "--spacing", "auto", "-q", "--max-distance", "5um", "--verify"]
-    assert run(*options, "--what", "labels,table,neighbours,colour", "-o", "cells").code == 0
+    assert run(*options, "--what", "labels,table,neighbors,color", "-o", "cells").code == 0
     assert sorted(path.name for path in tmp_path.glob("cells.*")) == [
-        "cells.colour.png",
+        "cells.color.png",
         "cells.labels.tif",
-        "cells.neighbours.csv",
+        "cells.neighbors.csv",
         "cells.table.csv",
     ]
     labels, mask = tifffile.imread(tmp_path / "cells.labels.tif"), tifffile.imread(sample("nuclei.tif")) > 0

@@ -162,9 +162,9 @@ def test_disturbances_that_spread_too_far():
 
 def test_every_lattice_point_of_a_crossing_of_many():
     """Lines through one point, on the lattice and beside it."""
-    for centre in ((0, 0), (1, 0), (1, 1)):
+    for center in ((0, 0), (1, 0), (1, 1)):
         ends = [(a, b) for a in range(-6, 7) for b in range(-6, 7) if max(abs(a), abs(b)) == 6]
-        xy = [p for a, b in ends for p in ((a, b), (centre[0] - a, centre[1] - b))]
+        xy = [p for a, b in ends for p in ((a, b), (center[0] - a, center[1] - b))]
         vertices = np.array(xy, dtype=np.int32)
         graph = check(vertices[: 2 * 14], rings_of([2] * 14, [LINE] * 14))
         assert fault(graph) is None
@@ -204,7 +204,7 @@ def test_the_checker_finds_faults(change, message):
     assert re.search(message, _core.arrangement.find_fault(points, segments, faces, None))
 
 
-def test_the_checker_compares_new_neighbours():
+def test_the_checker_compares_new_neighbors():
     """Two segments cross above the end of a third one between them, and nothing else happens."""
     points = np.array([[0, 0], [10, 10], [10, 0], [0, 10], [5, 0], [5, 2]], dtype=np.int32)
     segments = np.array([[0, 1], [2, 3], [4, 5]], dtype=np.int32)

@@ -11,31 +11,31 @@ from support.families.point_families import draw
 from vorotool import Triangulation, VerificationError, delaunay, verify_triangulation
 
 pytestmark = pytest.mark.filterwarnings("ignore::vorotool.VorotoolWarning")
-ARRAYS = ("triangles", "neighbours", "edges", "hull", "first")
+ARRAYS = ("triangles", "neighbors", "edges", "hull", "first")
 SQUARE = [[0, 0], [1, 0], [1, 1], [0, 1]]
 
 
 def from_triangles(points, triangles):
-    """A mesh with the neighbours, edges and hull that follow from its triangles."""
+    """A mesh with the neighbors, edges and hull that follow from its triangles."""
     triangles = np.asarray(triangles, np.int32)
     sides = {}
     for t, corners in enumerate(triangles.tolist()):
         for k in range(3):
             sides[corners[(k + 1) % 3], corners[(k + 2) % 3]] = t, k
-    neighbours = np.full_like(triangles, -1)
+    neighbors = np.full_like(triangles, -1)
     for (a, b), (t, k) in sides.items():
-        neighbours[t, k] = sides.get((b, a), (-1, 0))[0]
+        neighbors[t, k] = sides.get((b, a), (-1, 0))[0]
     onwards = {a: b for a, b in sides if (b, a) not in sides}
     hull = [min(onwards, key=lambda v: tuple(points[v]))]
     while onwards[hull[-1]] != hull[0] and len(hull) < len(points):
         hull.append(onwards[hull[-1]])
     edges = sorted({(min(a, b), max(a, b)) for a, b in sides})
-    return Triangulation(points, triangles, neighbours, edges, hull, np.arange(len(points)))
+    return Triangulation(points, triangles, neighbors, edges, hull, np.arange(len(points)))
 
 
 def flipped(mesh, t, k):
     """The triangles with one edge replaced by the other diagonal."""
-    triangles, u = mesh.triangles.copy(), mesh.neighbours[t, k]
+    triangles, u = mesh.triangles.copy(), mesh.neighbors[t, k]
     apex, a, b = np.roll(triangles[t], -k)
     far = next(v for v in triangles[u] if v not in (a, b))
     triangles[t], triangles[u] = (apex, a, far), (apex, far, b)
@@ -59,7 +59,7 @@ def test_every_flip_is_found(name):
     points = np.unique(draw(name, 40, 2), axis=0)
     mesh = delaunay(points)
     found = set()
-    for t, k in np.argwhere(mesh.neighbours >= 0):
+    for t, k in np.argwhere(mesh.neighbors >= 0):
         found.add(fault(flipped(mesh, t, k)).translate(str.maketrans("", "", "0123456789")).strip())
     if name == "uniform":
         assert found == {"the circle of triangle  holds point", "triangle  is not counter-clockwise"}
@@ -77,7 +77,7 @@ def test_any_changed_number_is_found(name):
     mesh = delaunay(draw(name, 10, 4))
     for array in ARRAYS:
         values = getattr(mesh, array)
-        limit = len(mesh) if array == "neighbours" else len(mesh.points)
+        limit = len(mesh) if array == "neighbors" else len(mesh.points)
         for place in np.ndindex(values.shape):
             for other in range(-2, limit + 1):
                 if other == values[place]:
@@ -115,7 +115,7 @@ def test_the_other_diagonal_of_a_square_is_found():
 
 def test_no_triangles_where_there_should_be_some():
     empty = np.zeros((0, 3), np.int32)
-    mesh = replace(delaunay(SQUARE), triangles=empty, neighbours=empty)
+    mesh = replace(delaunay(SQUARE), triangles=empty, neighbors=empty)
     assert fault(mesh) == "there is no triangle, but the points are not collinear"
 
 

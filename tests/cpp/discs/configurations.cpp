@@ -95,7 +95,7 @@ bool Configuration::has_end_of(int i) const {
   return sites.is_end(at(i), at(following(i))) || sites.is_end(at(i), at(preceding(i)));
 }
 
-// Where a point and its own segment are touched, the centre is across that end.
+// Where a point and its own segment are touched, the center is across that end.
 std::optional<CertifiedDisc> Configuration::certified() const {
   std::array<DiscCondition, 3> conditions;
   for (std::size_t i = 0; i < 3; ++i) {

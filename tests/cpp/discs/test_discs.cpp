@@ -128,7 +128,7 @@ TEST(dyadic_discs_are_the_exact_ones) {
   CHECK(dyadic >= 100);
 }
 
-TEST(discs_with_a_centre_of_quarters_are_found) {
+TEST(discs_with_a_center_of_quarters_are_found) {
   const SegmentSites sites({{0, 0}, {3, 0}, {0, 5}, {3, 5}}, Ends{{0, 1}});
   VoronoiRecord v{};
   v.sites = {0, 1, 2};

@@ -174,7 +174,7 @@ TEST(one_disc_of_several_triples) {
   CHECK(is_refused);
 }
 
-TEST(centres_are_ordered_along_directions) {
+TEST(centers_are_ordered_along_directions) {
   std::uint64_t seed = 3;
   for (const std::int64_t most : {4, 1 << 20}) {
     const std::vector<Configuration> drawn = configurations(seed++, most, 40);
@@ -264,7 +264,7 @@ TEST(discs_at_corners_are_points) {
   }
 }
 
-// The centre is (0, h) with h^2 = 9 + (4 - h)^2.
+// The center is (0, h) with h^2 = 9 + (4 - h)^2.
 TEST(collinear_segments_touch_at_their_common_end) {
   const LatticeSite left{{-9, 0}, {0, 0}}, right{{0, 0}, {5, 0}}, end = at(0, 0), above = at(3, 4);
   for (const Triple& sites : {Triple{left, right, above}, {left, end, above}, {end, right, above}}) {
@@ -325,7 +325,7 @@ TEST(ties_at_an_end_are_exact_signs) {
     CHECK(sign.has_value());
     const auto disc = find_exact_disc(sites.triple(v.sites));
     CHECK(disc.has_value());
-    // the disc of radius 0 at q, as one of which the centre is known
+    // the disc of radius 0 at q, as one of which the center is known
     const ExactDisc end{disc->tower, q, 0, 0, 1, 0};
     equal(*sign, compare_along(*disc, end, d));
   }

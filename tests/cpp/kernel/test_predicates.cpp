@@ -134,8 +134,8 @@ TEST(orient2d_of_integers) {
   }
 }
 
-// A point moves to its neighbour among the doubles: from a tie to either side.
-TEST(neighbours_of_ties_are_none) {
+// A point moves to its neighbor among the doubles: from a tie to either side.
+TEST(neighbors_of_ties_are_none) {
   Random random(5);
   for (int i = 0; i < 2000; ++i) {
     const auto x = static_cast<double>(random.whole(1, 1 << 20)),

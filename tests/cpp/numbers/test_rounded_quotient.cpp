@@ -31,7 +31,7 @@ TEST(quotients_of_doubles_are_those_of_the_processor) {
   }
 }
 
-TEST(half_way_goes_to_the_even_neighbour) {
+TEST(half_way_goes_to_the_even_neighbor) {
   const int128 big = int128{1} << 54;
   equal(quotient(big + 2, 1).value, 0x1p54);
   equal(quotient(big + 2, 1).error_sign, 1);

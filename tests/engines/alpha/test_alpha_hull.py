@@ -12,8 +12,8 @@ from vorotool import UsageError, alpha_complex, alpha_hull, alpha_shape
 families = pytest.mark.parametrize("name", ["uniform", "small_lattice", "clustered", "exact_circle", "grid"])
 
 
-def empty_centres(points, r, rng, probes):
-    """Centres of discs of radius r that hold no point: those with two points on their circles, and many others."""
+def empty_centers(points, r, rng, probes):
+    """Centers of discs of radius r that hold no point: those with two points on their circles, and many others."""
     i, j = np.triu_indices(len(points), 1)
     across = points[j] - points[i]
     half = np.hypot(*across.T) / 2
@@ -27,9 +27,9 @@ def empty_centres(points, r, rng, probes):
     away = probes[:, None] - points  # from each point through each probe, and the probe itself
     through = points + r * away / np.hypot(*away.transpose(2, 0, 1))[..., None]
     parts = middle + offset, middle - offset, around.reshape(-1, 2), through.reshape(-1, 2), probes
-    centres = np.concatenate(parts)
-    nearest = np.min(np.hypot(*(centres[:, None] - points).transpose(2, 0, 1)), axis=1)
-    return centres[nearest > r * (1 - 1e-12)]
+    centers = np.concatenate(parts)
+    nearest = np.min(np.hypot(*(centers[:, None] - points).transpose(2, 0, 1)), axis=1)
+    return centers[nearest > r * (1 - 1e-12)]
 
 
 def hull_polygon(hull, tolerance=1e-7):
@@ -55,9 +55,9 @@ def test_membership_by_brute_force(name):
             area, lines = hull_polygon(hull, tolerance=r * 1e-6)
             triangles = points[family.mesh.triangles[rng.integers(0, len(family.mesh.triangles), 80)]]
             probes = (triangles * rng.dirichlet([1, 1, 1], 80)[..., None]).sum(axis=1)
-            centres = empty_centres(points, r, rng, probes)
+            centers = empty_centers(points, r, rng, probes)
             inside = shapely.contains_xy(area, *probes.T)
-            distance = np.min(np.hypot(*(probes[:, None] - centres).transpose(2, 0, 1)), axis=1)
+            distance = np.min(np.hypot(*(probes[:, None] - centers).transpose(2, 0, 1)), axis=1)
             clear = shapely.distance(lines, shapely.points(probes)) > 1e-4 * r if len(hull) else np.ones(80, bool)
             covered = distance < r * (1 - 1e-9)
             np.testing.assert_array_equal(inside[clear], ~covered[clear])
@@ -74,8 +74,8 @@ def test_arcs_are_on_empty_circles_and_follow_one_another(name):
             hull = alpha_hull(alpha_shape(family, r=float(r)))
             scale = np.abs(points).max() + r
             for ends in (hull.start, hull.end):
-                np.testing.assert_allclose(np.hypot(*(ends - hull.centre).T), r, atol=1e-9 * scale)
-            nearest = np.hypot(*(hull.centre[:, None] - points).transpose(2, 0, 1))
+                np.testing.assert_allclose(np.hypot(*(ends - hull.center).T), r, atol=1e-9 * scale)
+            nearest = np.hypot(*(hull.center[:, None] - points).transpose(2, 0, 1))
             assert (nearest > r - 1e-9 * scale).all()
             for a, b in pairwise(hull.ring_start):
                 np.testing.assert_array_equal(hull.end[a:b], np.roll(hull.start[a:b], -1, axis=0))

@@ -129,9 +129,9 @@ def test_auto_is_the_smallest(name, regions):
 def test_auto_where_the_regions_are_not_monotone():
     """A hole of four triangles of which the inner one has the smallest circle: one region, two, then one again."""
     inner = np.array([[0, 0], [1, 0], [0.5, 0.75**0.5]])
-    centre = inner.mean(axis=0)
+    center = inner.mean(axis=0)
     middles = (np.roll(inner, -1, axis=0) + np.roll(inner, -2, axis=0)) / 2
-    outward = (middles - centre) / np.hypot(*(middles - centre).T)[:, None]
+    outward = (middles - center) / np.hypot(*(middles - center).T)[:, None]
     apexes = middles + 0.9 * outward
     hexagon = shapely.Polygon([inner[0], apexes[2], inner[1], apexes[0], inner[2], apexes[1]])
     grid = np.stack(np.meshgrid(np.arange(-3, 4, 0.3), np.arange(-3, 4, 0.3)), axis=-1).reshape(-1, 2)

@@ -23,7 +23,7 @@ def hexagons(side=6):
 
 def test_hexagons():
     found = cell_statistics(hexagons())
-    assert row(found, "neighbours")["mean"] == 6
+    assert row(found, "neighbors")["mean"] == 6
     assert row(found, "area")["mean"] == pytest.approx(np.sqrt(3) / 2)
     assert row(found, "roundness")["mean"] == pytest.approx(np.pi / (2 * np.sqrt(3)))
     assert row(found, "area")["disorder"] == pytest.approx(0, abs=1e-12)

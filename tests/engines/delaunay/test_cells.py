@@ -48,7 +48,7 @@ def frames(points, seed):
 
 
 def check_by_cutting(points, frame):
-    """Every corner of the exact cell, rounded, is there, in order; what lies between them is a vertex of neighbours."""
+    """Every corner of the exact cell, rounded, is there, in order; what lies between them is a vertex of neighbors."""
     cells = quietly(points, frame=frame)
     exact = exact_cells(cells.sites.tolist(), cells.frame.sides)
     for ours, right in zip(rings(cells), exact, strict=True):
@@ -149,8 +149,8 @@ def test_powers_of_two_and_quarter_turns(name):
     assert [{(-y, x) for x, y in ring} for ring in rings(cells)] == [set(ring) for ring in rings(turned)]
 
 
-def test_neighbours_share_vertices():
-    """Each side of a cell is the side of one neighbour, backwards, or lies on the frame."""
+def test_neighbors_share_vertices():
+    """Each side of a cell is the side of one neighbor, backwards, or lies on the frame."""
     for name in ("uniform", "rotated_grid", "exact_circle", "small_lattice"):
         cells = quietly(draw(name, 500, 2))
         sides = {}
@@ -270,7 +270,7 @@ def test_no_frames(frame):
     [
         {"triangles": [[0, 1, 9]]},
         {"triangles": [[0, 2, 1]]},
-        {"neighbours": [[5, -1, -1]]},
+        {"neighbors": [[5, -1, -1]]},
         {"first": [0, 1, 77]},
         {"hull": [0, 1, 77]},
         {"points": [[0, 0], [1, 0], [0, np.nan]]},

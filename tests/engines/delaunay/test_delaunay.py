@@ -18,7 +18,7 @@ from support.processes.heard_signals import stop
 from support.readers.written import assert_same
 from vorotool import InputError, PointSet, VorotoolWarning, delaunay, verify_triangulation
 
-ARRAYS = ("triangles", "neighbours", "edges", "hull", "first")
+ARRAYS = ("triangles", "neighbors", "edges", "hull", "first")
 families = pytest.mark.parametrize("name", FAMILIES)
 quick_families = pytest.mark.parametrize("name", few(SLOW_LAST, QUICK))
 
@@ -85,7 +85,7 @@ def test_permuting_the_points_permutes_their_numbers_only(name, n):
     points = draw(name, min(n, 30) if name == "any_double" else n, 5)
     order = np.random.default_rng(6).permutation(len(points))
     mesh, other = quietly(points), quietly(points[order])
-    np.testing.assert_array_equal(other.neighbours, mesh.neighbours)
+    np.testing.assert_array_equal(other.neighbors, mesh.neighbors)
     for array in ("triangles", "hull"):
         np.testing.assert_array_equal(other.points[getattr(other, array)], mesh.points[getattr(mesh, array)])
     places = np.sort(mesh.first[order[other.edges]], axis=1)
@@ -161,11 +161,11 @@ def test_duplicates_change_nothing_but_first(points):
 def test_chains(points, edges, hull):
     mesh = delaunay(points)
     verify_triangulation(mesh)
-    assert mesh.triangles.shape == mesh.neighbours.shape == (0, 3)
+    assert mesh.triangles.shape == mesh.neighbors.shape == (0, 3)
     assert edge_set(mesh.edges) == set(map(tuple, edges))
     assert mesh.edges.shape == (len(edges), 2)
     assert mesh.hull.tolist() == hull
-    assert mesh.circumcentres().shape == (0, 2)
+    assert mesh.circumcenters().shape == (0, 2)
     assert mesh.circumradii().shape == mesh.areas().shape == (0,)
 
 

@@ -24,7 +24,7 @@ def test_triangles_alone_give_the_whole_triangulation(seed):
     assert {*map(tuple, made.edges.tolist())} == {*map(tuple, mesh.edges.tolist())}
     again = Triangulation.from_triangles(mesh.points, mesh.triangles)
     assert again.triangles.tolist() == mesh.triangles.tolist()
-    assert again.neighbours.tolist() == mesh.neighbours.tolist()
+    assert again.neighbors.tolist() == mesh.neighbors.tolist()
 
 
 def test_scipys_triangles_pass_the_checker():

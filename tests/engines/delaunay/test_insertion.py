@@ -13,7 +13,7 @@ from support.readers.written import assert_same
 from vorotool import InputError, PointSet, VorotoolWarning, _core, delaunay, insert_points, verify_triangulation
 from vorotool.engines.delaunay import insertion
 
-ARRAYS = ("triangles", "neighbours", "edges", "hull", "first")
+ARRAYS = ("triangles", "neighbors", "edges", "hull", "first")
 families = pytest.mark.parametrize("name", FAMILIES)
 
 
@@ -197,9 +197,9 @@ def test_bad_hints(hint, message):
     "change",
     [
         {"triangles": [[0, 1, 9], [1, 3, 2]]},
-        {"neighbours": [[0, -1, -1], [-1, -1, 0]]},
-        {"neighbours": [[7, -1, -1], [-1, -1, 0]]},
-        {"neighbours": [[-1, -1, -1], [-1, -1, -1]]},
+        {"neighbors": [[0, -1, -1], [-1, -1, 0]]},
+        {"neighbors": [[7, -1, -1], [-1, -1, 0]]},
+        {"neighbors": [[-1, -1, -1], [-1, -1, -1]]},
         {"hull": [0, 1, 77, 2]},
         {"first": [0, 1, 2, 77]},
         {"edges": [[0, 99]]},

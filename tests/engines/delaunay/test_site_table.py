@@ -13,7 +13,7 @@ NAMES = [
     "y",
     "area",
     "perimeter",
-    "neighbours",
+    "neighbors",
     "nearest_label",
     "nearest_distance",
     "touches_frame",
@@ -52,7 +52,7 @@ def test_columns_agree_with_the_cells_and_the_mesh():
     shapes = cells.to_shapely()
     np.testing.assert_allclose(table["area"], [s.area for s in shapes])
     np.testing.assert_allclose(table["perimeter"], [s.length for s in shapes])
-    assert table["neighbours"].sum() == 2 * len(mesh.edges)
+    assert table["neighbors"].sum() == 2 * len(mesh.edges)
     assert table["on_hull"].sum() == len(mesh.hull)
     corners = [np.array(s.exterior.coords) for s in shapes]
     farthest = [np.hypot(*(c - p).T).max() for c, p in zip(corners, mesh.points, strict=True)]
@@ -73,7 +73,7 @@ def test_duplicates_and_empty_cells():
     assert table["voro_area"].tolist() == [4.0, 0.0, None]
     assert table["touches_frame"].tolist() == [1, None, None]
     assert table["nearest_label"].tolist() == [9, 4, None]
-    assert table["neighbours"].tolist() == [1, 1, None]
+    assert table["neighbors"].tolist() == [1, 1, None]
     assert table["duplicate_of_label"].tolist() == [None, None, 4]
     assert table["area"].tolist() == ["a", "b", "c"]
     assert "voro_area" not in site_table(mesh, properties=False)

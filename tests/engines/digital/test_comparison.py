@@ -28,9 +28,9 @@ def triangle_is_delaunay(sites, triangle):
     corners = [sites[v] for v in triangle]
     if cross(*corners) == 0:
         return False, False
-    centre, square = circle(*corners)
+    center, square = circle(*corners)
     others = [p for k, p in enumerate(sites) if k not in triangle]
-    distances = [(x - centre[0]) ** 2 + (y - centre[1]) ** 2 for x, y in others]
+    distances = [(x - center[0]) ** 2 + (y - center[1]) ** 2 for x, y in others]
     return all(d >= square for d in distances), all(d > square for d in distances)
 
 
@@ -138,23 +138,23 @@ def test_a_suggested_window_shows_more():
 def test_lengths_of_voronoi_edges():
     seeds = distinct_pixels(3, 50, 40).astype(float)
     mesh = delaunay(seeds)
-    centres = mesh.circumcentres()
+    centers = mesh.circumcenters()
     low, high = np.array([0.0, 0.0]), np.array([49.0, 49.0])
-    whole, inside = voronoi_lengths(mesh, centres, low, high)
+    whole, inside = voronoi_lengths(mesh, centers, low, high)
     place = {frozenset(e): i for i, e in enumerate(mesh.edges.tolist())}
     box = shapely.box(*low, *high)
-    for t, row in enumerate(mesh.neighbours.tolist()):
+    for t, row in enumerate(mesh.neighbors.tolist()):
         for k, u in enumerate(row):
             a, b = (mesh.triangles[t][(k + j) % 3] for j in (1, 2))
             i = place[frozenset((int(a), int(b)))]
             if u < 0:
                 dx, dy = seeds[b] - seeds[a]
-                end = centres[t] + 1e4 * np.array([dy, -dx])
+                end = centers[t] + 1e4 * np.array([dy, -dx])
                 assert np.isinf(whole[i])
             else:
-                end = centres[u]
-                assert whole[i] == pytest.approx(np.hypot(*(centres[u] - centres[t])))
-            line = shapely.LineString([centres[t], end])
+                end = centers[u]
+                assert whole[i] == pytest.approx(np.hypot(*(centers[u] - centers[t])))
+            line = shapely.LineString([centers[t], end])
             assert inside[i] == pytest.approx(line.intersection(box).length, abs=1e-6)
 
 

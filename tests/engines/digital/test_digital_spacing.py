@@ -22,11 +22,11 @@ def points_of(seed, count=25):
 
 @pytest.mark.parametrize("spacing", SPACINGS)
 @pytest.mark.parametrize("seed", range(4))
-def test_edges_are_those_of_neighbouring_regions(seed, spacing):
+def test_edges_are_those_of_neighboring_regions(seed, spacing):
     points = points_of(seed)
     found = digital_triangulation(points, shape=SHAPE, spacing=spacing)
     image = vorotool.tessellate(points, shape=SHAPE, spacing=spacing)
-    borders = vorotool.neighbour_table(image)
+    borders = vorotool.neighbor_table(image)
     assert found.labels[found.edges].tolist() == np.stack([borders["label_a"], borders["label_b"]], axis=1).tolist()
     assert np.allclose(found.edge_lengths(), borders["centroid_distance"])
     height, width = map(float, pixel_sides(spacing).lengths)

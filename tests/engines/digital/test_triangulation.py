@@ -33,7 +33,7 @@ from vorotool import (
 from vorotool.engines.digital import triangulation as engine
 from vorotool.engines.tessellation import frames as digital
 
-ARRAYS = ("points", "triangles", "neighbours", "edges", "hull", "first")
+ARRAYS = ("points", "triangles", "neighbors", "edges", "hull", "first")
 small_images = st.tuples(st.integers(1, 9), st.integers(1, 9), st.integers(1, 9), st.integers(0, 2**32 - 1))
 
 
@@ -115,7 +115,7 @@ def test_objects_are_linked_at_their_centroids():
     found = digital_triangulation(blobs)
     seeds = vorotool.seeds_from_raster(blobs)
     np.testing.assert_array_equal(found.points, seeds.sites)
-    table = vorotool.neighbour_table(vorotool.tessellate(seeds))
+    table = vorotool.neighbor_table(vorotool.tessellate(seeds))
     np.testing.assert_array_equal(found.labels[found.edges], np.stack([table["label_a"], table["label_b"]], axis=1))
 
 

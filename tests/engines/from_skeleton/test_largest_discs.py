@@ -38,11 +38,11 @@ def test_of_triangles_the_incircle():
         corners = np.random.default_rng(seed).uniform(-100, 100, (3, 2))
         sides = np.sqrt(np.square(np.roll(corners, -1, axis=0) - corners).sum(axis=1))
         area = abs(np.linalg.det(np.column_stack([corners, np.ones(3)]))) / 2
-        centre = (np.roll(sides, -1)[:, None] * corners).sum(axis=0) / sides.sum()
+        center = (np.roll(sides, -1)[:, None] * corners).sum(axis=0) / sides.sum()
         discs = largest_discs(corners)
         # corners are on a lattice of 31 bits
         np.testing.assert_allclose(discs.radius, [2 * area / sides.sum()], rtol=1e-6)
-        np.testing.assert_allclose(discs.xy, [centre], atol=1e-5)
+        np.testing.assert_allclose(discs.xy, [center], atol=1e-5)
         assert len(discs.feet) == 3
 
 

@@ -79,7 +79,7 @@ def test_groups_are_those_of_paths(skeleton):
     check_arrays(joined)
     check_branches(joined)
     expected = groups(skeleton)
-    gone = {node for centre, taken in expected.items() for node in taken - {centre}}
+    gone = {node for center, taken in expected.items() for node in taken - {center}}
     left = np.flatnonzero(skeleton.degree > 2)
     left = left[~np.isin(left, list(gone))]
     places = {tuple(row) for row in joined.vertices[joined.degree > 2].tolist()}
@@ -87,9 +87,9 @@ def test_groups_are_those_of_paths(skeleton):
     degree = {
         tuple(place): count for place, count in zip(joined.vertices.tolist(), joined.degree.tolist(), strict=True)
     }
-    for centre, taken in expected.items():
+    for center, taken in expected.items():
         total = skeleton.degree[list(taken)].sum() - 2 * (len(taken) - 1)
-        assert degree[tuple(skeleton.vertices[centre].tolist())] == total
+        assert degree[tuple(skeleton.vertices[center].tolist())] == total
     assert len(np.unique(joined.branch)) == len(np.unique(skeleton.branch)) - len(gone)
 
 

@@ -138,7 +138,7 @@ def test_one_pixel_full_and_empty():
 
 
 def as_sets(rings):
-    """Rings as sets of vertices, each with its neighbours' mean: which way they run does not matter."""
+    """Rings as sets of vertices, each with its neighbors' mean: which way they run does not matter."""
     return sorted(sorted(map(tuple, np.round(ring, 9).tolist())) for ring in rings)
 
 

@@ -17,7 +17,7 @@ from vorotool.geometry.points.seed_set import SeedSet
 
 DTYPES = (np.uint8, np.uint16, np.uint32, np.int32)
 COLUMNS = [
-    *("label", "x", "y", "area", "perimeter", "neighbours", "nearest_label", "nearest_distance"),
+    *("label", "x", "y", "area", "perimeter", "neighbors", "nearest_label", "nearest_distance"),
     *("touches_frame", "max_distance", "components", "bbox_x", "bbox_y", "bbox_w", "bbox_h"),
 ]
 
@@ -46,13 +46,13 @@ def expected_measures(labels):
     for label in np.unique(labels[labels > 0]):
         mask = labels == label
         y, x = np.nonzero(mask)
-        neighbours = set(apart[(apart == label).any(axis=1)].ravel().tolist()) - {-1, 0, int(label)}
+        neighbors = set(apart[(apart == label).any(axis=1)].ravel().tolist()) - {-1, 0, int(label)}
         rows.append(
             {
                 "label": int(label),
                 "area": int(mask.sum()),
                 "perimeter": int((apart == label).any(axis=1).sum()),
-                "neighbours": len(neighbours),
+                "neighbors": len(neighbors),
                 "components": int(ndimage.label(mask)[1]),
                 "x": x.mean(),
                 "y": y.mean(),
@@ -76,7 +76,7 @@ def expected_borders(labels):
 
 
 def borders_of(labels, **options):
-    table = regions.neighbour_table(LabelImage(labels), **options)
+    table = regions.neighbor_table(LabelImage(labels), **options)
     return list(zip(*(table[name].tolist() for name in ("label_a", "label_b", "border_length")), strict=True))
 
 
@@ -203,7 +203,7 @@ def test_turns_and_mirrors():
     table = regions.region_table(LabelImage(labels))
     for turned in (np.rot90(labels), np.fliplr(labels), labels[::-1], labels.T):
         other = regions.region_table(LabelImage(turned))
-        for name in ("area", "perimeter", "neighbours", "components", "touches_frame"):
+        for name in ("area", "perimeter", "neighbors", "components", "touches_frame"):
             assert other[name].tolist() == table[name].tolist(), name
         assert borders_of(turned) == borders_of(labels)
     np.testing.assert_array_equal(regions.voronoi_diagram(np.rot90(labels)), np.rot90(regions.voronoi_diagram(labels)))
@@ -215,7 +215,7 @@ def test_renumbering_permutes_the_rows():
     renumbered = np.concatenate([[0], order + 1])[labels].astype(np.uint16)
     table, other = (regions.region_table(LabelImage(image)) for image in (labels, renumbered))
     present = np.unique(labels) - 1
-    for name in ("area", "perimeter", "neighbours", "bbox_x"):
+    for name in ("area", "perimeter", "neighbors", "bbox_x"):
         by_label = dict(zip(other["label"].tolist(), other[name].tolist(), strict=True))
         assert [by_label[int(order[k]) + 1] for k in present] == table[name].tolist()
 
@@ -263,9 +263,9 @@ def test_max_distance_by_region(dtype):
     np.testing.assert_array_equal(half["max_distance"] * 2, table["max_distance"])
 
 
-def test_neighbour_distance_is_between_the_sites():
+def test_neighbor_distance_is_between_the_sites():
     labels, _, seeds = nearest_label_image((30, 40), 9, 4)
-    table = regions.neighbour_table(LabelImage(labels, None, seeds))
+    table = regions.neighbor_table(LabelImage(labels, None, seeds))
     a, b = (seeds.sites[table[name] - 1] for name in ("label_a", "label_b"))
     np.testing.assert_allclose(table["centroid_distance"], np.hypot(*(a - b).T), rtol=1e-15)
 
@@ -274,7 +274,7 @@ def test_no_region_at_all():
     table = regions.region_table(LabelImage(np.zeros((3, 4), dtype=np.uint16)))
     assert all(len(table[name]) == 0 for name in COLUMNS)
     assert borders_of(np.zeros((3, 4), dtype=np.uint16)) == []
-    assert regions.colour_regions(LabelImage(np.zeros((3, 4), dtype=np.uint16))).tolist() == [0]
+    assert regions.color_regions(LabelImage(np.zeros((3, 4), dtype=np.uint16))).tolist() == [0]
 
 
 def test_measures_can_be_shared():
@@ -282,7 +282,7 @@ def test_measures_can_be_shared():
     image = LabelImage(labels)
     measures = regions.measure_regions(image)
     assert borders_of(labels, measures=measures) == borders_of(labels)
-    assert regions.colour_regions(image, measures=measures).tolist() == regions.colour_regions(image).tolist()
+    assert regions.color_regions(image, measures=measures).tolist() == regions.color_regions(image).tolist()
 
 
 # ---- the diagram in bands -----------------------------------------------------------------------------
@@ -323,23 +323,23 @@ def test_diagram_does_not_depend_on_threads(threads):
     )
 
 
-# ---- colours ------------------------------------------------------------------------------------------
+# ---- colors ------------------------------------------------------------------------------------------
 
 
 @given(label_images)
 @settings(max_examples=50, deadline=None)
-def test_neighbours_never_share_a_colour(labels):
-    colours = regions.colour_regions(LabelImage(labels))
-    assert colours[0] == 0
+def test_neighbors_never_share_a_color(labels):
+    colors = regions.color_regions(LabelImage(labels))
+    assert colors[0] == 0
     pairs = sides(labels)
     pairs = pairs[(pairs > 0).all(axis=1) & (pairs[:, 0] != pairs[:, 1])]
-    assert (colours[pairs[:, 0]] != colours[pairs[:, 1]]).all()
+    assert (colors[pairs[:, 0]] != colors[pairs[:, 1]]).all()
 
 
-def test_a_tessellation_needs_few_colours_of_equal_frequency():
+def test_a_tessellation_needs_few_colors_of_equal_frequency():
     labels, _, _ = nearest_label_image((200, 200), 400, 9)
-    labels_found, colours = regions.region_colours(LabelImage(labels))
-    uses = np.bincount(colours)[1:]
+    labels_found, colors = regions.region_colors(LabelImage(labels))
+    uses = np.bincount(colors)[1:]
     assert len(uses) <= 6
     assert uses[:4].min() > len(labels_found) / 10
 
@@ -347,8 +347,8 @@ def test_a_tessellation_needs_few_colours_of_equal_frequency():
 def test_a_huge_label_needs_no_huge_array():
     image = LabelImage(np.array([[1, 2**32 - 1]], dtype=np.uint32))
     with pytest.raises(LimitError, match="the largest label is 4294967295"):
-        regions.colour_regions(image)
-    assert regions.region_colours(image)[1].tolist() in ([1, 2], [2, 1])
+        regions.color_regions(image)
+    assert regions.region_colors(image)[1].tolist() in ([1, 2], [2, 1])
 
 
 # ---- bad input ----------------------------------------------------------------------------------------
@@ -357,7 +357,7 @@ def test_a_huge_label_needs_no_huge_array():
 def test_a_label_without_site_is_named():
     seeds = SeedSet(np.array([0]), np.array([0]), np.array([1]))
     image = LabelImage(np.array([[1, 1], [1, 7]], dtype=np.uint8), Frame(0, 0, 2, 2), seeds)
-    for function in (regions.region_table, regions.neighbour_table):
+    for function in (regions.region_table, regions.neighbor_table):
         with pytest.raises(InputError, match=r"pixel \(row 1, column 1\) has label 7"):
             function(image)
 

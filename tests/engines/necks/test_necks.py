@@ -33,9 +33,9 @@ def rooms(*parts):
     return [*upper, *([x, -y] for x, y in reversed(upper))]
 
 
-def disc(count, radius, centre):
+def disc(count, radius, center):
     turn = (np.arange(count) + 0.5) * 2 * np.pi / count
-    return np.stack([np.cos(turn), np.sin(turn)], axis=1) * radius + centre
+    return np.stack([np.cos(turn), np.sin(turn)], axis=1) * radius + center
 
 
 def test_dumbbell_of_rectangles():

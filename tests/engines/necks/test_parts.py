@@ -23,7 +23,7 @@ def test_dumbbell_is_cut_in_two():
     assert pieces.polygons.ring(0).tolist() == [
         *([0, 0], [4, 0], [4, 1.5], [5.5, 1.5], [5.5, 2.5], [4, 2.5], [4, 4], [0, 4]),
     ]
-    assert (pieces.cuts.tolist(), pieces.neighbours()) == ([1, 1], [[1], [0]])
+    assert (pieces.cuts.tolist(), pieces.neighbors()) == ([1, 1], [[1], [0]])
     verify_parts(pieces)
 
 
@@ -152,7 +152,7 @@ def test_what_is_no_ratio_is_refused(ratio):
     ("change", "message"),
     [
         (lambda made: {"radius": made.radius * 2}, "nearer than"),
-        (lambda made: {"centre": made.centre[::-1]}, "the boundary is|nothing touches|is not in it"),
+        (lambda made: {"center": made.center[::-1]}, "the boundary is|nothing touches|is not in it"),
         (lambda made: {"between": np.array([[0, 0]])}, "said to be between"),
         (lambda made: {"polygons": replace(made.polygons, xy=made.polygons.xy[::-1])}, "has an area of"),
         (lambda made: {"polygons": replace(made.polygons, xy=moved(made.polygons.xy))}, "on no cut and no boundary"),
@@ -177,5 +177,5 @@ def test_a_piece_that_is_missing_is_found():
     fewer = vorotool.PolygonSet(kept.xy[:16], kept.ring_start[:3], kept.ring_kind[:2], kept.ring_polygon[:2])
     with pytest.raises(VerificationError, match="sum to"):
         verify_parts(
-            replace(made, polygons=fewer, source=made.source[:2], radius=made.radius[:2], centre=made.centre[:2])
+            replace(made, polygons=fewer, source=made.source[:2], radius=made.radius[:2], center=made.center[:2])
         )

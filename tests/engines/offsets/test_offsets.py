@@ -51,7 +51,7 @@ def without(made, shape):
     lengths, counts = np.diff(made.ring_start)[rings], np.delete(np.diff(made.shape_start), shape)
     return replace(
         made,
-        **{name: getattr(made, name)[pieces] for name in ("start", "end", "centre", "site")},
+        **{name: getattr(made, name)[pieces] for name in ("start", "end", "center", "site")},
         ring_start=np.concatenate([[0], np.cumsum(lengths)]),
         shape_start=np.concatenate([[0], np.cumsum(counts)]),
         distance=np.delete(made.distance, shape),
@@ -69,13 +69,13 @@ def moved(made, name, row, by):
 def reversed_ring(made):
     """Offsets of one ring that runs the other way round."""
     order = slice(None, None, -1)
-    return replace(made, start=made.end[order], end=made.start[order], site=made.site[order], centre=made.centre[order])
+    return replace(made, start=made.end[order], end=made.start[order], site=made.site[order], center=made.center[order])
 
 
 FAULTS = {
     "open": (1, lambda made: moved(made, "end", 2, 0.1), "does not begin there"),
     "edge": (1, lambda made: replace(made, site=np.roll(made.site, 1)), "no line along an edge"),
-    "centre": (1, lambda made: moved(made, "centre", np.flatnonzero(made.is_arc)[0], 1e-9), "not its vertex"),
+    "center": (1, lambda made: moved(made, "center", np.flatnonzero(made.is_arc)[0], 1e-9), "not its vertex"),
     "distance": (-0.25, lambda made: replace(made, distance=np.full(1, -0.2500001)), "too near"),
     "turned": (-0.25, reversed_ring, "turns the wrong way"),
     "lost": (-1, lambda made: without(made, 1), "is in 0 shapes, not in one"),
@@ -115,7 +115,7 @@ def test_the_checker_finds_holes_that_are_filled():
     first = made.ring_start[1]
     filled = replace(
         made,
-        **{name: getattr(made, name)[:first] for name in ("start", "end", "centre", "site")},
+        **{name: getattr(made, name)[:first] for name in ("start", "end", "center", "site")},
         ring_start=made.ring_start[:2],
         shape_start=np.array([0, 1]),
     )

@@ -241,7 +241,7 @@ def test_the_discs_of_an_axis_give_the_mask_as_those_of_scikit_image_do(seed):
     assert axis.sum() < 1.4 * theirs.sum()
 
 
-def test_an_axis_is_on_the_middle_row_and_its_end_is_the_centre_of_the_last_disc():
+def test_an_axis_is_on_the_middle_row_and_its_end_is_the_center_of_the_last_disc():
     axis = vorotool.medial_axis(np.ones((5, 21)))
     assert np.flatnonzero(axis.any(axis=1)).tolist() == [2]
     assert axis[2, 3:18].all()

@@ -101,7 +101,7 @@ def test_corners(graph):
 
 
 def test_a_disc_that_a_site_enters(graph):
-    """A further lone point that no cell belongs to; and one whose cell is a neighbour's."""
+    """A further lone point that no cell belongs to; and one whose cell is a neighbor's."""
     points = np.append(graph.points, [[25, 5]], axis=0).astype(np.int32)
     count = len(graph.points)
 
@@ -209,7 +209,7 @@ def test_rings(graph):
 
 
 def test_a_vertex_split_in_two():
-    """The centre of a rectangle's tie as two vertices that an edge of length zero joins."""
+    """The center of a rectangle's tie as two vertices that an edge of length zero joins."""
     diagram = right([(0, 0), (2, 0), (2, 2), (0, 2)], [])
     verify_segment_voronoi(diagram)
     split = SegmentVoronoiDiagram(

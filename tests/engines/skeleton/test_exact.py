@@ -54,7 +54,7 @@ def test_a_rectangle_has_a_ridge():
     assert made.length.sum() == pytest.approx(6 + 4 * sqrt(8), rel=1e-15)
 
 
-def test_a_triangle_meets_in_the_incentre():
+def test_a_triangle_meets_in_the_incenter():
     made = skeleton_of([[0, 0], [4, 0], [0, 3]])
     assert places(made) == [(0, 0, 0), (0, 3, 0), (1, 1, 1), (4, 0, 0)]
 
@@ -73,10 +73,10 @@ def test_an_l_has_a_parabola_around_its_reflex_corner():
 @pytest.mark.parametrize("count", [3, 5, 8, 64])
 def test_a_regular_polygon_has_spokes(count):
     made = skeleton_of(np.round(regular(count)) if count in (3, 8) else regular(count))
-    at_centre = np.abs(made.vertices).max(axis=1) < 2
+    at_center = np.abs(made.vertices).max(axis=1) < 2
     assert np.count_nonzero(made.radius == 0) == count
     assert made.length[(made.radius[made.arcs] == 0).any(axis=1)].min() > 990
-    assert at_centre.any()
+    assert at_center.any()
 
 
 def test_an_annulus_has_one_cycle():

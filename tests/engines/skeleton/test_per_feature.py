@@ -116,7 +116,7 @@ def test_a_line_in_a_polygon_is_a_wall_if_it_is_of_the_same_feature():
     assert all_differing(vorotool.skeleton_exact([polygon, line], features="together"), one) == []
 
 
-def test_objects_of_a_label_image_have_no_vertices_of_their_neighbours():
+def test_objects_of_a_label_image_have_no_vertices_of_their_neighbors():
     image = np.array([[0, 0, 2], [0, 1, 1], [2, 1, 1]])
     outlines = vorotool.outlines(image, mode="labels")
     made = vorotool.skeleton_exact(outlines)

@@ -29,7 +29,7 @@ def polygon_set(polygons):
 
 
 def is_inside(rings, x, y):
-    """By the even-odd rule, a centre on an edge being right of it, and below one that is level."""
+    """By the even-odd rule, a center on an edge being right of it, and below one that is level."""
     crossings = 0
     for ring in rings:
         for (ax, ay), (bx, by) in zip(ring, np.roll(ring, -1, axis=0), strict=True):
@@ -56,7 +56,7 @@ def expected(polygons, frame=FRAME):
 @pytest.mark.parametrize("step", [1, 2, 4, 1000003])
 @pytest.mark.parametrize("seed", few(range(12), 4))
 def test_polygons_with_any_rings(seed, step):
-    """Vertices on centres, on sides, in general places; crossing rings, and what reaches beyond the frame."""
+    """Vertices on centers, on sides, in general places; crossing rings, and what reaches beyond the frame."""
     rng = np.random.default_rng(seed)
 
     def ring(count):

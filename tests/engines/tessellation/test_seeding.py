@@ -1,4 +1,4 @@
-"""Seeds from images: what a threshold makes of colours, transparency and values that are no numbers."""
+"""Seeds from images: what a threshold makes of colors, transparency and values that are no numbers."""
 
 from dataclasses import replace
 
@@ -16,7 +16,7 @@ INK = np.array([[200, 0, 200], [0, 0, 0]], dtype=np.uint8)
 
 @pytest.mark.parametrize("threshold", [100, "otsu"])
 @pytest.mark.parametrize("channels", [1, 2, 3, 4])
-def test_a_threshold_takes_colour_and_leaves_transparency_out(threshold, channels):
+def test_a_threshold_takes_color_and_leaves_transparency_out(threshold, channels):
     values = np.repeat(INK[:, :, None], channels, axis=2)
     if channels in (2, 4):
         values[:, :, -1] = [[255, 0, 255], [255, 255, 0]]

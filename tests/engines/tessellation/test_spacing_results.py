@@ -80,11 +80,11 @@ def test_tables_are_in_the_unit_of_the_spacing(seed, spacing):
 
 
 @pytest.mark.parametrize("spacing", SPACINGS)
-def test_borders_of_neighbours_count_both_kinds_of_sides(spacing):
+def test_borders_of_neighbors_count_both_kinds_of_sides(spacing):
     image = image_of(5, spacing)
     height, width = map(float, pixel_sides(spacing).lengths)
     vertical, horizontal = sides_between(image.labels)
-    table, measures = vorotool.neighbour_table(image), measure_regions(image)
+    table, measures = vorotool.neighbor_table(image), measure_regions(image)
     assert len(table["label_a"])
     for row, (a, b) in enumerate(zip(table["label_a"], table["label_b"], strict=True)):
         counts = [(np.sort(pairs, axis=1) == (a, b)).all(axis=1).sum() for pairs in (vertical, horizontal)]
@@ -112,7 +112,7 @@ def test_vertical_sides_are_counted_over_bands(threads):
 def test_square_pixels_of_another_side_only_scale_lengths(factor):
     plain, scaled = image_of(2, None, max_distance=4), image_of(2, factor, max_distance=4 * Fraction(str(factor)))
     assert np.array_equal(plain.labels, scaled.labels)
-    for make in (vorotool.region_table, vorotool.neighbour_table):
+    for make in (vorotool.region_table, vorotool.neighbor_table):
         ours, theirs = make(scaled), make(plain)
         for name in ours:
             power = 2 if name == "area" else 1 if np.asarray(ours[name]).dtype.kind == "f" else 0
@@ -147,7 +147,7 @@ def test_a_label_image_brings_its_spacing_along():
 def test_a_spacing_of_one_changes_nothing():
     plain, one = image_of(4, None), image_of(4, (1, 1.0))
     assert plain == one
-    for make in (vorotool.region_table, vorotool.neighbour_table):
+    for make in (vorotool.region_table, vorotool.neighbor_table):
         for name, column in make(plain).items():
             assert np.array_equal(column, make(one)[name])
             assert np.asarray(column).dtype == np.asarray(make(one)[name]).dtype
@@ -169,7 +169,7 @@ def test_shapes_and_graphs_are_in_the_unit():
     left, top, right, bottom = shapely.total_bounds(image.to_shapely())
     assert (left, top, right, bottom) == (-0.125, -0.25, 22.5 * 0.25, 16.5 * 0.5)
     edges = image.to_networkx().edges(data=True)
-    assert sum(data["border_length"] for *_, data in edges) == vorotool.neighbour_table(image)["border_length"].sum()
+    assert sum(data["border_length"] for *_, data in edges) == vorotool.neighbor_table(image)["border_length"].sum()
 
 
 def test_pictures_show_pixels_in_their_aspect(tmp_path):

@@ -63,7 +63,7 @@ def test_lattice(dtype):
     check_both_ways(SeedSet(x, y, labels), Frame(-3, -3, 27, 25), dtype=dtype)
 
 
-def test_ring_about_a_centre():
+def test_ring_about_a_center():
     """Twelve seeds at distance 25 from (0, 0), which all tie there."""
     ring = [(x, y) for x in range(-25, 26) for y in range(-25, 26) if x * x + y * y == 625]
     x, y = np.array(ring).T

@@ -123,14 +123,14 @@ def test_volumes_in_every_form(wrap):
     assert np.array_equal(VolumeSweep(made.seeds).labels(), made.labels)
 
 
-def test_colours_are_no_slices_but_where_a_volume_is_asked_for():
-    colours = np.zeros((4, 5, 3), np.uint8)
-    colours[1, 2, 1] = 1
-    with pytest.raises(InputError, match="colour image"):
-        vorotool.tessellate(colours)
-    made = vorotool.tessellate(colours, shape=(4, 5, 3))
+def test_colors_are_no_slices_but_where_a_volume_is_asked_for():
+    colors = np.zeros((4, 5, 3), np.uint8)
+    colors[1, 2, 1] = 1
+    with pytest.raises(InputError, match="color image"):
+        vorotool.tessellate(colors)
+    made = vorotool.tessellate(colors, shape=(4, 5, 3))
     assert made.labels.all()
-    assert np.array_equal(vorotool.tessellate(Volume(colours)).labels, made.labels)
+    assert np.array_equal(vorotool.tessellate(Volume(colors)).labels, made.labels)
     with pytest.raises(InputError, match=r"stack of 4 images.*vorotool.tessellate takes it as a volume"):
         vorotool.tessellate(np.zeros((4, 5, 6), bool), image=True)
 

@@ -83,7 +83,7 @@ def test_lattice(dtype):
     assert check_both_ways(VolumeSeeds(places, labels), VoxelFrame(-3, -3, -3, 14, 13, 12), dtype=dtype)
 
 
-def test_sphere_about_a_centre():
+def test_sphere_about_a_center():
     """Thirty seeds at distance 5 from the origin, which all tie there."""
     sphere = [at for at in np.ndindex(11, 11, 11) if sum((k - 5) ** 2 for k in at) == 25]
     labels = np.random.default_rng(2).permutation(len(sphere)) + 1

@@ -1,4 +1,4 @@
-"""Measures, tables, diagram and colours of label volumes, against plain loops and SciPy."""
+"""Measures, tables, diagram and colors of label volumes, against plain loops and SciPy."""
 
 from fractions import Fraction
 
@@ -10,9 +10,9 @@ from hypothesis.extra import numpy as hnp
 from scipy import ndimage
 
 import vorotool
-from vorotool.engines.label_images.regions import measure_regions, region_colours
+from vorotool.engines.label_images.regions import measure_regions, region_colors
 from vorotool.engines.volumes.volume_measures import measure_slabs, measure_volume, volume_diagram
-from vorotool.engines.volumes.volume_tables import volume_neighbours, volume_table
+from vorotool.engines.volumes.volume_tables import volume_neighbors, volume_table
 from vorotool.errors import InputError, UsageError
 from vorotool.geometry.spacing import PixelSides, pixel_sides
 from vorotool.geometry.volumes.label_volume import LabelVolume
@@ -22,7 +22,7 @@ from vorotool.geometry.volumes.voxel_frame import VoxelFrame
 
 DTYPES = (np.uint8, np.uint16, np.uint32, np.int32)
 COLUMNS = [
-    *("label", "x", "y", "z", "volume", "surface", "neighbours", "nearest_label", "nearest_distance"),
+    *("label", "x", "y", "z", "volume", "surface", "neighbors", "nearest_label", "nearest_distance"),
     *("touches_frame", "max_distance", "components"),
     *("bbox_x", "bbox_y", "bbox_z", "bbox_w", "bbox_h", "bbox_d"),
 ]
@@ -57,7 +57,7 @@ def expected_rows(labels):
             "label": int(label),
             "volume": int(mask.sum()),
             "surface": sum(int((pairs == label).any(axis=1).sum()) for pairs in apart),
-            "neighbours": len(set(beside.tolist()) - {-1, 0, int(label)}),
+            "neighbors": len(set(beside.tolist()) - {-1, 0, int(label)}),
             "components": int(ndimage.label(mask)[1]),
             "touches_frame": int(
                 any(p.min() == 0 or p.max() == side - 1 for p, side in zip(places, mask.shape[::-1], strict=True))
@@ -223,7 +223,7 @@ def test_sides_scale_lengths_areas_and_volumes():
     np.fill_diagonal(between, np.inf)
     assert table["nearest_label"].tolist() == (between.argmin(axis=1) + 1).tolist()
     np.testing.assert_array_equal(table["nearest_distance"], between.min(axis=1) * 0.25)
-    pairs = volume_neighbours(volume)
+    pairs = volume_neighbors(volume)
     expected_areas = [float(np.dot(count, areas)) for _, count in expected_borders(labels)]
     assert pairs["border_area"].tolist() == expected_areas
     a, b = pairs["label_a"] - 1, pairs["label_b"] - 1
@@ -275,7 +275,7 @@ def test_frames_move_places():
 def test_no_region_at_all():
     table = volume_table(np.zeros((2, 3, 4), dtype=np.uint16))
     assert all(len(table[name]) == 0 for name in COLUMNS)
-    assert volume_neighbours(np.zeros((2, 3, 4), dtype=np.uint16)).rows == 0
+    assert volume_neighbors(np.zeros((2, 3, 4), dtype=np.uint16)).rows == 0
     assert not volume_diagram(np.zeros((2, 3, 4), dtype=np.uint16)).any()
 
 
@@ -287,7 +287,7 @@ def test_public_functions_take_volumes():
     volume = LabelVolume(labels, None, seeds)
     assert vorotool.region_table(volume) == volume_table(volume)
     assert vorotool.region_table(labels)["volume"].tolist() == [row["volume"] for row in expected_rows(labels)]
-    assert vorotool.neighbour_table(volume) == volume_neighbours(volume)
+    assert vorotool.neighbor_table(volume) == volume_neighbors(volume)
     np.testing.assert_array_equal(vorotool.voronoi_diagram(volume), expected_diagram(labels))
     measures = measure_volume(volume)
     assert vorotool.region_table(volume, measures=measures) == volume_table(volume)
@@ -301,14 +301,14 @@ def test_public_functions_take_volumes():
 
 @given(label_volumes)
 @settings(max_examples=15, deadline=None)
-def test_neighbours_never_share_a_colour(labels):
-    colours = vorotool.colour_regions(LabelVolume(labels))  # an array may look like a colour image
-    assert colours[0] == 0
-    assert (colours[np.unique(labels[labels > 0])] > 0).all()
+def test_neighbors_never_share_a_color(labels):
+    colors = vorotool.color_regions(LabelVolume(labels))  # an array may look like a color image
+    assert colors[0] == 0
+    assert (colors[np.unique(labels[labels > 0])] > 0).all()
     for (a, b), _ in expected_borders(labels):
-        assert colours[a] != colours[b]
-    found, again = region_colours(LabelVolume(labels), measures=measure_volume(labels))
-    assert colours[found].tolist() == again.tolist()
+        assert colors[a] != colors[b]
+    found, again = region_colors(LabelVolume(labels), measures=measure_volume(labels))
+    assert colors[found].tolist() == again.tolist()
 
 
 def test_masks_are_numbered_by_components():
@@ -367,7 +367,7 @@ def test_other_integer_types_and_layouts():
 @pytest.mark.parametrize("dtype", [np.int8, np.int16, np.int32, np.int64])
 def test_negative_labels_are_refused(dtype):
     labels = np.array([[[1, -4]]], dtype=dtype)
-    for function in (measure_volume, volume_table, volume_neighbours, vorotool.colour_regions):
+    for function in (measure_volume, volume_table, volume_neighbors, vorotool.color_regions):
         with pytest.raises(InputError, match="a voxel has label -4"):
             function(labels)
 
@@ -375,7 +375,7 @@ def test_negative_labels_are_refused(dtype):
 def test_a_label_without_site_is_named():
     seeds = VolumeSeeds(np.array([[0, 0, 0]]), np.array([1]))
     volume = LabelVolume(np.array([[[1, 1], [1, 7]]], dtype=np.uint8), None, seeds)
-    for function in (volume_table, volume_neighbours):
+    for function in (volume_table, volume_neighbors):
         with pytest.raises(InputError, match=r"voxel \(slice 0, row 1, column 1\) has label 7"):
             function(volume)
 

@@ -7,9 +7,9 @@ import pytest
 
 from vorotool.engines.volumes.volume_regions import regions_of_sweep
 from vorotool.engines.volumes.volume_tables import (
-    neighbours_of_regions,
+    neighbors_of_regions,
     table_of_regions,
-    volume_neighbours,
+    volume_neighbors,
     volume_table,
 )
 from vorotool.engines.volumes.volume_tessellator import VolumeSweep
@@ -41,7 +41,7 @@ def test_tables_do_not_depend_on_slabs(scale, spacing, max_distance):
         parts = zip([0, *cuts.tolist()], np.split(volume.labels, cuts), strict=True)
         regions = regions_of_sweep(sweep, parts, distances=True)
         assert table_of_regions(regions) == volume_table(volume, distance2=sweep.squared_distances())
-        assert neighbours_of_regions(regions) == volume_neighbours(volume)
+        assert neighbors_of_regions(regions) == volume_neighbors(volume)
 
 
 def test_without_distances_there_is_no_largest():

@@ -61,8 +61,8 @@ def test_components_are_numbered_by_their_first_voxels(shape, part, connectivity
     count = int(expected.max())
     assert seeds.site_labels.tolist() == list(range(1, count + 1))
     assert np.array_equal(seeds.object_volume, np.bincount(expected.ravel())[1:])
-    centres = ndimage.center_of_mass(mask, expected, np.arange(1, count + 1))
-    assert seeds.sites == pytest.approx(np.array(centres)[:, ::-1])
+    centers = ndimage.center_of_mass(mask, expected, np.arange(1, count + 1))
+    assert seeds.sites == pytest.approx(np.array(centers)[:, ::-1])
 
 
 @pytest.mark.filterwarnings("ignore:.*seeds moved to the nearest")
@@ -265,7 +265,7 @@ def test_what_does_not_go_is_refused(asked, error, match):
         seeds_from_volume(np.ones((2, 2, 2), bool), **asked)
 
 
-def test_images_name_the_neighbours_of_voxels():
+def test_images_name_the_neighbors_of_voxels():
     with pytest.raises(UsageError, match="connectivity is 26: it must be 4 or 8; 26 and 6 are of volumes"):
         vorotool.seeds_from_raster(np.eye(3, dtype=bool), connectivity=26)
 

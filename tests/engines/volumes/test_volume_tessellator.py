@@ -277,7 +277,7 @@ def test_what_is_no_volume_is_refused(function):
         function(np.eye(3, dtype=int)[None] * 0, spacing=(1, 2))
     with pytest.raises(LimitError, match="2 x 3 x 4 = 24 voxels, more than max_pixels=23"):
         function(np.zeros((2, 3, 4), int), max_pixels=23)
-    with pytest.raises(InputError, match="colour image"):
+    with pytest.raises(InputError, match="color image"):
         function(np.zeros((4, 5, 3), np.uint8))
     with pytest.raises(InputError, match="some are masked"):
         function(np.ma.array(np.zeros((1, 1, 2)), mask=[[[0, 1]]]))

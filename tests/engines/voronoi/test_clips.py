@@ -77,7 +77,7 @@ def test_the_frame_as_a_clip(seed):
     framed, clipped = quietly(sites, frame=(5, 10, 80, 60)), quietly(sites, clip=shapely.box(5, 10, 85, 70))
     np.testing.assert_allclose(clipped.areas, framed.areas, atol=1e-5)
     assert clipped.frame == pytest.approx(framed.frame)
-    assert len(clipped.neighbours["label_a"]) == len(framed.neighbours["label_a"])
+    assert len(clipped.neighbors["label_a"]) == len(framed.neighbors["label_a"])
     both = quietly(sites, clip=shapely.box(0, 0, 100, 70), frame=(5, 10, 80, 100))
     np.testing.assert_allclose(both.areas, framed.areas, atol=1e-5)
 

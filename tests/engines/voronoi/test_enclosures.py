@@ -42,7 +42,7 @@ def test_a_line_across_the_frame():
     assert along.sum() == 2
     assert cells.length[along].tolist() == [4, 4]
     assert np.isnan(cells.radius[cells.arcs[along]]).all()
-    assert cells.neighbours["label_a"].tolist() == [1, 1, 2]
+    assert cells.neighbors["label_a"].tolist() == [1, 1, 2]
 
 
 def test_a_house_in_two_faces_is_joined_across_the_line():

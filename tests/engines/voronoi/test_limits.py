@@ -63,7 +63,7 @@ def test_points_on_a_straight_line_leave_nothing_between():
     split = [shapely.LineString([(0, 0), (3, 0)]), shapely.LineString([(3, 0), (8, 0)])]
     cells = within(split, 1, FRAME)
     assert cells.areas.tolist() == pytest.approx([6 + ROUND / 2, 10 + ROUND / 2])
-    assert cells.neighbours["border_length"].tolist() == [2]
+    assert cells.neighbors["border_length"].tolist() == [2]
 
 
 def test_discs_that_overlap_touch_and_are_apart():
@@ -72,7 +72,7 @@ def test_discs_that_overlap_touch_and_are_apart():
         half = min(2 / limit, 1)
         cap = limit**2 * np.arccos(half) - 2 * np.sqrt(max(limit**2 - 4, 0))
         assert cells.areas.tolist() == pytest.approx([ROUND * limit**2 - cap] * 2)
-        length = cells.neighbours["border_length"]
+        length = cells.neighbors["border_length"]
         assert length.tolist() == pytest.approx([2 * np.sqrt(limit**2 - 4)] if limit > 2 else [])
 
 

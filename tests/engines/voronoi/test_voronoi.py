@@ -52,11 +52,11 @@ def test_row_houses():
 
 
 @pytest.mark.parametrize("side", [2, 5])
-def test_squares_have_four_neighbours(side):
+def test_squares_have_four_neighbors(side):
     cells = voronoi(squares(side), frame=(-0.5, -0.5, 2 * side, 2 * side))
-    neighbours = np.array(cells.table["neighbours"]).reshape(side, side)
-    assert (neighbours[1:-1, 1:-1] == 4).all()
-    assert neighbours.sum() == 4 * side * (side - 1)
+    neighbors = np.array(cells.table["neighbors"]).reshape(side, side)
+    assert (neighbors[1:-1, 1:-1] == 4).all()
+    assert neighbors.sum() == 4 * side * (side - 1)
     assert cells.areas.tolist() == [4.0] * side * side
     assert_is_coverage(cells)
 
@@ -65,7 +65,7 @@ def test_lattice_points():
     places = np.stack(np.meshgrid(range(6), range(6)), axis=-1).reshape(-1, 2)
     cells = voronoi(places, frame=(-0.5, -0.5, 6, 6))
     assert cells.areas.tolist() == [1.0] * 36
-    assert cells.neighbours.rows == 60
+    assert cells.neighbors.rows == 60
 
 
 # ---- ties ------------------------------------------------------------------------------------------
@@ -247,8 +247,8 @@ def test_turned_by_a_right_angle():
     turned = [shapely.transform(each, lambda xy: np.stack([-xy[:, 1], xy[:, 0]], axis=1)) for each in sites]
     once, again = voronoi(sites), voronoi(turned)
     np.testing.assert_allclose(again.areas, once.areas, rtol=1e-12)
-    assert again.neighbours["label_b"].tolist() == once.neighbours["label_b"].tolist()
-    np.testing.assert_allclose(again.neighbours["border_length"], once.neighbours["border_length"], rtol=1e-9)
+    assert again.neighbors["label_b"].tolist() == once.neighbors["label_b"].tolist()
+    np.testing.assert_allclose(again.neighbors["border_length"], once.neighbors["border_length"], rtol=1e-9)
 
 
 # ---- input -------------------------------------------------------------------------------------------

@@ -69,15 +69,15 @@ def test_bulges_as_ezdxf_has_them(drawing, bulge):
     start, end = (1.0, 2.0), (4.0, -1.0)
     drawing.modelspace().add_lwpolyline([(*start, 0, 0, bulge), (*end, 0, 0, 0)])
     line = read(drawing, flatten=1e-4)[0].xy
-    centre, first, last, radius = ezdxf.math.bulge_to_arc(start, end, bulge)
-    assert np.hypot(*(line - centre).T) == pytest.approx(np.full(len(line), radius))
+    center, first, last, radius = ezdxf.math.bulge_to_arc(start, end, bulge)
+    assert np.hypot(*(line - center).T) == pytest.approx(np.full(len(line), radius))
     assert line[0].tolist() == [*start]
     assert line[-1].tolist() == [*end]
-    angles = np.unwrap(np.arctan2(*(line - centre).T[::-1]))
+    angles = np.unwrap(np.arctan2(*(line - center).T[::-1]))
     assert abs(angles[-1] - angles[0]) == pytest.approx((last - first) % (2 * math.pi))
     assert (np.diff(angles) * bulge > 0).all()
     middles = (line[1:] + line[:-1]) / 2
-    assert (radius - np.hypot(*(middles - centre).T) <= 1e-4).all()
+    assert (radius - np.hypot(*(middles - center).T) <= 1e-4).all()
 
 
 @pytest.mark.parametrize("angles", [(0, 90), (90, 0), (-30, 200), (350, 10), (10, 370), (0, 180), (180, 0), (45, 44)])

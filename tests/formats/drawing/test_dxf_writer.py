@@ -113,15 +113,15 @@ def test_hulls_have_true_arcs():
     points = np.random.default_rng(3).uniform(0, 100, (60, 2))
     hull = vorotool.alpha_hull(vorotool.alpha_shape(points, r=12))
     drawing = opened(written(hull, "hull"))
-    arcs = np.concatenate([hull.start, hull.end, hull.centre], axis=1)
+    arcs = np.concatenate([hull.start, hull.end, hull.center], axis=1)
     found = []
     for entity in drawing.modelspace():
         if entity.dxftype() != "LWPOLYLINE":
             continue
         rows = [(x, -y, -bulge) for x, y, _, _, bulge in entity]  # y of points goes downwards
         for (x, y, bulge), (u, v, _) in zip(rows, [*rows[1:], rows[0]], strict=True):
-            centre = ezdxf.math.bulge_center((x, y), (u, v), bulge)
-            found.append([x, y, u, v, centre.x, centre.y])
+            center = ezdxf.math.bulge_center((x, y), (u, v), bulge)
+            found.append([x, y, u, v, center.x, center.y])
     assert len(arcs) > 20
     assert np.allclose(sorted(np.round(found, 6).tolist()), sorted(np.round(arcs, 6).tolist()), atol=1e-5)
 

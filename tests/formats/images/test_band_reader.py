@@ -74,9 +74,9 @@ def test_what_is_written_is_read(tmp_path):
 
 
 def test_what_is_read_otherwise(tmp_path):
-    tifffile.imwrite(tmp_path / "colour.tif", np.zeros((5, 5, 3), np.uint8))
+    tifffile.imwrite(tmp_path / "color.tif", np.zeros((5, 5, 3), np.uint8))
     (tmp_path / "dots.csv").write_text("1,2\n")
-    for name in ("colour.tif", "dots.csv", "none.tif", "none.zarr"):
+    for name in ("color.tif", "dots.csv", "none.tif", "none.zarr"):
         assert bands_of(tmp_path / name) is None
 
 

@@ -15,7 +15,7 @@ from vorotool.formats.recognition import image_format
 
 RNG = np.random.default_rng(5)
 GREY = RNG.integers(0, 256, (7, 11), dtype=np.uint8)
-COLOURS = RNG.integers(0, 256, (7, 11, 3), dtype=np.uint8)
+COLORS = RNG.integers(0, 256, (7, 11, 3), dtype=np.uint8)
 SMOOTH = np.add.outer(np.arange(40) * 4, np.arange(60) * 2).astype(np.uint8)
 KINDS = ["jpeg", "bmp", "gif", "webp"] + ["avif"] * ("avif" in features.get_supported())
 ORIENTATION = 274
@@ -42,7 +42,7 @@ def pillow(data):
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_the_content_tells_the_format(kind):
-    data = saved(COLOURS, kind)
+    data = saved(COLORS, kind)
     assert image_format(source(data)) == image_format(source(data, f"a.{kind}")) == kind
     assert image_format(source(b"BMI,age\n1,2\n", "a.csv")) is None
     with pytest.raises(InputError, match=rf'input_format="{kind}"'):
@@ -52,8 +52,8 @@ def test_the_content_tells_the_format(kind):
 @pytest.mark.parametrize("kind", ["bmp", "webp"])
 def test_values_of_exact_formats_are_as_stored(kind):
     options = {"lossless": True} if kind == "webp" else {}
-    raster = image_of(source(saved(COLOURS, kind, **options)))
-    np.testing.assert_array_equal(raster.values, COLOURS)
+    raster = image_of(source(saved(COLORS, kind, **options)))
+    np.testing.assert_array_equal(raster.values, COLORS)
     assert not raster.is_lossy
     np.testing.assert_array_equal(read(saved(GREY, kind, **options)), GREY)  # what is grey has one channel
 
@@ -64,15 +64,15 @@ def test_two_values_are_0_and_1():
 
 @pytest.mark.parametrize("kind", ["jpeg", *KINDS[3:]])
 def test_lossy_formats_are_what_pillow_shows(kind):
-    data = saved(COLOURS, kind)
+    data = saved(COLORS, kind)
     raster = image_of(source(data))
     np.testing.assert_array_equal(raster.values, pillow(data))
     assert raster.is_lossy
     np.testing.assert_array_equal(picture_of(source(data)), pillow(data))
 
 
-def test_other_colours_become_red_green_and_blue():
-    data = saved(Image.fromarray(np.dstack([COLOURS, GREY]), "CMYK"), "jpeg")
+def test_other_colors_become_red_green_and_blue():
+    data = saved(Image.fromarray(np.dstack([COLORS, GREY]), "CMYK"), "jpeg")
     np.testing.assert_array_equal(read(data), np.asarray(Image.open(io.BytesIO(data)).convert("RGB")))
 
 
@@ -93,7 +93,7 @@ def test_what_a_gif_leaves_free_is_transparent():
 
 @pytest.mark.parametrize("kind", ["jpeg", *KINDS[3:]])
 @pytest.mark.parametrize("orientation", range(1, 9))
-@pytest.mark.parametrize("values", [SMOOTH, np.dstack([SMOOTH, 255 - SMOOTH, SMOOTH // 2])], ids=["grey", "colour"])
+@pytest.mark.parametrize("values", [SMOOTH, np.dstack([SMOOTH, 255 - SMOOTH, SMOOTH // 2])], ids=["grey", "color"])
 def test_pictures_are_upright(kind, orientation, values):
     exif = Image.Exif()
     exif[ORIENTATION] = orientation
@@ -144,7 +144,7 @@ def test_a_jpeg_that_cannot_be_so_large_is_refused():
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_what_is_cut_off_is_refused(kind):
-    data = saved(COLOURS, kind)
+    data = saved(COLORS, kind)
     for end in {*range(1, 60), *range(60, len(data) - 2, 7), len(data) // 2}:
         with pytest.raises(InputError, match=r"^a.img "):
             image_of(source(data[:end], "a.img"), input_format=kind)
@@ -152,7 +152,7 @@ def test_what_is_cut_off_is_refused(kind):
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_what_is_damaged_is_read_or_refused(kind):
-    data = saved(COLOURS, kind)
+    data = saved(COLORS, kind)
     for _ in range(200):
         damaged = bytearray(data)
         for at in RNG.integers(0, len(data), 3):

@@ -39,11 +39,11 @@ def test_grey_is_read_back_by_pillow(shape: tuple[int, int], bit_depth: int) -> 
 
 
 @pytest.mark.parametrize("shape", SHAPES)
-@pytest.mark.parametrize(("bit_depth", "colours"), [(1, 2), (2, 3), (4, 16), (8, 1), (8, 256)])
-def test_palette_is_read_back_by_pillow(shape: tuple[int, int], bit_depth: int, colours: int) -> None:
+@pytest.mark.parametrize(("bit_depth", "colors"), [(1, 2), (2, 3), (4, 16), (8, 1), (8, 256)])
+def test_palette_is_read_back_by_pillow(shape: tuple[int, int], bit_depth: int, colors: int) -> None:
     rng = np.random.default_rng(4)
-    palette = rng.integers(0, 256, (colours, 3), dtype=np.uint8)
-    values = rng.integers(0, colours, shape).astype(np.uint8)
+    palette = rng.integers(0, 256, (colors, 3), dtype=np.uint8)
+    values = rng.integers(0, colors, shape).astype(np.uint8)
     data = png([values], shape, bit_depth=bit_depth, palette=palette)
     with Image.open(io.BytesIO(data)) as image:
         assert image.mode == "P"
@@ -110,7 +110,7 @@ def test_joined_adler32(sizes: tuple[int, int]) -> None:
         (-1, {}, "the value -1 does not fit"),
         (2, {"bit_depth": 1}, "value 2"),
         (16, {"bit_depth": 4}, "value 16"),
-        (3, {"bit_depth": 8, "palette": np.zeros((3, 3), np.uint8)}, "a palette of 3 colours"),
+        (3, {"bit_depth": 8, "palette": np.zeros((3, 3), np.uint8)}, "a palette of 3 colors"),
     ],
 )
 def test_nothing_is_wrapped(value: int, options: dict[str, object], message: str) -> None:

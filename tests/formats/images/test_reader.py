@@ -26,14 +26,14 @@ def chunk(kind: bytes, body: bytes) -> bytes:
     return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
 
 
-def plain_png(rows: NDArray[np.generic], depth: int, colour_type: int, width: int, filter_type: int = 0) -> bytes:
+def plain_png(rows: NDArray[np.generic], depth: int, color_type: int, width: int, filter_type: int = 0) -> bytes:
     """A PNG from rows of packed bytes, unfiltered or with filter Sub."""
     data = np.ascontiguousarray(rows).view(np.uint8).reshape(len(rows), -1)
     if filter_type == 1:
-        step = max(1, depth // 8 * {0: 1, 2: 3, 4: 2, 6: 4}[colour_type])
+        step = max(1, depth // 8 * {0: 1, 2: 3, 4: 2, 6: 4}[color_type])
         data = np.concatenate([data[:, :step], data[:, step:] - data[:, :-step]], axis=1)
     body = b"".join(bytes([filter_type]) + row.tobytes() for row in data)
-    header = struct.pack(">IIBBBBB", width, len(rows), depth, colour_type, 0, 0, 0)
+    header = struct.pack(">IIBBBBB", width, len(rows), depth, color_type, 0, 0, 0)
     parts = chunk(b"IHDR", header), chunk(b"IDAT", zlib.compress(body)), chunk(b"IEND", b"")
     return b"\x89PNG\r\n\x1a\n" + b"".join(parts)
 
@@ -80,15 +80,15 @@ def test_png_palette_indices_are_kept() -> None:
 @pytest.mark.parametrize("filter_type", [0, 1])
 def test_png_16_bit_is_exact(filter_type: int) -> None:
     rng = np.random.default_rng(5)
-    for colour_type, channels in ((0, 1), (2, 3), (4, 2), (6, 4)):
+    for color_type, channels in ((0, 1), (2, 3), (4, 2), (6, 4)):
         values = rng.integers(0, 65536, (6, 11, channels)).astype(np.uint16)
-        data = plain_png(values.astype(">u2").reshape(6, -1), 16, colour_type, 11, filter_type)
+        data = plain_png(values.astype(">u2").reshape(6, -1), 16, color_type, 11, filter_type)
         found = read("a.png", data)
         assert found.dtype == np.uint16
         np.testing.assert_array_equal(found, values[:, :, 0] if channels == 1 else values)
 
 
-def test_png_colour_and_alpha() -> None:
+def test_png_color_and_alpha() -> None:
     np.testing.assert_array_equal(read("a.png", saved(Image.fromarray(RGB), "PNG")), RGB)
     grey = Image.fromarray(GREY)
     for mode in ("L", "RGB", "RGBA", "LA"):
@@ -252,7 +252,7 @@ def test_tiff(dtype: str, options: dict[str, object]) -> None:
     np.testing.assert_array_equal(read("a.tif", tiff(values, **options)), values)
 
 
-def test_tiff_colour_alpha_planar_and_bilevel() -> None:
+def test_tiff_color_alpha_planar_and_bilevel() -> None:
     np.testing.assert_array_equal(read("a.tif", tiff(RGB, photometric="rgb")), RGB)
     planar = tiff(np.moveaxis(RGB, 2, 0), photometric="rgb", planarconfig="separate")
     np.testing.assert_array_equal(read("a.tif", planar), RGB)

@@ -12,7 +12,7 @@ from vorotool.errors import InputError, LimitError
 from vorotool.formats.io.sources import Source
 
 RANDOM = np.random.default_rng(0)
-COLOURS = RANDOM.integers(0, 256, (5, 7, 3), dtype=np.uint8)
+COLORS = RANDOM.integers(0, 256, (5, 7, 3), dtype=np.uint8)
 GREY = RANDOM.integers(0, 256, (5, 7), dtype=np.uint8)
 
 
@@ -31,12 +31,12 @@ def tiff(*pages):
 
 
 def test_8_bits_stay_as_they_are():
-    assert np.array_equal(picture_of(png(COLOURS)), COLOURS)
+    assert np.array_equal(picture_of(png(COLORS)), COLORS)
     assert np.array_equal(picture_of(png(GREY)), GREY[:, :, None].repeat(3, axis=2))
 
 
-def test_palettes_have_their_colours():
-    palette = Image.fromarray(COLOURS).quantize(16)
+def test_palettes_have_their_colors():
+    palette = Image.fromarray(COLORS).quantize(16)
     assert np.array_equal(picture_of(png(palette)), np.asarray(palette.convert("RGB")))
 
 

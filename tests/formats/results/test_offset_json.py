@@ -14,7 +14,7 @@ from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.formats.results.offset_json import read_offsets
 
 SHAPES = vorotool.read(Path(__file__).parents[3] / "data" / "two-shapes.json")
-ARRAYS = ("start", "end", "centre", "site", "ring_start", "shape_start", "distance", "polygon")
+ARRAYS = ("start", "end", "center", "site", "ring_start", "shape_start", "distance", "polygon")
 
 
 def text_of(value, **options):
@@ -30,7 +30,7 @@ def test_what_is_written_is_read(distances):
     made = vorotool.offset(SHAPES, distances)
     again = read(text_of(made))
     for name in ARRAYS:
-        assert np.array_equal(getattr(made, name), getattr(again, name), equal_nan=name == "centre"), name
+        assert np.array_equal(getattr(made, name), getattr(again, name), equal_nan=name == "center"), name
     assert again.polygons.ids == ["branch", "key"]
     assert text_of(again) == text_of(made)
     vorotool.verify_offsets(again)
@@ -46,7 +46,7 @@ def test_the_library_reads_them_as_what_they_are(tmp_path):
         vorotool.read(tmp_path / "offsets.json", geometry="points")
 
 
-def test_an_arc_shrunk_to_its_centre_is_a_line():
+def test_an_arc_shrunk_to_its_center_is_a_line():
     made = vorotool.offset([[1000, 1000], [4000, 1000], [4000, 4000]], 0.01)
     again = read(text_of(made, precision=3))
     assert not again.is_arc.any()
@@ -70,7 +70,7 @@ BROKEN = {
     "none": (changed("rings", 0, pieces=0), "rings 0: the pieces of each follow those of the one before"),
     "fewer": (changed("shapes", -1, rings=1), r"shapes \d: the rings of each follow those of the one before; list all"),
     "start": (changed("pieces", 3, start=[1, None]), r"pieces 3: start is .*; write \[number, number\]"),
-    "centre": (changed("pieces", 0, kind="arc", centre=None), r"pieces 0: the centre of an arc is \[x, y\]"),
+    "center": (changed("pieces", 0, kind="arc", center=None), r"pieces 0: the center of an arc is \[x, y\]"),
     "site": (changed("pieces", 2, site=-1), "pieces 2: site is -1"),
 }
 

@@ -175,24 +175,24 @@ def test_tables_have_a_row_a_cell_and_empty_fields():
     rows = rows_of(text)
     assert "nan" not in text
     assert list(rows[0])[:8] == [
-        "label", "area", "perimeter", "neighbours", "own_area", "max_distance", "components", "name",
+        "label", "area", "perimeter", "neighbors", "own_area", "max_distance", "components", "name",
     ]  # fmt: skip
     assert (rows[1]["area"], rows[1]["components"], rows[1]["max_distance"]) == ("0", "0", "")
     assert json.loads(written(MAPS["mixed"], "json", what="table"))[1]["max_distance"] is None
     assert written(MAPS["nothing"], "csv", what="table") == (
-        b"label,area,perimeter,neighbours,own_area,max_distance,components\n"
+        b"label,area,perimeter,neighbors,own_area,max_distance,components\n"
     )
-    assert written(MAPS["nothing"], "csv", what="neighbours") == b"label_a,label_b,border_length,distance\n"
+    assert written(MAPS["nothing"], "csv", what="neighbors") == b"label_a,label_b,border_length,distance\n"
 
 
 def test_writing_from_the_library(tmp_path):
     cells = MAPS["mixed"]
     vorotool.write(cells, tmp_path / "a.geojson")
     assert (tmp_path / "a.geojson").read_bytes() == written(cells, "geojson")
-    vorotool.write(cells, tmp_path / "b.csv", what="neighbours")
-    assert (tmp_path / "b.csv").read_bytes() == written(cells, "csv", what="neighbours")
+    vorotool.write(cells, tmp_path / "b.csv", what="neighbors")
+    assert (tmp_path / "b.csv").read_bytes() == written(cells, "csv", what="neighbors")
     with pytest.raises(UsageError, match="'geojson'"):
-        vorotool.write(cells, tmp_path / "c.geojson", what="neighbours")
+        vorotool.write(cells, tmp_path / "c.geojson", what="neighbors")
 
 
 # ---- files that are none -----------------------------------------------------------------------------

@@ -23,9 +23,9 @@ def test_of_discs(fmt, tmp_path):
     text = (tmp_path / f"a.{fmt}").read_text()
     rows = json.loads(text)["features"] if fmt == "geojson" else list(map(json.loads, text.splitlines()))
     assert len(rows) == 2
-    for row, centre, radius in zip(rows, discs.xy.tolist(), discs.radius.tolist(), strict=True):
+    for row, center, radius in zip(rows, discs.xy.tolist(), discs.radius.tolist(), strict=True):
         own = row.get("properties", row)
-        assert [own["voro_x"], own["y"]] == [pytest.approx(round(value, 1)) for value in centre]
+        assert [own["voro_x"], own["y"]] == [pytest.approx(round(value, 1)) for value in center]
         assert (own["x"], own["r"]) == (1.23456, radius)
     assert vorotool.to_geojson(discs)["features"][0]["properties"]["y"] == discs.xy[0, 1]
 

@@ -292,7 +292,7 @@ def test_big_endian_columns_are_taken():
 def test_degrees_are_those_of_tables():
     mesh = VALUES["Triangulation"]
     graph = vorotool.to_networkx(mesh)
-    degrees = vorotool.point_table(mesh)["neighbours"]
+    degrees = vorotool.point_table(mesh)["neighbors"]
     assert [graph.degree[k] for k in range(len(mesh.points))] == degrees.filled(0).tolist()
     assert graph.graph["crs"] == mesh.crs
     assert graph.nodes[2]["name"] == "c"
@@ -302,10 +302,10 @@ def test_degrees_are_those_of_tables():
     image = label_image()
     regions = vorotool.to_networkx(image)
     table = vorotool.region_table(image)
-    assert dict(regions.degree) == dict(zip(table["label"].tolist(), table["neighbours"].tolist(), strict=True))
-    neighbours = vorotool.neighbour_table(image)
+    assert dict(regions.degree) == dict(zip(table["label"].tolist(), table["neighbors"].tolist(), strict=True))
+    neighbors = vorotool.neighbor_table(image)
     for a, b, border in zip(
-        *(neighbours[name].tolist() for name in ("label_a", "label_b", "border_length")), strict=True
+        *(neighbors[name].tolist() for name in ("label_a", "label_b", "border_length")), strict=True
     ):
         assert regions.edges[a, b]["border_length"] == border
     skeleton = VALUES["Skeleton"]

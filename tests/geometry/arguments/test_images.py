@@ -139,7 +139,7 @@ def test_grey_values_name_the_way():
         (LABELS[0], r"but got an array of int64 and shape \(5,\)"),
         (LABELS.astype(float), r"seeds_from_raster\(mask, threshold=…\) takes grey values"),
         (LABELS.astype(str), "expected an image: .* but got an array of <U21"),
-        (np.zeros((4, 5, 3), np.uint8), r"a colour image, .* give vorotool.seeds_from_raster\(mask, threshold=…\)"),
+        (np.zeros((4, 5, 3), np.uint8), r"a color image, .* give vorotool.seeds_from_raster\(mask, threshold=…\)"),
         (np.zeros((6, 9, 9), np.uint8), r"a stack of 6 images, .* give one of them, mask\[0\]"),
         (pd.DataFrame({"x": [1], "y": [2]}), "DataFrame"),
         (np.zeros((0, 5), bool), "the image is empty"),
@@ -152,9 +152,9 @@ def test_what_is_refused_names_the_parameter(source, message):
         as_label_image(source, "mask", numbered_components)
 
 
-def test_grey_values_and_colours_where_there_may_be_a_threshold():
+def test_grey_values_and_colors_where_there_may_be_a_threshold():
     assert as_raster(LABELS.astype(float), "image", is_grey=True).values.dtype == float
-    assert as_raster(np.zeros((4, 5, 3), np.uint8), "image", is_grey=True).is_colour
+    assert as_raster(np.zeros((4, 5, 3), np.uint8), "image", is_grey=True).is_color
     with pytest.raises(InputError, match="invalid labels: expected labels, a 2-D array of integers"):
         as_label_image(Raster(LABELS.astype(float)), "labels", numbered_components)
 
@@ -196,8 +196,8 @@ def test_grids_of_other_directions_and_units():
     steps = 0.1 * np.arange(5), 0.1 * np.arange(4)  # not even to the last digit
     grid = as_raster(with_axes(LABELS, *steps, units="um"), "image").grid
     assert (grid.unit, grid.transform, float(grid.width)) == ("µm", None, pytest.approx(0.1))
-    centred = as_raster(with_axes(LABELS, 0.25 + np.arange(5) / 2, 0.5 + np.arange(4)), "image").grid
-    assert (centred.width, centred.height, centred.transform) == (Fraction(1, 2), 1, None)
+    centered = as_raster(with_axes(LABELS, 0.25 + np.arange(5) / 2, 0.5 + np.arange(4)), "image").grid
+    assert (centered.width, centered.height, centered.transform) == (Fraction(1, 2), 1, None)
     assert as_raster(with_axes(LABELS, *steps, units="degrees_east"), "image").grid.unit is None
     moved = as_raster(with_axes(LABELS, 7 + np.arange(5), 30 * np.arange(4)), "image").grid
     assert (moved.transform, moved.is_north_up) == ((1, 0, 6.5, 0, 30, -15), False)

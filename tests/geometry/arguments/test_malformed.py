@@ -54,7 +54,7 @@ def test_by(by):
         ("seeds_from_raster", {"raster": np.eye(4, dtype=bool), "max_sites": "9"}),
         ("proximity_graph", {"points": RING, "kind": ARRAY}),
         ("alpha_complex", {"points": RING, "rule": ARRAY}),
-        ("neighbour_table", {"image": np.eye(4, dtype=int), "measures": 5}),
+        ("neighbor_table", {"image": np.eye(4, dtype=int), "measures": 5}),
     ],
 )
 def test_choices_and_counts(function, arguments):
@@ -79,8 +79,8 @@ def test_by_a_path_into_objects():
     assert vorotool.voronoi(document, by="classification.name").ids == ["a", "b"]
     with pytest.raises(VorotoolError, match=r"classification\.name|column\.name"):
         vorotool.voronoi(document, by="classification")
-    with pytest.raises(VorotoolError, match=r"classification\.colour"):
-        vorotool.voronoi(document, by="classification.colour")
+    with pytest.raises(VorotoolError, match=r"classification\.color"):
+        vorotool.voronoi(document, by="classification.color")
 
 
 def test_masks_are_their_outlines():

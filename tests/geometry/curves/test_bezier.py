@@ -19,10 +19,10 @@ def test_against_chords(seed):
     way = places_along(a, b, c)
     length = np.sqrt((np.diff(way, axis=0) ** 2).sum(axis=1)).sum()
     assert lengths_of(a[None], b[None], c[None])[0] == pytest.approx(length, rel=1e-6)
-    centre = np.array([0.3, -2])
-    x, y = (way - centre).T
+    center = np.array([0.3, -2])
+    x, y = (way - center).T
     area = (x[:-1] * y[1:] - x[1:] * y[:-1]).sum() / 2
-    assert areas_beside(a[None], b[None], c[None], centre)[0] == pytest.approx(area, rel=1e-6, abs=1e-6)
+    assert areas_beside(a[None], b[None], c[None], center)[0] == pytest.approx(area, rel=1e-6, abs=1e-6)
 
 
 @pytest.mark.parametrize("bend", [0, 1e-300, 1e-16, 1e-12, 1e-9, 1e-6, 1e-3])

@@ -72,23 +72,23 @@ def arcs(count=200):
     """Arcs of all sizes and extents, by their circles, and where they begin, pass and end."""
     random = np.random.default_rng(5)
     for _ in range(count):
-        centre, radius = random.normal(size=2) * 10.0 ** random.uniform(-3, 6), 10.0 ** random.uniform(-3, 6)
+        center, radius = random.normal(size=2) * 10.0 ** random.uniform(-3, 6), 10.0 ** random.uniform(-3, 6)
         begin, extent = random.uniform(0, 7), random.choice([-1, 1]) * random.uniform(0.01, 6.2)
         angles = begin + extent * np.array([0, random.uniform(0.1, 0.9), 1])
-        yield centre, radius, centre + radius * np.stack([np.cos(angles), np.sin(angles)], axis=1)
+        yield center, radius, center + radius * np.stack([np.cos(angles), np.sin(angles)], axis=1)
 
 
 def test_arcs_stay_near_their_circles():
-    for centre, radius, points in arcs():
+    for center, radius, points in arcs():
         made = flattened_arcs(points)
         middle = (made[1:] + made[:-1]) / 2
-        rounding = 1e-9 * (radius + np.abs(centre).max())
+        rounding = 1e-9 * (radius + np.abs(center).max())
         assert all(point in made.tolist() for point in points.tolist())
-        assert np.abs(np.hypot(*(made - centre).T) - radius).max() < rounding + radius / 1e6
+        assert np.abs(np.hypot(*(made - center).T) - radius).max() < rounding + radius / 1e6
         diagonal = np.hypot(*np.ptp(made, axis=0)) * 1.001 + rounding
-        assert (radius - np.hypot(*(middle - centre).T)).max() <= diagonal / 2000 + rounding
+        assert (radius - np.hypot(*(middle - center).T)).max() <= diagonal / 2000 + rounding
         # it passes the points in order: its length is that of the arc
-        turn = np.unwrap(np.arctan2(*(points - centre).T[::-1]))
+        turn = np.unwrap(np.arctan2(*(points - center).T[::-1]))
         length = np.hypot(*np.diff(made, axis=0).T).sum()
         assert length <= radius * 6.2833 + rounding
         assert len(made) < 300, turn

@@ -68,7 +68,7 @@ def test_tables_speak_the_labels_of_the_input():
     (triangle,) = zip(*(column.tolist() for column in triangle_table(mesh).values()), strict=True)
     assert triangle in [(70, 5, 9), (5, 9, 70), (9, 70, 5)]
     table = point_table(mesh)
-    assert table["neighbours"].tolist() == [2, 2, None, 2]
+    assert table["neighbors"].tolist() == [2, 2, None, 2]
     assert table["duplicate_of_label"].tolist() == [None, None, 5, None]
     assert table["on_hull"].tolist() == [True, True, None, True]
     assert list(table["name"]) == ["a", "b", "c", "d"]

@@ -30,21 +30,21 @@ def within(value, right, error):
 @pytest.mark.parametrize("name", FAMILIES)
 def test_circles_and_areas_against_rationals(name):
     mesh = delaunay(draw(name, 60, 1))
-    centres, radii, areas = mesh.circumcentres(), mesh.circumradii(), mesh.areas()
+    centers, radii, areas = mesh.circumcenters(), mesh.circumradii(), mesh.areas()
     for t, corners in enumerate(mesh.points[mesh.triangles].tolist()):
         a, b, c = ((Fraction(x), Fraction(y)) for x, y in corners)
         (x, y), square = circle(a, b, c)
         radius = square_root(square)
         assert within(radii[t], radius, radius / 10**9)
-        assert within(centres[t, 0], x, radius / 10**9)
-        assert within(centres[t, 1], y, radius / 10**9)
+        assert within(centers[t, 0], x, radius / 10**9)
+        assert within(centers[t, 1], y, radius / 10**9)
         assert within(areas[t], cross(a, b, c) / 2, cross(a, b, c) / 10**9)
         assert areas[t] >= 0
 
 
 def test_uniform_points_lose_few_digits():
     mesh = delaunay(draw("uniform", 2000, 2))
-    distances = np.linalg.norm(mesh.points[mesh.triangles] - mesh.circumcentres()[:, None], axis=2)
+    distances = np.linalg.norm(mesh.points[mesh.triangles] - mesh.circumcenters()[:, None], axis=2)
     np.testing.assert_allclose(distances, mesh.circumradii()[:, None] * [1, 1, 1], rtol=1e-10)
     hull = mesh.points[mesh.hull]
     around = np.roll(hull, -1, axis=0)
@@ -52,7 +52,7 @@ def test_uniform_points_lose_few_digits():
 
 
 def test_shapes_are_checked():
-    good = {"points": [[0, 0]], "triangles": [], "neighbours": [], "edges": [], "hull": [0], "first": [0]}
+    good = {"points": [[0, 0]], "triangles": [], "neighbors": [], "edges": [], "hull": [0], "first": [0]}
     assert len(Triangulation(**good)) == 0
     with pytest.raises(InputError, match=r"triangles must have shape"):
         Triangulation(**{**good, "triangles": [[0, 0]]})

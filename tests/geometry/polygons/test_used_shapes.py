@@ -53,7 +53,7 @@ def test_every_engine_uses_the_same_polygon(strange):
     verify_distances(found)
     assert found.smallest.distance == pytest.approx(shapely.distance(shape, shapely.Polygon(ABOVE)), rel=1e-15)
     verify_distances(hausdorff([polygon], [ABOVE]))
-    assert voronoi([polygon, FAR]).neighbours["distance"].tolist() == [
+    assert voronoi([polygon, FAR]).neighbors["distance"].tolist() == [
         pytest.approx(shapely.distance(shape, shapely.Polygon(FAR)), rel=1e-15)
     ]
 

@@ -24,9 +24,9 @@ def test_distances_are_those_of_shapely(most, monkeypatch):
         np.testing.assert_allclose(site_distances(voronoi(sites, by=by), pairs), expected, atol=1e-12)
 
 
-def test_neighbours_have_the_distance_between_them():
+def test_neighbors_have_the_distance_between_them():
     sites = [shapely.box(0, 0, 2, 2), shapely.box(2, 0, 4, 2), shapely.box(7, 0, 9, 2), shapely.Point(8, 1)]
-    rows = voronoi(sites).neighbours
+    rows = voronoi(sites).neighbors
     assert rows["label_a"].tolist() == [1, 2]
     assert rows["distance"].tolist() == [0, 3]
-    assert voronoi([shapely.Point(0, 0)]).neighbours["distance"].tolist() == []
+    assert voronoi([shapely.Point(0, 0)]).neighbors["distance"].tolist() == []

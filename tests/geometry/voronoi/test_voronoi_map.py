@@ -57,11 +57,11 @@ def test_digons_hold_something():
 
 def test_tables(cells):
     borders, rows = cells.edges, table(cells)
-    names = ["label", "area", "perimeter", "neighbours", "own_area", "max_distance", "components"]
+    names = ["label", "area", "perimeter", "neighbors", "own_area", "max_distance", "components"]
     assert list(rows) == names
-    assert rows["neighbours"].tolist() == [1, 1]
-    assert cells.neighbours.rows == 1
-    assert cells.neighbours["border_length"][0] == pytest.approx(borders["length"].sum())
+    assert rows["neighbors"].tolist() == [1, 1]
+    assert cells.neighbors.rows == 1
+    assert cells.neighbors["border_length"][0] == pytest.approx(borders["length"].sum())
     assert borders["label_a"].tolist() == [1]
     assert list(borders["kind"]) == ["parabola"]
     assert rows["perimeter"].sum() == pytest.approx(36 + 2 * borders["length"].sum())
@@ -128,7 +128,7 @@ def test_pairs_as_libpysal_takes_them():
     graph = graphs.Graph.from_adjacency(everything.to_adjacency())
     assert graph.unique_ids.tolist() == everything.to_geopandas().index.tolist()
     assert graph.adjacency.loc["b"].to_dict() == pytest.approx({"a": 4.2, "c": 4.2})
-    assert graph.n_edges == 2 * everything.neighbours.rows
+    assert graph.n_edges == 2 * everything.neighbors.rows
 
 
 def test_geojson_has_a_feature_a_cell():

@@ -20,7 +20,7 @@ def volume_of(seeds=None, frame=FRAME):
 
 
 @pytest.mark.parametrize("units", [(1, 1, 1), (3, 1, 1), (1, 2, 5), (10, 13, 17), (1, 1, 40)])
-def test_each_pixel_shows_the_voxel_that_its_centre_is_in(units):
+def test_each_pixel_shows_the_voxel_that_its_center_is_in(units):
     volume, picture = volume_of(), SlicePicture(FRAME, units)
     sizes = [round(side * unit / min(units)) for side, unit in zip(FRAME.shape, units, strict=True)]
     assert picture.sizes == tuple(sizes)

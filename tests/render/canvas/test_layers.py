@@ -27,8 +27,8 @@ HOLED = Polygons(
     CORNERS,
     rings=np.array([0, 4, 8, 11]),
     first_rings=np.array([0, 2, 3]),
-    colours=["#77aadd", "#ee8866"],
-    colour_of=np.array([0, 1]),
+    colors=["#77aadd", "#ee8866"],
+    color_of=np.array([0, 1]),
     ids=["cell-1", "cell-<2"],
     edge="#000000",
     width=3,
@@ -94,7 +94,7 @@ def test_polygons_in_svg():
     assert (group.attrib["id"], group.attrib["fill-rule"], group.attrib["stroke-width"]) == ("cells", "evenodd", "3")
     page = Page(bounds_of([HOLED]), width=1000, y_up=False)
     for path, name, fill, corners in zip(
-        group, HOLED.ids, HOLED.colours, ([range(4), range(4, 8)], [range(8, 11)]), strict=True
+        group, HOLED.ids, HOLED.colors, ([range(4), range(4, 8)], [range(8, 11)]), strict=True
     ):
         assert (path.attrib["id"], path.attrib["fill"]) == (name, fill)
         assert path.attrib["vector-effect"] == "non-scaling-stroke"
@@ -102,15 +102,15 @@ def test_polygons_in_svg():
             np.testing.assert_allclose(ring, page.place(SQUARES[expected]), atol=0.0051)
 
 
-def test_polygons_without_ids_share_paths_of_their_colour(monkeypatch):
+def test_polygons_without_ids_share_paths_of_their_color(monkeypatch):
     count = 10
     points = np.random.default_rng(0).random((3 * count, 2))
     corners, rings = np.arange(3 * count, dtype=np.int32), 3 * np.arange(count + 1)
-    colour_of = np.array([0, 0, 0, 1, 1, 0, 0, 0, 0, 0])
+    color_of = np.array([0, 0, 0, 1, 1, 0, 0, 0, 0, 0])
     monkeypatch.setattr(layers_svg, "PATH_ROWS", 7)
     for ids, most in ((None, 10**6), ([f"a{i}" for i in range(count)], 5)):
         monkeypatch.setattr(layers_svg, "MOST_ELEMENTS", most)
-        layer = Polygons("t", points, corners, rings, colours=["#111111", "#222222"], colour_of=colour_of, ids=ids)
+        layer = Polygons("t", points, corners, rings, colors=["#111111", "#222222"], color_of=color_of, ids=ids)
         paths = list(svg(layer).iter(f"{NS}path"))
         assert [(p.attrib["fill"], len(rings_of(p))) for p in paths] == [
             ("#111111", 3), ("#222222", 2), ("#111111", 2), ("#111111", 3),
@@ -141,7 +141,7 @@ def test_lines_and_points_and_texts_in_svg(monkeypatch):
 def test_filled_pixels_are_those_inside():
     image = picture(HOLED, width=416, bounds=(0, 0, 16, 8))
     page = Page((0, 0, 16, 8), width=416, y_up=False)
-    for (x, y), colour in {
+    for (x, y), color in {
         (1, 1): (0x77, 0xAA, 0xDD),
         (8, 7): (0x77, 0xAA, 0xDD),
         (4, 4): (255, 255, 255),
@@ -149,7 +149,7 @@ def test_filled_pixels_are_those_inside():
         (13, 4): (0xEE, 0x88, 0x66),
     }.items():
         across, down = page.place(np.array([[x, y]], float))[0].astype(int)
-        assert tuple(image[down, across]) == colour, (x, y)
+        assert tuple(image[down, across]) == color, (x, y)
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -158,7 +158,7 @@ def test_area_of_polygons(seed):
     rng = np.random.default_rng(seed)
     angles = np.sort(rng.uniform(0, 2 * np.pi, 9))
     points = 50 + 45 * np.stack([np.cos(angles), np.sin(angles)], axis=1) * rng.uniform(0.3, 1, (9, 1))
-    layer = Polygons("p", points, np.arange(9, dtype=np.int32), np.array([0, 9]), colours=["#000000"])
+    layer = Polygons("p", points, np.arange(9, dtype=np.int32), np.array([0, 9]), colors=["#000000"])
     image = picture(layer, width=400, bounds=(0, 0, 100, 100))
     following = np.roll(points, -1, axis=0)
     area = abs((points[:, 0] * following[:, 1] - points[:, 1] * following[:, 0]).sum()) / 2
@@ -186,7 +186,7 @@ def test_discs_are_round():
 def test_what_lies_outside_is_left_out():
     far = np.array([[-500, 20], [700, 30], [50, -900], [60, 900.0]])
     layers = (
-        Polygons("p", far, np.array([0, 2, 1, 3], np.int32), np.array([0, 4]), colours=["#aaaaaa"]),
+        Polygons("p", far, np.array([0, 2, 1, 3], np.int32), np.array([0, 4]), colors=["#aaaaaa"]),
         Lines("l", far, np.array([[0, 1], [2, 3]], np.int32)),
         Points("q", far),
     )
@@ -206,8 +206,8 @@ def test_both_kinds_of_pictures_are_one(tmp_path):
     image = picture(HOLED, width=600)
     for path in svg(HOLED).iter(f"{NS}path"):
         outer = rings_of(path)[0]
-        centre = (outer[0] * 0.9 + outer.mean(axis=0) * 0.1).astype(int)
-        assert "#" + bytes(image[centre[1], centre[0]].tolist()).hex() == path.attrib["fill"]
+        center = (outer[0] * 0.9 + outer.mean(axis=0) * 0.1).astype(int)
+        assert "#" + bytes(image[center[1], center[0]].tolist()).hex() == path.attrib["fill"]
 
 
 def test_limits():
@@ -215,7 +215,7 @@ def test_limits():
     check_picture_size(page, 16_000_000)
     with pytest.raises(LimitError, match='fmt="svg"'):
         check_picture_size(page, 15_999_999)
-    many = Polygons("p", SQUARES, CORNERS, np.array([0, 11]), colours=[f"#0000{k:02x}" for k in range(256)])
+    many = Polygons("p", SQUARES, CORNERS, np.array([0, 11]), colors=[f"#0000{k:02x}" for k in range(256)])
     with pytest.raises(LimitError, match='fmt="svg"'):
         picture(many)
 

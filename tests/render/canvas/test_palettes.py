@@ -5,7 +5,7 @@ import pytest
 from skimage.color import deltaE_ciede2000, rgb2lab
 
 from vorotool.errors import LimitError
-from vorotool.render.canvas.palettes import CELLS, LINE, SEED, WHITE, cell_colour, picture_palette
+from vorotool.render.canvas.palettes import CELLS, LINE, SEED, WHITE, cell_color, picture_palette
 
 # normal vision, severe protanopia, deuteranopia and tritanopia, on linear RGB (Machado et al. 2009, table 1)
 DEFICIENCIES = [
@@ -25,7 +25,7 @@ def as_seen(names: list[str], deficiency: object) -> np.ndarray:
 
 @pytest.mark.parametrize(("count", "least"), [(4, 12.0), (8, 10.0), (12, 8.0)])
 @pytest.mark.parametrize("deficiency", DEFICIENCIES)
-def test_cells_are_distinct_in_any_colour_vision(count: int, least: float, deficiency: object) -> None:
+def test_cells_are_distinct_in_any_color_vision(count: int, least: float, deficiency: object) -> None:
     lab = as_seen(list(CELLS[:count]), deficiency)
     for a, b in itertools.combinations(range(count), 2):
         assert deltaE_ciede2000(lab[a], lab[b]) > least, (CELLS[a], CELLS[b])
@@ -38,8 +38,8 @@ def test_lines_and_seeds_stand_out(deficiency: object) -> None:
         assert (deltaE_ciede2000(dark[None], lab[2:]) > 25).all()
 
 
-def test_colours_do_not_repeat() -> None:
-    names = [cell_colour(c) for c in range(60)]
+def test_colors_do_not_repeat() -> None:
+    names = [cell_color(c) for c in range(60)]
     assert len(set(names)) == 60
     assert names[0] == WHITE
 
@@ -49,12 +49,12 @@ def test_colours_do_not_repeat() -> None:
 )
 def test_palette_fits_its_bits(classes: int, entries: int, bit_depth: int) -> None:
     palette = picture_palette(classes)
-    assert palette.colours.shape == (entries, 3)
+    assert palette.colors.shape == (entries, 3)
     assert palette.bit_depth == bit_depth
-    assert palette.colours[[0, palette.line]].tolist() == [[255] * 3, [0] * 3]
+    assert palette.colors[[0, palette.line]].tolist() == [[255] * 3, [0] * 3]
     assert palette.seed == entries - 1
 
 
 def test_too_many_classes() -> None:
-    with pytest.raises(LimitError, match="254 colour classes"):
+    with pytest.raises(LimitError, match="254 color classes"):
         picture_palette(254)

@@ -1,4 +1,4 @@
-"""Pictures to scale, read back with their sizes, and in the colours and widths that are chosen."""
+"""Pictures to scale, read back with their sizes, and in the colors and widths that are chosen."""
 
 import io
 
@@ -70,24 +70,24 @@ def test_ground():
     assert b'fill="#112233"/>' in svg_of([], page)
 
 
-def test_colours_and_widths_of_all_layers():
+def test_colors_and_widths_of_all_layers():
     pairs = np.array([[0, 1]], dtype=np.int32)
     control = np.array([-1], dtype=np.int32)
-    centre = np.full((4, 2), np.nan)
+    center = np.full((4, 2), np.nan)
     layers = [
         Lines("a", SQUARE, pairs),
         Curves("centerline", SQUARE, pairs, control),
         square(),
-        Polygons("cells", SQUARE, np.arange(4, dtype=np.int32), np.array([0, 4]), colours=["#111111", "#222222"]),
+        Polygons("cells", SQUARE, np.arange(4, dtype=np.int32), np.array([0, 4]), colors=["#111111", "#222222"]),
         Points("points", SQUARE),
         Texts("labels", SQUARE, ["1", "2", "3", "4"]),
-        Arcs("offset", SQUARE, np.roll(SQUARE, -1, axis=0), centre, np.array([0, 4]), None, WHITE),
+        Arcs("offset", SQUARE, np.roll(SQUARE, -1, axis=0), center, np.array([0, 4]), None, WHITE),
     ]
     names = ("a", "skeleton", "shape", "cells", "points", "labels", "offset")
-    style = PictureStyle(colours=dict.fromkeys(names, "#abcdef"), widths=dict.fromkeys(names, 7.0))
+    style = PictureStyle(colors=dict.fromkeys(names, "#abcdef"), widths=dict.fromkeys(names, 7.0))
     made = styled_layers(layers, style)
-    colours = [getattr(layer, "colour", None) or getattr(layer, "edge", None) or layer.colours[0] for layer in made]
-    assert colours == ["#abcdef"] * 7
-    assert made[3].colours == ["#111111", "#222222"]
+    colors = [getattr(layer, "color", None) or getattr(layer, "edge", None) or layer.colors[0] for layer in made]
+    assert colors == ["#abcdef"] * 7
+    assert made[3].colors == ["#111111", "#222222"]
     assert [layer.width for layer in made if hasattr(layer, "width")] == [7.0] * 5
     assert styled_layers(layers, PictureStyle()) == layers

@@ -14,14 +14,14 @@ from vorotool.render.label_images.svg import write_label_svg
 
 NS = "{http://www.w3.org/2000/svg}"
 LABELS = np.array([[1, 1, 2, 2], [1, 3, 3, 2], [0, 3, 3, 12]])
-COLOURS = np.array([0, 1, 2, 3] + [4] * 9)
+COLORS = np.array([0, 1, 2, 3] + [4] * 9)
 SEEDS = SeedSet(np.array([10, 13, 12, 99]), np.array([20, 20, 22, 99]), np.array([1, 2, 3, 4]))
 IMAGE = LabelImage(LABELS, Frame(10, 20, 4, 3), SEEDS)
 
 
 def drawn(image: LabelImage = IMAGE, **options: object) -> bytes:
     out = io.BytesIO()
-    write_label_svg(out, image, colour_of_label=COLOURS, **options)
+    write_label_svg(out, image, color_of_label=COLORS, **options)
     return out.getvalue()
 
 

@@ -7,22 +7,22 @@ import pytest
 import shapely
 
 from support.families.point_families import draw
-from vorotool import cell_colours, delaunay, voronoi_cells
+from vorotool import cell_colors, delaunay, voronoi_cells
 from vorotool.render.canvas.svg import write_layers_svg
 from vorotool.render.layers.cells import cell_lines, cell_polygons, cells_page
 
 
 @pytest.mark.parametrize("name", ["uniform", "grid", "collinear", "exact_circle"])
-def test_neighbouring_cells_never_share_a_colour(name):
+def test_neighboring_cells_never_share_a_color(name):
     mesh = delaunay(np.unique(draw(name, 200, 3), axis=0))
-    colours = cell_colours(mesh)
-    assert colours.min() >= 1
-    assert colours.max() <= 6
+    colors = cell_colors(mesh)
+    assert colors.min() >= 1
+    assert colors.max() <= 6
     shapes = voronoi_cells(mesh).to_shapely()
     a, b = shapely.STRtree(shapes).query(shapes, predicate="touches")
     beside = shapely.length(shapely.intersection(shapes[a], shapes[b])) > 0
     assert beside.any()
-    assert (colours[a[beside]] != colours[b[beside]]).all()
+    assert (colors[a[beside]] != colors[b[beside]]).all()
 
 
 def test_lines_are_the_sides_of_cells_each_once():

@@ -19,9 +19,9 @@ import vorotool
 from vorotool import voronoi
 from vorotool.errors import RepairWarning, UsageError
 from vorotool.render.canvas.layers import CurvedPolygons, Curves, Texts
-from vorotool.render.canvas.palettes import cell_colour
+from vorotool.render.canvas.palettes import cell_color
 from vorotool.render.canvas.svg import write_layers_svg
-from vorotool.render.layers.voronoi import LAYERS, map_colours, voronoi_layers, voronoi_page
+from vorotool.render.layers.voronoi import LAYERS, map_colors, voronoi_layers, voronoi_page
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -90,7 +90,7 @@ def test_a_circle_is_round():
 
 
 @pytest.mark.parametrize("limit", [None, 6])
-def test_pixels_have_the_colours_of_their_cells(tmp_path, limit):
+def test_pixels_have_the_colors_of_their_cells(tmp_path, limit):
     cells = quietly(mixed_sites(np.random.default_rng(2), 12), max_distance=limit)
     vorotool.write(cells, tmp_path / "a.png", layers=["cells"], background="#000000", width=500)
     pixels = iio.imread(tmp_path / "a.png")
@@ -102,23 +102,23 @@ def test_pixels_have_the_colours_of_their_cells(tmp_path, limit):
     near = 3 * page.distance(1.0)
     clear = shapely.distance(shapely.boundary(shapes)[:, None], points).min(axis=0) > near
     assert clear.sum() > 300
-    colours = [bytes.fromhex(cell_colour(each)[1:]) for each in map_colours(cells).tolist()]
+    colors = [bytes.fromhex(cell_color(each)[1:]) for each in map_colors(cells).tolist()]
     column, row = np.floor(page.place(places[clear])).astype(int).T
     found = np.full(len(places), -1)
     at, cell = shapely.STRtree(shapes).query(points, predicate="within")
     found[at] = cell
-    expected = [list(colours[k]) if k >= 0 else [0, 0, 0] for k in found[clear].tolist()]
+    expected = [list(colors[k]) if k >= 0 else [0, 0, 0] for k in found[clear].tolist()]
     np.testing.assert_array_equal(pixels[row, column], expected)
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_neighbours_never_share_a_colour(seed):
+def test_neighbors_never_share_a_color(seed):
     sites = mixed_sites(np.random.default_rng(seed), 40)
     cells = quietly(sites, by=[k % 25 for k in range(40)])
-    colours = map_colours(cells)
-    pairs = np.stack([cells.neighbours[name] - 1 for name in ("label_a", "label_b")])
-    assert (colours[pairs[0]] != colours[pairs[1]]).all()
-    assert 1 <= colours.min() <= colours.max() <= 12
+    colors = map_colors(cells)
+    pairs = np.stack([cells.neighbors[name] - 1 for name in ("label_a", "label_b")])
+    assert (colors[pairs[0]] != colors[pairs[1]]).all()
+    assert 1 <= colors.min() <= colors.max() <= 12
 
 
 def test_layers_of_all_kinds_of_sites():
@@ -133,14 +133,14 @@ def test_layers_of_all_kinds_of_sites():
     names = layers[5]
     assert isinstance(names, Texts)
     assert names.texts == ["1", "2", "3"]
-    assert names.is_centred
+    assert names.is_centered
     assert all(shapely.distance(sites[:2], shapely.points(names.points[:2])) < 1e-9)
     assert names.points[2, 0] == 8  # above the disc
     assert names.points[2, 1] < 1
     assert names.points[1].tolist() == [4, 2.5]
     points, _ = drawn(voronoi([[0, 0], [4, 1]]), "objects", "labels")
     assert [layer.name for layer in points] == ["objects", "labels"]
-    assert not points[1].is_centred
+    assert not points[1].is_centered
 
 
 def test_names_say_what_a_column_says(tmp_path):
@@ -156,7 +156,7 @@ def test_names_say_what_a_column_says(tmp_path):
         vorotool.write(cells, tmp_path / "a.svg", layers=["walls"])
 
 
-def test_colours_and_widths_are_those_chosen(tmp_path):
+def test_colors_and_widths_are_those_chosen(tmp_path):
     vorotool.write(
         voronoi([shapely.box(0, 0, 2, 2), shapely.Point(8, 1)]),
         tmp_path / "a.svg",

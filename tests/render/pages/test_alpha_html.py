@@ -83,10 +83,10 @@ def test_the_page_is_drawn(page, tmp_path):
     browse("--window-size=1000,700", f"--screenshot={tmp_path / 'shot.png'}", f"{path.as_uri()}#r=1.2")
     with Image.open(tmp_path / "shot.png") as image:
         pixels = np.asarray(image.convert("RGB")).reshape(-1, 3)
-    colours = {name: bytes.fromhex(value[1:]) for name, value in
+    colors = {name: bytes.fromhex(value[1:]) for name, value in
                {"triangles": CELLS[4], "boundary": BOUNDARY, "singular": SINGULAR, "points": SEED}.items()}  # fmt: skip
-    for name, colour in colours.items():
-        assert (pixels == np.frombuffer(colour, np.uint8)).all(axis=1).sum() > 20, name
+    for name, color in colors.items():
+        assert (pixels == np.frombuffer(color, np.uint8)).all(axis=1).sum() > 20, name
 
 
 @needs_browser

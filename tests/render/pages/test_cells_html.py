@@ -109,7 +109,7 @@ def test_few_cells(labels):
     names = [str(label) for label in np.unique(labels[labels > 0])]
     data = data_of(page_of(shapes_of_labels(labels), np.ones(len(names), int), {}))
     assert data["ids"] == names
-    assert data["colours"][1:] == list(CELLS[: bool(names)])
+    assert data["colors"][1:] == list(CELLS[: bool(names)])
 
 
 def test_too_many():

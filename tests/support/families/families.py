@@ -22,8 +22,8 @@ def outside(rng, width, height, n, scale):
 
 
 def clustered(rng, width, height, n, scale):
-    centres = rng.random((3, 2)) * (width * scale, height * scale)
-    xy = centres[rng.integers(0, 3, n)] + rng.normal(0, 2 * scale, (n, 2))
+    centers = rng.random((3, 2)) * (width * scale, height * scale)
+    xy = centers[rng.integers(0, 3, n)] + rng.normal(0, 2 * scale, (n, 2))
     return np.rint(xy[:, 0]).astype(np.int64), np.rint(xy[:, 1]).astype(np.int64)
 
 

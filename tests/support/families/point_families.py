@@ -15,8 +15,8 @@ def uniform(rng, n):
 
 
 def clustered(rng, n):
-    centres = rng.random((max(1, n // 10000) + 3, 2))
-    return centres[rng.integers(0, len(centres), n)] + rng.normal(0, 0.003, (n, 2))
+    centers = rng.random((max(1, n // 10000) + 3, 2))
+    return centers[rng.integers(0, len(centers), n)] + rng.normal(0, 0.003, (n, 2))
 
 
 def collinear(rng, n):

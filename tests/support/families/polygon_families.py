@@ -35,7 +35,7 @@ def tiny(rng, n):
 
 
 def small(rng, n):
-    """Crossings off the lattice, between vertices of neighbouring cells."""
+    """Crossings off the lattice, between vertices of neighboring cells."""
     return rng.integers(-8, 9, (n, 2)), random_rings(rng, n)
 
 
@@ -56,8 +56,8 @@ def strips(rng, n):
 
 def clusters(rng, n):
     """Clusters of points one or two steps apart, far from each other."""
-    centres = rng.integers(-LIMIT + 4, LIMIT - 3, (int(rng.integers(1, 4)), 2))
-    return centres[rng.integers(0, len(centres), n)] + rng.integers(-2, 3, (n, 2)), random_rings(rng, n)
+    centers = rng.integers(-LIMIT + 4, LIMIT - 3, (int(rng.integers(1, 4)), 2))
+    return centers[rng.integers(0, len(centers), n)] + rng.integers(-2, 3, (n, 2)), random_rings(rng, n)
 
 
 def collinear(rng, n):

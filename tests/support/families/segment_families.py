@@ -34,7 +34,7 @@ def lattice(points):
 
 
 def polygon(points):
-    """A closed ring; repeated neighbours are dropped."""
+    """A closed ring; repeated neighbors are dropped."""
     points = lattice(points)
     points = points[(points != np.roll(points, 1, axis=0)).any(axis=1)]
     ends = np.arange(len(points), dtype=np.int32)
@@ -299,9 +299,9 @@ def graph_on(rng, points, tries):
 def clusters(rng, n):
     """Nodes of any degree among points 1-2 units apart, in an extent of 10^7 to 10^9."""
     extent = int(10 ** rng.uniform(7, 9))
-    centres = rng.integers(-extent, extent, (int(rng.integers(2, 7)), 2))
+    centers = rng.integers(-extent, extent, (int(rng.integers(2, 7)), 2))
     count = max(4, n // 2)
-    points = centres[rng.integers(0, len(centres), count)] + rng.integers(-2, 3, (count, 2))
+    points = centers[rng.integers(0, len(centers), count)] + rng.integers(-2, 3, (count, 2))
     return graph_on(rng, points, 3 * n)
 
 

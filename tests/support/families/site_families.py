@@ -12,17 +12,17 @@ def mixed_sites(random, count, grid=None):
 
     made = []
     for _ in range(count):
-        kind, centre, radius = random.integers(4), placed(random.random(2) * 100), random.uniform(2, 25)
+        kind, center, radius = random.integers(4), placed(random.random(2) * 100), random.uniform(2, 25)
         if kind == 0:
-            made.append(shapely.Point(centre))
+            made.append(shapely.Point(center))
         elif kind == 1:
-            made.append(shapely.LineString(placed(centre + random.normal(size=(random.integers(2, 5), 2)) * radius)))
+            made.append(shapely.LineString(placed(center + random.normal(size=(random.integers(2, 5), 2)) * radius)))
         else:
             angle = np.sort(random.random(random.integers(3, 8)) * 2 * np.pi)
             around = np.stack([np.cos(angle), np.sin(angle)], axis=1)
-            shape = shapely.Polygon(placed(centre + around * radius * random.uniform(0.4, 1, (len(angle), 1))))
+            shape = shapely.Polygon(placed(center + around * radius * random.uniform(0.4, 1, (len(angle), 1))))
             if not shape.is_valid or not shape.area:
-                shape = shapely.box(*centre, *(centre + 2 * (grid or 3)))
+                shape = shapely.box(*center, *(center + 2 * (grid or 3)))
             hole = shape.buffer(-radius / 10).simplify(radius / 20)
             if kind == 3 and hole.geom_type == "Polygon" and not hole.is_empty and random.random() < 0.3:
                 shape = shape.difference(hole)
@@ -52,9 +52,9 @@ def squares(side, gap=1.0):
 # ---- whole numbers, so that symmetries of the square and powers of two move every place exactly ---------------
 def clusters(random, count):
     """Points, lines and polygons with corners in a few clusters: much is alike, and little far from it."""
-    centres = random.integers(-(2**20), 2**20, (3, 2))
+    centers = random.integers(-(2**20), 2**20, (3, 2))
     reach = 2 ** int(random.integers(2, 7))
-    return [_shape(centres[random.integers(3)] + random.integers(0, reach, (4, 2)), random) for _ in range(count)]
+    return [_shape(centers[random.integers(3)] + random.integers(0, reach, (4, 2)), random) for _ in range(count)]
 
 
 def coarse(random, count):
@@ -65,8 +65,8 @@ def coarse(random, count):
 
 def bridges(random, count):
     """Long thin shapes from one cluster to another: small angles, and borders far away."""
-    centres = random.integers(-(2**16), 2**16, (2, 2))
-    return [_shape(centres[[0, 1, 1, 0]] + random.integers(0, 9, (4, 2)), random) for _ in range(count)]
+    centers = random.integers(-(2**16), 2**16, (2, 2))
+    return [_shape(centers[[0, 1, 1, 0]] + random.integers(0, 9, (4, 2)), random) for _ in range(count)]
 
 
 def nested(random, count):

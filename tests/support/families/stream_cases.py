@@ -47,13 +47,13 @@ def _cases(line: str, source: str, *formats: str) -> list[Case]:
 
 CASES = [
     *_cases("tessellate IN -o OUT", "six-seeds.csv", "png", "tiff", "npy", "text", "svg"),
-    *_cases("tessellate IN -o OUT --what colour", "six-seeds.csv", "png", "svg"),
+    *_cases("tessellate IN -o OUT --what color", "six-seeds.csv", "png", "svg"),
     *_cases("tessellate IN -o OUT --what distance", "six-seeds.csv", "tiff", "npy"),
     *_cases("tessellate IN -o OUT --what table", "blobs.png", "csv", "json", "npz"),
     *_cases("tessellate IN -o OUT --what distance2", "labels.tif", "tiff"),
     *_cases("tessellate IN -o OUT", "labels.tif", "tiff", "png"),
-    *_cases("tessellate IN -o OUT --what neighbours", "labels.npy", "csv"),
-    *_cases("tessellate blobs.png -o OUT --what colour --overlay IN", "cells.png", "svg"),
+    *_cases("tessellate IN -o OUT --what neighbors", "labels.npy", "csv"),
+    *_cases("tessellate blobs.png -o OUT --what color --overlay IN", "cells.png", "svg"),
     *_cases("tessellate --files-from IN --table OUT", "list.txt", "csv", "json"),
     *_cases("delaunay IN -o OUT", "dots.csv", "csv", "json", "geojson", "npz", "svg", "png", "obj"),
     *_cases("delaunay IN -o OUT --what triangles", "dots.csv", "ele", "npz"),

@@ -52,9 +52,9 @@ def town(count, seed=1):
     xy = _turned(table[kind[_of(sizes)], corner] * half[_of(sizes)], turn[_of(sizes)])
     xy += np.stack([(column - (wide - 1) / 2) * LOT, (row - (deep - 1) / 2) * LOT], axis=1)[_of(sizes)]
     room = np.array([wide, deep]) * LOT + STREET
-    centre = np.stack([block % across, block // across], axis=1) * room + random.normal(0, 1, (blocks, 2))[block]
+    center = np.stack([block % across, block // across], axis=1) * room + random.normal(0, 1, (blocks, 2))[block]
     angle = random.normal(0, 0.04, blocks)[block]
-    return _turned(xy, angle[_of(sizes)]) + centre[_of(sizes)], start
+    return _turned(xy, angle[_of(sizes)]) + center[_of(sizes)], start
 
 
 def _of(sizes):

@@ -1,7 +1,7 @@
 """Alpha shapes from the definition, in rational numbers. It shares no code with the package.
 
 Two points are joined for the radius r if, for all small ε > 0, an open disc of a radius in (r, r + ε) with both on its
-circle holds no point. Its centre is the middle plus s times the vector N across the pair: the points that the open disc
+circle holds no point. Its center is the middle plus s times the vector N across the pair: the points that the open disc
 does not hold bound s from one side each by a rational number, and the radius gives s².
 """
 

@@ -13,7 +13,7 @@ def cross(a, b, c):
 
 
 def circle(a, b, c):
-    """Centre and squared radius."""
+    """Center and squared radius."""
     bx, by, cx, cy = b[0] - a[0], b[1] - a[1], c[0] - a[0], c[1] - a[1]
     d, b2, c2 = 2 * (bx * cy - by * cx), bx * bx + by * by, cx * cx + cy * cy
     x, y = (cy * b2 - by * c2) / d, (bx * c2 - cx * b2) / d
@@ -35,7 +35,7 @@ def on_empty_circle(a, b, c, sites):
     """The sites on the circle through three of them, whose coordinates are integers; None if one is inside."""
     bx, by, cx, cy = b[0] - a[0], b[1] - a[1], c[0] - a[0], c[1] - a[1]
     d, b2, c2 = 2 * (bx * cy - by * cx), bx * bx + by * by, cx * cx + cy * cy
-    x, y = cy * b2 - by * c2, bx * c2 - cx * b2  # the centre is (x / d, y / d) from a
+    x, y = cy * b2 - by * c2, bx * c2 - cx * b2  # the center is (x / d, y / d) from a
     square, on_circle = x * x + y * y, []
     for p in sites:
         distance = ((p[0] - a[0]) * d - x) ** 2 + ((p[1] - a[1]) * d - y) ** 2

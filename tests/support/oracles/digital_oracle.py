@@ -7,8 +7,8 @@ from itertools import combinations
 from support.oracles.delaunay_oracle import circle, cross
 
 
-def neighbour_pixels(x, y, width, height):
-    """4-neighbours in the image."""
+def neighbor_pixels(x, y, width, height):
+    """4-neighbors in the image."""
     around = ((x + 1, y), (x - 1, y), (x, y + 1), (x, y - 1))
     return [(i, j) for i, j in around if 0 <= i < width and 0 <= j < height]
 
@@ -20,11 +20,11 @@ def paper_rule(labels):
     for y in range(height):
         for x in range(width):
             i = int(labels[y, x])
-            around = neighbour_pixels(x, y, width, height)
+            around = neighbor_pixels(x, y, width, height)
             edges |= {tuple(sorted((i, int(labels[q, p])))) for p, q in around if labels[q, p] != i}
             for one, other in combinations(around, 2):
                 if max(abs(one[0] - other[0]), abs(one[1] - other[1])) > 1:
-                    continue  # no 8-neighbours of each other
+                    continue  # no 8-neighbors of each other
                 three = {i, int(labels[one[1], one[0]]), int(labels[other[1], other[0]])}
                 if len(three) == 3:
                     triangles.add(tuple(sorted(three)))
@@ -40,7 +40,7 @@ def parts(labels, label):
         count += 1
         stack = [left.pop()]
         while stack:
-            for pixel in neighbour_pixels(*stack.pop(), width, height):
+            for pixel in neighbor_pixels(*stack.pop(), width, height):
                 if pixel in left:
                     left.remove(pixel)
                     stack.append(pixel)
@@ -50,11 +50,11 @@ def parts(labels, label):
 def edge_is_delaunay(sites, a, b):
     """Whether some, and whether every Delaunay triangulation has the edge, by circles through its ends.
 
-    The circles through both ends are one family: the others keep the centre in an interval of the bisector. It is not
+    The circles through both ends are one family: the others keep the center in an interval of the bisector. It is not
     empty for the first, and has an inside for the second.
     """
     (ax, ay), (bx, by) = sites[a], sites[b]
-    low, high = None, None  # of the parameter t of the centre (a + b) / 2 + t (ay - by, bx - ax)
+    low, high = None, None  # of the parameter t of the center (a + b) / 2 + t (ay - by, bx - ax)
     for k, (x, y) in enumerate(sites):
         if k in (a, b):
             continue

@@ -12,7 +12,7 @@ ONE_HALF = Fraction(1, 2)
 
 
 def brute_necks(skeleton):
-    """(neck, centre, square of the width) of all features of a skeleton, on its lattice: sets of `Fraction`."""
+    """(neck, center, square of the width) of all features of a skeleton, on its lattice: sets of `Fraction`."""
     polygons = skeleton.polygons
     step = skeleton.scale or 1.0
     lattice = np.rint((polygons.xy - np.asarray(skeleton.origin)) / step).astype(np.int64)
@@ -51,7 +51,7 @@ class Shape:
         self.ends = np.array(self.elements, dtype=float).reshape(-1, 2, 2)
 
     def necks(self):
-        """(centre, square of the width) of each."""
+        """(center, square of the width) of each."""
         chords = {tuple(sorted(pair)) for pair in combinations(self.vertices, 2)}
         for v, (a, b) in product(self.vertices, self.edges):
             foot = projected(v, a, b)
@@ -67,24 +67,24 @@ class Shape:
         if not chords:
             return []
         p, q = np.array([[[float(x) for x in end] for end in chord] for chord in chords]).swapaxes(0, 1)
-        centre, half = (p + q) / 2, np.sqrt(((q - p) ** 2).sum(axis=1)) / 2
+        center, half = (p + q) / 2, np.sqrt(((q - p) ** 2).sum(axis=1)) / 2
         a, d = self.ends[:, 0], self.ends[:, 1] - self.ends[:, 0]
-        t = ((centre[:, None] - a) * d).sum(axis=2) / np.maximum((d * d).sum(axis=1), 1)
-        off = centre[:, None] - a - np.clip(t, 0, 1)[..., None] * d
+        t = ((center[:, None] - a) * d).sum(axis=2) / np.maximum((d * d).sum(axis=1), 1)
+        off = center[:, None] - a - np.clip(t, 0, 1)[..., None] * d
         slack = 64 * np.spacing(np.abs(self.ends).max())
         return np.flatnonzero(np.sqrt((off * off).sum(axis=2)).min(axis=1) > half * (1 - 1e-9) - slack).tolist()
 
     def _of_chord(self, p, q):
         """The neck across a chord, unless something is nearer, a third place is touched, or it is on a plateau."""
-        centre, square = middle(p, q), norm(way(p, q)) / 4
+        center, square = middle(p, q), norm(way(p, q)) / 4
         for a, b in self.elements:
-            near = nearest(centre, a, b)
-            distance = norm(way(centre, near))
+            near = nearest(center, a, b)
+            distance = norm(way(center, near))
             if distance < square or (distance == square and near not in (p, q)):
                 return None
-        if not self._is_inside(centre) or self._directions(p, q) & self._directions(q, p):
+        if not self._is_inside(center) or self._directions(p, q) & self._directions(q, p):
             return None
-        return centre, 4 * square
+        return center, 4 * square
 
     def _directions(self, foot, other):
         """To which sides of a chord, 1 and -1, the boundary leads at right angles from a foot."""
@@ -120,8 +120,8 @@ class Shape:
                 return None
             if any(norm(way(*pair)) == square and not (is_on(pair[0], e) or is_on(pair[0], f)) for pair in touched):
                 return None
-        centre = middle(*line)
-        return (centre, 4 * square) if self._is_inside(centre) else None
+        center = middle(*line)
+        return (center, 4 * square) if self._is_inside(center) else None
 
     def _is_inside(self, place):
         shells, holes = set(), set()
@@ -238,8 +238,8 @@ def disagreement(necks):
     own = np.zeros(len(necks)) if skeleton.features == "together" else skeleton.polygons.feature[necks.polygon]
     squares = {}
     tolerance = 64 * np.spacing(max(np.abs(skeleton.polygons.xy).max(initial=1.0), np.abs(origin).max()))
-    for feature, centre, square in expected:
-        place = origin + step * np.array([float(x) for x in centre])
+    for feature, center, square in expected:
+        place = origin + step * np.array([float(x) for x in center])
         off = np.abs(necks.xy - place).max(axis=1) + 1e300 * (own != feature)
         k = int(off.argmin())
         width = step * float(square) ** 0.5

@@ -40,15 +40,15 @@ def rounded(point):
 
 
 @lru_cache(maxsize=10_000)
-def stay_in_cell(segment, centre):
+def stay_in_cell(segment, center):
     """The middle parameter of the part of a segment in the half-open cell of a lattice point, or None."""
     a, b = segment
-    if any(2 * max(a[i], b[i]) < 2 * centre[i] - 1 or 2 * min(a[i], b[i]) > 2 * centre[i] + 1 for i in (0, 1)):
+    if any(2 * max(a[i], b[i]) < 2 * center[i] - 1 or 2 * min(a[i], b[i]) > 2 * center[i] + 1 for i in (0, 1)):
         return None
     low, high = Fraction(0), Fraction(1)
     for i in (0, 1):
         start, step = segment[0][i], segment[1][i] - segment[0][i]
-        near, far = centre[i] - HALF, centre[i] + HALF
+        near, far = center[i] - HALF, center[i] + HALF
         if step == 0:
             if not near <= start <= far:
                 return None
@@ -59,7 +59,7 @@ def stay_in_cell(segment, centre):
         return None
     middle = (low + high) / 2  # on the open side, if a part is in the closed cell only, all of it is
     place = [segment[0][i] + middle * (segment[1][i] - segment[0][i]) for i in (0, 1)]
-    return middle if all(place[i] < centre[i] + HALF for i in (0, 1)) else None
+    return middle if all(place[i] < center[i] + HALF for i in (0, 1)) else None
 
 
 def edges_of(vertices, rings):

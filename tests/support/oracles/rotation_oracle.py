@@ -36,7 +36,7 @@ SHARES = (0.2, 0.6, 0.9)
 """Of the largest radius: how far offsets are."""
 
 ROUNDING = 2.0**-46
-"""Of the largest coordinate: of centres, feet and distances, some dozens of ulp."""
+"""Of the largest coordinate: of centers, feet and distances, some dozens of ulp."""
 
 
 @dataclass

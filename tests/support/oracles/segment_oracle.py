@@ -187,7 +187,7 @@ def edges_across_a_line(sites):
 
 
 def inside_corner(sites, disc, before, after):
-    """For two segments at a corner a point of their sector, elsewhere the disc's centre."""
+    """For two segments at a corner a point of their sector, elsewhere the disc's center."""
     if disc.r > FIRST[1] or sites[before].is_point or sites[after].is_point:
         return disc.x, disc.y
     (corner,) = sites[before].ends & sites[after].ends

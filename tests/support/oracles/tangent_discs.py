@@ -2,12 +2,12 @@
 
 The equations are solved by another way than the core's: planes and a cone in the space of (x, y, r).
 
-How many digits are enough: let c = (x, y) / w be the centre of a disc, r its radius, and d the distance of a site from
+How many digits are enough: let c = (x, y) / w be the center of a disc, r its radius, and d the distance of a site from
 it. F = (d² - r²) w² L², L the site's length, is an algebraic integer. Its four conjugates at most are below 2^516, as
 src/core/segment_voronoi/discs/exact_signs.cpp derives, and their product is an integer: F is 0 or at least 2^-1548.
 As w² L² < 2^446, d² - r² is 0 or at least 2^-1994 > 10^-601. A disc's equations divide by a few numbers of that
 kind, of which each may cost some 200 digits. So `SURE` digits settle what `FIRST` digits leave open, which is taken
-to be anything below 10^-60: a tie, or the foot of a centre at the end of a segment.
+to be anything below 10^-60: a tie, or the foot of a center at the end of a segment.
 """
 
 from __future__ import annotations
@@ -115,7 +115,7 @@ def bisector_plane(origin, q):
 
 
 def plane_across(origin, segment, end):
-    """A circle that touches the segment at its end has its centre across it."""
+    """A circle that touches the segment at its end has its center across it."""
     u = segment.along
     return Decimal(u[0]), Decimal(u[1]), Decimal(0), Decimal(dot(u, (end[0] - origin[0], end[1] - origin[1])))
 
@@ -200,7 +200,7 @@ def foot(disc, segment):
 
 
 def clearance(disc, site):
-    """The squared distance of the closed site from the centre, less that of the radius."""
+    """The squared distance of the closed site from the center, less that of the radius."""
     x, y = disc.x - site.a[0], disc.y - site.a[1]
     if not site.is_point:
         u = site.along
@@ -237,7 +237,7 @@ def certain(decide):
 
 
 def contact_keys(disc, site, tie, sure):
-    """Sorting keys of contacts, counter-clockwise: direction from the centre, then the way the segment goes on."""
+    """Sorting keys of contacts, counter-clockwise: direction from the center, then the way the segment goes on."""
     if site.is_point:
         return (site.a[0] - disc.x, site.a[1] - disc.y), 0
     u = site.along

@@ -74,14 +74,14 @@ def test_no_vertex_is_nearer_to_anything_than_its_radius():
         diagram = voronoi_diagram(points, segments)
         a = np.array(points)[[s[0] for s in segments]]
         u = np.array(points)[[s[1] for s in segments]] - a
-        for centre, radius in zip(diagram.vertices, diagram.radius, strict=True):
-            t = np.clip(((centre - a) * u).sum(axis=1) / (u**2).sum(axis=1), 0, 1)
-            distances = np.hypot(*(a + t[:, None] * u - centre).T)
-            distances = np.append(distances, np.hypot(*(np.array(points) - centre).T))
+        for center, radius in zip(diagram.vertices, diagram.radius, strict=True):
+            t = np.clip(((center - a) * u).sum(axis=1) / (u**2).sum(axis=1), 0, 1)
+            distances = np.hypot(*(a + t[:, None] * u - center).T)
+            distances = np.append(distances, np.hypot(*(np.array(points) - center).T))
             assert distances.min() == pytest.approx(radius, rel=1e-9, abs=1e-9)
 
 
-def test_regular_polygons_have_one_centre_and_differences_are_named():
+def test_regular_polygons_have_one_center_and_differences_are_named():
     points = [(5, 0), (4, 3), (3, 4), (0, 5), (-3, 4), (-4, 3), (-5, 0), (0, -5)]
     diagram = voronoi_diagram(points, [])
     assert rings_of(diagram) == [tuple(range(8))]

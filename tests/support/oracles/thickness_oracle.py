@@ -25,8 +25,8 @@ class Bounds(NamedTuple):
 def thickness_bounds(polygons: PolygonSet, shape: tuple[int, int], sides: tuple[float, float], step: float) -> Bounds:
     """Give bounds of the diameters of the largest discs over pixels, from discs at a grid of places.
 
-    A disc with its centre at a place of the grid, and the distance from the outline as radius, is inside. The best disc
-    of all has its centre within half a diagonal `h` of a place of the grid: that place is then at least its radius less
+    A disc with its center at a place of the grid, and the distance from the outline as radius, is inside. The best disc
+    of all has its center within half a diagonal `h` of a place of the grid: that place is then at least its radius less
     `h` from the outline, and the pixel as near as that plus twice `h`.
     """
     (height, width), (down, across) = shape, sides

@@ -143,9 +143,9 @@ def smoke() -> Iterator[str]:
     yield "alphashape points.csv -r 30 --what hull -f geojson"
     yield "alphashape points.csv -r 30 --what hull,table,curves,family -f csv"
     yield "alphashape points.csv -r 30 --what hull,curves -f svg"
-    yield "tessellate colour.ppm --threshold otsu --what table -f csv"
+    yield "tessellate color.ppm --threshold otsu --what table -f csv"
     yield "tessellate points.csv --size 300x200 --what distance -f npy"
-    yield "tessellate points.csv --size 300x200 --what table,neighbours -f csv"
+    yield "tessellate points.csv --size 300x200 --what table,neighbors -f csv"
     yield "draw great-lakes.geojson -f png"
 
 
@@ -207,7 +207,7 @@ def _products(begin: str, formats: dict[str, tuple[str, ...]], more: dict[str, s
 
 
 def make_inputs(folder: Path) -> None:
-    """Put what no file of the data has beside copies of these: fractions, and colours that are near to one grey."""
+    """Put what no file of the data has beside copies of these: fractions, and colors that are near to one grey."""
     for path in DATA.iterdir():
         (folder / path.name).symlink_to(path)
     draw = random.Random(15)
@@ -216,7 +216,7 @@ def make_inputs(folder: Path) -> None:
     area = [[20.25, 10.5], [280.1, 30.7], [240.3, 190.9], [90.6, 120.2], [10.4, 180.8]]
     (folder / "area.json").write_text(json.dumps(area))
     pixels = bytes(draw.randrange(256) for _ in range(3 * 120 * 80))
-    (folder / "colour.ppm").write_bytes(b"P6 120 80 255\n" + pixels)
+    (folder / "color.ppm").write_bytes(b"P6 120 80 255\n" + pixels)
 
 
 def digest(command: str, folder: Path, threads: int) -> str:

@@ -18,7 +18,7 @@ using numbers::DoubleDouble;
 
 namespace {
 
-// Whether the centres are surely apart, given the differences of their coordinates.
+// Whether the centers are surely apart, given the differences of their coordinates.
 bool are_apart(double dx, double dy, double error) { return std::max(std::abs(dx), std::abs(dy)) > error; }
 
 bool are_apart_in_double_double(const SegmentSites& sites, const VoronoiRecord& u, const VoronoiRecord& w) {
@@ -91,7 +91,7 @@ bool are_coincident(const SegmentSites& sites, const VoronoiRecord& u, int i, co
   if (const std::optional<bool> known = by_two_ends(sites, u, w)) return *known;
   if (const std::optional<bool> known = by_two_ends(sites, w, u)) return *known;
   const std::optional<discs::DyadicDisc> a = dyadic_disc(sites, u), b = dyadic_disc(sites, w);
-  if (a && b) return a->same_centre(*b);
+  if (a && b) return a->same_center(*b);
   if (are_apart_in_double_double(sites, u, w)) return false;
   return by_four_lines(sites, u, i, w) ||
          discs::exact_same_disc(sites.triple(u.sites), sites.triple(w.sites));

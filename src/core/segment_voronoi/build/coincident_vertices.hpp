@@ -1,4 +1,4 @@
-// Whether two neighbouring vertices of a segment Voronoi diagram are at one place: ties.
+// Whether two neighboring vertices of a segment Voronoi diagram are at one place: ties.
 #pragma once
 
 #include "core/segment_voronoi/discs/records.hpp"

@@ -85,7 +85,7 @@ void refine_discs(const SegmentSites& sites, VoronoiRecords& records, const Vert
   for_pieces(records.all.size(), items_a_piece, threads, monitor, refine_piece);
 }
 
-// Writes the centres, radii and rings of vertices, and where their edges lead. Sites have the numbers of the
+// Writes the centers, radii and rings of vertices, and where their edges lead. Sites have the numbers of the
 // engine.
 class VertexWriter {
  public:

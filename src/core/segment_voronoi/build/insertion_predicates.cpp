@@ -24,7 +24,7 @@ using numbers::unit_roundoff;
 
 namespace {
 
-// The centre of a disc seen from a lattice point, along and to the left of a direction d: (c - p) . d and
+// The center of a disc seen from a lattice point, along and to the left of a direction d: (c - p) . d and
 // d x (c - p), with a bound of the error of either. Each is a sum of three terms, which meet at most 4
 // roundings.
 struct Offset {
@@ -65,7 +65,7 @@ int clearance_sign(const discs::TangentDisc<DoubleDouble>& disc, const SegmentSi
   return between ? -1 : 1;
 }
 
-// Where the centre of a vertex is, seen from a lattice point along a unit vector, and to the left of it. The
+// Where the center of a vertex is, seen from a lattice point along a unit vector, and to the left of it. The
 // error is that of InsertionPredicates::sign.
 struct Sighting {
   Sighting(const VoronoiRecord& v, const LatticePoint& p, double ux, double uy) {
@@ -98,7 +98,7 @@ int InsertionPredicates::sign(const VoronoiRecord& v, const SegmentQuery& query)
     return end_sign(v, at_p >= 0 ? at_p : at_q, query);
   }
   if (v.radius == 0) return 1;  // a corner at another point
-  // The distance from the line: the centre errs by position_error; the difference from a (1), a component of
+  // The distance from the line: the center errs by position_error; the difference from a (1), a component of
   // u (3), a product (1) and the difference of both (1) by 6 roundings of |dx| + |dy| at most, and 1 to
   // spare.
   const SegmentSite& s = query.segment;
@@ -133,7 +133,7 @@ int InsertionPredicates::end_sign(const VoronoiRecord& v, int i, const SegmentQu
   for (const int k : {discs::following(i), discs::preceding(i)}) {
     const SiteIndex own = v.sites[static_cast<std::size_t>(k)];
     if (!sites_.is_end(own, end)) continue;
-    // The centre lies on the normal of another segment of the same end.
+    // The center lies on the normal of another segment of the same end.
     const std::int64_t turn = cross(sites_.segment(own).direction(), sites_.direction_from(end, query.site));
     const int side = v.is_left(k) ? 1 : -1;
     return turn == 0 ? 0 : (turn > 0) == (side > 0) ? -1 : 1;
@@ -202,7 +202,7 @@ int InsertionPredicates::sign_beyond_filter(const VoronoiRecord& v, const Segmen
 // it straight away from the segment. On it no disc of the diagram through the point reaches the segment. If
 // an edge whose ends are in conflict has points that are not, the shadow of one of its sites crosses it:
 // along an edge the clearance d(segment) - r has one maximum between two slopes, and there the way from the
-// point to the centre is perpendicular to the segment; with a line for the other site there is none but on
+// point to the center is perpendicular to the segment; with a line for the other site there is none but on
 // its shadow.
 bool InsertionPredicates::survives(const VoronoiRecord& u, int i, const VoronoiRecord& w,
                                    const SegmentQuery& query) {

@@ -2,7 +2,7 @@
 // vertices keep a middle part. Every sign is the exact one.
 //
 // All points are in the diagram before any segment. So a disc of the diagram holds neither end of a new
-// segment (p, q) inside, and the segment enters it only where it is nearer to the centre than the radius at a
+// segment (p, q) inside, and the segment enters it only where it is nearer to the center than the radius at a
 // foot strictly between p and q. Touching is no conflict.
 #pragma once
 

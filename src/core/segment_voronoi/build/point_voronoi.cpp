@@ -23,7 +23,7 @@ constexpr std::size_t points_a_piece = std::size_t{1} << 13;  // points of a pie
 // Longer rings than this are searched in a table: a ring may be searched once for each of its entries.
 constexpr std::size_t long_ring = 64;
 
-// The site at infinity becomes a neighbour of the vertices on the hull. In a chain the unbounded face is on
+// The site at infinity becomes a neighbor of the vertices on the hull. In a chain the unbounded face is on
 // both sides.
 void join_infinity(delaunay::Subdivision& mesh, std::span<RingVertex> vertices, Vertex infinite) {
   delaunay::RingStore& store = mesh.stores.emplace_back();
@@ -57,11 +57,11 @@ class Dual {
 
  private:
   struct Entry {
-    Vertex neighbour;
+    Vertex neighbor;
     std::int32_t record;
-    bool operator<(const Entry& other) const { return neighbour < other.neighbour; }
+    bool operator<(const Entry& other) const { return neighbor < other.neighbor; }
   };
-  // The record of the first triangle of a vertex's own that begins at a neighbour or after it, by neighbours.
+  // The record of the first triangle of a vertex's own that begins at a neighbor or after it, by neighbors.
   struct Table {
     Vertex vertex;
     std::vector<Entry> entries;
@@ -82,8 +82,8 @@ class Dual {
 
   std::int32_t lead_count(Vertex v) const;
   void add_table(Vertex v);
-  std::int32_t record_from(Vertex v, Vertex neighbour) const;
-  std::int32_t record_before(Vertex v, Vertex neighbour) const;
+  std::int32_t record_from(Vertex v, Vertex neighbor) const;
+  std::int32_t record_before(Vertex v, Vertex neighbor) const;
   void write(Vertex v);
   void start(std::int32_t record, const std::array<discs::SiteIndex, 3>& sites);
   Corner first_corner(Vertex v) const;
@@ -113,22 +113,22 @@ void Dual::add_table(Vertex v) {
   tables_.push_back(std::move(table));
 }
 
-// The record of the first triangle of v's own that begins at a neighbour or after it.
-std::int32_t Dual::record_from(Vertex v, Vertex neighbour) const {
+// The record of the first triangle of v's own that begins at a neighbor or after it.
+std::int32_t Dual::record_from(Vertex v, Vertex neighbor) const {
   const std::span<const Vertex> ring = this->ring(v);
   if (ring.size() > long_ring) {
     const auto table = std::lower_bound(tables_.begin(), tables_.end(), v,
                                         [](const Table& t, Vertex vertex) { return t.vertex < vertex; });
-    return std::lower_bound(table->entries.begin(), table->entries.end(), Entry{neighbour, 0})->record;
+    return std::lower_bound(table->entries.begin(), table->entries.end(), Entry{neighbor, 0})->record;
   }
   std::int32_t record = first_[at(v)];
-  for (std::size_t k = 0; ring[k] != neighbour; ++k) record += is_lead(v, ring, k);
+  for (std::size_t k = 0; ring[k] != neighbor; ++k) record += is_lead(v, ring, k);
   return record;
 }
 
-// The record of v's triangle that ends at a neighbour.
-std::int32_t Dual::record_before(Vertex v, Vertex neighbour) const {
-  return (ring(v).front() == neighbour ? first_[at(v) + 1] : record_from(v, neighbour)) - 1;
+// The record of v's triangle that ends at a neighbor.
+std::int32_t Dual::record_before(Vertex v, Vertex neighbor) const {
+  return (ring(v).front() == neighbor ? first_[at(v) + 1] : record_from(v, neighbor)) - 1;
 }
 
 // The records that v leads, and the links across the edges to later vertices. Each edge has the triangle that

@@ -24,7 +24,7 @@ namespace {
 // Closed forms of at most so many roundings of the radius are good enough
 // (core/segment_voronoi/discs/tangent_disc.cpp).
 constexpr double sharp = 10 * numbers::unit_roundoff;
-// A centre far from the origin is rounded there, which put_disc() counts with 2 roundings of the coordinates.
+// A center far from the origin is rounded there, which put_disc() counts with 2 roundings of the coordinates.
 constexpr double rounded = 4 * numbers::unit_roundoff;
 // Numbers of 106 bits that are known as well as this round as if they were exact, but for one in 2^7.
 constexpr double nearly_exact = 0x1p-60;
@@ -35,7 +35,7 @@ bool is_sharp(const VoronoiRecord& v) {
          static_cast<double>(v.radius_error) <= sharp * v.radius;
 }
 
-// The end of a segment that is nearer to the centre: what is measured from it is rounded least. Whichever way
+// The end of a segment that is nearer to the center: what is measured from it is rounded least. Whichever way
 // the segment is given, the ends are looked at in one order.
 const LatticePoint& nearer_end(const discs::SegmentSite& s, const VoronoiRecord& v, bool is_left) {
   const LatticePoint &start = is_left ? s.a : s.b, &end = is_left ? s.b : s.a;
@@ -43,11 +43,11 @@ const LatticePoint& nearer_end(const discs::SegmentSite& s, const VoronoiRecord&
   return reach(end) < reach(start) ? end : start;
 }
 
-// By how much the distance of a site from the centre is more than the radius, and the unit vector from the
-// site to the centre, roughly.
+// By how much the distance of a site from the center is more than the radius, and the unit vector from the
+// site to the center, roughly.
 struct Excess {
   double value, nx, ny;
-  double reach;  // how far the lattice point is that the centre is measured from
+  double reach;  // how far the lattice point is that the center is measured from
 };
 
 Excess excess_of(const SegmentSites& sites, const VoronoiRecord& v, const Contact& contact) {

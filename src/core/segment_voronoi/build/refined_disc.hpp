@@ -1,4 +1,4 @@
-// Centre and radius of a finished Voronoi vertex.
+// Center and radius of a finished Voronoi vertex.
 #pragma once
 
 #include <span>

@@ -43,7 +43,7 @@ struct VoronoiRecords {
   std::vector<discs::Corner> corner_of_point;  // [points]
 };
 
-// Computes centre, radius and bounds of errors of a record from its sites.
+// Computes center, radius and bounds of errors of a record from its sites.
 void compute_disc(const discs::SegmentSites& sites, discs::VoronoiRecord& record);
 
 // Threads share a diagram so: a thread takes each record before it looks at it, gives all back after an

@@ -28,7 +28,7 @@ std::uint32_t add(std::uint32_t& counter, std::uint32_t value) {
   return base::atomic_ref(counter).fetch_add(value, std::memory_order_relaxed);
 }
 
-void prefetch_neighbours(const VoronoiRecords& records, std::int32_t record) {
+void prefetch_neighbors(const VoronoiRecords& records, std::int32_t record) {
   for (const Corner twin : records[record].twins) records.prefetch(record_of(twin));
 }
 
@@ -75,7 +75,7 @@ bool VertexMerging::is_unwanted(const VoronoiRecord& v, std::span<const std::uin
 void VertexMerging::look_at(const discs::SegmentSites& sites, std::span<const std::uint8_t> unwanted,
                             std::int32_t u, Found& found) {
   if (static_cast<std::size_t>(u) + items_ahead < code_.size()) {
-    prefetch_neighbours(records_, u + static_cast<std::int32_t>(items_ahead));
+    prefetch_neighbors(records_, u + static_cast<std::int32_t>(items_ahead));
   }
   const VoronoiRecord& v = records_[u];
   if (v.is_infinite()) {
@@ -182,7 +182,7 @@ void VertexMerging::gather_rings(unsigned threads, const Monitor& monitor) {
     std::vector<Spoke> spokes;
     for (std::size_t k = begin; k < end; ++k) {
       if (k + items_ahead < merged_leads_.size())
-        prefetch_neighbours(records_, merged_leads_[k + items_ahead]);
+        prefetch_neighbors(records_, merged_leads_[k + items_ahead]);
       ring_begin_[k] = static_cast<std::uint32_t>(spokes.size());
       gather_ring(merged_leads_[k], spokes);
       add(count_at(static_cast<SiteIndex>(spokes[ring_begin_[k]].site)), 1);

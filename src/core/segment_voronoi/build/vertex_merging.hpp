@@ -62,7 +62,7 @@ class VertexMerging {
     auto operator<=>(const Key&) const = default;
   };
   struct Found {
-    std::vector<base::IndexPair> coincident;  // neighbours
+    std::vector<base::IndexPair> coincident;  // neighbors
     std::vector<std::int32_t> infinite;
   };
 

@@ -43,7 +43,7 @@ std::vector<std::int32_t> point_faces(const PlanarGraphView& graph) {
 }
 
 // Where no sector is over 180 degrees there is no cell, or one without area that may lie in two faces: it is
-// not unwanted, and its neighbours tell.
+// not unwanted, and its neighbors tell.
 std::vector<std::uint8_t> unwanted_sides(const PlanarGraphView& graph,
                                          std::span<const std::uint8_t> is_wanted) {
   const auto is_unwanted = [&](std::int32_t face) { return is_wanted[at(face)] == 0; };

@@ -1,4 +1,4 @@
-// Which sites of a segment Voronoi diagram have neighbours in faces that are not asked for.
+// Which sites of a segment Voronoi diagram have neighbors in faces that are not asked for.
 #pragma once
 
 #include <cstdint>

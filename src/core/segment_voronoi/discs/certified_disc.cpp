@@ -20,7 +20,7 @@ struct Row {
 };
 
 // Sums and products of double-doubles have relative errors below 2^-103, roots and quotients below 2^-102
-// (core/numbers/double_double.hpp). Differences of the centre and a lattice point have no other error, being
+// (core/numbers/double_double.hpp). Differences of the center and a lattice point have no other error, being
 // sums of two exact numbers; so each value below is wrong by a few times 2^-102 of the lengths that make it
 // up.
 constexpr double value_error = 0x1p-98;

@@ -10,7 +10,7 @@
 namespace vorotool::core::segment_voronoi::discs {
 
 // The equations of a disc (x, y, r): it touches the point a; or it is tangent to the line through a and b; or
-// its centre is across the segment from a to b at a, where a is a site that the disc touches too.
+// its center is across the segment from a to b at a, where a is a site that the disc touches too.
 struct DiscCondition {
   enum class Kind { point, tangent, across };
   Kind kind;

@@ -12,7 +12,7 @@ using numbers::RootNumber;
 
 namespace {
 
-// The way from the centre to the contact, times some positive number; and at the end of a segment, whether it
+// The way from the center to the contact, times some positive number; and at the end of a segment, whether it
 // goes on counter-clockwise (1) or clockwise (-1).
 struct Contact {
   RootNumber x, y;
@@ -25,9 +25,9 @@ Contact contact_of(const ExactDisc& disc, const kernel::LatticeSite& site) {
   if (site.is_point()) return {-x, -y, 0};
   const LatticeVector u = site.b - site.a, n = kernel::left_of(u);
   const RootNumber along = x * RootNumber(u.x) + y * RootNumber(u.y);
-  const int side = (x * RootNumber(n.x) + y * RootNumber(n.y)).sign();  // of the line, where the centre is
+  const int side = (x * RootNumber(n.x) + y * RootNumber(n.y)).sign();  // of the line, where the center is
   const LatticeVector way = side > 0 ? -n : n;
-  // the foot turns counter-clockwise along u if the centre is to the left
+  // the foot turns counter-clockwise along u if the center is to the left
   const int turn = along.sign() == 0                                             ? side
                    : (along - disc.w * RootNumber(kernel::norm2(u))).sign() == 0 ? -side
                                                                                  : 0;

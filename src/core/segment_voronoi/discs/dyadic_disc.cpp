@@ -12,7 +12,7 @@ using numbers::int128;
 namespace {
 
 constexpr std::int64_t scale = 4;
-// |coordinates| of a centre in units: with those of a lattice point they differ by less than 2^32, 2^34 in
+// |coordinates| of a center in units: with those of a lattice point they differ by less than 2^32, 2^34 in
 // quarters.
 constexpr double most_coordinate = 0x1p31;
 // Squares of distances along with squares of lengths, and squares of products, are below 2^126.
@@ -21,7 +21,7 @@ constexpr int128 most_product = int128{1} << 63;
 
 int128 magnitude(int128 value) { return value < 0 ? -value : value; }
 
-// Where a segment is seen from a centre, in quarter units.
+// Where a segment is seen from a center, in quarter units.
 struct Sight {
   Sight(std::int64_t x, std::int64_t y, const SegmentSite& s) : direction(s.direction()) {
     const std::int64_t dx = x - scale * s.a.x, dy = y - scale * s.a.y;
@@ -66,7 +66,7 @@ bool DyadicDisc::touches(const SegmentSites& sites, SiteIndex site, bool is_left
          sight.across * sight.across == square_ * sight.square_length();
 }
 
-// The way from the centre to where the disc touches a site, times a positive number: below 2^35.
+// The way from the center to where the disc touches a site, times a positive number: below 2^35.
 LatticeVector DyadicDisc::contact(const SegmentSites& sites, SiteIndex site, bool is_left) const {
   if (sites.is_point(site)) {
     const kernel::LatticePoint& p = sites.point(site);

@@ -1,4 +1,4 @@
-// Discs whose centre is a lattice point of quarter units: grids and rectilinear shapes are full of them, and
+// Discs whose center is a lattice point of quarter units: grids and rectilinear shapes are full of them, and
 // of ties between them. Integers decide there at once.
 #pragma once
 
@@ -16,7 +16,7 @@ class DyadicDisc {
   // As InsertionPredicates::sign; undecided where the integers would not fit.
   int sign(const SegmentSite& query) const;
 
-  bool same_centre(const DyadicDisc& other) const { return x_ == other.x_ && y_ == other.y_; }
+  bool same_center(const DyadicDisc& other) const { return x_ == other.x_ && y_ == other.y_; }
   // Exact.
   double x() const;
   double y() const;
@@ -32,7 +32,7 @@ class DyadicDisc {
   bool is_in_order(const SegmentSites& sites, const VoronoiRecord& vertex) const;
   numbers::int128 square_distance(const kernel::LatticePoint& p) const;
 
-  std::int64_t x_, y_;      // the centre, times `scale`
+  std::int64_t x_, y_;      // the center, times `scale`
   numbers::int128 square_;  // of the radius, times the square of `scale`
 };
 

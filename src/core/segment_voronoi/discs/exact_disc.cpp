@@ -67,7 +67,7 @@ bool on_one_line(const LatticeSite& s, const LatticeSite& t) {
 
 ExactDisc point_disc(const LatticePoint& p) { return {std::make_shared<SqrtTower>(), p, 0, 0, 1, 0}; }
 
-// Sites that touch at one place p: the centre is p + t normal, t > 0.
+// Sites that touch at one place p: the center is p + t normal, t > 0.
 
 // |p + t n - q| = t |n| where t = |q - p|^2 / (2 n (q - p)).
 Found touching_at(const LatticePoint& p, const LatticeVector& normal, const LatticePoint& q) {
@@ -129,7 +129,7 @@ Found circle(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c
 // A segment and two points.
 
 // In coordinates along the segment and across it, times its length L, from below p: p = (0, Hp), q = (Tq,
-// Hq), centre = (T, R) with T^2 + (R - Hp)^2 = R^2 and (T - Tq)^2 + (R - Hq)^2 = R^2. Without R:
+// Hq), center = (T, R) with T^2 + (R - Hp)^2 = R^2 and (T - Tq)^2 + (R - Hq)^2 = R^2. Without R:
 //   (Hq - Hp) T^2 + 2 Hp Tq T - Hp (Tq^2 + Hq^2 - Hp Hq) = 0,
 //   T = (-Hp Tq + S) / (Hq - Hp) with S^2 = Hp Hq G, G = Tq^2 + (Hq - Hp)^2 = L^2 |q - p|^2,
 // and the foot (T, 0), p, q are counter-clockwise if Hp T - Tq Hp - T Hq = -S > 0: S is the negative root.
@@ -180,7 +180,7 @@ Found collinear_pair(const LatticeSite& s, const LatticeSite& t, const LatticeSi
 }
 
 // With Ni the lines' normals towards p, Li their lengths, Hi > 0 the heights of p, and v the way from p to
-// the centre: Ni v + Hi = Li r and |v| = r. With K = L1 L2, M = K - N1 N2, D = N1 x N2, Q^2 = 2 H1 H2 M and
+// the center: Ni v + Hi = Li r and |v| = r. With K = L1 L2, M = K - N1 N2, D = N1 x N2, Q^2 = 2 H1 H2 M and
 // sigma = 1 or -1
 //   L1 r = ((L1^2 H2 + K H1) M + sigma D L1 Q) / M^2,   left_of(N1) v = (H1 D + sigma L1 Q) / M.
 // (Put N2 v = (N1 N2 N1 v + D left_of(N1) v) / L1^2 in, and D^2 = M (K + N1 N2).) Where p is between parallel
@@ -227,7 +227,7 @@ Found point_and_segments(const LatticePoint& p, const LatticeSite& s, const Latt
 using Lines = std::array<Ray, 3>;
 
 // The disc to the left of all lines, which it touches in counter-clockwise order. With Hi the heights of the
-// first line's origin over the lines, and v the way from there to the centre: Ni v + Hi = Li r. By Cramer's
+// first line's origin over the lines, and v the way from there to the center: Ni v + Hi = Li r. By Cramer's
 // rule, in sums over the cyclic orders i, j, k,
 //   W r = sum Hi (Nj x Nk),  W v = -sum Li left_of(Hk Nj - Hj Nk),  W = sum Li (Nj x Nk).
 // W is the orientation of the three contacts: positive exactly where at least two of the cross products are,
@@ -325,7 +325,7 @@ Found find_exact_disc(SiteTriple sites) {
 }
 
 bool touches(const ExactDisc& disc, const LatticeSite& site) {
-  const LatticeVector shift = disc.origin - site.a;  // the centre seen from a, times w
+  const LatticeVector shift = disc.origin - site.a;  // the center seen from a, times w
   const RootNumber x = disc.x + disc.w * RootNumber(shift.x), y = disc.y + disc.w * RootNumber(shift.y);
   if (site.is_point()) return (square(x) + square(y) - disc.z).sign() == 0;
   const LatticeVector u = site.b - site.a, n = left_of(u);

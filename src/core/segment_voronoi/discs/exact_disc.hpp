@@ -12,13 +12,13 @@ namespace vorotool::core::segment_voronoi::discs {
 
 // Three sites in counter-clockwise order of contact around a disc.
 //
-// The disc touches a point site there, and an open segment at the foot of its centre, which lies on the
+// The disc touches a point site there, and an open segment at the foot of its center, which lies on the
 // closed segment. Sites that touch at one place are in the order of contact that a slightly smaller disc
 // tells: around the disc to the left of p -> q a segment p q comes after its end p, and a segment q' p
 // before p.
 using SiteTriple = std::span<const kernel::LatticeSite, 3>;
 
-// centre = origin + (x, y) / w, radius^2 = z / w^2, w > 0.
+// center = origin + (x, y) / w, radius^2 = z / w^2, w > 0.
 struct ExactDisc {
   std::shared_ptr<const numbers::SqrtTower> tower;  // of x, y, w and z
   kernel::LatticePoint origin;

@@ -1,7 +1,7 @@
 // The largest integers, after core/numbers/sqrt_tower.hpp and the sizes in exact_disc.cpp (x <= 2^226 from
 // any lattice point, w <= 2^191, two roots a disc):
 //  - clearance from a segment: (N c)^2 <= (2 2^31 2^226)^2 = 2^516, two roots, so 4 516 = 2 064 bits;
-//  - two centres along a direction: 2^32 (x w' - x' w) <= 2^450, four roots, so 16 450 = 7 200 bits;
+//  - two centers along a direction: 2^32 (x w' - x' w) <= 2^450, four roots, so 16 450 = 7 200 bits;
 //  - along a parabola: M (left_of(N) v) <= 2^64 2^258, three roots, so 8 323 = 2 584 bits.
 // A sum of two of a size is a bit longer. With one root, as where lengths are commensurable or points are
 // among the sites, a clearance takes 2 516 = 1 032 bits: that has room in a BigInteger itself.
@@ -36,11 +36,11 @@ ExactDisc disc_of(SiteTriple sites) {
   return std::move(*disc);
 }
 
-// The way from a lattice point to a disc's centre, times w.
-struct CentreSeen {
+// The way from a lattice point to a disc's center, times w.
+struct CenterSeen {
   RootNumber x, y;
 
-  CentreSeen(const ExactDisc& disc, const LatticePoint& from)
+  CenterSeen(const ExactDisc& disc, const LatticePoint& from)
       : x(disc.x + disc.w * RootNumber((disc.origin - from).x)),
         y(disc.y + disc.w * RootNumber((disc.origin - from).y)) {}
   RootNumber along(const LatticeVector& u) const { return x * RootNumber(u.x) + y * RootNumber(u.y); }
@@ -48,7 +48,7 @@ struct CentreSeen {
 };
 
 int clearance_sign(const ExactDisc& disc, const LatticePoint& query) {
-  return (CentreSeen(disc, query).length2() - disc.z).sign();
+  return (CenterSeen(disc, query).length2() - disc.z).sign();
 }
 
 // The middle of an edge.
@@ -79,13 +79,13 @@ int middle_of_points(const LatticePoint& p, const LatticePoint& q, const ExactDi
   const std::int64_t turn = cross(n, e) < 0 ? -cross(n, e) : cross(n, e);
   if (turn == 0) return -1;  // the query is parallel to p q: g only grows along the edge
   auto side = [&](const ExactDisc& disc) {
-    const RootNumber along = CentreSeen(disc, p).along(e) + CentreSeen(disc, q).along(e);
+    const RootNumber along = CenterSeen(disc, p).along(e) + CenterSeen(disc, q).along(e);
     return (along * RootNumber(turn) - disc.w * RootNumber(norm2(e)) * RootNumber(dot(n, e))).sign();
   };
   return between(side(first), side(second)) ? 1 : -1;
 }
 
-// The parabola of p and a segment t: in the coordinate left_of(N1) v along t, v the way from p to the centre,
+// The parabola of p and a segment t: in the coordinate left_of(N1) v along t, v the way from p to the center,
 // r is quadratic and g concave, as point_and_lines in exact_disc.cpp has it: with N1 and N2 the normals of t
 // and the query towards p, and H2 the height of p over the query, g is largest at left_of(N1) v = H1 D / M,
 // and g > 0 there if H1 H2 M > 0. M = 0: both lines have one direction, and g has no summit.
@@ -105,7 +105,7 @@ int middle_of_parabola(const LatticePoint& p, const LatticeSite& segment, const 
     const std::vector<RootNumber> lifted = tower.adjoin_all(*disc.tower);
     const RootNumber m =
         tower.adjoin_root(RootNumber(norm2(n1)) * RootNumber(norm2(n2))) - RootNumber(dot(n1, n2));
-    const RootNumber along = tower.lift(CentreSeen(disc, p).along(left_of(n1)), lifted);
+    const RootNumber along = tower.lift(CenterSeen(disc, p).along(left_of(n1)), lifted);
     return (m * along - RootNumber(h1) * RootNumber(cross(n1, n2)) * tower.lift(disc.w, lifted)).sign();
   };
   return between(side(first), side(second)) ? 1 : -1;
@@ -120,7 +120,7 @@ int middle_behind_end(const LatticePoint& p, const LatticeSite& segment, const E
   const LatticeVector n1 = dot(raw, p - segment.a) < 0 ? -raw : raw;
   if (dot(n1, u) <= 0) return -1;
   auto side = [&](const ExactDisc& disc) {
-    const RootNumber along = CentreSeen(disc, p).along(left_of(n1));
+    const RootNumber along = CenterSeen(disc, p).along(left_of(n1));
     return (along * RootNumber(dot(n1, u)) +
             disc.w * RootNumber(dot(n1, p - segment.a)) * RootNumber(dot(left_of(n1), u)))
         .sign();
@@ -133,7 +133,7 @@ int middle_behind_end(const LatticePoint& p, const LatticeSite& segment, const E
 int middle_across_end(const LatticePoint& p, const LatticeSite& segment, const ExactDisc& first,
                       const ExactDisc& second) {
   const LatticeVector across = left_of(segment.b - segment.a);
-  auto side = [&](const ExactDisc& disc) { return CentreSeen(disc, p).along(across).sign(); };
+  auto side = [&](const ExactDisc& disc) { return CenterSeen(disc, p).along(across).sign(); };
   return between(side(first), side(second)) ? 1 : -1;
 }
 
@@ -156,31 +156,31 @@ double quotient(const RootNumber& number, const numbers::RootMagnitude& divisor)
 
 int clearance_sign(const ExactDisc& disc, const LatticeSite& query) {
   const LatticeVector u = query.b - query.a;
-  const CentreSeen centre(disc, query.a);
-  const RootNumber along = centre.along(u);
+  const CenterSeen center(disc, query.a);
+  const RootNumber along = center.along(u);
   if (query.is_point() || along.sign() <= 0) return clearance_sign(disc, query.a);
   if ((along - disc.w * RootNumber(norm2(u))).sign() >= 0) return clearance_sign(disc, query.b);
-  return (square(centre.along(left_of(u))) - disc.z * RootNumber(norm2(u))).sign();
+  return (square(center.along(left_of(u))) - disc.z * RootNumber(norm2(u))).sign();
 }
 
-int side_of_centre(const ExactDisc& disc, const LatticePoint& point, const LatticeVector& direction) {
-  return CentreSeen(disc, point).along(direction).sign();
+int side_of_center(const ExactDisc& disc, const LatticePoint& point, const LatticeVector& direction) {
+  return CenterSeen(disc, point).along(direction).sign();
 }
 
 int compare_along(const ExactDisc& first, const ExactDisc& second, const LatticeVector& direction) {
   numbers::SqrtTower tower;
   const std::vector<RootNumber> lifted_first = tower.adjoin_all(*first.tower),
                                 lifted_second = tower.adjoin_all(*second.tower);
-  const RootNumber a = tower.lift(CentreSeen(first, first.origin).along(direction), lifted_first);
-  const RootNumber b = tower.lift(CentreSeen(second, first.origin).along(direction), lifted_second);
+  const RootNumber a = tower.lift(CenterSeen(first, first.origin).along(direction), lifted_first);
+  const RootNumber b = tower.lift(CenterSeen(second, first.origin).along(direction), lifted_second);
   return (a * tower.lift(second.w, lifted_second) - b * tower.lift(first.w, lifted_first)).sign();
 }
 
 RoundedDisc rounded(const ExactDisc& disc) {
   const numbers::RootMagnitude w = magnitude(disc.w);
-  const CentreSeen centre(disc, {0, 0});
+  const CenterSeen center(disc, {0, 0});
   const double radius = disc.z.sign() == 0 ? 0 : (numbers::square_root(magnitude(disc.z)) / w).rounded();
-  return {quotient(centre.x, w), quotient(centre.y, w), radius};
+  return {quotient(center.x, w), quotient(center.y, w), radius};
 }
 
 int exact_clearance_sign(SiteTriple sites, const LatticeSite& query) {

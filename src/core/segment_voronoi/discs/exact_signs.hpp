@@ -21,13 +21,13 @@ struct NoDisc : std::invalid_argument {
 
 // See exact_clearance_sign.
 int clearance_sign(const ExactDisc& disc, const kernel::LatticeSite& query);
-// The sign of (centre - point) * direction.
-int side_of_centre(const ExactDisc& disc, const kernel::LatticePoint& point,
+// The sign of (center - point) * direction.
+int side_of_center(const ExactDisc& disc, const kernel::LatticePoint& point,
                    const kernel::LatticeVector& direction);
-// The sign of (centre of first - centre of second) * direction.
+// The sign of (center of first - center of second) * direction.
 int compare_along(const ExactDisc& first, const ExactDisc& second, const kernel::LatticeVector& direction);
 
-// The disc's centre on the lattice and its radius: each with a relative error of at most 2^-52.
+// The disc's center on the lattice and its radius: each with a relative error of at most 2^-52.
 struct RoundedDisc {
   double x, y, radius;
 };
@@ -35,7 +35,7 @@ RoundedDisc rounded(const ExactDisc& disc);
 
 // Of discs given by their sites.
 
-// The sign of the distance from the disc's centre to the query, as a closed set, less the radius: -1 if the
+// The sign of the distance from the disc's center to the query, as a closed set, less the radius: -1 if the
 // query enters the disc, 0 if it only touches, 1 if it stays clear.
 int exact_clearance_sign(SiteTriple sites, const kernel::LatticeSite& query);
 
@@ -44,12 +44,12 @@ bool exact_same_disc(SiteTriple first, SiteTriple second);
 
 // Does a piece of a Voronoi edge survive in its middle when a segment is inserted?
 //
-// The edge between the cells of `left` and `right` runs between the centres of two discs that touch both and
+// The edge between the cells of `left` and `right` runs between the centers of two discs that touch both and
 // that the query segment enters; its ends are sites already, and enter none of the discs along the edge.
 // Gives the sign of the largest clearance along the edge: 1 if it is positive somewhere, -1 if the query
 // enters every disc; it is never 0, as then a point site would be inside the query. Where an end p of the
 // query is one of the two sites, the clearance is 0 all the way behind p: there the sign of the largest of
-// (p - centre) * direction counts.
+// (p - center) * direction counts.
 int exact_edge_clearance_sign(const kernel::LatticeSite& left, const kernel::LatticeSite& right,
                               SiteTriple first, SiteTriple second, const kernel::LatticeSite& query);
 

@@ -25,9 +25,9 @@ struct alignas(64) VoronoiRecord {
   // The corner across the edge opposite to each site: the edge between the following two sites. Corners, not
   // records: two vertices may share two edges, and pairs of sites may share several.
   std::array<Corner, 3> twins;
-  double x, y;            // centre of the disc that touches the sites; indeterminate at infinity
+  double x, y;            // center of the disc that touches the sites; indeterminate at infinity
   double radius;          // infinite if one site is the one at infinity
-  float position_error;   // bounds the distance of (x, y) from the true centre
+  float position_error;   // bounds the distance of (x, y) from the true center
   float radius_error;     // bounds the error of the radius
   std::int32_t stamp;     // the last attempt that tested this vertex: twice its number, plus 1 if in conflict
   std::uint8_t left;      // bit i: site i is a segment, and the disc lies to the left of it

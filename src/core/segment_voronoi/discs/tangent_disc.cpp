@@ -164,7 +164,7 @@ class Solver {
     return through_point(point(p), s, t);
   }
 
-  // The centre at distance t above p, an end of the line; t is known within k roundings.
+  // The center at distance t above p, an end of the line; t is known within k roundings.
   static Disc above_end(const LatticePoint& p, const Line<Real>& line, const Real& t, double k) {
     const double scale = u * rough(t);
     return {p, -(t * line.uy), t * line.ux, t, (k + 4) * scale, k * scale};
@@ -217,7 +217,7 @@ class Solver {
             60 * u * rough(r)};
   }
 
-  // Two segments s, t that share an end o, and a point q between them: the centre is r g, where g has
+  // Two segments s, t that share an end o, and a point q between them: the center is r g, where g has
   // distance 1 from both lines and |g|^2 = G = 1 + cot^2 of half the angle between them. g . w = (e1 + e2) G
   // / 2 for w = q - o at distances e1, e2, and the discriminant of |r g - w| = r is G e1 e2. The small root
   // has q beyond the chord of its touching points, as seen from o; then (q, left side, right side) are

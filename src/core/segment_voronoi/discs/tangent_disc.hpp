@@ -1,4 +1,4 @@
-// The disc that touches three sites: centre and radius in closed form, with bounds of their errors.
+// The disc that touches three sites: center and radius in closed form, with bounds of their errors.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ inline constexpr double roundoff<numbers::DoubleDouble> = 0x1p-102;
 template <class Real>
 struct TangentDisc {
   kernel::LatticePoint anchor;
-  Real x, y;  // the centre less the anchor
+  Real x, y;  // the center less the anchor
   Real radius;
   double position_error, radius_error;  // bounds, if known_within()
 

@@ -81,8 +81,8 @@ bool is_one_circle(const std::array<LatticeSite, 4>& segments) {
   return true;
 }
 
-// With n across the touched segment and w = q - p the centre is p + t n where t = |w|^2 / (2 n w) > 0, and
-// (centre - q) d has the sign of |w|^2 (n d) - 2 (n w) (w d). Both products are below 2^127
+// With n across the touched segment and w = q - p the center is p + t n where t = |w|^2 / (2 n w) > 0, and
+// (center - q) d has the sign of |w|^2 (n d) - 2 (n w) (w d). Both products are below 2^127
 // (core/kernel/lattice.hpp).
 std::optional<int> sign_along_from_end(const SegmentSites& sites, const VoronoiRecord& v, SiteIndex q,
                                        SiteIndex segment) {

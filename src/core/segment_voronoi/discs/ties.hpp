@@ -16,7 +16,7 @@ namespace vorotool::core::segment_voronoi::discs {
 bool is_one_circle(const std::array<kernel::LatticeSite, 4>& segments);
 
 // Discs that touch a segment of theirs at its end p and go through another point q: ties at q are decided in
-// integers. For a vertex of these sites: the sign of (centre - q) * direction for a segment that leaves q.
+// integers. For a vertex of these sites: the sign of (center - q) * direction for a segment that leaves q.
 // Nothing for a vertex of other sites.
 std::optional<int> sign_along_from_end(const SegmentSites& sites, const VoronoiRecord& vertex, SiteIndex q,
                                        SiteIndex segment);

@@ -189,11 +189,11 @@ class InnerPoints {
   }
 
  private:
-  const Point& centre(Site vertex) const { return in_.vertices[base::at(vertex)]; }
+  const Point& center(Site vertex) const { return in_.vertices[base::at(vertex)]; }
 
   Point place_between(std::size_t edge, double part) const {
     const auto [left, right] = in_.edge_sites[edge];
-    const Point a = centre(in_.edges[edge][0]), b = centre(in_.edges[edge][1]);
+    const Point a = center(in_.edges[edge][0]), b = center(in_.edges[edge][1]);
     if (in_.is_point(left) != in_.is_point(right)) {
       const Site point = in_.is_point(left) ? left : right, segment = point == left ? right : left;
       if (!in_.is_end(point, segment)) return place_on_parabola(point, segment, a, b, part);
@@ -224,7 +224,7 @@ class InnerPoints {
     const auto [source, target] = in_.edges[edge];
     const double scale = extent_ * 4 * (part - (source < 0 && target < 0 ? 0.4 : 0)) *
                          (source < 0 && target >= 0 ? -1 : 1) / length(outwards_x, outwards_y);
-    const Point start = source >= 0 ? centre(source) : target >= 0 ? centre(target) : middle(left, right);
+    const Point start = source >= 0 ? center(source) : target >= 0 ? center(target) : middle(left, right);
     return {start.x + scale * outwards_x, start.y + scale * outwards_y};
   }
 
@@ -253,7 +253,7 @@ class InnerPoints {
     double size = std::abs(place.x) + std::abs(place.y) + r + extent_;
     for (const Site v : in_.edges[edge]) {
       if (v >= 0)
-        size += std::abs(centre(v).x) + std::abs(centre(v).y) + in_.radius[static_cast<std::size_t>(v)];
+        size += std::abs(center(v).x) + std::abs(center(v).y) + in_.radius[static_cast<std::size_t>(v)];
     }
     const double tolerance = 0x1p-44 * size;
     if (std::abs(r - other) > tolerance)

@@ -174,7 +174,7 @@ class Vertex {
       return {};
     }
     if (exact() == nullptr || exact()->z.sign() == 0) {
-      return fault("is no centre of a disc: none touches three of the sites in this order");
+      return fault("is no center of a disc: none touches three of the sites in this order");
     }
     const discs::RoundedDisc rounded_disc = discs::rounded(*exact());
     disc_ = {rounded_disc.x, rounded_disc.y, rounded_disc.radius,
@@ -203,7 +203,7 @@ class Vertex {
     double x, y, length;
   };
 
-  // From a lattice point to the centre: the roundings of a double, and the error of the disc.
+  // From a lattice point to the center: the roundings of a double, and the error of the disc.
   Way way_from(const LatticePoint& p) const {
     const double x = (disc_.x - DoubleDouble(static_cast<double>(p.x))).head,
                  y = (disc_.y - DoubleDouble(static_cast<double>(p.y))).head;
@@ -376,7 +376,7 @@ class Vertex {
   }
 
   Fault check_exactly(Site site) {
-    if (exact() == nullptr) return fault("is no centre of a disc");
+    if (exact() == nullptr) return fault("is no center of a disc");
     const int sign = discs::clearance_sign(*exact(), in_.site(site));
     if (sign < 0) return fault("is nearer to site " + std::to_string(site) + " than its radius");
     if (sign > 0 || !touches(*exact(), in_.site(site))) return {};

@@ -12,7 +12,7 @@
 namespace vorotool::core::segment_voronoi::verify {
 
 // What is wrong with a vertex whose ring of sites has at least three, all distinct. Nothing if it is the
-// centre of a disc that exactly the sites of the ring touch, in the order of the ring, and none enters, and
+// center of a disc that exactly the sites of the ring touch, in the order of the ring, and none enters, and
 // its values are right to `value_error_bound`.
 //
 // Floating point with error bounds decides nearly everything; exact numbers decide the rest.

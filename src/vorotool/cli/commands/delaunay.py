@@ -56,7 +56,7 @@ OF_TRIANGULATIONS = frozenset(
     type=click.Choice(GRAPHS, case_sensitive=False),
     default="delaunay",
     show_default=True,
-    help="Which edges: all; those of the Gabriel graph, of relative neighbours, or of the minimum spanning tree.",
+    help="Which edges: all; those of the Gabriel graph, of relative neighbors, or of the minimum spanning tree.",
 )
 @click.option(
     "--frame",
@@ -83,7 +83,7 @@ def command(**options: Any) -> None:
     NPY), whose components or labels count as points at their centroids; - is standard input. Label i is the i-th
     point; labels of the input are kept. OBJ and files for Triangle (.edge, .ele, .node) number the points instead.
 
-    --what statistics summarises area, perimeter, roundness, neighbours and distances of whole cells.
+    --what statistics summarises area, perimeter, roundness, neighbors and distances of whole cells.
 
     --what compare lists where the digital rule differs from the exact triangulation, each with its cause.
     """

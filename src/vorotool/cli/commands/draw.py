@@ -35,7 +35,7 @@ FORMATS = formats_of("draw")
 @batch_options(table=False)
 @shared("no-clobber", "overwrite", "quiet", "verbose")
 def command(**options: Any) -> None:
-    """Draw a label image, in which neighbouring regions never share a colour, a skeleton, a Voronoi map, or shapes.
+    """Draw a label image, in which neighboring regions never share a color, a skeleton, a Voronoi map, or shapes.
 
     \b
     Example:

@@ -75,8 +75,8 @@ def command(**options: Any) -> None:
     are equally near to a whole region, the first has it. Borders are straight lines and parabolas; as GeoJSON, WKT and
     in files of maps they are lines, the same in both cells.
 
-    --what edges lists the borders, neighbours the pairs of cells that share one, table a row for each cell, discs the
-    largest empty disc between the sites, with its centre in the frame or the clip.
+    --what edges lists the borders, neighbors the pairs of cells that share one, table a row for each cell, discs the
+    largest empty disc between the sites, with its center in the frame or the clip.
     """
     run_command(RECIPE, VoronoiOptions(**options))
 

@@ -21,7 +21,7 @@ _GROUPS = {
     "Input": "columns input_format input_layer input_crs crs page volume pixel_size spacing seeds connectivity "
     "threshold invert min_area fill_holes outline border simplify join_tolerance",
     "Frame": "size window cell_size frame clip enclosures",
-    "Pictures": "layers slice overlay width y_up scale drawing_unit aspect extent background colours "
+    "Pictures": "layers slice overlay width y_up scale drawing_unit aspect extent background colors "
     "line_widths label_by legend scale_bar animate frames fps",
     "Many inputs": "out_dir files_from null jobs keep_going dry_run resume shard follow table cluster",
     "Checks and resources": "verify strict stats threads max_pixels max_sites quiet verbose",

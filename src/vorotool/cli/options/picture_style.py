@@ -9,9 +9,9 @@ from typing import Any
 import click
 
 from vorotool.cli.options.parameter_types import ParameterType
-from vorotool.cli.options.shared import SPELLINGS, Decorator, together
+from vorotool.cli.options.shared import Decorator, in_our_spelling, together
 from vorotool.cli.options.suggestions import words
-from vorotool.jobs.picture_style import MILLIMETRES, Scale, colour_code
+from vorotool.jobs.picture_style import MILLIMETRES, Scale, color_code
 
 LEAST_ASPECT = 0.001
 """Pictures that are a thousand times stretched show nothing."""
@@ -37,21 +37,21 @@ class ScaleType(ParameterType[Scale]):
         return Scale(number, is_ratio=bool(colon))
 
 
-class Colour(ParameterType[str]):
-    """A colour: ``#rrggbb``, or a name as in CSS."""
+class Color(ParameterType[str]):
+    """A color: ``#rrggbb``, or a name as in CSS."""
 
     name = "COLOR"
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
         """Give it as ``#rrggbb``."""
-        code = colour_code(str(value))
+        code = color_code(str(value))
         if code is None:
-            self.fail(f"{value!r}: expected a colour such as #aa3344 or navy", param, ctx)
+            self.fail(f"{value!r}: expected a color such as #aa3344 or navy", param, ctx)
         return code
 
 
-class Ground(Colour):
-    """A colour, or ``none``."""
+class Ground(Color):
+    """A color, or ``none``."""
 
     name = "none|COLOR"
 
@@ -74,7 +74,7 @@ class OfLayer(ParameterType[tuple[str, Any]]):
         if not sign or not layer.strip():
             self.fail(f"{value!r}: expected {self.name}, such as skeleton={self._example}", param, ctx)
         name = layer.strip().lower()
-        return SPELLINGS.get(name, name), self._kind.convert(rest, param, ctx)
+        return in_our_spelling(name), self._kind.convert(rest, param, ctx)
 
 
 class Width(ParameterType[float]):
@@ -125,10 +125,10 @@ def picture_style_options(*, has_scale: bool = True) -> Decorator:
         click.option(
             "--color",
             "--colour",
-            "colours",
-            type=OfLayer(Colour(), "red"),
+            "colors",
+            type=OfLayer(Color(), "red"),
             multiple=True,
-            help="Colour of a layer of pictures, such as skeleton=#0000ff or seeds=red, of cells that of borders; "
+            help="Color of a layer of pictures, such as skeleton=#0000ff or seeds=red, of cells that of borders; "
             "may be given again.",
         ),
         click.option(
@@ -144,7 +144,7 @@ def picture_style_options(*, has_scale: bool = True) -> Decorator:
             metavar="COLUMN",
             help="Column or property that names objects or sites in pictures, instead of their ids.",
         ),
-        click.option("--legend", is_flag=True, help="Draw the names of the layers with their colours in a corner."),
+        click.option("--legend", is_flag=True, help="Draw the names of the layers with their colors in a corner."),
         click.option(
             "--scale-bar",
             is_flag=True,

@@ -46,7 +46,7 @@ def shape_options(*between: str, flattened: str = "") -> Decorator:
         click.option(
             "--outline",
             type=click.Choice(["crack", "contour"], case_sensitive=False),
-            help="Of an image: around pixels (default), or half-way between the centres of pixels.",
+            help="Of an image: around pixels (default), or half-way between the centers of pixels.",
         ),
         click.option(
             "--seeds",

@@ -19,8 +19,15 @@ if TYPE_CHECKING:
 
 Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
 
-SPELLINGS = {"color": "colour", "neighbors": "neighbours", "centreline": "centerline"}
-"""American and British spellings are both accepted."""
+SPELLINGS = (("colour", "color"), ("centre", "center"), ("neighbour", "neighbor"))
+"""British spellings of what users type, and ours."""
+
+
+def in_our_spelling(name: str) -> str:
+    """Return a name as we spell it."""
+    for british, american in SPELLINGS:
+        name = name.replace(british, american)
+    return name
 
 
 LARGEST_EXPONENT = 400
@@ -185,7 +192,7 @@ class Names(ParameterType[tuple[str, ...]]):
         if isinstance(value, tuple):
             return value
         given = (name.strip().lower() for name in value.split(","))
-        names = tuple(SPELLINGS.get(name, name) for name in given)
+        names = tuple(map(in_our_spelling, given))
         for name in names:
             if name not in self.choices:
                 self.fail(f"{name!r} is not one of {', '.join(self.choices)}", param, ctx)

@@ -86,12 +86,12 @@ def alpha_hull(shape: AlphaShape) -> AlphaHull:
     outer = np.flatnonzero((shape.point_classes() < 3) & (shape.family.mesh.first == np.arange(len(shape.points))))
     alone = np.array([v for v in outer.tolist() if v not in on_arcs], dtype=np.int32)
     arc = pieces.arc[order]
-    place, centre = np.ldexp(pieces.place[order], exponent), np.ldexp(arcs.centre[arc], exponent)
+    place, center = np.ldexp(pieces.place[order], exponent), np.ldexp(arcs.center[arc], exponent)
     return AlphaHull(
         shape,
         place[:, 0],
         place[:, 1],
-        centre,
+        center,
         arcs.edge[arc],
         ring_start,
         alone,
@@ -129,7 +129,7 @@ class _Pieces:
 
 
 class _Arcs:
-    """The arc of each boundary edge, clockwise around the centre of its empty disc."""
+    """The arc of each boundary edge, clockwise around the center of its empty disc."""
 
     def __init__(self, shape: AlphaShape, exponent: int) -> None:
         self.r = float(np.ldexp(float(shape.r), -exponent))
@@ -138,13 +138,13 @@ class _Arcs:
         a, b = self._directed(shape)
         self.a, self.b = a, b
         self.start, self.end = self.points[a], self.points[b]
-        # The triangle is on the left of a to b, the centre on the right.
-        middle, right = self._to_centres(self.start, self.end)
-        self.centre = middle + right
+        # The triangle is on the left of a to b, the center on the right.
+        middle, right = self._to_centers(self.start, self.end)
+        self.center = middle + right
         self.angle = 2 * inverse_sine(hypotenuse(*(self.end - self.start).T) / 2 / self.r)
         singular = shape.family.edges[shape.edge_index[shape.kind == CLASSES.index("singular")]]
-        middle, right = self._to_centres(*self.points[singular.T])
-        self.centres = np.concatenate([self.centre, middle + right, middle - right])
+        middle, right = self._to_centers(*self.points[singular.T])
+        self.centers = np.concatenate([self.center, middle + right, middle - right])
 
     def _directed(self, shape: AlphaShape) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
         """Ends of each boundary edge, with the shape's triangle on the left."""
@@ -159,8 +159,8 @@ class _Arcs:
         a, b = ends.T
         return np.where(forward, a, b), np.where(forward, b, a)
 
-    def _to_centres(self, a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Middles of a to b, and by what Pythagoras says the way to centres on the right."""
+    def _to_centers(self, a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Middles of a to b, and by what Pythagoras says the way to centers on the right."""
         across = b - a
         half = hypotenuse(*across.T) / 2
         depth = np.sqrt(np.maximum((self.r - half) * (self.r + half), 0))
@@ -169,16 +169,16 @@ class _Arcs:
 
     def at(self, arc: NDArray[np.int64], turned: NDArray[np.float64]) -> NDArray[np.float64]:
         """Points of arcs, so far from their starts, as an angle."""
-        x, y = (self.start[arc] - self.centre[arc]).T
+        x, y = (self.start[arc] - self.center[arc]).T
         cosine, sine = cosine_and_sine(turned)
         turned_offsets = np.stack([x * cosine + y * sine, y * cosine - x * sine], axis=1)
-        places: NDArray[np.float64] = self.centre[arc] + turned_offsets
+        places: NDArray[np.float64] = self.center[arc] + turned_offsets
         return places
 
     def turn_of(self, arc: NDArray[np.int64], points: NDArray[np.float64]) -> NDArray[np.float64]:
         """How far points on the circles of arcs are from their starts, in (-π, π]."""
-        ux, uy = (self.start[arc] - self.centre[arc]).T
-        vx, vy = (points - self.centre[arc]).T
+        ux, uy = (self.start[arc] - self.center[arc]).T
+        vx, vy = (points - self.center[arc]).T
         return -angle_of(ux * vx + uy * vy, ux * vy - uy * vx)
 
     def crossings(self) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]:
@@ -195,13 +195,13 @@ class _Arcs:
         boxes = shapely.box(*(low - slack).T, *(high + slack).T)
         i, j = shapely.STRtree(boxes).query(boxes)
         i, j = i[i < j], j[i < j]
-        between = self.centre[j] - self.centre[i]
+        between = self.center[j] - self.center[i]
         half = hypotenuse(*between.T) / 2
         meets = (half > 0) & (half < self.r)
         i, j, between, half = i[meets], j[meets], between[meets], half[meets]
         reach = np.sqrt((self.r - half) * (self.r + half)) / (2 * half)
         normal = np.stack([-between[:, 1], between[:, 0]], axis=1) * reach[:, None]
-        base = (self.centre[i] + self.centre[j]) / 2
+        base = (self.center[i] + self.center[j]) / 2
         found = [self._within(i, j, base + sign * normal) for sign in (1, -1)]
         return tuple(np.concatenate(part) for part in zip(*found, strict=True))  # type: ignore[return-value]
 
@@ -247,7 +247,7 @@ class _Arcs:
         covered = np.zeros(len(arc), dtype=bool)
         if not len(arc):
             return covered
-        tree = shapely.STRtree(shapely.points(self.centres))
+        tree = shapely.STRtree(shapely.points(self.centers))
         for part in _PROBES:
             left = np.flatnonzero(~covered)
             turned = spans[left, 0] + part * (spans[left, 1] - spans[left, 0])

@@ -127,7 +127,7 @@ def _edges_and_sides(
 ) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
     if not len(mesh.triangles):
         return mesh.edges, np.full(mesh.edges.shape, -1, dtype=np.int32)
-    return _core.alpha.edges_of_triangles(mesh.triangles, mesh.neighbours, threads, progress)
+    return _core.alpha.edges_of_triangles(mesh.triangles, mesh.neighbors, threads, progress)
 
 
 def alpha_edges(
@@ -321,7 +321,7 @@ def _reclassified(
 def _polygons(family: AlphaComplex, region: NDArray[np.int32], progress: Progress) -> PolygonSet:
     """One polygon a region, traced along directed sides of triangles that have the region on their left."""
     mesh = family.mesh
-    across = np.append(region, np.int32(-1))[mesh.neighbours]
+    across = np.append(region, np.int32(-1))[mesh.neighbors]
     t, k = np.nonzero((region[:, None] >= 0) & (across < 0)) if len(region) else (np.empty(0, np.intp),) * 2
     a = np.ascontiguousarray(mesh.triangles[t, (k + 1) % 3], dtype=np.int32)
     b = np.ascontiguousarray(mesh.triangles[t, (k + 2) % 3], dtype=np.int32)

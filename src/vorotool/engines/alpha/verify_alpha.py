@@ -199,8 +199,8 @@ def _check_regions(shape: AlphaShape) -> None:
     both = (t >= 0) & (u >= 0)
     t, u = t[both], u[both]
     t, u = t[inside[t] & inside[u]], u[inside[t] & inside[u]]
-    _fail(region[t] != region[u], "neighbouring triangles in the shape have different regions")
-    leader = np.arange(len(region))  # by spreading the smallest number of neighbours, doubling the reach each time
+    _fail(region[t] != region[u], "neighboring triangles in the shape have different regions")
+    leader = np.arange(len(region))  # by spreading the smallest number of neighbors, doubling the reach each time
     while True:
         before = leader.copy()
         np.minimum.at(leader, t, before[u])
@@ -219,7 +219,7 @@ def _check_rings(shape: AlphaShape) -> None:
     ring = owners(np.diff(polygons.ring_start))
     ends = polygons.xy[polygons.following]
     sides = np.concatenate([polygons.xy, ends, polygons.ring_polygon[ring][:, None]], axis=1)
-    across = np.append(shape.region, np.int32(-1))[family.mesh.neighbours]
+    across = np.append(shape.region, np.int32(-1))[family.mesh.neighbors]
     t, k = np.nonzero(shape.inside[:, None] & (across < 0))
     corners = family.mesh.triangles
     a, b = family.points[corners[t, (k + 1) % 3]], family.points[corners[t, (k + 2) % 3]]

@@ -46,7 +46,7 @@ def _by_angle(at: Indices, way: Indices) -> Indices:
     half = np.where((way[:, 1] > 0) | ((way[:, 1] == 0) & (way[:, 0] > 0)), 0, 1)
     angle = angle_of(*way.T)
     order = np.lexsort((np.where(half == 0, angle, angle + 7), half, at))
-    while True:  # rounded angles of neighbours may be out of order
+    while True:  # rounded angles of neighbors may be out of order
         a, b = order[:-1], order[1:]
         swap = (at[a] == at[b]) & (half[a] == half[b]) & (way[a, 0] * way[b, 1] - way[a, 1] * way[b, 0] < 0)
         swap[1:] &= ~swap[:-1]

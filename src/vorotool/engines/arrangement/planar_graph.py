@@ -150,7 +150,7 @@ def arranged(given: PolygonSet, placement: Placement, *, progress: Progress = No
     is_repaired, point_holes = made.pop("is_repaired") != 0, made.pop("point_holes").reshape(-1, 3)
     repairs = {name: count for name, (count, _, _) in found.items()}
     scale, move = math.ldexp(1.0, placement.exponent), placement.largest_move
-    if repairs["moved_edges"]:  # within a cell, towards its centre: at most half its diagonal
+    if repairs["moved_edges"]:  # within a cell, towards its center: at most half its diagonal
         move = math.nextafter(move + 0.7072 * scale, math.inf)
     graph = PlanarGraph(
         **made,

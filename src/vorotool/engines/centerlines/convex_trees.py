@@ -2,8 +2,8 @@
 
 All places inside a convex chain are nearest to one of its edges, each of which is a part of the border of a half-plane.
 So the distance to the chain is the least of linear functions, and its level lines are chains of parallels: as they move
-inwards, edges between the first and the last one shrink to a point each, where their neighbours meet. These points are
-the nodes, and those between that two neighbours bound are the arcs.
+inwards, edges between the first and the last one shrink to a point each, where their neighbors meet. These points are
+the nodes, and those between that two neighbors bound are the arcs.
 """
 
 from __future__ import annotations
@@ -79,7 +79,7 @@ def _collapse(
     heapify(heap)
     while heap:
         distance, x, y, k, one, other = heappop(heap)
-        if before.get(k) != one or behind.get(k) != other:  # its neighbours are others since, or it is gone
+        if before.get(k) != one or behind.get(k) != other:  # its neighbors are others since, or it is gone
             continue
         arcs += [(len(nodes), corner[one], k, one), (len(nodes), corner[k], other, k)]
         corner[one] = len(nodes)

@@ -25,7 +25,7 @@ from vorotool.products.formats import resolved
 if TYPE_CHECKING:
     from vorotool.typing import FrameLike, MeshLike, PolygonsLike
 
-_COLUMNS = ("label", "x", "y", "area", "perimeter", "roundness", "neighbours", "nearest_distance", "whole")
+_COLUMNS = ("label", "x", "y", "area", "perimeter", "roundness", "neighbors", "nearest_distance", "whole")
 
 
 def cell_statistics(
@@ -78,7 +78,7 @@ def cell_statistics(
     >>> import vorotool
     >>> summary = cell_statistics(vorotool.read(vorotool.sample("dots.csv"))).summary
     >>> summary["measure"][3], summary["count"][3], round(summary["mean"][3], 2)
-    ('neighbours', np.int64(32), np.float64(5.75))
+    ('neighbors', np.int64(32), np.float64(5.75))
     """
     threads = checked_threads(threads)
     if isinstance(points, LabelImage):

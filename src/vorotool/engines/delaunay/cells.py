@@ -38,7 +38,7 @@ def voronoi_cells(
     """Compute the Voronoi cells of points, clipped to a frame.
 
     Which vertices a cell has is decided exactly, and every vertex is the place nearest to the exact one that doubles
-    hold: neighbouring cells share vertices bit for bit, and the cells tile the frame. Points outside the frame are
+    hold: neighboring cells share vertices bit for bit, and the cells tile the frame. Points outside the frame are
     allowed; their cells may be empty. So may be cells too small for doubles.
 
     Parameters
@@ -100,8 +100,8 @@ def _box(frame: FrameLike | None, mesh: Triangulation, area: Any) -> Box:
     return Box(*area.bounds)
 
 
-def cell_colours(mesh: Triangulation, *, progress: Progress = None) -> NDArray[np.uint32]:
-    """Colour points so that neighbours in the triangulation, and so neighbouring cells, differ.
+def cell_colors(mesh: Triangulation, *, progress: Progress = None) -> NDArray[np.uint32]:
+    """Color points so that neighbors in the triangulation, and so neighboring cells, differ.
 
     Parameters
     ----------
@@ -113,16 +113,16 @@ def cell_colours(mesh: Triangulation, *, progress: Progress = None) -> NDArray[n
     Returns
     -------
     (n,) uint32 array
-        Colours 1, 2, … of about equal frequency, at most 6.
+        Colors 1, 2, … of about equal frequency, at most 6.
 
     Examples
     --------
-    >>> cell_colours(delaunay([[0, 0], [4, 0], [0, 3]])).tolist()
+    >>> cell_colors(delaunay([[0, 0], [4, 0], [0, 3]])).tolist()
     [3, 2, 1]
     """
     check_value(mesh, "mesh", Triangulation)
     a, b = (np.ascontiguousarray(mesh.edges[:, side].astype(np.uint32)) for side in (0, 1))
-    return _core.graphs.colour_graph(len(mesh.points), a, b, progress)
+    return _core.graphs.color_graph(len(mesh.points), a, b, progress)
 
 
 # ---- clipping to polygons ----------------------------------------------------------------------------------

@@ -15,8 +15,8 @@ class CocircularTies:
     """The polygons of cocircular points, which may be triangulated in any way."""
 
     def __init__(self, mesh: Triangulation) -> None:
-        one, corner = np.nonzero(mesh.neighbours > np.arange(len(mesh))[:, None])
-        other = mesh.neighbours[one, corner]
+        one, corner = np.nonzero(mesh.neighbors > np.arange(len(mesh))[:, None])
+        other = mesh.neighbors[one, corner]
         a, b = (mesh.triangles[one, (corner + k) % 3] for k in (1, 2))
         apex = mesh.triangles[other].sum(axis=1, dtype=np.int64) - a - b
         quads = np.concatenate([mesh.triangles[one], apex[:, None]], axis=1)

@@ -91,7 +91,7 @@ def report_duplicates(mesh: Triangulation, *, strict: bool) -> None:
 def verify_triangulation(mesh: Triangulation, *, threads: int = 0, progress: Progress = None) -> None:
     """Check a triangulation exactly, from its arrays alone.
 
-    The checks: indices, orientations, each directed edge once, neighbours, a convex hull traversed once, every point
+    The checks: indices, orientations, each directed edge once, neighbors, a convex hull traversed once, every point
     used, edges, Euler's relation, every edge locally Delaunay, fans in cocircular polygons, duplicates, chains.
 
     Parameters
@@ -133,4 +133,4 @@ def triangulation_fault(mesh: Triangulation, threads: int, progress: Progress) -
 
 def core_mesh(mesh: Triangulation) -> _core.delaunay.Triangulation:
     """The arrays of a triangulation, for the core."""
-    return _core.delaunay.Triangulation(mesh.points, mesh.triangles, mesh.neighbours, mesh.edges, mesh.hull, mesh.first)
+    return _core.delaunay.Triangulation(mesh.points, mesh.triangles, mesh.neighbors, mesh.edges, mesh.hull, mesh.first)

@@ -24,7 +24,7 @@ def cut_out(shapes: NDArray[Any], area: Any) -> NDArray[Any]:
     import shapely
 
     made = np.empty(len(shapes), dtype=object)
-    centre = shapely.bounds(shapes).reshape(-1, 2, 2).mean(axis=1)
+    center = shapely.bounds(shapes).reshape(-1, 2, 2).mean(axis=1)
     waiting = [(np.arange(len(shapes)), Rings.of(area))]
     while waiting:
         chosen, rings = waiting.pop()
@@ -36,8 +36,8 @@ def cut_out(shapes: NDArray[Any], area: Any) -> NDArray[Any]:
         if len(chosen) <= FEW_SHAPES or len(rings.xy) <= FEW_VERTICES:
             made[chosen] = _cut_out_of(shapes[chosen], rings.area(), area)
             continue
-        axis = int(np.argmax(np.ptp(centre[chosen], axis=0)))
-        chosen = chosen[np.argsort(centre[chosen, axis], kind="stable")]
+        axis = int(np.argmax(np.ptp(center[chosen], axis=0)))
+        chosen = chosen[np.argsort(center[chosen, axis], kind="stable")]
         middle = len(chosen) // 2
         waiting += [(chosen[:middle], rings), (chosen[middle:], rings)]
     return made

@@ -1,4 +1,4 @@
-"""Gabriel graph, relative neighbourhood graph and minimum spanning tree of points."""
+"""Gabriel graph, relative neighborhood graph and minimum spanning tree of points."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def proximity_graph(
         A triangulation is used as it is. A point that lies on an earlier one has no edge.
     kind : {"gabriel", "relative", "mst"}
         The Gabriel graph joins two points if no other is inside or on the circle with the edge as diameter. The
-        relative neighbourhood graph joins them if no other is nearer to both than they are to each other. The minimum
+        relative neighborhood graph joins them if no other is nearer to both than they are to each other. The minimum
         spanning tree joins all points by edges of the least total length; of equal lengths the edge that comes first
         in the triangulation is taken first. Each is part of the one before.
     strict : bool

@@ -50,8 +50,8 @@ def site_table(
     Returns
     -------
     Table
-        ``label, x, y, area, perimeter, neighbours, nearest_label, nearest_distance, touches_frame, max_distance,
-        on_hull, duplicate_of_label``. Area and perimeter are of the clipped cell, 0 of an empty one; `neighbours` are
+        ``label, x, y, area, perimeter, neighbors, nearest_label, nearest_distance, touches_frame, max_distance,
+        on_hull, duplicate_of_label``. Area and perimeter are of the clipped cell, 0 of an empty one; `neighbors` are
         the points with an edge to this one in the triangulation; ``nearest_label`` is the nearest point at another
         place, by exact comparison, ties to the smallest label; ``max_distance`` is that of the farthest place of the
         cell. ``touches_frame`` and ``max_distance`` do not exist for empty cells. A point that lies on an earlier one,
@@ -77,7 +77,7 @@ def site_table(
         raise InputError("the cells are not those of the triangulation's points: give cells made from it")
     threads = checked_threads(threads)
     labels = np.ascontiguousarray(mesh.label_array, dtype=np.int64)
-    nearest, neighbours = _core.delaunay.nearest_neighbours(mesh.points, mesh.edges, labels, progress)
+    nearest, neighbors = _core.delaunay.nearest_neighbors(mesh.points, mesh.edges, labels, progress)
     repeated = mesh.first != np.arange(len(mesh.first))
     alone = nearest < 0
     with np.errstate(over="ignore"):  # beyond the largest double: infinite
@@ -95,7 +95,7 @@ def site_table(
         "y": np.ascontiguousarray(mesh.points[:, 1]),
         "area": np.ma.array(area, mask=repeated),
         "perimeter": np.ma.array(perimeter, mask=repeated),
-        "neighbours": np.ma.array(neighbours, mask=repeated),
+        "neighbors": np.ma.array(neighbors, mask=repeated),
         "nearest_label": np.ma.array(labels[nearest] if len(labels) else labels, mask=alone),
         "nearest_distance": np.ma.array(distance, mask=alone),
         "touches_frame": np.ma.array(touches, mask=cells.is_empty),

@@ -54,7 +54,7 @@ def verify_proximity_graph(graph: ProximityGraph) -> None:
     vorotool.errors.VerificationError: the edge from point 1 to point 4 is missing in the Gabriel graph
     """
     check_value(graph, "graph", ProximityGraph)
-    names = dict(zip(KINDS, ("Gabriel graph", "graph of relative neighbours", "minimum spanning tree"), strict=True))
+    names = dict(zip(KINDS, ("Gabriel graph", "graph of relative neighbors", "minimum spanning tree"), strict=True))
     count, index = len(graph.mesh.edges), graph.edge_index
     if graph.kind not in names:
         raise VerificationError(f"the kind {graph.kind!r} is none of {', '.join(KINDS)}")

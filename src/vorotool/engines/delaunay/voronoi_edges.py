@@ -10,19 +10,19 @@ from vorotool.geometry.mesh.triangulation import Triangulation
 
 
 def voronoi_lengths(
-    mesh: Triangulation, centres: NDArray[np.float64], low: NDArray[np.float64], high: NDArray[np.float64]
+    mesh: Triangulation, centers: NDArray[np.float64], low: NDArray[np.float64], high: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Length of the Voronoi edge of every edge of a triangulation, and of its part inside a rectangle."""
-    triangle, corner = np.nonzero(mesh.neighbours < np.arange(len(mesh))[:, None])  # each edge once
-    other = mesh.neighbours[triangle, corner]
+    triangle, corner = np.nonzero(mesh.neighbors < np.arange(len(mesh))[:, None])  # each edge once
+    other = mesh.neighbors[triangle, corner]
     a, b = (mesh.triangles[triangle, (corner + k) % 3] for k in (1, 2))
     on_hull = other < 0
-    start = centres[triangle]
+    start = centers[triangle]
     along = mesh.points[b] - mesh.points[a]
     outward = np.stack([along[:, 1], -along[:, 0]], axis=1) / hypotenuse(along[:, 0], along[:, 1])[:, None]
     # Far enough to cross the whole rectangle from wherever the ray begins.
     reach = np.abs(start - low).sum(axis=1) + np.abs(start - high).sum(axis=1) + 1
-    step = np.where(on_hull[:, None], outward * reach[:, None], centres[other] - start)
+    step = np.where(on_hull[:, None], outward * reach[:, None], centers[other] - start)
     size = hypotenuse(step[:, 0], step[:, 1])
     order = _order_of(mesh, a, b)
     return np.where(on_hull, np.inf, size)[order], (_share_inside(start, step, low, high) * size)[order]

@@ -14,7 +14,7 @@ from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.pixel_frame import Frame
 
 SHORT = 1.5
-"""Pixels. The centres of the four pixels around a corner lie within √2 of each other: a Voronoi edge that is no longer
+"""Pixels. The centers of the four pixels around a corner lie within √2 of each other: a Voronoi edge that is no longer
 can pass between them unseen. The rest is for edges that end just beside the pixels that would show them."""
 
 Members = tuple[int, ...]
@@ -49,13 +49,13 @@ class Causes:
         self._digital, self._exact = digital, exact
         self._has_region, self._split = has_region, split
         low = np.array([frame.x, frame.y], dtype=np.float64)
-        high = low + np.array([frame.width - 1, frame.height - 1])  # corners lie between the outermost pixel centres
-        centres = self._centres = exact.circumcentres()
-        beyond = np.maximum(low - centres, centres - high).max(axis=1, initial=-np.inf)
+        high = low + np.array([frame.width - 1, frame.height - 1])  # corners lie between the outermost pixel centers
+        centers = self._centers = exact.circumcenters()
+        beyond = np.maximum(low - centers, centers - high).max(axis=1, initial=-np.inf)
         edges, triangles = members_of(exact.edges), members_of(exact.triangles)
         self.beyond: dict[Members, float] = dict(zip(triangles, beyond.tolist(), strict=True))
         """How far each Voronoi vertex lies beyond the frame, in pixels."""
-        whole, inside = voronoi_lengths(exact, centres, low, high) if triangles else (np.full(len(edges), np.inf),) * 2
+        whole, inside = voronoi_lengths(exact, centers, low, high) if triangles else (np.full(len(edges), np.inf),) * 2
         self._whole: dict[Members, float] = dict(zip(edges, whole.tolist(), strict=True))
         self._inside: dict[Members, float] = dict(zip(edges, inside.tolist(), strict=True))
 
@@ -108,4 +108,4 @@ class Causes:
     def _vertices(self, v: int) -> NDArray[np.float64]:
         """(k, 2) vertices of a Voronoi cell."""
         start, triangles = self._star
-        return self._centres[triangles[start[v] : start[v + 1]]]
+        return self._centers[triangles[start[v] : start[v + 1]]]

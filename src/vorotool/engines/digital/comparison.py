@@ -68,7 +68,7 @@ def compare_digital(
     DigitalComparison
         Precision, recall and differences. The cause of each is the first of these that holds: ``cocircular`` (a tie:
         nothing is wrong) · ``no_region`` (a site that is nearest to no pixel) · ``off_frame`` (the Voronoi vertex, or
-        all of the Voronoi edge but a short part, lies beyond the outermost pixel centres) · ``four_labels`` (where four
+        all of the Voronoi edge but a short part, lies beyond the outermost pixel centers) · ``four_labels`` (where four
         labels meet at a corner every triple is a triangle, and no diagonal an edge) · ``split_region`` (a region that
         is not 4-connected) · ``short_edge`` (a Voronoi edge shorter than 1.5 pixels) · ``other``.
 
@@ -196,7 +196,7 @@ def _wider_frame(differences: list[Difference], causes: Causes, frame: Frame) ->
     if not off:
         return []
     beyond = sorted(causes.beyond[members] for members in off)
-    # Thin triangles on the hull have centres without end: nobody wants a frame of more than three times the size.
+    # Thin triangles on the hull have centers without end: nobody wants a frame of more than three times the size.
     padding = ceil(min(beyond[ceil(COVERED * len(beyond)) - 1], max(frame.shape)))
     numbers = (frame.x - padding, frame.y - padding, frame.width + 2 * padding, frame.height + 2 * padding)
     window = option(f"--window {','.join(map(str, numbers))}", f"window={numbers}")

@@ -57,9 +57,9 @@ def digital_triangulation(
 ) -> DigitalTriangulation:
     """Extract edges and triangles from the digital tessellation by the paper's rule, to the letter.
 
-    Edges link neighbouring regions, those with 4-neighbouring pixels ("by linking the neighboring seeds we obtain
-    the correct Delaunay triangulation"). Triangles come from a pixel and two of its 4-neighbours that are
-    8-neighbours of each other, where the three labels differ. Neither is always right: see `compare_digital`, and
+    Edges link neighboring regions, those with 4-neighboring pixels ("by linking the neighboring seeds we obtain
+    the correct Delaunay triangulation"). Triangles come from a pixel and two of its 4-neighbors that are
+    8-neighbors of each other, where the three labels differ. Neither is always right: see `compare_digital`, and
     `digital_delaunay` for the repair.
 
     Parameters
@@ -205,11 +205,11 @@ class DigitalRepair:
 
     # "rebuilt" if all sites had to be inserted one by one; "chain" for fewer than three or collinear sites
     route: str
-    split_regions: int = 0  # regions that were not 4-connected; pixels that went to a neighbouring region
-    moved_pixels: int = 0  # regions that were not 4-connected; pixels that went to a neighbouring region
+    split_regions: int = 0  # regions that were not 4-connected; pixels that went to a neighboring region
+    moved_pixels: int = 0  # regions that were not 4-connected; pixels that went to a neighboring region
     three_label_corners: int = 0  # corners that gave one triangle, and two
     four_label_corners: int = 0  # corners that gave one triangle, and two
-    twins: int = 0  # sites taken out because only two neighbours were left to them
+    twins: int = 0  # sites taken out because only two neighbors were left to them
     straightened: int = 0  # triangles of collinear sites
     filled: int = 0  # triangles that closed the hull beyond the frame
     flipped: int = 0  # sides that were not locally Delaunay
@@ -257,7 +257,7 @@ def repair_digital(
     """Repair and certify the triangulation of a digital tessellation, and count the repairs.
 
     Flooding makes regions 4-connected; each corner of three labels becomes a triangle, of four labels two; sites with
-    only two neighbours are removed; Graham's scan closes the hull along the frame; sides are flipped until all are
+    only two neighbors are removed; Graham's scan closes the hull along the frame; sides are flipped until all are
     Delaunay; sites without a triangle are inserted. Then `verify_triangulation` checks the result. If a step fails, all
     sites are inserted one by one, with a warning.
 

@@ -33,7 +33,7 @@ def verify_digital_triangulation(
     """Check a digital triangulation against the definitions of section 2.1, band by band.
 
     The labels of every band are checked by an independent search for the nearest seed; then each pixel is compared
-    with its neighbours.
+    with its neighbors.
 
     Parameters
     ----------
@@ -87,7 +87,7 @@ def _edges(labels: NDArray[Any]) -> NDArray[np.int64]:
 
 
 def _triangles(labels: NDArray[Any]) -> NDArray[np.int64]:
-    """Triples of different labels: of a pixel and a neighbour in its row and one in its column."""
+    """Triples of different labels: of a pixel and a neighbor in its row and one in its column."""
     a, b, c, d = labels[:-1, :-1], labels[:-1, 1:], labels[1:, :-1], labels[1:, 1:]
     return _distinct(np.concatenate([_columns(three) for three in ((a, b, c), (b, a, d), (c, a, d), (d, b, c))]))
 

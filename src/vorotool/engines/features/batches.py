@@ -82,7 +82,7 @@ class FeatureShapes:
     """Totals of features, each by itself, when all batches are done."""
 
     given: PolygonSet
-    # what the batches are parts of: the input without vertices that objects of an image have from their neighbours
+    # what the batches are parts of: the input without vertices that objects of an image have from their neighbors
     used: PolygonSet
     corners: OwnCorners | None  # the vertices that are left of the input; None if all are
     placement: Placement

@@ -1,4 +1,4 @@
-"""Outlines of pixels without the vertices that objects have from their neighbours only."""
+"""Outlines of pixels without the vertices that objects have from their neighbors only."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def own_corners(polygons: PolygonSet) -> OwnCorners | None:
     if not len(polygons.xy):
         return None
     candidates = _between_likes(polygons)
-    before, after = (polygons.xy[k] for k in _neighbours(polygons, candidates))
+    before, after = (polygons.xy[k] for k in _neighbors(polygons, candidates))
     here = polygons.xy[candidates]
     (ux, uy), (vx, vy) = (here - before).T, (after - here).T
     straight = candidates[(ux * vy == uy * vx) & (ux * vx + uy * vy > 0)]
@@ -54,7 +54,7 @@ def _between_likes(polygons: PolygonSet) -> Indices:
     return candidates[~np.equal(polygons.ring_kind, LINE)[ring]]
 
 
-def _neighbours(polygons: PolygonSet, vertices: Indices) -> tuple[Indices, Indices]:
+def _neighbors(polygons: PolygonSet, vertices: Indices) -> tuple[Indices, Indices]:
     """The vertices before and after some."""
     start = polygons.ring_start
     ring = np.searchsorted(start, vertices, side="right") - 1

@@ -74,7 +74,7 @@ def sheets_of_cracks(
     if len(pairs):
         touching, index = np.unique(pairs, return_inverse=True)
         a, b = np.ascontiguousarray(index.reshape(-1, 2).T.astype(np.uint32))
-        sheet[touching] = _core.graphs.colour_graph(len(touching), a, b, progress).astype(np.int32) - 1
+        sheet[touching] = _core.graphs.color_graph(len(touching), a, b, progress).astype(np.int32) - 1
     return sheet
 
 

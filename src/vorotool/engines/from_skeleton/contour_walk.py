@@ -149,8 +149,8 @@ class _HalfEdges:
 
     def _angles_out(self, half_edges: Indices) -> NDArray[np.float64]:
         """The direction in which each half-edge leaves: between the ways to the feet, however short the arc is."""
-        places, centre = SitePlaces(self.skeleton), self.skeleton.vertices[self.tail[half_edges]]
-        right, left = (_unit(places.feet(self.site[k], centre) - centre) for k in (half_edges, half_edges ^ 1))
+        places, center = SitePlaces(self.skeleton), self.skeleton.vertices[self.tail[half_edges]]
+        right, left = (_unit(places.feet(self.site[k], center) - center) for k in (half_edges, half_edges ^ 1))
         x, y = (left - right).T
         return angle_of(y, -x)
 

@@ -1,4 +1,4 @@
-"""Places of the axis that may be centres of the largest discs."""
+"""Places of the axis that may be centers of the largest discs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Places along arcs where a disc begins to touch another one: its centre is as far away as both radii together."""
+"""Places along arcs where a disc begins to touch another one: its center is as far away as both radii together."""
 
 from __future__ import annotations
 
@@ -32,10 +32,10 @@ class DiscPlaces:
         self._radii = np.stack([m.r0, np.where(m.is_parabola, m.r0 + m.along * m.slope0 / 2, (m.r0 + m.r1) / 2), m.r1])
 
     def touching(
-        self, rows: NDArray[np.intp], centre: Floats, radius: Floats
+        self, rows: NDArray[np.intp], center: Floats, radius: Floats
     ) -> tuple[NDArray[np.intp], NDArray[np.intp], Floats]:
         """Tell where discs on arcs touch given ones."""
-        coefficients, rest = self._polynomial(rows, centre, radius)
+        coefficients, rest = self._polynomial(rows, center, radius)
         least, most = coefficients.min(axis=0), coefficients.max(axis=0)
         covered = np.flatnonzero((least > 0) & ~self.is_parting[rows])
         crossed = np.flatnonzero((most > 0) & (least <= 0))
@@ -44,16 +44,16 @@ class DiscPlaces:
         at, u = crossed[place], roots[hand, place]
         kept = rest[0, at] * (1 - u) + rest[1, at] * u >= 0
         at, u = at[kept], u[kept]
-        return covered, at, self._refined(rows[at], u, centre[at], radius[at])
+        return covered, at, self._refined(rows[at], u, center[at], radius[at])
 
-    def _polynomial(self, rows: NDArray[np.intp], centre: Floats, radius: Floats) -> tuple[Floats, Floats]:
+    def _polynomial(self, rows: NDArray[np.intp], center: Floats, radius: Floats) -> tuple[Floats, Floats]:
         """Bernstein coefficients of what is positive where discs overlap; at both ends what must not be negative."""
         m, r = self.measures[rows], self._radii[:, rows]
         places = np.stack([m.source, m.control, m.target])
-        away, both = places - centre, r + radius
+        away, both = places - center, r + radius
         on_lines = np.stack([both[i] * both[j] - (away[i] * away[j]).sum(axis=1) for i, j in _ENDS])
         vertex = self.vertex[rows]
-        way = centre - vertex
+        way = center - vertex
         known = ((way * way).sum(axis=1) - radius * radius) / 2
         left = known - ((places - vertex) * way).sum(axis=2)
         on_parabolas = radius * r - left
@@ -64,14 +64,14 @@ class DiscPlaces:
         found = np.where(is_line, on_lines, np.where(is_parting, apart, on_parabolas))
         return found, np.where(is_parting, left[[0, 2]], 1.0)
 
-    def _refined(self, rows: NDArray[np.intp], u: Floats, centre: Floats, radius: Floats) -> Floats:
+    def _refined(self, rows: NDArray[np.intp], u: Floats, center: Floats, radius: Floats) -> Floats:
         """Newton's method on the distance itself, where it brings discs nearer to touching."""
         m = self.measures[rows]
-        excess, slope = _excess(m, u, centre, radius)
+        excess, slope = _excess(m, u, center, radius)
         for _ in range(_STEPS):
             step = np.divide(excess, slope, out=np.zeros_like(u), where=slope != 0)
             moved = np.clip(u - step, 0, 1)
-            new, new_slope = _excess(m, moved, centre, radius)
+            new, new_slope = _excess(m, moved, center, radius)
             better = np.abs(new) < np.abs(excess)
             if not better.any():
                 break
@@ -80,9 +80,9 @@ class DiscPlaces:
         return u
 
 
-def _excess(m: ArcMeasures, u: Floats, centre: Floats, radius: Floats) -> tuple[Floats, Floats]:
+def _excess(m: ArcMeasures, u: Floats, center: Floats, radius: Floats) -> tuple[Floats, Floats]:
     """By how much a disc at u is farther from the given one than touching, and its derivative."""
-    away = m.place(u) - centre
+    away = m.place(u) - center
     distance = np.sqrt((away * away).sum(axis=1))
     control = m.control
     v = u[:, None]

@@ -59,9 +59,9 @@ def _to_corner(skeleton: Skeleton, arcs: Indices) -> NDArray[np.bool_]:
 
 def _circles(skeleton: Skeleton, node: NDArray[np.integer], tolerance: float | None) -> tuple[Floats, Indices]:
     """Vertices of the circle about each node, and which circle each is of."""
-    centre, r = (np.repeat(values[node], 4, axis=0) for values in (skeleton.vertices, skeleton.radius))
+    center, r = (np.repeat(values[node], 4, axis=0) for values in (skeleton.vertices, skeleton.radius))
     ways = r[:, None] * np.tile(_QUARTERS, (len(node), 1))
     ends = r[:, None] * np.tile(np.roll(_QUARTERS, -1, axis=0), (len(node), 1))
     is_left = np.ones(len(r), dtype=bool)
-    xy, first = chords_of(centre + ways, centre + ends, centre, is_left, circle_tolerances(centre, r, tolerance))
+    xy, first = chords_of(center + ways, center + ends, center, is_left, circle_tolerances(center, r, tolerance))
     return xy, np.repeat(np.arange(len(r)) // 4, np.diff(first))

@@ -1,4 +1,4 @@
-"""The largest discs between points, lines and polygons, with centres in a region."""
+"""The largest discs between points, lines and polygons, with centers in a region."""
 
 from __future__ import annotations
 
@@ -42,17 +42,17 @@ def largest_empty_discs(
 ) -> Discs:
     """Find the largest discs that no point, line or polygon enters, exact to rounding.
 
-    Its centre is in a region; the disc may reach beyond. It is at a vertex of the Voronoi diagram of all vertices and
+    Its center is in a region; the disc may reach beyond. It is at a vertex of the Voronoi diagram of all vertices and
     edges, where one of its edges meets the border of the region, or in a corner of this.
 
     Parameters
     ----------
     shapes : PolygonSet, PointSet, (n, 2) array-like, data frame, geometry of shapely, geopandas, GeoJSON or WKT, image
-        As of `vorotool.voronoi`. Polygons are filled: no centre is inside. Those beyond the region count as well.
+        As of `vorotool.voronoi`. Polygons are filled: no center is inside. Those beyond the region count as well.
     within : Box, (x, y, w, h) or polygons, optional
-        Where centres are; by default the bounds and a tenth of their larger side around them.
+        Where centers are; by default the bounds and a tenth of their larger side around them.
     count : int
-        How many: first the largest, then the largest that is disjoint from those before, with its centre on the edges
+        How many: first the largest, then the largest that is disjoint from those before, with its center on the edges
         of the diagram or in a corner of the region, and so on. Discs may touch.
     threads : int
         Number of threads; 0 uses all.

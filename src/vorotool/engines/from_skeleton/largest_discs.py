@@ -39,7 +39,7 @@ def largest_discs(
 ) -> Discs:
     """Find the largest discs inside each feature (poles of inaccessibility), exact to rounding.
 
-    Centres are on the axis of a feature: its skeleton, which is computed exactly. There is no tolerance. Radii that
+    Centers are on the axis of a feature: its skeleton, which is computed exactly. There is no tolerance. Radii that
     differ by less than rounding are the same; of such discs the one with the smallest x comes first, and of these that
     with the smallest y. Between parallel edges the largest discs fill a segment: its middle stands for all of them.
 
@@ -99,7 +99,7 @@ def check_count(count: int | None) -> None:
 
 
 def discs_of_skeleton(skeleton: Skeleton, *, count: int | None = None, local: bool = False, threads: int = 0) -> Discs:
-    """Give the largest discs whose centres are on a skeleton inside polygons; arguments as of `largest_discs`."""
+    """Give the largest discs whose centers are on a skeleton inside polygons; arguments as of `largest_discs`."""
     own = skeleton.polygons.feature
     assert own is not None
     is_inside = skeleton.side == INTERIOR
@@ -114,7 +114,7 @@ def discs_of_skeleton(skeleton: Skeleton, *, count: int | None = None, local: bo
 
 
 class Axis:
-    """The skeleton inside features, with the places that may be centres."""
+    """The skeleton inside features, with the places that may be centers."""
 
     def __init__(self, skeleton: Skeleton, feature: Numbers, threads: int) -> None:
         self.skeleton, self.feature = skeleton, feature
@@ -140,12 +140,12 @@ class Axis:
         return self.maxima()
 
     def is_allowed(self, _candidates: Candidates) -> NDArray[np.bool_] | None:
-        """Which places may be centres; None if all may."""
+        """Which places may be centers; None if all may."""
         return None
 
     @property
     def is_whole(self) -> NDArray[np.bool_]:
-        """(p,) plateaus that may be centres everywhere."""
+        """(p,) plateaus that may be centers everywhere."""
         return np.asarray(self.middles.feature >= 0)
 
     def more(self) -> Candidates | None:
@@ -226,7 +226,7 @@ class _MoreDiscs:
         is_open[self.whole] = False
         left = axis.nodes[np.flatnonzero(is_open[axis.plateau] & (axis.nodes.feature >= 0))]
         more = axis.more()
-        self.left = self._centres(left if more is None else left.joined(more))
+        self.left = self._centers(left if more is None else left.joined(more))
 
     def after(self, taken: list[Candidates]) -> Candidates:
         """Give what may be the next disc of each feature."""
@@ -237,12 +237,12 @@ class _MoreDiscs:
         new = self._ends_of_touched(last, at).joined(self._on_arcs(last, at))
         for each in taken:
             new = new[np.flatnonzero(self._is_apart(new, each, self._of_features(each)[new.feature]))]
-        self.left = self.left.joined(self._centres(new))
+        self.left = self.left.joined(self._centers(new))
         whole = self.axis.middles[self.whole]
         return self.left.joined(whole[np.flatnonzero(at[whole.feature] >= 0)])
 
-    def _centres(self, some: Candidates) -> Candidates:
-        """Those of discs of some size, where centres may be."""
+    def _centers(self, some: Candidates) -> Candidates:
+        """Those of discs of some size, where centers may be."""
         some = some[np.flatnonzero(some.radius > self.axis.rounding)]
         allowed = self.axis.is_allowed(some)
         return some if allowed is None else some[np.flatnonzero(allowed)]

@@ -130,28 +130,28 @@ class _Discs:
     """Of nodes."""
 
     def __init__(self, skeleton: Skeleton, node: Indices) -> None:
-        self.centre, self.r = skeleton.vertices[node], skeleton.radius[node]
+        self.center, self.r = skeleton.vertices[node], skeleton.radius[node]
 
 
 def _edge_feet(a: _Discs, b: _Discs) -> tuple[Floats, Floats, list[Floats]]:
     """Where the common tangent on the right of a -> b touches the discs, and by how much that magnifies errors."""
-    way, growth = b.centre - a.centre, b.r - a.r
+    way, growth = b.center - a.center, b.r - a.r
     square = np.maximum((way * way).sum(axis=1), np.finfo(float).tiny)
     distance = np.sqrt(square)
     along = np.sqrt(np.maximum(distance - np.abs(growth), 0) * (distance + np.abs(growth)))
     inward = _turned((along[:, None] * way - growth[:, None] * _turned(way)) / square[:, None])
     factors = [np.divide(disc.r, along, out=np.zeros_like(along), where=along > 0) for disc in (a, b)]
-    return a.centre - a.r[:, None] * inward, b.centre - b.r[:, None] * inward, factors
+    return a.center - a.r[:, None] * inward, b.center - b.r[:, None] * inward, factors
 
 
 def _common_point(a: _Discs, b: _Discs) -> tuple[Floats, Floats]:
     """The point on the right of a -> b that is on both circles, and by how much that magnifies errors."""
-    way = b.centre - a.centre
+    way = b.center - a.center
     square = np.maximum((way * way).sum(axis=1), np.finfo(float).tiny)
     distance = np.sqrt(square)
     part = (square + (a.r - b.r) * (a.r + b.r)) / (2 * square)
     height = np.sqrt(np.maximum((a.r - part * distance) * (a.r + part * distance), 0))
-    place = a.centre + part[:, None] * way - (height / distance)[:, None] * _turned(way)
+    place = a.center + part[:, None] * way - (height / distance)[:, None] * _turned(way)
     factor = np.full(len(height), np.finfo(float).max)
     return place, np.divide(a.r * b.r, distance * height, out=factor, where=distance * height > 0)
 
@@ -168,7 +168,7 @@ def _outline(skeleton: Skeleton, contours: Contours, tolerance: float | None) ->
     feet = _feet(skeleton, contours)
     is_edge = skeleton.site_table.kind[contours.site] == EDGE
     node, after = contours.last_node, contours.after
-    centre, r = skeleton.vertices[node], skeleton.radius[node]
+    center, r = skeleton.vertices[node], skeleton.radius[node]
     start, end = feet.last, feet.first[after]
     noise = _noise(skeleton) * (1 + feet.last_factor + feet.first_factor[after])
     is_corner = r == 0
@@ -176,7 +176,7 @@ def _outline(skeleton: Skeleton, contours: Contours, tolerance: float | None) ->
     is_same = ~is_corner & (contours.is_joined | (between_edges & (_norm(end - start) <= noise)))
     is_cap = ~is_corner & ~is_same
     better = (feet.last_factor <= feet.first_factor[after])[:, None]
-    single = np.where(is_corner[:, None], centre, np.where(better, start, end))
+    single = np.where(is_corner[:, None], center, np.where(better, start, end))
     factor = np.where(is_corner, 0, np.minimum(feet.last_factor, feet.first_factor[after]))
     plain = between_edges & ~is_cap
     pieces = [
@@ -185,7 +185,7 @@ def _outline(skeleton: Skeleton, contours: Contours, tolerance: float | None) ->
             np.flatnonzero(~is_edge), 0, feet.first[~is_edge], contours.point[~is_edge], feet.first_factor[~is_edge]
         ),
         _Places(np.flatnonzero(plain), 1, single[plain], contours.shared_point[plain], factor[plain]),
-        *_caps(is_cap, is_edge, after, start, end, centre, tolerance),
+        *_caps(is_cap, is_edge, after, start, end, center, tolerance),
     ]
     return _in_order(pieces, contours, skeleton)
 
@@ -207,21 +207,21 @@ def _caps(
     after: Indices,
     start: Floats,
     end: Floats,
-    centre: Floats,
+    center: Floats,
     tolerance: float | None,
 ) -> list[_Places]:
     """Chords of circles between feet; a foot on a vertex is there already."""
     run = np.flatnonzero(is_cap)
-    a, b, c = start[run], end[run], centre[run]
+    a, b, c = start[run], end[run], center[run]
     u, v = a - c, b - c
     is_long = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0] < 0  # over half a circle
     middle = middles_of(a, b, c, is_long)
     starts = np.concatenate([a, middle[is_long]])
     ends = np.concatenate([np.where(is_long[:, None], middle, b), b[is_long]])
-    centres, runs = np.concatenate([c, c[is_long]]), np.concatenate([run, run[is_long]])
+    centers, runs = np.concatenate([c, c[is_long]]), np.concatenate([run, run[is_long]])
     rank = np.concatenate([np.ones(len(run)), np.full(int(is_long.sum()), 2)]).astype(np.int64)
-    each = circle_tolerances(centres, hypotenuse(*(starts - centres).T), tolerance)
-    xy, first = chords_of(starts, ends, centres, np.ones(len(runs), dtype=bool), each)
+    each = circle_tolerances(centers, hypotenuse(*(starts - centers).T), tolerance)
+    xy, first = chords_of(starts, ends, centers, np.ones(len(runs), dtype=bool), each)
     piece = owners(np.diff(first))
     kept = (np.arange(len(xy)) > first[piece]) | (rank[piece] == 2) | is_edge[runs[piece]]
     to_edge = is_edge[after[run]]

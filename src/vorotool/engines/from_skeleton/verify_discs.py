@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 
 LARGER = 2.0**-8
-"""Of the radius: no disc that is larger by more is anywhere, not only near the centre that was found."""
+"""Of the radius: no disc that is larger by more is anywhere, not only near the center that was found."""
 
 _MOST_CELLS = 1 << 17
 """Of a search; a bound of what is left then is given up."""
@@ -30,11 +30,11 @@ _MOST_CELLS = 1 << 17
 def verify_discs(discs: Discs, *, progress: Progress = None) -> None:
     """Check discs from their arrays and the polygons alone.
 
-    The nearest edge of the feature is as far from each centre as the radius, and so are its feet, which are on their
-    sites; the centre is inside. Of each feature the discs come from the largest, and are disjoint if they have to be.
+    The nearest edge of the feature is as far from each center as the radius, and so are its feet, which are on their
+    sites; the center is inside. Of each feature the discs come from the largest, and are disjoint if they have to be.
     Feet hold those that are the largest, or larger than those around them: they do not leave half of the circle free,
     so that no disc near by is larger. That none elsewhere is larger than the first by a part in 256 is shown by squares
-    that cover the feature, each divided until the distances from its centre tell, up to 131 072 of them.
+    that cover the feature, each divided until the distances from its center tell, up to 131 072 of them.
 
     Parameters
     ----------
@@ -149,7 +149,7 @@ def _check_clear(discs: Discs, chosen: NDArray[np.intp], edges: Any, tolerance: 
     at = first_wrong(~(np.abs(found - discs.radius[chosen]) <= tolerance))
     if at is not None:
         k = chosen[at]
-        fail(f"disc {k}: an edge is {found[at]} from its centre, but its radius is {discs.radius[k]}")
+        fail(f"disc {k}: an edge is {found[at]} from its center, but its radius is {discs.radius[k]}")
     return tree
 
 
@@ -162,7 +162,7 @@ def _check_feature(discs: Discs, chosen: NDArray[np.intp], polygons: NDArray[np.
     shapely.prepare(inside)
     at = first_wrong(~shapely.contains_xy(inside, *discs.xy[chosen].T))
     if at is not None:
-        fail(f"the centre of disc {chosen[at]} is not inside")
+        fail(f"the center of disc {chosen[at]} is not inside")
     for k in (chosen if discs.local else chosen[:1]).tolist():
         if not _is_held(discs, k, tolerance):
             fail(f"the feet of disc {k} leave half of its circle free: it could grow")
@@ -170,7 +170,7 @@ def _check_feature(discs: Discs, chosen: NDArray[np.intp], polygons: NDArray[np.
 
 
 def _check_empty(discs: Discs, within: PolygonSet, tolerance: float) -> None:
-    """Discs between shapes, whose centres are in a region."""
+    """Discs between shapes, whose centers are in a region."""
     import shapely
 
     everything = np.arange(len(discs))
@@ -184,7 +184,7 @@ def _check_empty(discs: Discs, within: PolygonSet, tolerance: float) -> None:
     shapely.prepare(space)
     at = first_wrong(~(shapely.distance(space, shapely.points(discs.xy)) <= tolerance))
     if at is not None:
-        fail(f"the centre of disc {at} is not in the region, or in a shape")
+        fail(f"the center of disc {at} is not in the region, or in a shape")
     _check_none_larger(discs, 0, tree, space, tolerance)
 
 
@@ -197,7 +197,7 @@ def _is_held(discs: Discs, disc: int, tolerance: float) -> bool:
 
 
 def _check_none_larger(discs: Discs, disc: int, tree: STRtree, inside: Any, tolerance: float) -> None:
-    """Squares by their centres: one may hold a larger disc's if the edges are farther than its corners reach."""
+    """Squares by their centers: one may hold a larger disc's if the edges are farther than its corners reach."""
     import shapely
 
     enough = float(discs.radius[disc]) * (1 + LARGER) + tolerance

@@ -26,7 +26,7 @@ RIM = 2.0**-44
 """Of the extent: whether a place so near the rim of a disc is covered is left open."""
 
 BESIDE = 2.0**-10
-"""Of a pixel: centres so near the outline, which simplified ones may go through, are neither inside nor outside."""
+"""Of a pixel: centers so near the outline, which simplified ones may go through, are neither inside nor outside."""
 
 ROUNDING = 2.0**-36
 """Of the extent: values differ by no more."""
@@ -42,9 +42,9 @@ def verify_thickness(
 ) -> None:
     """Check the local thickness of an image at pixels spread over it.
 
-    The value is the largest diameter of all discs centred on the skeleton that cover the centre of the pixel, found by
+    The value is the largest diameter of all discs centered on the skeleton that cover the center of the pixel, found by
     the roots of a polynomial for each arc; it is at least twice the distance from the outlines, and 0 just outside of
-    these. Pixels whose centres are on an outline are left out: there no digit of a value is sure.
+    these. Pixels whose centers are on an outline are left out: there no digit of a value is sure.
 
     Parameters
     ----------
@@ -176,9 +176,9 @@ class _Discs:
         return u[kept], np.concatenate([near, near])[kept]
 
     def _radius_at(self, u: Floats, arc: NDArray[np.int64]) -> Floats:
-        centre = self.source[arc] + u[:, None] * (self.way[arc] + u[:, None] * self.bend[arc])
+        center = self.source[arc] + u[:, None] * (self.way[arc] + u[:, None] * self.bend[arc])
         source, target = self.radius[arc].T
-        from_focus = np.sqrt(np.square(centre - self.focus[arc]).sum(axis=1))
+        from_focus = np.sqrt(np.square(center - self.focus[arc]).sum(axis=1))
         return np.asarray(np.where(self.is_linear[arc], source + u * (target - source), from_focus))
 
     def distance(self, place: Floats) -> float:

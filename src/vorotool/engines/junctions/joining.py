@@ -106,24 +106,24 @@ def merged_junctions(skeleton: Skeleton, branches: Branches) -> tuple[Indices, N
         beside[a].append((length, b, branch))
         beside[b].append((length, a, branch))
     owner = [-1] * len(nodes)
-    for centre, radius in enumerate(skeleton.radius[nodes].tolist()):
-        if owner[centre] < 0:
-            owner[centre] = centre
-            vanishes[_taken(centre, radius, beside, owner)] = True
+    for center, radius in enumerate(skeleton.radius[nodes].tolist()):
+        if owner[center] < 0:
+            owner[center] = center
+            vanishes[_taken(center, radius, beside, owner)] = True
     place[nodes] = nodes[owner]
     return place, vanishes
 
 
-def _taken(centre: int, radius: float, beside: list[list[tuple[float, int, int]]], owner: list[int]) -> list[int]:
+def _taken(center: int, radius: float, beside: list[list[tuple[float, int, int]]], owner: list[int]) -> list[int]:
     """Give a junction those that shorter paths than a radius lead to, and tell the branches of these."""
     branches: list[int] = []
-    paths = [(length, other, branch) for length, other, branch in beside[centre] if length < radius]
+    paths = [(length, other, branch) for length, other, branch in beside[center] if length < radius]
     heapq.heapify(paths)
     while paths:
         far, node, branch = heapq.heappop(paths)
         if owner[node] >= 0:
             continue
-        owner[node] = centre
+        owner[node] = center
         branches.append(branch)
         for length, other, further in beside[node]:
             if owner[other] < 0 and far + length < radius:

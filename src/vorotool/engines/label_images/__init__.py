@@ -1,1 +1,1 @@
-"""Regions, outlines and colours of label images."""
+"""Regions, outlines and colors of label images."""

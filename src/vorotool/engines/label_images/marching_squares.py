@@ -57,7 +57,7 @@ def half_way_contours(corners: Corners, start: NDArray[np.int64]) -> Rings:
 
 
 def grey_contours(corners: Corners, start: NDArray[np.int64], grey: GreyLevel) -> Rings:
-    """Contours of grey values: a vertex where the line between two pixels' centres reaches the level."""
+    """Contours of grey values: a vertex where the line between two pixels' centers reaches the level."""
     a, b = corners.astype(np.int64), corners[following(start)].astype(np.int64)
     length = np.abs(b - a).sum(axis=1)
     way = np.repeat(np.sign(b - a), length, axis=0)

@@ -76,7 +76,7 @@ def outlines(
 
     The crack outline follows the sides of the pixels of an object: its corners are at half-integers, and its area is
     the number of pixels. The contour is that of marching squares, as in scikit-image for an image padded with
-    background: it runs half-way between the centres of pixels inside and outside, or, with a threshold, where the
+    background: it runs half-way between the centers of pixels inside and outside, or, with a threshold, where the
     interpolated grey value equals it.
 
     An object is a component of a mask, or all pixels of one label; each component of a label is a polygon. Touching
@@ -131,7 +131,7 @@ def outlines(
     Raises
     ------
     InputError
-        If the image has colours or looks like a photograph and there is no threshold; if a value is not finite; if a
+        If the image has colors or looks like a photograph and there is no threshold; if a value is not finite; if a
         cleaning option is used on labels; or if `strict` and there is no foreground.
     LimitError
         If there are more vertices than `max_sites`.

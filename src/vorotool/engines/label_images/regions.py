@@ -1,4 +1,4 @@
-"""Measures of a label image: its regions, their neighbours, the diagram, a colouring (section 2.1)."""
+"""Measures of a label image: its regions, their neighbors, the diagram, a coloring (section 2.1)."""
 
 from __future__ import annotations
 
@@ -28,12 +28,12 @@ if TYPE_CHECKING:
 _IN_SPACE = "engines.volumes.volume_"
 """Modules of what is made of volumes, whose room is above this one."""
 
-LARGEST_COLOUR_TABLE = 1 << 28
+LARGEST_COLOR_TABLE = 1 << 28
 """Entries that an array indexed by label may have."""
 
 
 class Bordered(Protocol):
-    """Measures that say which regions are neighbours, of an image or of a volume."""
+    """Measures that say which regions are neighbors, of an image or of a volume."""
 
     @property
     def labels(self) -> NDArray[np.uint32]:
@@ -41,7 +41,7 @@ class Bordered(Protocol):
 
     @property
     def borders(self) -> NDArray[np.uint32]:
-        """(b, 2) indices of neighbours."""
+        """(b, 2) indices of neighbors."""
 
 
 @dataclass(frozen=True)
@@ -105,14 +105,14 @@ def region_table(
     Returns
     -------
     Table
-        ``label, x, y, area, perimeter, neighbours, nearest_label, nearest_distance, touches_frame,
+        ``label, x, y, area, perimeter, neighbors, nearest_label, nearest_distance, touches_frame,
         max_distance, components, bbox_x, bbox_y, bbox_w, bbox_h`` (and ``object_area`` for objects of several
         pixels). Areas in pixels; perimeters in pixel sides, those on the frame included; lengths in pixels.
-        ``neighbours`` counts the labels that share a side (section 2.1); ``components`` are 4-connected.
+        ``neighbors`` counts the labels that share a side (section 2.1); ``components`` are 4-connected.
         ``nearest_label`` is the site nearest to (x, y), ties to the smallest label; another site at the same
         place is at distance 0. Fields that do not exist are masked. Of an image whose ``sides`` are not 1, all is in
         their unit. Of volumes ``z``, ``volume`` and ``surface``, ``bbox_z`` and ``bbox_d`` are beside or instead of
-        these, neighbours share a face, and components are 6-connected.
+        these, neighbors share a face, and components are 6-connected.
 
     Raises
     ------
@@ -146,7 +146,7 @@ def region_table(
         "y": sites[:, 1].copy(),
         "area": area,
         "perimeter": spread(around, rows, len(labels)),
-        "neighbours": spread(degree.astype(np.int64), rows, len(labels)),
+        "neighbors": spread(degree.astype(np.int64), rows, len(labels)),
         "nearest_label": nearest_label,
         "nearest_distance": nearest_distance,
     }
@@ -162,14 +162,14 @@ def region_table(
     return _with_input_columns(columns, image, properties)
 
 
-def neighbour_table(
+def neighbor_table(
     image: ImageLike | VolumeLike,
     *,
     measures: Any = None,
     threads: int = 0,
     progress: Progress = None,
 ) -> Table:
-    """Tabulate neighbouring regions: one row per pair of labels that share a pixel side (section 2.1) or a face.
+    """Tabulate neighboring regions: one row per pair of labels that share a pixel side (section 2.1) or a face.
 
     Parameters
     ----------
@@ -198,12 +198,12 @@ def neighbour_table(
     Examples
     --------
     >>> import numpy as np
-    >>> table = neighbour_table(LabelImage(np.array([[1, 1, 2], [3, 3, 2]], dtype=np.uint16)))
+    >>> table = neighbor_table(LabelImage(np.array([[1, 1, 2], [3, 3, 2]], dtype=np.uint16)))
     >>> list(zip(*(table[name].tolist() for name in ("label_a", "label_b", "border_length"))))
     [(1, 2, 1), (1, 3, 2), (2, 3, 1)]
     """
     if is_of_space(image):
-        own: Table = _in_space("tables:volume_neighbours", image, threads, progress, measures=measures)
+        own: Table = _in_space("tables:volume_neighbors", image, threads, progress, measures=measures)
         return own
     image = _labelled(image)
     measures = _checked_measures(measures) or measure_regions(image, threads=threads, progress=progress)
@@ -230,12 +230,12 @@ def voronoi_diagram(
     threads: int = 0,
     progress: Progress = None,
 ) -> NDArray[np.uint8]:
-    """Mark the digital Voronoi diagram: pixels with a 4-neighbour of larger label (section 2.1), voxels with one of 6.
+    """Mark the digital Voronoi diagram: pixels with a 4-neighbor of larger label (section 2.1), voxels with one of 6.
 
     Parameters
     ----------
     image : LabelImage, LabelVolume, or (H, W) or (D, H, W) array of integers or truth values
-        Pixels of label 0 are never marked, and as neighbours never larger.
+        Pixels of label 0 are never marked, and as neighbors never larger.
     above, below : (W,) or (H, W) integer array, optional
         The rows next to a band of a larger image, which then can be streamed in bands of any height; of a volume the
         slices before and after.
@@ -276,29 +276,29 @@ def voronoi_diagram(
     return out
 
 
-def region_colours(
+def region_colors(
     image: Any,
     *,
     measures: Bordered | None = None,
     threads: int = 0,
     progress: Progress = None,
 ) -> tuple[NDArray[np.uint32], NDArray[np.uint32]]:
-    """Colour the regions so that neighbours never share a colour."""
+    """Color the regions so that neighbors never share a color."""
     if measures is None and is_of_space(image):
         measures = _in_space("measures:measure_volume", image, threads, progress)
     measures = _checked_measures(measures) or measure_regions(image, threads=threads, progress=progress)
     a, b = (np.ascontiguousarray(measures.borders[:, side]) for side in (0, 1))
-    return measures.labels, _core.graphs.colour_graph(len(measures.labels), a, b, progress)
+    return measures.labels, _core.graphs.color_graph(len(measures.labels), a, b, progress)
 
 
-def colour_regions(
+def color_regions(
     image: ImageLike | VolumeLike,
     *,
     measures: Bordered | None = None,
     threads: int = 0,
     progress: Progress = None,
 ) -> NDArray[Any]:
-    """Return colours of the regions, as an array indexed by label: ``colours[image.labels]``.
+    """Return colors of the regions, as an array indexed by label: ``colors[image.labels]``.
 
     Parameters
     ----------
@@ -314,28 +314,28 @@ def colour_regions(
     Returns
     -------
     (largest label + 1,) uint8 or uint32 array
-        The colours of `region_colours`; 0 for label 0 and for labels that do not occur.
+        The colors of `region_colors`; 0 for label 0 and for labels that do not occur.
 
     Raises
     ------
     LimitError
-        If the largest label is above 2^28: use `region_colours`.
+        If the largest label is above 2^28: use `region_colors`.
 
     Examples
     --------
     >>> import numpy as np
-    >>> colour_regions(LabelImage(np.array([[0, 1, 4]], dtype=np.uint16)))
+    >>> color_regions(LabelImage(np.array([[0, 1, 4]], dtype=np.uint16)))
     array([0, 2, 0, 0, 1], dtype=uint8)
     """
-    labels, colours = region_colours(image, measures=measures, threads=threads, progress=progress)
+    labels, colors = region_colors(image, measures=measures, threads=threads, progress=progress)
     largest = int(labels.max(initial=0))
-    if largest > LARGEST_COLOUR_TABLE:
+    if largest > LARGEST_COLOR_TABLE:
         raise LimitError(
-            f"the largest label is {largest}: colours by label are limited to {LARGEST_COLOUR_TABLE}; "
-            "renumber the labels, or use region_colours"
+            f"the largest label is {largest}: colors by label are limited to {LARGEST_COLOR_TABLE}; "
+            "renumber the labels, or use region_colors"
         )
-    by_label = np.zeros(largest + 1, dtype=np.uint8 if colours.max(initial=0) <= 255 else np.uint32)
-    by_label[labels] = colours
+    by_label = np.zeros(largest + 1, dtype=np.uint8 if colors.max(initial=0) <= 255 else np.uint32)
+    by_label[labels] = colors
     return by_label
 
 

@@ -156,13 +156,13 @@ def _without_spikes(ring: Indices, edge: Indices) -> Indices:
 def _parts_of(axis: CutAxis, outlines: Outlines, necks: Necks) -> Parts:
     rings = _rings(outlines)
     skeleton = axis.skeleton
-    radius, centre = _largest_discs(axis)
+    radius, center = _largest_discs(axis)
     # the shell is the one ring of a part that goes counter-clockwise, so that of the largest area
     areas, corner = twice_areas(rings.xy, rings.start), rings.xy[rings.start[:-1]]
     by_area = np.lexsort((-areas, rings.part))
     shells = by_area[np.flatnonzero(np.diff(rings.part[by_area], prepend=-1))]
     part, low = rings.part[shells], corner[shells]
-    columns = (centre[part, 1], centre[part, 0], low[:, 1], low[:, 0], rings.polygon[shells])
+    columns = (center[part, 1], center[part, 0], low[:, 1], low[:, 0], rings.polygon[shells])
     order = np.lexsort(columns)
     part, source = part[order], rings.polygon[shells][order]
     piece = np.full(len(skeleton.vertices), -1)
@@ -172,19 +172,19 @@ def _parts_of(axis: CutAxis, outlines: Outlines, necks: Necks) -> Parts:
     ring_order = np.lexsort((corner[:, 1], corner[:, 0], is_hole, piece[rings.part]))
     polygons = _polygons(skeleton.polygons, rings, ring_order, is_hole, source, piece[rings.part])
     between = np.sort(piece[axis.part[axis.node]], axis=1).astype(np.int32)
-    return Parts(polygons, source.astype(np.int32), radius[part], centre[part], necks, between)
+    return Parts(polygons, source.astype(np.int32), radius[part], center[part], necks, between)
 
 
 def _largest_discs(axis: CutAxis) -> tuple[Floats, Floats]:
-    """Radius and centre of the largest disc of each part, by the node that the part is named after."""
+    """Radius and center of the largest disc of each part, by the node that the part is named after."""
     skeleton, part = axis.skeleton, axis.part
-    radius, centre = np.zeros(len(part)), np.full((len(part), 2), np.nan)
+    radius, center = np.zeros(len(part)), np.full((len(part), 2), np.nan)
     inner = np.flatnonzero(skeleton.radius[: len(part) - axis.node.size] > 0)
     x, y = skeleton.vertices[inner].T
     order = inner[np.lexsort((y, x, -skeleton.radius[inner], part[inner]))]
     first = order[np.flatnonzero(np.diff(part[order], prepend=-1))]
-    radius[part[first]], centre[part[first]] = skeleton.radius[first], skeleton.vertices[first]
-    return radius, centre
+    radius[part[first]], center[part[first]] = skeleton.radius[first], skeleton.vertices[first]
+    return radius, center
 
 
 def _polygons(

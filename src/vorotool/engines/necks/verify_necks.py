@@ -89,7 +89,7 @@ def verify_parts(parts: Parts, *, threads: int = 0, progress: Progress = None) -
     """Check parts: their areas sum to those of the polygons, and they border each other along the cuts alone.
 
     Each cut goes once along each of the two pieces that it is said to be between, in opposite directions, and all other
-    edges are on the boundary of the polygons; the largest disc of each piece touches this, and has its centre inside.
+    edges are on the boundary of the polygons; the largest disc of each piece touches this, and has its center inside.
     The cuts are checked as `verify_necks` does.
 
     Parameters
@@ -210,20 +210,20 @@ def _check_clearances(
 # ---- pieces --------------------------------------------------------------------------------------
 def _check_discs(parts: Parts, threads: int, progress: Progress) -> None:
     skeleton = parts.necks.skeleton
-    _check_clearances(skeleton, parts.source, parts.centre, parts.radius, "piece", threads, progress)
+    _check_clearances(skeleton, parts.source, parts.center, parts.radius, "piece", threads, progress)
     polygons, after = parts.polygons, parts.polygons.following
     corner = owners(np.diff(polygons.ring_start[polygons.polygon_start]))
     (x, y), (u, v) = polygons.xy.T, polygons.xy[after].T
-    px, py = parts.centre[corner].T
+    px, py = parts.center[corner].T
     crosses = (y > py) != (v > py)
     right = crosses & (((x - px) * (v - y) - (y - py) * (u - x) > 0) == (v > y))
     # a maximum may be as near to a neck as rounding
     off = np.full(len(parts), np.inf)
-    np.minimum.at(off, corner, _off_edges(parts.centre[corner], polygons.xy, polygons.xy[after]))
+    np.minimum.at(off, corner, _off_edges(parts.center[corner], polygons.xy, polygons.xy[after]))
     is_out = np.bincount(corner, right, minlength=len(parts)) % 2 == 0
     at = first_wrong(is_out & (off > SitePlaces(skeleton).tolerance))
     if at is not None:
-        fail(f"piece {at}: the centre of its largest disc, {parts.centre[at].tolist()}, is not in it")
+        fail(f"piece {at}: the center of its largest disc, {parts.center[at].tolist()}, is not in it")
 
 
 def _off_edges(places: Floats, a: Floats, b: Floats) -> Floats:

@@ -202,7 +202,7 @@ def _joined_curves(order: InputOrder, made: Sequence[tuple[BatchShapes, list[Cur
     rings = ranges(starts_of(found["rings"])[chosen], found["rings"][chosen])
     pieces = ranges(starts_of(found["pieces"])[rings], found["pieces"][rings])
     return {
-        **{name: found[name][pieces] for name in ("start", "end", "centre", "site")},
+        **{name: found[name][pieces] for name in ("start", "end", "center", "site")},
         "polygon": found["polygon"][chosen],
         "ring_start": starts_of(found["pieces"][rings]),
         "shape_start": starts_of(found["rings"][chosen]),
@@ -212,7 +212,7 @@ def _joined_curves(order: InputOrder, made: Sequence[tuple[BatchShapes, list[Cur
 def _no_curves() -> Curves:
     places, numbers, start = np.empty((0, 2)), np.empty(0, dtype=np.int32), np.zeros(1, dtype=np.int64)
     return {
-        **dict.fromkeys(("start", "end", "centre"), places),
+        **dict.fromkeys(("start", "end", "center"), places),
         **dict.fromkeys(("site", "polygon"), numbers),
         **dict.fromkeys(("ring_start", "shape_start"), start),
     }
@@ -261,7 +261,7 @@ def _as_offsets(
     shape_counts = [len(curves["polygon"]) for curves in made]
     columns: dict[str, Any] = {
         name: np.concatenate([curves[name] for curves in made])
-        for name in ("start", "end", "centre", "site", "polygon")
+        for name in ("start", "end", "center", "site", "polygon")
     }
     return Offsets(
         **columns,

@@ -129,7 +129,7 @@ def with_shapes(offsets: Offsets, chosen: NDArray[np.intp]) -> Offsets:
     pieces = ranges(offsets.ring_start[rings], sizes[rings])
     return replace(
         offsets,
-        **{name: getattr(offsets, name)[pieces] for name in ("start", "end", "centre", "site")},
+        **{name: getattr(offsets, name)[pieces] for name in ("start", "end", "center", "site")},
         ring_start=starts_of(sizes[rings]),
         shape_start=starts_of(counts[chosen]),
         distance=offsets.distance[chosen],
@@ -160,9 +160,9 @@ def _check_sites(offsets: Offsets, tolerance: float) -> None:
     at = first_wrong((offsets.site_table.kind[offsets.site] == EDGE) == offsets.is_arc)
     if at is not None:
         fail(f"piece {at} is no line along an edge, and no arc about a vertex")
-    at = first_wrong(offsets.is_arc & (offsets.centre != ends[:, 0]).any(axis=1))
+    at = first_wrong(offsets.is_arc & (offsets.center != ends[:, 0]).any(axis=1))
     if at is not None:
-        fail(f"arc {at} is about {_place(offsets.centre[at])}, which is not its vertex")
+        fail(f"arc {at} is about {_place(offsets.center[at])}, which is not its vertex")
     distance = np.abs(offsets.piece_distance)
     for place in (offsets.start, offsets.end):
         apart = np.abs(_distances(ends, place) - distance)
@@ -192,7 +192,7 @@ def _middles(offsets: Offsets, start: Floats, end: Floats) -> Floats:
     middles = (start + end) / 2
     is_left = (offsets.piece_distance[arcs] > 0)[:, None]
     first, last = np.where(is_left, start[arcs], end[arcs]), np.where(is_left, end[arcs], start[arcs])
-    middles[arcs] = middles_of(first, last, offsets.centre[arcs], np.zeros(len(arcs), dtype=bool))
+    middles[arcs] = middles_of(first, last, offsets.center[arcs], np.zeros(len(arcs), dtype=bool))
     return middles
 
 
@@ -222,7 +222,7 @@ def _check_orientation(offsets: Offsets, tolerance: float) -> None:
     single = Offsets(
         offsets.start,
         offsets.end,
-        offsets.centre,
+        offsets.center,
         offsets.site,
         offsets.ring_start,
         np.arange(len(offsets.ring_start)),

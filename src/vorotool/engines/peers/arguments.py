@@ -44,8 +44,8 @@ def plane(values: ImageLike, name: str) -> NDArray[Any]:
     if isinstance(shape, tuple) and len(shape) == 2 and 0 in shape:
         return np.asarray(values)
     image = as_raster(values, name, is_grey=True)
-    if image.is_colour:
-        raise InputError(f"invalid {name}: expected one value in each pixel, but it is a colour image")
+    if image.is_color:
+        raise InputError(f"invalid {name}: expected one value in each pixel, but it is a color image")
     if image.mask is not None and image.mask.any():
         raise InputError(f"invalid {name}: expected a value in each pixel, but some are masked; fill them first")
     return image.values

@@ -64,7 +64,7 @@ def distance_transform(
 ) -> NDArray[np.float64] | NDArray[np.int32] | tuple[NDArray[np.float64], NDArray[np.int32]]:
     """Compute the distance of each nonzero pixel or voxel to the nearest zero one, and its indices.
 
-    As `scipy.ndimage.distance_transform_edt`, between centres. Squared distances are exact integers, whose roots are
+    As `scipy.ndimage.distance_transform_edt`, between centers. Squared distances are exact integers, whose roots are
     rounded once. Of several nearest pixels it is the first one, row by row, that the indices name; SciPy names any.
 
     Parameters

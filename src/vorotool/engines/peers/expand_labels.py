@@ -44,7 +44,7 @@ def expand_labels(
     labels : (H, W) or (D, H, W) array of integers or booleans
         0 is background. Labels are from 1 to 4294967295.
     distance : float or Fraction
-        How far labels grow, between centres of pixels or voxels, this distance included; ``inf`` fills all the
+        How far labels grow, between centers of pixels or voxels, this distance included; ``inf`` fills all the
         background.
     spacing : float, (height, width) or (depth, height, width), optional
         Sides of a pixel or voxel in the unit of `distance`, by default 1. With it floats are the decimal numbers that

@@ -34,9 +34,9 @@ def local_thickness(
     """Compute for each pixel of an object the diameter of the largest inscribed disc that covers it.
 
     That is the local thickness of bone and pore analysis, of each component of a mask, or of each label, by itself.
-    The discs are inside the outline of the object (see :func:`vorotool.outlines`), and their centres are all places of
+    The discs are inside the outline of the object (see :func:`vorotool.outlines`), and their centers are all places of
     its exact skeleton: no set of radii is chosen, and no distance is counted in pixels. Values are exact but for
-    rounding. Discs are closed: a pixel whose centre is on the rim is covered, and to see that in spite of rounding a
+    rounding. Discs are closed: a pixel whose center is on the rim is covered, and to see that in spite of rounding a
     disc covers what is at most 64 units in the last place of the image's larger side beyond it.
 
     Parameters
@@ -44,7 +44,7 @@ def local_thickness(
     mask : (H, W) array
         Nonzero pixels are foreground. With several values, or one that is none of a mask, these are labels.
     outline : {"crack", "contour"}
-        Around the pixels, or half-way between the centres of pixels inside and outside.
+        Around the pixels, or half-way between the centers of pixels inside and outside.
     connectivity : {8, 4}
         Of the pixels of an object.
     spacing : float or (height, width), optional

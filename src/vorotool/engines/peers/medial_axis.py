@@ -56,7 +56,7 @@ def medial_axis(
     axis : (H, W) bool array
         The pixels.
     distance : (H, W) float64 array
-        As of `distance_transform`, between centres of pixels: only with `return_distance`.
+        As of `distance_transform`, between centers of pixels: only with `return_distance`.
 
     Raises
     ------

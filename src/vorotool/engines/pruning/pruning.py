@@ -57,7 +57,7 @@ def prune(
     Cycles, and what leads from one to another or to the frame, stay. A component without these keeps at least one
     place, as an arc of length 0: its end on the frame, if it has one; else where the angle or the chord is largest (of
     several the one with the largest radius),
-    for `scale` the centre of the largest disc, for `length` and `ratio` the middle of the longest path between leaves.
+    for `scale` the center of the largest disc, for `length` and `ratio` the middle of the longest path between leaves.
     "Beyond" is away from that place.
 
     Parameters
@@ -65,7 +65,7 @@ def prune(
     skeleton : Skeleton
         What to prune.
     angle : float
-        In degrees, 0 to 180: pieces go in which centres see their two nearest places on the boundary under smaller
+        In degrees, 0 to 180: pieces go in which centers see their two nearest places on the boundary under smaller
         angles: the separation angle, or twice the object angle.
     chord : float
         Pieces go in which these two places are less than this apart.

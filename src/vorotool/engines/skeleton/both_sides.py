@@ -39,7 +39,7 @@ def sides_of(
         warn_empty(polygons, side)
     placement = placed_vertices(inside.polygons, **common)
     again = diagram_of_graph(arranged(inside.polygons, placement, progress=progress).graph, **common)
-    # outlines of pixels are cut where only neighbours meet, and stay outlines of pixels
+    # outlines of pixels are cut where only neighbors meet, and stay outlines of pixels
     placed = replace(again.placed.polygons, connectivity=inside.polygons.connectivity)
     again = replace(again, placed=replace(again.placed, polygons=placed))
     outside = skeleton_of(again, side="exterior", frame=frame, **common)

@@ -105,7 +105,7 @@ def sides_of_elements(
         warn_empty(polygons, side)
     graph = arranged(inside.polygons, placed_vertices(inside.polygons, **common), progress=progress).graph
     placed = placed_shapes(graph, threads=threads)
-    # outlines of pixels are cut where only neighbours meet, and stay outlines of pixels
+    # outlines of pixels are cut where only neighbors meet, and stay outlines of pixels
     placed = replace(placed, polygons=replace(placed.polygons, connectivity=inside.polygons.connectivity))
     ShortEdges.of(graph, elements.gap).refuse(placed.polygons, placed.sites, elements.gap)
     again = elements_of_shapes(graph, placed, elements.gap, **common)

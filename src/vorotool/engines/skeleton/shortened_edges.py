@@ -170,7 +170,7 @@ def _share_label(elements: ElementDiagram) -> NDArray[np.bool_]:
     mixed = np.flatnonzero((left < vertices) & (right >= vertices))
     ends = elements.shapes.segments[right[mixed] - vertices]
     share[mixed] = (ends == left[mixed, None]).any(axis=1)
-    both = np.flatnonzero((right < vertices) & ~share)  # neighbouring vertices have the label of the edge between them
+    both = np.flatnonzero((right < vertices) & ~share)  # neighboring vertices have the label of the edge between them
     low, high = np.sort(elements.shapes.segments.astype(np.int64), axis=1).T
     share[both] = is_among(left[both] * vertices + right[both], low * vertices + high)
     return share

@@ -4,7 +4,7 @@ The algorithm is that of P. J. Schneider, "An Algorithm for Automatically Fittin
 1990, for all stretches of all lines at once: least squares for the lengths of both handles, then Newton's method for
 the nearest parameters, some times over.
 
-What it finds is checked by a bound. A polyline between neighbouring places is compared with the part of the curve
+What it finds is checked by a bound. A polyline between neighboring places is compared with the part of the curve
 between their parameters, piece by piece. All control points of a part, and so all of it, are within some distance of
 the piece, as this is convex; its ends are near the ends of the piece, and it is connected: so, too, no place of the
 piece is farther from it. The largest of these distances, with that of the polyline from the line, bounds the distance

@@ -26,7 +26,7 @@ LEAST_PIECES = 8
 class LineSamples:
     """Places along lines, line by line, from the start to the end of each."""
 
-    xy: Floats  # (2, n) float64 array: their coordinates. Neighbours differ; a line without a length has one place
+    xy: Floats  # (2, n) float64 array: their coordinates. Neighbors differ; a line without a length has one place
     start: Numbers  # (l + 1,) integer array: the first place of each line, and `n`
     along: Floats  # (n,) float64 array: lengths along the polylines, all lines after one another
     # (n,) float64 array: how far the line may be from the straight piece that begins at each place; 0 at the ends of

@@ -36,7 +36,7 @@ class ColumnEnvelope:
         return x, self.row[x].astype(np.int64), self.label[x]
 
     def packed(self) -> bytes:
-        """Give a short form: neighbouring columns are much alike."""
+        """Give a short form: neighboring columns are much alike."""
         change = np.diff(self.row, prepend=np.int32(0))
         return zlib.compress(change.tobytes() + self.label.tobytes(), 1)
 

@@ -32,12 +32,12 @@ def needed_seeds(seeds: SeedSet) -> NDArray[np.intp] | None:
 
 
 def surrounded_pixels(image: NDArray[Any]) -> NDArray[np.bool_]:
-    """Find the pixels that have the value of their four neighbours; those at the sides have not four."""
+    """Find the pixels that have the value of their four neighbors; those at the sides have not four."""
     inside = np.zeros(image.shape, bool)
-    centre, surrounded = image[1:-1, 1:-1], inside[1:-1, 1:-1]
-    np.equal(centre, image[1:-1, :-2], out=surrounded)
-    for neighbour in (image[1:-1, 2:], image[:-2, 1:-1], image[2:, 1:-1]):
-        surrounded &= centre == neighbour
+    center, surrounded = image[1:-1, 1:-1], inside[1:-1, 1:-1]
+    np.equal(center, image[1:-1, :-2], out=surrounded)
+    for neighbor in (image[1:-1, 2:], image[:-2, 1:-1], image[2:, 1:-1]):
+        surrounded &= center == neighbor
     return inside
 
 

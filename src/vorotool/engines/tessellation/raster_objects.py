@@ -47,9 +47,9 @@ def foreground_values(raster: Raster, threshold: Threshold, *, invert: bool) -> 
         number, invert = settled_threshold(raster, threshold, invert=invert)
         grey = grey_values(raster)
         values = grey > whole_threshold(grey, number)
-    elif raster.is_colour:
+    elif raster.is_color:
         made = mask_options(grey_values(raster))
-        raise InputError(f"a colour image holds no objects by itself: use {_THRESHOLD} or {made}")
+        raise InputError(f"a color image holds no objects by itself: use {_THRESHOLD} or {made}")
     elif raster.is_lossy and not is_flat(values[values != values.min()]):
         raise InputError(
             f"the file is lossy, as JPEG is: its values are no labels; use {_THRESHOLD} or "
@@ -62,9 +62,9 @@ def foreground_values(raster: Raster, threshold: Threshold, *, invert: bool) -> 
 
 
 def grey_values(raster: Raster) -> NDArray[Any]:
-    """(H, W) the values, or the luminance of a colour image; transparency does not count."""
+    """(H, W) the values, or the luminance of a color image; transparency does not count."""
     values = raster.values
-    if not raster.is_colour:
+    if not raster.is_color:
         return values
     if values.shape[2] <= 2:
         return values[:, :, 0]

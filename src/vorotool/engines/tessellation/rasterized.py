@@ -100,7 +100,7 @@ def _parts(edges: _Edges, frame: Frame) -> Iterator[Indices]:
 
 
 def _inside(edges: _Edges, frame: Frame) -> tuple[Indices, Indices, Indices, Indices]:
-    """Spans of pixels whose centres are inside: polygon, row, first column, and the one after the last."""
+    """Spans of pixels whose centers are inside: polygon, row, first column, and the one after the last."""
     first = np.clip(np.ceil(edges.y0), 0, frame.height).astype(np.int64)
     count = np.clip(np.ceil(edges.y1), 0, frame.height).astype(np.int64) - first
     each = edges.taken(owners(count))

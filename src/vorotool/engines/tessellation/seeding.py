@@ -145,7 +145,7 @@ def seeds_from_raster(
         centroid of each component or label. By default components of a mask, whose only value besides 0 is 1, 255,
         the largest of its type, or True; else labels.
     connectivity : {8, 4}
-        Neighbourhood of components.
+        Neighborhood of components.
     threshold : float or "otsu", optional
         Pixels above the threshold are foreground.
     invert : bool

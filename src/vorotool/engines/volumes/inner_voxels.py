@@ -1,6 +1,6 @@
 """Voxels inside objects: no other voxel needs them as seeds, and on themselves they are put where that is not so.
 
-A voxel is inner if its six neighbours have its value. Let v be any voxel, and s an inner voxel of label a other than v.
+A voxel is inner if its six neighbors have its value. Let v be any voxel, and s an inner voxel of label a other than v.
 One step from s towards v, along an axis, leads to a voxel of label a that is strictly nearer to v. So of the seeds
 nearest to v none is inner, but for v itself.
 
@@ -25,12 +25,12 @@ def outer_voxels(volume: NDArray[Any]) -> NDArray[np.bool_]:
     """Nonzero voxels that have not their own value on all six sides."""
     outer: NDArray[np.bool_] = volume != 0
     inner = np.ones(tuple(max(side - 2, 0) for side in volume.shape), dtype=bool)
-    centre = volume[1:-1, 1:-1, 1:-1]
+    center = volume[1:-1, 1:-1, 1:-1]
     for axis in range(3):
         for end in (slice(None, -2), slice(2, None)):
             window = [slice(1, -1)] * 3
             window[axis] = end
-            inner &= centre == volume[tuple(window)]
+            inner &= center == volume[tuple(window)]
     outer[1:-1, 1:-1, 1:-1] &= ~inner
     return outer
 

@@ -65,7 +65,7 @@ class OuterSeeds:
 
     def _add(self, slab: NDArray[Any], *, is_last: bool) -> None:
         block = np.concatenate([self._waiting, slab]) if len(self._waiting) else slab
-        begin = self._done - (self._read - len(self._waiting))  # slices of the block that are only there as neighbours
+        begin = self._done - (self._read - len(self._waiting))  # slices of the block that are only there as neighbors
         self._read += len(slab)
         end = len(block) if is_last else len(block) - 1
         self._waiting = block[-2:].copy()

@@ -20,7 +20,7 @@ from vorotool.geometry.volumes.voxel_frame import VoxelFrame
 Quantity = Literal["labels", "distance", "distance2", "diagram"]
 
 
-def with_neighbours(frame: VoxelFrame, first: int, slices: int) -> tuple[int, int]:
+def with_neighbors(frame: VoxelFrame, first: int, slices: int) -> tuple[int, int]:
     """Give the first slice and the number of slices, with one more on each side where the frame has one."""
     begin, end = max(first - 1, 0), min(first + slices + 1, frame.depth)
     return begin, end - begin
@@ -52,7 +52,7 @@ class SeedSlab:
         if self.what == "labels":
             return sweep.labels(self.first, self.slices, dtype=self.dtype)
         if self.what == "diagram":
-            begin, count = with_neighbours(self.frame, self.first, self.slices)
+            begin, count = with_neighbors(self.frame, self.first, self.slices)
             lines = volume_diagram(sweep.labels(begin, count), threads=threads)
             return lines[self.first - begin :][: self.slices]
         if self.what == "distance":

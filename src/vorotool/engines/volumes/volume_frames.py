@@ -46,7 +46,7 @@ def as_volume_seeds(
 
 
 def _is_array_of_voxels(source: Any) -> bool:
-    """Whether it has three axes; where a volume is asked for, the last one is not that of colours."""
+    """Whether it has three axes; where a volume is asked for, the last one is not that of colors."""
     return is_volume(source) or len(getattr(source, "shape", ())) == 3
 
 

@@ -1,4 +1,4 @@
-"""Measures of a label volume: its regions and their neighbours in one pass, and the digital Voronoi diagram."""
+"""Measures of a label volume: its regions and their neighbors in one pass, and the digital Voronoi diagram."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ def volume_diagram(
     threads: int = 0,
     progress: Progress = None,
 ) -> NDArray[np.uint8]:
-    """Mark the digital Voronoi diagram: voxels of which a neighbour across a face has a larger label (section 2.1)."""
+    """Mark the digital Voronoi diagram: voxels of which a neighbor across a face has a larger label (section 2.1)."""
     own = label_array(labelled(labels).labels, "voxel")
     if out is None:
         out = np.empty(own.shape, dtype=np.uint8)

@@ -120,7 +120,7 @@ def seeds_from_volume(
         each component or label. By default components of a mask, whose only value besides 0 is 1, 255, the largest of
         its type, or True; else labels.
     connectivity : {26, 6}
-        Neighbourhood of components: by corners, too, or by faces.
+        Neighborhood of components: by corners, too, or by faces.
     threshold : float or "otsu", optional
         Voxels above the threshold are foreground.
     invert : bool

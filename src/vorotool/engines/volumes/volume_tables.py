@@ -1,4 +1,4 @@
-"""Tables of a label volume: its regions, and which are neighbours."""
+"""Tables of a label volume: its regions, and which are neighbors."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ def table_of_regions(
         **{name: _times(sites[:, axis].copy(), step) for axis, name in enumerate(_AXES)},
         "volume": _volumes(voxels, sides),
         "surface": _areas(spread(measures.faces, rows, count), sides),
-        "neighbours": spread(degree, rows, count),
+        "neighbors": spread(degree, rows, count),
         "nearest_label": nearest_label,
         "nearest_distance": _times(nearest_distance, step),
         "touches_frame": np.ma.array(
@@ -88,19 +88,19 @@ def table_of_regions(
     return _with_input_columns(columns, regions, properties)
 
 
-def volume_neighbours(
+def volume_neighbors(
     volume: VolumeLike,
     *,
     measures: VolumeMeasures | None = None,
     threads: int = 0,
     progress: Progress = None,
 ) -> Table:
-    """Tabulate the neighbouring regions: one row a pair of labels that share a face."""
-    return neighbours_of_regions(_regions_of(labelled(volume), measures, threads, progress))
+    """Tabulate the neighboring regions: one row a pair of labels that share a face."""
+    return neighbors_of_regions(_regions_of(labelled(volume), measures, threads, progress))
 
 
-def neighbours_of_regions(regions: VolumeRegions) -> Table:
-    """Give the table of `volume_neighbours` of what was measured."""
+def neighbors_of_regions(regions: VolumeRegions) -> Table:
+    """Give the table of `volume_neighbors` of what was measured."""
     measures, sides = regions.measures, regions.sides
     position = regions.sites[regions.rows]
     a, b = measures.borders.T

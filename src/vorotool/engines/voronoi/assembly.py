@@ -31,8 +31,8 @@ class Arcs:
     # (v,) float64 array: distances from the nearest sites there; NaN at corners of the frame that no border ends at
     radius: Floats
     ends: Indices  # (a, 2) int64 array: source and target
-    control: Floats  # (a, 2) float64 array: control points of parabolas, and centres of circular arcs; NaN of others
-    center: Floats  # (a, 2) float64 array: control points of parabolas, and centres of circular arcs; NaN of others
+    control: Floats  # (a, 2) float64 array: control points of parabolas, and centers of circular arcs; NaN of others
+    center: Floats  # (a, 2) float64 array: control points of parabolas, and centers of circular arcs; NaN of others
     sites: Indices  # (a, 2) int64 array: left and right; `OUTSIDE` of what belongs to nobody
     parts: Indices  # (a, 2) int64 array: left and right; `OUTSIDE` of what belongs to nobody
     order: Indices  # (a, 2) int64 array: rising counter-clockwise around source and target
@@ -82,7 +82,7 @@ def arcs_of(cut: CutBorders, ring: FrameRing, sites: Indices, parts: Indices, or
 
 
 def without_lost(center: Floats, places: Floats, ends: Indices, is_left: NDArray[np.bool_]) -> Floats:
-    """Return centres of arcs of at most half a circle; those that rounding flattens are lines."""
+    """Return centers of arcs of at most half a circle; those that rounding flattens are lines."""
     circular = np.flatnonzero(~np.isnan(center[:, 0]))
     a, b = (places[end] - center[circular] for end in ends[circular].T)
     cross = np.where(is_left[circular], 1, -1) * (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
@@ -93,7 +93,7 @@ def without_lost(center: Floats, places: Floats, ends: Indices, is_left: NDArray
 
 
 def by_ends(ends: Indices, control: Floats, center: Floats) -> Indices:
-    """Give the order of arcs by their ends; those between the same two by their control points and centres."""
+    """Give the order of arcs by their ends; those between the same two by their control points and centers."""
     vertices = int(ends.max(initial=-1)) + 1
     sorting = _core.graphs.arcs_by_ends(ends.astype(np.int32), vertices).astype(np.int64)
     key = (ends[:, 0] * vertices + ends[:, 1])[sorting]

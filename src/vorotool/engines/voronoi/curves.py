@@ -59,7 +59,7 @@ def parabolas_of(graph: PlanarGraph, elements: Indices) -> tuple[NDArray[np.bool
 class CircularArc:
     """An arc of at most half a circle, counter-clockwise, by t: the tangent of half the angle from its middle."""
 
-    base: Place  # (float, float): the centre, on the lattice
+    base: Place  # (float, float): the center, on the lattice
     middle: Place  # (float, float): unit vector to the middle of the arc
     radius: float  # on the lattice
     first: float  # from the one t to the other, larger one
@@ -82,7 +82,7 @@ class CircularArc:
         return self.radius
 
     def parameter(self, x: float, y: float) -> float:
-        """The t of a place on the circle, relative to its centre."""
+        """The t of a place on the circle, relative to its center."""
         u, v = self.middle
         along, across = u * x + v * y, u * y - v * x
         if along >= 0:

@@ -23,7 +23,7 @@ FAR = 2.0**34
 class CutCurves:
     """Curves on the lattice, from one parameter to another."""
 
-    base: Floats  # (k, 2) float64 array: a place of a line; the focus of a parabola; the centre of a circle
+    base: Floats  # (k, 2) float64 array: a place of a line; the focus of a parabola; the center of a circle
     # (k, 2) float64 array: along a line; the unit vector along a directrix, or to the middle of a circular arc
     way: Floats
     height: Floats  # (k,) float64 array: of the focus above the directrix; 0 of others

@@ -122,7 +122,7 @@ def voronoi(
     Examples
     --------
     >>> wall_and_tree = voronoi(["LINESTRING (0 0, 4 0)", "POINT (2 2)"], frame=(0, 0, 4, 4))
-    >>> wall_and_tree.areas.round(6).tolist(), wall_and_tree.neighbours["border_length"].round(6).tolist()
+    >>> wall_and_tree.areas.round(6).tolist(), wall_and_tree.neighbors["border_length"].round(6).tolist()
     ([5.333333, 10.666667], [4.591174])
     >>> voronoi([[0, 0]], frame=(-2, 0, 4, 4), max_distance=1).areas.round(6).tolist()
     [1.570796]

@@ -106,7 +106,7 @@ class Bezier(NamedTuple):
 class Arc(NamedTuple):
     """An arc of an ellipse: the image of an arc of the unit circle that turns from the first axis to the second."""
 
-    centre: Point  # (float, float): of the ellipse
+    center: Point  # (float, float): of the ellipse
     first: Point  # (float, float): images of the axes: conjugate half-diameters
     second: Point  # (float, float): images of the axes: conjugate half-diameters
     # tuple of (float, float): places on the unit circle, each at most half a turn behind the one before: its start,
@@ -116,11 +116,11 @@ class Arc(NamedTuple):
 
     def mapped(self, by: Affine) -> Arc:
         """Map it."""
-        return Arc(by.of(self.centre), by.way(self.first), by.way(self.second), self.ways, by.of(self.end))
+        return Arc(by.of(self.center), by.way(self.first), by.way(self.second), self.ways, by.of(self.end))
 
     def reach(self) -> Iterable[Point]:
         """Places whose bounds hold it, with its start."""
-        (x, y), (a, b), (c, d) = self.centre, self.first, self.second
+        (x, y), (a, b), (c, d) = self.center, self.first, self.second
         across, down = abs(a) + abs(c), abs(b) + abs(d)
         return ((x - across, y - down), (x + across, y + down))
 
@@ -134,7 +134,7 @@ class Arc(NamedTuple):
         count = len(ways) - 1
         places, _ = chords_of(ways[:-1], ways[1:], np.zeros((count, 2)), np.ones(count, dtype=bool), tolerance / size)
         across, along = np.concatenate([places[1:], ways[-1:]]).T[:, :, None]
-        points: Floats = across * axes[0] + along * axes[1] + self.centre
+        points: Floats = across * axes[0] + along * axes[1] + self.center
         points[-1] = self.end
         return points
 
@@ -226,21 +226,21 @@ def turned_each(degrees: Sequence[float]) -> list[Point]:
     return list(zip(x.tolist(), y.tolist(), strict=True))
 
 
-def whole_ellipse(centre: Point, first: Point, second: Point) -> Curve:
-    """An ellipse by its centre and two conjugate half-diameters; it begins at the end of the first."""
-    start = (centre[0] + first[0], centre[1] + first[1])
-    return Curve(start, [Arc(centre, first, second, _QUARTERS, start)], is_closed=True)
+def whole_ellipse(center: Point, first: Point, second: Point) -> Curve:
+    """An ellipse by its center and two conjugate half-diameters; it begins at the end of the first."""
+    start = (center[0] + first[0], center[1] + first[1])
+    return Curve(start, [Arc(center, first, second, _QUARTERS, start)], is_closed=True)
 
 
-def arc_between(centre: Point, first: Point, second: Point, ways: tuple[Point, Point], end: Point) -> Arc:
+def arc_between(center: Point, first: Point, second: Point, ways: tuple[Point, Point], end: Point) -> Arc:
     """Give the arc between two ways of the unit circle, counter-clockwise; the end is where it is said to be."""
     (ax, ay), (bx, by) = ways
     if ax * by - ay * bx >= 0:  # at most half a turn
-        return Arc(centre, first, second, ways, end)
+        return Arc(center, first, second, ways, end)
     # the perpendicular to the chord leads to the middle; of a chord that is short the opposite of its middle does
     middle = (by - ay, ax - bx) if ax * bx + ay * by < 0 else (-ax - bx, -ay - by)
     length = float(hypotenuse(*middle))
-    return Arc(centre, first, second, (ways[0], (middle[0] / length, middle[1] / length), ways[1]), end)
+    return Arc(center, first, second, (ways[0], (middle[0] / length, middle[1] / length), ways[1]), end)
 
 
 def bulged(start: Point, end: Point, bulge: float) -> Piece:
@@ -249,16 +249,16 @@ def bulged(start: Point, end: Point, bulge: float) -> Piece:
         return Line(end)
     across, down = (end[0] - start[0]) / 2, (end[1] - start[1]) / 2
     rise = (1 - bulge * bulge) / (2 * bulge)
-    centre = (start[0] + across - rise * down, start[1] + down + rise * across)
-    radius = float(hypotenuse(start[0] - centre[0], start[1] - centre[1]))
+    center = (start[0] + across - rise * down, start[1] + down + rise * across)
+    radius = float(hypotenuse(start[0] - center[0], start[1] - center[1]))
     if not isfinite(radius) or not radius > 0:
         return Line(end)
     turn = 1.0 if bulge > 0 else -1.0  # clockwise arcs turn in a frame that is mirrored
 
     def way(place: Point) -> Point:
-        return ((place[0] - centre[0]) / radius, turn * (place[1] - centre[1]) / radius)
+        return ((place[0] - center[0]) / radius, turn * (place[1] - center[1]) / radius)
 
     a, b = way(start), way(end)
     if abs(bulge) == 1:
         b = (-a[0], -a[1])
-    return arc_between(centre, (radius, 0.0), (0.0, turn * radius), (a, b), end)
+    return arc_between(center, (radius, 0.0), (0.0, turn * radius), (a, b), end)

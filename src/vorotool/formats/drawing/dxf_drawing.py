@@ -17,7 +17,7 @@ UNITS = {1: "in", 2: "ft", 4: "mm", 5: "cm", 6: "m", 7: "km", 10: "yd", 12: "nm"
 """Units of length by their numbers in the header."""
 _NUMBERS = {name: number for number, name in UNITS.items()} | {"µm": 13, "μm": 13}
 _VERSION = "R2000"
-_COLOURS = (1, 5, 3, 6, 4, 2, 30, 7)
+_COLORS = (1, 5, 3, 6, 4, 2, 30, 7)
 """Of layers, in the order in which they come: red, blue, green, magenta, cyan, yellow, orange, black on white."""
 _PLANAR = 8
 _FORBIDDEN = '<>/\\":;?*|=`,'
@@ -42,7 +42,7 @@ class DxfDrawing:
         if layer not in self._layers:
             name = "".join("_" if sign in _FORBIDDEN or not sign.isprintable() else sign for sign in layer)[:255] or "0"
             if name not in self._document.layers:
-                self._document.layers.add(name, color=_COLOURS[len(self._layers) % len(_COLOURS)])
+                self._document.layers.add(name, color=_COLORS[len(self._layers) % len(_COLORS)])
             self._layers[layer] = name
         return {"layer": self._layers[layer]}
 

@@ -77,15 +77,15 @@ def _ellipse(entity: Any, _: float | None) -> list[Curve]:
     return _elliptic(_xy(entity.dxf.center), first, second, ways)
 
 
-def _elliptic(centre: Point, first: Point, second: Point, ways: Sequence[Point]) -> list[Curve]:
+def _elliptic(center: Point, first: Point, second: Point, ways: Sequence[Point]) -> list[Curve]:
     """An arc between two ways of the unit circle, counter-clockwise; equal ones mean all of it."""
     if first == (0.0, 0.0):
         return []
     (ax, ay), (bx, by) = ways
     if abs(ax - bx) + abs(ay - by) < _SAME:
-        return [whole_ellipse(centre, first, second)]
-    start, end = ((centre[0] + c * first[0] + s * second[0], centre[1] + c * first[1] + s * second[1]) for c, s in ways)
-    return [Curve(start, [arc_between(centre, first, second, (ways[0], ways[1]), end)])]
+        return [whole_ellipse(center, first, second)]
+    start, end = ((center[0] + c * first[0] + s * second[0], center[1] + c * first[1] + s * second[1]) for c, s in ways)
+    return [Curve(start, [arc_between(center, first, second, (ways[0], ways[1]), end)])]
 
 
 def _lwpolyline(entity: Any, _: float | None) -> list[Curve]:

@@ -106,14 +106,14 @@ def _add_led_on(drawing: DxfDrawing, lines: LedOn, what: str) -> None:
 
 def _add_offsets(drawing: DxfDrawing, offsets: Offsets, what: str) -> None:
     """Rings of arcs and straight lines, on a layer for each distance."""
-    bulges = _bulges(offsets.start, offsets.end, offsets.centre, offsets.piece_distance > 0)
+    bulges = _bulges(offsets.start, offsets.end, offsets.center, offsets.piece_distance > 0)
     distances = offsets.distance[offsets.shape_of_ring].tolist()
     _add_rings(drawing, [f"{what}_{distance:g}" for distance in distances], offsets.start, bulges, offsets.ring_start)
 
 
 def _add_hull(drawing: DxfDrawing, hull: AlphaHull, what: str) -> None:
     """Rings of arcs, and points without extent."""
-    bulges = _bulges(hull.start, hull.end, hull.centre, np.zeros(len(hull), dtype=bool))
+    bulges = _bulges(hull.start, hull.end, hull.center, np.zeros(len(hull), dtype=bool))
     _add_rings(drawing, [what] * (len(hull.ring_start) - 1), hull.start, bulges, hull.ring_start)
     drawing.points(what, hull.shape.family.mesh.points[hull.points])
 
@@ -125,15 +125,15 @@ def _add_rings(
         drawing.polyline(layer, start[begin:end], is_closed=True, bulges=bulges[begin:end])
 
 
-def _bulges(start: Floats, end: Floats, centre: Floats, is_left: NDArray[np.bool_]) -> list[float]:
+def _bulges(start: Floats, end: Floats, center: Floats, is_left: NDArray[np.bool_]) -> list[float]:
     """Tangents of a quarter of the angles of arcs, by their heights over half their chords; 0 of straight lines."""
-    is_arc = ~np.isnan(centre[:, 0])
+    is_arc = ~np.isnan(center[:, 0])
     half = (end - start) / 2
-    away = np.where(is_arc[:, None], centre - (start + half), 0)
+    away = np.where(is_arc[:, None], center - (start + half), 0)
     across = hypotenuse(*half.T)
     radius = hypotenuse(across, hypotenuse(*away.T))
     turn = np.where(is_left, 1.0, -1.0)
-    # above 0: the centre is on the side that the arc turns to, so that it is at most half a circle
+    # above 0: the center is on the side that the arc turns to, so that it is at most half a circle
     inner = turn * (half[:, 0] * away[:, 1] - half[:, 1] * away[:, 0])
     beside = np.where(inner < 0, -1, 1) * hypotenuse(*away.T)
     short = np.divide(across, radius + np.abs(beside), out=np.zeros_like(across), where=radius > 0)

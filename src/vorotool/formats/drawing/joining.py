@@ -146,5 +146,5 @@ def _reversed(curve: Curve) -> Curve:
             pieces.append(Bezier((*reversed(piece.control[:-1]), start)))
         else:
             mirrored = tuple((x, -y) for x, y in reversed(piece.ways))
-            pieces.append(Arc(piece.centre, piece.first, (-piece.second[0], -piece.second[1]), mirrored, start))
+            pieces.append(Arc(piece.center, piece.first, (-piece.second[0], -piece.second[1]), mirrored, start))
     return Curve(curve.end, pieces, curve.is_closed)

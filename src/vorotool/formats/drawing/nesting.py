@@ -102,7 +102,7 @@ class _Sweep:
         return (edge.is_lower, -area if edge.is_lower else area, edge.ring)
 
     def _agree(self, below: _Edge | None, above: _Edge | None) -> bool:
-        """Whether neighbours do not cross, and lie in the same ring."""
+        """Whether neighbors do not cross, and lie in the same ring."""
         around = OUTSIDE
         if below is not None:
             around = below.ring if below.is_lower else self.parent[below.ring]

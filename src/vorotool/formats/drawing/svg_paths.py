@@ -174,14 +174,14 @@ def elliptic_arc(start: Point, radii: Point, rotation: float, flags: tuple[bool,
         rx, ry, x, y, half = rx * half, ry * half, x / half, y / half, 1.0
     is_large, sweep = flags
     away = sqrt(max((1 - half) * (1 + half), 0.0)) / half * (-1 if is_large == sweep else 1)
-    u, v = away * y, -away * x  # the centre there, from the middle of the chord
+    u, v = away * y, -away * x  # the center there, from the middle of the chord
     turn = 1.0 if sweep else -1.0
     first, second = (rx * cosine, rx * sine), (-turn * ry * sine, turn * ry * cosine)
-    centre = (
+    center = (
         (start[0] + end[0]) / 2 + rx * cosine * u - ry * sine * v,
         (start[1] + end[1]) / 2 + rx * sine * u + ry * cosine * v,
     )
     a, b = (x - u, turn * (y - v)), (-x - u, turn * (-y - v))
     if half == 1:
         b = (-a[0], -a[1])
-    return arc_between(centre, first, second, (a, b), end)
+    return arc_between(center, first, second, (a, b), end)

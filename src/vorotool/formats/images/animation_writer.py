@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 if TYPE_CHECKING:
     from PIL import Image
 
-COLOURS = 256
+COLORS = 256
 """Of a GIF: where all frames have no more together, each keeps its own."""
 
 
@@ -34,29 +34,29 @@ def write_animation(out: BinaryIO, frames: Iterable[NDArray[np.uint8]], *, fmt: 
 
 
 def _with_one_palette(images: list[Image.Image]) -> list[Image.Image]:
-    """Give images with one palette: of all their colours where these fit, else of those that a few images need."""
+    """Give images with one palette: of all their colors where these fit, else of those that a few images need."""
     from PIL import Image
 
     packed = [_packed(image) for image in images]
-    colours = np.unique(np.concatenate([np.unique(each) for each in packed]))
-    if len(colours) > COLOURS:
+    colors = np.unique(np.concatenate([np.unique(each) for each in packed]))
+    if len(colors) > COLORS:
         chosen = [images[k] for k in dict.fromkeys((0, len(images) // 2, len(images) - 1))]
         sheet = Image.new("RGB", (chosen[0].width, sum(image.height for image in chosen)))
         for number, image in enumerate(chosen):
             sheet.paste(image, (0, number * image.height))
-        palette = sheet.quantize(COLOURS)
+        palette = sheet.quantize(COLORS)
         return [image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images]
-    table = np.stack([colours >> 16, colours >> 8 & 255, colours & 255], axis=1).astype(np.uint8)
+    table = np.stack([colors >> 16, colors >> 8 & 255, colors & 255], axis=1).astype(np.uint8)
     made = []
     for each in packed:
-        indexed = Image.fromarray(np.searchsorted(colours, each).astype(np.uint8), "P")
+        indexed = Image.fromarray(np.searchsorted(colors, each).astype(np.uint8), "P")
         indexed.putpalette(table.tobytes())
         made.append(indexed)
     return made
 
 
 def _packed(image: Image.Image) -> NDArray[np.uint32]:
-    """(H, W) one number a colour."""
+    """(H, W) one number a color."""
     red, green, blue = np.moveaxis(np.asarray(image).astype(np.uint32), 2, 0)
     packed: NDArray[np.uint32] = red << 16 | green << 8 | blue
     return packed

@@ -1,4 +1,4 @@
-"""Reading PNG with Pillow, and what Pillow leaves out: limits, checksums, 16-bit colours, unscaled grey."""
+"""Reading PNG with Pillow, and what Pillow leaves out: limits, checksums, 16-bit colors, unscaled grey."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from vorotool.formats.io.sources import Source
 _CHANNELS = {0: 1, 2: 3, 3: 1, 4: 2, 6: 4}
 _DEPTHS = {0: (1, 2, 4, 8, 16), 2: (8, 16), 3: (1, 2, 4, 8), 4: (8, 16), 6: (8, 16)}
 _GREY_STEP = {2: 85, 4: 17}  # Pillow spreads 2 and 4-bit grey over 0..255 in these steps
-_PALETTE, _GREY_ALPHA, _COLOUR_ALPHA = 3, 4, 6
+_PALETTE, _GREY_ALPHA, _COLOR_ALPHA = 3, 4, 6
 _MOST_EXPANSION = 1032  # deflate codes 258 bytes in 2 bits at best
 
 
@@ -29,7 +29,7 @@ class PngHeader(NamedTuple):
     width: int
     height: int
     bit_depth: int
-    colour_type: int
+    color_type: int
 
 
 def png_header(source: Source) -> PngHeader:
@@ -38,10 +38,9 @@ def png_header(source: Source) -> PngHeader:
     if not data.startswith(SIGNATURE) or len(data) < 33 or data[12:16] != b"IHDR":
         raise InputError(f"{source.name} is no PNG file, or it is cut off in the header ({len(data)} bytes)")
     header = PngHeader(*struct.unpack(">IIBB", data[16:26]))
-    if header.bit_depth not in _DEPTHS.get(header.colour_type, ()):
+    if header.bit_depth not in _DEPTHS.get(header.color_type, ()):
         raise InputError(
-            f"{source.name} has colour type {header.colour_type} with {header.bit_depth} bits, "
-            "which PNG does not define"
+            f"{source.name} has color type {header.color_type} with {header.bit_depth} bits, which PNG does not define"
         )
     return header
 
@@ -52,26 +51,26 @@ def read_png(source: Source, max_pixels: int) -> NDArray[Any]:
     check_pixels(source.name, header.width, header.height, max_pixels)
     _check_chunks(source, header)
     with decoding(source.name, "PNG"):
-        if header.bit_depth < 16 or header.colour_type == 0:
+        if header.bit_depth < 16 or header.color_type == 0:
             return _read_plain(source.data, header)
-        if header.colour_type == _GREY_ALPHA:
+        if header.color_type == _GREY_ALPHA:
             return _read_grey_alpha_16(source.data)
-        return _read_colour_16(source.data)
+        return _read_color_16(source.data)
 
 
 def png_palette(source: Source) -> NDArray[np.uint8] | None:
-    """Give the (256, 3) colours of the indices of a palette PNG, black beyond its own; None of another PNG."""
+    """Give the (256, 3) colors of the indices of a palette PNG, black beyond its own; None of another PNG."""
     from PIL.PngImagePlugin import PngImageFile
 
     header = png_header(source)
-    if header.colour_type != _PALETTE:
+    if header.color_type != _PALETTE:
         return None
     _check_chunks(source, header)
     with decoding(source.name, "PNG"), PngImageFile(io.BytesIO(source.data)) as image:
         image.load()
-        colours = np.frombuffer(bytes(image.getpalette("RGB") or []), np.uint8).reshape(-1, 3)
+        colors = np.frombuffer(bytes(image.getpalette("RGB") or []), np.uint8).reshape(-1, 3)
     palette = np.zeros((256, 3), np.uint8)
-    palette[: len(colours)] = colours
+    palette[: len(colors)] = colors
     return palette
 
 
@@ -103,7 +102,7 @@ def _chunks(source: Source) -> Iterator[tuple[bytes, int]]:
 def _check_chunks(source: Source, header: PngHeader) -> None:
     """Refuse damaged files, and those whose data cannot be a whole image, before memory is taken."""
     compressed = sum(length for kind, length in _chunks(source) if kind == b"IDAT")
-    bits = header.bit_depth * _CHANNELS[header.colour_type]
+    bits = header.bit_depth * _CHANNELS[header.color_type]
     needed = header.height * (header.width * bits // 8)
     if compressed * _MOST_EXPANSION < needed:
         raise InputError(
@@ -128,21 +127,21 @@ def _read_plain(data: bytes, header: PngHeader) -> NDArray[Any]:
     values = _decoded(data)
     if header.bit_depth == 16:
         return values.astype(np.uint16, copy=False)
-    if header.colour_type == 0 and header.bit_depth in _GREY_STEP:
+    if header.color_type == 0 and header.bit_depth in _GREY_STEP:
         return values // np.uint8(_GREY_STEP[header.bit_depth])
     return values
 
 
-def _read_colour_16(data: bytes) -> NDArray[np.uint16]:
-    """Pillow keeps 8 of the 16 bits of a colour: decode the high bytes, then the low ones."""
-    mode = "RGB" if data[25] != _COLOUR_ALPHA else "RGBA"
+def _read_color_16(data: bytes) -> NDArray[np.uint16]:
+    """Pillow keeps 8 of the 16 bits of a color: decode the high bytes, then the low ones."""
+    mode = "RGB" if data[25] != _COLOR_ALPHA else "RGBA"
     high, low = _decoded(data, f"{mode};16B"), _decoded(data, f"{mode};16L")
     return _joined(high, low)
 
 
 def _read_grey_alpha_16(data: bytes) -> NDArray[np.uint16]:
     """Grey and alpha of 16 bits are stored as 8-bit red, green, blue, alpha are: relabel the header."""
-    header = data[12:24] + bytes([8, _COLOUR_ALPHA]) + data[26:29]
+    header = data[12:24] + bytes([8, _COLOR_ALPHA]) + data[26:29]
     relabelled = data[:12] + header + struct.pack(">I", zlib.crc32(header)) + data[33:]
     values = _decoded(relabelled)
     return _joined(values[:, :, 0::2], values[:, :, 1::2])

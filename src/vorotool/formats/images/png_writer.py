@@ -47,8 +47,8 @@ def write_png(
     bit_depth = 8 if rgb else bit_depth
     _check_kind(bit_depth, palette)
     out.write(SIGNATURE)
-    colour_type = (_RGBA if has_alpha else _RGB) if rgb else _GREY if palette is None else _PALETTE
-    _write_chunk(out, b"IHDR", struct.pack(">IIBBBBB", width, height, bit_depth, colour_type, 0, 0, 0))
+    color_type = (_RGBA if has_alpha else _RGB) if rgb else _GREY if palette is None else _PALETTE
+    _write_chunk(out, b"IHDR", struct.pack(">IIBBBBB", width, height, bit_depth, color_type, 0, 0, 0))
     if palette is not None:
         _write_chunk(out, b"PLTE", np.ascontiguousarray(palette).tobytes())
         if has_alpha:
@@ -86,7 +86,7 @@ def _check_kind(bit_depth: int, palette: NDArray[np.uint8] | None) -> None:
     if palette.dtype != np.uint8 or palette.ndim != 2 or palette.shape[1] != 3:
         raise ValueError(f"a palette must be (k, 3) uint8, but is {palette.shape} {palette.dtype}")
     if bit_depth > 8 or not 1 <= len(palette) <= 1 << bit_depth:
-        raise ValueError(f"{len(palette)} colours do not make a palette of {bit_depth} bits")
+        raise ValueError(f"{len(palette)} colors do not make a palette of {bit_depth} bits")
 
 
 def _encoder(bit_depth: int, palette: NDArray[np.uint8] | None) -> Callable[[NDArray[Any], NDArray[Any]], None]:
@@ -94,7 +94,7 @@ def _encoder(bit_depth: int, palette: NDArray[np.uint8] | None) -> Callable[[NDA
     if palette is None:
         largest, target = (1 << bit_depth) - 1, f"a {bit_depth}-bit PNG"
     else:
-        largest, target = len(palette) - 1, f"a palette of {len(palette)} colours"
+        largest, target = len(palette) - 1, f"a palette of {len(palette)} colors"
 
     def encode(rows: NDArray[Any], out: NDArray[Any]) -> None:
         check_fits(rows, largest, target)

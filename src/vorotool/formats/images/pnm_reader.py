@@ -1,6 +1,6 @@
 """PBM, PGM and PPM files, with the values as stored.
 
-Pillow, and so imageio, spread them over the full range: ``P2 3 1 9 1 5 9`` is read as 28, 142, 255, and of colours of
+Pillow, and so imageio, spread them over the full range: ``P2 3 1 9 1 5 9`` is read as 28, 142, 255, and of colors of
 more than 8 bits the lower ones are lost (`tests/benchmarks/libraries.py pnm`).
 """
 

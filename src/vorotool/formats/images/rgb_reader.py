@@ -23,8 +23,8 @@ def read_picture(source: Source, options: ReadOptions) -> NDArray[np.uint8]:
     values = read_image(source, options).values
     palette = png_reader.png_palette(source) if source.format == "png" else None
     if palette is not None and values.ndim == 2:
-        colours: NDArray[np.uint8] = palette[values]
-        return colours
+        colors: NDArray[np.uint8] = palette[values]
+        return colors
     channels = _spread(values[:, :, None] if values.ndim == 2 else values)
     if channels.shape[2] in (2, 4):
         alpha = channels[:, :, -1:].astype(np.uint16)
@@ -36,9 +36,9 @@ def _spread(values: NDArray[Any]) -> NDArray[np.uint8]:
     """Values as 8 bits; an alpha channel runs from 0 to the largest value of its type."""
     if values.dtype == np.uint8 and not _is_two_valued(values):
         return values
-    colours = slice(None, -1) if values.shape[2] in (2, 4) else slice(None)
+    colors = slice(None, -1) if values.shape[2] in (2, 4) else slice(None)
     scaled = np.nan_to_num(values.astype(np.float64), nan=0.0, posinf=0.0, neginf=0.0)
-    low, high = scaled[:, :, colours].min(), scaled[:, :, colours].max()
+    low, high = scaled[:, :, colors].min(), scaled[:, :, colors].max()
     spread = (scaled - low) * (_WHITE / (high - low)) if high > low else np.zeros_like(scaled)
     if values.shape[2] in (2, 4):
         opaque = 1.0 if values.dtype.kind == "f" else np.iinfo(values.dtype).max

@@ -107,7 +107,7 @@ def _transform(name: str, page: Any) -> tuple[Transform | None, str]:
         return None, note
     if a * e == b * d:
         raise InputError(f"{name} is damaged: its pixels have no area on the map; remove its georeference to read it")
-    if _raster_type(page) == IS_POINT:  # numbers of pixels are those of their centres
+    if _raster_type(page) == IS_POINT:  # numbers of pixels are those of their centers
         c, f = c - (a + b) / 2, f - (d + e) / 2
     return (a, b, c, d, e, f), ""
 

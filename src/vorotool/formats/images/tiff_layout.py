@@ -125,7 +125,7 @@ def layout_of(name: str, size: int, page: Any) -> TiffLayout:
         background=page.nodata if isinstance(page.nodata, int | float) else 0,
     )
     if page.is_subsampled and layout.compression not in JPEGS:
-        raise InputError(f"{name} has fewer colours than pixels, but no JPEG compression: save it as RGB")
+        raise InputError(f"{name} has fewer colors than pixels, but no JPEG compression: save it as RGB")
     _check_tile_size(layout)
     _check_segments(layout, size)
     return _joined(layout)

@@ -168,6 +168,6 @@ def deflated(strip: NDArray[Any]) -> bytes:
 
 def _colormap(palette: NDArray[np.uint8]) -> NDArray[np.uint16]:
     """TIFF's form of a palette: 256 entries of 16 bits, channel by channel."""
-    colours = np.zeros((256, 3), np.uint16)
-    colours[: len(palette)] = palette.astype(np.uint16) * 257
-    return np.ascontiguousarray(colours.T)
+    colors = np.zeros((256, 3), np.uint16)
+    colors[: len(palette)] = palette.astype(np.uint16) * 257
+    return np.ascontiguousarray(colors.T)

@@ -44,7 +44,7 @@ def _parsed(name: str, data: bytes) -> PixelGrid:
         numbers = []
     if len(data) > _LARGEST or len(numbers) != 6 or not all(map(isfinite, numbers)):
         raise InputError(f"{name} is no world file: six lines of a number each were expected; repair or remove it")
-    a, d, b, e, x, y = numbers  # the place is that of the centre of the first pixel
+    a, d, b, e, x, y = numbers  # the place is that of the center of the first pixel
     if a * e == b * d:
         raise InputError(f"{name} gives pixels without an area: repair or remove it")
     return map_grid((a, b, x - (a + b) / 2, d, e, y - (d + e) / 2))

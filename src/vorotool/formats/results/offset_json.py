@@ -65,12 +65,12 @@ def write_json(out: BinaryIO, offsets: Offsets, *, precision: int | None = None,
     pieces = [
         choice(PIECE_KINDS, offsets.is_arc),
         *places,
-        *optional_pair(offsets.is_arc, [values.copy() for values in offsets.centre.T]),
+        *optional_pair(offsets.is_arc, [values.copy() for values in offsets.center.T]),
         choice(["null", "true", "false"], np.where(offsets.is_arc, np.where(offsets.piece_distance > 0, 1, 2), 0)),
         integers(offsets.site),
     ]
     around = (
-        '{"kind":"', '","start":[', ",", '],"end":[', ",", '],"centre":', "", "", "", "", ',"ccw":', ',"site":', "}",
+        '{"kind":"', '","start":[', ",", '],"end":[', ",", '],"center":', "", "", "", "", ',"ccw":', ',"site":', "}",
     )  # fmt: skip
     write_list(out, "pieces", pieces, around, precision=precision, threads=threads)
     out.write(b"}\n")
@@ -86,11 +86,11 @@ def read_offsets(source: Source, options: ReadOptions) -> Offsets:
     distance = rows.numbers("shapes", shapes, "distance")
     if not distance.all():
         raise InputError(f"{rows.name}, shapes {np.flatnonzero(distance == 0)[0]}: the distance is 0; write another")
-    start, end, centre = _places(rows, pieces)
+    start, end, center = _places(rows, pieces)
     return Offsets(
         start,
         end,
-        centre,
+        center,
         rows.indices("pieces", pieces, "site", len(sites)),
         _starts(rows, "rings", rings, "pieces", len(pieces)),
         _starts(rows, "shapes", shapes, "rings", len(rings)),
@@ -103,18 +103,18 @@ def read_offsets(source: Source, options: ReadOptions) -> Offsets:
 
 
 def _places(rows: JsonRows, pieces: list[Any]) -> tuple[NDArray[np.float64], ...]:
-    """Ends and centres; an arc that few digits have shrunk to its centre is a straight line."""
+    """Ends and centers; an arc that few digits have shrunk to its center is a straight line."""
     start, end = (rows.pairs("pieces", pieces, name, optional=False) for name in ("start", "end"))
-    centre = rows.pairs("pieces", pieces, "centre", optional=True)
+    center = rows.pairs("pieces", pieces, "center", optional=True)
     kind = rows.choices("pieces", pieces, "kind", PIECE_KINDS)
-    unlike = np.flatnonzero(np.isnan(centre[:, 0]) == (kind == 1))
+    unlike = np.flatnonzero(np.isnan(center[:, 0]) == (kind == 1))
     if unlike.size:
         what = ("null", "[x, y]")[kind[unlike[0]]]
         raise InputError(
-            f"{rows.name}, pieces {unlike[0]}: the centre of {('a line', 'an arc')[kind[unlike[0]]]} is {what}"
+            f"{rows.name}, pieces {unlike[0]}: the center of {('a line', 'an arc')[kind[unlike[0]]]} is {what}"
         )
-    centre[(start == centre).all(axis=1) | (end == centre).all(axis=1)] = np.nan
-    return start, end, centre
+    center[(start == center).all(axis=1) | (end == center).all(axis=1)] = np.nan
+    return start, end, center
 
 
 def _starts(rows: JsonRows, member: str, items: list[Any], parts: str, count: int) -> NDArray[np.int64]:

@@ -33,8 +33,8 @@ def write_offsets(
 
 
 def offset_arrays(offsets: Offsets) -> dict[str, NDArray[Any]]:
-    """1-D arrays of pieces, rings and shapes; no polygon is -1, the centre of a line NaN."""
-    places = {"x0": offsets.start, "x1": offsets.end, "cx": offsets.centre}
+    """1-D arrays of pieces, rings and shapes; no polygon is -1, the center of a line NaN."""
+    places = {"x0": offsets.start, "x1": offsets.end, "cx": offsets.center}
     return {
         **{f"piece_{name}": values[:, 0] for name, values in places.items()},
         **{f"piece_{name.replace('x', 'y')}": values[:, 1] for name, values in places.items()},

@@ -17,11 +17,11 @@ from vorotool.geometry.mesh.cells import Nesting
 from vorotool.geometry.numbers import checked_flatten
 from vorotool.geometry.ragged import owners, starts_of
 from vorotool.geometry.voronoi.shapes import cell_rings, flattened_arcs
-from vorotool.geometry.voronoi.tables import border_table, cell_table, neighbour_table
+from vorotool.geometry.voronoi.tables import border_table, cell_table, neighbor_table
 from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 from vorotool.products.formats import TABLES
 
-_TABLES = {"edges": border_table, "neighbours": neighbour_table, "table": cell_table}
+_TABLES = {"edges": border_table, "neighbors": neighbor_table, "table": cell_table}
 
 
 def write_voronoi(
@@ -34,7 +34,7 @@ def write_voronoi(
     precision: int | None = None,
     threads: int = 0,
 ) -> None:
-    """Write the cells of a Voronoi map, its borders, or a row a cell or a pair of neighbours."""
+    """Write the cells of a Voronoi map, its borders, or a row a cell or a pair of neighbors."""
     if what != "cells" and fmt in TABLES:
         write_table(out, _TABLES[what](cells), fmt, precision=precision, threads=threads)
     elif what != "cells":

@@ -250,7 +250,7 @@ def read_frame(name: str, value: Any) -> tuple[float, float, float, float]:
 
 
 def _curves(rows: JsonRows, arcs: list[Any]) -> list[NDArray[np.float64]]:
-    """Control points of parabolas, and centres of circular arcs."""
+    """Control points of parabolas, and centers of circular arcs."""
     kind = rows.choices("arcs", arcs, "kind", tuple(KINDS))
     found = []
     for number, (member, words) in enumerate((("control", "control point"), ("center", "center")), 1):

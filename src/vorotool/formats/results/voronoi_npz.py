@@ -168,7 +168,7 @@ class _Held:
 
 
 def _places(held: _Held, curves: Mapping[str, NDArray[Any]]) -> list[NDArray[np.float64]]:
-    """Control points and centres: no arc has both, and none has half of one."""
+    """Control points and centers: no arc has both, and none has half of one."""
     x, y, u, v = (held.numbers(name, curves[name], may_be_nan=True) for name in _CURVES)
     wrong = np.flatnonzero((np.isnan(x) != np.isnan(y)) | (np.isnan(u) != np.isnan(v)) | ~(np.isnan(x) | np.isnan(u)))
     if wrong.size:

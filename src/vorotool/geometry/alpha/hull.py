@@ -24,15 +24,15 @@ FINENESS = 7.529816085545908e-05
 class AlphaHull(Value, Tabular, Geometric, Pictured):
     """Alpha hull: the complement of all open discs of radius r that contain no point.
 
-    Arcs run clockwise around their centres, with the hull on their left. The arcs of each ring are consecutive: each
+    Arcs run clockwise around their centers, with the hull on their left. The arcs of each ring are consecutive: each
     begins where another one ends.
 
     Parameters
     ----------
     shape : AlphaShape
         The shape of the same radius.
-    start, end, centre : (k, 2) float64 array
-        Ends of the arcs, and centres of their circles, in input units.
+    start, end, center : (k, 2) float64 array
+        Ends of the arcs, and centers of their circles, in input units.
     edge : (k,) int32 array
         The boundary edge of the family that each arc belongs to.
     ring_start : (q + 1,) int64 array
@@ -48,7 +48,7 @@ class AlphaHull(Value, Tabular, Geometric, Pictured):
     shape: AlphaShape = f.nested()
     start: NDArray[np.float64] = f.position("arcs", 2)
     end: NDArray[np.float64] = f.position("arcs", 2)
-    centre: NDArray[np.float64] = f.position("arcs", 2)
+    center: NDArray[np.float64] = f.position("arcs", 2)
     edge: NDArray[np.int32] = f.index("arcs")
     ring_start: NDArray[np.int64] = f.starts("rings", "arcs", least=1)
     points: NDArray[np.int32] = f.index("points")
@@ -63,7 +63,7 @@ class AlphaHull(Value, Tabular, Geometric, Pictured):
 
     @cached_property
     def angles(self) -> NDArray[np.float64]:
-        """(k,) angle of each arc at its centre, in radians: at most π, since an arc is less than half a circle."""
+        """(k,) angle of each arc at its center, in radians: at most π, since an arc is less than half a circle."""
         return 2 * inverse_sine(hypotenuse(*(self.end - self.start).T) / 2 / self.r)
 
     @property
@@ -88,11 +88,11 @@ class AlphaHull(Value, Tabular, Geometric, Pictured):
         counts = np.maximum(np.ceil(self.angles / widest), 1).astype(np.int64)
         arc, step = owners(counts), within(counts)
         turned = self.angles[arc] * (step / counts[arc])
-        offset = self.start[arc] - self.centre[arc]
+        offset = self.start[arc] - self.center[arc]
         cosine, sine = cosine_and_sine(turned)
         x = offset[:, 0] * cosine + offset[:, 1] * sine
         y = offset[:, 1] * cosine - offset[:, 0] * sine
-        xy = np.where((step == 0)[:, None], self.start[arc], self.centre[arc] + np.stack([x, y], axis=1))
+        xy = np.where((step == 0)[:, None], self.start[arc], self.center[arc] + np.stack([x, y], axis=1))
         return xy, starts_of(counts)[self.ring_start]
 
     def polygons(self) -> list[list[NDArray[np.float64]]]:
@@ -128,8 +128,8 @@ class AlphaHull(Value, Tabular, Geometric, Pictured):
         return Table(
             {
                 **{f"{axis}{end}": places[:, k] for end, places in ends_of_arcs.items() for k, axis in enumerate("xy")},
-                "cx": self.centre[:, 0],
-                "cy": self.centre[:, 1],
+                "cx": self.center[:, 0],
+                "cy": self.center[:, 1],
                 "r": np.full(len(self), self.r),
                 "label_a": Lookup(labels, np.ascontiguousarray(ends[:, 0])),
                 "label_b": Lookup(labels, np.ascontiguousarray(ends[:, 1])),

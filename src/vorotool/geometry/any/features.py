@@ -365,7 +365,7 @@ def _on_map(table: Table, image: LabelImage, own: Mapping[str, Any]) -> Table:
     grid = image.grid
     if grid is not None and grid.transform is not None:
         if grid.is_square and grid.is_upright and grid.is_north_up and image.sides == SQUARE:
-            table = scaled_table(table, grid.width, properties=own, origin=grid.centre, y_up=True)
+            table = scaled_table(table, grid.width, properties=own, origin=grid.center, y_up=True)
         else:  # a length in pixels, or in the unit of a spacing, is none on the map
             left_out |= LENGTHS | AREAS
     columns = table.stored().items()

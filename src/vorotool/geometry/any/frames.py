@@ -12,7 +12,7 @@ from vorotool.geometry.any.tables import indexed_table
 from vorotool.geometry.crs import crs_text
 from vorotool.geometry.extras import needed
 from vorotool.geometry.row_index import index_of_rows
-from vorotool.geometry.voronoi.tables import neighbour_pairs
+from vorotool.geometry.voronoi.tables import neighbor_pairs
 from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 
 
@@ -38,18 +38,18 @@ def to_geopandas(value: Any, **options: Any) -> Any:
 
 
 def adjacency(cells: VoronoiMap) -> Any:
-    """Give pairs of neighbours both ways as a data frame, cells without any with themselves."""
+    """Give pairs of neighbors both ways as a data frame, cells without any with themselves."""
     pandas = needed("pandas", "frames", "data frames")
-    pairs, length = neighbour_pairs(cells)
+    pairs, length = neighbor_pairs(cells)
     lone = np.setdiff1d(np.arange(len(cells)), pairs)
     focal = np.concatenate([pairs[:, 0], pairs[:, 1], lone])
-    neighbour = np.concatenate([pairs[:, 1], pairs[:, 0], lone])
+    neighbor = np.concatenate([pairs[:, 1], pairs[:, 0], lone])
     weights = np.concatenate([length, length, np.zeros(len(lone))])
-    order = np.lexsort((neighbour, focal))
+    order = np.lexsort((neighbor, focal))
     index = _index(pandas, cells, np.arange(len(cells)))
     names = pandas.RangeIndex(len(cells)) if index is None else index
     return pandas.DataFrame(
-        {"focal": names[focal[order]], "neighbor": names[neighbour[order]], "weight": weights[order]}
+        {"focal": names[focal[order]], "neighbor": names[neighbor[order]], "weight": weights[order]}
     )
 
 

@@ -1,4 +1,4 @@
-"""Values as graphs of networkx: skeletons, triangulations, neighbouring regions, planar graphs."""
+"""Values as graphs of networkx: skeletons, triangulations, neighboring regions, planar graphs."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from vorotool.geometry.skeleton.graph import skeleton_graph
 from vorotool.geometry.skeleton.skeleton import Skeleton
 from vorotool.geometry.table import Table
 from vorotool.geometry.volumes.label_volume import LabelVolume
-from vorotool.geometry.voronoi.tables import neighbour_pairs
+from vorotool.geometry.voronoi.tables import neighbor_pairs
 from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 from vorotool.products.formats import resolved
 
@@ -57,9 +57,9 @@ def to_networkx(
         `branch_table` has them, and ``geometry``, a shapely LineString; the properties of the polygon, too. Of a
         triangulation nodes are numbers of points, from 0, with ``x``, ``y``, ``label`` and the properties, edges have
         ``length``. Of a label image or volume nodes are labels, with the columns of
-        `region_table`, edges join neighbours, with those of `neighbour_table`. Of a planar graph nodes are numbers of
+        `region_table`, edges join neighbors, with those of `neighbor_table`. Of a planar graph nodes are numbers of
         its points, with ``x`` and ``y``, edges have ``segment``, ``length``, ``face_left`` and ``face_right``. Of a
-        Voronoi map nodes are numbers of its cells, from 0, with the columns of its table, edges join neighbours, with
+        Voronoi map nodes are numbers of its cells, from 0, with the columns of its table, edges join neighbors, with
         ``border_length`` and ``distance``.
     by : {"branch", "arc"}, optional
         Meaning of an edge of a skeleton; by default a branch. A closed branch joins a node with itself.
@@ -161,7 +161,7 @@ def _of_labels(library: Any, image: LabelImage | LabelVolume) -> Any:
     measure = "engines.volumes.volume_measures:measure_volume" if is_volume else f"{room}:measure_regions"
     measures = resolved(measure)(image)
     regions = resolved(f"{room}:region_table")(image, measures=measures)
-    borders = dict(resolved(f"{room}:neighbour_table")(image, measures=measures))
+    borders = dict(resolved(f"{room}:neighbor_table")(image, measures=measures))
     own = {} if image.seeds is None else image.seeds.properties
     labels = regions["voro_label" if "label" in own else "label"]
     graph = library.Graph(**_named(getattr(image.grid, "crs", None)))
@@ -177,8 +177,8 @@ def _of_voronoi(library: Any, cells: VoronoiMap) -> Any:
     reach = "voro_max_distance" if "max_distance" in cells.properties else "max_distance"
     table[reach] = np.ma.masked_invalid(table[reach])
     graph.add_nodes_from(enumerate(_rows(table)))
-    borders = {name: column for name, column in cells.neighbours.items() if name not in ("label_a", "label_b")}
-    a, b = neighbour_pairs(cells)[0].T.tolist()
+    borders = {name: column for name, column in cells.neighbors.items() if name not in ("label_a", "label_b")}
+    a, b = neighbor_pairs(cells)[0].T.tolist()
     graph.add_edges_from(zip(a, b, _rows(borders), strict=True))
     return graph
 

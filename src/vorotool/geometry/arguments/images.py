@@ -22,7 +22,7 @@ EXPECTED = "an image: a Raster, a LabelImage, or a 2-D array of truth values or 
 POINT_WIDTHS = (2, 3)
 """Numbers a row of arrays of integers that are points unless they are said to be images."""
 
-COLOUR_CHANNELS = (1, 2, 3, 4)
+COLOR_CHANNELS = (1, 2, 3, 4)
 
 
 def check_image_choice(image: Any) -> None:
@@ -117,9 +117,9 @@ def _check_shape(source: Any, name: str, *, is_grey: bool, max_pixels: int) -> N
     shape = getattr(source, "shape", None)
     if not isinstance(shape, tuple):
         return
-    if len(shape) == 3 and shape[2] in COLOUR_CHANNELS and not is_grey:
-        raise InputError(f"it is a colour image, {described(source)}: give {_thresholded(name)}")
-    if len(shape) == 3 and shape[2] not in COLOUR_CHANNELS:
+    if len(shape) == 3 and shape[2] in COLOR_CHANNELS and not is_grey:
+        raise InputError(f"it is a color image, {described(source)}: give {_thresholded(name)}")
+    if len(shape) == 3 and shape[2] not in COLOR_CHANNELS:
         raise InputError(
             f"it is a stack of {shape[0]} images, {described(source)}: give one of them, {name}[0]; "
             f"vorotool.tessellate takes it as a volume"

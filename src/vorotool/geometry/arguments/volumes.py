@@ -23,13 +23,13 @@ EXPECTED = "a volume: a Volume, a LabelVolume, or a 3-D array of truth values or
 
 
 def is_volume(values: Any) -> bool:
-    """Whether an array has three axes, of which the last one is not that of colours."""
+    """Whether an array has three axes, of which the last one is not that of colors."""
     try:
         shape = np.shape(values) if isinstance(values, list | tuple) else getattr(values, "shape", ())
     except ValueError:  # lists of several lengths
         return False
-    is_colour = getattr(values, "dtype", None) == np.uint8 and shape[-1:] in ((3,), (4,))
-    return len(shape) == AXES and not is_colour
+    is_color = getattr(values, "dtype", None) == np.uint8 and shape[-1:] in ((3,), (4,))
+    return len(shape) == AXES and not is_color
 
 
 def is_of_space(source: Any, shape: Any = None, window: Any = None) -> bool:

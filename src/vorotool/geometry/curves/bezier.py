@@ -10,9 +10,9 @@ from vorotool.geometry.curves.inverse_functions import inverse_sinh
 Floats = NDArray[np.float64]
 
 
-def areas_beside(source: Floats, control: Floats, target: Floats, centre: Floats) -> Floats:
+def areas_beside(source: Floats, control: Floats, target: Floats, center: Floats) -> Floats:
     """(n,) signed areas between a place and curves: positive where they go counter-clockwise around it."""
-    a, b = source - centre, target - centre
+    a, b = source - center, target - center
     triangle = (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2
     u, v = control - source, target - source
     beside = (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]) / 3

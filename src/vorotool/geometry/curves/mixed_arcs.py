@@ -32,7 +32,7 @@ class MixedArcs:
     # (n, 2) float64 array: the control point of a quadratic Bezier curve, which each parabola is; NaN of other arcs
     control: Floats
     center: Floats  # (n, 2) float64 array: of the circle of each circular arc; NaN of other arcs
-    is_left: NDArray[np.bool_]  # (n,) bool array: whether a circular arc goes counter-clockwise around its centre
+    is_left: NDArray[np.bool_]  # (n,) bool array: whether a circular arc goes counter-clockwise around its center
 
     def __getitem__(self, chosen: NDArray[np.bool_] | Indices) -> MixedArcs:
         """Some of the arcs."""

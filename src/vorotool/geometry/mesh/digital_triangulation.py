@@ -28,7 +28,7 @@ class DigitalTriangulation(Value, Tabular, WithParts, Graph, Pictured):
     edges : (e, 2) int32 array
         Regions that share a pixel side, the smaller index first, in lexicographic order.
     triangles : (t, 3) int32 array
-        Regions of a pixel and two of its 4-neighbours that are 8-neighbours of each other: the smallest index first,
+        Regions of a pixel and two of its 4-neighbors that are 8-neighbors of each other: the smallest index first,
         then counter-clockwise (collinear sites: in increasing order), in lexicographic order of the sorted indices.
     at_four : (t,) bool array
         Whether the triangle was found at a corner where four labels meet. All four triples of these are triangles.

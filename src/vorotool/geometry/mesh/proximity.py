@@ -13,7 +13,7 @@ from vorotool.types import fields as f
 from vorotool.types.fields import record
 
 KINDS = ("gabriel", "relative", "mst")
-"""Gabriel graph, relative neighbourhood graph, minimum spanning tree: each is part of the one before."""
+"""Gabriel graph, relative neighborhood graph, minimum spanning tree: each is part of the one before."""
 
 
 @record

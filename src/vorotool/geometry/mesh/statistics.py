@@ -12,7 +12,7 @@ from vorotool.geometry.summaries import summary_table
 from vorotool.geometry.table import Table
 from vorotool.geometry.values import Tabular, Value, counted
 
-MEASURES = ("area", "perimeter", "roundness", "neighbours", "nearest_distance")
+MEASURES = ("area", "perimeter", "roundness", "neighbors", "nearest_distance")
 """Columns of cells that are summarised."""
 
 
@@ -23,7 +23,7 @@ class CellStatistics(Value, Tabular):
     Parameters
     ----------
     cells : Table
-        ``label, x, y, area, perimeter, roundness, neighbours, nearest_distance, whole``: one row a point or region.
+        ``label, x, y, area, perimeter, roundness, neighbors, nearest_distance, whole``: one row a point or region.
         ``roundness`` is 4 π area / perimeter², 1 of a circle. Cells that are not whole are left out of the summary.
     tree_lengths : (k,) float64 array
         Lengths of the edges of the minimum spanning tree of all points.

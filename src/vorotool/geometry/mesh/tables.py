@@ -78,14 +78,14 @@ def point_table(mesh: Triangulation) -> Table:
     Returns
     -------
     Table
-        ``label, x, y, neighbours, on_hull, duplicate_of_label``: edges that end at the point, whether it is on the
+        ``label, x, y, neighbors, on_hull, duplicate_of_label``: edges that end at the point, whether it is on the
         hull, and the label of the first point of the same place. Of a point that lies on an earlier one the second
         and third do not exist, of the others the last.
 
     Examples
     --------
     >>> from vorotool import delaunay
-    >>> point_table(delaunay([[0, 0], [4, 0], [0, 3], [1, 1]]))["neighbours"].tolist()
+    >>> point_table(delaunay([[0, 0], [4, 0], [0, 3], [1, 1]]))["neighbors"].tolist()
     [3, 3, 3, 3]
     """
     check_value(mesh, "mesh", Triangulation)
@@ -99,7 +99,7 @@ def point_table(mesh: Triangulation) -> Table:
             "label": labels,
             "x": mesh.points[:, 0],
             "y": mesh.points[:, 1],
-            "neighbours": np.ma.array(np.bincount(mesh.edges.reshape(-1), minlength=count), mask=is_duplicate),
+            "neighbors": np.ma.array(np.bincount(mesh.edges.reshape(-1), minlength=count), mask=is_duplicate),
             "on_hull": np.ma.array(on_hull, mask=is_duplicate),
             "duplicate_of_label": np.ma.array(labels[mesh.first], mask=~is_duplicate),
         }

@@ -34,7 +34,7 @@ class Triangulation(Value, Tabular, WithParts, Graph, Pictured):
 
     Triangles and edges follow a Morton curve through the points: their order depends on the coordinates, not on the
     numbering. They are grouped by their vertex that is earliest on the curve, counter-clockwise around it from its
-    earliest neighbour; a triangle begins with that vertex. Collinear points, and fewer than three, have no triangles:
+    earliest neighbor; a triangle begins with that vertex. Collinear points, and fewer than three, have no triangles:
     their edges form a chain. Each cocircular polygon is a fan from its lexicographically smallest vertex.
 
     Parameters
@@ -43,7 +43,7 @@ class Triangulation(Value, Tabular, WithParts, Graph, Pictured):
         Coordinates, in the order of the input; finite.
     triangles : (t, 3) int32 array
         Vertices of each triangle, counter-clockwise: a positive shoelace sum on the coordinates as stored.
-    neighbours : (t, 3) int32 array
+    neighbors : (t, 3) int32 array
         The triangle across the edge opposite to each vertex, -1 on the hull.
     edges : (e, 2) int32 array
         Ends of each edge, the smaller index first.
@@ -78,13 +78,13 @@ class Triangulation(Value, Tabular, WithParts, Graph, Pictured):
     --------
     >>> triangle = Triangulation([[0, 0], [4, 0], [0, 3]], [[0, 1, 2]], [[-1, -1, -1]], [[0, 1], [0, 2], [1, 2]],
     ...                          [0, 1, 2], [0, 1, 2])
-    >>> triangle.circumcentres().tolist(), triangle.circumradii().tolist(), triangle.areas().tolist()
+    >>> triangle.circumcenters().tolist(), triangle.circumradii().tolist(), triangle.areas().tolist()
     ([[2.0, 1.5]], [2.5], [6.0])
     """
 
     points: NDArray[np.float64] = f.position("points", 2)
     triangles: NDArray[np.int32] = f.index("triangles", 3)
-    neighbours: NDArray[np.int32] = f.index("triangles", 3)
+    neighbors: NDArray[np.int32] = f.index("triangles", 3)
     edges: NDArray[np.int32] = f.index("edges", 2)
     hull: NDArray[np.int32] = f.index("hull")
     first: NDArray[np.int32] = f.index("points")
@@ -129,7 +129,7 @@ class Triangulation(Value, Tabular, WithParts, Graph, Pictured):
         --------
         >>> square = [[0, 0], [2, 0], [2, 1], [0, 1]]
         >>> mesh = Triangulation.from_triangles(square, [[0, 1, 2], [3, 2, 0]])
-        >>> mesh.triangles.tolist(), mesh.neighbours.tolist(), mesh.hull.tolist()
+        >>> mesh.triangles.tolist(), mesh.neighbors.tolist(), mesh.hull.tolist()
         ([[0, 1, 2], [3, 0, 2]], [[-1, 1, -1], [0, -1, -1]], [0, 1, 2, 3])
         """
         made: Triangulation = resolved("engines.delaunay.from_triangles:triangulation_of")(points, triangles)
@@ -161,11 +161,11 @@ class Triangulation(Value, Tabular, WithParts, Graph, Pictured):
         found: NDArray[np.bool_] = (onward[a] == b) | (onward[b] == a)
         return found
 
-    def circumcentres(self) -> NDArray[np.float64]:
-        """Return the (t, 2) circumcentres of the triangles.
+    def circumcenters(self) -> NDArray[np.float64]:
+        """Return the (t, 2) circumcenters of the triangles.
 
         The error is at most about 1e-9 times the circumradius, nearly always about 1e-15 times, plus the rounding of
-        the result. A centre beyond the largest double is infinite.
+        the result. A center beyond the largest double is infinite.
         """
         return self._circles()[0]
 
@@ -194,11 +194,11 @@ class Triangulation(Value, Tabular, WithParts, Graph, Pictured):
         with np.errstate(all="ignore"):  # flat triangles divide by zero and are done again
             x = (c[:, 1] * b2 - b[:, 1] * c2) / (2 * cross)
             y = (b[:, 0] * c2 - c[:, 0] * b2) / (2 * cross)
-            centres = np.ldexp(np.ldexp(np.stack([x, y], axis=1), (exponent - scale)[:, None]) + a, scale)
+            centers = np.ldexp(np.ldexp(np.stack([x, y], axis=1), (exponent - scale)[:, None]) + a, scale)
             radii = np.ldexp(hypotenuse(x, y), exponent)
         for t in np.flatnonzero(flat):
-            centres[t], radii[t] = _exact_circle(self.points[self.triangles[t]])
-        return centres, radii
+            centers[t], radii[t] = _exact_circle(self.points[self.triangles[t]])
+        return centers, radii
 
     def _corners(self) -> tuple[NDArray[np.float64], ...]:
         """The vertex opposite to the longest side (times 2^-scale), and the way to the others (times 2^-exponent)."""
@@ -257,7 +257,7 @@ def _exact_cross(triangle: NDArray[np.float64]) -> Fraction:
 
 
 def _exact_circle(triangle: NDArray[np.float64]) -> tuple[tuple[float, float], float]:
-    """Centre and radius of one circle, from rationals."""
+    """Center and radius of one circle, from rationals."""
     (ax, ay), (bx, by), (cx, cy) = ((Fraction(x), Fraction(y)) for x, y in triangle.tolist())
     bx, by, cx, cy = bx - ax, by - ay, cx - ax, cy - ay
     b2, c2, cross = bx * bx + by * by, cx * cx + cy * cy, bx * cy - by * cx

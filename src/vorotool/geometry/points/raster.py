@@ -15,7 +15,7 @@ from vorotool.geometry.values import Pixels, Value, placed
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Raster(Value, Pixels):
-    """A single-channel image, or a colour image that still has to be thresholded.
+    """A single-channel image, or a color image that still has to be thresholded.
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ class Raster(Value, Pixels):
 
     Examples
     --------
-    >>> Raster(np.eye(3, dtype=np.uint8)).is_colour
+    >>> Raster(np.eye(3, dtype=np.uint8)).is_color
     False
     """
 
@@ -59,7 +59,7 @@ class Raster(Value, Pixels):
         object.__setattr__(self, "values", values)
 
     @property
-    def is_colour(self) -> bool:
+    def is_color(self) -> bool:
         """Whether the image has channels."""
         return self.values.ndim == 3
 
@@ -73,7 +73,7 @@ class Raster(Value, Pixels):
 
     def _summary(self) -> str:
         height, width = self.shape
-        channels = f" x {self.values.shape[2]}" if self.is_colour else ""
+        channels = f" x {self.values.shape[2]}" if self.is_color else ""
         size = "" if self.grid is None else f", pixels of {self.grid.size_text()}"
         text = f"{width} x {height}{channels}, {self.values.dtype}{size}"
         return placed(text, None if self.grid is None else self.grid.crs)

@@ -69,7 +69,7 @@ class PlanarGraph(Value, Tabular, Geometric, Graph, Pictured):
     repairs : dict of str to int
         ``repeated_vertices``: edges without length, left out. ``touching_vertices``: a vertex inside an edge cuts it.
         ``crossings``: places where edges cross, each now a point of the graph. ``moved_edges``: edges that are led
-        through neighbouring lattice points, by less than a step, since a crossing is on no lattice point.
+        through neighboring lattice points, by less than a step, since a crossing is on no lattice point.
         ``idle_segments``: parts of edges that bound nothing, such as spikes, left out. ``empty_polygons``: polygons
         without any inside.
     polygons : PolygonSet, optional

@@ -32,7 +32,7 @@ class Discs(Value, Tabular, Curved, Pictured):
     Parameters
     ----------
     xy : (n, 2) float64 array
-        Centres.
+        Centers.
     radius : (n,) float64 array
         Radii: the distance from the nearest place on the boundary.
     polygon : (n,) int32 array
@@ -54,7 +54,7 @@ class Discs(Value, Tabular, Curved, Pictured):
     features : {"separate", "together"}
         Whether each feature was taken by itself.
     within : PolygonSet, optional
-        Of empty discs: where their centres are.
+        Of empty discs: where their centers are.
 
     Raises
     ------
@@ -170,8 +170,8 @@ class Discs(Value, Tabular, Curved, Pictured):
         ends = start[:, ::-1].reshape(-1, 2)
         is_left = np.ones(2 * count, dtype=bool)
         each = np.broadcast_to(circle_tolerances(self.xy, self.radius, checked_flatten(tolerance)), count)
-        centre = np.repeat(self.xy, 2, axis=0)
-        xy, first = chords_of(start.reshape(-1, 2), ends, centre, is_left, np.repeat(each, 2))
+        center = np.repeat(self.xy, 2, axis=0)
+        xy, first = chords_of(start.reshape(-1, 2), ends, center, is_left, np.repeat(each, 2))
         polygons = self.polygons
         return PolygonSet(
             xy,
@@ -200,9 +200,9 @@ class Discs(Value, Tabular, Curved, Pictured):
         return placed(counted(len(self), "disc"), self.polygons.crs, self.polygons.unit)
 
 
-def _holding(feet: NDArray[np.float64], centre: NDArray[np.float64]) -> list[int]:
+def _holding(feet: NDArray[np.float64], center: NDArray[np.float64]) -> list[int]:
     """The first foot, and on each side the nearest to what is opposite."""
-    ways = feet - centre
+    ways = feet - center
     ways /= np.sqrt((ways * ways).sum(axis=1, keepdims=True))
     turn = ways[0, 0] * ways[:, 1] - ways[0, 1] * ways[:, 0]
     forward = (ways * ways[0]).sum(axis=1)

@@ -39,7 +39,7 @@ class Offsets(Value, Tabular, Curved, Pictured):
     ----------
     start, end : (k, 2) float64 array
         Ends of the pieces, in input units.
-    centre : (k, 2) float64 array
+    center : (k, 2) float64 array
         Of the circle of each arc, which is at most half of it; NaN on straight lines.
     site : (k,) int32 array
         The site that each piece is at the distance from, a row of `site_table`: an edge of a line, a vertex of an arc.
@@ -76,7 +76,7 @@ class Offsets(Value, Tabular, Curved, Pictured):
 
     start: NDArray[np.float64] = f.position("pieces", 2)
     end: NDArray[np.float64] = f.position("pieces", 2)
-    centre: NDArray[np.float64] = f.position("pieces", 2)
+    center: NDArray[np.float64] = f.position("pieces", 2)
     site: NDArray[np.int32] = f.index("pieces")
     ring_start: NDArray[np.int64] = f.starts("rings", "pieces", least=1)
     shape_start: NDArray[np.int64] = f.starts("shapes", "rings", least=1)
@@ -94,7 +94,7 @@ class Offsets(Value, Tabular, Curved, Pictured):
     @cached_property
     def is_arc(self) -> NDArray[np.bool_]:
         """(k,) whether each piece is a circular arc."""
-        return ~np.isnan(self.centre[:, 0])
+        return ~np.isnan(self.center[:, 0])
 
     @cached_property
     def shape_of_ring(self) -> NDArray[np.int64]:
@@ -138,8 +138,8 @@ class Offsets(Value, Tabular, Curved, Pictured):
         first = self.start[self.ring_start[:-1]][self.ring_of_piece]
         a, b = self.start - first, self.end - first
         # sin x near 0 and π: by the chord and the height of its triangle
-        x, y = np.where(self.is_arc[:, None], self.start - self.centre, 0).T
-        u, v = np.where(self.is_arc[:, None], self.end - self.centre, 0).T
+        x, y = np.where(self.is_arc[:, None], self.start - self.center, 0).T
+        u, v = np.where(self.is_arc[:, None], self.end - self.center, 0).T
         sector = self.piece_distance * np.abs(self.piece_distance) * self.angle - (x * v - y * u)
         pieces = (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0] + np.where(self.is_arc, sector, 0)) / 2
         if not len(self):
@@ -175,7 +175,7 @@ class Offsets(Value, Tabular, Curved, Pictured):
         """
         is_left = self.piece_distance > 0
         each = circle_tolerances(self.start, np.abs(self.piece_distance), checked_flatten(tolerance))
-        xy, first = chords_of(self.start, self.end, self.centre, is_left, each)
+        xy, first = chords_of(self.start, self.end, self.center, is_left, each)
         return PolygonSet(
             xy,
             first[self.ring_start],
@@ -203,7 +203,7 @@ class Offsets(Value, Tabular, Curved, Pictured):
         -------
         Table
             ``polygon, id, shape, distance, ring, ring_kind, piece, kind, x0, y0, x1, y1, cx, cy, r, ccw, site_index,
-            length``. Rings are counted in their shape, 0 is the shell. A straight line has no centre, no radius, and
+            length``. Rings are counted in their shape, 0 is the shell. A straight line has no center, no radius, and
             does not turn.
         """
         ring = self.ring_of_piece
@@ -224,8 +224,8 @@ class Offsets(Value, Tabular, Curved, Pictured):
                 "y0": self.start[:, 1].copy(),
                 "x1": self.end[:, 0].copy(),
                 "y1": self.end[:, 1].copy(),
-                "cx": np.ma.array(self.centre[:, 0], mask=line),
-                "cy": np.ma.array(self.centre[:, 1], mask=line),
+                "cx": np.ma.array(self.center[:, 0], mask=line),
+                "cy": np.ma.array(self.center[:, 1], mask=line),
                 "r": np.ma.array(np.abs(self.piece_distance), mask=line),
                 "ccw": np.ma.array((self.piece_distance > 0).astype(np.int8), mask=line),
                 "site_index": self.site,

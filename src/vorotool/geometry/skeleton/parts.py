@@ -31,8 +31,8 @@ class Parts(Value, Tabular, Geometric, Pictured):
     source : (p,) int32 array
         The polygon that each is a piece of: one of ``necks.skeleton.polygons``.
     radius : (p,) float64 array
-        Of the largest disc in that polygon whose centre is in the piece.
-    centre : (p, 2) float64 array
+        Of the largest disc in that polygon whose center is in the piece.
+    center : (p, 2) float64 array
         Of this disc, of several the one with the least x, or y.
     necks : Necks
         Where the polygons are cut.
@@ -57,7 +57,7 @@ class Parts(Value, Tabular, Geometric, Pictured):
     polygons: PolygonSet = f.nested("parts")
     source: NDArray[np.int32] = f.index("parts")
     radius: NDArray[np.float64] = f.length("parts")
-    centre: NDArray[np.float64] = f.position("parts", 2)
+    center: NDArray[np.float64] = f.position("parts", 2)
     necks: Necks = f.nested("cuts")
     between: NDArray[np.int32] = f.index("cuts", 2)
 
@@ -89,7 +89,7 @@ class Parts(Value, Tabular, Geometric, Pictured):
         """(p,) number of cuts around each."""
         return np.bincount(self.between.reshape(-1), minlength=len(self))
 
-    def neighbours(self) -> list[list[int]]:
+    def neighbors(self) -> list[list[int]]:
         """Return the pieces beyond the cuts of each piece, ascending."""
         found: list[set[int]] = [set() for _ in range(len(self))]
         for a, b in self.between.tolist():
@@ -104,7 +104,7 @@ class Parts(Value, Tabular, Geometric, Pictured):
         -------
         Table
             ``piece, polygon, id, area, width, x, y, cuts``: the width is the diameter of the largest disc of the
-            polygon with its centre in the piece, x and y this centre.
+            polygon with its center in the piece, x and y this center.
         """
         return Table(
             {
@@ -113,8 +113,8 @@ class Parts(Value, Tabular, Geometric, Pictured):
                 "id": ids_of(self.necks.skeleton.polygons, self.source),
                 "area": self.area,
                 "width": self.width,
-                "x": self.centre[:, 0].copy(),
-                "y": self.centre[:, 1].copy(),
+                "x": self.center[:, 0].copy(),
+                "y": self.center[:, 1].copy(),
                 "cuts": self.cuts,
             }
         )
@@ -134,7 +134,7 @@ class Parts(Value, Tabular, Geometric, Pictured):
             "area": self.area.tolist(),
             "width": self.width.tolist(),
             "cuts": self.cuts.tolist(),
-            "neighbours": self.neighbours(),
+            "neighbors": self.neighbors(),
         }
         given = self.polygons.properties
         named = {f"voro_{name}" if name in given else name: values for name, values in own.items()}

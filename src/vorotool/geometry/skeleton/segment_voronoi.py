@@ -33,7 +33,7 @@ class SegmentVoronoiDiagram:
     points: NDArray[np.int32]  # (n, 2) int32 array: distinct points, at most `LATTICE_LIMIT` in magnitude
     # (m, 2) int32 array: ends of each segment. Segments meet at shared ends only, and no point lies inside one
     segments: NDArray[np.int32]
-    # (v, 2) float64 array: centres of the discs that touch three sites or more and hold none inside
+    # (v, 2) float64 array: centers of the discs that touch three sites or more and hold none inside
     vertices: NDArray[np.float64]
     # (v,) float64 array: their radii; 0 at a point where segments meet, which then is the vertex
     radius: NDArray[np.float64]

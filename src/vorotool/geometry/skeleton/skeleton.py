@@ -72,7 +72,7 @@ class Skeleton(Value, Tabular, Branched, Pictured):
     Parameters
     ----------
     vertices : (v, 2) float64 array
-        Nodes: centres of discs that touch the boundary without crossing it.
+        Nodes: centers of discs that touch the boundary without crossing it.
     radius : (v,) float64 array
         Their radii: 0 at corners.
     arcs : (a, 2) int32 array

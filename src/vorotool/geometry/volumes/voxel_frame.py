@@ -10,12 +10,12 @@ from vorotool.geometry.pixel_frame import FARTHEST, MAX_SIDE
 
 @dataclass(frozen=True)
 class VoxelFrame:
-    """A box of voxels: voxel (0, 0, 0) of the volume has its centre at (``x``, ``y``, ``z``).
+    """A box of voxels: voxel (0, 0, 0) of the volume has its center at (``x``, ``y``, ``z``).
 
     Parameters
     ----------
     x, y, z : int
-        Coordinates of the centre of the first voxel.
+        Coordinates of the center of the first voxel.
     width, height, depth : int
         Size in voxels, each at least 1.
 

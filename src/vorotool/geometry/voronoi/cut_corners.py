@@ -60,7 +60,7 @@ def _axes(arcs: MixedArcs) -> Floats:
 
 
 def _feet(arcs: MixedArcs, place: Floats) -> Floats:
-    """(k, 2) places on curves: in the direction of the axis of a parabola, or of the centre of a circle."""
+    """(k, 2) places on curves: in the direction of the axis of a parabola, or of the center of a circle."""
     across = _axes(arcs)
     whole = (across * (arcs.target - arcs.source)).sum(axis=1)
     t = (across * (place - arcs.source)).sum(axis=1) / np.where(whole > 0, whole, 1)

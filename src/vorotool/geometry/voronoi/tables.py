@@ -1,4 +1,4 @@
-"""Tables of a Voronoi map: its borders, pairs of neighbours, and one row a cell."""
+"""Tables of a Voronoi map: its borders, pairs of neighbors, and one row a cell."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def border_table(cells: VoronoiMap) -> Table:
     )
 
 
-def neighbour_pairs(cells: VoronoiMap) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+def neighbor_pairs(cells: VoronoiMap) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
     """(n, 2) pairs of cells that share a border of positive length, ascending, and (n,) its length."""
     arc = np.flatnonzero(cells.is_border & (cells.length > 0))
     pair = np.sort(cells.sites[arc], axis=1).astype(np.int64)
@@ -60,9 +60,9 @@ def neighbour_pairs(cells: VoronoiMap) -> tuple[NDArray[np.int64], NDArray[np.fl
     return pairs, length
 
 
-def neighbour_table(cells: VoronoiMap) -> Table:
+def neighbor_table(cells: VoronoiMap) -> Table:
     """Give one row a pair of cells that share a border; cells that meet in places only are none."""
-    pairs, length = neighbour_pairs(cells)
+    pairs, length = neighbor_pairs(cells)
     low, high = np.ascontiguousarray(pairs.T) + 1
     distance = _when_asked(lambda: site_distances(cells, pairs), len(pairs))
     return Table({"label_a": low, "label_b": high, "border_length": length, "distance": distance})
@@ -70,14 +70,14 @@ def neighbour_table(cells: VoronoiMap) -> Table:
 
 def cell_table(cells: VoronoiMap) -> Table:
     """Give one row a cell."""
-    pairs, _ = neighbour_pairs(cells)
+    pairs, _ = neighbor_pairs(cells)
     columns: dict[str, Any] = {"label": np.arange(1, len(cells) + 1)}
     if cells.ids is not None:
         columns["id"] = list(cells.ids)
     columns |= {
         "area": cells.areas,
         "perimeter": cells.perimeters,
-        "neighbours": np.bincount(pairs.ravel(), minlength=len(cells)),
+        "neighbors": np.bincount(pairs.ravel(), minlength=len(cells)),
         "own_area": _when_asked(lambda: cells.own_areas, len(cells)),
         "max_distance": _when_asked(lambda: cells.reaches, len(cells)),
         "components": cells.components,

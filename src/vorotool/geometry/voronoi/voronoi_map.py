@@ -171,8 +171,8 @@ class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
     def areas(self) -> Floats:
         """(s,) areas of the cells, with the true curves."""
         x, y, w, h = self.frame
-        centre = np.array([x + w / 2, y + h / 2])
-        beside = self.mixed_arcs.areas_beside(centre)
+        center = np.array([x + w / 2, y + h / 2])
+        beside = self.mixed_arcs.areas_beside(center)
         total = np.zeros(len(self))
         for hand, sign in ((0, 1), (1, -1)):
             inner = self.sites[:, hand] != OUTSIDE
@@ -212,9 +212,9 @@ class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
         return made
 
     @property
-    def neighbours(self) -> Table:
-        """Pairs of cells that share a border; see `vorotool.geometry.voronoi.tables.neighbour_table`."""
-        made: Table = resolved(f"{_TABLES}:neighbour_table")(self)
+    def neighbors(self) -> Table:
+        """Pairs of cells that share a border; see `vorotool.geometry.voronoi.tables.neighbor_table`."""
+        made: Table = resolved(f"{_TABLES}:neighbor_table")(self)
         return made
 
     @property
@@ -224,7 +224,7 @@ class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
         return made
 
     def to_adjacency(self) -> pandas.DataFrame:
-        """Return the pairs of neighbours in the format of libpysal; pandas must be installed.
+        """Return the pairs of neighbors in the format of libpysal; pandas must be installed.
 
         ``libpysal.graph.Graph.from_adjacency(cells.to_adjacency())`` is their graph, with the names of the rows of
         `to_geopandas`.
@@ -233,7 +233,7 @@ class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
         -------
         pandas.DataFrame
             ``focal, neighbor, weight``: each pair both ways, by what the input's index calls them, else by numbers from
-            0, with the length of its border; a cell without neighbours once, with itself and the weight 0.
+            0, with the length of its border; a cell without neighbors once, with itself and the weight 0.
 
         Raises
         ------

@@ -57,10 +57,10 @@ class Thickness(Result):
         }
 
     def draw(self, out: BinaryIO, target: Target, page_of: Any) -> None:
-        """Draw the pixels in colours from dark, which is thin, to light."""
+        """Draw the pixels in colors from dark, which is thin, to light."""
         from vorotool.formats.images.png_writer import write_png
         from vorotool.render.canvas.layers import Backdrop, ImagePage
-        from vorotool.render.label_images.amounts import amount_indices, amount_palette, with_colour_bar
+        from vorotool.render.label_images.amounts import amount_indices, amount_palette, with_color_bar
 
         o, size = self.options, self.options.pixel_size
         image: ThicknessImage = in_units(size, self.value)
@@ -75,5 +75,5 @@ class Thickness(Result):
             return
         unit = None if size is None else size.unit
         bare = replace(style, has_legend=False)
-        pixels = with_colour_bar(palette[indices], bare, largest if style.has_legend else 0.0, unit)
+        pixels = with_color_bar(palette[indices], bare, largest if style.has_legend else 0.0, unit)
         write_png(out, [pixels.reshape(len(pixels), -1)], indices.shape, rgb=True, threads=o.threads)

@@ -103,12 +103,12 @@ def _check_outputs(o: TessellationOptions, targets: Sequence[Target]) -> None:
         raise UsageError("--chunk is for Zarr stores: use -f zarr, or leave it out")
     if o.levels is not None and not any(_is_ome_zarr(target) for target in targets):
         raise UsageError("--levels is for OME-Zarr: use -o NAME.ome.zarr, or leave it out")
-    pictures = [fmt for fmt in _PICTURES if ("colour", fmt) in outputs]
+    pictures = [fmt for fmt in _PICTURES if ("color", fmt) in outputs]
     if o.layers is not None and not pictures:
-        raise UsageError("--layers is for pictures: use --what colour as PNG or SVG, or leave it out")
+        raise UsageError("--layers is for pictures: use --what color as PNG or SVG, or leave it out")
     if o.slice is not None and not pictures:
-        raise UsageError("--slice is for pictures: use --what colour as PNG or SVG, or leave it out")
-    check_picture_options(o, pictures, VOLUME_PRODUCTS["colour"].layers, has_page="html" in formats)
+        raise UsageError("--slice is for pictures: use --what color as PNG or SVG, or leave it out")
+    check_picture_options(o, pictures, VOLUME_PRODUCTS["color"].layers, has_page="html" in formats)
 
 
 def _is_ome_zarr(target: Target) -> bool:

@@ -207,7 +207,7 @@ def write_slices(
     out: BinaryIO,
     volume: LabelVolume,
     views: SlicePicture,
-    colours: tuple[NDArray[Any], NDArray[Any]],
+    colors: tuple[NDArray[Any], NDArray[Any]],
     *,
     fmt: str,
     layers: Sequence[str],
@@ -220,4 +220,4 @@ def write_slices(
     from vorotool.jobs.label_pictures import LabelPicture
 
     image = views.image(volume)
-    LabelPicture(image, colours, layers, style, width=width, texts=texts, threads=threads).write(out, fmt)
+    LabelPicture(image, colors, layers, style, width=width, texts=texts, threads=threads).write(out, fmt)

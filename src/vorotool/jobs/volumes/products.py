@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.label_images.regions import region_colours
+from vorotool.engines.label_images.regions import region_colors
 from vorotool.engines.tessellation.frames import label_dtype
-from vorotool.engines.volumes.slabs import Quantity, SeedSlab, SeedSlabs, with_neighbours
+from vorotool.engines.volumes.slabs import Quantity, SeedSlab, SeedSlabs, with_neighbors
 from vorotool.engines.volumes.verify_volume import verify_label_volume
 from vorotool.engines.volumes.volume_frames import slab_limits
 from vorotool.engines.volumes.volume_measures import volume_diagram
 from vorotool.engines.volumes.volume_regions import VolumeRegions, regions_of_sweep
-from vorotool.engines.volumes.volume_tables import neighbours_of_regions, table_of_regions
+from vorotool.engines.volumes.volume_tables import neighbors_of_regions, table_of_regions
 from vorotool.engines.volumes.volume_tessellator import VolumeSweep
 from vorotool.errors import LimitError
 from vorotool.geometry.length_units import unit_name
@@ -39,7 +39,7 @@ from vorotool.products.writing import write_product
 if TYPE_CHECKING:
     from vorotool.render.canvas.styles import PictureStyle
 
-_TABLES = ("table", "neighbours")
+_TABLES = ("table", "neighbors")
 
 
 def products(run: Run, o: TessellationOptions, given: JobInput) -> VolumeProducts:
@@ -70,7 +70,7 @@ class VolumeProducts:
         self, run: Run, options: TessellationOptions, read: ReadVolume, sweep: VolumeSweep, *, has_page: bool = False
     ) -> None:
         self.run, self.options, self.read, self.sweep = run, options, read, sweep
-        self._is_held = has_page or "colour" in options.what
+        self._is_held = has_page or "color" in options.what
         self._with_distances = (has_page or "table" in options.what) and len(read.seeds) > 0
         check_column(options.label_by, read.seeds.properties)
         self.dtype = label_dtype(read.seeds.largest_label, options.dtype)
@@ -102,13 +102,13 @@ class VolumeProducts:
 
     @cached_property
     def regions(self) -> VolumeRegions:
-        """Volumes, faces and boxes of the regions: one pass that tables and colours share."""
+        """Volumes, faces and boxes of the regions: one pass that tables and colors share."""
         return regions_of_sweep(self.sweep, self._slabs(), distances=self._with_distances, threads=self.options.threads)
 
     @cached_property
-    def colours(self) -> tuple[NDArray[np.uint32], NDArray[np.uint32]]:
-        """Labels, and the colour class of each."""
-        return region_colours(self.volume, measures=self.regions.measures)
+    def colors(self) -> tuple[NDArray[np.uint32], NDArray[np.uint32]]:
+        """Labels, and the color class of each."""
+        return region_colors(self.volume, measures=self.regions.measures)
 
     @cached_property
     def _views(self) -> SlicePicture:
@@ -121,11 +121,11 @@ class VolumeProducts:
         what, fmt = target.what, target.fmt
         if fmt == "html":
             check_volume_page(self.sweep.frame.shape)
-        elif what == "colour":
+        elif what == "color":
             self._views.check(self.options.max_pixels)
         if what == "distance2" or self._with_distances:
             _ = self.sweep.square_dtype
-        if what == "colour" or fmt == "html":
+        if what == "color" or fmt == "html":
             self._require_memory()
         elif fmt == "zarr":
             stream = self._stream(what)
@@ -147,10 +147,10 @@ class VolumeProducts:
         with open_output(target.path, binary=target.is_binary, no_clobber=o.no_clobber, inputs=inputs) as out:
             if target.fmt == "html":
                 self._write_page(out)
-            elif what == "colour":
+            elif what == "color":
                 self._write_picture(out, target.fmt)
             elif what in _TABLES:
-                table = self._table if what == "table" else neighbours_of_regions(self.regions)
+                table = self._table if what == "table" else neighbors_of_regions(self.regions)
                 write_product(
                     out,
                     table,
@@ -193,14 +193,14 @@ class VolumeProducts:
         )
 
     def _diagram(self, first: int, slices: int) -> NDArray[Any]:
-        begin, count = with_neighbours(self.sweep.frame, first, slices)
+        begin, count = with_neighbors(self.sweep.frame, first, slices)
         lines = volume_diagram(self._labels(begin, count), threads=self.options.threads)
         return lines[first - begin : first - begin + slices]
 
     def _slab(self, what: Quantity, first: int, slices: int) -> SeedSlab:
         """Give some slices as what computes them anywhere."""
         read, frame = self.read, self.sweep.frame
-        own = with_neighbours(frame, first, slices) if what == "diagram" else (first, slices)
+        own = with_neighbors(frame, first, slices) if what == "diagram" else (first, slices)
         seeds, dtype = self._seed_slabs.seeds_of(*own), self._stream(what).dtype
         return SeedSlab(seeds, frame, first, slices, what, dtype, read.sides, self.options.max_distance)
 
@@ -216,13 +216,13 @@ class VolumeProducts:
     def _write_page(self, out: BinaryIO) -> None:
         from vorotool.render.pages.volume_html import write_volume_html
 
-        table, labels = self._table, self.colours[0]
+        table, labels = self._table, self.colors[0]
         rows = {int(label): row for row, label in enumerate(table["label"])}
         chosen = [rows[int(label)] for label in labels]
         columns = {name: [table[name][row] for row in chosen] for name in table if name != "label"}
         columns |= unit_columns(self._size, len(labels))
         first, units = self.sweep.frame.z, self.read.sides.units
-        write_volume_html(out, self.volume.labels, self.colours, columns, first=first, units=units)
+        write_volume_html(out, self.volume.labels, self.colors, columns, first=first, units=units)
 
     @property
     def _size(self) -> PixelSize | None:
@@ -238,9 +238,9 @@ class VolumeProducts:
             out,
             self.volume,
             self._views,
-            self.colours,
+            self.colors,
             fmt=fmt,
-            layers=o.drawn(VOLUME_PRODUCTS["colour"].usual_layers),
+            layers=o.drawn(VOLUME_PRODUCTS["color"].usual_layers),
             style=self._style,
             width=o.width or 1000,
             texts=None if o.label_by is None else site_texts(seeds, o.label_by),

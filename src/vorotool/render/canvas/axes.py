@@ -32,7 +32,7 @@ def draw_on_axes(ax: Axes, layers: Iterable[Layer], page: Page, **style: Any) ->
         elif isinstance(layer, Points):
             side = 2 * layer.radius * POINTS_A_PX
             ax.scatter(
-                *layer.points.T, **{"s": side * side, "c": layer.colour, "linewidths": 0, "label": layer.name, **style}
+                *layer.points.T, **{"s": side * side, "c": layer.color, "linewidths": 0, "label": layer.name, **style}
             )
         elif isinstance(layer, Polygons):
             _fill(ax, layer, style)
@@ -42,7 +42,7 @@ def draw_on_axes(ax: Axes, layers: Iterable[Layer], page: Page, **style: Any) ->
 
 def _draw_lines(ax: Axes, layer: Lines | Curves, page: Page, style: dict[str, Any]) -> None:
     lines = layer.chords(page.distance(FINENESS)) if isinstance(layer, Curves) else layer
-    given = {"colors": layer.colour, "linewidths": layer.width * POINTS_A_PX, "capstyle": "round", "label": layer.name}
+    given = {"colors": layer.color, "linewidths": layer.width * POINTS_A_PX, "capstyle": "round", "label": layer.name}
     if isinstance(layer, Curves) and layer.is_broken:
         given["linestyles"] = "dashed"
     collections = needed("matplotlib.collections", "plot", "plots")
@@ -50,7 +50,7 @@ def _draw_lines(ax: Axes, layer: Lines | Curves, page: Page, style: dict[str, An
 
 
 def _fill(ax: Axes, layer: Polygons, style: dict[str, Any]) -> None:
-    """Fill the polygons of each colour as one path: each ring goes back to its first vertex."""
+    """Fill the polygons of each color as one path: each ring goes back to its first vertex."""
     path_of = needed("matplotlib.path", "plot", "plots").Path
     patch_of = needed("matplotlib.patches", "plot", "plots").PathPatch
     starts = np.asarray(layer.rings, dtype=np.int64)
@@ -60,14 +60,14 @@ def _fill(ax: Axes, layer: Polygons, style: dict[str, Any]) -> None:
     codes = np.full(len(closed), path_of.LINETO, dtype=np.uint8)
     codes[first], codes[first + sizes] = path_of.MOVETO, path_of.CLOSEPOLY
     ring_polygon = layer.polygon_of_ring
-    colour = np.zeros(len(ring_polygon), dtype=np.int64)
-    if layer.colour_of is not None:
-        colour = np.asarray(layer.colour_of)[ring_polygon]
-    of_vertex = np.repeat(colour, sizes + 1)
+    color = np.zeros(len(ring_polygon), dtype=np.int64)
+    if layer.color_of is not None:
+        color = np.asarray(layer.color_of)[ring_polygon]
+    of_vertex = np.repeat(color, sizes + 1)
     edge = {"linewidth": 0} if layer.edge is None else {"linewidth": layer.width * POINTS_A_PX, "edgecolor": layer.edge}
-    for number in np.unique(colour).tolist():
+    for number in np.unique(color).tolist():
         own = of_vertex == number
-        given = {"facecolor": layer.colours[number], **edge, "label": layer.name}
+        given = {"facecolor": layer.colors[number], **edge, "label": layer.name}
         ax.add_patch(patch_of(path_of(layer.points[closed[own]], codes[own]), **_chosen(given, style)))
 
 
@@ -89,16 +89,16 @@ def _chosen(given: dict[str, Any], style: dict[str, Any]) -> dict[str, Any]:
 
 def _write_texts(ax: Axes, layer: Texts) -> None:
     for (x, y), text in zip(layer.points.tolist(), layer.texts, strict=True):
-        away = (0, 0) if layer.is_centred else (0, layer.size / 2)
+        away = (0, 0) if layer.is_centered else (0, layer.size / 2)
         ax.annotate(
             text,
             (x, y),
             xytext=away,
             textcoords="offset points",
             size=layer.size * POINTS_A_PX,
-            color=layer.colour,
+            color=layer.color,
             ha="center",
-            va="center" if layer.is_centred else "bottom",
+            va="center" if layer.is_centered else "bottom",
         )
 
 

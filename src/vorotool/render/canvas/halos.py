@@ -22,7 +22,7 @@ def with_halos(layers: Sequence[Layer]) -> list[Layer]:
         if isinstance(layer, Arcs):
             made.append(replace(layer, name=name, width=halo_width(layer.width), edge=WHITE, fill=None))
         elif isinstance(layer, Lines | Curves):
-            made.append(replace(layer, name=name, width=halo_width(layer.width), colour=WHITE))
+            made.append(replace(layer, name=name, width=halo_width(layer.width), color=WHITE))
         elif isinstance(layer, Points):
             made.append(replace(layer, halo=WHITE))
             continue

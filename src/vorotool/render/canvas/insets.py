@@ -56,12 +56,12 @@ def letter_size(page: Page) -> float:
 def box(name: str, low: tuple[float, float], high: tuple[float, float], fill: str, edge: str | None) -> Polygons:
     """Give a rectangle between two of its corners, as a layer of a name."""
     corners = np.array([[low[0], low[1]], [high[0], low[1]], [high[0], high[1]], [low[0], high[1]]])
-    return Polygons(name, corners, np.arange(4, dtype=np.int32), np.array([0, 4]), colours=[fill], edge=edge, width=1.0)
+    return Polygons(name, corners, np.arange(4, dtype=np.int32), np.array([0, 4]), colors=[fill], edge=edge, width=1.0)
 
 
-def _line(name: str, places: NDArray[np.float64], colour: str, width: float) -> Lines:
+def _line(name: str, places: NDArray[np.float64], color: str, width: float) -> Lines:
     pairs = np.stack([np.arange(len(places) - 1), np.arange(1, len(places))], axis=1).astype(np.int32)
-    return Lines(name, places, pairs, colour, width)
+    return Lines(name, places, pairs, color, width)
 
 
 def _legend(layers: Sequence[Layer], page: Page) -> list[Layer]:
@@ -80,7 +80,7 @@ def _legend(layers: Sequence[Layer], page: Page) -> list[Layer]:
         made += _sample(layer, left + gap, middle, size)
     places = np.array([[left + gap + 2.4 * size, top + gap + row * (k + 0.5)] for k in range(len(shown))])
     names = [layer.name for layer in shown]
-    return [*made, Texts("legend-names", places, names, size=size, is_centred=True, is_led=True)]
+    return [*made, Texts("legend-names", places, names, size=size, is_centered=True, is_led=True)]
 
 
 def _sample(layer: Layer, left: float, middle: float, size: float) -> list[Layer]:
@@ -96,16 +96,16 @@ def _sample(layer: Layer, left: float, middle: float, size: float) -> list[Layer
     if isinstance(layer, Curves):
         control = np.array([-1], dtype=np.int32)
         pairs = np.array([[0, 1]], dtype=np.int32)
-        straight = Curves(name, ends, pairs, control, layer.colour, max(layer.width, 1.0), layer.is_broken)
+        straight = Curves(name, ends, pairs, control, layer.color, max(layer.width, 1.0), layer.is_broken)
         return [straight]
     assert isinstance(layer, Lines | Arcs)  # texts have no row
-    colour = layer.edge if isinstance(layer, Arcs) else layer.colour
-    return [_line(name, ends, colour, max(layer.width, 1.0))]
+    color = layer.edge if isinstance(layer, Arcs) else layer.color
+    return [_line(name, ends, color, max(layer.width, 1.0))]
 
 
 def _fill(layer: Polygons) -> str:
-    """The first colour that is used."""
-    return layer.colours[0 if layer.colour_of is None or not len(layer.colour_of) else int(layer.colour_of[0])]
+    """The first color that is used."""
+    return layer.colors[0 if layer.color_of is None or not len(layer.color_of) else int(layer.color_of[0])]
 
 
 def _scale_bar(bar: ScaleBar, page: Page) -> list[Layer]:
@@ -123,7 +123,7 @@ def _scale_bar(bar: ScaleBar, page: Page) -> list[Layer]:
     over = np.array([[(left + right) / 2, low - 1.1 * size]])
     name = f"{length:.10g} {bar.unit}" if bar.unit else f"{length:.10g}"
     return [
-        replace(lines, name="scale-bar-halo", colour=WHITE, width=5.0),
+        replace(lines, name="scale-bar-halo", color=WHITE, width=5.0),
         lines,
-        Texts("scale-bar-length", over, [name], size=size, halo=WHITE, is_centred=True),
+        Texts("scale-bar-length", over, [name], size=size, halo=WHITE, is_centered=True),
     ]

@@ -31,7 +31,7 @@ class Lines:
     name: str  # of the layer: the id of its group in SVG
     points: NDArray[np.float64]  # (n, 2) float64 array: finite coordinates
     pairs: NDArray[np.int32]  # (m, 2) int32 array: ends of each line, indices of points
-    colour: str = INK
+    color: str = INK
     width: float = 1.5  # in px, whatever the scale
 
 
@@ -45,28 +45,28 @@ class Curves:
     # as of `Lines`; curves of which one begins where the one before ends are drawn as one path
     pairs: NDArray[np.int32]
     control: NDArray[np.int32]  # (m,) int32 array: the control point of each; -1: it is a straight line
-    colour: str = INK  # as of `Lines`; curves of which one begins where the one before ends are drawn as one path
+    color: str = INK  # as of `Lines`; curves of which one begins where the one before ends are drawn as one path
     width: float = 1.5  # as of `Lines`; curves of which one begins where the one before ends are drawn as one path
     is_broken: bool = False  # drawn as a broken line in SVG
     # (m, 2) float64 array: of the circle of each circular arc, which is at most half of one; NaN of others
-    centre: NDArray[np.float64] | None = None
-    # (m,) bool array: whether each arc turns counter-clockwise with y upwards; there if there are centres
+    center: NDArray[np.float64] | None = None
+    # (m,) bool array: whether each arc turns counter-clockwise with y upwards; there if there are centers
     is_left: NDArray[np.bool_] | None = None
 
     def polylines(self, tolerance: float) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
         """Give places along each curve, its ends included, and where those of each begin."""
         source, target = self.points[self.pairs.T]
         control, is_bent = self.points[self.control], self.control >= 0
-        if self.centre is None or self.is_left is None:
+        if self.center is None or self.is_left is None:
             return polylines(source, control, target, is_bent, tolerance)
         control = np.where(is_bent[:, None], control, np.nan)
-        return MixedArcs(source, target, control, self.centre, self.is_left).polylines(tolerance)
+        return MixedArcs(source, target, control, self.center, self.is_left).polylines(tolerance)
 
     def chords(self, tolerance: float) -> Lines:
         """Straight lines instead of the curves, which are off by no more than a length of the data."""
         points, start = self.polylines(tolerance)
         first = np.delete(np.arange(len(points)), start[1:] - 1)
-        return Lines(self.name, points, np.stack([first, first + 1], axis=1).astype(np.int32), self.colour, self.width)
+        return Lines(self.name, points, np.stack([first, first + 1], axis=1).astype(np.int32), self.color, self.width)
 
     def flattened(self, places: NDArray[np.float64], tolerance: float) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
         """Straight lines instead of the curves."""
@@ -87,12 +87,12 @@ class Polygons:
     rings: NDArray[np.int64]  # (r + 1,) integer array: where each ring begins in `corners`, and `k`
     # (p + 1,) integer array: where each polygon begins among the rings, and `r`; by default each ring is a polygon
     first_rings: NDArray[np.int64] | None = None
-    colours: Sequence[str] = ("#ffffff",)
+    colors: Sequence[str] = ("#ffffff",)
     # (p,) integer array: index of each polygon's fill; by default all have the first
-    colour_of: NDArray[np.integer] | None = None
+    color_of: NDArray[np.integer] | None = None
     # id of each polygon in SVG: each is a path of its own then, unless they are too many
     ids: Sequence[str] | None = None
-    edge: str | None = None  # colour of the outlines
+    edge: str | None = None  # color of the outlines
     width: float = 1.5  # of the outlines, in px
     # (p,) bool array: polygons that are paths of their own in SVG in any case, since others lie over them
     is_alone: NDArray[np.bool_] | None = None
@@ -134,18 +134,18 @@ class CurvedPolygons(Polygons):
         row, step = owners(sizes), within(sizes)
         taken = np.where(is_back[row], start[side + 1][row] - 1 - step, start[side][row] + step)
         rings = starts_of(sizes)[np.asarray(self.rings)]
-        fills = self.first_rings, self.colours, self.colour_of, self.ids
+        fills = self.first_rings, self.colors, self.color_of, self.ids
         looks = self.edge, self.width, self.is_alone, self.is_sheer
         return Polygons(self.name, points, taken.astype(np.int32), rings, *fills, *looks)
 
 
 @dataclass(frozen=True, eq=False)
 class Points:
-    """Discs of one radius, in px; those with a halo, a colour, have an edge around them."""
+    """Discs of one radius, in px; those with a halo, a color, have an edge around them."""
 
     name: str
     points: NDArray[np.float64]
-    colour: str = SEED
+    color: str = SEED
     radius: float = 2.5
     halo: str | None = None
 
@@ -162,16 +162,16 @@ class Texts:
     name: str
     points: NDArray[np.float64]
     texts: Sequence[str]
-    colour: str = INK
+    color: str = INK
     size: float = 12.0  # of the letters, in px
-    # colour of an edge around the letters, which sets them off from what they lie on; in PNG there always is one
+    # color of an edge around the letters, which sets them off from what they lie on; in PNG there always is one
     halo: str | None = None
-    is_centred: bool = False  # write them on the points instead, as names of what is around these
+    is_centered: bool = False  # write them on the points instead, as names of what is around these
     is_led: bool = False  # they begin at the points, and are not in the middle over them
 
     def lowered(self, y: NDArray[np.float64], capital: float) -> NDArray[np.float64]:
         """Give the px from the top at which the letters stand, for points at these."""
-        if self.is_centred:
+        if self.is_centered:
             return y + self.size * capital / 2
         below = y < (y.min(initial=0.0) + y.max(initial=0.0)) / 2
         return y + self.size * np.where(below, 1.1, -0.5)
@@ -182,12 +182,12 @@ class Arcs:
     """Closed curves of circular arcs and straight lines, filled by the even-odd rule or not at all."""
 
     name: str
-    # (k, 2) float64 array: of each arc, which is at most half a circle; the centre of a straight line is NaN
+    # (k, 2) float64 array: of each arc, which is at most half a circle; the center of a straight line is NaN
     start: NDArray[np.float64]
-    # (k, 2) float64 array: of each arc, which is at most half a circle; the centre of a straight line is NaN
+    # (k, 2) float64 array: of each arc, which is at most half a circle; the center of a straight line is NaN
     end: NDArray[np.float64]
-    # (k, 2) float64 array: of each arc, which is at most half a circle; the centre of a straight line is NaN
-    centre: NDArray[np.float64]
+    # (k, 2) float64 array: of each arc, which is at most half a circle; the center of a straight line is NaN
+    center: NDArray[np.float64]
     rings: NDArray[np.int64]  # (r + 1,) integer array: where each curve begins among the arcs, and `k`
     fill: str | None
     edge: str
@@ -207,11 +207,11 @@ class Arcs:
 
     def chords(self, tolerance: float) -> Polygons | Lines:
         """Chords instead that are off by no more than a length of the data; only lines if there is no fill."""
-        places, first = chords_of(self.start, self.end, self.centre, self.turns_left, tolerance)
+        places, first = chords_of(self.start, self.end, self.center, self.turns_left, tolerance)
         corners, rings = np.arange(len(places), dtype=np.int32), first[self.rings]
         whole = np.array([0, len(self.rings) - 1]) if len(self.rings) > 1 else None
-        colours = [self.edge if self.fill is None else self.fill]
-        filled = Polygons(self.name, places, corners, rings, whole, colours, edge=self.edge, width=self.width)
+        colors = [self.edge if self.fill is None else self.fill]
+        filled = Polygons(self.name, places, corners, rings, whole, colors, edge=self.edge, width=self.width)
         return Lines(self.name, places, filled.sides(), self.edge, self.width) if self.fill is None else filled
 
 
@@ -257,7 +257,7 @@ class Page:
         self.scale = float(min(width / across, TALLEST * width / down))  # px a unit of the scaled data
         self.width, self.height = width, max(1, round(float(down * self.scale)))
         self.y_up, self._middle = y_up, low + span / 2
-        self._rest = (low - self._middle) + span / 2  # of the middle of places that are neighbours, half their distance
+        self._rest = (low - self._middle) + span / 2  # of the middle of places that are neighbors, half their distance
 
     @property
     def backdrop(self) -> Backdrop | None:
@@ -277,8 +277,8 @@ class Page:
     def place(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """(n, 2) px from the left and from the top."""
         scale = np.array([self.scale, (-self.scale if self.y_up else self.scale) * self.aspect])
-        centre = np.array([self.width / 2, self.height / 2])
-        placed: NDArray[np.float64] = (np.ldexp(points, -self._exponent) - self._middle - self._rest) * scale + centre
+        center = np.array([self.width / 2, self.height / 2])
+        placed: NDArray[np.float64] = (np.ldexp(points, -self._exponent) - self._middle - self._rest) * scale + center
         return placed
 
     def length(self, distance: float) -> float:
@@ -290,7 +290,7 @@ class Page:
         return float(np.ldexp(length / (self.scale * max(self.aspect, 1.0)), self._exponent))
 
     def spacing(self, count: int) -> float:
-        """Distance in px between neighbours of so many points, spread evenly over the page."""
+        """Distance in px between neighbors of so many points, spread evenly over the page."""
         return math.sqrt(self.width * self.height / max(count, 1))
 
 
@@ -304,7 +304,7 @@ class Backdrop:
 
 
 class ImagePage(Page):
-    """The page of an image: a px is a pixel, whose centre is at integers of the data."""
+    """The page of an image: a px is a pixel, whose center is at integers of the data."""
 
     def __init__(self, backdrop: Backdrop) -> None:
         height, width = backdrop.pixels.shape[:2]

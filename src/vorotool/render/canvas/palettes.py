@@ -1,7 +1,7 @@
-"""Colours of pictures: light cells that people with any colour vision tell apart, dark lines and seeds.
+"""Colors of pictures: light cells that people with any color vision tell apart, dark lines and seeds.
 
-Four of the first five cell colours are from Paul Tol's "light" scheme. The others come from greedy searches
-for the colour farthest in CIEDE2000 from white, black and those before it, in the least favourable of normal
+Four of the first five cell colors are from Paul Tol's "light" scheme. The others come from greedy searches
+for the color farthest in CIEDE2000 from white, black and those before it, in the least favourable of normal
 vision and simulated protanopia, deuteranopia and tritanopia (Machado et al. 2009); the limits of the searches
 and the order were set by hand. A test computes the distances again.
 """
@@ -44,10 +44,10 @@ CELLS = (
     "#91bf91",
     "#e65e6f",
 )
-"""Cell colours in the order in which they are used: few classes get the most distinct ones."""
+"""Cell colors in the order in which they are used: few classes get the most distinct ones."""
 
 LARGEST_PALETTE = 256
-"""Colours whose numbers fit in a byte."""
+"""Colors whose numbers fit in a byte."""
 
 _GOLDEN_ANGLE = 0.381966011250105  # of a turn: successive hues never come close soon
 
@@ -61,9 +61,9 @@ LINE_ON_PAPER = _triples([WHITE, LINE])
 
 
 class PicturePalette(NamedTuple):
-    """Colours of a palette picture: 0 is the ground, for no label, c is colour class c, then line and seed."""
+    """Colors of a palette picture: 0 is the ground, for no label, c is color class c, then line and seed."""
 
-    colours: NDArray[np.uint8]
+    colors: NDArray[np.uint8]
     line: int
     seed: int
     bit_depth: int
@@ -80,13 +80,13 @@ class PicturePalette(NamedTuple):
         return sorted(found)
 
 
-def cell_colour(colour_class: int) -> str:
-    """Colour of a class as ``#rrggbb``: 0 is white, and from the 13th class on hues are generated."""
-    if colour_class < 1:
+def cell_color(color_class: int) -> str:
+    """Color of a class as ``#rrggbb``: 0 is white, and from the 13th class on hues are generated."""
+    if color_class < 1:
         return WHITE
-    if colour_class <= len(CELLS):
-        return CELLS[colour_class - 1]
-    number = colour_class - len(CELLS)
+    if color_class <= len(CELLS):
+        return CELLS[color_class - 1]
+    number = color_class - len(CELLS)
     lightness = (0.72, 0.60, 0.84)[number % 3]
     rgb = colorsys.hls_to_rgb(number * _GOLDEN_ANGLE % 1.0, lightness, 0.55)
     return "#" + "".join(f"{round(255 * channel):02x}" for channel in rgb)
@@ -95,10 +95,10 @@ def cell_colour(colour_class: int) -> str:
 def picture_palette(
     classes: int, *, has_halo: bool = False, has_halos: bool = False, chosen: Mapping[str, str] | None = None
 ) -> PicturePalette:
-    """Palette for pictures with colour classes 1 to ``classes``; the same for all that need at most 12."""
+    """Palette for pictures with color classes 1 to ``classes``; the same for all that need at most 12."""
     chosen = chosen or {}
     count = max(classes, len(CELLS))
-    names = [*(cell_colour(c) for c in range(count + 1)), chosen.get("diagram", LINE), chosen.get("seeds", SEED)]
+    names = [*(cell_color(c) for c in range(count + 1)), chosen.get("diagram", LINE), chosen.get("seeds", SEED)]
     names[0] = chosen.get("ground", names[0])
     if has_halo:
         names.append(WHITE)
@@ -111,7 +111,7 @@ def picture_palette(
             names.append(chosen.get(layer, LINE if layer == "labels" else names[seed]))
     if len(names) > LARGEST_PALETTE:
         most = LARGEST_PALETTE - (len(names) - count)
-        raise LimitError(f"{classes} colour classes: a palette picture has at most {most}, use {AS_SVG}")
+        raise LimitError(f"{classes} color classes: a palette picture has at most {most}, use {AS_SVG}")
     depth = 4 if len(names) <= 16 else 8
     return PicturePalette(
         _triples(names), line, seed, depth, halo, own["cells"], own["labels"], own["objects"], has_halos

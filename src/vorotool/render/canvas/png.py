@@ -24,9 +24,9 @@ FLATNESS = 0.25
 CAPITAL = 0.72
 """Height of capitals, as a part of the size of letters; as in SVG."""
 
-MOST_COLOURS = 255
+MOST_COLORS = 255
 NOTHING = "#000000"
-"""A colour that adds nothing to the image beneath."""
+"""A color that adds nothing to the image beneath."""
 BAND_ROWS = 64
 _PIXELS = 1 << 22  # of the drawing, that are set at a time
 _TEXTS = 1 << 14  # that are written at a time
@@ -59,33 +59,33 @@ class _Canvas:
     def __init__(self, page: Page) -> None:
         self.page = page
         self.indices = np.zeros((page.height * FINE, page.width * FINE), np.uint8)  # 0: nothing
-        self.colours: dict[str, int] = {}
+        self.colors: dict[str, int] = {}
 
     def draw(self, layer: Layer, page: Page) -> None:
-        if isinstance(layer, Arcs | CurvedPolygons) or (isinstance(layer, Curves) and layer.centre is not None):
+        if isinstance(layer, Arcs | CurvedPolygons) or (isinstance(layer, Curves) and layer.center is not None):
             layer = layer.chords(page.distance(FLATNESS / FINE))
         places = page.place(layer.points) * FINE
         if isinstance(layer, Polygons):
             self._fill(layer, places, is_sheer=layer.is_sheer or page.backdrop is not None)
             if layer.edge is not None:
-                self._stroke(places, layer.sides(), layer.width, self._colour(layer.edge))
+                self._stroke(places, layer.sides(), layer.width, self._color(layer.edge))
         elif isinstance(layer, Lines):
-            self._stroke(places, layer.pairs, layer.width, self._colour(layer.colour))
+            self._stroke(places, layer.pairs, layer.width, self._color(layer.color))
         elif isinstance(layer, Curves):
             lines = layer.flattened(places, FLATNESS)
-            self._stroke(*lines, layer.width, self._colour(layer.colour))
+            self._stroke(*lines, layer.width, self._color(layer.color))
         elif isinstance(layer, Points):
             if layer.halo is not None:
-                self._discs(places, (layer.radius + layer.edge) * FINE, self._colour(layer.halo))
-            self._discs(places, layer.radius * FINE, self._colour(layer.colour))
+                self._discs(places, (layer.radius + layer.edge) * FINE, self._color(layer.halo))
+            self._discs(places, layer.radius * FINE, self._color(layer.color))
         elif isinstance(layer, Texts):
             self._write(layer, places)
 
     def bands(self) -> Iterator[NDArray[np.uint8]]:
-        """Means of the colours of FINE x FINE pixels; where nothing is drawn, that of the ground or the image."""
+        """Means of the colors of FINE x FINE pixels; where nothing is drawn, that of the ground or the image."""
         backdrop, ground = self.page.backdrop, self.page.style.ground
         has_alpha = backdrop is None and ground is None
-        names = [NOTHING if backdrop is not None or ground is None else ground, *self.colours]
+        names = [NOTHING if backdrop is not None or ground is None else ground, *self.colors]
         palette = np.array([list(bytes.fromhex(name[1:])) for name in names], dtype=np.uint16)
         for top in range(0, self.page.height, BAND_ROWS):
             fine = self.indices[top * FINE : (top + BAND_ROWS) * FINE]
@@ -100,18 +100,18 @@ class _Canvas:
                 sums += bare * backdrop.pixels[top : top + rows]
             yield (_with_alpha(sums, FINE**2 - bare) if has_alpha else _means(sums, FINE**2)).reshape(rows, -1)
 
-    def _colour(self, name: str) -> int:
-        number = self.colours.setdefault(name, len(self.colours) + 1)
-        if number > MOST_COLOURS:
-            raise LimitError(f"a PNG picture has at most {MOST_COLOURS} colours: use {AS_SVG}")
+    def _color(self, name: str) -> int:
+        number = self.colors.setdefault(name, len(self.colors) + 1)
+        if number > MOST_COLORS:
+            raise LimitError(f"a PNG picture has at most {MOST_COLORS} colors: use {AS_SVG}")
         return number
 
     def _fill(self, layer: Polygons, places: NDArray[np.float64], *, is_sheer: bool) -> None:
         """Fill each polygon by the even-odd rule: rows of pixels between crossings of its sides, in pairs."""
-        classes = np.array([self._colour(name) for name in layer.colours], dtype=np.uint8)
+        classes = np.array([self._color(name) for name in layer.colors], dtype=np.uint8)
         polygon = layer.polygon_of_ring
         limits, rings = layer.ring_limits, np.asarray(layer.rings)
-        fills = classes[np.zeros(len(limits) - 1, np.int64) if layer.colour_of is None else layer.colour_of]
+        fills = classes[np.zeros(len(limits) - 1, np.int64) if layer.color_of is None else layer.color_of]
         owner = np.repeat(polygon, np.diff(rings))
         sides = layer.sides()
         corner_limits = rings[limits]  # where each polygon begins among the corners
@@ -183,7 +183,7 @@ class _Canvas:
         if layer.is_led:
             left = left + cell * ADVANCE * np.array([len(text) for text in layer.texts]) / 2
         corner = np.floor(np.stack([left, foot], axis=1) - cell / 2).astype(np.int64)
-        ink, halo = self._colour(layer.colour), self._colour(layer.halo or WHITE)
+        ink, halo = self._color(layer.color), self._color(layer.halo or WHITE)
         for begin in range(0, len(layer.texts), _TEXTS):
             owner, cells, is_ink = text_cells(layer.texts[begin : begin + _TEXTS])
             at = corner[begin + owner] + cell * cells

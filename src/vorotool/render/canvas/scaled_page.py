@@ -1,4 +1,4 @@
-"""Pages on which lengths of the data have a size on paper, and layers in chosen colours."""
+"""Pages on which lengths of the data have a size on paper, and layers in chosen colors."""
 
 from __future__ import annotations
 
@@ -60,20 +60,20 @@ def _short(number: float) -> str:
 
 
 def styled_layers(layers: Iterable[Layer], style: PictureStyle) -> list[Layer]:
-    """Give layers the colours and widths that are chosen for them."""
+    """Give layers the colors and widths that are chosen for them."""
     made = [_styled(layer, *style.of(layer.name)) for layer in layers]
     return [layer for layer in made if not (isinstance(layer, Lines | Curves) and layer.width == 0)]
 
 
-def _styled(layer: Layer, colour: str | None, width: float | None) -> Layer:
+def _styled(layer: Layer, color: str | None, width: float | None) -> Layer:
     if width == 0 and isinstance(layer, Polygons):
         layer = replace(layer, edge=None)
     elif width is not None and not isinstance(layer, Points | Texts):
         layer = replace(layer, width=width)
-    if colour is None:
+    if color is None:
         return layer
     if isinstance(layer, Arcs):
-        return replace(layer, edge=colour)
-    if isinstance(layer, Polygons):  # areas of many colours keep them: what is chosen is that of their outlines
-        return replace(layer, colours=[colour]) if len(layer.colours) == 1 else replace(layer, edge=colour)
-    return replace(layer, colour=colour)
+        return replace(layer, edge=color)
+    if isinstance(layer, Polygons):  # areas of many colors keep them: what is chosen is that of their outlines
+        return replace(layer, colors=[color]) if len(layer.colors) == 1 else replace(layer, edge=color)
+    return replace(layer, color=color)

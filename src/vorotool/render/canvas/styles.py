@@ -1,4 +1,4 @@
-"""What a picture looks like where somebody chooses: its ground, the colours and the widths of its layers."""
+"""What a picture looks like where somebody chooses: its ground, the colors and the widths of its layers."""
 
 from __future__ import annotations
 
@@ -23,17 +23,17 @@ class ScaleBar(NamedTuple):
 class PictureStyle:
     """What of a picture is not left to what draws it."""
 
-    ground: str | None = WHITE  # colour of what lies beneath all layers, `#rrggbb`; None is nothing
-    colours: Mapping[str, str] = field(default_factory=dict)  # of layers, by their names
+    ground: str | None = WHITE  # color of what lies beneath all layers, `#rrggbb`; None is nothing
+    colors: Mapping[str, str] = field(default_factory=dict)  # of layers, by their names
     widths: Mapping[str, float] = field(default_factory=dict)  # of the lines of layers, in px
-    has_legend: bool = False  # names of the layers stand in a corner, each with its colour
+    has_legend: bool = False  # names of the layers stand in a corner, each with its color
     scale_bar: ScaleBar | None = None  # a length stands in another one
     label_by: str | None = None  # column of properties that names objects, instead of their ids
 
     def of(self, layer: str) -> tuple[str | None, float | None]:
-        """Give colour and width of a layer, None where they are left to what draws it."""
+        """Give color and width of a layer, None where they are left to what draws it."""
         other = DRAWN_AS.get(layer, layer)
-        return self.colours.get(layer, self.colours.get(other)), self.widths.get(layer, self.widths.get(other))
+        return self.colors.get(layer, self.colors.get(other)), self.widths.get(layer, self.widths.get(other))
 
     @property
     def has_insets(self) -> bool:

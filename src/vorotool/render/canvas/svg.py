@@ -73,9 +73,9 @@ def image_element(backdrop: Backdrop) -> bytes:
     return head.encode() + b";base64," + b64encode(backdrop.encode()) + b'"/>\n'
 
 
-def halo_style(colour: str, size: float) -> str:
+def halo_style(color: str, size: float) -> str:
     """Attributes of letters of a size that have an edge around them."""
-    return f'stroke="{colour}" stroke-width="{HALO * size:.3g}" stroke-linejoin="round" paint-order="stroke"'
+    return f'stroke="{color}" stroke-width="{HALO * size:.3g}" stroke-linejoin="round" paint-order="stroke"'
 
 
 def fill_style(backdrop: Backdrop | None, *, is_sheer: bool = False) -> str:
@@ -110,7 +110,7 @@ def _chunks(count: int, size: int) -> Iterator[slice]:
 
 def _lines(layer: Lines, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iterator[bytes]:
     across, down = _core.text.NumberTexts(x, 0, threads), _core.text.NumberTexts(y, 0, threads)
-    yield f'<g id="{_escaped(layer.name)}" fill="none" {_stroke(layer.colour, layer.width)}>\n'.encode()
+    yield f'<g id="{_escaped(layer.name)}" fill="none" {_stroke(layer.color, layer.width)}>\n'.encode()
     for rows in _chunks(len(layer.pairs), PATH_ROWS):
         a, b = layer.pairs[rows].T
         yield f"<path {_UNSCALED} d=".encode() + b'"'
@@ -124,7 +124,7 @@ def _curves(layer: Curves, x: NDArray[Any], y: NDArray[Any], page: Page, threads
     commands = _Commands(layer, page)
     across, down = _core.text.NumberTexts(x, 0, threads), _core.text.NumberTexts(y, 0, threads)
     dashes = f' stroke-dasharray="{DASH:g}"' if layer.is_broken else ""
-    yield f'<g id="{_escaped(layer.name)}" fill="none" {_stroke(layer.colour, layer.width)}{dashes}>\n'.encode()
+    yield f'<g id="{_escaped(layer.name)}" fill="none" {_stroke(layer.color, layer.width)}{dashes}>\n'.encode()
     for rows in _chunks(len(layer.pairs), PATH_ROWS):
         source, target = layer.pairs[rows].T
         control = layer.control[rows]
@@ -153,26 +153,26 @@ class _Commands:
         self.texts = ["M", "L", "C" if isinstance(curves, CubicCurves) else "Q", " "]
         forth = np.where(curves.control >= 0, 3, 1)
         self.before_ends = np.stack([forth, forth])
-        if curves.centre is None or curves.is_left is None:
+        if curves.center is None or curves.is_left is None:
             return
-        is_round = ~np.isnan(curves.centre[:, 0])
-        centre, is_left = curves.centre[is_round], curves.is_left[is_round]
+        is_round = ~np.isnan(curves.center[:, 0])
+        center, is_left = curves.center[is_round], curves.is_left[is_round]
         source, target = (curves.points[end][is_round] for end in curves.pairs.T)
-        radii, number = np.unique(hypotenuse(*(source - centre).T), return_inverse=True)
+        radii, number = np.unique(hypotenuse(*(source - center).T), return_inverse=True)
         for radius in map(page.length, radii.tolist()):
             sides = " ".join(_short(side, page.decimals + 1) for side in (radius, radius * page.aspect))
             self.texts += [f"A{sides} 0 0 {sweep} " for sweep in (0, 1)]
         sweeps = is_left != page.y_up  # 1 is clockwise as seen
         numbers = 4 + 2 * number + np.stack([sweeps, ~sweeps])
-        is_wide = ((source - centre) * (target - centre)).sum(axis=1) < 0
+        is_wide = ((source - center) * (target - center)).sum(axis=1) < 0
         if is_wide.any():
             first, last = np.where(is_left[:, None], [source, target], [target, source])[:, is_wide]
-            middles = page.place(middles_of(first, last, centre[is_wide], np.zeros(len(first), dtype=bool)))
+            middles = page.place(middles_of(first, last, center[is_wide], np.zeros(len(first), dtype=bool)))
             numbers[:, is_wide] = [self._halves(each, middles, page.decimals) for each in numbers[:, is_wide]]
         self.before_ends[:, is_round] = numbers
 
     def _halves(self, commands: NDArray[Any], middles: NDArray[np.float64], decimals: int) -> NDArray[Any]:
-        """Add two arcs for each that is over a quarter: rounded ends alone would not tell well where its centre is."""
+        """Add two arcs for each that is over a quarter: rounded ends alone would not tell well where its center is."""
         first = len(self.texts)
         for command, (x, y) in zip(commands.tolist(), middles.tolist(), strict=True):
             arc = self.texts[command]
@@ -229,21 +229,21 @@ def _openings(layer: Polygons) -> tuple[list[str], NDArray[np.int32]]:
     polygon = layer.polygon_of_ring[drawn]
     is_first = np.ones(len(drawn), dtype=bool)
     is_first[1:] = polygon[1:] != polygon[:-1]
-    colour = np.zeros(len(layer.ring_limits) - 1, np.int64) if layer.colour_of is None else layer.colour_of
-    ids = None if len(colour) > MOST_ELEMENTS else layer.ids
+    color = np.zeros(len(layer.ring_limits) - 1, np.int64) if layer.color_of is None else layer.color_of
+    ids = None if len(color) > MOST_ELEMENTS else layer.ids
     texts = ["L", "ZM"]
     before = np.zeros(len(layer.corners), dtype=np.int32)
     opens = is_first.copy()
-    if ids is None:  # polygons of one colour that follow each other share a path
+    if ids is None:  # polygons of one color that follow each other share a path
         order = np.cumsum(is_first) - 1
-        fills = colour[polygon]
+        fills = color[polygon]
         opens &= (order % PATH_ROWS == 0) | np.append(True, fills[1:] != fills[:-1])
         if layer.is_alone is not None:
             is_alone = layer.is_alone[polygon]
             opens |= is_first & (is_alone | np.append(True, is_alone[:-1]))
     for number, of in enumerate(polygon[opens].tolist()):
         name = "" if ids is None else f' id="{_escaped(ids[of])}"'
-        fill = layer.colours[int(colour[of])]
+        fill = layer.colors[int(color[of])]
         end = 'Z"/>\n' if number else ""
         texts.append(f'{end}<path{name} {_UNSCALED} fill="{fill}" d="M')
     before[rings[:-1][drawn]] = np.where(opens, np.cumsum(opens) + 1, 1)
@@ -254,23 +254,23 @@ def _points(layer: Points, x: NDArray[Any], y: NDArray[Any], threads: int) -> It
     if len(x) > MOST_ELEMENTS:
         if layer.halo is not None:
             yield from _dots(f"{layer.name}-halo", layer.halo, layer.radius + layer.edge, x, y, threads)
-        yield from _dots(layer.name, layer.colour, layer.radius, x, y, threads)
+        yield from _dots(layer.name, layer.color, layer.radius, x, y, threads)
         return
     halo = "" if layer.halo is None else f" {edge_style(layer.halo, layer.edge)}"
-    yield f'<g id="{_escaped(layer.name)}" fill="{layer.colour}"{halo}>\n'.encode()
+    yield f'<g id="{_escaped(layer.name)}" fill="{layer.color}"{halo}>\n'.encode()
     radius = f'" r="{layer.radius:.3g}"/>\n'
     yield from _rows([x, y], ('<circle cx="', '" cy="', radius), threads)
     yield b"</g>\n"
 
 
-def edge_style(colour: str, width: float) -> str:
+def edge_style(color: str, width: float) -> str:
     """Attributes of discs that have an edge around them."""
-    return f'stroke="{colour}" stroke-width="{2 * width:.3g}" paint-order="stroke"'
+    return f'stroke="{color}" stroke-width="{2 * width:.3g}" paint-order="stroke"'
 
 
-def _dots(name: str, colour: str, radius: float, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iterator[bytes]:
+def _dots(name: str, color: str, radius: float, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iterator[bytes]:
     """Lines of no length with round ends are discs."""
-    yield f'<g id="{_escaped(name)}" fill="none" {_stroke(colour, 2 * radius)}>\n'.encode()
+    yield f'<g id="{_escaped(name)}" fill="none" {_stroke(color, 2 * radius)}>\n'.encode()
     for rows in _chunks(len(x), PATH_ROWS):
         yield f"<path {_UNSCALED} d=".encode() + b'"'
         yield from _rows([x[rows], y[rows]], ("M", " ", "h0"), threads)
@@ -282,7 +282,7 @@ def _texts(layer: Texts, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iter
     font = f'font-family="Helvetica, Arial, sans-serif" font-size="{layer.size:g}"'
     halo = "" if layer.halo is None else f" {halo_style(layer.halo, layer.size)}"
     anchor = "start" if layer.is_led else "middle"
-    yield f'<g id="{_escaped(layer.name)}" text-anchor="{anchor}" {font} fill="{layer.colour}"{halo}>\n'.encode()
+    yield f'<g id="{_escaped(layer.name)}" text-anchor="{anchor}" {font} fill="{layer.color}"{halo}>\n'.encode()
     texts = [_escaped(text) for text in layer.texts]
     y = np.round(layer.lowered(y, CAPITAL), DECIMALS)
     for rows in _chunks(len(x), SLICE_ROWS):
@@ -293,8 +293,8 @@ def _texts(layer: Texts, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iter
 def _arcs(layer: Arcs, page: Page) -> Iterator[bytes]:
     """One path of all curves; with y downwards what turned clockwise turns counter-clockwise."""
     start, end = (np.round(page.place(places), page.decimals) + 0.0 for places in (layer.start, layer.end))
-    is_arc = ~np.isnan(layer.centre[:, 0])
-    radii = hypotenuse(*np.where(is_arc[:, None], layer.start - layer.centre, 0).T).tolist()
+    is_arc = ~np.isnan(layer.center[:, 0])
+    radii = hypotenuse(*np.where(is_arc[:, None], layer.start - layer.center, 0).T).tolist()
     sweeps = (layer.turns_left != page.y_up).astype(int).tolist()  # 1 is clockwise as seen
     commands = []
     for k, (x, y) in enumerate(end.tolist()):
@@ -320,7 +320,7 @@ def _arcs(layer: Arcs, page: Page) -> Iterator[bytes]:
 
 def _circles(layer: Circles, page: Page, threads: int) -> Iterator[bytes]:
     """An element of each, in which a page with different scales along x and y has ellipses."""
-    x, y = np.ascontiguousarray(np.round(page.place(layer.centre[::2]), page.decimals).T + 0.0)
+    x, y = np.ascontiguousarray(np.round(page.place(layer.center[::2]), page.decimals).T + 0.0)
     across = np.round(np.array([page.length(each) for each in layer.radius.tolist()]), page.decimals + 1)
     columns, around = [x, y, across], _CIRCLE
     if page.aspect != 1:
@@ -346,5 +346,5 @@ _CIRCLE: tuple[str, ...] = ('<circle cx="', '" cy="', '" r="', f'" {_UNSCALED}/>
 _ELLIPSE: tuple[str, ...] = ('<ellipse cx="', '" cy="', '" rx="', '" ry="', f'" {_UNSCALED}/>\n')
 
 
-def _stroke(colour: str, width: float) -> str:
-    return f'stroke="{colour}" stroke-width="{width:.3g}" stroke-linejoin="round" stroke-linecap="round"'
+def _stroke(color: str, width: float) -> str:
+    return f'stroke="{color}" stroke-width="{width:.3g}" stroke-linejoin="round" stroke-linecap="round"'

@@ -1,43 +1,43 @@
-"""Pictures of an amount in each pixel, in colours from dark to light."""
+"""Pictures of an amount in each pixel, in colors from dark to light."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.render.canvas.colour_scales import colour_bar, scale_colours
+from vorotool.render.canvas.color_scales import color_bar, scale_colors
 from vorotool.render.canvas.insets import insets
 from vorotool.render.canvas.layers import Backdrop, ImagePage
 from vorotool.render.canvas.palettes import WHITE
 from vorotool.render.canvas.png import layer_bands
 from vorotool.render.canvas.styles import PictureStyle
 
-COLOURS = 255
+COLORS = 255
 """Of amounts; with the ground their numbers fit in a byte."""
 
 
 def amount_indices(values: NDArray[np.float64], largest: float) -> NDArray[np.uint8]:
-    """Give the number of each pixel's colour: 0 where there is no amount, else from 1 to `COLOURS`."""
+    """Give the number of each pixel's color: 0 where there is no amount, else from 1 to `COLORS`."""
     indices = np.zeros(values.shape, np.uint8)
     for row in range(0, len(values), 256):  # what is made beside it stays small
         band = values[row : row + 256]
-        ranks = np.minimum(band * (COLOURS / largest), COLOURS - 1) + 1 if largest else band
+        ranks = np.minimum(band * (COLORS / largest), COLORS - 1) + 1 if largest else band
         indices[row : row + 256] = np.where(band > 0, ranks, 0)
     return indices
 
 
 def amount_palette(ground: str | None) -> NDArray[np.uint8]:
-    """Give the colours of these numbers, the ground first: white where it is nothing."""
+    """Give the colors of these numbers, the ground first: white where it is nothing."""
     first = np.array([list(bytes.fromhex((ground or WHITE)[1:]))], dtype=np.uint8)
-    return np.concatenate([first, scale_colours(COLOURS)])
+    return np.concatenate([first, scale_colors(COLORS)])
 
 
-def with_colour_bar(
+def with_color_bar(
     pixels: NDArray[np.uint8], style: PictureStyle, largest: float, unit: str | None
 ) -> NDArray[np.uint8]:
-    """Draw the bar of the colours, and a scale bar, over a picture."""
+    """Draw the bar of the colors, and a scale bar, over a picture."""
     page = ImagePage(Backdrop(pixels, bytes))
     page.style = style
-    over = [*(colour_bar(largest, unit, page) if largest > 0 else []), *insets([], page)]
+    over = [*(color_bar(largest, unit, page) if largest > 0 else []), *insets([], page)]
     made: NDArray[np.uint8] = np.concatenate(list(layer_bands([], page, insets=over)))
     return made.reshape(pixels.shape)

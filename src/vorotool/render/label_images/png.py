@@ -25,7 +25,7 @@ def picture_bands(
     *,
     shape: tuple[int, int],
     palette: PicturePalette,
-    colour_of_label: NDArray[Any],
+    color_of_label: NDArray[Any],
     diagram: Iterable[NDArray[np.bool_]] | None = None,
     marks: Sequence[tuple[int, NDArray[np.bool_]]] = (),
     seeds: SeedSet | None = None,
@@ -36,7 +36,7 @@ def picture_bands(
 ) -> Iterator[NDArray[np.uint8]]:
     """Compose rows of palette indices: cells below, the diagram over them, seeds and names on top."""
     wanted = checked_layers(layers, LAYERS)
-    classes = np.asarray(colour_of_label).astype(np.uint8)
+    classes = np.asarray(color_of_label).astype(np.uint8)
     masks = iter(diagram) if diagram is not None and "diagram" in wanted else None
     has_discs = bool(seeds) and outlines is None and "seeds" in wanted
     discs = _Discs(seeds, frame or Frame(0, 0, shape[1], shape[0])) if seeds and has_discs else None
@@ -72,10 +72,10 @@ def over_image(
         top, bottom = (min(max(y, 0), height) for y in (row, row + len(band)))
         index = band[top - row : bottom - row, left - frame.x : right - frame.x]
         beneath = made[top:bottom, left:right]
-        colour = palette.colours[index]
-        mixed = ((beneath.astype(np.uint16) + colour + 1) // 2).astype(np.uint8)
+        color = palette.colors[index]
+        mixed = ((beneath.astype(np.uint16) + color + 1) // 2).astype(np.uint8)
         is_line = np.isin(index, palette.opaque)
-        beneath[...] = np.where(is_line[..., None], colour, np.where(index[..., None] > 0, mixed, beneath))
+        beneath[...] = np.where(is_line[..., None], color, np.where(index[..., None] > 0, mixed, beneath))
         row += len(band)
     return made.reshape(height, -1)
 
@@ -127,7 +127,7 @@ def disc_radius(shape: tuple[int, int], count: int) -> float:
 
 
 class Names(NamedTuple):
-    """Names of regions, and the (k, 2) column and row of the pixel on which each is centred."""
+    """Names of regions, and the (k, 2) column and row of the pixel on which each is centered."""
 
     texts: Sequence[str]
     places: NDArray[np.int64]
@@ -162,7 +162,7 @@ class _Discs:
         self.x, self.y = x[order], y[order]
 
     def draw(self, picture: NDArray[np.uint8], top: int, value: int, *, wider: float = 0.0) -> None:
-        """Set the pixels whose centres lie in a disc; the smallest discs still mark the nearest pixel."""
+        """Set the pixels whose centers lie in a disc; the smallest discs still mark the nearest pixel."""
         rows, width = picture.shape
         radius = self.radius + wider
         reach = math.ceil(radius) + 1

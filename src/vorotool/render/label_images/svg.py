@@ -15,7 +15,7 @@ from vorotool.geometry.points.label_image import LabelImage
 from vorotool.products.formats import AS_PNG
 from vorotool.render.canvas.halos import halo_width
 from vorotool.render.canvas.layers import Backdrop, Layer, Page
-from vorotool.render.canvas.palettes import EDGE, FAINT, INK, SEED, WHITE, cell_colour
+from vorotool.render.canvas.palettes import EDGE, FAINT, INK, SEED, WHITE, cell_color
 from vorotool.render.canvas.pixel_page import PixelPage
 from vorotool.render.canvas.styles import PictureStyle
 from vorotool.render.canvas.svg import CAPITAL, edge_style, fill_style, halo_style, image_element, layer_parts
@@ -35,7 +35,7 @@ def write_label_svg(
     out: BinaryIO,
     image: LabelImage,
     *,
-    colour_of_label: NDArray[Any] | Mapping[int, int],
+    color_of_label: NDArray[Any] | Mapping[int, int],
     width: int = 1000,
     layers: Iterable[str] = LAYERS,
     backdrop: Backdrop | None = None,
@@ -58,7 +58,7 @@ def write_label_svg(
         assert image.frame is not None  # LabelImage has filled it in
         parts.append(f'<g transform="translate({image.frame.x} {image.frame.y})">')
     if "cells" in wanted:
-        parts += _cells(page, colour_of_label)
+        parts += _cells(page, color_of_label)
     if numbered:
         parts += _numbers(page, "seeds" in wanted)
     if objects is not None:
@@ -115,7 +115,7 @@ class _Page:
         return across, [_short(index * self.scale_down + self.offset) for index in range(rows + 1)]
 
     def place(self, x: float, y: float) -> tuple[str, str]:
-        """Return the page coordinates of a point given in pixels, whose centres are at integers."""
+        """Return the page coordinates of a point given in pixels, whose centers are at integers."""
         return _short((x + 0.5) * self.scale + self.offset), _short((y + 0.5) * self.scale_down + self.offset)
 
     def seeds(self) -> NDArray[np.float64]:
@@ -133,22 +133,22 @@ def _short(value: float) -> str:
     return f"{value:.2f}".rstrip("0").rstrip(".")
 
 
-def _cells(page: _Page, colour_of_label: NDArray[Any] | Mapping[int, int]) -> Iterator[str]:
+def _cells(page: _Page, color_of_label: NDArray[Any] | Mapping[int, int]) -> Iterator[str]:
     # page coordinates, not a transform: not every renderer knows strokes that do not scale
     style = fill_style(page.backdrop)
     yield f'<g id="cells" fill-rule="evenodd"{style}{_stroke(page, "cells", EDGE)}>'
     for label, path in _paths(page, page.image.labels):
-        colour = cell_colour(int(colour_of_label[label]))
-        yield f'<path id="cell-{label}" fill="{colour}" vector-effect="non-scaling-stroke" d="{path}"/>'
+        color = cell_color(int(color_of_label[label]))
+        yield f'<path id="cell-{label}" fill="{color}" vector-effect="non-scaling-stroke" d="{path}"/>'
     yield "</g>"
 
 
 def _outlines(page: _Page, objects: NDArray[np.integer], wanted: Iterable[str]) -> Iterator[str]:
     """Objects filled, and their outlines; over an image with a white edge beneath these."""
     paths = list(_paths(page, objects))
-    colour = page.style.of("seeds")[0] or SEED
+    color = page.style.of("seeds")[0] or SEED
     if "objects" in wanted:
-        fill = page.style.of("objects")[0] or colour
+        fill = page.style.of("objects")[0] or color
         yield f'<g id="objects" fill="{fill}" fill-rule="evenodd"{fill_style(page.backdrop)}>'
         yield from (f'<path id="object-{label}" d="{path}"/>' for label, path in paths)
         yield "</g>"
@@ -158,20 +158,20 @@ def _outlines(page: _Page, objects: NDArray[np.integer], wanted: Iterable[str]) 
         yield f'<g id="seeds-halo" fill="none"{_stroke(page, "seeds", WHITE, wider=True)}>'
         yield from (f'<path vector-effect="non-scaling-stroke" d="{path}"/>' for _, path in paths)
         yield "</g>"
-    yield f'<g id="seeds" fill="none"{_stroke(page, "seeds", colour)}>'
+    yield f'<g id="seeds" fill="none"{_stroke(page, "seeds", color)}>'
     yield from (f'<path id="seed-{label}" vector-effect="non-scaling-stroke" d="{path}"/>' for label, path in paths)
     yield "</g>"
 
 
 def _stroke(page: _Page, layer: str, usual: str, *, wider: bool = False) -> str:
     """Attributes of the lines of a layer; wider ones are the edge of those."""
-    colour, width = page.style.of(layer)
+    color, width = page.style.of(layer)
     width = LINE_WIDTH if width is None else width
     if width == 0:
         return ""
     if wider:
-        colour, width = usual, halo_width(width)
-    return f' stroke="{colour or usual}" stroke-width="{width:.3g}" stroke-linejoin="round"'
+        color, width = usual, halo_width(width)
+    return f' stroke="{color or usual}" stroke-width="{width:.3g}" stroke-linejoin="round"'
 
 
 def _paths(page: _Page, labels: NDArray[np.integer]) -> Iterator[tuple[int, str]]:
@@ -210,10 +210,10 @@ def _numbers(page: _Page, mark_seeds: bool) -> Iterator[str]:
 
 
 def _texts(page: _Page, chosen: NDArray[np.bool_], size: float, attributes: str) -> Iterator[str]:
-    below_centre = 0.36 * size / page.scale_down  # half the height of a digit
+    below_center = 0.36 * size / page.scale_down  # half the height of a digit
     for row, column in np.argwhere(chosen).tolist():
         label = int(page.image.labels[row, column])
-        x, y = page.place(column, row + below_centre)
+        x, y = page.place(column, row + below_center)
         faint = "" if label else f' fill="{FAINT}"'
         yield f'<text x="{x}" y="{y}"{attributes}{faint}>{label}</text>'
 

@@ -8,13 +8,13 @@ from numpy.typing import NDArray
 from vorotool.geometry.mesh.cells import CellSet
 from vorotool.geometry.ragged import following, owners, within
 from vorotool.render.canvas.layers import Lines, Page, Polygons
-from vorotool.render.canvas.palettes import EDGE, INK, cell_colour
+from vorotool.render.canvas.palettes import EDGE, INK, cell_color
 
 LAYERS = ("cells", "diagram")
 """Filled cells, and their boundaries as lines."""
 
 
-def cell_polygons(cells: CellSet, colours: NDArray[np.unsignedinteger], page: Page) -> Polygons:
+def cell_polygons(cells: CellSet, colors: NDArray[np.unsignedinteger], page: Page) -> Polygons:
     """Fill cells; their outlines get finer where cells are small."""
     rings, polygons, of_cells = cells.nesting
     cell = owners(np.diff(of_cells))
@@ -31,8 +31,8 @@ def cell_polygons(cells: CellSet, colours: NDArray[np.unsignedinteger], page: Pa
         np.arange(len(cells.coordinates), dtype=np.int32),
         rings,
         polygons,
-        [cell_colour(c) for c in range(int(colours.max(initial=0)) + 1)],
-        np.asarray(colours)[cell],
+        [cell_color(c) for c in range(int(colors.max(initial=0)) + 1)],
+        np.asarray(colors)[cell],
         ids,
         EDGE,
         _line_width(cells, page),

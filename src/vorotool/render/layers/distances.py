@@ -22,9 +22,9 @@ def distance_layers(found: Distances, page: Page, layers: Iterable[str]) -> list
     """Make layers of two shapes, and of the lines between the places that are as far apart as they are."""
     wanted = checked_layers(layers, LAYERS)
     made: list[Layer] = []
-    for name, polygons, colour in zip(LAYERS, found.shapes, (FAINT, SEED), strict=False):
+    for name, polygons, color in zip(LAYERS, found.shapes, (FAINT, SEED), strict=False):
         if name in wanted:
-            made += _shape(name, polygons, page, colour)
+            made += _shape(name, polygons, page, color)
     if "distances" in wanted:
         places = found.places.reshape(-1, 2)
         pairs = np.arange(len(places), dtype=np.int32).reshape(-1, 2)
@@ -32,16 +32,16 @@ def distance_layers(found: Distances, page: Page, layers: Iterable[str]) -> list
     return made
 
 
-def _shape(name: str, polygons: PolygonSet, page: Page, colour: str) -> list[Layer]:
+def _shape(name: str, polygons: PolygonSet, page: Page, color: str) -> list[Layer]:
     """Polygons with their outlines, lines, and points as discs; of more than one kind, all but the first by theirs."""
     width = min(max(page.spacing(max(len(polygons.xy), 1)) / 16, 0.2), 1.5)
-    filled, *lines = polygon_layers(polygons, width, name=name, edge=colour)
+    filled, *lines = polygon_layers(polygons, width, name=name, edge=color)
     drawn: list[tuple[str, Layer]] = [] if polygons.is_line.all() else [("polygons", filled)]
     drawn += [("lines", layer) for layer in lines]
     is_lone = polygons.is_line[polygons.ring_polygon] & (np.diff(polygons.ring_start) == 1)
     if is_lone.any():
         places = polygons.xy[polygons.ring_start[:-1][is_lone]]
-        drawn.append(("points", Points(name, places, colour, 2 * width + 0.5)))
+        drawn.append(("points", Points(name, places, color, 2 * width + 0.5)))
     return [replace(layer, name=f"{name}-{kind}" if i else name) for i, (kind, layer) in enumerate(drawn)]
 
 

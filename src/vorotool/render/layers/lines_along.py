@@ -53,7 +53,7 @@ def _led_on(curves: Curves, lines: LedOn) -> Curves:
 
 
 def _smooth(layer: Curves, smoothed: SmoothLines) -> CubicCurves:
-    """With the name, colour and width of another layer."""
+    """With the name, color and width of another layer."""
     control = smoothed.control.reshape(-1, 2)
     first = 4 * np.arange(len(smoothed.control), dtype=np.int32)
     # the end of a curve is the begin of the next one on the same line
@@ -61,4 +61,4 @@ def _smooth(layer: Curves, smoothed: SmoothLines) -> CubicCurves:
     goes_on[smoothed.start[1:] - 1] = False
     last = np.where(goes_on, first + 4, first + 3)
     pairs = np.stack([first, last], axis=1).astype(np.int32)
-    return CubicCurves(layer.name, control, pairs, first + 1, layer.colour, layer.width, second=first + 2)
+    return CubicCurves(layer.name, control, pairs, first + 1, layer.color, layer.width, second=first + 2)

@@ -25,7 +25,7 @@ def mesh_layers(mesh: AnyTriangulation | ProximityGraph, page: Page, layers: Ite
     corners, rings = mesh.triangles.reshape(-1), 3 * np.arange(len(mesh.triangles) + 1)
     width = min(max(spacing / 24, 0.1), 1.5)
     made: dict[str, Layer] = {
-        "triangles": Polygons("triangles", mesh.points, corners, rings, colours=[CELLS[4]]),
+        "triangles": Polygons("triangles", mesh.points, corners, rings, colors=[CELLS[4]]),
         "edges": Lines("edges", mesh.points, mesh.edges, INK, width),
         "points": Points("points", mesh.points, radius=min(max(spacing / 12, 0.3), 4.0)),
     }

@@ -11,7 +11,7 @@ from vorotool import _core
 from vorotool.geometry.skeleton.necks import Necks
 from vorotool.geometry.skeleton.parts import Parts
 from vorotool.render.canvas.layers import Layer, Lines, Page, Polygons
-from vorotool.render.canvas.palettes import EDGE, FAINT, INK, RESULT, cell_colour
+from vorotool.render.canvas.palettes import EDGE, FAINT, INK, RESULT, cell_color
 from vorotool.render.label_images.png import checked_layers
 from vorotool.render.layers.polygons import names_of_features, polygon_layers, polygon_page
 from vorotool.render.layers.skeleton import skeleton_layers, skeleton_page
@@ -29,37 +29,37 @@ _WIDEST = 2.0
 def neck_layers(necks: Necks, page: Page, layers: Iterable[str]) -> list[Layer]:
     """Make layers of necks: lines from foot to foot, which get finer where there are many."""
     wanted = checked_layers(layers, LAYERS)
-    made = skeleton_layers(necks.skeleton, page, [n for n in ("polygons", "skeleton") if n in wanted], colour=FAINT)
+    made = skeleton_layers(necks.skeleton, page, [n for n in ("polygons", "skeleton") if n in wanted], color=FAINT)
     if "necks" in wanted:
         made.append(_cuts(necks, page, "necks", RESULT))
     return [*made, *skeleton_layers(necks.skeleton, page, ["labels"])] if "labels" in wanted else made
 
 
 def part_layers(parts: Parts, page: Page, layers: Iterable[str]) -> list[Layer]:
-    """Make layers of parts, in colours that differ on both sides of a cut."""
+    """Make layers of parts, in colors that differ on both sides of a cut."""
     wanted = checked_layers(layers, PART_LAYERS)
     made: list[Layer] = []
     if "parts" in wanted:
         a, b = np.ascontiguousarray(parts.between.T).astype(np.uint32)
-        colours = _core.graphs.colour_graph(len(parts), a, b, None).astype(np.int64)
-        palette = [cell_colour(c) for c in range(int(colours.max(initial=0)) + 1)]
+        colors = _core.graphs.color_graph(len(parts), a, b, None).astype(np.int64)
+        palette = [cell_color(c) for c in range(int(colors.max(initial=0)) + 1)]
         width = min(max(page.spacing(max(len(parts.polygons.xy), 1)) / 16, 0.2), 1.0)
         made += [
-            replace(layer, colours=palette, colour_of=colours)
+            replace(layer, colors=palette, color_of=colors)
             for layer in polygon_layers(parts.polygons, width, name="parts", edge=EDGE)
             if isinstance(layer, Polygons)
         ]
     if "skeleton" in wanted:
-        made += skeleton_layers(parts.necks.skeleton, page, ["skeleton"], colour=FAINT)
+        made += skeleton_layers(parts.necks.skeleton, page, ["skeleton"], color=FAINT)
     if "cuts" in wanted:
         made.append(_cuts(parts.necks, page, "cuts", INK))
     return [*made, names_of_features(parts.polygons, page)] if "labels" in wanted else made
 
 
-def _cuts(necks: Necks, page: Page, name: str, colour: str) -> Lines:
+def _cuts(necks: Necks, page: Page, name: str, color: str) -> Lines:
     pairs = np.arange(2 * len(necks), dtype=np.int32).reshape(-1, 2)
     width = min(max(page.spacing(max(len(necks), 1)) / 16, 0.3), _WIDEST)
-    return Lines(name, necks.feet.reshape(-1, 2), pairs, colour, width)
+    return Lines(name, necks.feet.reshape(-1, 2), pairs, color, width)
 
 
 def neck_page(necks: Necks, *, width: int = 1000, y_up: bool | None = None) -> Page:

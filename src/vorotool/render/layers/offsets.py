@@ -27,7 +27,7 @@ def offset_layers(offsets: Offsets, page: Page, layers: Iterable[str]) -> list[L
         "offset",
         offsets.start,
         offsets.end,
-        offsets.centre,
+        offsets.center,
         offsets.ring_start,
         None,
         RESULT,

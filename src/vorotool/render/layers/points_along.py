@@ -21,7 +21,7 @@ def skeleton_point_layers(points: SkeletonPoints, page: Page, layers: Iterable[s
     wanted = checked_layers(layers, LAYERS)
     spacing = page.spacing(max(len(points), 1))
     below = [name for name in ("polygons", "skeleton") if name in wanted]
-    made = skeleton_layers(points.skeleton, page, below, colour=FAINT)
+    made = skeleton_layers(points.skeleton, page, below, color=FAINT)
     if "transects" in wanted:
         ends = points.transects().feet.reshape(-1, 2)
         pairs = np.arange(len(ends), dtype=np.int32).reshape(-1, 2)

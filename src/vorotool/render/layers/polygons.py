@@ -33,7 +33,7 @@ def polygon_layers(
         corners,
         starts_of(sizes),
         first_rings=starts_of(per_polygon),
-        colours=[LIGHT],
+        colors=[LIGHT],
         is_alone=covered(polygons),
         edge=edge,
         width=width,
@@ -103,7 +103,7 @@ def names_of_features(polygons: PolygonSet, page: Page) -> Texts:
     corners = polygons.xy[polygons.ring_start[polygons.polygon_start[:-1]]]
     places[has_none] = corners[order[best]][has_none]
     names = feature_names(polygons, page)
-    return without_empty(Texts("labels", places, names, size=name_size(page, len(names)), halo=WHITE, is_centred=True))
+    return without_empty(Texts("labels", places, names, size=name_size(page, len(names)), halo=WHITE, is_centered=True))
 
 
 def polygon_page(polygons: PolygonSet, *, width: int = 1000, y_up: bool | None = None) -> Page:

@@ -29,7 +29,7 @@ def skeleton_layers(
     layers: Iterable[str],
     *,
     name: str = "skeleton",
-    colour: str = RESULT,
+    color: str = RESULT,
     points: NDArray[np.float64] | None = None,
     exact: Skeleton | None = None,
 ) -> list[Layer]:
@@ -43,9 +43,9 @@ def skeleton_layers(
         "polygons": lambda: polygon_layers(skeleton.polygons, width),
         "elements": lambda: [_edges(skeleton, width)],
         "points": lambda: [Points("points", places, radius=radius)],
-        "skeleton": lambda: [_arcs(skeleton, name, colour, max(width, _room(skeleton, page)))],
+        "skeleton": lambda: [_arcs(skeleton, name, color, max(width, _room(skeleton, page)))],
         "exact": lambda: [] if exact is None else [replace(_arcs(exact, "exact", INK, width), is_broken=True)],
-        "nodes": lambda: [Points("nodes", skeleton.vertices, colour=colour, radius=radius)],
+        "nodes": lambda: [Points("nodes", skeleton.vertices, color=color, radius=radius)],
         "labels": lambda: [
             _labels(skeleton, min(max(spacing / 6, 2.0), 16.0)) if "elements" in wanted else _names(skeleton, page)
         ],
@@ -62,9 +62,9 @@ def picture_layers(
     points: NDArray[np.float64] | None = None,
     exact: Skeleton | None = None,
 ) -> list[Layer]:
-    """Make the layers of the picture of a skeleton, or of a whole diagram, which is another layer in another colour."""
+    """Make the layers of the picture of a skeleton, or of a whole diagram, which is another layer in another color."""
     if what == "diagram":
-        return skeleton_layers(skeleton, page, layers, name="diagram", colour=SEED, points=points, exact=exact)
+        return skeleton_layers(skeleton, page, layers, name="diagram", color=SEED, points=points, exact=exact)
     return skeleton_layers(skeleton, page, layers, points=points, exact=exact)
 
 
@@ -120,14 +120,14 @@ def _names(skeleton: Skeleton, page: Page) -> Texts:
     found, best = np.unique(of[order], return_index=True)
     places[found] = skeleton.vertices[nodes[order][best]]
     names = feature_names(polygons, page)
-    return without_empty(Texts("labels", places, names, size=name_size(page, len(names)), halo=WHITE, is_centred=True))
+    return without_empty(Texts("labels", places, names, size=name_size(page, len(names)), halo=WHITE, is_centered=True))
 
 
-def _arcs(skeleton: Skeleton, name: str, colour: str, width: float) -> Curves:
+def _arcs(skeleton: Skeleton, name: str, color: str, width: float) -> Curves:
     bent = np.flatnonzero(skeleton.is_parabola)
     control = np.full(len(skeleton), -1, dtype=np.int32)
     control[bent] = len(skeleton.vertices) + np.arange(len(bent))
     points = np.concatenate([skeleton.vertices, skeleton.control[bent]])
     # single places on the frame are what is left of arcs that went on beyond
     shown = (skeleton.length > 0) | ~skeleton.touches_frame[skeleton.arcs[:, 0]]
-    return Curves(name, points, skeleton.arcs[shown], control[shown], colour, width)
+    return Curves(name, points, skeleton.arcs[shown], control[shown], color, width)

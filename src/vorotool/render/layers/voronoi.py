@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.geometry.ragged import within
 from vorotool.geometry.voronoi.site_shapes import site_shapes
-from vorotool.geometry.voronoi.tables import neighbour_pairs
+from vorotool.geometry.voronoi.tables import neighbor_pairs
 from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 from vorotool.render.canvas.layers import CurvedPolygons, Curves, Layer, Lines, Page, Points, Polygons, Texts, name_size
 from vorotool.render.canvas.names import column_texts, without_empty
-from vorotool.render.canvas.palettes import EDGE, INK, WHITE, cell_colour
+from vorotool.render.canvas.palettes import EDGE, INK, WHITE, cell_color
 from vorotool.render.label_images.png import checked_layers
 from vorotool.render.layers.polygons import polygon_layers
 
@@ -49,10 +49,10 @@ def voronoi_page(cells: VoronoiMap, *, width: int = 1000, y_up: bool | None = No
     return Page((x, y, x + w, y + h), width=width, y_up=cells.polygons.y_up if y_up is None else y_up)
 
 
-def map_colours(cells: VoronoiMap) -> NDArray[np.uint32]:
-    """(s,) colour class of each cell, from 1: cells that share a border never have the same one."""
-    a, b = np.ascontiguousarray(neighbour_pairs(cells)[0].T.astype(np.uint32))
-    return _core.graphs.colour_graph(len(cells), a, b, None)
+def map_colors(cells: VoronoiMap) -> NDArray[np.uint32]:
+    """(s,) color class of each cell, from 1: cells that share a border never have the same one."""
+    a, b = np.ascontiguousarray(neighbor_pairs(cells)[0].T.astype(np.uint32))
+    return _core.graphs.color_graph(len(cells), a, b, None)
 
 
 def _curves(cells: VoronoiMap) -> Curves:
@@ -62,12 +62,12 @@ def _curves(cells: VoronoiMap) -> Curves:
     control[bent] = len(cells.vertices) + np.arange(len(bent))
     points = np.concatenate([cells.vertices, cells.control[bent]])
     circles = (cells.center, cells.mixed_arcs.is_left) if cells.is_circle.any() else (None, None)
-    return Curves("edges", points, cells.arcs, control, INK, centre=circles[0], is_left=circles[1])
+    return Curves("edges", points, cells.arcs, control, INK, center=circles[0], is_left=circles[1])
 
 
 def _filled(cells: VoronoiMap, curves: Curves, width: float) -> CurvedPolygons:
     arc, is_back = np.abs(cells.ring_arcs) - 1, cells.ring_arcs < 0
-    colours = map_colours(cells)
+    colors = map_colors(cells)
     cell = cells.cell_of_polygon
     part = within(cells.components) + 1
     several = cells.components[cell] > 1
@@ -81,8 +81,8 @@ def _filled(cells: VoronoiMap, curves: Curves, width: float) -> CurvedPolygons:
         cells.arcs[arc, is_back.astype(int)],
         cells.ring_start,
         cells.polygon_start,
-        [cell_colour(c) for c in range(int(colours.max(initial=0)) + 1)],
-        colours[cell],
+        [cell_color(c) for c in range(int(colors.max(initial=0)) + 1)],
+        colors[cell],
         ids,
         EDGE,
         width,
@@ -98,7 +98,7 @@ def _objects(cells: VoronoiMap, width: float, radius: float) -> list[Layer]:
     areas = polygon_layers(polygons, width, name="object-areas")[0]
     assert isinstance(areas, Polygons)
     if len(areas.corners):
-        made.append(replace(areas, colours=[WHITE], is_sheer=True))
+        made.append(replace(areas, colors=[WHITE], is_sheer=True))
     is_end = np.zeros(len(polygons.xy), dtype=bool)
     is_end[polygons.ring_start[1:][polygons.is_line[polygons.ring_polygon]] - 1] = True
     pairs = np.stack([np.flatnonzero(~is_end), polygons.following[~is_end]], axis=1).astype(np.int32)
@@ -117,11 +117,11 @@ def _names(cells: VoronoiMap, page: Page) -> Texts:
     own = range(1, len(cells) + 1) if cells.ids is None else cells.ids
     texts = column_texts(cells.properties, page.style.label_by, own)
     places, site, dimension = _places_of_names(cells)
-    size, is_centred = name_size(page, len(cells)), bool((dimension > 0).any())
-    if is_centred:  # points are discs: their names stand above
+    size, is_centered = name_size(page, len(cells)), bool((dimension > 0).any())
+    if is_centered:  # points are discs: their names stand above
         places[dimension == 0, 1] += page.distance(0.9 * size) * (1 if page.y_up else -1)
     return without_empty(
-        Texts("labels", places, [texts[k] for k in site.tolist()], size=size, halo=WHITE, is_centred=is_centred)
+        Texts("labels", places, [texts[k] for k in site.tolist()], size=size, halo=WHITE, is_centered=is_centered)
     )
 
 

@@ -19,7 +19,7 @@ from vorotool.geometry.spacing import SQUARE, PixelSides
 from vorotool.geometry.voronoi.shapes import cell_rings
 from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 from vorotool.products.formats import AS_SVG
-from vorotool.render.canvas.palettes import cell_colour
+from vorotool.render.canvas.palettes import cell_color
 from vorotool.render.label_images.crack_outline import crack_loops
 
 MOST_CELLS, MOST_VERTICES = 100_000, 3_000_000
@@ -104,7 +104,7 @@ def _data(shapes: Shapes, classes: NDArray[Any], columns: Mapping[str, Sequence[
         "rings": packed(shapes.rings, "<i4"),
         "shapes": packed(shapes.shapes, "<i4"),
         "classes": packed(classes, "<i4"),
-        "colours": [cell_colour(number) for number in range(int(classes.max(initial=0)) + 1)],
+        "colors": [cell_color(number) for number in range(int(classes.max(initial=0)) + 1)],
         "ids": list(shapes.ids),
         "columns": [{"name": name, "values": [json_value(each) for each in own]} for name, own in columns.items()],
     }

@@ -51,15 +51,15 @@ def _title(count: int, suggested: int) -> str:
 
 def _bar(place: int, span: tuple[float, float], name: str, size: str, *, stands: bool, lives: bool) -> list[str]:
     top = _TOP + place * _ROW + (_ROW - _BAR) / 2
-    middle, colour = top + _BAR / 2, SEED if stands else FAINT
+    middle, color = top + _BAR / 2, SEED if stands else FAINT
     left, right = span
     parts = [
         f'<text x="{_LEFT - 8}" y="{middle + 4.5:.1f}" text-anchor="end">{name}</text>',
-        f'<rect x="{left:.2f}" y="{top:.1f}" width="{max(right - left, 0.5):.2f}" height="{_BAR}" fill="{colour}"/>',
+        f'<rect x="{left:.2f}" y="{top:.1f}" width="{max(right - left, 0.5):.2f}" height="{_BAR}" fill="{color}"/>',
     ]
     if lives:
         tip = f"M{right:.2f} {top - 3:.1f}l10 {_BAR / 2 + 3:.1f}l-10 {_BAR / 2 + 3:.1f}z"
-        parts.append(f'<path d="{tip}" fill="{colour}"/>')
+        parts.append(f'<path d="{tip}" fill="{color}"/>')
     after = right + (14 if lives else 6)
     return [*parts, f'<text x="{after:.1f}" y="{middle + 4.5:.1f}">{size}</text>']
 

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from vorotool.errors import LimitError, option
 from vorotool.geometry.ragged import starts_of
-from vorotool.render.canvas.palettes import cell_colour
+from vorotool.render.canvas.palettes import cell_color
 from vorotool.render.pages.cells_html import MOST_CELLS, json_value, packed
 
 MOST_VOXELS = 1 << 26
@@ -51,7 +51,7 @@ def runs_of(labels: NDArray[Any], known: NDArray[Any]) -> Runs:
 def check_volume_page(shape: tuple[int, ...], labels: int = 0, runs: int = 0) -> None:
     """Refuse a page that no browser would show."""
     depth, height, width = shape
-    instead = f"use {option('--what colour -f png, or --what labels', 'labels in TIFF, NPY or Zarr')}"
+    instead = f"use {option('--what color -f png, or --what labels', 'labels in TIFF, NPY or Zarr')}"
     if depth * height * width > MOST_VOXELS:
         size = f"{width} x {height} x {depth}"
         raise LimitError(f"{size} voxels are too many for a page, at most {MOST_VOXELS}: {instead}")
@@ -63,14 +63,14 @@ def check_volume_page(shape: tuple[int, ...], labels: int = 0, runs: int = 0) ->
 def write_volume_html(
     out: BinaryIO,
     labels: NDArray[Any],
-    colours: tuple[NDArray[Any], NDArray[Any]],
+    colors: tuple[NDArray[Any], NDArray[Any]],
     columns: Mapping[str, Sequence[Any]],
     *,
     first: int = 0,
     units: ArrayLike = (1, 1, 1),
 ) -> None:
     """Write a page with a slider over the slices of a volume, on which the region that is pointed at is named."""
-    known, classes = np.asarray(colours[0]), np.asarray(colours[1])
+    known, classes = np.asarray(colors[0]), np.asarray(colors[1])
     check_volume_page(labels.shape, len(known))
     runs = runs_of(labels, known)
     check_volume_page(labels.shape, len(known), len(runs.ends))
@@ -86,7 +86,7 @@ def write_volume_html(
         "ends": packed(runs.ends, "<i4"),
         "regions": packed(runs.regions, "<i4"),
         "classes": packed(np.append(0, classes), "<i4"),
-        "colours": [cell_colour(number) for number in range(int(classes.max(initial=0)) + 1)],
+        "colors": [cell_color(number) for number in range(int(classes.max(initial=0)) + 1)],
         "ids": [str(label) for label in known.tolist()],
         "columns": [{"name": name, "values": [json_value(each) for each in own]} for name, own in columns.items()],
     }

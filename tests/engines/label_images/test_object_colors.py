@@ -1,11 +1,11 @@
-"""Colours of objects with background between them."""
+"""Colors of objects with background between them."""
 
 import numpy as np
 import pytest
 
 import vorotool
-from vorotool.engines.label_images.object_colours import object_colours
-from vorotool.engines.label_images.regions import measure_regions, region_colours
+from vorotool.engines.label_images.object_colors import object_colors
+from vorotool.engines.label_images.regions import measure_regions, region_colors
 from vorotool.geometry.points.label_image import LabelImage
 
 
@@ -19,25 +19,25 @@ def scattered(seed, largest=2**32 - 1):
 
 
 @pytest.mark.parametrize("seed", range(6))
-def test_neighbours_differ_across_the_background(seed):
+def test_neighbors_differ_across_the_background(seed):
     image = scattered(seed)
-    labels, colours = object_colours(LabelImage(image))
+    labels, colors = object_colors(LabelImage(image))
     assert labels.tolist() == np.unique(image)[1:].tolist()
-    of = dict(zip(labels.tolist(), colours.tolist(), strict=True))
+    of = dict(zip(labels.tolist(), colors.tolist(), strict=True))
     influence = vorotool.tessellate(vorotool.seeds_from_raster(image, mode="labels"))
     measures = measure_regions(influence)
     pairs = measures.labels[measures.borders]
     assert len(pairs)
     assert all(of[a] != of[b] for a, b in pairs.tolist())
-    assert len(set(colours.tolist())) > 1
+    assert len(set(colors.tolist())) > 1
 
 
-def test_without_background_colours_are_those_of_the_regions():
+def test_without_background_colors_are_those_of_the_regions():
     image = vorotool.tessellate([[3, 4], [20, 9], [7, 30], [25, 25]], shape=(40, 40))
-    for found, right in zip(object_colours(image), region_colours(image), strict=True):
+    for found, right in zip(object_colors(image), region_colors(image), strict=True):
         np.testing.assert_array_equal(found, right)
 
 
 def test_one_object_and_none():
-    assert object_colours(LabelImage(np.array([[0, 7]])))[1].tolist() == [1]
-    assert len(object_colours(LabelImage(np.zeros((3, 3), np.uint8)))[0]) == 0
+    assert object_colors(LabelImage(np.array([[0, 7]])))[1].tolist() == [1]
+    assert len(object_colors(LabelImage(np.zeros((3, 3), np.uint8)))[0]) == 0

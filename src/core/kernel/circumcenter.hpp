@@ -14,10 +14,10 @@ struct RoundedPoint {
   numbers::Rounded x, y;
 };
 
-// The centre of the circle through three points that are not collinear. The first leaves the sign of an error
+// The center of the circle through three points that are not collinear. The first leaves the sign of an error
 // undecided where 106 bits do not tell it; the second never does.
-RoundedPoint circumcentre(const Point& a, const Point& b, const Point& c);
-RoundedPoint circumcentre_exactly(const Point& a, const Point& b, const Point& c);
+RoundedPoint circumcenter(const Point& a, const Point& b, const Point& c);
+RoundedPoint circumcenter_exactly(const Point& a, const Point& b, const Point& c);
 
 // The y of the place on the line of this x that is equidistant from two points, which have different y.
 double bisector_at(double x, const Point& a, const Point& b);

@@ -11,13 +11,13 @@ graphs = st.integers(2, 30).flatmap(
 )
 
 
-def colour_graph(vertices, edges):
+def color_graph(vertices, edges):
     edges = np.array(edges, dtype=np.uint32).reshape(-1, 2)
     a, b = (np.ascontiguousarray(edges[:, k]) for k in (0, 1))
-    colours = _core.graphs.colour_graph(vertices, a, b, None)
-    assert (colours[a] != colours[b]).all()
-    assert vertices == 0 or sorted(set(colours.tolist())) == list(range(1, colours.max() + 1))
-    return colours
+    colors = _core.graphs.color_graph(vertices, a, b, None)
+    assert (colors[a] != colors[b]).all()
+    assert vertices == 0 or sorted(set(colors.tolist())) == list(range(1, colors.max() + 1))
+    return colors
 
 
 def degeneracy(vertices, edges):
@@ -36,18 +36,18 @@ def degeneracy(vertices, edges):
 
 @given(graphs)
 @settings(max_examples=50, deadline=None)
-def test_colouring_of_any_graph(graph):
+def test_coloring_of_any_graph(graph):
     vertices, pairs = graph
     edges = sorted({(min(p), max(p)) for p in pairs if p[0] != p[1]})
-    assert colour_graph(vertices, edges).max() <= degeneracy(vertices, edges) + 1
+    assert color_graph(vertices, edges).max() <= degeneracy(vertices, edges) + 1
 
 
-def test_colouring_of_adversarial_graphs():
-    assert colour_graph(0, []).size == 0
-    assert colour_graph(5, []).tolist() == [1] * 5
-    assert colour_graph(40, [(a, b) for b in range(40) for a in range(b)]).max() == 40
+def test_coloring_of_adversarial_graphs():
+    assert color_graph(0, []).size == 0
+    assert color_graph(5, []).tolist() == [1] * 5
+    assert color_graph(40, [(a, b) for b in range(40) for a in range(b)]).max() == 40
     crown = [(a, 20 + b) for a in range(20) for b in range(20) if a != b]
-    colour_graph(40, crown)
-    assert colour_graph(1001, [(0, k) for k in range(1, 1001)]).max() == 2
+    color_graph(40, crown)
+    assert color_graph(1001, [(0, k) for k in range(1, 1001)]).max() == 2
     wheel = [(0, k) for k in range(1, 12)] + [(k, k % 11 + 1) for k in range(1, 12)]
-    assert colour_graph(12, wheel).max() <= 4
+    assert color_graph(12, wheel).max() <= 4

@@ -1,4 +1,4 @@
-"""Colours of objects that lie apart: those of the regions that are nearest to them."""
+"""Colors of objects that lie apart: those of the regions that are nearest to them."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.common.label_arrays import label_array
-from vorotool.engines.label_images.regions import region_colours
+from vorotool.engines.label_images.regions import region_colors
 from vorotool.engines.tessellation.interior_seeds import surrounded_pixels
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.geometry.pixel_frame import Frame
@@ -14,11 +14,11 @@ from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.seed_set import SeedSet
 
 
-def object_colours(image: LabelImage, *, threads: int = 0) -> tuple[NDArray[np.uint32], NDArray[np.uint32]]:
-    """Colour the labels of an image so that neighbours differ, also those with background between them."""
+def object_colors(image: LabelImage, *, threads: int = 0) -> tuple[NDArray[np.uint32], NDArray[np.uint32]]:
+    """Color the labels of an image so that neighbors differ, also those with background between them."""
     labels = label_array(image.labels)
     if labels.all() or not labels.any():
-        return region_colours(image, threads=threads)
+        return region_colors(image, threads=threads)
     # Of an object the pixels inside it are nearest to no other pixel: its outermost ones are enough.
     y, x = np.nonzero((labels != 0) & ~surrounded_pixels(labels))
     found = np.unique(labels)[1:].astype(np.uint32)
@@ -26,4 +26,4 @@ def object_colours(image: LabelImage, *, threads: int = 0) -> tuple[NDArray[np.u
     frame = Frame(0, 0, labels.shape[1], labels.shape[0])
     nearest = Tessellator(seeds, frame, threads=threads).labels(dtype=np.uint32)
     np.copyto(nearest, labels, where=labels != 0, casting="unsafe")
-    return region_colours(nearest, threads=threads)
+    return region_colors(nearest, threads=threads)

@@ -1,4 +1,4 @@
-"""Colours of amounts: a scale from dark to light that is even to the eye, and the bar that explains it."""
+"""Colors of amounts: a scale from dark to light that is even to the eye, and the bar that explains it."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from vorotool.render.canvas.layers import Layer, Page, Polygons, Texts
 from vorotool.render.canvas.palettes import FAINT, WHITE
 
 _STOPS = ("440154", "472d7b", "3b528b", "2c728e", "21918c", "28ae80", "5ec962", "addc30", "fde725")
-"""Viridis, of Smith and van der Walt, at even steps: its lightness grows evenly, for any colour vision."""
+"""Viridis, of Smith and van der Walt, at even steps: its lightness grows evenly, for any color vision."""
 
 STRIPS = 64
 """Of a bar."""
@@ -19,18 +19,18 @@ TICKS = 4
 """Numbers beside a bar at most, besides 0."""
 
 
-def scale_colours(count: int) -> NDArray[np.uint8]:
-    """Give (count, 3) colours from dark to light: red, green and blue."""
+def scale_colors(count: int) -> NDArray[np.uint8]:
+    """Give (count, 3) colors from dark to light: red, green and blue."""
     stops = np.array([list(bytes.fromhex(stop)) for stop in _STOPS], dtype=np.float64)
     place = np.linspace(0, len(stops) - 1, count)
     below = np.minimum(place.astype(np.intp), len(stops) - 2)
-    colours = stops[below] + (place - below)[:, None] * (stops[below + 1] - stops[below])
-    rounded: NDArray[np.uint8] = np.rint(colours).astype(np.uint8)
+    colors = stops[below] + (place - below)[:, None] * (stops[below + 1] - stops[below])
+    rounded: NDArray[np.uint8] = np.rint(colors).astype(np.uint8)
     return rounded
 
 
-def colour_bar(largest: float, unit: str | None, page: Page) -> list[Layer]:
-    """Make a bar of the colours from 0 to the largest amount, in the upper right corner of a page."""
+def color_bar(largest: float, unit: str | None, page: Page) -> list[Layer]:
+    """Make a bar of the colors from 0 to the largest amount, in the upper right corner of a page."""
     size = letter_size(page)
     step = rounded_length(largest / 2)
     step = step if largest / step < TICKS else 2 * step
@@ -46,17 +46,17 @@ def colour_bar(largest: float, unit: str | None, page: Page) -> list[Layer]:
         _strips((left + gap, top), (wide, high)),
     ]
     places = np.array([[left + 2 * gap + wide, top + high * (1 - tick / largest)] for tick in ticks])
-    return [*made, Texts("legend-names", places, names, size=size, is_centred=True, is_led=True)]
+    return [*made, Texts("legend-names", places, names, size=size, is_centered=True, is_led=True)]
 
 
 def _strips(corner: tuple[float, float], size: tuple[float, float]) -> Polygons:
-    """The bar, light above, in strips of one colour each."""
+    """The bar, light above, in strips of one color each."""
     edges = np.linspace(corner[1] + size[1], corner[1], STRIPS + 1)
     low, high = edges[:-1], edges[1:]
     left, right = np.full(STRIPS, corner[0]), np.full(STRIPS, corner[0] + size[0])
     points = np.stack([left, low, right, low, right, high, left, high], axis=1).reshape(-1, 2)
-    names = ["#" + bytes(colour).hex() for colour in scale_colours(STRIPS)]
+    names = ["#" + bytes(color).hex() for color in scale_colors(STRIPS)]
     corners = np.arange(4 * STRIPS, dtype=np.int32)
     return Polygons(
-        "legend-scale", points, corners, np.arange(0, 4 * STRIPS + 1, 4), colours=names, colour_of=np.arange(STRIPS)
+        "legend-scale", points, corners, np.arange(0, 4 * STRIPS + 1, 4), colors=names, color_of=np.arange(STRIPS)
     )

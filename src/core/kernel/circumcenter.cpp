@@ -1,4 +1,4 @@
-#include "core/kernel/circumcentre.hpp"
+#include "core/kernel/circumcenter.hpp"
 
 #include <array>
 #include <cmath>
@@ -70,7 +70,7 @@ std::optional<Rounded> rounded(const std::optional<Estimate>& estimate) {
   return Rounded{nearest, std::abs(rest) > 2 * error ? numbers::sign_of(rest) : undecided};
 }
 
-std::optional<RoundedPoint> circumcentre_by_estimate(const Point& a, const Point& b, const Point& c) {
+std::optional<RoundedPoint> circumcenter_by_estimate(const Point& a, const Point& b, const Point& c) {
   const DoubleDouble bx = two_difference(b.x, a.x), by = two_difference(b.y, a.y);
   const DoubleDouble cx = two_difference(c.x, a.x), cy = two_difference(c.y, a.y);
   for (const DoubleDouble& difference : {bx, by, cx, cy}) {
@@ -110,15 +110,15 @@ std::optional<Estimate> bisector_by_estimate(double x, const Point& a, const Poi
 // Coordinates of 64 limbs - 3 bits: their differences are below 2^(64 limbs - 2) in magnitude, and a
 // difference of twice one of them to the sum of two others below 2^(64 limbs - 1). Every result below has at
 // least two bits less than its limbs, one of them for the sign.
-constexpr int spare_bits_of_centres = 3;
+constexpr int spare_bits_of_centers = 3;
 
 // Calls body(the number of limbs, a constant) with enough of them for integers of so many bits.
 template <class Body>
 auto with_limbs(int bits, Body body) {
-  if (bits + spare_bits_of_centres <= 64) return body(std::integral_constant<std::size_t, 1>{});
-  if (bits + spare_bits_of_centres <= 4 * 64) return body(std::integral_constant<std::size_t, 4>{});
-  if (bits + spare_bits_of_centres <= 12 * 64) return body(std::integral_constant<std::size_t, 12>{});
-  static_assert(2098 + spare_bits_of_centres <= 33 * 64);
+  if (bits + spare_bits_of_centers <= 64) return body(std::integral_constant<std::size_t, 1>{});
+  if (bits + spare_bits_of_centers <= 4 * 64) return body(std::integral_constant<std::size_t, 4>{});
+  if (bits + spare_bits_of_centers <= 12 * 64) return body(std::integral_constant<std::size_t, 12>{});
+  static_assert(2098 + spare_bits_of_centers <= 33 * 64);
   return body(std::integral_constant<std::size_t, 33>{});
 }
 
@@ -126,7 +126,7 @@ auto with_limbs(int bits, Body body) {
 // (...) below 2^(2 k - 2), their products with a coordinate below 2^(3 k - 5), and numerators, sums of three
 // such, below 2^(3 k - 3).
 template <std::size_t limbs>
-RoundedPoint circumcentre_in_limbs(const DyadicGrid& lattice, const Point& a, const Point& b,
+RoundedPoint circumcenter_in_limbs(const DyadicGrid& lattice, const Point& a, const Point& b,
                                    const Point& c) {
   const auto of = [&](double value) { return lattice.fixed_integer<limbs>(value); };
   const auto ax = of(a.x), ay = of(a.y);
@@ -203,14 +203,14 @@ int angle_by_filter(const Point& p, const Point& a, const Point& b) {
 
 }  // namespace
 
-RoundedPoint circumcentre_exactly(const Point& a, const Point& b, const Point& c) {
+RoundedPoint circumcenter_exactly(const Point& a, const Point& b, const Point& c) {
   const DyadicGrid lattice(std::array{a.x, a.y, b.x, b.y, c.x, c.y});
-  return with_limbs(lattice.bits, [&](auto limbs) { return circumcentre_in_limbs<limbs>(lattice, a, b, c); });
+  return with_limbs(lattice.bits, [&](auto limbs) { return circumcenter_in_limbs<limbs>(lattice, a, b, c); });
 }
 
-RoundedPoint circumcentre(const Point& a, const Point& b, const Point& c) {
-  const std::optional<RoundedPoint> estimate = circumcentre_by_estimate(a, b, c);
-  return estimate ? *estimate : circumcentre_exactly(a, b, c);
+RoundedPoint circumcenter(const Point& a, const Point& b, const Point& c) {
+  const std::optional<RoundedPoint> estimate = circumcenter_by_estimate(a, b, c);
+  return estimate ? *estimate : circumcenter_exactly(a, b, c);
 }
 
 double bisector_at(double x, const Point& a, const Point& b) {

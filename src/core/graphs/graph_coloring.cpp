@@ -1,4 +1,4 @@
-#include "core/graphs/graph_colouring.hpp"
+#include "core/graphs/graph_coloring.hpp"
 
 #include <algorithm>
 
@@ -10,7 +10,7 @@ using base::Monitor;
 
 namespace {
 
-using Adjacency = base::Groups<std::uint32_t>;  // neighbours of each vertex
+using Adjacency = base::Groups<std::uint32_t>;  // neighbors of each vertex
 
 // Vertices sorted by their degree among the vertices not yet taken, in buckets of one array.
 class DegreeOrder {
@@ -38,7 +38,7 @@ class DegreeOrder {
     return vertex;
   }
 
-  // One neighbour less: swaps with the first of its bucket, which then begins one place later. A vertex of
+  // One neighbor less: swaps with the first of its bucket, which then begins one place later. A vertex of
   // the smallest degree stays: it goes next anyway, and so no bucket reaches back among the taken.
   void lower(std::uint32_t vertex) {
     if (degree_[vertex] <= current_) return;
@@ -65,24 +65,24 @@ std::vector<std::uint32_t> smallest_first(const Adjacency& graph, const Monitor&
   DegreeOrder order(graph);
   for (std::size_t taken = 0; taken < graph.size(); ++taken) {
     base::report_item(monitor, taken);
-    for (const std::uint32_t neighbour : graph[order.take(taken)]) order.lower(neighbour);
+    for (const std::uint32_t neighbor : graph[order.take(taken)]) order.lower(neighbor);
   }
   return order.order();
 }
 
-// Colours 1, 2, ... and how often each is used.
+// Colors 1, 2, ... and how often each is used.
 class Palette {
  public:
-  // Forbids a colour for the vertex at hand.
-  void forbid(std::uint32_t colour, std::uint32_t vertex) {
-    forbidden_for_[colour] = std::uint64_t{vertex} + 1;
+  // Forbids a color for the vertex at hand.
+  void forbid(std::uint32_t color, std::uint32_t vertex) {
+    forbidden_for_[color] = std::uint64_t{vertex} + 1;
   }
 
   std::uint32_t choose(std::uint32_t vertex) {
     std::size_t best = 0;
-    for (std::size_t colour = 1; colour < uses_.size(); ++colour) {
-      if (forbidden_for_[colour] == std::uint64_t{vertex} + 1) continue;
-      if (best == 0 || uses_[colour] < uses_[best]) best = colour;
+    for (std::size_t color = 1; color < uses_.size(); ++color) {
+      if (forbidden_for_[color] == std::uint64_t{vertex} + 1) continue;
+      if (best == 0 || uses_[color] < uses_[best]) best = color;
     }
     if (best == 0) {
       best = uses_.size();
@@ -94,14 +94,14 @@ class Palette {
   }
 
  private:
-  std::vector<std::uint64_t> uses_{0};           // entry 0, "no colour yet", is not used
+  std::vector<std::uint64_t> uses_{0};           // entry 0, "no color yet", is not used
   std::vector<std::uint64_t> forbidden_for_{0};  // the last vertex + 1 that must not take it
 };
 
 }  // namespace
 
-std::vector<std::uint32_t> colour_graph(std::size_t vertices, std::span<const Edge> edges,
-                                        const Monitor& monitor) {
+std::vector<std::uint32_t> color_graph(std::size_t vertices, std::span<const Edge> edges,
+                                       const Monitor& monitor) {
   const Adjacency graph(vertices, [&](const auto& add) {
     for (const Edge& edge : edges) {
       add(edge.a, edge.b);
@@ -109,15 +109,15 @@ std::vector<std::uint32_t> colour_graph(std::size_t vertices, std::span<const Ed
     }
   });
   const std::vector<std::uint32_t> order = smallest_first(graph, monitor);
-  std::vector<std::uint32_t> colours(vertices, 0);
+  std::vector<std::uint32_t> colors(vertices, 0);
   Palette palette;
   for (std::size_t k = vertices; k-- > 0;) {
     base::report_item(monitor, k);
     const std::uint32_t vertex = order[k];
-    for (const std::uint32_t neighbour : graph[vertex]) palette.forbid(colours[neighbour], vertex);
-    colours[vertex] = palette.choose(vertex);
+    for (const std::uint32_t neighbor : graph[vertex]) palette.forbid(colors[neighbor], vertex);
+    colors[vertex] = palette.choose(vertex);
   }
-  return colours;
+  return colors;
 }
 
 }  // namespace vorotool::core::graphs

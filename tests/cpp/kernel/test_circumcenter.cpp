@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "check.hpp"
-#include "core/kernel/circumcentre.hpp"
+#include "core/kernel/circumcenter.hpp"
 #include "core/kernel/predicates.hpp"
 
 using namespace vorotool::core::kernel;
@@ -29,7 +29,7 @@ constexpr double infinity = HUGE_VAL;
 
 }  // namespace
 
-TEST(estimates_of_centres_are_the_exact_ones) {
+TEST(estimates_of_centers_are_the_exact_ones) {
   Random random(1);
   for (int i = 0; i < 6000; ++i) {
     const int bits = std::array{2, 20, 53}[static_cast<std::size_t>(i % 3)];
@@ -37,10 +37,10 @@ TEST(estimates_of_centres_are_the_exact_ones) {
     const Point a = drawn(random, bits, exponent), b = drawn(random, bits, exponent),
                 c = drawn(random, bits, exponent);
     if (orient2d(a, b, c) == 0) continue;
-    const RoundedPoint estimate = circumcentre(a, b, c), exact = circumcentre_exactly(a, b, c);
+    const RoundedPoint estimate = circumcenter(a, b, c), exact = circumcenter_exactly(a, b, c);
     agrees(estimate.x, exact.x);
     agrees(estimate.y, exact.y);
-    const RoundedPoint turned = circumcentre(b, c, a);
+    const RoundedPoint turned = circumcenter(b, c, a);
     equal(turned.x.value, exact.x.value);
     equal(turned.y.value, exact.y.value);
   }
@@ -48,7 +48,7 @@ TEST(estimates_of_centres_are_the_exact_ones) {
 
 // Fibonacci's numbers go on in nearly one direction: with a first point that has bits far below, what is left
 // of the area has lost most of 106 bits, and estimates have to see that.
-TEST(centres_of_slivers_are_exact) {
+TEST(centers_of_slivers_are_exact) {
   Random random(5);
   for (int i = 0; i < 4000; ++i) {
     std::int64_t before = 1, last = 1;
@@ -56,28 +56,28 @@ TEST(centres_of_slivers_are_exact) {
     const Point a = drawn(random, 53, -78),
                 c{static_cast<double>(before), static_cast<double>(last - before)},
                 b{static_cast<double>(last), static_cast<double>(before)};
-    const RoundedPoint estimate = circumcentre(a, b, c), exact = circumcentre_exactly(a, b, c);
+    const RoundedPoint estimate = circumcenter(a, b, c), exact = circumcenter_exactly(a, b, c);
     agrees(estimate.x, exact.x);
     agrees(estimate.y, exact.y);
   }
 }
 
-TEST(centres_that_are_known) {
-  const RoundedPoint centre = circumcentre_exactly({0, 0}, {4, 0}, {0, 2});
-  equal(centre.x.value, 2.0);
-  equal(centre.y.value, 1.0);
-  equal(centre.x.error_sign, 0);
-  const RoundedPoint sixths = circumcentre({0, 0}, {1, 1}, {2, -1});
+TEST(centers_that_are_known) {
+  const RoundedPoint center = circumcenter_exactly({0, 0}, {4, 0}, {0, 2});
+  equal(center.x.value, 2.0);
+  equal(center.y.value, 1.0);
+  equal(center.x.error_sign, 0);
+  const RoundedPoint sixths = circumcenter({0, 0}, {1, 1}, {2, -1});
   equal(sixths.x.value, 7.0 / 6);
   equal(sixths.y.value, -1.0 / 6);
   equal(sixths.y.error_sign, -1);  // beyond the bits of a double, 1/6 goes on with 0101
-  const RoundedPoint far = circumcentre({0, 0}, {0x1p-1000, 0x1p-1074}, {0x1p-999, 0});
+  const RoundedPoint far = circumcenter({0, 0}, {0x1p-1000, 0x1p-1074}, {0x1p-999, 0});
   equal(far.x.value, 0x1p-1000);
   CHECK(far.y.value < -0x1p-930);
 }
 
-// Centres of triples of cocircular points are the same doubles.
-TEST(coincident_centres_are_one) {
+// Centers of triples of cocircular points are the same doubles.
+TEST(coincident_centers_are_one) {
   Random random(2);
   for (int i = 0; i < 1000; ++i) {
     const Point at = drawn(random, 30, 0);
@@ -88,14 +88,14 @@ TEST(coincident_centres_are_one) {
     const std::array circle{around(x, y),  around(-y, x), around(-x, -y),
                             around(y, -x), around(y, x),  around(-x, y)};
     for (std::size_t j = 0; j < circle.size(); ++j) {
-      const RoundedPoint centre = circumcentre(circle[j], circle[(j + 1) % 6], circle[(j + 2) % 6]);
-      equal(centre.x.value, at.x);
-      equal(centre.y.value, at.y);
+      const RoundedPoint center = circumcenter(circle[j], circle[(j + 1) % 6], circle[(j + 2) % 6]);
+      equal(center.x.value, at.x);
+      equal(center.y.value, at.y);
     }
   }
 }
 
-// A rounded place on a bisector has the exact one between its two neighbours.
+// A rounded place on a bisector has the exact one between its two neighbors.
 TEST(bisectors_are_rounded_to_the_nearest) {
   Random random(3);
   for (int i = 0; i < 4000; ++i) {

@@ -1,4 +1,4 @@
-// Of each point of a triangulation, the nearest other one: it is always a Delaunay neighbour.
+// Of each point of a triangulation, the nearest other one: it is always a Delaunay neighbor.
 #pragma once
 
 #include <cstdint>
@@ -10,15 +10,14 @@
 
 namespace vorotool::core::delaunay {
 
-struct NearestNeighbours {
+struct NearestNeighbors {
   std::vector<std::int32_t> nearest;  // [n] -1 of points without an edge
-  std::vector<std::int32_t> count;    // [n] of neighbours
+  std::vector<std::int32_t> count;    // [n] of neighbors
 };
 
 // `edges` holds both ends of each edge of a Delaunay triangulation. Distances are compared exactly, ties go
 // to the smallest label. Throws std::invalid_argument for an end that is no point.
-NearestNeighbours nearest_neighbours(std::span<const kernel::Point> points,
-                                     std::span<const std::int32_t> edges,
-                                     std::span<const std::int64_t> labels, const base::Monitor& monitor);
+NearestNeighbors nearest_neighbors(std::span<const kernel::Point> points, std::span<const std::int32_t> edges,
+                                   std::span<const std::int64_t> labels, const base::Monitor& monitor);
 
 }  // namespace vorotool::core::delaunay

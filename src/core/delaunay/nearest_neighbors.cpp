@@ -1,17 +1,16 @@
-#include "core/delaunay/nearest_neighbours.hpp"
+#include "core/delaunay/nearest_neighbors.hpp"
 
 #include <cstddef>
 #include <stdexcept>
 
-#include "core/kernel/circumcentre.hpp"
+#include "core/kernel/circumcenter.hpp"
 
 namespace vorotool::core::delaunay {
 
-NearestNeighbours nearest_neighbours(std::span<const kernel::Point> points,
-                                     std::span<const std::int32_t> edges,
-                                     std::span<const std::int64_t> labels, const base::Monitor& monitor) {
-  NearestNeighbours result{std::vector<std::int32_t>(points.size(), -1),
-                           std::vector<std::int32_t>(points.size(), 0)};
+NearestNeighbors nearest_neighbors(std::span<const kernel::Point> points, std::span<const std::int32_t> edges,
+                                   std::span<const std::int64_t> labels, const base::Monitor& monitor) {
+  NearestNeighbors result{std::vector<std::int32_t>(points.size(), -1),
+                          std::vector<std::int32_t>(points.size(), 0)};
   const auto meet = [&](std::size_t p, std::size_t q) {
     ++result.count[p];
     std::int32_t& best = result.nearest[p];
