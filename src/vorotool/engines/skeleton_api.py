@@ -62,7 +62,7 @@ def skeleton_exact(
     complete : bool
         With a gap, add the straight lines from the skeleton to the corners.
     frame : Box or (x, y, w, h), optional
-        Rectangle that clips the exterior arcs; by default the bounds, widened by a tenth of their longer side.
+        Rectangle that clips the exterior arcs; by default that of the image, or the bounds, widened by a tenth.
     border : Box or (x, y, w, h), optional
         Rectangle that cuts off the polygons, such as that of an image: polygons with edges on its border continue
         beyond it. These edges are not sites: the skeleton is that of the rest of the outline, clipped to the rectangle.
@@ -164,7 +164,7 @@ def skeleton_approx(
     complete : bool, optional
         Join corners under 180 degrees to the first arc by a line along the bisector; default with a tolerance.
     frame : Box or (x, y, w, h), optional
-        Rectangle that clips the exterior arcs; by default the bounds, widened by a tenth of their longer side.
+        Rectangle that clips the exterior arcs; by default that of the image, or the bounds, widened by a tenth.
     strict : bool
         Refuse polygons that need repair.
     threads : int

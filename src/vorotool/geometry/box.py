@@ -82,6 +82,12 @@ class Box:
         left, bottom, wide, high = (nearest_double(real_number(value, "frame")) for value in (x, y, width, height))
         return Box(left, bottom, left + wide, bottom + high)
 
+    def stretched(self, x: float, y: float) -> Box:
+        """Multiply all coordinates; a factor below 0 mirrors the box."""
+        left, right = sorted((self.left * x, self.right * x))
+        bottom, top = sorted((self.bottom * y, self.top * y))
+        return Box(left, bottom, right, top)
+
     @staticmethod
     def around(points: NDArray[np.float64], margin: float = 0.1) -> Box:
         """Give the bounds of points, widened on all sides by a part of the longer one.

@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from vorotool.errors import InputError, option
+
+if TYPE_CHECKING:
+    from vorotool.geometry.box import Box
 
 FARTHEST = 2**44
 """No seed lies farther from the origin (in pixels)."""
@@ -59,6 +63,13 @@ class Frame:
     def shape(self) -> tuple[int, int]:
         """Rows and columns, as NumPy orders them."""
         return (self.height, self.width)
+
+    @property
+    def box(self) -> Box:
+        """The rectangle that the pixels cover, with their centers at integers."""
+        from vorotool.geometry.box import Box
+
+        return Box(self.x - 0.5, self.y - 0.5, self.x + self.width - 0.5, self.y + self.height - 0.5)
 
     @property
     def pixels(self) -> int:

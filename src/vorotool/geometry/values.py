@@ -36,7 +36,7 @@ class Value(Record):
     def __eq__(self, other: object) -> bool:
         if type(self) is not type(other):
             return False  # an index of pandas would be asked next, and compare all of its entries
-        names = (each.name for each in fields(self))  # type: ignore[arg-type]  # all are dataclasses
+        names = (each.name for each in fields(self) if each.compare)  # type: ignore[arg-type]  # all are dataclasses
         return self is other or all(is_equal(getattr(self, name), getattr(other, name)) for name in names)
 
     __hash__ = None  # type: ignore[assignment]  # what compares by the elements of arrays has no hash that lasts

@@ -145,11 +145,12 @@ def _of_labels(run: Run, o: DrawingOptions, given: JobInput, image: LabelImage, 
         table = region_table(image, threads=o.threads)
         page = partial(write_label_page, image=image, colors=colors, table=table, y_up=bool(o.y_up))
         return page, counts
+    assert image.frame is not None  # LabelImage has filled it in
     picture = LabelPicture(
         image,
         colors,
         o.drawn(default_layers(image, ("cells", "labels") if fmt == "svg" else ("cells",))),
-        o.looks.style(world_of(run, o.looks, frame=image.frame).scale_bar),
+        o.looks.style(world_of(run, o.looks, frame=image.frame.box).scale_bar),
         width=o.width or 1000,
         y_up=bool(o.y_up),
         backdrop=given.backdrop,

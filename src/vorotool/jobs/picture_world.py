@@ -14,9 +14,9 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from vorotool.geometry.box import Box
     from vorotool.geometry.mesh.cells import CellSet
     from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation
-    from vorotool.geometry.pixel_frame import Frame
     from vorotool.geometry.points.point_set import PointSet
     from vorotool.geometry.points.seed_set import SeedSet
     from vorotool.geometry.polygons.polygon_set import PolygonSet
@@ -36,10 +36,10 @@ def world_of(
     crs: Any = None,
     unit: str | None = None,
     bounds: tuple[float, float, float, float] | None = None,
-    frame: Frame | None = None,
+    frame: Box | None = None,
     size: PixelSize | None = None,
 ) -> World:
-    """Tell where what is drawn lies."""
+    """Tell where what is drawn lies; a frame is that of an image."""
     is_angular = is_geographic(crs) and frame is None
     aspect = aspect_at((bounds[1] + bounds[3]) / 2) if is_angular and bounds is not None else 1.0
     bar = None
@@ -49,23 +49,24 @@ def world_of(
                 run.note("there is no scale bar: the length of a degree of longitude differs from place to place")
         else:
             bar = _scale_bar(crs, unit, size, is_image=frame is not None)
-    return World(bar, unit, aspect, None if frame is None else _sides(frame, size))
+    return World(bar, unit, aspect, None if frame is None else frame.sides)
 
 
 def world_of_sites(run: Run, o: SiteOptions, mesh: AnyTriangulation, sites: PointSet | SeedSet) -> World:
     """Tell where sites lie that are points, or objects of an image."""
     from vorotool.geometry.points.seed_set import SeedSet
 
-    frame = sites.frame if isinstance(sites, SeedSet) else None
+    frame = None
+    if isinstance(sites, SeedSet) and sites.frame is not None:
+        sides = None if o.pixel_size is None else o.pixel_size.sides
+        frame = sites.frame.box if sides is None else sites.frame.box.stretched(sides.x, sides.y)
     return world_of(run, o.looks, crs=mesh.crs, bounds=_bounds_of(mesh.points), frame=frame, size=o.pixel_size)
 
 
-def world_of_polygons(
-    run: Run, o: JobOptions, polygons: PolygonSet, *, frame: Frame | None = None, size: PixelSize | None = None
-) -> World:
-    """Tell where polygons and lines lie, or outlines of an image with a frame."""
+def world_of_polygons(run: Run, o: JobOptions, polygons: PolygonSet, *, size: PixelSize | None = None) -> World:
+    """Tell where polygons and lines lie, or outlines of an image."""
     sides = _bounds_of(polygons.xy)
-    return world_of(run, o.looks, crs=polygons.crs, unit=polygons.unit, bounds=sides, frame=frame, size=size)
+    return world_of(run, o.looks, crs=polygons.crs, unit=polygons.unit, bounds=sides, frame=polygons.frame, size=size)
 
 
 def world_of_value(value: Any, looks: Looks) -> World:
@@ -155,13 +156,6 @@ def _unit_of(crs: Any) -> str | None:
     except pyproj.exceptions.CRSError:
         return None
     return unit_name(axes[0].unit_name) if axes else None
-
-
-def _sides(frame: Frame, size: PixelSize | None) -> tuple[float, float, float, float]:
-    """The outer sides of the pixels, whose centers are at integers, or at steps of ``--spacing``."""
-    across, down = (1, 1) if size is None or size.sides is None else (size.sides.x, size.sides.y)
-    left, low = frame.x - 0.5, frame.y - 0.5
-    return (left * across, low * down, (left + frame.width) * across, (low + frame.height) * down)
 
 
 def check_column(label_by: str | None, columns: Iterable[str], option: str = "--label-by") -> None:

@@ -30,7 +30,6 @@ if TYPE_CHECKING:
 
 Options = TypeVar("Options", bound=ComputingOptions)
 Placed = TypeVar("Placed")
-Sites = TypeVar("Sites", "PointSet", "SeedSet", "PointSet | SeedSet")
 
 
 def with_pixel_size(run: Run, o: Options, given: JobInput, grid: PixelGrid | None) -> Options:
@@ -137,7 +136,9 @@ def _mirrored_places(o: Options) -> Options:
 def placed_polygons(size: PixelSize | None, polygons: PolygonSet) -> PolygonSet:
     """Give outlines of an image as they lie on its map, in pixels; in steps where these have sides."""
     if size is not None and size.sides is not None:
-        polygons = replace(polygons, xy=polygons.xy * (size.sides.x, size.sides.y))
+        steps = (size.sides.x, size.sides.y)
+        frame = None if polygons.frame is None else polygons.frame.stretched(*steps)
+        polygons = replace(polygons, xy=polygons.xy * steps, frame=frame)
     if size is None or size.origin is None:
         return polygons
     from vorotool.geometry.any.mirroring import mirrored_polygons
@@ -175,16 +176,15 @@ def clip_in_pixels(o: ComputingOptions, clip: Sequence[Any]) -> Sequence[Any]:
     return placed
 
 
-def in_steps(o: ComputingOptions, points: Sites) -> Sites:
+def in_steps(o: ComputingOptions, points: PointSet | SeedSet) -> PointSet:
     """Give points in pixels, or the sites of an image, in steps of ``--spacing``."""
-    from vorotool.geometry.points.point_set import PointSet
+    from vorotool.geometry.arguments.points import as_points
 
     sides = sides_of(o)
     steps = (sides.x, sides.y)
-    if isinstance(points, PointSet):
-        return replace(points, xy=points.xy * steps)
-    assert points.sites is not None  # SeedSet has filled them in
-    return replace(points, sites=points.sites * steps)
+    placed = as_points(points)
+    frame = None if placed.frame is None else placed.frame.stretched(*steps)
+    return replace(placed, xy=placed.xy * steps, frame=frame)
 
 
 def written_grid(size: PixelSize | None, grid: PixelGrid | None) -> PixelGrid | None:

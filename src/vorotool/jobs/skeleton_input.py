@@ -27,7 +27,7 @@ class ReadPolygons(NamedTuple, Generic[Options]):
     polygons: PolygonSet  # those of the input, or outlines
     is_mask: bool  # whether they are the outlines of an image
     options: Options  # with the size of pixels, and places, as the image has them
-    frame: Frame | None = None  # of the image, in the coordinates of the outlines
+    frame: Frame | None = None  # the pixels of the image
     grid: PixelGrid | None = None  # what the image says of its pixels
 
 
@@ -57,8 +57,7 @@ def outlined(run: Run, o: Options, given: JobInput, image: Raster) -> ReadPolygo
     sides_of(o)
     o = lengths_in_steps(o)
     height, width = image.values.shape[:2]
-    is_mirrored = o.pixel_size is not None and o.pixel_size.y_up
-    frame = Frame(0, 1 - height if is_mirrored else 0, width, height)
+    frame = Frame(0, 0, width, height)
     if o.simplify is None or o.spacing is None:
         polygons = placed_polygons(o.pixel_size, _outlines(run, o, image))
     else:
@@ -91,18 +90,6 @@ def _outlines(run: Run, o: ShapeOptions, image: Raster) -> PolygonSet:
             progress=progress,
             note=run.note,
         )
-
-
-def border_of(o: ShapeOptions, frame: Frame) -> tuple[float, float, float, float]:
-    """Give the rectangle that the pixels of an image cover, in the coordinates of their outlines."""
-    sides = None if o.pixel_size is None else o.pixel_size.sides
-    across, down = (1, 1) if sides is None else (sides.x, sides.y)
-    return (
-        (frame.x - 0.5) * across,
-        (frame.y - 0.5) * down,
-        float(frame.width * across),
-        float(frame.height * down),
-    )
 
 
 def _simplified(run: Run, o: ShapeOptions, polygons: PolygonSet, tolerance: float) -> PolygonSet:

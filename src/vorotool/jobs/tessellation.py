@@ -332,7 +332,7 @@ class Products:
     @cached_property
     def _scale_bar(self) -> ScaleBar | None:
         o, seeds = self.options, self.rows.seeds
-        bar = world_of(self.run, o.looks, frame=seeds.frame or self.rows.frame, size=o.pixel_size).scale_bar
+        bar = world_of(self.run, o.looks, frame=(seeds.frame or self.rows.frame).box, size=o.pixel_size).scale_bar
         if bar is None or o.spacing is None:
             return bar
         return bar._replace(factor=float(self.sides.lengths[-1]))  # of a pixel across the picture

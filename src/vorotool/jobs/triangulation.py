@@ -190,7 +190,8 @@ class MeshProducts:
             return styled_page(ImagePage(self.backdrop), looks, world)
         bounds = None
         if {"cells", "diagram"} & set(self._layers(what)):
-            bounds, world = self.cells.frame.sides, world._replace(frame=None)
+            bounds = self.cells.frame.sides
+            world = world if bounds == world.frame else world._replace(frame=None)
         page = mesh_page(self.mesh, width=self.options.width or 1000, y_up=self.options.y_up, bounds=bounds)
         return styled_page(page, looks, world)
 

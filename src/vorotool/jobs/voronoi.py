@@ -51,7 +51,7 @@ class VoronoiProducts:
         self.cells = self._made(read.sites, cuts)
         check_column(self.options.label_by, self.cells.properties)
         o = self.options
-        world = world_of_polygons(run, o, self.cells.polygons, frame=read.frame, size=o.pixel_size)
+        world = world_of_polygons(run, o, self.cells.polygons, size=o.pixel_size)
         self._styled = partial(styled_page, looks=o.looks, world=world)
 
     def _made(self, sites: Any, cuts: dict[str, Any]) -> VoronoiMap:

@@ -19,7 +19,6 @@ from vorotool.jobs.skeleton_input import outlined
 
 if TYPE_CHECKING:
     from vorotool.geometry.arguments.sites import Sites
-    from vorotool.geometry.pixel_frame import Frame
 
 
 class ReadSites(NamedTuple):
@@ -28,7 +27,6 @@ class ReadSites(NamedTuple):
     sites: Sites  # of the input; not yet joined
     is_image: bool  # whether they are the objects of an image
     options: VoronoiOptions  # with the size of pixels, and lengths and places, as the image has them
-    frame: Frame | None = None  # of the image, in the coordinates of the outlines
 
 
 def read_sites(run: Run, o: VoronoiOptions, given: JobInput) -> ReadSites:
@@ -47,8 +45,8 @@ def read_sites(run: Run, o: VoronoiOptions, given: JobInput) -> ReadSites:
             report_no_geometry(run, o)
         return ReadSites(sites, is_image=False, options=o)
     refuse({"columns": o.columns}, "is for lists of points, but the input is an image")
-    polygons, _, o, frame, _ = outlined(run, o, given, value)
-    return ReadSites(as_sites(polygons), is_image=True, options=o, frame=frame)
+    polygons, _, o, _, _ = outlined(run, o, given, value)
+    return ReadSites(as_sites(polygons), is_image=True, options=o)
 
 
 def read_cuts(run: Run, read: ReadSites, given: JobInput) -> tuple[ReadSites, dict[str, PolygonSet]]:

@@ -290,11 +290,13 @@ def _draw_labels(image: LabelImage, wanted: _Picture) -> None:
     check_column(label_by, columns, "label_by")
     if label_by is not None and "labels" not in chosen:
         chosen.append("labels")
+    assert image.frame is not None  # LabelImage has filled it in
+    world = world_of(None, wanted.looks, frame=image.frame.box, size=_pixel_size(image))
     picture = LabelPicture(
         image,
         colors,
         chosen,
-        wanted.looks.style(world_of(None, wanted.looks, frame=image.frame, size=_pixel_size(image)).scale_bar),
+        wanted.looks.style(world.scale_bar),
         width=wanted.width or 1000,
         y_up=bool(wanted.y_up),
         texts=None if label_by is None or image.seeds is None else site_texts(image.seeds, label_by),

@@ -94,17 +94,28 @@ def _text(shape: tuple[Axis, ...]) -> str:
 
 
 def _field(
-    meaning: Meaning, shape: tuple[Axis, ...], dtype: DTypeLike | None, default: Any = MISSING, *, kw_only: bool = False
+    meaning: Meaning,
+    shape: tuple[Axis, ...],
+    dtype: DTypeLike | None,
+    default: Any = MISSING,
+    *,
+    kw_only: bool = False,
+    compare: bool = True,
 ) -> Any:
     metadata = {_KEY: Declared(meaning, shape, dtype, is_optional=default is None)}
     if default is MISSING:
-        return field(metadata=metadata, kw_only=kw_only)
-    return field(default=default, metadata=metadata, kw_only=kw_only)
+        return field(metadata=metadata, kw_only=kw_only, compare=compare)
+    return field(default=default, metadata=metadata, kw_only=kw_only, compare=compare)
 
 
 def position(*shape: Axis, default: Any = MISSING, kw_only: bool = False) -> Any:
     """Declare coordinates: an array whose last axis is x, y; without a shape a box, or a tuple x, y, width, height."""
     return _field(Meaning.POSITION, shape, np.float64, default, kw_only=kw_only)
+
+
+def input_frame() -> Any:
+    """Declare the box of an image that a value is made of, which `==` does not look at; other inputs have none."""
+    return _field(Meaning.POSITION, (), None, None, compare=False)
 
 
 def length(*shape: Axis, default: Any = MISSING, kw_only: bool = False) -> Any:

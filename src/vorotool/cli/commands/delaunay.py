@@ -61,7 +61,7 @@ OF_TRIANGULATIONS = frozenset(
 @click.option(
     "--frame",
     type=Rectangle(),
-    help="Rectangle that cells are clipped to; by default the bounds of the points and a tenth more.",
+    help="Rectangle that cells are clipped to; by default the image, or the bounds and a tenth around them.",
 )
 @click.option(
     "--clip",

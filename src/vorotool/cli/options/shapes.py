@@ -15,7 +15,9 @@ _FLATTENED = ", ".join(each.title for each in FORMATS.values() if each.flattens)
 def frame_option(what: str) -> Decorator:
     """Add ``--frame``, by which this is clipped."""
     return click.option(
-        "--frame", type=Rectangle(), help=f"{what} to this rectangle; by default the bounds and a tenth around them."
+        "--frame",
+        type=Rectangle(),
+        help=f"{what} to this rectangle; by default the image, or the bounds and a tenth around them.",
     )
 
 

@@ -53,6 +53,7 @@ def repaired_polygons(graph: PlanarGraph) -> RepairedPolygons:
         given.crs,
         unit=given.unit,
         index=index_of_rows(given.index, source),
+        frame=given.frame,
     )
     if graph.largest_move:
         polygons = polygons.moved(graph.coordinates()[rings.point])

@@ -58,8 +58,8 @@ def cell_statistics(
     -------
     CellStatistics
         ``cells``, a table with one row a point or region, and ``summary``, one with a row a measure. The area that the
-        spanning tree is normalised by is that of the frame or the polygons where these are given, else that of the
-        convex hull; of a label image that of its regions.
+        spanning tree is normalised by is that of the frame, the polygons or the image where there are any, else that
+        of the convex hull; of a label image that of its regions.
 
     Raises
     ------
@@ -103,7 +103,7 @@ def statistics_of(
         uncut = voronoi_cells(mesh, frame=cells.frame, threads=threads, progress=progress)
         whole &= area >= uncut.areas()
     tree = proximity_graph(mesh, "mst", threads=threads, progress=progress)
-    region = float(area.sum()) if has_region else float(mesh.areas().sum())
+    region = float(area.sum()) if has_region or mesh.frame is not None else float(mesh.areas().sum())
     return CellStatistics(_measured(table, whole), tree.edge_lengths(), region)
 
 

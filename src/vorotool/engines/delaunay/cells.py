@@ -46,7 +46,8 @@ def voronoi_cells(
     points : Triangulation, PointSet, SeedSet, (n, 2) array, data frame, GeoSeries, …
         Points, or a triangulation, which is used unchanged.
     frame : Box or (x, y, width, height), optional
-        By default the bounds of the points, widened by a tenth of the longer side; with `clip`, its bounds.
+        By default the image that the points come from, or the bounds of the points, widened by a tenth of the longer
+        side; with `clip`, its bounds.
     clip : polygons as for `skeleton_exact`, optional
         Cells are cut to these too, by shapely: they may fall in several parts and have holes.
     threads : int
@@ -95,6 +96,8 @@ def voronoi_cells(
 def _box(frame: FrameLike | None, mesh: Triangulation, area: Any) -> Box:
     if frame is not None:
         return as_box(frame, "frame")
+    if mesh.frame is not None:
+        return mesh.frame
     if area is None:
         return Box.around(mesh.points)
     return Box(*area.bounds)

@@ -72,7 +72,7 @@ def delaunay(points: SeedsLike, *, strict: bool = False, threads: int = 0, progr
     threads = checked_threads(threads)
     core = _core.delaunay.DelaunayTriangulation(given.xy, threads, progress)
     arrays, known = core.arrays(threads, progress), known_of_points(given)
-    mesh = Triangulation(given.xy, **arrays, **known, first_number=given.first_number)
+    mesh = Triangulation(given.xy, **arrays, **known, first_number=given.first_number, frame=given.frame)
     report_duplicates(mesh, strict=strict)
     return mesh
 

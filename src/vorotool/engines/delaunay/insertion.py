@@ -106,7 +106,7 @@ def insert_points(
     if made is None:
         return delaunay(together, strict=strict, threads=threads, progress=progress)
     known = known_of_points(together)
-    result = Triangulation(together.xy, **made, **known, first_number=together.first_number)
+    result = Triangulation(together.xy, **made, **known, first_number=together.first_number, frame=together.frame)
     report_duplicates(result, strict=strict)
     return result
 
@@ -149,4 +149,4 @@ def _joined(mesh: Triangulation, given: PointSet) -> PointSet:
         properties[name] = [*old_values, *given.properties.get(name, [None] * len(given))]
     xy = np.concatenate([mesh.points, given.xy])
     index = joined_index(mesh.index, len(mesh.points), given.index, len(given))
-    return PointSet(xy, labels, properties, mesh.y_up, mesh.crs, mesh.first_number, index)
+    return PointSet(xy, labels, properties, mesh.y_up, mesh.crs, mesh.first_number, index, mesh.frame)

@@ -39,7 +39,7 @@ def site_table(
     cells : CellSet, optional
         Their cells, if they are there already.
     frame : Box or (x, y, width, height), optional
-        What to clip the cells to otherwise; by default the bounds of the points, widened by a tenth.
+        What to clip the cells to otherwise; by default the image, or the bounds of the points, widened by a tenth.
     properties : bool
         Whether to add the input's own columns.
     threads : int

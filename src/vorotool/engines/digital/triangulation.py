@@ -330,7 +330,8 @@ def repair_digital(
     def mesh_of(core: _core.delaunay.DelaunayTriangulation) -> Triangulation:
         arrays = core.arrays(threads, progress)
         known: Any = {"labels": labels.astype(np.int64), "properties": seeds.properties, "index": seeds.index}
-        return Triangulation(points, **arrays, **known)
+        box = None if seeds.frame is None else seeds.frame.box.stretched(sides.x, sides.y)
+        return Triangulation(points, **arrays, **known, frame=box)
 
     mesh = mesh_of(core)
     fault = triangulation_fault(mesh, threads, progress)

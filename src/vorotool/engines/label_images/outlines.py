@@ -26,6 +26,7 @@ from vorotool.errors import LimitError, UsageError, option
 from vorotool.geometry.arguments.images import as_raster
 from vorotool.geometry.checks import checked_threads, is_choice
 from vorotool.geometry.numbers import shown_number, whole_number
+from vorotool.geometry.pixel_frame import Frame
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.raster import Raster
 from vorotool.geometry.polygons.polygon_set import PolygonSet
@@ -171,6 +172,7 @@ def outlines(
     if threshold is not None:
         threshold, invert = settled_threshold(raster, threshold, invert=invert)
         raster = Raster(grey_values(raster), mask=raster.mask)
+    height, width = raster.values.shape[:2]
     values = foreground_values(raster, threshold, invert=invert)
     if cleaning := Cleaning.of(min_area, fill_holes):
         values = cleaned_values(values, cleaning, mode, connectivity=connectivity, missing=raster.mask).mask
@@ -199,6 +201,7 @@ def outlines(
         ids.tolist(),
         np.cumsum(np.diff(ids, prepend=ids[:1]) > 0) if len(ids) else None,
         connectivity=connectivity if outline == "crack" else None,
+        frame=Frame(*origin, width, height).box,
     )
     return polygons if simplify is None else simplified_polygons(polygons, simplify)
 

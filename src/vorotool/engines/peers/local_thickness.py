@@ -90,7 +90,7 @@ def local_thickness(
     if sides.units != (1, 1):
         from dataclasses import replace
 
-        shapes = replace(shapes, xy=shapes.xy * (sides.x, sides.y))
+        shapes = replace(shapes, xy=shapes.xy * (sides.x, sides.y), frame=None)
     skeleton = skeleton_exact(shapes, threads=threads, progress=progress)
     made = thickness_of_pixels(skeleton, values.shape, sides=(sides.y, sides.x), threads=threads, progress=progress)
     return made if sides.step == 1 else made * sides.step.numerator / sides.step.denominator

@@ -163,7 +163,9 @@ def face_groups(placed: PlacedShapes, side: str) -> NDArray[np.int32]:
 
 
 def default_frame(polygons: PolygonSet) -> Frame:
-    """Bounds of polygons and a tenth of their larger side around them; of a single place a square of side 2."""
+    """Return the box of the image, else the bounds and a tenth of their larger side; around one place a square."""
+    if polygons.frame is not None:
+        return polygons.frame.extent
     if not len(polygons.xy):
         return (-1.0, -1.0, 2.0, 2.0)
     low, high = bounds(polygons.xy)

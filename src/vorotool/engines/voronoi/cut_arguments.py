@@ -31,7 +31,9 @@ class GivenCuts:
         return self.clip is not None or self.enclosures is not None
 
     def frame_for(self, sites: PolygonSet, frame: Frame | None) -> Frame | None:
-        """Give the frame that was given; without a clip that around the sites and enclosures."""
+        """Return the frame that was given, else that of an image; without a clip that around sites and enclosures."""
+        if frame is None and sites.frame is not None:
+            return sites.frame.extent
         if frame is not None or self.clip is not None:
             return frame
         if self.enclosures is None or not len(self.enclosures.xy):

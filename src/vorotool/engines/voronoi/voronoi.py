@@ -76,8 +76,8 @@ def voronoi(
         Polygons that cells are clipped to. Sites outside them count as well. If the frame and the clip have no area in
         common, all cells are empty.
     frame : Box or (x, y, w, h), optional
-        Rectangle that cells are clipped to; by default the bounds, widened by a tenth of their longer side, but none
-        with a clip.
+        Rectangle that cells are clipped to; by default the image, or the bounds, widened by a tenth of their longer
+        side, but none with a clip.
     max_distance : float, optional
         Largest distance from a site, in input units: places farther from every site belong to none. The limit is formed
         by parallels of edges and by circular arcs.

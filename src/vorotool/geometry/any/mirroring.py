@@ -18,7 +18,8 @@ def mirrored_polygons(polygons: PolygonSet) -> PolygonSet:
     size, first = np.repeat(sizes, sizes), np.repeat(polygons.ring_start[:-1], sizes)
     is_line = np.repeat(polygons.ring_kind == LINE, sizes)
     taken = first + np.where(is_line, place, (size - place) % np.maximum(size, 1))
-    return replace(polygons, xy=polygons.xy[taken] * (1.0, -1.0) + 0.0, y_up=True)
+    frame = None if polygons.frame is None else polygons.frame.stretched(1.0, -1.0)
+    return replace(polygons, xy=polygons.xy[taken] * (1.0, -1.0) + 0.0, y_up=True, frame=frame)
 
 
 def mirrored_seeds(seeds: SeedSet) -> SeedSet:

@@ -47,7 +47,8 @@ def _points_of(source: Any, name: str) -> PointSet:
     if isinstance(source, SeedSet):
         assert source.sites is not None  # SeedSet has filled them in
         labels = None if source.site_labels is None else source.site_labels.astype(np.int64)
-        return PointSet(source.sites, labels, source.properties, index=source.index)
+        frame = None if source.frame is None else source.frame.box
+        return PointSet(source.sites, labels, source.properties, index=source.index, frame=frame)
     if isinstance(source, PolygonSet):
         raise InputError("these are polygons or lines: give points, for example their centroids or vertices")
     if isinstance(source, Raster | LabelImage):

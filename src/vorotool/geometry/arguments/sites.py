@@ -17,6 +17,7 @@ from vorotool.geometry.arguments.images import as_raster, is_image
 from vorotool.geometry.arguments.points import as_points
 from vorotool.geometry.arguments.polygons import as_polygons, is_ring
 from vorotool.geometry.arguments.tables import MISSING_TYPES, is_table, listed
+from vorotool.geometry.box import Box, bounds
 from vorotool.geometry.numbers import shown_number
 from vorotool.geometry.pixel_grid import PixelGrid
 from vorotool.geometry.points.label_image import LabelImage
@@ -130,10 +131,16 @@ def _of_image(source: Any, name: str) -> Sites:
 def _on_map(outlines: PolygonSet, grid: PixelGrid, first: tuple[int, int]) -> PolygonSet:
     """Outlines as they lie on the map, of an image whose first pixel has these coordinates."""
     assert grid.transform is not None
+    assert outlines.frame is not None
     a, b, c, d, e, f = grid.transform
-    column, row = (outlines.xy - first + 0.5).T
-    xy = np.stack([a * column + b * row + c, d * column + e * row + f], axis=1)
-    return replace(outlines, xy=xy, y_up=True, crs=grid.crs)
+
+    def on_map(xy: NDArray[np.float64]) -> NDArray[np.float64]:
+        column, row = (xy - first + 0.5).T
+        return np.stack([a * column + b * row + c, d * column + e * row + f], axis=1)
+
+    low, high = bounds(on_map(np.array(outlines.frame.sides).reshape(2, 2)))
+    frame = Box(*low.tolist(), *high.tolist()) if grid.is_upright else None
+    return replace(outlines, xy=on_map(outlines.xy), y_up=True, crs=grid.crs, frame=frame)
 
 
 def _of_polygons(polygons: PolygonSet) -> Sites:

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from vorotool.geometry.box import Box
 from vorotool.geometry.curves.inverse_functions import hypotenuse
 from vorotool.geometry.numbers import nearest_double
 from vorotool.geometry.row_index import check_index
@@ -64,6 +65,9 @@ class Triangulation(Value, Tabular, WithParts, Graph, Pictured):
         Number of the first point in files of Triangle, as in the ``.node`` file of the input.
     index : pandas Index, array or sequence, optional
         Names of the points in the input, such as the row index of a data frame: one entry per point.
+    frame : Box, optional
+        The rectangle covered by the pixels of the image that the points come from: the default frame of what is made
+        of them.
 
     Raises
     ------
@@ -94,6 +98,7 @@ class Triangulation(Value, Tabular, WithParts, Graph, Pictured):
     crs: Any = None
     first_number: int = 1
     index: Any = None
+    frame: Box | None = f.input_frame()
 
     def __post_init__(self) -> None:
         super().__post_init__()

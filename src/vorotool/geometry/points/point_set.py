@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from vorotool.errors import InputError
+from vorotool.geometry.box import Box
 from vorotool.geometry.checks import whole_numbers
 from vorotool.geometry.coordinates import coordinate_rows
 from vorotool.geometry.row_index import check_index
@@ -40,6 +41,9 @@ class PointSet(Value, Tabular, Geometric, Pictured):
         Number of the first point in the input's own file: a ``.node`` file may count from 0.
     index : pandas Index, array or sequence, optional
         Names of the points in the input, such as the row index of a data frame: one entry per point.
+    frame : Box, optional
+        The rectangle covered by the pixels of the image that the points come from: the default frame of what is made
+        of them.
 
     Raises
     ------
@@ -60,6 +64,7 @@ class PointSet(Value, Tabular, Geometric, Pictured):
     crs: Any = None
     first_number: int = 1
     index: Any = None
+    frame: Box | None = f.input_frame()
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "xy", finite_rows(self.xy, 2))

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from vorotool.errors import InputError
+from vorotool.geometry.box import Box
 from vorotool.geometry.coordinates import coordinate_rows
 from vorotool.geometry.ragged import divides, following, starts_of, within
 from vorotool.geometry.row_index import check_index
@@ -58,6 +59,9 @@ class PolygonSet(Value, Tabular, Geometric, Pictured):
         The unit of length of the coordinates, such as ``mm``, where the input says it.
     index : pandas Index, array or sequence, optional
         Names of the polygons in the input, such as the row index of a data frame: one entry per polygon.
+    frame : Box, optional
+        The rectangle covered by the pixels of the image that the outlines come from: the default frame of what is made
+        of them.
 
     Raises
     ------
@@ -84,6 +88,7 @@ class PolygonSet(Value, Tabular, Geometric, Pictured):
     connectivity: int | None = None
     unit: str | None = None
     index: Any = None
+    frame: Box | None = f.input_frame()
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "xy", coordinate_rows(self.xy, "vertex"))

@@ -24,7 +24,6 @@ from vorotool.geometry.skeleton.skeleton import Skeleton
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.options import ExactSkeletonOptions
 from vorotool.jobs.run_log import Run
-from vorotool.jobs.skeleton_input import border_of
 from vorotool.jobs.skeletons.products import SkeletonProducts
 
 
@@ -80,14 +79,14 @@ class ExactProducts(SkeletonProducts[ExactSkeletonOptions]):
     def inside(self) -> FeatureSkeleton[Seen]:
         """What is inside each feature by itself, and what was seen of each diagram that is looked at."""
         o, look = self.options, self._look if self._is_looked_at else None
-        border = border_of(o, self._frame) if o.has_open_border and self._frame is not None else None
+        border = self._polygons.frame if o.has_open_border else None
         with self.run.phase("skeleton") as progress, self.telling_once():
             return skeleton_inside(
                 self._polygons,
                 o.gap,
                 complete=o.complete is not False,
                 look=look,
-                border=border,
+                border=None if border is None else border.extent,
                 strict=o.strict,
                 threads=o.threads,
                 progress=progress,

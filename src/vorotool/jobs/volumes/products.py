@@ -253,7 +253,7 @@ class VolumeProducts:
 
         height, width = self._views.shape
         looks = self.options.looks
-        return looks.style(world_of(self.run, looks, frame=Frame(0, 0, width, height), size=self._size).scale_bar)
+        return looks.style(world_of(self.run, looks, frame=Frame(0, 0, width, height).box, size=self._size).scale_bar)
 
     def verify(self, progress: Progress) -> None:
         """Check the labels of every slab against an independent nearest-seed search."""

@@ -1,0 +1,132 @@
+"""The frame of an image is the image: what is made of it reaches its edges and no farther."""
+
+import json
+
+import numpy as np
+import pytest
+import shapely
+from PIL import Image
+
+import vorotool
+
+WIDTH, HEIGHT = 12, 9
+DOTS = [(1, 1), (9, 2), (5, 7), (11, 8)]
+MASK = np.zeros((HEIGHT, WIDTH), dtype=np.uint8)
+for column, row in DOTS:
+    MASK[row, column] = 255
+MASK[3:5, 0:3] = 255
+PIXELS = shapely.box(-0.5, -0.5, WIDTH - 0.5, HEIGHT - 0.5)
+
+
+@pytest.fixture
+def mask(tmp_path):
+    Image.fromarray(MASK).save(tmp_path / "mask.png")
+    return tmp_path / "mask.png"
+
+
+def shapes(text):
+    made = [each["geometry"] for each in json.loads(text)["features"]]
+    return [shapely.geometry.shape(each) for each in made if each is not None]
+
+
+@pytest.mark.parametrize("command", ["voronoi", "delaunay"])
+def test_territories_of_an_image_fill_it(run, mask, command):
+    done = run(command, mask, "--what", "cells", "-f", "geojson", "--verify")
+    assert done.code == 0
+    cells = shapes(done.out)
+    assert shapely.union_all(cells).equals(PIXELS)
+    assert sum(cell.area for cell in cells) == pytest.approx(WIDTH * HEIGHT, rel=1e-12)
+
+
+@pytest.mark.parametrize("command", ["voronoi", "delaunay"])
+def test_areas_in_the_table_sum_to_the_image(run, mask, command):
+    rows = run(command, mask, "--what", "table").rows
+    assert sum(float(row["area"]) for row in rows) == pytest.approx(WIDTH * HEIGHT, rel=1e-12)
+    rows = run(command, mask, "--what", "table", "--pixel-size", "0.5um").rows
+    assert sum(float(row["area"]) for row in rows) == pytest.approx(WIDTH * HEIGHT / 4, rel=1e-12)
+
+
+@pytest.mark.parametrize("command", ["voronoi", "delaunay"])
+def test_a_world_file_places_the_image_and_its_frame(run, mask, command):
+    mask.with_suffix(".pgw").write_text("10\n0\n0\n-10\n2600005\n1199995\n")
+    done = run(command, mask, "--what", "cells", "-f", "geojson")
+    assert shapely.union_all(shapes(done.out)).equals(shapely.box(2600000, 1199910, 2600120, 1200000))
+
+
+def test_an_image_in_a_reference_system_has_its_bounds(run, tmp_path):
+    rasterio = pytest.importorskip("rasterio")
+    where = rasterio.Affine(30, 0, 500000, 0, -30, 4600000)
+    about = {"driver": "GTiff", "height": HEIGHT, "width": WIDTH, "count": 1, "dtype": "uint8"}
+    with rasterio.open(tmp_path / "map.tif", "w", **about, crs="EPSG:32631", transform=where) as out:
+        out.write(MASK, 1)
+    for command in ("voronoi", "delaunay"):
+        done = run(command, "map.tif", "--what", "cells", "-f", "geojson")
+        assert shapely.union_all(shapes(done.out)).bounds == (
+            500000,
+            4600000 - 30 * HEIGHT,
+            500000 + 30 * WIDTH,
+            4600000,
+        )
+
+
+@pytest.mark.parametrize("command", [("skeleton-exact",), ("skeleton-approx", "--step", "0.25")])
+def test_exteriors_end_at_the_image(run, mask, command):
+    done = run(*command, mask, "--side", "exterior", "-f", "geojson")
+    assert shapely.union_all(shapes(done.out)).bounds == PIXELS.bounds
+    done = run(*command, mask, "--side", "exterior", "-f", "json")
+    assert json.loads(done.out)["frame"] == [-0.5, -0.5, WIDTH, HEIGHT]
+
+
+@pytest.mark.parametrize("command", ["voronoi", "delaunay"])
+def test_a_clip_beyond_the_image_does_not_extend_it(run, mask, tmp_path, command):
+    (tmp_path / "clip.wkt").write_text("POLYGON ((3 -20, 30 -20, 30 4, 3 4, 3 -20))")
+    done = run(command, mask, "--what", "cells", "-f", "geojson", "--clip", "clip.wkt")
+    assert shapely.union_all(shapes(done.out)).equals(shapely.box(3, -0.5, WIDTH - 0.5, 4))
+
+
+@pytest.mark.parametrize("command", ["voronoi", "delaunay"])
+def test_a_frame_that_is_given_holds(run, mask, command):
+    done = run(command, mask, "--what", "cells", "-f", "geojson", "--frame=-2,-2,20,20")
+    assert shapely.union_all(shapes(done.out)).bounds == (-2, -2, 18, 18)
+
+
+def test_enclosures_beyond_the_image_do_not_extend_it(run, mask, tmp_path):
+    (tmp_path / "line.wkt").write_text("LINESTRING (4 -30, 4 30)")
+    done = run("voronoi", mask, "-f", "geojson", "--enclosures", "line.wkt")
+    assert shapely.union_all(shapes(done.out)).bounds == PIXELS.bounds
+
+
+def test_pixels_with_sides_have_their_frame(run, mask):
+    done = run("delaunay", mask, "--what", "cells", "-f", "geojson", "--spacing", "0.5,2um")
+    assert shapely.union_all(shapes(done.out)).bounds == (-0.25, -1, WIDTH / 2 - 0.25, 2 * HEIGHT - 1)
+    done = run("voronoi", mask, "-f", "geojson", "--spacing", "0.5,2um")
+    assert shapely.union_all(shapes(done.out)).bounds == (-0.25, -1, WIDTH / 2 - 0.25, 2 * HEIGHT - 1)
+
+
+def test_the_library_frames_images_as_the_command_line_does():
+    seeds = vorotool.seeds_from_raster(MASK, mode="centroids")
+    assert vorotool.voronoi(MASK > 0).frame == (-0.5, -0.5, WIDTH, HEIGHT)
+    assert vorotool.voronoi_cells(seeds).frame.sides == PIXELS.bounds
+    assert vorotool.voronoi_cells(vorotool.delaunay(seeds)).frame.sides == PIXELS.bounds
+    assert vorotool.skeleton_exact(vorotool.outlines(MASK), side="both").frame == (-0.5, -0.5, WIDTH, HEIGHT)
+    places = np.array(DOTS, dtype=float)
+    assert vorotool.voronoi_cells(places).frame.sides == (0, 0, 12, 9)  # of points: the bounds and a tenth
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_no_cell_leaves_an_image_and_nothing_is_missing(seed):
+    rng = np.random.default_rng(seed)
+    for _ in range(8):
+        height, width = rng.integers(1, 12, 2)
+        labels = rng.integers(0, 4, (height, width)).astype(np.uint8) * (rng.random((height, width)) < rng.random())
+        if not labels.any():
+            continue
+        cells = vorotool.voronoi(vorotool.Raster(labels))
+        vorotool.verify_voronoi(cells)
+        assert cells.areas.sum() == pytest.approx(height * width, rel=1e-12)
+        assert (cells.vertices >= -0.5).all()
+        assert (cells.vertices <= [width - 0.5, height - 0.5]).all()
+        outside = vorotool.skeleton_exact(vorotool.outlines(vorotool.Raster(labels)), side="exterior")
+        vorotool.verify_skeleton(outside)
+        assert (outside.vertices >= -0.5).all()
+        assert (outside.vertices <= [width - 0.5, height - 0.5]).all()
