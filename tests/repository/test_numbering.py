@@ -54,7 +54,7 @@ def test_columns_of_labels_count_from_1_and_all_others_from_0(table):
     for name, values in columns.items():
         if "label" in name:
             assert np.ma.compressed(values).min(initial=1) == 1, name
-        elif name in ("source_index", "polygon", "arc", "branch", "element"):
+        elif name in ("source_index", "arc", "branch", "element"):
             assert values.min() == 0, name
 
 

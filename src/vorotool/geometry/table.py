@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, ItemsView, Iterator, Mapping, ValuesView
+from collections.abc import Callable, ItemsView, Iterator, Mapping, Sequence, ValuesView
 from dataclasses import dataclass
 from typing import Any
 
@@ -27,12 +27,13 @@ class Lookup:
         return len(self.index)
 
     def __getitem__(self, rows: slice) -> NDArray[Any]:
-        values = self.values if isinstance(self.values, np.ndarray) else _object_array(self.values)
+        values = self.values if isinstance(self.values, np.ndarray) else object_column(self.values)
         found: NDArray[Any] = values.take(self.index[rows])
         return found
 
 
-def _object_array(values: list[Any]) -> NDArray[Any]:
+def object_column(values: Sequence[Any]) -> NDArray[Any]:
+    """Return values of any kind as a column."""
     array = np.empty(len(values), dtype=object)
     array[:] = values
     return array
@@ -158,4 +159,5 @@ class Table(dict[str, Any], Tabular):
     def with_properties(self, properties: Mapping[str, Any]) -> Table:
         """Add the input's own columns; on a clash of names ours take the prefix ``voro_``."""
         columns = {(f"voro_{name}" if name in properties else name): c for name, c in self.stored().items()}
-        return Table({**columns, **{name: np.asarray(c, dtype=object) for name, c in properties.items()}})
+        own = {name: c if isinstance(c, Lookup) else np.asarray(c, dtype=object) for name, c in properties.items()}
+        return Table({**columns, **own})

@@ -215,7 +215,7 @@ def test_features_are_separate_unless_they_are_together(run, folder):
         run("skeleton-exact", "nested.json", "--gap", "0.1", *more, "-f", "csv", "--verify").out
         for more in ((), ("--features", "separate"), ("--features", "together"))
     }
-    assert sorted({row["polygon"] for row in rows_of(drawing)} for drawing in drawings) == [{"0"}, {"0", "1"}]
+    assert sorted({row["label"] for row in rows_of(drawing)} for drawing in drawings) == [{"1"}, {"1", "2"}]
 
 
 def test_the_deviation_of_a_gap_is_the_largest_of_the_features(run, folder):

@@ -104,13 +104,13 @@ def test_transects_along_centerlines(run, folder, command):
         own = feature["properties"]
         assert own["along"] % 7 == 0
         assert own["width"] == pytest.approx(each.length)
-        assert shapely.distance(each, lines[own["polygon"]]) < 1e-6
+        assert shapely.distance(each, lines[own["label"] - 1]) < 1e-6
         assert {own["ring_a"], own["ring_b"]} <= {0, 1}
-    for number, line in enumerate(lines):
-        along = [each["properties"]["along"] for each in read[0] if each["properties"]["polygon"] == number]
+    for label, line in enumerate(lines, 1):
+        along = [each["properties"]["along"] for each in read[0] if each["properties"]["label"] == label]
         assert max(along) == pytest.approx(line.length, abs=7.1)
     many = run(command, SHAPES, "--what", "points", *options, "-f", "csv").rows
-    assert {row["polygon"] for row in many} == {"0", "1"}
+    assert {row["label"] for row in many} == {"1", "2"}
 
 
 def test_transects_are_lines(run):

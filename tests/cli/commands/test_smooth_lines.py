@@ -35,7 +35,7 @@ def test_smooth_lines_in_every_format(run, ell, tmp_path, what):
     command = ("skeleton-exact", ell, *what, "--smooth", "0.5", "--verify")
     rows = run(*command, "-f", "csv").rows
     assert all(float(row["error"]) <= 0.5 for row in rows)
-    assert list(rows[0])[:4] == ["polygon", "id", "branch", "curve"]
+    assert list(rows[0])[:4] == ["label", "id", "branch", "curve"]
     assert len(json.loads(run(*command, "-f", "json").out)) == len(rows)
     features = json.loads(run(*command, "-f", "geojson").out)["features"]
     assert sum(feature["properties"]["curves"] for feature in features) == len(rows)

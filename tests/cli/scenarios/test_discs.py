@@ -63,7 +63,7 @@ def test_formats(run, shapes, tmp_path):
     run("skeleton-exact", shapes, "-q", "--what", "discs", "--flatten", "0.01", "-o", tmp_path / "discs.geojson")
     made = json.loads((tmp_path / "discs.geojson").read_text())["features"]
     assert [feature["id"] for feature in made] == ["pool", "pond"]
-    assert made[1]["properties"] == {"depth": 5, "rank": 1, "x": 2, "y": 7, "r": 2, "feet": 4}
+    assert made[1]["properties"] == {"label": 2, "depth": 5, "rank": 1, "x": 2, "y": 7, "r": 2, "feet": 4}
     circle = shapely.geometry.shape(made[1]["geometry"])
     assert shapely.hausdorff_distance(circle.exterior, shapely.Point(2, 7).buffer(2, 64).exterior) < 0.02
     run("skeleton-exact", shapes, "-q", "--what", "discs", "--layers", "discs,feet", "-o", tmp_path / "discs.svg")
@@ -104,8 +104,8 @@ def test_empty_discs_in_a_frame_and_a_clip(run, tmp_path):
     (tmp_path / "clip.wkt").write_text("POLYGON ((1 0, 3 0, 2 3, 1 0))\n")
     points = tmp_path / "points.csv"
     (row,) = rows_of(run("voronoi", points, "--what", "discs", "--frame", "0,0,4,4", "--verify").out)
-    assert (row["x"], row["y"], row["feet"], row["shape_3"]) == ("2", "2", "4", "3")
-    assert "polygon" not in row
+    assert (row["x"], row["y"], row["feet"], row["label_3"]) == ("2", "2", "4", "4")
+    assert "label" not in row
     clip = tmp_path / "clip.wkt"
     (row,) = rows_of(run("voronoi", points, "--what", "discs", "--clip", clip, "--verify").out)
     assert (row["x"], row["y"]) == ("2", "2")

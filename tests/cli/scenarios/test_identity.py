@@ -1,11 +1,15 @@
 """What points and sites are called in results: labels, columns named label, and columns that join sites."""
 
+import json
+
 import geopandas
+import imageio.v3 as imageio
 import numpy as np
 import pandas
 import pytest
 
 import vorotool
+from vorotool.products import registry
 
 ROWS = [(101, 0.0, 0.0, "a"), (102, 5.0, 1.0, "b"), (103, 2.0, 6.0, "c")]
 ORDERS = (
@@ -23,6 +27,24 @@ def column(name):
 def text(names, labels=None):
     columns = [labels if name == "label" and labels else column(name) for name in names]
     return "\n".join([",".join(names), *(",".join(map(str, row)) for row in zip(*columns, strict=True))]) + "\n"
+
+
+def squares(places):
+    rings = [[[[x, 0], [x + 6, 0], [x + 6, 4], [x, 4], [x, 0]]] for x in places]
+    return {"type": "MultiPolygon", "coordinates": rings}
+
+
+def columns_of(path):
+    """Read a table by another library."""
+    if path.suffix == ".npz":
+        with np.load(path) as arrays:
+            return {name: arrays[name].tolist() for name in arrays}
+    readers = {".csv": pandas.read_csv, ".json": pandas.read_json, ".geojson": geopandas.read_file}
+    if path.suffix == ".json" and isinstance(held := json.loads(path.read_text()), dict):
+        frame = pandas.DataFrame([each["properties"] for each in held["polygons"]])
+    else:
+        frame = readers[path.suffix](path)
+    return {name: frame[name].tolist() for name in frame}
 
 
 @pytest.mark.parametrize("names", ORDERS, ids=",".join)
@@ -107,3 +129,55 @@ def test_the_column_that_sites_are_joined_by_stays(run, tmp_path):
         read = geopandas.read_file(tmp_path / f"{by}.gpkg")
         assert read[by].astype(str).tolist() == values
     assert vorotool.voronoi(frame, by="tree").properties == {"tree": ["oak", "elm"]}
+
+
+FEATURES = {
+    "type": "FeatureCollection",
+    "features": [
+        {"type": "Feature", "properties": {"name": "A", "label": 12}, "geometry": squares((0, 10))},
+        {"type": "Feature", "properties": {"name": "B", "label": 11}, "geometry": squares((30,))},
+    ],
+}
+OF_PARTS = ["table", "skeleton", "branches", "elements", "points", "parts", "discs", "centerline"]
+
+
+@pytest.mark.parametrize("what", OF_PARTS)
+@pytest.mark.parametrize("fmt", ["csv", "json", "geojson", "npz"])
+def test_rows_made_of_polygons_refer_to_features_by_label(run, tmp_path, what, fmt):
+    formats = registry.PRODUCTS["skeleton-exact"][what].formats
+    if fmt not in formats or (what, fmt) in {("skeleton", "json"), ("skeleton", "npz")}:
+        pytest.skip("no such rows")
+    path, more = tmp_path / f"out.{fmt}", ["--every", "3"] if what == "points" else []
+    for labels, columns in (([12, 12, 11], {}), ([1, 1, 2], {"label": [5, 5]}), ([1, 1, 2], {"label": ["a", "b"]})):
+        document = json.loads(json.dumps(FEATURES))
+        for feature, label in zip(document["features"], columns.get("label", ()), strict=False):
+            feature["properties"]["label"] = label
+        (tmp_path / "in.geojson").write_text(json.dumps(document))
+        assert run("skeleton-exact", tmp_path / "in.geojson", "--what", what, "-o", path, *more, "-q").code == 0
+        found = columns_of(path)
+        name = "voro_label" if columns and "label" in found and "voro_label" in found else "label"
+        rows = list(zip(map(int, found[name]), map(int, found["part"]), strict=True))
+        expected = list(zip(labels, (1, 2, 1), strict=True))
+        assert list(dict.fromkeys(rows)) == (expected[::2] if what == "discs" else expected)
+        assert "polygon" not in found
+
+
+def test_labels_of_images_are_those_of_results(run, tmp_path):
+    image = np.zeros((30, 60), np.uint8)
+    image[5:15, 5:20], image[5:15, 30:50] = 7, 3
+    imageio.imwrite(tmp_path / "in.png", image)
+    for command, what in (("skeleton-exact", "table"), ("skeleton-exact", "branches"), ("voronoi", "table")):
+        made = run(command, tmp_path / "in.png", "--what", what, "-f", "csv", "-q")
+        assert {(row["label"], row["id"]) for row in made.rows} == {("3", "3"), ("7", "7")}
+    made = run("voronoi", tmp_path / "in.png", "--what", "neighbors", "-f", "csv", "-q")
+    assert [(row["label_a"], row["label_b"]) for row in made.rows] == [("3", "7")]
+
+
+def test_neighbours_of_cells_refer_to_the_labels_of_the_input(run, tmp_path):
+    (tmp_path / "in.geojson").write_text(json.dumps(FEATURES))
+    for what in ("neighbors", "edges"):
+        made = run("voronoi", tmp_path / "in.geojson", "--what", what, "-f", "csv", "-q")
+        assert {(row["label_a"], row["label_b"]) for row in made.rows} == {("12", "11")}
+    table = run("voronoi", tmp_path / "in.geojson", "--what", "table", "-f", "csv", "-q")
+    assert [(row["label"], row["name"]) for row in table.rows] == [("12", "A"), ("11", "B")]
+    assert "voro_label" not in table.rows[0]

@@ -148,7 +148,7 @@ def test_empty_discs_have_corners_and_crossings():
     assert side.xy.tolist() == [[2.0, -1.0]]
     strip = largest_empty_discs(["LINESTRING (0 0, 10 0)", "LINESTRING (0 2, 10 2)"], within=(2, 0.5, 6, 1))
     assert strip.xy.tolist() == [[5.0, 1.0]]
-    assert strip.table()["shape_2"].tolist() == [1]
+    assert strip.table()["label_2"].tolist() == [2]
 
 
 def test_no_empty_disc_in_a_filled_shape():

@@ -27,14 +27,14 @@ def text_of(fmt, skeleton=MADE, **options):
 def test_arcs_as_csv():
     rows = rows_of(text_of("csv"))
     header = (
-        "polygon,id,arc,source_index,target_index,x0,y0,r0,x1,y1,r1,kind,cx,cy,site_a_index,site_b_index,side,length,"
+        "label,id,arc,source_index,target_index,x0,y0,r0,x1,y1,r1,kind,cx,cy,site_a_index,site_b_index,side,length,"
         "error_bound,branch"
     )
     assert ",".join(rows[0]) == header
     assert len(rows) == len(MADE)
     inside, outside = rows[0], rows[-1]
-    assert (inside["id"], inside["side"], inside["polygon"]) == ("branch", "interior", "0")
-    assert (outside["id"], outside["side"], outside["polygon"]) == ("", "exterior", "")
+    assert (inside["id"], inside["side"], inside["label"]) == ("branch", "interior", "1")
+    assert (outside["id"], outside["side"], outside["label"]) == ("", "exterior", "")
     assert {(row["kind"], bool(row["cx"])) for row in rows} == {("line", False), ("parabola", True)}
     assert [float(row["x1"]) for row in rows] == MADE.vertices[MADE.arcs[:, 1], 0].tolist()
 

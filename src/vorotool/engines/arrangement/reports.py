@@ -91,8 +91,7 @@ def _are_moved(given: PolygonSet, placement: Placement, step: float) -> NDArray[
 
 def _features(given: PolygonSet, chosen: NDArray[np.bool_]) -> str:
     """Name the features of some polygons, counted from 1: the first ten."""
-    assert given.feature is not None
-    labels = (distinct(given.feature[chosen]) + 1).tolist()
+    labels = distinct(given.labels[chosen]).tolist()
     if not labels:
         return ""
     more = f" and {len(labels) - NAMED} more" if len(labels) > NAMED else ""

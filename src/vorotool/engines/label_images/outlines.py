@@ -126,8 +126,9 @@ def outlines(
     Returns
     -------
     PolygonSet
-        Polygons in the order of labels, then of first pixels, row by row. The id of a polygon is its label; components
-        of a mask have the labels 1, 2, …. Shells have a positive area, holes a negative one.
+        Polygons in the order of labels, then of first pixels, row by row. The id of a polygon is its label, as is its
+        column ``label`` in an image of labels; components of a mask have the labels 1, 2, …. Shells have a positive
+        area, holes a negative one.
 
     Raises
     ------
@@ -200,6 +201,7 @@ def outlines(
         made["ring_object"],
         ids.tolist(),
         np.cumsum(np.diff(ids, prepend=ids[:1]) > 0) if len(ids) else None,
+        properties={"label": ids.tolist()} if by_label else {},
         connectivity=connectivity if outline == "crack" else None,
         frame=Frame(*origin, width, height).box,
     )

@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 from vorotool.formats.text.feature_collection import collection_opening
 from vorotool.formats.text.row_writer import Column, RowShape, write_rows
 from vorotool.formats.text.tables import json_text
+from vorotool.geometry.arguments.tables import listed
+from vorotool.geometry.identity import names_of, with_columns_of
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.ragged import with_length
 from vorotool.geometry.table import Lookup
@@ -38,20 +40,16 @@ GEOJSON_LINE = ',"geometry":{"type":"LineString","coordinates":[[', ',"geometry"
 WKT_LINE = "LINESTRING (", "LINESTRING EMPTY\n"
 
 
-def geojson_wording(polygons: PolygonSet, polygon: Sequence[int], own: Mapping[str, Sequence[Any]]) -> Wording:
+def geojson_wording(polygons: PolygonSet, polygon: NDArray[np.integer], own: Mapping[str, Any]) -> Wording:
     """One feature a polyline, with the id and the properties of its polygon."""
-    names = {name: f"voro_{name}" if name in polygons.properties else name for name in ("polygon", *own)}
+    names = names_of(polygons, polygon)
+    ids = names.pop("id")[:].tolist()
+    table = with_columns_of({**names, **own}, polygons, polygon)
     openings = []
-    for row, index in enumerate(polygon):
-        described: dict[str, Any] = {}
-        name = ""
-        if index >= 0:
-            described = {key: values[index] for key, values in polygons.properties.items()}
-            if polygons.ids is not None and polygons.ids[index] is not None:
-                name = f'"id":{json_text(polygons.ids[index])},'
-            described[names["polygon"]] = index
-        described |= {names[key]: values[row] for key, values in own.items()}
-        openings.append(f'{{"type":"Feature",{name}"properties":{json_text(described)}{GEOJSON_LINE[0]}')
+    for name, *values in zip(ids, *(listed(column) for column in table.values()), strict=True):
+        named = "" if name is None else f'"id":{json_text(name)},'
+        described = dict(zip(table, values, strict=True))
+        openings.append(f'{{"type":"Feature",{named}"properties":{json_text(described)}{GEOJSON_LINE[0]}')
     return Wording(collection_opening(polygons.crs) + b"\n", openings, "],[", ",", "]]}},\n", b"]}\n", *GEOJSON_LINE)
 
 

@@ -7,7 +7,7 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.formats.polygons.polylines import geojson_wording, wkt_wording, write_polylines
+from vorotool.formats.polygons.polylines import Wording, geojson_wording, wkt_wording, write_polylines
 from vorotool.formats.text.tables import write_table
 from vorotool.geometry.skeleton.centerline import Centerlines, centerline_table
 from vorotool.geometry.skeleton.extended import extended_table
@@ -31,10 +31,7 @@ def write_centerlines(
         write_table(out, _table(lines), fmt, precision=precision, threads=threads)
         return
     points, start = lines.as_given.flattened(flatten)
-    own = {name: column.tolist() for name, column in _columns(lines).items()}
-    wording = (
-        wkt_wording(len(lines)) if fmt == "wkt" else geojson_wording(lines.path.polygons, lines.polygon.tolist(), own)
-    )
+    wording = wkt_wording(len(lines)) if fmt == "wkt" else _features(lines)
     write_polylines(out, points, start[:-1], wording, precision=precision, threads=threads)
 
 
@@ -42,6 +39,10 @@ def _table(lines: LedOn | SmoothLines) -> Table:
     if isinstance(lines, SmoothLines):
         return lines.table()
     return centerline_table(lines) if isinstance(lines, Centerlines) else extended_table(lines)
+
+
+def _features(lines: LedOn | SmoothLines) -> Wording:
+    return geojson_wording(lines.path.polygons, lines.polygon, _columns(lines))
 
 
 def _columns(lines: LedOn | SmoothLines) -> dict[str, NDArray[Any]]:

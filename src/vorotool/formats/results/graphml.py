@@ -13,6 +13,8 @@ import numpy as np
 from vorotool.formats.polygons.polylines import Wording, write_polylines
 from vorotool.formats.text.row_writer import Column, RowShape, check_precision, write_rows
 from vorotool.formats.text.tables import json_text
+from vorotool.geometry.arguments.tables import listed
+from vorotool.geometry.identity import with_columns_of
 from vorotool.geometry.skeleton.graph import SkeletonGraph, skeleton_graph
 from vorotool.geometry.skeleton.skeleton import Skeleton
 from vorotool.geometry.xml_text import xml_characters
@@ -63,13 +65,10 @@ class _EdgeTexts:
 
     def __init__(self, graph: SkeletonGraph, precision: int | None) -> None:
         self.graph, self.precision = graph, precision
-        self.columns = {name: graph.edges[name].tolist() for name in graph.edges}
-        given = graph.skeleton.polygons.properties
-        rows = self.columns["polygon"]
-        described = {name: [None if p is None else values[p] for p in rows] for name, values in given.items()}
-        own = {f"voro_{name}" if name in given else name: values for name, values in self.columns.items()}
-        self.values = {**described, **own}
-        geometry = "voro_geometry" if "geometry" in given else "geometry"
+        polygons = graph.skeleton.polygons
+        columns = with_columns_of(graph.edges.stored(), polygons, graph.polygon)
+        self.values = {name: listed(column) for name, column in columns.items()}
+        geometry = "voro_geometry" if "geometry" in columns else "geometry"
         self.kinds = {**{name: _kind(values) for name, values in self.values.items()}, geometry: "string"}
 
     def openings(self, by: str) -> list[str]:
@@ -78,7 +77,9 @@ class _EdgeTexts:
         keys = [(f'<data key="e{number}">', self.kinds[name]) for number, name in enumerate(self.values)]
         last = f'<data key="e{len(keys)}">LINESTRING ('
         texts = []
-        rows = zip(self.columns[by], graph.source.tolist(), graph.target.tolist(), *self.values.values(), strict=True)
+        rows = zip(
+            graph.edges[by].tolist(), graph.source.tolist(), graph.target.tolist(), *self.values.values(), strict=True
+        )
         for number, source, target, *values in rows:
             data = "".join(
                 f"{key}{self._text(value, kind)}</data>"

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any, BinaryIO
-
-import numpy as np
+from typing import BinaryIO
 
 from vorotool.formats.io.npy_arrays import write_array
 from vorotool.formats.text.feature_collection import write_collection
 from vorotool.formats.text.row_writer import Column, RowShape, write_rows
-from vorotool.formats.text.tables import json_text, write_table
-from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.formats.text.tables import json_column, json_text, object_shape, write_table
+from vorotool.geometry.identity import names_of, with_columns_of
 from vorotool.geometry.skeleton.points_along import SkeletonPoints
-from vorotool.geometry.skeleton.skeleton import SIDES
 from vorotool.geometry.table import Lookup
 from vorotool.products.formats import TABLES
 
@@ -46,40 +43,23 @@ def write_skeleton_points(
 def _write_geojson(
     out: BinaryIO, points: SkeletonPoints, coordinates: list[Column], precision: int | None, threads: int
 ) -> None:
-    skeleton = points.skeleton
-    polygons, side = skeleton.polygons, skeleton.side[points.arc]
-    rings = {} if points.rings is None else dict(zip(("ring_a", "ring_b"), points.rings.T, strict=True))
-    most = 1 + max((int(ring.max(initial=-1)) for ring in rings.values()), default=-1)
-    own = {name: f"voro_{name}" if name in polygons.properties else name for name in (*_OWN, *rings)}
-    columns: list[Any] = [
-        Lookup(_openings(polygons, own["polygon"]), points.polygon % (len(polygons) + 1)),
-        skeleton.branch[points.arc].astype(np.int64),
-        points.along,
-        points.radius,
-        points.width,
-        Lookup([f'"{name}"' for name in SIDES] + ["null"], np.where(side < 0, len(SIDES), side).astype(np.int32)),
-        *(Lookup([*map(str, range(most)), "null"], ring % (most + 1)) for ring in rings.values()),
-    ]
+    polygons = points.skeleton.polygons
+    ids = names_of(polygons, points.polygon)["id"]
+    table = points.table().stored()
+    own = {name: column for name, column in table.items() if name not in _LEFT_OUT}
+    described = with_columns_of(own, polygons, points.polygon).stored()
+    columns = [json_column(Column.of(name, values), precision) for name, values in described.items()]
+    texts = ["" if value is None else f'"id":{json_text(value)},' for value in ids.values]
     between: tuple[str, ...] = (",",)
     kind, after = "Point", "]}}"
     if len(coordinates) > 2:
         kind, between, after = "LineString", (",", "],[", ","), "]]}}"
-    names = [f',"{own[name]}":' for name in [*_OWN, *rings][1:]]
-    opening = f'}},"geometry":{{"type":"{kind}","coordinates":{"[" * (len(coordinates) // 2)}'
-    shape = RowShape(("", *names, opening, *between, after), ",\n", "null")
-    rows = [*(Column("", values) for values in columns), *coordinates]
+    opening = f',"geometry":{{"type":"{kind}","coordinates":{"[" * (len(coordinates) // 2)}'
+    around = object_shape([column.name for column in columns], '"properties":', opening).around
+    shape = RowShape(('{"type":"Feature",', *around, *between, after), ",\n", "null")
+    rows = [Column("id", Lookup(texts, ids.index)), *columns, *coordinates]
     write_collection(out, rows, shape, crs=polygons.crs, precision=precision, threads=threads)
 
 
-_OWN = ("polygon", "branch", "along", "r", "width", "side")
-
-
-def _openings(polygons: PolygonSet, name: str) -> list[str]:
-    """The beginning of a feature in each polygon, and of one in none."""
-    texts = []
-    for index in (*range(len(polygons)), None):
-        identity = None if index is None or polygons.ids is None else polygons.ids[index]
-        named = "" if identity is None else f'"id":{json_text(identity)},'
-        given = {} if index is None else {key: values[index] for key, values in polygons.properties.items()}
-        texts.append(f'{{"type":"Feature",{named}"properties":{json_text({**given, name: index}).removesuffix("}")}')
-    return texts
+_LEFT_OUT = frozenset(["id", "arc", "x", "y", "x_a", "y_a", "x_b", "y_b"])
+"""Columns of the table that features do not have: the id is a member of its own, and geometry has the places."""

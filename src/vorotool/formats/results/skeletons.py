@@ -89,6 +89,6 @@ def _wording(skeleton: Skeleton, fmt: str, first_arcs: NDArray[np.int64], thread
     if fmt == "wkt":
         return wkt_wording(len(first_arcs))
     columns = branch_table(skeleton, threads=threads)
-    own = {name: columns[name].tolist() for name in ("branch", "kind", "length", "r_min", "r_max", "r_mean")}
+    own = {name: columns[name] for name in ("branch", "kind", "length", "r_min", "r_max", "r_mean")}
     own["side"] = [None if number < 0 else SIDES[number] for number in skeleton.side[first_arcs].tolist()]
-    return geojson_wording(skeleton.polygons, skeleton.polygon[first_arcs].tolist(), own)
+    return geojson_wording(skeleton.polygons, skeleton.polygon[first_arcs], own)

@@ -51,8 +51,8 @@ def write_voronoi(
 def _shapes_of(cells: VoronoiMap, tolerance: float | None) -> CellShapes:
     points, start = cell_rings(cells, tolerance)
     return CellShapes(
-        {"label": np.arange(1, len(cells) + 1), "area": cells.areas, "perimeter": cells.perimeters},
-        cells.properties,
+        {"label": cells.labels, "area": cells.areas, "perimeter": cells.perimeters},
+        cells.other_columns,
         *written_cells(points, Nesting(start, cells.polygon_start, cells.cell_start)),
         cells.ids,
         cells.crs,

@@ -17,6 +17,7 @@ from vorotool.geometry.alpha.shape import AlphaShape
 from vorotool.geometry.alpha.tables import described_polygons, family_table, shape_edge_table, shape_point_table
 from vorotool.geometry.any.scaling import AREAS, LENGTHS, scaled_table
 from vorotool.geometry.distances.distances import Distances
+from vorotool.geometry.identity import names_of, with_columns_of
 from vorotool.geometry.mesh.cells import CellSet
 from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation, DigitalTriangulation
 from vorotool.geometry.mesh.proximity import ProximityGraph
@@ -41,7 +42,6 @@ from vorotool.geometry.skeleton.parts import Parts
 from vorotool.geometry.skeleton.points_along import SkeletonPoints
 from vorotool.geometry.skeleton.skeleton import Skeleton
 from vorotool.geometry.skeleton.smooth_lines import SmoothLines
-from vorotool.geometry.skeleton.tables import ids_of
 from vorotool.geometry.spacing import SQUARE, PixelSides
 from vorotool.geometry.table import Table
 from vorotool.geometry.voronoi.shapes import cell_polygons
@@ -214,10 +214,10 @@ def _of_hull(hull: AlphaHull) -> Features:
 # ---- polygons and skeletons ----------------------------------------------------------------------
 def _of_polygons(polygons: PolygonSet) -> Features:
     count = len(polygons)
-    columns: dict[str, Any] = {"polygon": np.arange(count)}
-    if polygons.ids is not None:
-        columns["id"] = list(polygons.ids)
-    made = Table(columns).with_properties(polygons.properties)
+    columns = names_of(polygons, _every(count))
+    if polygons.ids is None:
+        del columns["id"]
+    made = Table(columns).with_properties(polygons.other_columns)
     return Features(to_shapely(polygons), made, polygons, _every(count))
 
 
@@ -228,20 +228,12 @@ def _of_graph(graph: PlanarGraph) -> Features:
     return Features(_pairs(graph.coordinates(), graph.segments), Table(columns), graph.polygons)
 
 
-def _with_polygons(columns: Mapping[str, Any], polygons: PolygonSet, of: Rows) -> Table:
-    """Columns with the properties of the polygon of each row; -1 has none."""
-    own = of.tolist()
-    return Table(columns).with_properties(
-        {name: [values[p] if p >= 0 else None for p in own] for name, values in polygons.properties.items()}
-    )
-
-
 def _of_skeleton(skeleton: Skeleton, by: str = "arc", flatten: float | None = None) -> Features:
     graph = skeleton_graph(skeleton, by=by, flatten=flatten)
     polygons = skeleton.polygons
     arcs = np.flatnonzero(np.diff(skeleton.branch, prepend=-1)) if by == "branch" else slice(None)
     item = skeleton.polygon[arcs]
-    columns = _with_polygons(graph.edges.stored(), polygons, item)
+    columns = with_columns_of(graph.edges.stored(), polygons, item)
     return Features(lines(graph.points, graph.start), columns, polygons, item)
 
 
@@ -249,9 +241,9 @@ def _of_centerlines(paths: LedOn, flatten: float | None = None) -> Features:
     polygons = paths.path.polygons
     least, most = paths.width_range
     own = {"length": paths.length, "width_mean": paths.width_mean, "width_min": least, "width_max": most}
-    columns = {"polygon": paths.polygon, "id": ids_of(polygons, paths.polygon), **own}
+    columns = {**names_of(polygons, paths.polygon), **own}
     geometry = lines(*paths.as_given.flattened(flatten))
-    return Features(geometry, _with_polygons(columns, polygons, paths.polygon), polygons, paths.polygon)
+    return Features(geometry, with_columns_of(columns, polygons, paths.polygon), polygons, paths.polygon)
 
 
 def _of_extended(extended: ExtendedSkeleton, flatten: float | None = None) -> Features:
@@ -264,13 +256,12 @@ def _of_smooth(smoothed: SmoothLines, flatten: float | None = None) -> Features:
     polygons, polygon, start = smoothed.path.polygons, smoothed.polygon, smoothed.start
     columns = {
         "branch": np.arange(len(smoothed)),
-        "polygon": np.ma.array(polygon, mask=polygon < 0),
-        "id": ids_of(polygons, polygon),
+        **names_of(polygons, polygon),
         "curves": np.diff(start),
         "error": smoothed.error,
     }
     geometry = lines(*smoothed.as_given.flattened(flatten))
-    return Features(geometry, _with_polygons(columns, polygons, polygon), polygons, polygon)
+    return Features(geometry, with_columns_of(columns, polygons, polygon), polygons, polygon)
 
 
 def _of_points_along(points: SkeletonPoints, what: str | None = None) -> Features:
@@ -297,38 +288,39 @@ def _of_distances(found: Distances) -> Features:
 def _along(points: SkeletonPoints, geometry: NDArray[Any], left_out: set[str]) -> Features:
     polygons = points.skeleton.polygons
     columns = {name: column for name, column in points.table().stored().items() if name not in left_out}
-    return Features(geometry, _with_polygons(columns, polygons, points.polygon), polygons, points.polygon)
+    return Features(geometry, with_columns_of(columns, polygons, points.polygon), polygons, points.polygon)
 
 
 def _of_necks(necks: Necks) -> Features:
     polygons, feet = necks.skeleton.polygons, necks.feet.reshape(-1, 2)
     columns = without_places(necks.table()).stored()
     geometry = lines(feet, np.arange(0, len(feet) + 1, 2))
-    return Features(geometry, _with_polygons(columns, polygons, necks.polygon), polygons, necks.polygon)
+    return Features(geometry, with_columns_of(columns, polygons, necks.polygon), polygons, necks.polygon)
 
 
 def _of_parts(parts: Parts) -> Features:
     polygons = parts.necks.skeleton.polygons
     columns = without_places(parts.table()).stored()
-    return Features(to_shapely(parts.polygons), _with_polygons(columns, polygons, parts.source), polygons, parts.source)
+    return Features(
+        to_shapely(parts.polygons), with_columns_of(columns, polygons, parts.source), polygons, parts.source
+    )
 
 
 def _of_offsets(offsets: Offsets, flatten: float | None = None) -> Features:
     polygons, of = offsets.polygons, offsets.polygon
     shapes = offsets.flattened(flatten)
     columns = {
-        "polygon": np.ma.array(of, mask=of < 0),
-        "id": ids_of(polygons, of),
+        **names_of(polygons, of),
         "distance": offsets.distance,
         "area": offsets.area,
     }
-    return Features(to_shapely(shapes), _with_polygons(columns, polygons, of), polygons, of)
+    return Features(to_shapely(shapes), with_columns_of(columns, polygons, of), polygons, of)
 
 
 def _of_discs(discs: Discs, flatten: float | None = None) -> Features:
     polygons = discs.polygons
     shapes = discs.flattened(flatten)
-    columns = _with_polygons(discs.table().stored(), polygons, discs.polygon)
+    columns = with_columns_of(discs.table().stored(), polygons, discs.polygon)
     return Features(to_shapely(shapes), columns, polygons, discs.polygon)
 
 

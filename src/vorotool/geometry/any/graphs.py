@@ -52,7 +52,7 @@ def to_networkx(
     value : Skeleton, Triangulation, DigitalTriangulation, ProximityGraph, LabelImage, LabelVolume, PlanarGraph or
         VoronoiMap
         Of a skeleton nodes are numbers of vertices, with ``x``, ``y``, the radius ``r`` and the ``degree``; edges have
-        the number of their branch or arc for a key, and ``branch`` (also ``arc``), ``polygon``, ``id``, ``side``,
+        the number of their branch or arc for a key, and ``branch`` (also ``arc``), ``label``, ``id``, ``side``,
         ``kind``, ``length``, ``r_min``, ``r_max``, ``r_mean``, of branches ``type`` and ``tortuosity`` as
         `branch_table` has them, and ``geometry``, a shapely LineString; the properties of the polygon, too. Of a
         triangulation nodes are numbers of points, from 0, with ``x``, ``y``, ``label`` and the properties, edges have
@@ -135,10 +135,10 @@ def _of_skeleton(library: Any, skeleton: Skeleton, by: str, flatten: float | Non
     graph.add_nodes_from(zip(parts.nodes.tolist(), nodes, strict=True))
     geometry = lines(parts.points, parts.start)
     ends = zip(parts.source.tolist(), parts.target.tolist(), strict=True)
-    for (a, b), own, line in zip(ends, _rows(parts.edges), geometry, strict=True):
+    for (a, b), own, line, polygon in zip(ends, _rows(parts.edges), geometry, parts.polygon.tolist(), strict=True):
         described: dict[str, Any] = {}
-        if "polygon" in own:
-            described = {key: values[own["polygon"]] for key, values in polygons.properties.items()}
+        if polygon >= 0:
+            described = {key: values[polygon] for key, values in polygons.other_columns.items()}
         own["geometry"] = line
         attributes = {**described, **{f"voro_{key}" if key in described else key: item for key, item in own.items()}}
         graph.add_edge(a, b, key=own[by], **attributes)

@@ -120,13 +120,11 @@ def _of_skeleton(skeleton: Skeleton) -> IndexedTable:
 
 
 def _of_centerlines(lines: Centerlines) -> IndexedTable:
-    own = centerline_table(lines)
-    return IndexedTable(own, lines.path.polygons, own["polygon"])
+    return IndexedTable(centerline_table(lines), lines.path.polygons, lines.polygon[lines.line_of_row])
 
 
 def _of_extended(extended: ExtendedSkeleton) -> IndexedTable:
-    own = extended_table(extended)
-    return IndexedTable(own, extended.path.polygons, own["polygon"])
+    return IndexedTable(extended_table(extended), extended.path.polygons, extended.polygon[extended.line_of_row])
 
 
 def _of_smooth(smoothed: SmoothLines) -> IndexedTable:

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from vorotool.errors import InputError
 from vorotool.geometry.box import Box
 from vorotool.geometry.coordinates import coordinate_rows
+from vorotool.geometry.identity import feature_labels, other_columns
 from vorotool.geometry.ragged import divides, following, starts_of, within
 from vorotool.geometry.row_index import check_index
 from vorotool.geometry.values import Geometric, Pictured, Tabular, Value, counted, placed
@@ -123,6 +124,17 @@ class PolygonSet(Value, Tabular, Geometric, Pictured):
         assert self.feature is not None
         first = np.flatnonzero(np.diff(self.feature, prepend=-1))
         return (within(np.diff(first, append=len(self.feature))) + 1).astype(np.int32)
+
+    @cached_property
+    def labels(self) -> NDArray[np.int64]:
+        """(p,) label of the feature of each polygon: what its column ``label`` holds, else its number from 1."""
+        assert self.feature is not None
+        return feature_labels(self.feature, self.properties)
+
+    @cached_property
+    def other_columns(self) -> dict[str, Any]:
+        """The properties without the column that holds the labels."""
+        return other_columns(self.properties, self.labels)
 
     @property
     def as_given(self) -> PolygonSet:

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.geometry.identity import names_of
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.ragged import owners
 from vorotool.geometry.skeleton.skeleton import SiteTable
-from vorotool.geometry.skeleton.tables import ids_of
 from vorotool.geometry.table import Lookup, Table
 
 
@@ -79,8 +79,7 @@ def sample_table(samples: BoundarySamples) -> Table:
         {
             "element": np.arange(len(samples)),
             "kind": Lookup(["vertex", "sample"], (samples.segment >= 0).astype(np.int32)),
-            "polygon": sites.polygon[site],
-            "id": ids_of(samples.polygons, sites.polygon[site]),
+            **names_of(samples.polygons, sites.polygon[site]),
             "ring": sites.ring[site],
             "vertex_index": sites.index[site],
             "x": np.ascontiguousarray(xy[:, 0]),

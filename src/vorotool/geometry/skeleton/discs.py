@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 from vorotool.geometry.coordinate_grid import on_grid
 from vorotool.geometry.curves.circular_arcs import chords_of
 from vorotool.geometry.curves.flatten import circle_tolerances
+from vorotool.geometry.identity import described_shapes, names_of
 from vorotool.geometry.numbers import checked_flatten
 from vorotool.geometry.polygons.polygon_set import SHELL, PolygonSet
 from vorotool.geometry.ragged import within
 from vorotool.geometry.row_index import index_of_rows
 from vorotool.geometry.skeleton.skeleton import SiteTable
-from vorotool.geometry.skeleton.tables import ids_of
 from vorotool.geometry.table import Table
 from vorotool.geometry.values import Curved, Pictured, Tabular, Value, counted, placed
 from vorotool.types import fields as f
@@ -120,15 +120,15 @@ class Discs(Value, Tabular, Curved, Pictured):
         Returns
         -------
         Table
-            ``polygon, id, rank, x, y, r, feet, x_1, y_1, x_2, y_2, x_3, y_3``. ``feet`` is how many places the disc
+            ``label, id, rank, x, y, r, feet, x_1, y_1, x_2, y_2, x_3, y_3``. ``feet`` is how many places the disc
             touches, of which two or three are given: those that hold it, where they are more. Of empty discs instead of
-            ``polygon, id`` there are ``shape_1, shape_2, shape_3``: what the feet are on.
+            ``label, id`` there are ``label_1, label_2, label_3``: the features that the feet are on.
         """
         held = self.held_by()
         is_missing = held < 0
+        names = names_of(self.polygons, self.polygon)
         columns = {
-            "polygon": np.ma.array(self.polygon, mask=self.polygon < 0),
-            "id": ids_of(self.polygons, self.polygon),
+            **names,
             "rank": self.rank,
             "x": self.xy[:, 0].copy(),
             "y": self.xy[:, 1].copy(),
@@ -140,9 +140,9 @@ class Discs(Value, Tabular, Curved, Pictured):
                 values = np.append(self.feet[:, axis], np.nan)[held[:, k]]
                 columns[f"{name}_{k + 1}"] = np.ma.array(values, mask=is_missing[:, k])
         if self.within is not None:
-            del columns["polygon"], columns["id"]
-            shape = np.append(self.site_table.polygon[self.foot_site], -1)[held]
-            columns |= {f"shape_{k + 1}": np.ma.array(shape[:, k], mask=is_missing[:, k]) for k in range(SHOWN_FEET)}
+            columns = {name: column for name, column in columns.items() if name not in names}
+            label = np.append(self.polygons.labels[self.site_table.polygon[self.foot_site]], 0)[held]
+            columns |= {f"label_{k + 1}": np.ma.array(label[:, k], mask=is_missing[:, k]) for k in range(SHOWN_FEET)}
         return Table(columns)
 
     def flattened(self, tolerance: float | None = None) -> PolygonSet:
@@ -187,14 +187,10 @@ class Discs(Value, Tabular, Curved, Pictured):
 
     def _described(self) -> dict[str, Any]:
         """Ids and properties of the discs."""
-        polygons, of = self.polygons, self.polygon.tolist()
         x, y = on_grid(self.xy).T
         own: dict[str, NDArray[Any]] = {"rank": self.rank, "x": x, "y": y, "r": self.radius}
         own["feet"] = np.diff(self.foot_start)
-        properties = {key: [values[p] if p >= 0 else None for p in of] for key, values in polygons.properties.items()}
-        named = {f"voro_{key}" if key in properties else key: values.tolist() for key, values in own.items()}
-        ids = None if polygons.ids is None else [polygons.ids[p] if p >= 0 else None for p in of]
-        return {"ids": ids, "properties": {**properties, **named}}
+        return described_shapes(own, self.polygons, self.polygon)
 
     def _summary(self) -> str:
         return placed(counted(len(self), "disc"), self.polygons.crs, self.polygons.unit)

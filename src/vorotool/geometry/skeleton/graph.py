@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 from vorotool.errors import UsageError
 from vorotool.geometry.checks import is_choice
 from vorotool.geometry.curves.flatten import chained
+from vorotool.geometry.identity import names_of
 from vorotool.geometry.numbers import shown_number
 from vorotool.geometry.skeleton.skeleton import KINDS, SIDES, Skeleton
-from vorotool.geometry.skeleton.tables import branch_table, ids_of
+from vorotool.geometry.skeleton.tables import branch_table
 from vorotool.geometry.sorted_sets import distinct
 from vorotool.geometry.table import Lookup, Table
 
@@ -27,7 +28,8 @@ class SkeletonGraph:
     nodes: NDArray[np.int64]  # (n,) int64 array: its vertices that are nodes, ascending
     source: NDArray[np.int64]  # (e,) int64 array: the vertices at the ends of each edge
     target: NDArray[np.int64]  # (e,) int64 array: the vertices at the ends of each edge
-    # `branch` or `arc`, `polygon`, `id`, `side`, `kind`, `length`, `r_min`, `r_max`, `r_mean`; of branches `type` and
+    polygon: NDArray[np.int32]  # (e,) int32 array: the polygon of each edge; -1 outside
+    # `branch` or `arc`, `label`, `id`, `side`, `kind`, `length`, `r_min`, `r_max`, `r_mean`; of branches `type` and
     # `tortuosity`, too
     edges: Table
     # (k, 2) float64 array: places along the edges, from source to target, the ends included
@@ -50,6 +52,7 @@ def skeleton_graph(skeleton: Skeleton, *, by: str = "branch", flatten: float | N
         distinct(np.concatenate([source, target])),
         source,
         target,
+        skeleton.polygon[first],
         _branches(skeleton, first) if by == "branch" else _arcs(skeleton),
         *chained(points, start, first),
     )
@@ -57,8 +60,7 @@ def skeleton_graph(skeleton: Skeleton, *, by: str = "branch", flatten: float | N
 
 def _branches(skeleton: Skeleton, first: NDArray[np.int64]) -> Table:
     table = branch_table(skeleton, threads=1)
-    names = ("branch", "polygon", "id", "kind", "length", "r_min", "r_max", "r_mean", "type", "tortuosity")
-    columns = {name: table.stored()[name] for name in names}
+    columns = {name: column for name, column in table.stored().items() if name != "chord"}
     return Table({"branch": columns.pop("branch"), "side": _sides(skeleton, first), **columns})
 
 
@@ -66,14 +68,12 @@ def _arcs(skeleton: Skeleton) -> Table:
     least, most, integral = skeleton.arc_radii
     radius = skeleton.radius[skeleton.arcs[:, 0]]
     mean = np.divide(integral, skeleton.length, out=radius, where=skeleton.length > 0)
-    polygon = skeleton.polygon
     return Table(
         {
             "arc": np.arange(len(skeleton)),
             "branch": skeleton.branch,
             "side": _sides(skeleton, np.arange(len(skeleton))),
-            "polygon": np.ma.array(polygon, mask=polygon < 0),
-            "id": ids_of(skeleton.polygons, polygon),
+            **names_of(skeleton.polygons, skeleton.polygon),
             "kind": Lookup(list(KINDS), skeleton.is_parabola.astype(np.int32)),
             "length": skeleton.length,
             "r_min": least,

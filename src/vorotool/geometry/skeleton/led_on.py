@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError
 from vorotool.geometry.collinearity import is_straight
 from vorotool.geometry.curves.flatten import chained
+from vorotool.geometry.identity import names_of
 from vorotool.geometry.polygons.vertices_as_given import places_as_given
 from vorotool.geometry.ragged import owners
 from vorotool.geometry.skeleton.skeleton import KINDS, Skeleton
-from vorotool.geometry.skeleton.tables import ids_of
 from vorotool.geometry.table import Lookup, Table
 from vorotool.geometry.values import Curved, Pictured, Tabular, Value
 from vorotool.types import fields as f
@@ -98,6 +98,12 @@ class LedOn(Value, Tabular, Curved, Pictured):
         return lengths
 
     @cached_property
+    def line_of_row(self) -> NDArray[np.intp]:
+        """(m,) the path of each row of the table, in which extensions are rows, too."""
+        first, last = self.extended
+        return np.sort(np.concatenate([first, owners(np.diff(self.arc_start)), last]))
+
+    @cached_property
     def length(self) -> Floats:
         """(k,) lengths, with what leads on."""
         lengths: Floats = self._summed(self.path.length) + self.extension_length.sum(axis=1)
@@ -142,8 +148,7 @@ def led_on_table(lines: LedOn, *, has_branches: bool) -> Table:
     given, nodes = lines.as_given, lines.end_nodes
     path = given.path
     first, last = lines.extended
-    line = owners(np.diff(lines.arc_start))
-    line = np.concatenate([first, line, last])
+    line = np.concatenate([first, owners(np.diff(lines.arc_start)), last])
     # starts before the arcs of their line, ends behind them: the order is stable
     order = np.argsort(line, kind="stable")
     nothing = np.zeros(len(first)), np.zeros(len(last))
@@ -160,8 +165,7 @@ def led_on_table(lines: LedOn, *, has_branches: bool) -> Table:
     length = np.concatenate([lines.extension_length[first, 0], path.length, lines.extension_length[last, 1]])
     return Table(
         {
-            "polygon": polygon,
-            "id": ids_of(path.polygons, polygon),
+            **names_of(path.polygons, polygon),
             **({"branch": line[order]} if has_branches else {}),
             "arc": np.arange(len(line)) - start[line[order]],
             "x0": begin[:, 0].copy(),

@@ -7,8 +7,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.geometry.identity import names_of
 from vorotool.geometry.skeleton.skeleton import EDGE, Skeleton
-from vorotool.geometry.skeleton.tables import ids_of
 from vorotool.geometry.table import Lookup, Table
 from vorotool.geometry.values import Geometric, Pictured, Tabular, Value, counted, placed
 from vorotool.types import fields as f
@@ -95,13 +95,12 @@ class Necks(Value, Tabular, Geometric, Pictured):
         Returns
         -------
         Table
-            ``polygon, id, x, y, width, ratio, r_smaller, r_larger``, and of both feet ``x_a, y_a, kind_a, ring_a,
+            ``label, id, x, y, width, ratio, r_smaller, r_larger``, and of both feet ``x_a, y_a, kind_a, ring_a,
             index_a`` and the same with b: the site that the foot is on, a vertex or the edge that begins there.
         """
-        table, polygon = self.skeleton.site_table, self.polygon
+        table = self.skeleton.site_table
         columns = {
-            "polygon": polygon,
-            "id": ids_of(self.skeleton.polygons, polygon),
+            **names_of(self.skeleton.polygons, self.polygon),
             "x": self.xy[:, 0].copy(),
             "y": self.xy[:, 1].copy(),
             "width": self.width,

@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 from vorotool.geometry.curves.circular_arcs import chords_of
 from vorotool.geometry.curves.flatten import circle_tolerances
 from vorotool.geometry.curves.inverse_functions import inverse_sine
+from vorotool.geometry.identity import described_shapes, names_of
 from vorotool.geometry.numbers import checked_flatten
 from vorotool.geometry.polygons.polygon_set import HOLE, SHELL, PolygonSet
 from vorotool.geometry.ragged import owners
 from vorotool.geometry.row_index import index_of_rows
 from vorotool.geometry.skeleton.skeleton import SiteTable
-from vorotool.geometry.skeleton.tables import ids_of
 from vorotool.geometry.table import Lookup, Table
 from vorotool.geometry.values import Curved, Pictured, Tabular, Value, counted, placed
 from vorotool.types import fields as f
@@ -190,11 +190,7 @@ class Offsets(Value, Tabular, Curved, Pictured):
 
     def _described(self) -> dict[str, Any]:
         """Ids and properties of the shapes: what is around several features has none."""
-        polygons, of = self.polygons, self.polygon.tolist()
-        name = "voro_distance" if "distance" in polygons.properties else "distance"
-        properties = {key: [values[p] if p >= 0 else None for p in of] for key, values in polygons.properties.items()}
-        ids = None if polygons.ids is None else [polygons.ids[p] if p >= 0 else None for p in of]
-        return {"ids": ids, "properties": {**properties, name: self.distance.tolist()}}
+        return described_shapes({"distance": self.distance}, self.polygons, self.polygon)
 
     def table(self) -> Table:
         """Return a table with one row per piece.
@@ -202,18 +198,16 @@ class Offsets(Value, Tabular, Curved, Pictured):
         Returns
         -------
         Table
-            ``polygon, id, shape, distance, ring, ring_kind, piece, kind, x0, y0, x1, y1, cx, cy, r, ccw, site_index,
+            ``label, id, shape, distance, ring, ring_kind, piece, kind, x0, y0, x1, y1, cx, cy, r, ccw, site_index,
             length``. Rings are counted in their shape, 0 is the shell. A straight line has no center, no radius, and
             does not turn.
         """
         ring = self.ring_of_piece
         shape = self.shape_of_ring[ring]
-        polygon = self.polygon[shape]
         line = ~self.is_arc
         return Table(
             {
-                "polygon": np.ma.array(polygon, mask=polygon < 0),
-                "id": ids_of(self.polygons, polygon),
+                **names_of(self.polygons, self.polygon[shape]),
                 "shape": shape,
                 "distance": self.piece_distance,
                 "ring": ring - self.shape_start[shape],

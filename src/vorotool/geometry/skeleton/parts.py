@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.geometry.identity import described_shapes, names_of
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.ragged import following
 from vorotool.geometry.skeleton.necks import Necks
-from vorotool.geometry.skeleton.tables import ids_of
-from vorotool.geometry.table import Table
+from vorotool.geometry.table import Table, object_column
 from vorotool.geometry.values import Geometric, Pictured, Tabular, Value, counted, placed
 from vorotool.types import fields as f
 from vorotool.types.fields import record
@@ -109,8 +109,7 @@ class Parts(Value, Tabular, Geometric, Pictured):
         return Table(
             {
                 "piece": np.arange(len(self)),
-                "polygon": self.source,
-                "id": ids_of(self.necks.skeleton.polygons, self.source),
+                **names_of(self.necks.skeleton.polygons, self.source),
                 "area": self.area,
                 "width": self.width,
                 "x": self.center[:, 0].copy(),
@@ -129,16 +128,13 @@ class Parts(Value, Tabular, Geometric, Pictured):
         [2.0]
         """
         own: dict[str, Any] = {
-            "piece": list(range(len(self))),
-            "polygon": self.source.tolist(),
-            "area": self.area.tolist(),
-            "width": self.width.tolist(),
-            "cuts": self.cuts.tolist(),
-            "neighbors": self.neighbors(),
+            "piece": np.arange(len(self)),
+            "area": self.area,
+            "width": self.width,
+            "cuts": self.cuts,
+            "neighbors": object_column(self.neighbors()),
         }
-        given = self.polygons.properties
-        named = {f"voro_{name}" if name in given else name: values for name, values in own.items()}
-        return replace(self.polygons, properties={**given, **named})
+        return replace(self.polygons, **described_shapes(own, self.necks.skeleton.polygons, self.source))
 
     def _summary(self) -> str:
         whole = self.necks.skeleton.polygons

@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.geometry.curves.inverse_functions import hypotenuse
+from vorotool.geometry.identity import names_of
 from vorotool.geometry.skeleton.given_feet import moved_feet
 from vorotool.geometry.skeleton.skeleton import SIDES, Skeleton
-from vorotool.geometry.skeleton.tables import ids_of
 from vorotool.geometry.table import Lookup, Table
 from vorotool.geometry.values import Pictured, Tabular, Value, WithParts, counted, placed
 from vorotool.types import fields as f
@@ -104,7 +104,7 @@ class SkeletonPoints(Value, Tabular, WithParts, Pictured):
         Returns
         -------
         Table
-            ``polygon, id, branch, arc, side, along, x, y, r, width, x_a, y_a, x_b, y_b``: foot a is on the left of the
+            ``label, id, branch, arc, side, along, x, y, r, width, x_a, y_a, x_b, y_b``: foot a is on the left of the
             arc. The width is from foot to foot along centerlines, else twice the radius. Outside there is no polygon.
             Centerlines have ``ring_a, ring_b``, too: numbers of holes, 0 for the shell.
         """
@@ -112,8 +112,7 @@ class SkeletonPoints(Value, Tabular, WithParts, Pictured):
         side = skeleton.side[arc]
         return Table(
             {
-                "polygon": np.ma.array(self.polygon, mask=self.polygon < 0),
-                "id": ids_of(skeleton.polygons, self.polygon),
+                **names_of(skeleton.polygons, self.polygon),
                 "branch": skeleton.branch[arc],
                 "arc": arc,
                 "side": Lookup([*SIDES, None], np.where(side < 0, len(SIDES), side).astype(np.int32)),

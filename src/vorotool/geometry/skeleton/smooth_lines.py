@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 
 from vorotool.geometry.curves.cubics import cubic_polylines
 from vorotool.geometry.curves.flatten import chained, curve_tolerances
+from vorotool.geometry.identity import names_of
 from vorotool.geometry.numbers import checked_flatten
 from vorotool.geometry.ragged import owners
 from vorotool.geometry.skeleton.led_on import LedOn
 from vorotool.geometry.skeleton.skeleton import Skeleton
-from vorotool.geometry.skeleton.tables import ids_of
 from vorotool.geometry.table import Table
 from vorotool.geometry.values import Curved, Pictured, Tabular, Value, counted, placed
 from vorotool.types import fields as f
@@ -117,15 +117,13 @@ class SmoothLines(Value, Tabular, Curved, Pictured):
         Returns
         -------
         Table
-            ``polygon, id, branch, curve, x0, y0, x1, y1, x2, y2, x3, y3, error``: the curves of each line are counted
+            ``label, id, branch, curve, x0, y0, x1, y1, x2, y2, x3, y3, error``: the curves of each line are counted
             from 0, and have its error. Outside there is no polygon.
         """
         line, control = self.line, self.as_given.control
-        polygon = self.polygon[line]
         return Table(
             {
-                "polygon": np.ma.array(polygon, mask=polygon < 0),
-                "id": ids_of(self.path.polygons, polygon),
+                **names_of(self.path.polygons, self.polygon[line]),
                 "branch": line,
                 "curve": np.arange(len(control)) - self.start[line],
                 **{f"{axis}{k}": control[:, k, n].copy() for k in range(4) for n, axis in enumerate("xy")},

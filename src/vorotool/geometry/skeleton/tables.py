@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError
 from vorotool.geometry.arguments.descriptions import described
 from vorotool.geometry.arguments.values import check_value
+from vorotool.geometry.identity import names_of
 from vorotool.geometry.parallel import in_chunks
 from vorotool.geometry.polygons.conversion import to_shapely
 from vorotool.geometry.polygons.polygon_set import PolygonSet
@@ -22,24 +23,24 @@ BRANCH_TYPES = ("end-end", "junction-end", "junction-junction", "cycle")
 """As skan has them, by their numbers there."""
 
 BRANCH_COLUMNS = (
-    *("polygon", "id", "branch", "kind", "length", "chord", "r_min", "r_max", "r_mean"),
+    *("label", "id", "branch", "kind", "length", "chord", "r_min", "r_max", "r_mean"),
     *("type", "tortuosity"),
 )
 
 
 def arc_table(skeleton: Skeleton) -> Table:
-    """Tabulate the arcs: polygon, ends with radii, control point of a parabola, sites, length.
+    """Tabulate the arcs: feature, ends with radii, control point of a parabola, sites, length.
 
     Parameters
     ----------
     skeleton : Skeleton
-        Rows are in the order of its arcs. Polygons, arcs and branches are counted from 0.
+        Rows are in the order of its arcs. Arcs and branches are counted from 0, labels from 1.
 
     Returns
     -------
     Table
-        ``polygon, id, arc, source_index, target_index, x0, y0, r0, x1, y1, r1, kind, cx, cy, site_a_index,
-        site_b_index, side, length, error_bound, branch``. Site a is left of the arc. Outside there is no polygon, on a
+        ``label, id, arc, source_index, target_index, x0, y0, r0, x1, y1, r1, kind, cx, cy, site_a_index,
+        site_b_index, side, length, error_bound, branch``. Site a is left of the arc. Outside there is no label, on a
         straight line no control point.
 
     Examples
@@ -55,8 +56,7 @@ def arc_table(skeleton: Skeleton) -> Table:
     site_a, site_b = np.ascontiguousarray(skeleton.sites.T)
     return Table(
         {
-            "polygon": np.ma.array(skeleton.polygon, mask=skeleton.polygon < 0),
-            "id": ids_of(skeleton.polygons, skeleton.polygon),
+            **names_of(skeleton.polygons, skeleton.polygon),
             "arc": np.arange(len(skeleton)),
             "source_index": source,
             "target_index": target,
@@ -90,7 +90,7 @@ def element_table(skeleton: Skeleton) -> Table:
     Returns
     -------
     Table
-        ``element, kind, polygon, id, ring, vertex_index, x0, y0, x1, y1, label_a, label_b``: a vertex has no second
+        ``element, kind, label, id, ring, vertex_index, x0, y0, x1, y1, label_a, label_b``: a vertex has no second
         place. The labels are the paper's, numbers of edges from 1: an edge has its own, a vertex those of its edges
         (the first two of more), and bisectors between elements with a label in common are deleted.
 
@@ -110,8 +110,7 @@ def element_table(skeleton: Skeleton) -> Table:
         {
             "element": np.arange(len(sites)),
             "kind": Lookup(["vertex", "edge"], sites.kind.astype(np.int32)),
-            "polygon": sites.polygon,
-            "id": ids_of(skeleton.polygons, sites.polygon),
+            **names_of(skeleton.polygons, sites.polygon),
             "ring": sites.ring,
             "vertex_index": sites.index,
             "x0": ends[:, 0, 0],
@@ -145,12 +144,6 @@ def site_labels(skeleton: Skeleton) -> NDArray[np.int64]:
     return labels
 
 
-def ids_of(polygons: PolygonSet, polygon: NDArray[np.int32]) -> Lookup:
-    """Column of the input's names of polygons; none of -1."""
-    names = [None] * len(polygons) if polygons.ids is None else list(polygons.ids)
-    return Lookup([*names, None], np.where(polygon < 0, len(polygons), polygon).astype(np.int32))
-
-
 def branch_table(skeleton: Skeleton, *, threads: int = 0) -> Table:
     """Tabulate the branches, chains of arcs between nodes with one arc or more than two.
 
@@ -164,7 +157,7 @@ def branch_table(skeleton: Skeleton, *, threads: int = 0) -> Table:
     Returns
     -------
     Table
-        ``polygon, id, branch, kind, length, chord, r_min, r_max, r_mean, type, tortuosity``. The kind is ``end`` (it
+        ``label, id, branch, kind, length, chord, r_min, r_max, r_mean, type, tortuosity``. The kind is ``end`` (it
         has an end of its own), ``inner`` (it joins junctions), ``closed`` or ``frame`` (it leads from a junction, or
         the frame, to the frame). The chord is the distance between the ends of the branch. The mean of the radius is
         over the length. The type is that of skan: ``end-end``, ``junction-end``, ``junction-junction`` (also of a loop
@@ -196,8 +189,7 @@ def branch_table(skeleton: Skeleton, *, threads: int = 0) -> Table:
     tortuosity = np.maximum(np.divide(length, chord, out=np.ones(len(chord)), where=chord > 0), 1.0)
     return Table(
         {
-            "polygon": np.ma.array(polygon, mask=polygon < 0),
-            "id": ids_of(skeleton.polygons, polygon),
+            **names_of(skeleton.polygons, polygon),
             "branch": skeleton.branch[start],
             "kind": Lookup(["end", "inner", "closed", "frame"], kind),
             "length": length,
@@ -251,7 +243,7 @@ def polygon_table(skeleton: Skeleton, *, columns: Mapping[str, Any] | None = Non
     Returns
     -------
     Table
-        ``polygon, id, area, perimeter, holes, length, branches, ends, junctions, cycles, width_max, width_mean``: of
+        ``label, id, area, perimeter, holes, length, branches, ends, junctions, cycles, width_max, width_mean``: of
         the polygons as they were used; width is twice the radius, its mean over the length of the skeleton. Open lines
         have no area and no width.
 
@@ -288,8 +280,7 @@ def polygon_table(skeleton: Skeleton, *, columns: Mapping[str, Any] | None = Non
     empty = arcs == 0
     table = Table(
         {
-            "polygon": np.arange(count),
-            "id": ids_of(polygons, np.arange(count, dtype=np.int32)),
+            **names_of(polygons, np.arange(count)),
             "area": np.ma.array(area, mask=polygons.is_line),
             "perimeter": perimeter,
             "holes": np.where(polygons.is_line, 0, np.diff(polygons.polygon_start) - 1),
@@ -303,7 +294,7 @@ def polygon_table(skeleton: Skeleton, *, columns: Mapping[str, Any] | None = Non
             **further,
         }
     )
-    return table.with_properties(polygons.properties)
+    return table.with_properties(polygons.other_columns)
 
 
 def _mapping(columns: Any) -> dict[str, Any]:

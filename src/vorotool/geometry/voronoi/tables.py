@@ -33,8 +33,8 @@ def border_table(cells: VoronoiMap) -> Table:
     cx, cy = np.ascontiguousarray(cells.control[arc].T)
     return Table(
         {
-            "label_a": low + 1,
-            "label_b": high + 1,
+            "label_a": cells.labels[low],
+            "label_b": cells.labels[high],
             "kind": Lookup(KINDS, kinds_of(cells)[arc]),
             "x0": Lookup(x, source),
             "y0": Lookup(y, source),
@@ -63,7 +63,7 @@ def neighbor_pairs(cells: VoronoiMap) -> tuple[NDArray[np.int64], NDArray[np.flo
 def neighbor_table(cells: VoronoiMap) -> Table:
     """Give one row a pair of cells that share a border; cells that meet in places only are none."""
     pairs, length = neighbor_pairs(cells)
-    low, high = np.ascontiguousarray(pairs.T) + 1
+    low, high = cells.labels[pairs.T]
     distance = _when_asked(lambda: site_distances(cells, pairs), len(pairs))
     return Table({"label_a": low, "label_b": high, "border_length": length, "distance": distance})
 
@@ -71,7 +71,7 @@ def neighbor_table(cells: VoronoiMap) -> Table:
 def cell_table(cells: VoronoiMap) -> Table:
     """Give one row a cell."""
     pairs, _ = neighbor_pairs(cells)
-    columns: dict[str, Any] = {"label": np.arange(1, len(cells) + 1)}
+    columns: dict[str, Any] = {"label": cells.labels}
     if cells.ids is not None:
         columns["id"] = list(cells.ids)
     columns |= {
@@ -82,7 +82,7 @@ def cell_table(cells: VoronoiMap) -> Table:
         "max_distance": _when_asked(lambda: cells.reaches, len(cells)),
         "components": cells.components,
     }
-    return Table(columns).with_properties(cells.properties)
+    return Table(columns).with_properties(cells.other_columns)
 
 
 def _when_asked(function: Callable[[], NDArray[np.float64]], size: int) -> Computed:

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.geometry.curves.mixed_arcs import MixedArcs
+from vorotool.geometry.identity import feature_labels, other_columns
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.ragged import owners
 from vorotool.geometry.table import Table
@@ -122,6 +123,16 @@ class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
     def __len__(self) -> int:
         """Give the number of cells, empty ones too."""
         return len(self.cell_start) - 1
+
+    @cached_property
+    def labels(self) -> NDArray[np.int64]:
+        """(s,) label of each cell: what its column ``label`` holds, else its number from 1."""
+        return feature_labels(np.arange(len(self)), self.properties)
+
+    @cached_property
+    def other_columns(self) -> dict[str, Any]:
+        """The properties without the column that holds the labels."""
+        return other_columns(self.properties, self.labels)
 
     @property
     def crs(self) -> Any:

@@ -114,7 +114,7 @@ def _objects(cells: VoronoiMap, width: float, radius: float) -> list[Layer]:
 
 def _names(cells: VoronoiMap, page: Page) -> Texts:
     """Ids of the sites on these, else their labels, or what the column says that the page is to have."""
-    own = range(1, len(cells) + 1) if cells.ids is None else cells.ids
+    own = cells.labels.tolist() if cells.ids is None else cells.ids
     texts = column_texts(cells.properties, page.style.label_by, own)
     places, site, dimension = _places_of_names(cells)
     size, is_centered = name_size(page, len(cells)), bool((dimension > 0).any())
