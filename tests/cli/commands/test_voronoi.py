@@ -59,6 +59,14 @@ def is_equal(got, expected):
 
 
 # ---- what is read ------------------------------------------------------------------------------------
+def test_a_limit_of_distance_widens_the_default_frame(run):
+    rooms = (
+        "POLYGON((0 0,10 0,10 10,0 10,0 0))\nPOLYGON((13 0,20 0,20 7,13 7,13 0))\nPOLYGON((0 14,9 14,9 20,0 20,0 14))"
+    )
+    done = run("voronoi", "-", "--max-distance", "4", "--what", "table", "--verify", data=rooms.encode())
+    assert sum(float(row["area"]) for row in done.rows) == pytest.approx(623.6222, abs=1e-4)
+
+
 def test_cells_go_to_standard_output(run, mixed, right):
     done = run("voronoi", mixed, "--verify")
     assert done.code == 0

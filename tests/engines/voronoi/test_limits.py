@@ -186,8 +186,46 @@ def test_three_four_five():
 @pytest.mark.parametrize("seed", range(4))
 def test_a_limit_beyond_everything_changes_no_bit(seed, limit):
     sites = mixed_sites(np.random.default_rng(seed), 8, grid=(None, 4)[seed % 2])
-    cells = quietly(sites, max_distance=limit)
-    assert replace(cells, max_distance=None) == quietly(sites)
+    cells = quietly(sites, max_distance=limit, frame=FRAME)
+    assert replace(cells, max_distance=None) == quietly(sites, frame=FRAME)
+
+
+# ---- the default frame -------------------------------------------------------------------------------
+ROOMS = ["POLYGON ((0 0, 10 0, 10 10, 0 10, 0 0))", "POLYGON ((13 0, 20 0, 20 7, 13 7, 13 0))",
+         "POLYGON ((0 14, 9 14, 9 20, 0 20, 0 14))"]  # fmt: skip
+
+
+@pytest.mark.parametrize("limit", [0.5, 2, 4, 30, 1e6])
+def test_the_default_frame_holds_all_cells(limit):
+    shapes = shapely.from_wkt(ROOMS)
+    cells = within(shapes, limit)
+    whole = shapely.union_all(shapely.buffer(shapes, limit, quad_segs=4096))
+    assert cells.areas.sum() == pytest.approx(whole.area, rel=1e-6)
+    left, bottom, width, height = cells.frame
+    assert shapely.box(left, bottom, left + width, bottom + height).contains_properly(whole)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_cells_of_random_sites_are_the_union_of_buffers(seed):
+    sites = mixed_sites(np.random.default_rng(seed), 5, grid=4)
+    cells = within(sites, 25)
+    assert cells.areas.sum() == pytest.approx(
+        shapely.union_all(shapely.buffer(sites, 25, quad_segs=4096)).area, rel=1e-6
+    )
+
+
+def test_with_enclosures_the_default_frame_holds_all_cells():
+    line = shapely.LineString([(11.5, -3), (11.5, 24)])
+    cells = quietly(shapely.from_wkt(ROOMS), max_distance=30, enclosures=line)
+    verify_voronoi(cells, places=200)
+    whole = shapely.union_all(shapely.buffer(shapely.from_wkt(ROOMS), 30, quad_segs=4096))
+    assert cells.areas.sum() == pytest.approx(whole.area, rel=1e-6)
+
+
+def test_a_limit_beyond_everything_does_not_widen_the_lattice_of_enclosures():
+    line = shapely.LineString([(11.5, -3), (11.5, 24)])
+    cells = quietly(shapely.from_wkt(ROOMS), max_distance=1e12, enclosures=line)
+    assert cells.own_areas.tolist() == pytest.approx([100, 49, 54], rel=1e-4)
 
 
 # ---- invariance --------------------------------------------------------------------------------------

@@ -162,14 +162,18 @@ def face_groups(placed: PlacedShapes, side: str) -> NDArray[np.int32]:
     return group
 
 
-def default_frame(polygons: PolygonSet) -> Frame:
-    """Return the box of the image, else the bounds and a tenth of their larger side; around one place a square."""
+def default_frame(polygons: PolygonSet, max_distance: float | None = None) -> Frame:
+    """Return the box of the image, else the bounds and a tenth of their larger side; around one place a square.
+
+    The margin is larger than `max_distance`, so that the frame holds all places within that distance.
+    """
     if polygons.frame is not None:
         return polygons.frame.extent
     if not len(polygons.xy):
         return (-1.0, -1.0, 2.0, 2.0)
     low, high = bounds(polygons.xy)
     margin = FRAME_MARGIN * float((high - low).max()) or 1.0
+    margin = max(margin, (1 + FRAME_MARGIN) * (max_distance or 0.0))
     x, y = (low - margin).tolist()
     w, h = (high - low + 2 * margin).tolist()
     return (x, y, w, h)

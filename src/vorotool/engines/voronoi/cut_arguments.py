@@ -17,6 +17,9 @@ from vorotool.geometry.polygons.polygon_set import LINE, PolygonSet, set_of_ring
 
 Frame = tuple[float, float, float, float]
 
+FARTHEST = 8.0
+"""Margin of the frame at most, in extents of what is in it: the frame is on the lattice, whose step grows with it."""
+
 
 @dataclass(frozen=True, eq=False)
 class GivenCuts:
@@ -30,16 +33,19 @@ class GivenCuts:
         """Whether there is one of them."""
         return self.clip is not None or self.enclosures is not None
 
-    def frame_for(self, sites: PolygonSet, frame: Frame | None) -> Frame | None:
+    def frame_for(self, sites: PolygonSet, frame: Frame | None, limit: float | None) -> Frame | None:
         """Return the frame that was given, else that of an image; without a clip that around sites and enclosures."""
         if frame is None and sites.frame is not None:
             return sites.frame.extent
         if frame is not None or self.clip is not None:
             return frame
         if self.enclosures is None or not len(self.enclosures.xy):
-            return default_frame(sites)
+            return default_frame(sites, limit)
         xy = np.concatenate([sites.xy, self.enclosures.xy])
-        return default_frame(set_of_rings(xy, [len(xy)], [LINE], [0]))
+        if limit is not None:
+            low, high = bounds(xy)
+            limit = min(limit, FARTHEST * float((high - low).max()))
+        return default_frame(set_of_rings(xy, [len(xy)], [LINE], [0]), limit)
 
 
 def given_cuts(clip: Any, enclosures: Any, crs: Any) -> GivenCuts:

@@ -176,7 +176,7 @@ def cut_curves(borders: Borders, graph: PlanarGraph, pieces: Indices) -> CutCurv
     last = first + 1
     corners = graph.points.astype(np.float64)
     of = [_ends(graph, element) for element in elements.T]
-    knows = ((elements < count).any(axis=1)) & _are_apart(elements, graph)
+    knows = ((elements < count).any(axis=1)) & _are_apart(elements, graph) & np.isnan(borders.center[pieces, 0])
     chosen = np.flatnonzero((size.max(axis=0) > FAR) & knows)
     (la, lb), (ra, rb) = ((corners[one[chosen]], corners[other[chosen]]) for one, other in of)
     across = la + lb - ra - rb

@@ -80,7 +80,7 @@ def voronoi(
         side, but none with a clip.
     max_distance : float, optional
         Largest distance from a site, in input units: places farther from every site belong to none. The limit is formed
-        by parallels of edges and by circular arcs.
+        by parallels of edges and by circular arcs. The default frame contains all of it, but for an image.
     enclosures : PolygonSet, geometry of shapely, geopandas, GeoJSON or WKT, optional
         Lines and boundaries of polygons that divide the plane into faces. Each face is partitioned among the sites that
         meet its inside, by distances to the whole site; a face without sites is unassigned. The default frame contains
@@ -136,7 +136,7 @@ def voronoi(
         made = map_between_cuts(given, cuts, given_frame, limit, threads=threads, progress=progress)
         arcs, rings, is_cut, extent = made.arcs, made.rings, made.is_cut, made.frame
     else:
-        extent = given_frame or default_frame(given.polygons)
+        extent = given_frame or default_frame(given.polygons, limit)
         owned = owned_graph(given.polygons, given.site, threads=threads, progress=progress)
         arcs, rings = _map(owned, extent, limit, threads, progress)
         is_cut = (arcs.sites == OUTSIDE).any(axis=1)
