@@ -10,10 +10,14 @@ METRES = {
     "µm": Fraction(1, 10**6),
     "mm": Fraction(1, 10**3),
     "cm": Fraction(1, 10**2),
+    "dm": Fraction(1, 10),
     "m": Fraction(1),
     "km": Fraction(10**3),
     "in": Fraction(254, 10**4),
     "ft": Fraction(3048, 10**4),
+    "ftUS": Fraction(1200, 3937),
+    "yd": Fraction(9144, 10**4),
+    "mi": Fraction(1609344, 10**3),
 }
 """Of how many metres each unit is that options may have."""
 
@@ -28,24 +32,45 @@ _NAMES = {
     '"': "inch",
     "foot": "ft",
     "feet": "ft",
+    "yard": "yd",
+    "yards": "yd",
+    "mile": "mi",
+    "miles": "mi",
+    "us survey foot": "ftUS",
+    "us survey ft": "ftUS",
+    "ftus": "ftUS",
     "degree": "deg",
     "degrees": "deg",
     "°": "deg",
 }
-_PREFIXES = {"pico": "pm", "nano": "nm", "micro": "µm", "milli": "mm", "centi": "cm", "": "m", "kilo": "km"}
+_PREFIXES = {
+    "pico": "pm",
+    "nano": "nm",
+    "micro": "µm",
+    "milli": "mm",
+    "centi": "cm",
+    "deci": "dm",
+    "": "m",
+    "kilo": "km",
+}
 _NAMES |= {
     f"{prefix}{metre}": name for prefix, name in _PREFIXES.items() for metre in ("metre", "metres", "meter", "meters")
 }
-_OTHERS = {"pm": Fraction(1, 10**12), "Å": Fraction(1, 10**10)}
+_OTHERS = {"pm": Fraction(1, 10**12), "Å": Fraction(1, 10**10), "mil": Fraction(254, 10**7)}
 _LENGTHS = {_NAMES.get(unit, unit): metres for unit, metres in METRES.items()} | _OTHERS
 """By the one name of each unit."""
-_IMPERIAL = ("inch", "ft")
+_IMPERIAL = ("inch", "ft", "ftUS", "yd", "mi", "mil")
 
 
 def unit_name(text: str) -> str:
     """Give the one name of a unit, whatever its spelling; a unit that is not known keeps its own."""
     plain = text.strip()
     return _NAMES.get(plain) or _NAMES.get(plain.lower()) or plain
+
+
+def ascii_unit(unit: str) -> str:
+    """Write a unit in ASCII, as tables and files have it."""
+    return unit.replace("µ", "u").replace("\u03bc", "u")
 
 
 def ratio(unit: str, other: str) -> Fraction | None:

@@ -58,7 +58,7 @@ def products(run: Run, o: AlphaShapeOptions, given: JobInput) -> ShapeProducts:
     if not measured(o):  # what is wrong with it is said before a long file is read
         chosen_radius(o.r, o.alpha, o.auto)
     with run.phase("read"):
-        points = read_sites(
+        o, points = read_sites(
             run, o, given, properties="points" in o.what or o.label_by is not None, is_digital=o.method != "exact"
         )
         o, points = placed_sites(run, o, given, points)

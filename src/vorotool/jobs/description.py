@@ -25,6 +25,7 @@ from vorotool.formats.volumes.zarr_volume import ZarrVolume
 from vorotool.geometry.arguments.sites import Sites
 from vorotool.geometry.box import bounds
 from vorotool.geometry.crs import crs_name
+from vorotool.geometry.input_unit import unit_of
 from vorotool.geometry.pixel_grid import PixelGrid
 from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.points.raster import Raster
@@ -321,8 +322,10 @@ def _of_pixels(width: int, height: int, kind: Any, grid: PixelGrid | None) -> De
 
 def _of_places(xy: NDArray[np.float64], value: PointSet | PolygonSet) -> Description:
     low, high = bounds(xy) if len(xy) else (None, None)
+    unit = unit_of(value)
     return {
         "bounds": None if low is None or high is None else [*low.tolist(), *high.tolist()],
+        "unit": None if unit is None else unit.text,
         "crs": None if value.crs is None else crs_name(value.crs),
         "y": "up" if value.y_up else "down",
     }
@@ -354,7 +357,8 @@ def as_json(told: Description) -> bytes:
 
 def as_text(told: Description) -> bytes:
     """Give it as lines for people: what a file does not say is left out."""
-    shown = {name: _words(name, value, told) for name, value in told.items() if name not in ("input", "unit", "notes")}
+    apart = {"input", "notes", *(["unit"] if {"pixel_size", "voxel_size"} & set(told) else [])}
+    shown = {name: _words(name, value, told) for name, value in told.items() if name not in apart}
     lines = [f"  {_TITLES.get(name, name):10} {text}" for name, text in shown.items() if text]
     lines += [f"  {'note':10} {text}" for text in told.get("notes", ())]
     title = "standard input" if told["input"] == "-" else told["input"]

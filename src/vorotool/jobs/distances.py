@@ -61,7 +61,9 @@ class DistanceProducts:
 
     def _read(self, given: JobInput) -> PolygonSet:
         with opened_input(self.options, given, "sites") as source:
-            value = read_opened(self.run, self.options, given, source, columns=self.options.columns, properties=False)
+            _, value = read_opened(
+                self.run, self.options, given, source, columns=self.options.columns, properties=False
+            )
         polygons = as_sites(value).polygons
         if not len(polygons):
             report_no_geometry(self.run, self.options, given.name)

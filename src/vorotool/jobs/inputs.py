@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager
-from typing import TYPE_CHECKING, Any, NamedTuple
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from vorotool.errors import InputError, Kind, Message, UsageError
 from vorotool.formats.io.descriptors import input_identity
+from vorotool.formats.parsing.reader_options import no_note
 from vorotool.jobs.masks import settled_foreground
 from vorotool.jobs.options import (
     ComputingOptions,
@@ -17,7 +19,7 @@ from vorotool.jobs.options import (
     TessellationOptions,
 )
 from vorotool.jobs.run_log import Run
-from vorotool.jobs.units import known_length
+from vorotool.jobs.units import Measured, known_length, measured, unit_stats
 
 if TYPE_CHECKING:
     from vorotool.engines.tessellation.seeding import SeedMode
@@ -28,6 +30,9 @@ if TYPE_CHECKING:
     from vorotool.geometry.points.raster import Raster
     from vorotool.geometry.points.seed_set import SeedSet
     from vorotool.render.canvas.layers import Backdrop
+
+Computing = TypeVar("Computing", bound=ComputingOptions)
+OfSites = TypeVar("OfSites", bound=SiteOptions)
 
 
 class JobInput(NamedTuple):
@@ -53,46 +58,72 @@ def opened_input(o: ComputingOptions, given: JobInput, geometry: str | None) -> 
 
 def read_opened(
     run: Run,
-    o: ComputingOptions,
+    o: Computing,
     given: JobInput,
     source: Opened,
     *,
     columns: str | None = None,
     properties: bool = True,
-) -> Any:
-    """Read what is open, whole, as the options say: points, polygons or sites, as it was opened, or an image."""
+) -> tuple[Computing, Any]:
+    """Read what is open, whole, as the options say: points, polygons or sites, as it was opened, or an image.
+
+    The options that come back have lengths in its coordinates.
+    """
     from vorotool.geometry.arguments.sites import Sites
     from vorotool.geometry.points.point_set import PointSet
     from vorotool.geometry.points.raster import Raster
     from vorotool.geometry.polygons.polygon_set import PolygonSet
+    from vorotool.jobs.input_lengths import lengths_of_image, lengths_of_vectors, side_of_pixel, unit_stated
 
-    value = source.read(
-        columns=columns,
-        max_pixels=o.max_pixels,
-        max_sites=o.max_sites,
-        properties=properties and not o.no_properties,
-        threads=o.threads,
-        note=run.note,
-        crs=o.input_crs,
-        to_crs=o.crs,
-        flatten=known_length(o.flatten) if isinstance(o, ShapeOptions) else None,
-        join_tolerance=known_length(o.join_tolerance) if isinstance(o, ShapeOptions) else None,
-    )
+    wants_unit = bool(measured(o)) or (o.pixel_size is not None and o.pixel_size.is_auto)  # a column may state it
+    wants_properties = properties and not o.no_properties
+
+    def read(of: Opened, note: Callable[[str], None] = no_note, **more: Any) -> Any:
+        return of.read(
+            columns=columns,
+            max_pixels=o.max_pixels,
+            max_sites=o.max_sites,
+            properties=wants_properties or wants_unit,
+            threads=o.threads,
+            note=note,
+            crs=o.input_crs,
+            **more,
+        )
+
+    tolerances: dict[str, Any] = {}
+    if isinstance(o, ShapeOptions):
+        source, tolerances = _tolerances(o, source, read)
+    value = read(source, run.note, to_crs=o.crs, **tolerances)
     if not isinstance(value, PointSet | PolygonSet | Sites | Raster):  # which is read where no geometry is asked for
         raise InputError(
             f"{given.name} is a result of vorotool, of {type(value).__name__}: points or polygons were due"
         )
     if isinstance(value, Raster):
         note_other_size(run, o, given, value.values.shape)
-        return value
-    if o.pixel_size is not None and o.pixel_size.is_auto:
-        instead = "numbers and their unit, such as 0.325,0.5um" if o.pixel_size.is_spacing else (
-            "a number and its unit, such as 0.325um"
-        )  # fmt: skip
-        raise UsageError(f"{o.pixel_size.option} auto is for images, whose files may say it: give {instead}")
+        run.pixel = side_of_pixel(value.grid)
+        return lengths_of_image(o, value.grid), value
     if isinstance(o, SiteOptions):
         refuse(o.for_images(), "is for images, but the input is a list of points")
-    return value
+    o = lengths_of_vectors(o, value)
+    run.unit = unit_stated(value)
+    if o.pixel_size is not None:
+        run.stats |= unit_stats(o.pixel_size)
+    return o, value if wants_properties or not wants_unit else replace(value, properties={})
+
+
+def _tolerances(o: ShapeOptions, source: Opened, read: Callable[..., Any]) -> tuple[Opened, dict[str, Any]]:
+    """Give the tolerances of reading as numbers; where these have a unit, a first reading tells that of the input."""
+    names = ("flatten", "join_tolerance")
+    if any(isinstance(getattr(o, name), Measured) for name in names):
+        from vorotool.geometry.points.raster import Raster
+        from vorotool.jobs.input_lengths import lengths_of_vectors
+
+        source = source.fetched()
+        first = read(source)
+        if not isinstance(first, Raster):
+            others: dict[str, Any] = {name: None for name in measured(o) if name not in names}
+            o = lengths_of_vectors(replace(o, **others), first)
+    return source, {name: known_length(getattr(o, name)) for name in names}
 
 
 def report_no_geometry(run: Run, o: ComputingOptions, what: str = "the input") -> None:
@@ -134,22 +165,24 @@ def check_frame_options(o: SiteOptions, *, is_digital: bool) -> None:
         refuse(o.of_frame(), "is the frame of a tessellation: use --method digital or digital-valid")
 
 
-def read_sites(run: Run, o: SiteOptions, given: JobInput, *, properties: bool, is_digital: bool) -> PointSet | SeedSet:
+def read_sites(
+    run: Run, o: OfSites, given: JobInput, *, properties: bool, is_digital: bool
+) -> tuple[OfSites, PointSet | SeedSet]:
     """Read points to triangulate, or find those of an image, as the options say."""
     from vorotool.geometry.points.point_set import PointSet
     from vorotool.geometry.points.raster import Raster
 
     with opened_input(o, given, "points") as source:
-        value = read_opened(run, o, given, source, columns=o.columns, properties=properties)
+        o, value = read_opened(run, o, given, source, columns=o.columns, properties=properties)
     if isinstance(value, PointSet):
         if not len(value):
             report_no_geometry(run, o)
-        return value
+        return o, value
     assert isinstance(value, Raster)  # what is asked for is points, or an image
     refuse({"columns": o.columns}, "is for lists of points, but the input is an image")
     refuse(o.of_frame(), "is for lists of points, but the input is an image, which brings its own frame")
     # The sites of objects are their centroids, but their regions are not those of the centroids.
-    return seeds_of_image(run, o, value, None if o.seeds == "centroids" and not is_digital else o.seeds)
+    return o, seeds_of_image(run, o, value, None if o.seeds == "centroids" and not is_digital else o.seeds)
 
 
 def seeds_of_image(run: Run, o: SiteOptions, image: Raster, mode: SeedMode | None) -> SeedSet:

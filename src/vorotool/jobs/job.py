@@ -51,6 +51,7 @@ def process_input(recipe: Recipe[Options], run: Run, options: Options, path: str
     """Read one input, compute, check and write its results, which take their places together."""
     from vorotool.formats.io.atomic_output import make_folder
     from vorotool.formats.io.commit import committed_together
+    from vorotool.formats.text.feature_collection import unit_member
     from vorotool.formats.text.tables import safe_texts, unit_column
     from vorotool.geometry.coordinate_grid import coordinates_written
 
@@ -73,7 +74,8 @@ def process_input(recipe: Recipe[Options], run: Run, options: Options, path: str
     decimals = None if computing is None else computing.decimals
     is_verified = computing is not None and computing.verify
     deviation = 0.0
-    with committed_together(), safe_texts(is_safe), unit_column(unit):
+    stated = run.unit if size is None else unit
+    with committed_together(), safe_texts(is_safe), unit_column(unit), unit_member(stated):
         for target in targets:
             if options.out_dir is not None:
                 make_folder(Path(target.path).parent)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from vorotool.errors import InputError, Kind, Message, VorotoolWarning, warn
+from vorotool.errors import InputError, Kind, Message, UsageError, VorotoolWarning, warn
 from vorotool.jobs.inputs import no_seeds
 from vorotool.jobs.options import TessellationOptions
 from vorotool.jobs.run_log import Run
@@ -34,6 +34,8 @@ def seeds_on_map(run: Run, o: TessellationOptions, value: PointSet | PolygonSet)
     if is_empty and o.window is None:
         return o, no_seeds(run, o)
     assert o.cell_size is not None
+    if not 1e-100 < o.cell_size < 1e100:
+        raise UsageError("--cell-size must be more than 0, and at most 1e100")
     low, high = (np.zeros(2), np.zeros(2)) if is_empty else bounds(value.xy)
     frame, grid = map_frame(low, high, o.cell_size, window=o.window, crs=value.crs)
     o = replace(o, window=(frame.x, frame.y, frame.width, frame.height), size=None, pixel_size=o.pixel_size or AUTO)

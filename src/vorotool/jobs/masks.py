@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from vorotool.jobs.options import ComputingOptions, ShapeOptions, SiteOptions
 from vorotool.jobs.run_log import Run
-from vorotool.jobs.units import areas_of_image
 
 if TYPE_CHECKING:
     from vorotool.engines.tessellation.cleaned_masks import Cleaning
@@ -67,7 +66,6 @@ def _cleaned(run: Run, o: SiteOptions | ShapeOptions, found: Foreground) -> Fore
     from vorotool.engines.tessellation.cleaned_masks import Cleaning, cleaned_values
     from vorotool.engines.tessellation.raster_objects import foreground_values
 
-    o = areas_of_image(o, found.image.grid)
     cleaning = Cleaning.of(o.min_area, o.fill_holes)
     values = foreground_values(found.image, found.threshold, invert=found.invert)
     cleaned = cleaned_values(values, cleaning, o.seeds, connectivity=int(o.connectivity or 8), missing=found.image.mask)

@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from vorotool.errors import UsageError
+from vorotool.geometry.length_units import METRES
 
 if TYPE_CHECKING:
     from vorotool.jobs.options import JobOptions
     from vorotool.render.canvas.layers import Page
     from vorotool.render.canvas.styles import PictureStyle, ScaleBar
 
-MILLIMETRES = {
-    **{"nm": 1e-6, "um": 1e-3, "mm": 1.0, "cm": 10.0, "dm": 100.0, "m": 1e3, "km": 1e6},
-    **{"in": 25.4, "ft": 304.8, "yd": 914.4},
-}
-"""Of the units that ``--unit`` has."""
+DRAWING_UNITS = ("nm", "um", "mm", "cm", "dm", "m", "km", "in", "ft", "yd")
+"""Those of ``--unit``."""
 
 
 LARGEST_WIDTH = 1e6
@@ -165,7 +164,7 @@ class World(NamedTuple):
     """Where what is drawn lies."""
 
     scale_bar: ScaleBar | None = None  # what lengths are written in
-    millimetre_unit: str | None = None  # unit of the data, for pictures to scale
+    millimetres: Fraction | None = None  # of 1 in the coordinates of the data, for pictures to scale
     aspect: float = 1.0  # px of a unit of y for each of a unit of x
     frame: tuple[float, float, float, float] | None = None  # of the image that the data come from
 
@@ -180,7 +179,7 @@ def styled_page(page: Page, looks: Looks, world: World) -> Page:
         bounds = page.bounds if frame is None else frame
         aspect = world.aspect if looks.aspect is None else looks.aspect
         if looks.scale is not None or looks.drawing_unit is not None:
-            millimetres = _millimetres(looks, world.millimetre_unit)
+            millimetres = _millimetres(looks, world.millimetres)
             page = ScaledPage(bounds, y_up=page.y_up, millimetres=millimetres)
         elif frame is not None or aspect != 1:
             margin = MARGIN if frame is None else 0.0
@@ -200,14 +199,15 @@ def color_code(text: str) -> str | None:
     return "#" + "".join(f"{channel:02x}" for channel in rgb) if len(rgb) == 3 else None
 
 
-def _millimetres(looks: Looks, unit: str | None) -> float:
+def _millimetres(looks: Looks, own: Fraction | None) -> float:
     """Millimetres of paper a unit of the data."""
     if looks.scale is not None and not looks.scale.is_ratio:
         return looks.scale.number
-    named = looks.drawing_unit or unit
-    if named not in MILLIMETRES:
+    if looks.drawing_unit is not None:
+        own = METRES[looks.drawing_unit] * 1000
+    if own is None:
         raise UsageError(
-            f"--scale 1:N needs the unit of the input, which names none: add --unit ({', '.join(MILLIMETRES)}), or use "
-            "--scale S, millimetres a unit"
+            f"--scale 1:N needs the unit of the input, which names none: add --unit ({', '.join(DRAWING_UNITS)}), or "
+            "use --scale S, millimetres a unit"
         )
-    return MILLIMETRES[named] / (1.0 if looks.scale is None else looks.scale.number)
+    return float(own if looks.scale is None else own / Fraction(looks.scale.number))

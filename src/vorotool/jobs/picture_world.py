@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from vorotool.errors import UsageError
-from vorotool.geometry.crs import crs_text, is_geographic
-from vorotool.geometry.length_units import unit_name
+from vorotool.geometry.crs import is_geographic
+from vorotool.geometry.input_unit import InputUnit, unit_of_crs
+from vorotool.geometry.length_units import ratio, unit_name
 from vorotool.jobs.picture_style import Looks, World
 
 if TYPE_CHECKING:
@@ -49,7 +51,10 @@ def world_of(
                 run.note("there is no scale bar: the length of a degree of longitude differs from place to place")
         else:
             bar = _scale_bar(crs, unit, size, is_image=frame is not None)
-    return World(bar, unit, aspect, None if frame is None else frame.sides)
+    scale = looks.scale
+    wants_unit = scale is not None and scale.is_ratio and looks.drawing_unit is None
+    millimetres = _millimetres(crs, unit, size, run, is_image=frame is not None) if wants_unit else None
+    return World(bar, millimetres, aspect, None if frame is None else frame.sides)
 
 
 def world_of_sites(run: Run, o: SiteOptions, mesh: AnyTriangulation, sites: PointSet | SeedSet) -> World:
@@ -139,23 +144,21 @@ def _scale_bar(crs: Any, unit: str | None, size: PixelSize | None, *, is_image: 
 
     if size is not None and not size.is_auto:
         return ScaleBar(float(size.factor), None if size.unit is None else unit_name(size.unit))
-    return ScaleBar(1.0, "px" if is_image else unit or _unit_of(crs))
+    found = None if is_image or unit else unit_of_crs(crs)
+    return ScaleBar(1.0, "px" if is_image else unit or (found and found.text))
 
 
-def _unit_of(crs: Any) -> str | None:
-    """Unit of a system of a map, if it names one and pyproj, which knows it, is there."""
-    text = crs_text(crs)
-    if text is None:
-        return None
-    try:
-        import pyproj
-    except ImportError:
-        return None
-    try:
-        axes = pyproj.CRS.from_user_input(text).axis_info
-    except pyproj.exceptions.CRSError:
-        return None
-    return unit_name(axes[0].unit_name) if axes else None
+def _millimetres(
+    crs: Any, unit: str | None, size: PixelSize | None, run: Run | None, *, is_image: bool
+) -> Fraction | None:
+    """How many millimetres 1 in the coordinates is, if that is known."""
+    known = None if is_image else unit_of_crs(crs) if unit is None else InputUnit(unit)
+    if size is not None and size.unit is not None:
+        known = InputUnit(size.unit, size.factor)
+    elif is_image and run is not None:
+        known = run.pixel
+    ratio_of = None if known is None else ratio(known.unit, "mm")
+    return None if known is None or ratio_of is None else known.side * ratio_of
 
 
 def check_column(label_by: str | None, columns: Iterable[str], option: str = "--label-by") -> None:

@@ -13,9 +13,7 @@ from vorotool.jobs.options import ComputingOptions, ShapeOptions, SkeletonOption
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.units import (
     PixelSize,
-    lengths_in_pixels,
     lengths_in_steps,
-    measured,
     sides_of,
     takes_spacing,
     unit_stats,
@@ -38,7 +36,7 @@ def with_pixel_size(run: Run, o: Options, given: JobInput, grid: PixelGrid | Non
     if asked is not None and not asked.is_auto:
         return o
     is_spacing = asked is not None and asked.is_spacing
-    if not given.has_units and not measured(o) and not is_spacing:
+    if not given.has_units and not is_spacing:
         return o
     if grid is not None and grid.transform is not None:
         size = _on_map(run, given, grid, o)
@@ -49,7 +47,7 @@ def with_pixel_size(run: Run, o: Options, given: JobInput, grid: PixelGrid | Non
         if grid is not None and grid.is_size:
             run.note(_note_of_size(given, grid, o))
     run.stats |= unit_stats(size)
-    return _mirrored_places(lengths_in_pixels(replace(o, pixel_size=size), size))
+    return _mirrored_places(replace(o, pixel_size=size))
 
 
 def _of_file(grid: PixelGrid | None, o: ComputingOptions) -> PixelSize:

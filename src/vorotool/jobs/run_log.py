@@ -8,13 +8,16 @@ import warnings
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, ExitStack, contextmanager
 from types import TracebackType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from vorotool import __version__
 from vorotool.errors import Kind, Message, VorotoolWarning
 from vorotool.geometry.progress import Progress, Report
 from vorotool.jobs.terminal import tell
 from vorotool.signals import end_by_exceptions
+
+if TYPE_CHECKING:
+    from vorotool.geometry.input_unit import InputUnit
 
 PROGRESS_AFTER = 1.0
 """Seconds before a progress bar appears on a terminal."""
@@ -46,6 +49,8 @@ class Run:
         self._inner: list[float] = []
         self._stack = ExitStack()
         self.stats: dict[str, Any] = {"command": command, "version": __version__}
+        self.unit: str | None = None  # of the coordinates of the input, where no reference system states it
+        self.pixel: InputUnit | None = None  # the side of a pixel of the input, where that is known
 
     def __enter__(self) -> Run:
         """Collect warnings from here on."""

@@ -37,7 +37,7 @@ def read_polygons(run: Run, o: Options, given: JobInput) -> ReadPolygons[Options
     from vorotool.geometry.polygons.polygon_set import PolygonSet
 
     with opened_input(o, given, "polygons") as source:
-        value = read_opened(run, o, given, source)
+        o, value = read_opened(run, o, given, source)
     if isinstance(value, Raster):
         return outlined(run, o, given, value)
     assert isinstance(value, PolygonSet)  # what is asked for is polygons, or an image

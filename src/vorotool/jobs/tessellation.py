@@ -38,6 +38,7 @@ from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.table import Table
 from vorotool.jobs import animations
+from vorotool.jobs.input_lengths import lengths_of_image
 from vorotool.jobs.inputs import (
     JobInput,
     asked_frame,
@@ -56,7 +57,7 @@ from vorotool.jobs.run_log import Run
 from vorotool.jobs.streamed_output import RowsOf, Stream, check_chunks, write_file, write_store
 from vorotool.jobs.streamed_tessellation import StreamedProducts, rows_of_large
 from vorotool.jobs.targets import Target
-from vorotool.jobs.units import measured, sides_of, table_in_units, unit_columns, unit_text
+from vorotool.jobs.units import sides_of, table_in_units, unit_columns, unit_text
 from vorotool.products.formats import ANIMATIONS
 from vorotool.products.registry import PRODUCTS
 from vorotool.products.writing import write_product
@@ -84,9 +85,10 @@ def products(run: Run, o: TessellationOptions, given: JobInput) -> Products | St
             large = rows_of_large(o, source)
             with_columns = "table" in o.what or o.label_by is not None or given.has_page
             if large is None:
-                value = read_opened(run, o, given, source, columns=o.columns, properties=with_columns)
+                o, value = read_opened(run, o, given, source, columns=o.columns, properties=with_columns)
         if large is not None:
-            o = with_pixel_size(run, o, given, large.grid) if measured(o) or o.spacing is not None else o
+            o = lengths_of_image(o, large.grid)
+            o = with_pixel_size(run, o, given, large.grid) if o.spacing is not None else o
             return StreamedProducts(run, o, large)
         if o.cell_size is not None and not isinstance(value, Raster):
             o, seeds = seeds_on_map(run, o, value)

@@ -52,7 +52,8 @@ def products(run: Run, o: TriangulationOptions, given: JobInput) -> MeshProducts
     is_digital = o.triangulated_by != "exact"
     with run.phase("read"):
         properties = bool({"table", "cells"} & set(o.what)) or o.label_by is not None
-        o, points = placed_sites(run, o, given, read_sites(run, o, given, properties=properties, is_digital=is_digital))
+        o, points = read_sites(run, o, given, properties=properties, is_digital=is_digital)
+        o, points = placed_sites(run, o, given, points)
         read = ReadPoints(points, None)
     if o.clip is not None:
         with reading(o.clip), run.phase("read polygons"):

@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, fields, replace
 from fractions import Fraction
+from functools import partial
 from math import prod
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn, TypeVar
 
-from vorotool.errors import InputError, UsageError
+from vorotool.errors import UsageError, VorotoolError
 from vorotool.jobs.names import PLOTS
 from vorotool.jobs.pruning_choice import LENGTHS as PRUNED_LENGTHS
 from vorotool.jobs.pruning_choice import Pruning
 from vorotool.products.formats import FORMATS
 
 if TYPE_CHECKING:
-    from vorotool.geometry.pixel_grid import PixelGrid
     from vorotool.geometry.spacing import PixelSides
     from vorotool.geometry.table import Table
     from vorotool.jobs.options import ComputingOptions, JobOptions
@@ -49,8 +49,6 @@ AUTO = PixelSize(Fraction(1), None, is_auto=True)
 
 AUTO_SPACING = AUTO._replace(is_spacing=True)
 """What the file says of both sides."""
-
-_AREAS = ("min_area", "fill_holes")
 
 _IN_STEPS = (
     *("frame", "flatten", "simplify", "max_distance", "distance", "every", "smooth", "gap", "step", "tolerance"),
@@ -143,28 +141,49 @@ def known_length(length: Number | None) -> Number | None:
     return None if isinstance(length, Measured) else length
 
 
-def areas_of_image(o: Computing, grid: PixelGrid | None) -> Computing:
-    """Return options whose areas are numbers of pixels, where the file of the image has to say what a pixel is."""
-    names = [name for name in measured(o) if name in _AREAS]
-    if not names:
-        return o
-    if grid is None or not grid.is_size:
-        raise InputError("the image carries no pixel size: give a number and its unit, such as --pixel-size 0.325um")
-    size, pixel = PixelSize(Fraction(1), grid.unit), grid.width * grid.height
-    changed: dict[str, Any] = {name: _in_pixels(name, getattr(o, name), size) / pixel for name in names}
-    return replace(o, **changed)
-
-
 Options = TypeVar("Options", bound="JobOptions")
 Computing = TypeVar("Computing", bound="ComputingOptions")
 
 
+class Sides(NamedTuple):
+    """How long 1 is in the coordinates along each axis of pixels or voxels, as arrays are ordered."""
+
+    unit: str
+    lengths: tuple[Fraction, ...]
+    step: Fraction | None = None  # what lengths are counted in, where sides differ
+    whose: str = "the input"
+
+    @property
+    def side(self) -> Fraction | None:
+        """What a length is divided by; None where pixels are no squares, and distances are in pixels."""
+        return self.lengths[0] if self.step is None and len(set(self.lengths)) == 1 else self.step
+
+
 def lengths_in_pixels(o: Options, size: PixelSize | None) -> Options:
-    """Give options whose lengths are numbers of pixels: those that were given with a unit are converted exactly."""
-    if size is not None and size.is_auto:
-        return o
-    changed = {name: _in_pixels(name, getattr(o, name), size) for name in measured(o)}
+    """Give options whose lengths are numbers in the coordinates of the input, as far as a size of pixels tells."""
+    names = measured(o)
+    for name in names:
+        _in_pixels(name, getattr(o, name), partial(_check_unit, size))
+    if size is None or size.is_auto or size.unit is None:
+        return o  # the input may tell
+    lengths = (size.factor,) * 2 if size.sides is None else size.sides.lengths
+    return in_coordinates(o, Sides(size.unit, lengths, None if size.sides is None else size.factor, size.option))
+
+
+def in_coordinates(o: Options, sides: Sides) -> Options:
+    """Give options whose lengths are numbers in coordinates of which 1 is so long."""
+    changed = {name: _in_pixels(name, getattr(o, name), partial(_number, sides)) for name in measured(o)}
     return replace(o, **changed) if changed else o
+
+
+def refuse_lengths(o: JobOptions, reason: str, kind: type[VorotoolError] = UsageError) -> None:
+    """Refuse the first length that has a unit, if there is one."""
+
+    def refuse(option: str, length: Measured) -> NoReturn:
+        raise kind(f"{option} {length.text} has a unit, but {reason}")
+
+    for name in measured(o):
+        _in_pixels(name, getattr(o, name), refuse)
 
 
 def measured(o: JobOptions) -> list[str]:
@@ -176,42 +195,55 @@ def _has_unit(value: Any) -> bool:
     return isinstance(value, Measured) or (isinstance(value, tuple) and any(isinstance(x, Measured) for x in value))
 
 
-def _in_pixels(name: str, value: Any, size: PixelSize | None) -> Any:
+def _in_pixels(name: str, value: Any, converted: Callable[[str, Measured], Any]) -> Any:
+    """Convert what has a unit in the value of an option, which messages name as users do."""
+    option = _OPTIONS.get(name, f"--{name}").replace("_", "-")
     if isinstance(value, Measured):
-        return _pixels(name, value, size)
+        return converted(option, value)
     if isinstance(value, Pruning):
         length = replace(value.threshold, text=f"{value.criterion}={value.threshold.text}")
-        return value._replace(threshold=_pixels(name, length, size))
+        return value._replace(threshold=converted(option, length))
     if isinstance(value, tuple):
-        return tuple(_in_pixels(name, each, size) for each in value)
+        return tuple(_in_pixels(name, each, converted) for each in value)
     return value
 
 
-def _pixels(name: str, length: Measured, size: PixelSize | None) -> Fraction | float:
-    from vorotool.geometry.length_units import METRES, is_known, ratio
+def _check_unit(size: PixelSize | None, option: str, length: Measured) -> None:
+    """Refuse a unit that is not known; that of the size of pixels may be any."""
+    from vorotool.geometry.length_units import METRES, is_known
 
-    option, known = _OPTIONS.get(name, f"--{name}").replace("_", "-"), ", ".join(METRES)
     if not is_known(length.unit) and (size is None or size.unit != length.unit):
+        known = ", ".join(METRES)
         raise UsageError(f"invalid {option} {length.text!r}: expected a number alone, or with a unit of {known}")
-    if size is None:
-        raise UsageError(
-            f"{option} {length.text} has a unit, but that of the input is not known: give --pixel-size auto for the "
-            "size that an image carries, or a size such as 0.325um, or 1m for coordinates in metres"
-        )
-    found = None if size.unit is None else ratio(length.unit, size.unit)
+
+
+def _number(sides: Sides, option: str, length: Measured) -> Fraction | float:
+    """A length, an area or a volume in pixels: exact, or correctly rounded."""
+    from vorotool.geometry.length_units import METRES, ratio
+
+    found = ratio(length.unit, sides.unit)
     if found is None:
-        its = "has none" if size.unit is None else f"is in {size.unit}, which is none that is known"
-        raise UsageError(f"{option} {length.text} has a unit, but {size.option} {its}: give it one of {known}")
-    sides = (size.factor,) * 2 if size.sides is None else size.sides.lengths
-    if length.power not in (1, len(sides)):
-        what = "pixels have areas, such as 5um2" if len(sides) == 2 else "voxels have volumes, such as 5um3"
+        its = f"is in {sides.unit}, which is none that is known"
+        known = ", ".join(METRES)
+        raise UsageError(f"{option} {length.text} has a unit, but {sides.whose} {its}: give it one of {known}")
+    if length.power not in (1, len(sides.lengths)):
+        what = "pixels have areas, such as 5um2" if len(sides.lengths) == 2 else "voxels have volumes, such as 5um3"
         raise UsageError(f"invalid {option} {length.text!r}: {what}")
-    pixel = size.factor if length.power == 1 else prod(sides)
+    pixel = sides.side if length.power == 1 else prod(sides.lengths)
+    if pixel is None:
+        what, text = ("pixels that are no squares", "SX,SY") if len(sides.lengths) == 2 else _VOXELS
+        raise UsageError(
+            f"{option} {length.text} has a unit, but the input has {what}: use --spacing auto, or --spacing {text}, "
+            "which measures in their sides"
+        )
     exact = length.number * prod([found] * length.power) / pixel
     rounded = _as_double(exact)
     if rounded is None:
         raise UsageError(f"invalid {option} {length.text!r}: expected a number of pixels that a float can hold")
     return exact if length.is_exact else rounded
+
+
+_VOXELS = ("voxels that are no cubes", "SX,SY,SZ")
 
 
 def _as_double(exact: Fraction) -> float | None:

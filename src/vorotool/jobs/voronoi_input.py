@@ -35,7 +35,7 @@ def read_sites(run: Run, o: VoronoiOptions, given: JobInput) -> ReadSites:
     from vorotool.geometry.points.raster import Raster
 
     with opened_input(o, given, "sites") as source:
-        value = read_opened(run, o, given, source, columns=o.columns)
+        o, value = read_opened(run, o, given, source, columns=o.columns)
     if not isinstance(value, Raster):
         refuse(
             {**o.for_images(), "simplify": o.simplify}, "is for images, but the input holds points, lines or polygons"

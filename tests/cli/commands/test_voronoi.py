@@ -439,7 +439,7 @@ def test_nothing_to_share_out(run, folder):
         (("--frame", "0,0,0,1"), 2, "W and H more than 0"),
         (("--frame", "0,0,1e300,1"), 2, "--frame"),
         (("--max-distance", "0"), 2, "expected more than 0"),
-        (("--max-distance", "2um"), 2, "give --pixel-size"),
+        (("--max-distance", "2ell"), 2, "--max-distance '2ell'"),
         (("--flatten", "1", "--what", "table"), 2, "--flatten"),
         (("--join-tolerance", "1"), 2, "--join-tolerance"),
         (("--what", "table", "-f", "geojson"), 2, "table cannot be written as geojson"),

@@ -83,7 +83,7 @@ def test_a_batch_and_its_statistics(run, inputs):
     assert other.out.count('"planned"') == 2
 
 
-KNOWN = "nm, um, µm, mm, cm, m, km, in, ft"
+KNOWN = "nm, um, µm, mm, cm, dm, m, km, in, ft, ftUS, yd, mi"
 
 
 @pytest.mark.parametrize(

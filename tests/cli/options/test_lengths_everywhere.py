@@ -1,100 +1,305 @@
-"""Every option that is a length, with a unit, and every way to say what a pixel is: a result, or what to type."""
+"""Every option that is a length or an area, with every way in which an input says what its unit is."""
 
+import json
+import struct
+from decimal import Decimal as Number
+from fractions import Fraction
 from pathlib import Path
 
 import click
+import ezdxf
 import numpy as np
 import pytest
 import tifffile
+from PIL import Image
 
+from vorotool import read
 from vorotool.cli.main import vorotool
-from vorotool.cli.options.lengths import Distances, Length
+from vorotool.cli.options.areas import Area
+from vorotool.cli.options.lengths import Distances, ExactLength, Length
+from vorotool.cli.options.parameter_types import ParameterType
 from vorotool.cli.options.pruning import PruningType
 from vorotool.cli.options.shared import Decimal
+from vorotool.geometry.length_units import unit_name
 
 MASK = np.zeros((40, 60), np.uint8)
 MASK[5:20, 5:25] = MASK[25:36, 20:55] = 255
+RINGS = [[(5, 5), (25, 5), (25, 20), (5, 20)], [(20, 25), (55, 25), (55, 36), (20, 36)]]
+POINTS = [(3, 4), (21, 9), (38, 2), (55, 30), (12, 33), (30, 20)]
 
+
+# ---- what says a unit -------------------------------------------------------------------------
+def collection(geometries, **members):
+    features = [{"type": "Feature", "properties": {}, "geometry": each} for each in geometries]
+    return json.dumps({"type": "FeatureCollection", **members, "features": features})
+
+
+def geojson(folder, name, **members):
+    shapes = [{"type": "Polygon", "coordinates": [[*ring, ring[0]]]} for ring in RINGS]
+    (folder / f"{name}-shapes.geojson").write_text(collection(shapes, **members))
+    points = [{"type": "Point", "coordinates": each} for each in POINTS]
+    (folder / f"{name}-points.geojson").write_text(collection(points, **members))
+    return f"{name}-shapes.geojson", f"{name}-points.geojson"
+
+
+def system(folder, code):
+    return geojson(folder, f"e{code}", crs={"type": "name", "properties": {"name": f"urn:ogc:def:crs:EPSG::{code}"}})
+
+
+def svg(folder):
+    paths = "".join(f'<path d="M{" L".join(f"{x} {y}" for x, y in ring)}z"/>' for ring in RINGS)
+    page = f'<svg xmlns="http://www.w3.org/2000/svg" width="60mm" height="40mm" viewBox="0 0 60 40">{paths}</svg>'
+    (folder / "in.svg").write_text(page)
+    return ("in.svg", None)
+
+
+def dxf(folder):
+    drawing = ezdxf.new(units=1)
+    for ring in RINGS:
+        drawing.modelspace().add_lwpolyline(ring, close=True)
+    drawing.saveas(folder / "in.dxf")
+    return ("in.dxf", None)
+
+
+def table(folder):
+    """Tables whose column says it; as results of vorotool have it."""
+    rows = "".join(f"{x},{y},um\n" for x, y in POINTS)
+    (folder / "in.csv").write_text("x,y,unit\n" + rows)
+    wkt = "".join(f'"POLYGON(({", ".join(f"{x} {y}" for x, y in [*ring, ring[0]])}))",um\n' for ring in RINGS)
+    (folder / "shapes.csv").write_text("geometry,unit\n" + wkt)
+    return "shapes.csv", "in.csv"
+
+
+def typed(folder):
+    shapes, points = geojson(folder, "plain")
+    return f"{shapes} --pixel-size 0.5um", f"{points} --pixel-size 0.5um"
+
+
+def ome(folder):
+    sizes = {"PhysicalSizeX": 0.5, "PhysicalSizeY": 0.5, "PhysicalSizeXUnit": "µm", "PhysicalSizeYUnit": "µm"}
+    tifffile.imwrite(folder / "in.ome.tif", MASK, ome=True, metadata={"axes": "YX", **sizes})
+    return ("in.ome.tif",) * 2
+
+
+def ome_auto(folder):
+    ome(folder)
+    return ("in.ome.tif --pixel-size auto",) * 2
+
+
+def imagej(folder):
+    tifffile.imwrite(folder / "ij.tif", MASK, imagej=True, resolution=(2, 2), metadata={"unit": "um"})
+    return ("ij.tif",) * 2
+
+
+def centimetres(folder):
+    tifffile.imwrite(folder / "cm.tif", MASK, resolution=(20000, 20000), resolutionunit=3)
+    return ("cm.tif",) * 2
+
+
+def geotiff(folder):
+    keys = (1, 1, 0, 3, 1024, 0, 1, 1, 1025, 0, 1, 1, 3072, 0, 1, 2056)
+    tags = [
+        (33550, 12, 3, (30.0, 30.0, 0.0), True),
+        (33922, 12, 6, (0.0, 0.0, 0.0, 2600000.0, 1200000.0, 0.0), True),
+        (34735, 3, len(keys), keys, True),
+    ]
+    tifffile.imwrite(folder / "map.tif", MASK, extratags=tags)
+    return ("map.tif",) * 2
+
+
+def png(folder):
+    Image.fromarray(MASK).save(folder / "in.png")
+    return ("in.png --pixel-size 0.5um",) * 2
+
+
+SOURCES = {
+    "svg": (svg, "0.2cm", "2"),
+    "dxf": (dxf, "50.8mm", "2"),
+    "metres": (lambda folder: system(folder, 2056), "0.002km", "2"),
+    "feet": (lambda folder: system(folder, 2229), "0.6m", "1.9685"),
+    "member": (lambda folder: geojson(folder, "um", unit="um"), "2000nm", "2"),
+    "column": (table, "0.002mm", "2"),
+    "typed": (typed, "1um", "2"),
+    "ome": (ome, "1um", "2"),
+    "ome auto": (ome_auto, "1um", "2"),
+    "imagej": (imagej, "1000nm", "2"),
+    "centimetres": (centimetres, "0.0001cm", "2"),
+    "geotiff": (geotiff, "0.06km", "2"),
+    "png": (png, "0.001mm", "2"),
+}
+"""What makes inputs, shapes and points, and a length with a unit, and in coordinates: exactly, by hand."""
+FEW = ("svg", "feet", "column", "ome")
+
+# ---- options -----------------------------------------------------------------------------------
 WITH = {
-    "tessellate --max-distance": [
-        "-o o.npy",
-        "-o o.csv --what table",
-        "-o o.npy --what distance",
-        "-o o.npy --spacing 1,2um",
-        "-o o.npy --volume",
-    ],
-    "alphashape -r": ["-o o.csv --seeds pixels", "-o o.csv --what table", "-o o.svg"],
-    "voronoi --max-distance": ["-o o.csv", "-o o.csv --what table", "-o o.wkt --flatten 5um"],
+    "tessellate --max-distance": ["-o o.npy", "-o o.csv --what table"],
+    "tessellate --cell-size": ["-o o.tif"],
+    "tessellate --min-area": ["-o o.npy"],
+    "tessellate --fill-holes": ["-o o.npy"],
+    "alphashape -r": ["-o o.csv", "-o o.csv --what table"],
+    "alphashape --hole-threshold": ["-o o.csv --what table -r 30"],
+    "alphashape --region-threshold": ["-o o.csv --what table -r 30"],
+    "voronoi --max-distance": ["-o o.csv", "-o o.wkt --flatten 5um"],
     "voronoi --flatten": ["-o o.wkt"],
     "skeleton-exact -d": ["-o o.csv --what offset"],
     "skeleton-exact --every": ["-o o.csv --what points", "-o o.csv --what transects"],
-    "skeleton-exact --gap": [
-        "-o o.csv",
-        "-o o.csv --complete",
-        "-o o.csv --border open",
-        "-o o.wkt --what shape",
-        "-o o.csv --what discs",
-        "-o o.npy --what thickness",
-        "-o o.csv --what necks",
-        "-o o.csv --what offset -d 5um",
-    ],
-    "skeleton-exact --prune": ["-o o.csv", "-o o.csv --what discs"],
-    "skeleton-exact --flatten": ["-o o.wkt", "-o o.geojson --what centerline", "-o o.wkt --what shape"],
-    "skeleton-exact --simplify": ["-o o.csv", "-o o.csv --outline contour", "-o o.csv --border open"],
+    "skeleton-exact --gap": ["-o o.csv", "-o o.csv --complete"],
+    "skeleton-exact --flatten": ["-o o.wkt", "-o o.wkt --what shape"],
     "skeleton-approx --every": ["-o o.csv --what points --step 1"],
-    "skeleton-approx --flatten": ["-o o.wkt --what shape --step 1", "-o o.wkt --step 5um"],
-    "skeleton-approx --step": ["-o o.csv", "-o o.csv --tolerance 5um"],
+    "skeleton-approx --flatten": ["-o o.wkt --what shape --step 1"],
+    "skeleton-approx --step": ["-o o.csv"],
     "skeleton-approx --tolerance": ["-o o.csv"],
 }
-"""Further options with which a length is used, or looked at."""
+"""Further options with which a length is used, where a plain output would not show it."""
+
+NO_LENGTHS = {"alpha", "neck", "fps"}
+"""Numbers with decimals that are none: one over a length, a ratio, frames a second."""
 
 
-def lengths():
-    """Command, option and further options of all options that are lengths."""
+def options():
     context = click.Context(vorotool)
     for command in vorotool.list_commands(context):
         for option in vorotool.get_command(context, command).params:
-            if isinstance(option.type, Length | Decimal | Distances | PruningType):
-                name = f"{command} {option.opts[0]}"
-                plain = "-o o.csv --step 1" if command == "skeleton-approx" else "-o o.csv"
-                yield from (
-                    pytest.param(command, option, more, id=f"{name} {more}") for more in WITH.get(name, [plain])
-                )
+            yield command, option
 
 
-@pytest.fixture
-def image(tmp_path):
-    sizes = {"PhysicalSizeX": 0.5, "PhysicalSizeY": 0.5, "PhysicalSizeXUnit": "µm", "PhysicalSizeYUnit": "µm"}
-    tifffile.imwrite(tmp_path / "in.ome.tif", MASK, ome=True, metadata={"axes": "YX", **sizes})
+def lengths():
+    """Command, option and further options of all that are lengths or areas."""
+    for command, option in options():
+        if isinstance(option.type, Length | ExactLength | Distances | PruningType | Area):
+            plain = "-o o.csv --step 1" if command == "skeleton-approx" else "-o o.csv"
+            name = f"{command} {option.opts[0]}"
+            yield from ((name, option, more) for more in WITH.get(name, [plain]))
 
 
-@pytest.mark.parametrize(("command", "option", "more"), list(lengths()))
-def test_a_length_with_a_unit(run, image, command, option, more):
-    """With the size typed, carried by the file, or unknown."""
-    text = "length=1um" if isinstance(option.type, PruningType) else "1um"
-    words, written = [command, "in.ome.tif", option.opts[0], text, *more.split()], []
-    for size in ("--pixel-size 0.5µm", "--pixel-size auto", ""):
-        done = run(*words, *size.split(), "-q")
-        assert done.code in (0, 2, 3)
+def test_no_number_is_forgotten():
+    """A new option of numbers with decimals is a length or an area, or named above."""
+    plain = {
+        option.name
+        for _, option in options()
+        if type(option.type) is Decimal or isinstance(option.type, click.types.FloatParamType | click.FloatRange)
+    }
+    assert plain == NO_LENGTHS
+    lengths_of = {option.name for _, option, _ in lengths()}
+    assert {"r", "distance", "max_distance", "every", "gap", "flatten", "step", "prune", "cell_size"} <= lengths_of
+    assert all(isinstance(option.type, ParameterType) for _, option, _ in lengths())
+
+
+def texts(option, length, number):
+    """A length as this option takes it, with its unit and as a number."""
+    if isinstance(option.type, PruningType):
+        return f"length={length}", f"length={number}"
+    if not isinstance(option.type, Area):
+        return length, number
+    digits = length.rstrip("cdkmnu")
+    return f"{Number(digits) ** 2:f}{length[len(digits) :]}2", str(Number(number) ** 2)
+
+
+CASES = [
+    pytest.param(
+        name, option, more, source, id=f"{name} {more} {source}", marks=[] if source in FEW else pytest.mark.more
+    )
+    for name, option, more in lengths()
+    for source in SOURCES
+]
+
+
+@pytest.mark.parametrize(("name", "option", "more", "source"), CASES)
+def test_a_length_is_its_number(run, tmp_path, name, option, more, source):
+    """The bytes of the same number in coordinates; where that is refused, the length is too."""
+    make, length, number = SOURCES[source]
+    shapes, points = make(tmp_path)
+    command = name.split()[0]
+    wanted = points if command in ("tessellate", "alphashape", "delaunay") else shapes
+    if wanted is None:
+        return
+    found = []
+    for text in texts(option, length, number):
+        more_now = more.replace("5um", number) if source not in ("ome", "typed", "png") else more
+        done = run(command, *wanted.split(), option.opts[0], text, *more_now.split(), "-q")
         assert "Measured(" not in done.err + done.out
-        named = [text, *(word for word in (*words, *size.split()) if word.startswith("-"))]
-        assert done.code == 0 or any(each in done.err for each in named)
-        result = Path(words[words.index("-o") + 1])
-        written.append(result.read_bytes() if done.code == 0 else done.err)
+        result = Path(more.split()[1])
+        found.append((done.code, result.read_bytes() if done.code == 0 else done.err.replace(text, "")))
         result.unlink(missing_ok=True)
-    assert written[0] == written[1]
-    if option.opts[0] == "--max-distance" and "volume" not in more and "spacing" not in more:
-        assert "--pixel-size auto" in written[2]
-    assert option.opts[0] != "--prune" or done.code == 2
+    assert found[0] == found[1]
+    assert found[0][0] == 0 or is_refused(option.name, source, found[0][1])
 
 
-def test_units_of_lengths_that_never_come(run, image, tmp_path):
-    """A drawing has no pixels, whose size could be read; so nothing else is made of its lengths."""
-    (tmp_path / "in.wkt").write_text("POLYGON ((0 0, 9 0, 0 9, 0 0))\n")
-    for command in ("skeleton-exact --gap", "skeleton-exact --flatten", "voronoi --flatten", "voronoi --simplify"):
-        name, option = command.split()
-        done = run(name, "in.wkt", option, "1um", "--pixel-size", "auto", "-o", "o.wkt")
-        assert done.code == 2
-        assert "--pixel-size auto" in done.err
-    done = run("alphashape", "in.ome.tif", "-r", "0um", "--pixel-size", "auto", "-o", "o.csv")
+def is_refused(option, source, message):
+    """Whether an option is refused there whatever its value."""
+    is_image = source in ("ome", "ome auto", "imagej", "centimetres", "geotiff", "png")
+    if option in ("min_area", "fill_holes", "simplify"):
+        return not is_image
+    if option in ("cell_size", "join_tolerance"):
+        return is_image or source != "dxf"
+    return "--pixel-size auto" in message or "no frame" in message
+
+
+# ---- numbers, by fractions ----------------------------------------------------------------------
+METRES = {"m": Fraction(1), "ft": Fraction(3048, 10**4), "in": Fraction(254, 10**4), "ftUS": Fraction(1200, 3937)}
+
+
+@pytest.mark.parametrize(("code", "axis"), [(2056, "m"), (2229, "ftUS")])
+@pytest.mark.parametrize("unit", list(METRES))
+def test_correctly_rounded(run, tmp_path, code, axis, unit):
+    shapes, _ = system(tmp_path, code)
+    for digits in ("1", "0.1", "3.3", "0.7"):
+        assert run("skeleton-exact", shapes, "--what", "offset", "-d", digits + unit, "-o", "o.json").code == 0
+        exact = Fraction(digits) * METRES[unit] / METRES[axis]
+        (written,) = {each["distance"] for each in json.loads((tmp_path / "o.json").read_text())["shapes"]}
+        assert struct.pack("<d", written) == struct.pack("<d", exact.numerator / exact.denominator)
+
+
+def test_lengths_in_degrees_are_refused(run, tmp_path):
+    (tmp_path / "in.geojson").write_text(
+        collection([{"type": "Polygon", "coordinates": [[[7, 47], [7.1, 47], [7, 47.1], [7, 47]]]}],
+                   crs={"type": "name", "properties": {"name": "urn:ogc:def:crs:OGC:1.3:CRS84"}})
+    )  # fmt: skip
+    done = run("skeleton-exact", "in.geojson", "--what", "points", "--every", "200m", "-f", "csv")
     assert done.code == 2
+    assert "--every 200m" in done.err
+    assert "in degrees (OGC:CRS84)" in done.err
+    assert "--crs EPSG:32632" in done.err
+    points = ["--what", "points", "--every", "200m", "-f", "csv"]
+    assert run("skeleton-exact", "in.geojson", "--crs", "EPSG:32632", *points).rows
+
+
+def test_no_unit_no_length(run, tmp_path):
+    shapes, points = geojson(tmp_path, "plain")
+    for words in (f"alphashape {points} -r 5um", f"voronoi {shapes} --flatten 2mm -f wkt", "alphashape in.png -r 2mm"):
+        Image.fromarray(MASK).save(tmp_path / "in.png")
+        done = run(*words.split())
+        assert done.code == 2
+        assert "has a unit, but that of the input is not known: give --pixel-size" in done.err
+
+
+# ---- pictures to scale --------------------------------------------------------------------------
+@pytest.mark.parametrize("source", ["svg", "metres", "dxf", "feet"])
+def test_pictures_to_scale(run, tmp_path, source):
+    """A page of the bounds and a tenth around them, in millimetres."""
+    unit = {"svg": Fraction(1, 1000), "metres": Fraction(1), "dxf": METRES["in"], "feet": METRES["ftUS"]}[source]
+    shapes, _ = SOURCES[source][0](tmp_path)
+    assert run("skeleton-exact", shapes, "-o", "o.svg", "--scale", "1:50", "-q").code == 0
+    assert run("skeleton-exact", shapes, "-o", "p.svg", "--scale", repr(float(unit * 20)), "-q").code == 0
+    assert (tmp_path / "o.svg").read_bytes() == (tmp_path / "p.svg").read_bytes()
+
+
+# ---- what is told of units -----------------------------------------------------------------------
+@pytest.mark.parametrize(
+    ("source", "unit"), [("svg", "mm"), ("dxf", "in"), ("metres", "m"), ("feet", "ftUS"), ("member", "µm")]
+)
+def test_units_are_told_and_kept(run, tmp_path, source, unit):
+    shapes, _ = SOURCES[source][0](tmp_path)
+    told = json.loads(run("info", "--json", shapes).out)
+    assert told["unit"] == unit_name(unit)
+    assert f"unit       {told['unit']}" in run("info", shapes).out
+    for command in ("skeleton-exact", "voronoi", "skeleton-exact --what offset -d 1"):
+        assert run(*command.split(), shapes, "-o", "o.json", "-q").code == 0
+        value = read("o.json")
+        kept = value.polygons.unit
+        assert (kept is None) == (source in ("metres", "feet"))
+        assert kept is None or unit_name(kept) == told["unit"]
+        again = json.loads(run("info", "--json", "o.json").out)
+        assert again["unit"] == told["unit"]
+    assert run("voronoi", shapes, "-o", "o.geojson", "-q").code == 0
+    assert json.loads(run("info", "--json", "o.geojson").out)["unit"] == told["unit"]

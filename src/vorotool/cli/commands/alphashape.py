@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from vorotool.cli.batch.dispatch import run_command
+from vorotool.cli.options.areas import Area
 from vorotool.cli.options.groups import site_options
 from vorotool.cli.options.help_page import GroupedCommand
 from vorotool.cli.options.lengths import Radius
@@ -63,8 +64,8 @@ OF_DIGITAL_RULE = frozenset({"edges", "complex", "family", "spectrum"})
     show_default=True,
     help="printed: r_min and open intervals to the letter of the paper.",
 )
-@click.option("--hole-threshold", type=Decimal(), metavar="AREA", help="Fill holes (cavities) of at most this area.")
-@click.option("--region-threshold", type=Decimal(), metavar="AREA", help="Then leave out regions of at most this area.")
+@click.option("--hole-threshold", type=Area(zero=True), help="Fill holes (cavities) of at most this area.")
+@click.option("--region-threshold", type=Area(zero=True), help="Then leave out regions of at most this area.")
 @click.option(
     "--method",
     type=click.Choice(METHODS, case_sensitive=False),

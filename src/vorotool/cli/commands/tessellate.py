@@ -13,7 +13,6 @@ from vorotool.cli.options.lengths import ExactLength
 from vorotool.cli.options.picture_style import animation_options
 from vorotool.cli.options.pixel_size import spacing_option
 from vorotool.cli.options.shared import (
-    Decimal,
     inputs_argument,
     output_options,
     what_option,
@@ -26,6 +25,7 @@ from vorotool.jobs.job import Recipe
 from vorotool.jobs.options import TessellationOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target, check_picture_options, check_precision
+from vorotool.jobs.units import known_length
 from vorotool.jobs.volumes.checks import check_image_options, check_volume_options, check_volume_units
 from vorotool.products.formats import ANIMATIONS, picture_format
 from vorotool.products.inputs import NAMES_WITH
@@ -70,8 +70,10 @@ _PICTURES = {(what, fmt) for what, each in PRODUCTS["tessellate"].items() for fm
 @click.option("--tiled", is_flag=True, help="Tiles of 512 x 512 pixels in TIFFs, instead of strips of whole rows.")
 @click.option(
     "--cell-size",
-    type=Decimal(),
-    help="Side of a pixel in the units of points, lines or polygons on a map; --window is in these units, too.",
+    type=ExactLength(),
+    metavar="SIDE",
+    help="Side of a pixel in the units of points, lines or polygons on a map, or with a unit; --window is in the units "
+    "of the map, too.",
 )
 @spacing_option()
 @volume_options()
@@ -120,7 +122,8 @@ def _check_options(o: TessellationOptions, targets: list[Target]) -> None:
 def _check_cells(o: TessellationOptions) -> None:
     if o.cell_size is None:
         return
-    if not 1e-100 < o.cell_size < 1e100:
+    side = known_length(o.cell_size)
+    if side is not None and not 1e-100 < side < 1e100:
         raise UsageError("--cell-size must be more than 0, and at most 1e100")
     if o.spacing is not None:
         raise UsageError("--cell-size makes cells that are squares, in the units of the map: leave out --spacing")

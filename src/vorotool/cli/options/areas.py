@@ -28,9 +28,12 @@ ALL_HOLES = "all"
 
 
 class Area(ParameterType[Fraction]):
-    """An area above 0, or the volume of an object, kept exactly."""
+    """An area, or the volume of an object, kept exactly; 0 only where that is allowed."""
 
     name = "AREA"
+
+    def __init__(self, *, zero: bool = False) -> None:
+        self._zero = zero
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         """Parse the number and its unit."""
@@ -41,8 +44,8 @@ class Area(ParameterType[Fraction]):
             self.fail(f"{value!r}: expected a number of pixels such as 50, or an area such as 5um2", param, ctx)
         number, unit, power = match.groups()
         exact = Decimal().convert(number, param, ctx)
-        if exact <= 0:
-            self.fail(f"{value!r}: expected more than 0", param, ctx)
+        if exact < 0 or (exact == 0 and not self._zero):
+            self.fail(f"{value!r}: expected {'0 or more' if self._zero else 'more than 0'}", param, ctx)
         return exact if unit is None else Measured(value, exact, unit, is_exact=True, power=_POWERS[power])
 
 

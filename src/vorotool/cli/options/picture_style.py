@@ -11,7 +11,7 @@ import click
 from vorotool.cli.options.parameter_types import ParameterType
 from vorotool.cli.options.shared import Decorator, in_our_spelling, together
 from vorotool.cli.options.suggestions import words
-from vorotool.jobs.picture_style import MILLIMETRES, Scale, color_code
+from vorotool.jobs.picture_style import DRAWING_UNITS, Scale, color_code
 
 LEAST_ASPECT = 0.001
 """Pictures that are a thousand times stretched show nothing."""
@@ -163,7 +163,7 @@ def _scale_options() -> tuple[Decorator, ...]:
         click.option(
             "--unit",
             "drawing_unit",
-            type=click.Choice([*MILLIMETRES], case_sensitive=False),
+            type=click.Choice(DRAWING_UNITS, case_sensitive=False),
             help="Unit of the input, for SVG to scale; by default what it names. Without --scale, 1:1.",
         ),
         click.option(

@@ -98,8 +98,9 @@ def pixel_size_option() -> Decorator:
     return click.option(
         "--pixel-size",
         type=PixelSizeType(),
-        help="Side of a pixel (or unit of the input), such as 0.325um: scales what is written in tables and vectors, "
-        "and tells how long options with a unit are, such as --max-distance 5um; auto takes what the image says.",
+        help="Side of a pixel, or unit of the coordinates, such as 0.325um: scales what is written in tables and "
+        "vectors, and lengths with a unit, such as --max-distance 5um, where the input states none; auto takes the "
+        "unit that the input states.",
     )
 
 

@@ -13,7 +13,10 @@ from vorotool.formats.drawing.ezdxf_library import ezdxf_module
 
 Floats = NDArray[np.float64]
 
-UNITS = {1: "in", 2: "ft", 4: "mm", 5: "cm", 6: "m", 7: "km", 10: "yd", 12: "nm", 13: "um", 14: "dm"}
+UNITS = {
+    **{1: "in", 2: "ft", 3: "mi", 4: "mm", 5: "cm", 6: "m", 7: "km", 9: "mil", 10: "yd"},
+    **{11: "Å", 12: "nm", 13: "um", 14: "dm", 21: "ftUS"},
+}
 """Units of length by their numbers in the header."""
 _NUMBERS = {name: number for number, name in UNITS.items()} | {"µm": 13, "μm": 13}
 _VERSION = "R2000"

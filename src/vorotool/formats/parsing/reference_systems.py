@@ -56,10 +56,10 @@ def note_degrees(value: PointSet | PolygonSet, name: str, note: Callable[[str], 
     """Tell where an input is of longitude and latitude that lengths are in degrees, and what to do."""
     if is_geographic(value.crs):
         text = f"{name}: longitude and latitude are treated as planar, lengths are in degrees"
-        note(Message(f"{text}; {_projected_advice(value.xy)}", Kind.DEGREES, source=name))
+        note(Message(f"{text}; {projected_advice(value.xy)}", Kind.DEGREES, source=name))
 
 
-def _projected_advice(xy: NDArray[np.float64]) -> str:
+def projected_advice(xy: NDArray[np.float64]) -> str:
     """Name the zone of UTM that an input lies in, if it does not spread over more than two."""
     if len(xy):
         (west, south), (east, north) = xy.min(axis=0).tolist(), xy.max(axis=0).tolist()

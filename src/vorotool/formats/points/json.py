@@ -21,6 +21,7 @@ from vorotool.formats.parsing.reader_options import ReadOptions, position_array,
 from vorotool.formats.parsing.reference_systems import note_unnamed
 from vorotool.formats.points.rows import PointRows, point_set
 from vorotool.formats.points.tables import is_table, points_of_objects
+from vorotool.formats.text.feature_collection import stated_unit
 from vorotool.geometry.points.point_set import PointSet
 
 _READER = option("skeleton-exact reads", 'geometry="polygons" reads')
@@ -102,11 +103,11 @@ def _read_document(name: str, document: Mapping[str, Any], options: ReadOptions)
     options.note_left_out(name, collected.without_geometry)
     if not options.wants_z and any(len(position) > 2 for position in collected.positions):
         options.note_heights(name)
-    crs = document.get("crs")
-    if crs is None and options.crs is None:
+    crs, unit = document.get("crs"), stated_unit(document)
+    if crs is unit is None and options.crs is None:
         note_unnamed(name, found[:, :2], options.note)
     properties = _properties(name, features, collected) if options.properties else {}
-    return PointRows(found, None, properties, {"y_up": True, "crs": crs})
+    return PointRows(found, None, properties, {"y_up": True, "crs": crs, "unit": unit})
 
 
 def _collect(collected: _Collected, index: int, feature: Any, place: str) -> None:

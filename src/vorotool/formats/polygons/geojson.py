@@ -23,7 +23,7 @@ from vorotool.formats.parsing.geometry_advice import OF_SITES, not_a_shape_advic
 from vorotool.formats.parsing.reader_options import ReadOptions, shortened
 from vorotool.formats.parsing.reference_systems import note_unnamed
 from vorotool.formats.polygons.ring_collector import RingCollector
-from vorotool.formats.text.feature_collection import write_collection
+from vorotool.formats.text.feature_collection import stated_unit, write_collection
 from vorotool.formats.text.row_writer import Column, RowShape
 from vorotool.formats.text.tables import json_text
 from vorotool.geometry.arguments.sites import Sites
@@ -60,10 +60,10 @@ def _read(source: Source, options: ReadOptions, *, takes_points: bool = False) -
         geometry = geometry_of(feature, place(index))
         if geometry is not None:
             _collect(collector, index, geometry, place(index))
-    crs = document.get("crs")
+    crs, unit = document.get("crs"), stated_unit(document)
     known = _described(source.name, features, collector.features, options)
-    polygons = collector.finish(**known, y_up=True, crs=crs)
-    if crs is None and options.crs is None:
+    polygons = collector.finish(**known, y_up=True, crs=crs, unit=unit)
+    if crs is unit is None and options.crs is None:
         note_unnamed(source.name, polygons.xy, options.note)
     return polygons, features
 

@@ -116,7 +116,16 @@ def read_polygons_of(rows: JsonRows, options: ReadOptions) -> PolygonSet:
         y_up=document.get("y_up") is True,
         crs=document.get("crs"),
         connectivity=document.get("connectivity"),
+        unit=read_unit(rows.name, document),
     )
+
+
+def read_unit(name: str, document: Mapping[str, Any]) -> str | None:
+    """Read the unit of coordinates, if there is one."""
+    unit = document.get("unit")
+    if not isinstance(unit, str | None):
+        raise InputError(f"{name}: the unit is {shortened(unit)}; write a name, such as mm")
+    return unit
 
 
 def read_sites(rows: JsonRows, polygons: PolygonSet) -> SiteTable:

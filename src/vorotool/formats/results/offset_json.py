@@ -38,6 +38,8 @@ def write_json(out: BinaryIO, offsets: Offsets, *, precision: int | None = None,
         head["y_up"] = True
     if polygons.crs is not None:
         head["crs"] = polygons.crs
+    if polygons.unit is not None:
+        head["unit"] = polygons.unit
     if offsets.features != "separate":
         head["features"] = offsets.features
     if step:

@@ -53,6 +53,8 @@ def write_json(out: BinaryIO, skeleton: Skeleton, *, precision: int | None = Non
         head["y_up"] = True
     if polygons.crs is not None:
         head["crs"] = polygons.crs
+    if polygons.unit is not None:
+        head["unit"] = polygons.unit
     if polygons.connectivity is not None:
         head["connectivity"] = polygons.connectivity
     if step:

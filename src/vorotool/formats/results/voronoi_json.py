@@ -182,19 +182,11 @@ def sites_of_map(cells: VoronoiMap) -> Sites:
 def _polygons(rows: JsonRows, sites: int, options: ReadOptions) -> tuple[PolygonSet, NDArray[np.int32]]:
     """The polygons, and the site of each."""
     items = rows.list_of("polygons")
-    made = replace(read_polygons_of(rows, replace(options, note=no_note)), unit=read_unit(rows.name, rows.document))
+    made = read_polygons_of(rows, replace(options, note=no_note))
     if len(made) != len(items):
         raise InputError(f"{rows.name}: a polygon has no vertices; write each with some")
     feature = rows.indices("polygons", items, "feature", 2**31 - 1)
     return replace(made, feature=feature), rows.indices("polygons", items, "site", sites)
-
-
-def read_unit(name: str, document: Mapping[str, Any]) -> str | None:
-    """Read the unit of coordinates, if there is one."""
-    unit = document.get("unit")
-    if not isinstance(unit, str | None):
-        raise InputError(f"{name}: the unit is {shortened(unit)}; write a name, such as mm")
-    return unit
 
 
 def check_described(rows: JsonRows, member: str, items: list[Any]) -> None:
@@ -237,7 +229,7 @@ def _cut(name: str, document: Any, options: ReadOptions) -> PolygonSet:
     if len(made) != len(items):
         raise InputError(f"{name}: a polygon has no vertices; write each with some")
     feature = rows.indices("polygons", items, "feature", 2**31 - 1)
-    return replace(made, unit=read_unit(name, document), feature=feature)
+    return replace(made, feature=feature)
 
 
 def read_frame(name: str, value: Any) -> tuple[float, float, float, float]:

@@ -12,7 +12,7 @@ from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.npz_columns import npz_columns
 from vorotool.formats.parsing.reader_options import ReadOptions
-from vorotool.formats.results.json_reader import JsonRows, opened_rows
+from vorotool.formats.results.json_reader import JsonRows, opened_rows, read_unit
 from vorotool.formats.results.voronoi_checks import check_map, naming_values
 from vorotool.formats.results.voronoi_json import (
     TYPE,
@@ -23,7 +23,6 @@ from vorotool.formats.results.voronoi_json import (
     named_rows,
     read_described,
     read_frame,
-    read_unit,
 )
 from vorotool.formats.text.tables import json_bytes, write_arrays
 from vorotool.geometry.polygons.polygon_set import PolygonSet

@@ -2,17 +2,40 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
 from typing import Any, BinaryIO
 
 from vorotool.formats.text.row_writer import Column, RowShape, write_list_rows
 from vorotool.formats.text.tables import json_text
+from vorotool.geometry.length_units import ascii_unit, is_known
+
+_UNIT: ContextVar[str | None] = ContextVar("unit of coordinates", default=None)
+
+
+@contextmanager
+def unit_member(unit: str | None) -> Iterator[None]:
+    """State the unit of coordinates in collections that are written within, in ASCII, where no system states it."""
+    token = _UNIT.set(None if unit is None else ascii_unit(unit))
+    try:
+        yield
+    finally:
+        _UNIT.reset(token)
 
 
 def collection_opening(crs: Any) -> bytes:
     """The text before the features of a collection, whose ``crs`` member may be None."""
+    unit = _UNIT.get() if crs is None else None
     member = "" if crs is None else f'"crs":{json_text(crs)},'
+    member += "" if unit is None else f'"unit":{json_text(unit)},'
     return f'{{"type":"FeatureCollection",{member}"features":['.encode()
+
+
+def stated_unit(document: Mapping[str, Any]) -> str | None:
+    """Return the unit of length that the ``unit`` member of a collection states, if it is one."""
+    unit = document.get("unit")
+    return unit if isinstance(unit, str) and is_known(unit) else None
 
 
 def write_collection(

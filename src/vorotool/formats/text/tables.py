@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from vorotool.formats.text.row_writer import Column, RowShape, check_precision, slices, write_list_rows, write_rows
 from vorotool.geometry.coordinate_grid import on_grid
+from vorotool.geometry.length_units import ascii_unit
 from vorotool.geometry.number_text import NumberText
 from vorotool.geometry.parallel import in_order
 from vorotool.geometry.summaries import MEASURE, unit_of_measure
@@ -60,7 +61,7 @@ _UNIT: ContextVar[str | None] = ContextVar("unit", default=None)
 @contextmanager
 def unit_column(unit: str | None) -> Iterator[None]:
     """Give tables that are written within a last column ``unit``, in ASCII; with None they have none."""
-    token = _UNIT.set(None if unit is None else unit.replace("µ", "u").replace("\u03bc", "u"))
+    token = _UNIT.set(None if unit is None else ascii_unit(unit))
     try:
         yield
     finally:

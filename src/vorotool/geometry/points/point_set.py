@@ -44,6 +44,8 @@ class PointSet(Value, Tabular, Geometric, Pictured):
     frame : Box, optional
         The rectangle covered by the pixels of the image that the points come from: the default frame of what is made
         of them.
+    unit : str, optional
+        The unit of length of the coordinates, such as ``mm``, where the input says it.
 
     Raises
     ------
@@ -65,6 +67,7 @@ class PointSet(Value, Tabular, Geometric, Pictured):
     first_number: int = 1
     index: Any = None
     frame: Box | None = f.input_frame()
+    unit: str | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "xy", finite_rows(self.xy, 2))
@@ -87,7 +90,7 @@ class PointSet(Value, Tabular, Geometric, Pictured):
         return np.array(self.xy, dtype=dtype, copy=copy)
 
     def _summary(self) -> str:
-        return placed(counted(len(self), "point"), self.crs)
+        return placed(counted(len(self), "point"), self.crs, self.unit)
 
 
 def known_of_points(points: Any) -> dict[str, Any]:

@@ -8,7 +8,6 @@ from vorotool.errors import UsageError
 from vorotool.jobs.inputs import check_components, refuse
 from vorotool.jobs.options import TessellationOptions
 from vorotool.jobs.targets import Target, check_picture_options, check_precision
-from vorotool.jobs.units import Measured
 from vorotool.products.registry import VOLUME_PRODUCTS
 
 _CONNECTIVITY = {False: ("8", "4"), True: ("26", "6")}
@@ -39,16 +38,9 @@ def check_volume_options(o: TessellationOptions, targets: list[Target]) -> None:
 
 
 def check_volume_units(o: TessellationOptions) -> None:
-    """Refuse the size of a pixel, and lengths whose unit no spacing tells."""
+    """Refuse the size of a pixel."""
     if o.pixel_size is not None:
         raise UsageError("--pixel-size is for images: use --spacing SX,SY,SZ for a volume, such as 0.325,0.325,1.5um")
-    lengths = {"max-distance": o.max_distance, "min-area": o.min_area, "fill-holes": o.fill_holes}
-    for name, value in lengths.items():
-        if o.spacing is None and isinstance(value, Measured):
-            raise UsageError(
-                f"--{name} {value.text} has a unit, but that of the voxels is not known: give --spacing, such as "
-                "0.325,0.325,1.5um, or --spacing auto"
-            )
 
 
 def check_connectivity(o: TessellationOptions, *, is_volume: bool) -> None:

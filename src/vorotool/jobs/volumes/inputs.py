@@ -23,11 +23,12 @@ from vorotool.geometry.spacing import PixelSides, pixel_sides
 from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
 from vorotool.geometry.volumes.voxel_frame import VoxelFrame
 from vorotool.geometry.volumes.voxel_grid import VoxelGrid
+from vorotool.jobs.input_lengths import lengths_of_voxels
 from vorotool.jobs.inputs import JobInput, refuse, report_no_seeds
 from vorotool.jobs.masks import report_cleaning
 from vorotool.jobs.options import TessellationOptions
 from vorotool.jobs.run_log import Run
-from vorotool.jobs.units import PixelSize, lengths_in_pixels, sides_of, unit_stats
+from vorotool.jobs.units import PixelSize, sides_of, unit_stats
 from vorotool.products.inputs import VOLUME_NAMES
 
 _TIFF_HEADS = (b"II*\x00", b"MM\x00*", b"II+\x00", b"MM\x00+")
@@ -52,7 +53,7 @@ def read_volume_seeds(run: Run, o: TessellationOptions, given: JobInput) -> tupl
         source = open_volume(given.path, input_format=o.input_format)
         if source.note:
             run.note(source.note)
-        o = with_voxel_sides(run, o, given, source.grid)
+        o = with_voxel_sides(run, lengths_of_voxels(o, source.grid), given, source.grid)
         threshold, invert = _foreground(run, o, source)
         seeds = seeds_of_slabs(
             source,
@@ -78,6 +79,7 @@ def _read_points(run: Run, o: TessellationOptions, given: JobInput) -> tuple[Tes
             "--spacing auto is for volumes, whose files may say it: give numbers and their unit, such as "
             "0.325,0.325,1.5um"
         )
+    o = lengths_of_voxels(o, None)
     of_volumes = {key: value for key, value in o.for_images().items() if key in _OF_VOLUMES}
     refuse(of_volumes, "is for volumes, but the input is a list of points")
     run.stats |= unit_stats(o.pixel_size)
@@ -163,7 +165,7 @@ def with_voxel_sides(run: Run, o: TessellationOptions, given: JobInput, grid: Vo
         return o
     if asked.is_auto:
         asked = _of_file(grid)
-        o = lengths_in_pixels(replace(o, pixel_size=asked), asked)
+        o = replace(o, pixel_size=asked)
     run.stats |= unit_stats(asked)
     return o
 

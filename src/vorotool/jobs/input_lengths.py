@@ -1,0 +1,136 @@
+"""Lengths with a unit in the coordinates of the input: by its file, its coordinate reference system, its pixels."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from vorotool.errors import UsageError
+from vorotool.jobs.options import ComputingOptions
+from vorotool.jobs.units import PixelSize, Sides, in_coordinates, measured, refuse_lengths
+
+if TYPE_CHECKING:
+    from vorotool.geometry.arguments.sites import Sites
+    from vorotool.geometry.input_unit import InputUnit
+    from vorotool.geometry.pixel_grid import PixelGrid
+    from vorotool.geometry.points.point_set import PointSet
+    from vorotool.geometry.polygons.polygon_set import PolygonSet
+    from vorotool.geometry.volumes.voxel_grid import VoxelGrid
+
+Options = TypeVar("Options", bound=ComputingOptions)
+
+
+def lengths_of_vectors(o: Options, value: PointSet | PolygonSet | Sites) -> Options:
+    """Give options in the coordinates of points, lines and polygons; ``--pixel-size auto`` is their unit."""
+    from vorotool.geometry.input_unit import unit_of
+
+    if not measured(o) and (o.pixel_size is None or not o.pixel_size.is_auto):
+        return o
+    unit = unit_of(value)
+    if o.pixel_size is not None and o.pixel_size.is_auto:
+        o = replace(o, pixel_size=_size_of(o.pixel_size, unit))
+    return _converted(o, unit, _shapes(value))
+
+
+def unit_stated(value: PointSet | PolygonSet | Sites) -> str | None:
+    """Return the unit that an input states itself, without a coordinate reference system."""
+    from vorotool.geometry.input_unit import unit_of
+
+    unit = None if _shapes(value).crs is not None else unit_of(value)
+    return None if unit is None else unit.unit
+
+
+def _shapes(value: PointSet | PolygonSet | Sites) -> PointSet | PolygonSet:
+    from vorotool.geometry.arguments.sites import Sites
+
+    return value.polygons if isinstance(value, Sites) else value
+
+
+def lengths_of_image(o: Options, grid: PixelGrid | None) -> Options:
+    """Give options in pixels of an image, or in the unit of ``--spacing auto``."""
+    if not measured(o):
+        return o
+    unit = None if grid is None else unit_of_grid(grid)
+    if grid is None or unit is None:
+        return _refused(o)
+    if not unit.is_length:
+        return _refused_degrees(o, grid.crs)
+    sides = unit.side * grid.height, unit.side * grid.width
+    if grid.is_square:
+        sides = sides[1], sides[1]
+    return in_coordinates(o, Sides(unit.unit, sides, _step(o)))
+
+
+def lengths_of_voxels(o: Options, grid: VoxelGrid | None) -> Options:
+    """Give options in voxels of a volume, or in the unit of ``--spacing auto``."""
+    if not measured(o):
+        return o
+    if grid is None or grid.unit is None:
+        return _refused(o, "give --spacing, such as 0.325,0.325,1.5um")
+    return in_coordinates(o, Sides(grid.unit, grid.sides, _step(o)))
+
+
+def _step(o: ComputingOptions) -> Fraction | None:
+    """What lengths are counted in at first where distances are in the sides of pixels: their unit."""
+    return Fraction(1) if o.pixel_size is not None and o.pixel_size.is_spacing else None
+
+
+def unit_of_grid(grid: PixelGrid) -> InputUnit | None:
+    """Return the unit that the sides of pixels are in; dots an inch are for print."""
+    from vorotool.geometry.input_unit import InputUnit, unit_of_crs
+
+    if not grid.is_size:
+        return None
+    if grid.unit is None:
+        return None if grid.crs is None else unit_of_crs(grid.crs)
+    return InputUnit(grid.unit)
+
+
+def side_of_pixel(grid: PixelGrid | None) -> InputUnit | None:
+    """Return the side of a pixel, if it is known of pixels that are squares."""
+    unit = None if grid is None or not grid.is_square else unit_of_grid(grid)
+    return None if grid is None or unit is None else unit._replace(side=unit.side * grid.width)
+
+
+def _size_of(asked: PixelSize, unit: InputUnit | None) -> PixelSize:
+    """Return what ``auto`` stands for."""
+    if asked.is_spacing:
+        raise UsageError("--spacing auto is for images, whose files may say it: give numbers, such as 0.325,0.5um")
+    if unit is None:
+        raise UsageError(
+            "--pixel-size auto is for inputs whose files state a unit: give a number and its unit, such as 0.325um, or "
+            "1m for coordinates in metres"
+        )
+    return PixelSize(unit.side, unit.unit)
+
+
+def _converted(o: Options, unit: InputUnit | None, shapes: PointSet | PolygonSet) -> Options:
+    if not measured(o):
+        return o
+    if unit is None:
+        return _refused(o)
+    if not unit.is_length:
+        return _refused_degrees(o, shapes.crs, shapes.xy)
+    return in_coordinates(o, Sides(unit.unit, (unit.side,) * 2))
+
+
+def _refused(o: Options, instead: str = "") -> Options:
+    size = o.pixel_size
+    if size is not None and size.unit is None and not size.is_auto:
+        from vorotool.geometry.length_units import METRES
+
+        refuse_lengths(o, f"{size.option} has none: give it one of {', '.join(METRES)}")
+    usual = "give --pixel-size, such as 0.325um, or 1m for coordinates in metres"
+    refuse_lengths(o, f"that of the input is not known: {instead or usual}")
+    return o
+
+
+def _refused_degrees(o: Options, crs: Any, xy: Any = ()) -> Options:
+    from vorotool.formats.parsing.reference_systems import projected_advice
+    from vorotool.geometry.crs import crs_name
+
+    advice = "gdalwarp -t_srs brings it into a projected system" if isinstance(xy, tuple) else projected_advice(xy)
+    where = "" if crs is None else f" ({crs_name(crs)})"
+    refuse_lengths(o, f"the input is in degrees{where}, whose length differs from place to place: {advice}")
+    return o
