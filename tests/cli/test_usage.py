@@ -92,18 +92,3 @@ def test_names_of_formats(run, folder, name):
     Image.fromarray(np.eye(4, dtype=np.uint8)).save(folder / "image", format=kind)
     assert run("tessellate", "image", "--input-format", name, "-o", "a.png").code == 0
     assert run("draw", "image", "--input-format", name, "-o", "a.svg").code == 0
-
-
-@pytest.mark.parametrize("command", ["tessellate", "delaunay", "alphashape", "skeleton-exact"])
-def test_a_direction_is_for_pictures(run, folder, command):
-    source = "mask.pbm" if command == "skeleton-exact" else "dots.csv"
-    done = run(command, source, "--y-up", "-o", "out.json", *(["--what", "table"] if command == "tessellate" else []))
-    assert done.code == 2
-    assert "--y-up" in done.err
-
-
-def test_a_plot_has_no_y_of_the_input(run, folder):
-    done = run("alphashape", "dots.csv", "--what", "curves", "--y-down", "-o", "a.svg")
-    assert (done.code, "curves are a plot: leave them out" in done.err) == (2, True)
-    assert run("alphashape", "dots.csv", "--what", "curves,edges", "--y-down", "-f", "svg", "-o", "a").code == 0
-    assert not (folder / "out.json").exists()

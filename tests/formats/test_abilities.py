@@ -33,12 +33,12 @@ PLACED = map_grid((30.0, 0.0, 2600000.0, 0.0, -30.0, 1200000.0), unit="m", crs=S
 
 
 def shapes():
-    return PolygonSet(VERTICES, [0, 3, 6], [0, 0], [0, 1], y_up=True, crs=SYSTEM, properties=ATTRIBUTES)
+    return PolygonSet(VERTICES, [0, 3, 6], [0, 0], [0, 1], y_axis="up", crs=SYSTEM, properties=ATTRIBUTES)
 
 
 def values():
     """What may be written in a format, and which part of it."""
-    mesh = vorotool.delaunay(vorotool.PointSet(VERTICES[:2], None, ATTRIBUTES, True, SYSTEM))
+    mesh = vorotool.delaunay(vorotool.PointSet(VERTICES[:2], None, ATTRIBUTES, "up", SYSTEM))
     triangle = vorotool.delaunay(VERTICES[:3])
     skeleton = vorotool.skeleton_exact(VERTICES[:3])
     return ((shapes(), None), (mesh, "table"), (mesh, "edges"), (triangle, "triangles"), (skeleton, "skeleton"))

@@ -209,7 +209,7 @@ def _layer(folder: Path, name: str) -> Path:
         [0, 1, 0],
         [0, 0, 1],
         properties={"name": ["a", "b"], "n": [1, None], "r": [0.5, 2.0]},
-        y_up=True,
+        y_axis="up",
         crs=crs,
     )
     vorotool.write(shapes, folder / name)

@@ -218,7 +218,7 @@ def test_images_lie_in_their_frame_and_on_their_map():
 
 
 def test_degrees_are_as_long_as_they_are_in_the_middle():
-    points = vorotool.PointSet([[-24, 63], [-13, 67]], y_up=True, crs=crs_member("EPSG:4326"))
+    points = vorotool.PointSet([[-24, 63], [-13, 67]], y_axis="up", crs=crs_member("EPSG:4326"))
     for value in (points, vorotool.delaunay(points)):
         ax = axes_of(value)
         assert ax.get_aspect() == pytest.approx(1 / cos(radians(sum(ax.get_ylim()) / 2)))

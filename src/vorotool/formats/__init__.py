@@ -56,6 +56,7 @@ def read(
     note: Callable[[str], None] | None = None,
     crs: str | None = None,
     to_crs: str | None = None,
+    y_up: bool | None = None,
     layer: str | None = None,
     flatten: Flatten = None,
     join_tolerance: float | None = None,
@@ -76,6 +77,7 @@ def read(
     note: Callable[[str], None] | None = None,
     crs: str | None = None,
     to_crs: str | None = None,
+    y_up: bool | None = None,
     layer: str | None = None,
     flatten: Flatten = None,
     join_tolerance: float | None = None,
@@ -113,6 +115,8 @@ def read(
         Coordinate reference system of points or polygons without one, such as EPSG:3857.
     to_crs : str, optional
         Coordinate reference system to transform the coordinates to.
+    y_up : bool, optional
+        Whether y goes upwards in the input, where that is not as usual in its format.
     layer : str, optional
         Layer to read from a file with several.
     flatten : float or "auto", optional
@@ -174,6 +178,7 @@ def read(
             note=note,
             crs=crs,
             to_crs=to_crs,
+            y_up=y_up,
             flatten=flatten,
             join_tolerance=join_tolerance,
         )

@@ -13,9 +13,10 @@ from vorotool.formats.images.band_reader import TiffRows, ZarrRows, open_tiff, o
 from vorotool.formats.io.sources import Source, read_source, reading
 from vorotool.formats.parsing.reader_options import ReadOptions, no_note
 from vorotool.formats.recognition import read_recognised, recognised, refuse_for_images
-from vorotool.geometry.checks import checked_threads
+from vorotool.geometry.checks import checked_flag, checked_threads
 from vorotool.geometry.numbers import Flatten, checked_flatten, checked_tolerance
 from vorotool.products.inputs import NAMES_WITH, known_input_format
+from vorotool.types.axis import y_axis_of
 
 if TYPE_CHECKING:
     from vorotool.geometry.arguments.sites import Sites
@@ -76,6 +77,7 @@ class Opened:
         note: Callable[[str], None] | None = None,
         crs: str | None = None,
         to_crs: str | None = None,
+        y_up: bool | None = None,
         flatten: Flatten = None,
         join_tolerance: float | None = None,
         told: Callable[[str], None] = no_note,
@@ -88,6 +90,7 @@ class Opened:
             note=note or no_note,
             crs=None if crs is None else _member(crs),
             to_crs=None if to_crs is None else _member(to_crs),
+            y_axis=None if y_up is None else y_axis_of(checked_flag(y_up, "y_up")),
             flatten=checked_flatten(flatten),
             join_tolerance=None if join_tolerance is None else checked_tolerance(join_tolerance, allows_zero=True),
             **options,
@@ -95,14 +98,22 @@ class Opened:
         if self.array is not None:
             refuse_for_images(given, self.layer)
             told("zarr")
-            return read_rows(self.array, max_pixels=given.max_pixels, note=given.note)
+            return self._turned(read_rows(self.array, max_pixels=given.max_pixels, note=given.note), given)
         content = read_source(self.name) if self.content is None else self.content
         content = replace(content, layer=self.layer, max_sites=given.max_sites, flatten=given.flatten)
         holds, source = recognised(content, self.geometry, self.said, given.columns)
         told(source.format)
-        value: PointSet | PolygonSet | Sites | Raster | Skeleton | Offsets | VoronoiMap
-        value = read_recognised(holds, source, given)
-        return value
+        return self._turned(read_recognised(holds, source, given), given)
+
+    def _turned(
+        self, value: Any, given: ReadOptions
+    ) -> PointSet | PolygonSet | Sites | Raster | Skeleton | Offsets | VoronoiMap:
+        """Give what was read with y as the caller says."""
+        if given.y_axis is None:
+            return value  # type: ignore[no-any-return]
+        from vorotool.formats.parsing.reference_systems import with_stated_axis
+
+        return with_stated_axis(value, self.name, given.y_axis)  # type: ignore[no-any-return]
 
 
 def _member(crs: str) -> dict[str, Any]:

@@ -27,36 +27,44 @@ _IS_VERIFIED: ContextVar[bool] = ContextVar("is_verified", default=False)
 
 
 @dataclass
-class WrittenCurves:
-    """What happened to curves where there are none: the largest distance of lines from them."""
+class Written:
+    """What is known of coordinates once they are written."""
 
-    deviation: float = 0.0
+    deviation: float = 0.0  # the largest distance of lines from the curves that they stand for
+    has_y_down: bool = False
 
 
-_CURVES: ContextVar[WrittenCurves | None] = ContextVar("curves", default=None)
+_WRITTEN: ContextVar[Written | None] = ContextVar("written", default=None)
 
 
 def record_deviation(distances: Floats) -> None:
     """Record how far lines that are written are from their curves."""
-    curves = _CURVES.get()
-    if curves is not None:
-        curves.deviation = max(curves.deviation, float(distances.max(initial=0)))
+    written = _WRITTEN.get()
+    if written is not None:
+        written.deviation = max(written.deviation, float(distances.max(initial=0)))
+
+
+def record_y_down() -> None:
+    """Record that y of what is written goes down."""
+    written = _WRITTEN.get()
+    if written is not None:
+        written.has_y_down = True
 
 
 @contextmanager
-def coordinates_written(decimals: int | None, *, is_verified: bool = False) -> Iterator[WrittenCurves]:
+def coordinates_written(decimals: int | None, *, is_verified: bool = False) -> Iterator[Written]:
     """Say how coordinates of files are written within."""
     name = option("--decimals")
     if decimals is not None and not 0 <= whole_number(decimals, name) <= MOST_DECIMALS:
         raise UsageError(f"{name} is {shown_number(decimals)}: use 0 to {MOST_DECIMALS}, or leave it out")
-    curves = WrittenCurves()
-    tokens = _DECIMALS.set(decimals), _IS_VERIFIED.set(is_verified), _CURVES.set(curves)
+    written = Written()
+    tokens = _DECIMALS.set(decimals), _IS_VERIFIED.set(is_verified), _WRITTEN.set(written)
     try:
-        yield curves
+        yield written
     finally:
         _DECIMALS.reset(tokens[0])
         _IS_VERIFIED.reset(tokens[1])
-        _CURVES.reset(tokens[2])
+        _WRITTEN.reset(tokens[2])
 
 
 def current_decimals() -> int | None:

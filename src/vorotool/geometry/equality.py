@@ -18,7 +18,7 @@ def is_equal(a: Any, b: Any) -> bool:
     if isinstance(a, Mapping) and isinstance(b, Mapping):
         return a.keys() == b.keys() and all(is_equal(a[name], b[name]) for name in a)
     if is_dataclass(a) and type(a) is type(b):
-        return all(is_equal(getattr(a, each.name), getattr(b, each.name)) for each in fields(a))
+        return all(is_equal(getattr(a, each.name), getattr(b, each.name)) for each in fields(a) if each.compare)
     if _is_rows(a) and _is_rows(b):
         return len(a) == len(b) and _equal_rows(a, b)
     return _equal_items(a, b)

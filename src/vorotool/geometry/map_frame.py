@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError, LimitError, UsageError, option
 from vorotool.geometry.pixel_frame import FARTHEST, Frame
 from vorotool.geometry.pixel_grid import PixelGrid, map_grid
+from vorotool.types.axis import DOWN, UP, YAxis
 
 MapWindow = tuple[Fraction, Fraction, Fraction, Fraction]
 
@@ -20,9 +21,15 @@ MOST_UNASKED = 2**28
 
 
 def map_frame(
-    low: NDArray[np.float64], high: NDArray[np.float64], side: Fraction, *, window: MapWindow | None, crs: Any = None
+    low: NDArray[np.float64],
+    high: NDArray[np.float64],
+    side: Fraction,
+    *,
+    window: MapWindow | None,
+    y_axis: YAxis = UP,
+    crs: Any = None,
 ) -> tuple[Frame, PixelGrid]:
-    """Lay cells over what lies between two corners, or over a window; the first row is the northernmost."""
+    """Lay cells over what lies between two corners, or over a window; rows go southwards, or down as y does."""
     if window is not None:
         left, bottom = window[:2]
         columns, rows = window[2] / side, window[3] / side
@@ -51,7 +58,8 @@ def map_frame(
             )
     top = bottom + height * side
     step = float(side)
-    return Frame(0, 0, width, height), map_grid((step, 0.0, float(left), 0.0, -step, float(top)), crs=crs)
+    down = (step, float(bottom)) if y_axis == DOWN else (-step, float(top))
+    return Frame(0, 0, width, height), map_grid((step, 0.0, float(left), 0.0, *down), crs=crs)
 
 
 def in_cells(xy: NDArray[np.float64], grid: PixelGrid) -> NDArray[np.float64]:

@@ -15,6 +15,7 @@ from numpy.typing import DTypeLike, NDArray
 from vorotool.geometry.crs import crs_name
 from vorotool.geometry.equality import is_equal
 from vorotool.products.formats import resolved
+from vorotool.types.axis import UNSTATED, YAxis
 from vorotool.types.fields import Record
 
 if TYPE_CHECKING:
@@ -30,6 +31,9 @@ _FRAMES = "geometry.any.frames"
 _SHOWING = "jobs.showing"
 
 
+_MADE_OF = ("path", "skeleton", "shape", "polygons", "family", "mesh")
+
+
 class Value(Record):
     """A value: equal to another one of its type if all fields are; like an array it is no key of a dictionary."""
 
@@ -40,6 +44,29 @@ class Value(Record):
         return self is other or all(is_equal(getattr(self, name), getattr(other, name)) for name in names)
 
     __hash__ = None  # type: ignore[assignment]  # what compares by the elements of arrays has no hash that lasts
+
+    @property
+    def _made_of(self) -> object:
+        """The value whose coordinates these are, if it is not this one."""
+        held = (getattr(self, name, None) for name in _MADE_OF)
+        return next((each for each in held if isinstance(each, Value)), None)
+
+    @property
+    def y_axis(self) -> YAxis:
+        """Direction of y where the coordinates come from."""
+        axis: YAxis = getattr(self._made_of, "y_axis", UNSTATED)
+        return axis
+
+    @property
+    def crs(self) -> Any:
+        """The ``crs`` member of GeoJSON; None where the input has none."""
+        return getattr(self._made_of, "crs", None)
+
+    @property
+    def unit(self) -> str | None:
+        """The unit of length of the coordinates; None where the input has none."""
+        unit: str | None = getattr(self._made_of, "unit", None)
+        return unit
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}: {self._summary()}"

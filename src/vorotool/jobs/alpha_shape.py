@@ -117,7 +117,7 @@ class ShapeProducts:
             mesh = digital_triangulation(seeds, **frame, progress=progress)
         else:
             mesh, _ = repair_digital(seeds, **frame, max_pixels=o.max_pixels, progress=progress)
-        return replace(mesh, y_up=points.y_up, crs=points.crs) if isinstance(points, PointSet) else mesh
+        return replace(mesh, y_axis=points.y_axis, crs=points.crs) if isinstance(points, PointSet) else mesh
 
     def _shape(self, progress: Progress) -> AlphaShape:
         o = self.options
@@ -273,7 +273,7 @@ class ShapeProducts:
 
         r = self.shape.r if self.has_shape else self.radius
         r = None if r is None else length_in_units(self.options.pixel_size, r)
-        write_alpha_html(out, self.written_family, self.written_curves, r=r, y_up=self.options.y_up)
+        write_alpha_html(out, self.written_family, self.written_curves, r=r)
 
     @cached_property
     def page(self) -> Page:
@@ -283,7 +283,7 @@ class ShapeProducts:
 
         if self.backdrop is not None:
             return styled_page(ImagePage(self.backdrop), self.options.looks, self._world)
-        page = mesh_page(self.family.mesh, width=self.options.width or 1000, y_up=self.options.y_up)
+        page = mesh_page(self.family.mesh, width=self.options.width or 1000)
         return styled_page(page, self.options.looks, self._world)
 
     def _layers(self, target: Target, shape: AlphaShape) -> list[Layer]:

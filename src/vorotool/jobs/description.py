@@ -37,6 +37,7 @@ from vorotool.jobs.inputs import check_streams, refuse
 from vorotool.jobs.options import ReadingOptions
 from vorotool.jobs.terminal import escaped, tell
 from vorotool.products.inputs import NAMES_WITH, TAKEN_BY, VOLUME_NAMES, VOLUMES_TAKEN_BY
+from vorotool.types.axis import UNSTATED
 
 MOST_CHANNELS = 4
 """Values of a pixel of an image: an array whose last axis has no more is one."""
@@ -327,7 +328,7 @@ def _of_places(xy: NDArray[np.float64], value: PointSet | PolygonSet) -> Descrip
         "bounds": None if low is None or high is None else [*low.tolist(), *high.tolist()],
         "unit": None if unit is None else unit.text,
         "crs": None if value.crs is None else crs_name(value.crs),
-        "y": "up" if value.y_up else "down",
+        "y": value.y_axis,
     }
 
 
@@ -403,6 +404,7 @@ def _number(value: float) -> str:
 
 
 _WORDS: dict[str, Callable[[Any, Description], str]] = {
+    "y": lambda value, _: "not stated" if value == UNSTATED else str(value),
     "bounds": _extent,
     "pixel_size": _side,
     "voxel_size": _voxel,

@@ -50,7 +50,7 @@ class DigitalProducts(MeshProducts):
         )
 
     def _as_input(self, points: PointSet | SeedSet, mesh: AnyTriangulation) -> AnyTriangulation:
-        return replace(mesh, y_up=points.y_up, crs=points.crs) if isinstance(points, PointSet) else mesh
+        return replace(mesh, y_axis=points.y_axis, crs=points.crs) if isinstance(points, PointSet) else mesh
 
     @cached_property
     def comparison(self) -> DigitalComparison:

@@ -134,7 +134,7 @@ class DistanceProducts:
             shown = replace(shown, smallest=None)
         elif what == "smallest":
             shown = replace(shown, from_a=None, from_b=None)
-        return drawing_of(shown, layers=o.layers, width=o.width or 1000, y_up=o.y_up, styled=self._styled)
+        return drawing_of(shown, layers=o.layers, width=o.width or 1000, styled=self._styled)
 
     def stats(self) -> dict[str, Any]:
         """Counts and sizes."""
@@ -157,4 +157,4 @@ def _both(a: PolygonSet, b: PolygonSet) -> PolygonSet:
     xy = np.concatenate([a.xy, b.xy])
     count = int(len(xy) > 0)
     rings = (np.array([0, len(xy)][: count + 1]), np.full(count, LINE, np.int8), np.zeros(count, np.int32))
-    return PolygonSet(xy, *rings, y_up=a.y_up, crs=a.crs, unit=a.unit)
+    return PolygonSet(xy, *rings, y_axis=a.y_axis, crs=a.crs, unit=a.unit)

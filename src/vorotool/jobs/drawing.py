@@ -15,6 +15,7 @@ from vorotool.formats.io.atomic_output import open_output
 from vorotool.formats.io.npy_arrays import MAGIC
 from vorotool.formats.io.sources import Source, read_source, reading
 from vorotool.formats.parsing.reader_options import ReadOptions
+from vorotool.formats.parsing.reference_systems import with_stated_axis
 from vorotool.formats.points.tables import is_table
 from vorotool.formats.recognition import image_format, image_source, read_recognised, recognised
 from vorotool.formats.text_recognition import has_no_rows
@@ -35,6 +36,7 @@ from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target, check_picture_options
 from vorotool.products.inputs import DRAWN_NAMES, Holds, known_input_format
 from vorotool.products.registry import PRODUCTS, Product
+from vorotool.types.axis import y_axis_of
 
 _SKELETONS = PRODUCTS["skeleton-exact"]
 _COLORED = PRODUCTS["tessellate"]["color"].layers
@@ -104,9 +106,15 @@ def _read(run: Run, o: DrawingOptions, given: JobInput) -> LabelImage | Lined:
             )
         holds = "polygons"  # whose reader says more of tables
     options = ReadOptions(
-        page=o.page, properties=o.label_by is not None, max_pixels=o.max_pixels, note=partial(_note, run)
+        y_axis=None if o.y_up is None else y_axis_of(o.y_up),
+        page=o.page,
+        properties=o.label_by is not None,
+        max_pixels=o.max_pixels,
+        note=partial(_note, run),
     )
     value = read_recognised(holds, source, options)
+    if options.y_axis is not None:
+        value = with_stated_axis(value, source.name, options.y_axis)
     return label_image_of(value, source.name) if isinstance(value, Raster) else value
 
 
@@ -133,7 +141,7 @@ def _of_labels(run: Run, o: DrawingOptions, given: JobInput, image: LabelImage, 
     from vorotool.render.label_images.svg import check_size
 
     is_page = fmt == "html"
-    check_picture_options(o, [] if is_page else [fmt], LABEL_LAYERS, has_page=is_page)
+    check_picture_options(o, [] if is_page else [fmt], LABEL_LAYERS)
     check_column(o.label_by, ())
     note_other_size(run, o, given, image.shape)
     image = _objects(run, image)
@@ -188,7 +196,6 @@ def _of_layers(run: Run, o: DrawingOptions, given: JobInput, value: Lined, fmt: 
         value,
         layers=o.layers,
         width=o.width or 1000,
-        y_up=o.y_up,
         backdrop=given.backdrop,
         styled=partial(styled_page, looks=o.looks, world=world_of_polygons(run, o, polygons)),
     )

@@ -93,12 +93,13 @@ def read_opened(
     tolerances: dict[str, Any] = {}
     if isinstance(o, ShapeOptions):
         source, tolerances = _tolerances(o, source, read)
-    value = read(source, run.note, to_crs=o.crs, **tolerances)
+    value = read(source, run.note, to_crs=o.crs, y_up=o.y_up, **tolerances)
     if not isinstance(value, PointSet | PolygonSet | Sites | Raster):  # which is read where no geometry is asked for
         raise InputError(
             f"{given.name} is a result of vorotool, of {type(value).__name__}: points or polygons were due"
         )
     if isinstance(value, Raster):
+        run.reads_image = True
         note_other_size(run, o, given, value.values.shape)
         run.pixel = side_of_pixel(value.grid)
         return lengths_of_image(o, value.grid), value

@@ -7,12 +7,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Generic, Protocol, TypeVar
 
+from vorotool.formats.io.atomic_output import spoken
 from vorotool.geometry.progress import Progress
 from vorotool.jobs.inputs import JobInput, naming, read_backdrop
 from vorotool.jobs.options import ComputingOptions, JobOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target, check_targets
 from vorotool.jobs.units import shows_units, unit_stats
+from vorotool.products.formats import FORMATS
 from vorotool.signals import end_by_exceptions
 
 Options = TypeVar("Options", bound=JobOptions)
@@ -79,11 +81,21 @@ def process_input(recipe: Recipe[Options], run: Run, options: Options, path: str
         for target in targets:
             if options.out_dir is not None:
                 make_folder(Path(target.path).parent)
-            with run.phase(f"write {target.what}"), coordinates_written(decimals, is_verified=is_verified) as curves:
+            with run.phase(f"write {target.what}"), coordinates_written(decimals, is_verified=is_verified) as written:
                 products.write(target, inputs=(path,))
-            deviation = max(deviation, curves.deviation)
+            deviation = max(deviation, written.deviation)
+            if written.has_y_down:
+                _note_y_down(run, target)
     if options.stats is not None:
         with run.phase("count"):
             run.stats.update({**products.stats(), **unit_stats(options.unit)})
             if deviation:
                 run.stats["deviation"] = deviation
+
+
+def _note_y_down(run: Run, target: Target) -> None:
+    """Say what becomes of y in a format whose readers take it to go upwards."""
+    if FORMATS[target.fmt].is_map:
+        run.note(f"y goes down in {spoken(target.path)}, as in the input: read it with --y-down")
+    elif target.fmt == "dxf" and run.reads_image:
+        run.note(f"y is negated in {spoken(target.path)}, since it goes up in DXF and down in images")

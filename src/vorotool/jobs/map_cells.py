@@ -37,7 +37,7 @@ def seeds_on_map(run: Run, o: TessellationOptions, value: PointSet | PolygonSet)
     if not 1e-100 < o.cell_size < 1e100:
         raise UsageError("--cell-size must be more than 0, and at most 1e100")
     low, high = (np.zeros(2), np.zeros(2)) if is_empty else bounds(value.xy)
-    frame, grid = map_frame(low, high, o.cell_size, window=o.window, crs=value.crs)
+    frame, grid = map_frame(low, high, o.cell_size, window=o.window, y_axis=value.y_axis, crs=value.crs)
     o = replace(o, window=(frame.x, frame.y, frame.width, frame.height), size=None, pixel_size=o.pixel_size or AUTO)
     if is_empty:
         return o, replace(no_seeds(run, o), grid=grid)

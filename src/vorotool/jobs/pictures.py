@@ -71,7 +71,6 @@ def drawing_of(
     what: str | None = None,
     layers: Sequence[str] | None = None,
     width: int = 1000,
-    y_up: bool | None = None,
     backdrop: Backdrop | None = None,
     styled: Callable[[Page], Page] | None = None,
 ) -> Drawing:
@@ -85,7 +84,7 @@ def drawing_of(
         chosen = what or next(iter(drawn))
         if chosen not in drawn:
             raise UsageError(f"what={what!r} is no picture of a {type(value).__name__}: use {' or '.join(drawn)}")
-        page = page_of(value, width=width, y_up=y_up) if backdrop is None else ImagePage(backdrop)
+        page = page_of(value, width=width) if backdrop is None else ImagePage(backdrop)
         page = page if styled is None else styled(page)
         usual = [layer for layer in drawn[chosen].usual_layers if backdrop is None or layer != "polygons"]
         shown = list(layers or usual)

@@ -18,6 +18,7 @@ from vorotool.jobs.units import (
     takes_spacing,
     unit_stats,
 )
+from vorotool.types.axis import UP
 
 if TYPE_CHECKING:
     from vorotool.geometry.pixel_grid import PixelGrid
@@ -141,7 +142,7 @@ def placed_polygons(size: PixelSize | None, polygons: PolygonSet) -> PolygonSet:
         return polygons
     from vorotool.geometry.any.mirroring import mirrored_polygons
 
-    return replace(mirrored_polygons(polygons) if size.y_up else polygons, y_up=True, crs=size.crs)
+    return replace(mirrored_polygons(polygons) if size.y_up else polygons, y_axis=UP, crs=size.crs)
 
 
 def placed_sites(
@@ -199,7 +200,7 @@ def placed_mesh(size: PixelSize | None, mesh: Placed) -> Placed:
     """Give a triangulation of such seeds the coordinate reference system of the map."""
     if size is None or size.origin is None:
         return mesh
-    made: Placed = replace(mesh, y_up=True, crs=size.crs)  # type: ignore[type-var]  # triangulations have both
+    made: Placed = replace(mesh, y_axis=UP, crs=size.crs)  # type: ignore[type-var]  # triangulations have both
     return made
 
 

@@ -48,6 +48,7 @@ class Run:
         self.seconds: dict[str, float] = {}
         self._inner: list[float] = []
         self._stack = ExitStack()
+        self.reads_image = False
         self.stats: dict[str, Any] = {"command": command, "version": __version__}
         self.unit: str | None = None  # of the coordinates of the input, where no reference system states it
         self.pixel: InputUnit | None = None  # the side of a pixel of the input, where that is known

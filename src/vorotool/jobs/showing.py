@@ -6,7 +6,6 @@ import io
 from base64 import b64encode
 from collections.abc import Callable, Sequence
 from html import escape
-from operator import attrgetter
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -26,6 +25,7 @@ from vorotool.jobs.label_pictures import LabelPicture
 from vorotool.jobs.pictures import Drawing, drawing_of, write_layers
 from vorotool.jobs.writing import to_geojson
 from vorotool.products.registry import is_of, parts_of
+from vorotool.types.axis import is_up
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -93,10 +93,10 @@ def _drawn(value: Any, what: str | None, layers: Sequence[str] | None, width: in
     if is_of(value, "AlphaComplex"):
         return drawing_of(value.mesh, what=what, layers=layers, width=width)
     if is_of(value, "PlanarGraph"):
-        places, y_up = value.coordinates(), value.polygons is not None and value.polygons.y_up
+        places, y_up = value.coordinates(), is_up(value.polygons)
         made = [Lines("segments", places, value.segments)]
     elif is_of(value, "PointSet", "SeedSet"):
-        places, y_up = value.xy if is_of(value, "PointSet") else value.sites, getattr(value, "y_up", False)
+        places, y_up = value.xy if is_of(value, "PointSet") else value.sites, is_up(value)
         made = []
     else:
         return drawing_of(value, what=what, layers=layers, width=width)
@@ -185,25 +185,6 @@ def _visible(values: NDArray[Any]) -> NDArray[np.uint8]:
 
 
 # ---- axes ----------------------------------------------------------------------------------------
-_CRS = [
-    attrgetter(path)
-    for path in (
-        *("crs", "grid.crs", "mesh.crs", "family.mesh.crs", "shape.family.mesh.crs", "polygons.crs"),
-        *("path.polygons.crs", "skeleton.polygons.crs"),
-    )
-]
-"""Where values have their coordinate reference system."""
-
-
-def _crs_of(value: Any) -> Any:
-    for found in _CRS:
-        try:
-            return found(value)
-        except AttributeError:
-            continue
-    return None
-
-
 def plotted(value: Any, ax: Axes | None = None, **style: Any) -> Axes:
     """Draw a value on axes of matplotlib; see `vorotool.geometry.values.Pictured`."""
     needed("matplotlib", "plot", "plots")
@@ -218,7 +199,7 @@ def plotted(value: Any, ax: Axes | None = None, **style: Any) -> Axes:
         drawing = _drawn(value, what, layers, 640)
         y_up = drawing.page.y_up
         draw_on_axes(ax, drawing.layers, drawing.page, **style)
-    settle_axes(ax, y_up=y_up, is_geographic=is_geographic(_crs_of(value)))
+    settle_axes(ax, y_up=y_up, is_geographic=is_geographic(value.crs))
     return ax
 
 

@@ -58,7 +58,6 @@ def check_options(o: SkeletonOptions, targets: list[Target]) -> None:
         pictures,
         layers_of(_command(o)),
         png_has_width=True,
-        has_page="html" in formats,
     )
 
 
@@ -228,7 +227,6 @@ def _check_thickness(o: ExactSkeletonOptions, targets: list[Target]) -> None:
     given = {
         "--width": o.width is not None,
         "--overlay": o.overlay is not None,
-        "--y-up or --y-down": o.y_up is not None,
         **{f"--{name}": name in o.looks.given() for name in ("color", "line-width", "label-by", "aspect", "extent")},
     }
     for name in (name for name, is_given in given.items() if is_given):

@@ -93,14 +93,11 @@ def check_picture_options(
     layers: Mapping[str, Sequence[str]],
     *,
     png_has_width: bool = False,
-    has_page: bool = False,
 ) -> None:
-    """Refuse layers, a width, a direction and an image beneath that no picture would show."""
+    """Refuse layers, a width and an image beneath that no picture would show."""
     check_style(options, pictures, layers, is_of_lines=png_has_width)
     if options.overlay is not None:
         _check_overlay(options, pictures)
-    if options.y_up is not None and not pictures and not has_page:
-        raise UsageError("--y-up and --y-down are for pictures: use -f svg or -f png, or leave them out")
     if options.width is not None and png_has_width and not pictures:
         raise UsageError("--width is for pictures: use -f svg or -f png, or leave it out")
     if options.width is not None and not png_has_width and "svg" not in pictures:

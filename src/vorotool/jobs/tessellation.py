@@ -61,6 +61,7 @@ from vorotool.jobs.units import sides_of, table_in_units, unit_columns, unit_tex
 from vorotool.products.formats import ANIMATIONS
 from vorotool.products.registry import PRODUCTS
 from vorotool.products.writing import write_product
+from vorotool.types.axis import is_up
 
 if TYPE_CHECKING:
     from vorotool.jobs.label_pictures import LabelPicture
@@ -74,7 +75,6 @@ class ReadSeeds(NamedTuple):
     """Seeds, and what else an input says."""
 
     seeds: SeedSet
-    y_up: bool = False  # whether y of its points goes upwards
     grid: PixelGrid | None = None  # sides and places of the pixels of the image
 
 
@@ -103,11 +103,11 @@ def products(run: Run, o: TessellationOptions, given: JobInput) -> Products | St
 
 def _seeds_of(run: Run, o: TessellationOptions, value: PointSet | PolygonSet | Raster) -> ReadSeeds:
     if isinstance(value, PointSet) and not len(value):
-        return ReadSeeds(no_seeds(run, o), value.y_up)
+        return ReadSeeds(replace(no_seeds(run, o), y_axis=value.y_axis))
     if isinstance(value, PointSet):
         frame = asked_frame(o) or partial(frame_of, o)
         seeds = seeds_in_frame(value, frame, sides=sides_of(o), strict=o.strict)
-        return ReadSeeds(seeds, value.y_up)
+        return ReadSeeds(seeds)
     assert isinstance(value, Raster)  # what is asked for is points, or an image
     alone = {"columns": o.columns, "cell-size": o.cell_size, **o.of_frame()}
     refuse(alone, "is for lists of points, but the input is an image, which brings its own")
@@ -288,15 +288,11 @@ class Products:
         else:
             self._picture(target).write(out, target.fmt)
 
-    @property
-    def _is_y_up(self) -> bool:
-        return self.read.y_up if self.options.y_up is None else self.options.y_up
-
     def _write_html(self, out: BinaryIO) -> None:
         from vorotool.jobs.label_pictures import write_label_page
 
         more = unit_columns(self.options.pixel_size, len(self.colors[0]))
-        write_label_page(out, self.image, self.colors, self._table(), more, y_up=self._is_y_up)
+        write_label_page(out, self.image, self.colors, self._table(), more, y_up=is_up(self.image))
 
     def _picture(self, target: Target) -> LabelPicture:
         from vorotool.jobs.label_pictures import LabelPicture, default_layers
@@ -309,7 +305,7 @@ class Products:
             layers,
             o.looks.style(self._scale_bar),
             width=o.width or 1000,
-            y_up=self.backdrop is None and self._is_y_up,
+            y_up=self.backdrop is None and is_up(self.image),
             backdrop=self.backdrop,
             texts=self._texts,
             threads=o.threads,

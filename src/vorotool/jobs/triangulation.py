@@ -193,7 +193,7 @@ class MeshProducts:
         if {"cells", "diagram"} & set(self._layers(what)):
             bounds = self.cells.frame.sides
             world = world if bounds == world.frame else world._replace(frame=None)
-        page = mesh_page(self.mesh, width=self.options.width or 1000, y_up=self.options.y_up, bounds=bounds)
+        page = mesh_page(self.mesh, width=self.options.width or 1000, bounds=bounds)
         return styled_page(page, looks, world)
 
     def _write_picture(self, out: BinaryIO, fmt: str, what: str) -> None:
@@ -220,7 +220,7 @@ class MeshProducts:
         measures = {"area": cells.areas(), "perimeter": cells.perimeters(), "x": x, "y": y}
         columns: dict[str, Any] = {name: values.tolist() for name, values in measures.items()}
         columns |= unit_columns(self.options.pixel_size, len(cells))
-        shapes = shapes_of_cells(cells, y_up=self.options.y_up)
+        shapes = shapes_of_cells(cells)
         write_cells_html(out, shapes, cell_colors(self.mesh), columns | cells.properties)
 
     def verify(self, progress: Progress) -> None:

@@ -143,7 +143,7 @@ class VoronoiProducts:
         from vorotool.render.pages.cells_html import shapes_of_map, write_cells_html
 
         cells = in_units(self.options.pixel_size, self.cells)
-        shapes = shapes_of_map(cells, y_up=self.options.y_up)
+        shapes = shapes_of_map(cells)
         columns = {name: column for name, column in cells.table.items() if name not in ("label", "id")}
         write_cells_html(out, shapes, map_colors(cells), columns | unit_columns(self.options.pixel_size, len(cells)))
 
@@ -154,7 +154,6 @@ class VoronoiProducts:
             what=what,
             layers=o.layers,
             width=o.width or 1000,
-            y_up=o.y_up,
             backdrop=self.backdrop,
             styled=self._styled,
         )

@@ -33,7 +33,7 @@ def check_options(o: VoronoiOptions, targets: list[Target]) -> None:
     if o.layers is not None and not pictures:
         raise UsageError("--layers is for pictures: use -f svg or -f png, or leave it out")
     check_layers(o, PRODUCTS["voronoi"], targets)
-    check_picture_options(o, pictures, layers_of("voronoi"), png_has_width=True, has_page="html" in formats)
+    check_picture_options(o, pictures, layers_of("voronoi"), png_has_width=True)
 
 
 def _flattens(target: Target) -> bool:

@@ -19,6 +19,8 @@ from vorotool.jobs.units import PixelSize
 from vorotool.products.formats import FORMATS, PICTURES, format_named
 from vorotool.products.registry import Product, is_of, parts_of
 from vorotool.products.writing import chosen_part, write_product
+from vorotool.types.axis import is_up, y_axis_of
+from vorotool.types.fields import Record, with_y_axis
 
 if TYPE_CHECKING:
     from vorotool.geometry.alpha.persistence import RegionPersistence
@@ -73,7 +75,7 @@ def write(
     width : int, optional
         Width of a picture, in px; by default 1000. The PNG of a label image has the size of the image.
     y_up : bool, optional
-        Draw y upwards; by default as for the input.
+        Whether y goes upwards; by default as for the input.
     color : mapping of str to str, optional
         Colors of layers of a picture, by layer name: ``#rrggbb``, or names as in CSS; for areas with many colors,
         such as cells, the color of their borders.
@@ -117,6 +119,8 @@ def write(
     name = fmt or Path(path).suffix
     chosen = format_named(name) or name.lower().removeprefix(".")
     threads = checked_threads(threads)
+    if y_up is not None and isinstance(value, Record):
+        value = with_y_axis(value, y_axis_of(checked_flag(y_up, "y_up")))
     looks = looks_of(color=color, line_width=line_width, background=background)
     looks = looks._replace(label_by=label_by, has_legend=legend, has_scale_bar=scale_bar)
     styles: dict[str, object] = {
@@ -134,7 +138,7 @@ def write(
         write_volume_value(value, fspath(path), chosen, {**more, "layers": layers, "width": width, **styles}, threads)
         return
     if chosen not in PICTURES or (is_of(value, "LabelImage") and chosen == "png" and what in (None, "labels")):
-        for option, given in {"layers": layers, "width": width, "y_up": y_up, **styles}.items():
+        for option, given in {"layers": layers, "width": width, **styles}.items():
             if given is not None:
                 raise UsageError(f"{option} is for pictures: use fmt='svg' or fmt='png', or leave it out")
         product = _part(value, chosen, what, flatten)
@@ -251,7 +255,6 @@ def _draw(value: Any, wanted: _Picture) -> None:
         what=wanted.what,
         layers=wanted.layers,
         width=wanted.width or 1000,
-        y_up=wanted.y_up,
         styled=partial(styled_page, looks=wanted.looks, world=world_of_value(value, wanted.looks)),
     )
     check_layers(wanted.looks, [layer.name for layer in drawing.layers])
@@ -267,8 +270,8 @@ def _draw_plot(found: RegionPersistence, wanted: _Picture) -> None:
 
     if wanted.fmt != "svg":
         raise UsageError("the plot of a RegionPersistence is drawn as SVG: use fmt='svg'")
-    if wanted.layers is not None or wanted.y_up is not None:
-        raise UsageError("layers and y_up are for pictures of shapes, but this is a plot: leave them out")
+    if wanted.layers is not None:
+        raise UsageError("layers are for pictures of shapes, but this is a plot: leave them out")
     with open_output(wanted.path, binary=False) as out:
         write_persistence_svg(out, found.table(), found.suggested, width=wanted.width or 1000)
 
@@ -298,7 +301,7 @@ def _draw_labels(image: LabelImage, wanted: _Picture) -> None:
         chosen,
         wanted.looks.style(world.scale_bar),
         width=wanted.width or 1000,
-        y_up=bool(wanted.y_up),
+        y_up=is_up(image) if wanted.y_up is None else wanted.y_up,
         texts=None if label_by is None or image.seeds is None else site_texts(image.seeds, label_by),
         threads=wanted.threads,
     )

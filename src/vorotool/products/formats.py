@@ -38,6 +38,7 @@ class Format:
     made_from: tuple[str, ...] = ()
     # `module:name` of `maker(out, what, path)`: a context in which there is a file that takes that text
     maker: str = ""
+    is_map: bool = False  # whoever reads it takes y to go upwards
     parts: tuple[str, ...] = ()  # extensions of further files that each consists of
 
     @property
@@ -54,7 +55,7 @@ def _of_objects(name: str, title: str, extensions: tuple[str, ...], maker: str) 
 def _of_maps(name: str, title: str, maker: str, sources: tuple[str, ...] = ("geojson",), **more: Any) -> Format:
     """Give a format of features of maps, or of the rows of tables where it can hold these."""
     place = f"formats.features.feature_writers:{maker}"
-    return Format(name, title, is_text=False, flattens=True, made_from=sources, maker=place, **more)
+    return Format(name, title, is_text=False, flattens=True, made_from=sources, maker=place, is_map=True, **more)
 
 
 _GRAPHML = Writer("formats.results.graphml:write_graphml", ("flatten", "precision", "threads"))
@@ -78,7 +79,7 @@ _ALL = (
     Format("ele", "Triangle", family="Triangle"),
     Format("node", "Triangle", has_digits=True, family="Triangle"),
     Format("obj", "OBJ", has_digits=True),
-    Format("wkt", "WKT", has_digits=True, flattens=True),
+    Format("wkt", "WKT", has_digits=True, flattens=True, is_map=True),
     Format("poly", "Triangle", has_digits=True),
     Format("graphml", "GraphML", has_digits=True, flattens=True, writers={"skeleton": _GRAPHML}),
     _of_objects("jsonl", "JSON lines", ("jsonl", "ndjson"), "formats.text.json_lines:JsonLines"),

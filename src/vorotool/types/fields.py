@@ -7,7 +7,7 @@ that nobody changes, and what becomes of the field in another unit of length.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import MISSING, dataclass, field, fields
+from dataclasses import MISSING, dataclass, field, fields, replace
 from enum import Enum
 from typing import Any, TypeVar, dataclass_transform
 
@@ -15,8 +15,10 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from vorotool.errors import InputError
+from vorotool.types.axis import YAxis, checked_y_axis
 
 _KEY = "declared"
+T = TypeVar("T")
 Axis = int | str
 """Length of an axis: a number, or a name that stands for one number in all fields of a value."""
 
@@ -28,6 +30,7 @@ class Meaning(Enum):
     AREA = "area"
     POSITION = "position"
     NUMBER = "number"
+    AXIS = "axis"
     VALUE = "value"
 
 
@@ -46,6 +49,8 @@ class Declared:
         """Check a field and return it as it is kept; lengths that its axes name are noted in `sizes`."""
         if given is None and self.is_optional:
             return None
+        if self.meaning is Meaning.AXIS:
+            return checked_y_axis(given, name)
         if self.meaning is Meaning.VALUE:
             self._measure(self.shape, (len(given),) if self.shape else (), name, sizes)
             return given
@@ -148,18 +153,40 @@ def nested(size: Axis | None = None, *, default: Any = MISSING, kw_only: bool = 
     return _field(Meaning.VALUE, () if size is None else (size,), None, default, kw_only=kw_only)
 
 
+def y_axis(*, default: YAxis) -> Any:
+    """Declare which way y goes; values that differ in nothing else are equal."""
+    return field(default=default, metadata={_KEY: Declared(Meaning.AXIS)}, compare=False)
+
+
 def declared(value: object) -> dict[str, Declared]:
     """Return the declarations of the fields of a value."""
     return {each.name: each.metadata[_KEY] for each in fields(value) if _KEY in each.metadata}  # type: ignore[arg-type]
 
 
-T = TypeVar("T")
+def with_y_axis(value: T, axis: YAxis) -> T:
+    """Return a value whose y, and that of all values in it, goes another way."""
+    changes: dict[str, Any] = {}
+    for each in fields(value):  # type: ignore[arg-type]
+        held = getattr(value, each.name)
+        own: Declared | None = each.metadata.get(_KEY)
+        if own is not None and own.meaning is Meaning.AXIS:
+            changes[each.name] = axis
+        elif isinstance(held, Record):
+            changes[each.name] = with_y_axis(held, axis)
+        elif isinstance(held, tuple) and held and all(isinstance(item, Record) for item in held):
+            changes[each.name] = tuple(with_y_axis(item, axis) for item in held)
+    if not changes:
+        return value
+    made = replace(value, **changes)  # type: ignore[type-var]
+    if "_as_given" in value.__dict__:  # the polygons that these were before an engine moved them
+        made.__dict__["_as_given"] = with_y_axis(value.__dict__["_as_given"], axis)
+    return made
 
 
 @dataclass_transform(
     eq_default=False,
     frozen_default=True,
-    field_specifiers=(field, position, length, area, numbers, index, starts, nested),
+    field_specifiers=(field, position, length, area, numbers, index, starts, nested, y_axis),
 )
 def record(kind: type[T]) -> type[T]:
     """Make a frozen data class of one with declared fields."""

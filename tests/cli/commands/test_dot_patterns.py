@@ -97,7 +97,6 @@ def test_one_cluster_and_none(run, folder):
         (["delaunay", "--what", "statistics", "--method", "digital"], "--method"),
         (["alphashape", "--what", "persistence", "--rule", "printed"], "need --rule corrected"),
         (["alphashape", "--what", "persistence", "--method", "digital"], "--method"),
-        (["alphashape", "--what", "persistence", "-f", "svg", "--y-up"], "are a plot: leave them out"),
     ],
 )
 def test_what_does_not_go_together(run, arguments, message):

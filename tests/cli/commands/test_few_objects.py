@@ -10,7 +10,7 @@ from support.readers.written import rows_of
 ONE = "there is 1 point: an alpha shape needs at least two distinct points"
 TWO = "two points span no triangle, so no r gives a region that holds them: give r itself (-r)"
 LINE = "3 points on a line span no triangle, so no r gives a region that holds them: give r itself (-r)"
-COLLECTION = {"type": "FeatureCollection", "features": []}
+COLLECTION = {"type": "FeatureCollection", "y_axis": "down", "features": []}
 
 
 @pytest.fixture

@@ -187,7 +187,7 @@ def test_text_is_for_people(run, tmp_path):
         "  kind       points\n"
         "  points     2\n"
         "  bounds     x 0.5 to 2, y 1 to 7\n"
-        "  y          down\n"
+        "  y          not stated\n"
         "  labels     the input's own\n"
         "  taken by   tessellate, delaunay, alphashape, voronoi, distance\n"
         "a.tif\n"

@@ -111,9 +111,7 @@ def test_what_is_refused(run, arguments, said):
     assert said in done.err
 
 
-@pytest.mark.parametrize(
-    "more", [["--width", "99"], ["--overlay", str(BLOBS)], ["--y-up"], ["--color", "thickness=red"]]
-)
+@pytest.mark.parametrize("more", [["--width", "99"], ["--overlay", str(BLOBS)], ["--color", "thickness=red"]])
 def test_a_picture_has_the_pixels_of_the_image(run, more):
     done = run("skeleton-exact", BLOBS, "--what", "thickness", "-o", "a.png", *more)
     assert done.code == 2

@@ -74,14 +74,14 @@ def test_what_the_input_says_of_polygons_is_kept():
         shapes.ring_polygon,
         ["a", "b", "c"],
         properties={"n": [1, 2, 3]},
-        y_up=True,
+        y_axis="up",
         crs={"type": "x"},
     )
     _, used = both(given)
     assert used.source.tolist() == [0, 0, 2]
     assert used.polygons.part.tolist() == [1, 2, 1]
     assert (used.polygons.ids, used.polygons.properties) == (["a", "a", "c"], {"n": [1, 1, 3]})
-    assert (used.polygons.y_up, used.polygons.crs) == (True, {"type": "x"})
+    assert (used.polygons.y_axis, used.polygons.crs) == ("up", {"type": "x"})
 
 
 @pytest.mark.parametrize(

@@ -191,12 +191,12 @@ def test_default_frame():
 
 
 def test_what_the_points_bring_is_kept():
-    given = vorotool.PointSet([[0, 0], [1, 1]], labels=[7, 3], properties={"name": ["a", "b"]}, y_up=True, crs="x")
+    given = vorotool.PointSet([[0, 0], [1, 1]], labels=[7, 3], properties={"name": ["a", "b"]}, y_axis="up", crs="x")
     cells = voronoi_cells(given)
-    assert (cells.label_array.tolist(), cells.properties, cells.y_up, cells.crs) == (
+    assert (cells.label_array.tolist(), cells.properties, cells.y_axis, cells.crs) == (
         [7, 3],
         given.properties,
-        True,
+        "up",
         "x",
     )
 

@@ -192,9 +192,9 @@ def test_what_is_accepted():
         iter(points),
     ):
         np.testing.assert_array_equal(delaunay(source).triangles, mesh.triangles)
-    given = PointSet(points, labels=[3, 1, 4, 2], properties={"name": list("abcd")}, y_up=True, crs="x")
+    given = PointSet(points, labels=[3, 1, 4, 2], properties={"name": list("abcd")}, y_axis="up", crs="x")
     told = delaunay(given)
-    assert (told.labels.tolist(), told.properties, told.y_up, told.crs) == ([3, 1, 4, 2], given.properties, True, "x")
+    assert (told.labels.tolist(), told.properties, told.y_axis, told.crs) == ([3, 1, 4, 2], given.properties, "up", "x")
     assert told.label_array.tolist() == [3, 1, 4, 2]
     assert mesh.label_array.tolist() == [1, 2, 3, 4]
     seeds = vorotool.seeds_from_points(given)

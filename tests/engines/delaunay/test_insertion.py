@@ -165,11 +165,13 @@ def test_collinear_and_few_points():
 
 
 def test_what_points_bring():
-    old = PointSet([[0, 0], [4, 0], [0, 3]], labels=[7, 3, 9], properties={"name": ["a", "b", "c"]}, y_up=True, crs="x")
+    old = PointSet(
+        [[0, 0], [4, 0], [0, 3]], labels=[7, 3, 9], properties={"name": ["a", "b", "c"]}, y_axis="up", crs="x"
+    )
     mesh = insert_points(delaunay(old), PointSet([[1, 1], [2, 1]], properties={"size": [1, 2]}))
     assert mesh.label_array.tolist() == [7, 3, 9, 10, 11]
     assert mesh.properties == {"name": ["a", "b", "c", None, None], "size": [None, None, None, 1, 2]}
-    assert (mesh.y_up, mesh.crs) == (True, "x")
+    assert (mesh.y_axis, mesh.crs) == ("up", "x")
     assert insert_points(delaunay(old.xy), [[1, 1]]).labels is None
     own = insert_points(delaunay(old.xy), PointSet([[1, 1]], labels=[70]))
     assert own.label_array.tolist() == [1, 2, 3, 70]

@@ -113,7 +113,7 @@ def test_rows_go_up_where_the_polygons_are_drawn_so():
     mask = blobs(50, 2.0, seed=7)
     shapes = vorotool.outlines(mask)
     xy = shapes.xy * (1, -1)
-    upwards = replace(shapes, xy=xy, y_up=True)
+    upwards = replace(shapes, xy=xy, y_axis="up")
     made = thickness_of_pixels(vorotool.skeleton_exact(upwards), mask.shape)
     np.testing.assert_allclose(made, vorotool.local_thickness(mask), **NEAR)
 

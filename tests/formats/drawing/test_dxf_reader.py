@@ -59,7 +59,7 @@ def test_areas(drawing):
     segment = math.pi / 2 - 1  # between a quarter of the circle with the radius sqrt(2) and its chord
     wanted = [4 * math.pi, 12.5 * math.pi, 4 * math.pi, 5 + segment, 2 * math.pi, 12, 6]
     assert shapely.area(to_shapely(shapes)) == pytest.approx(wanted, rel=1e-5)
-    assert shapes.y_up
+    assert shapes.y_axis == "up"
     assert not notes
     assert not shapes.is_line.any()
 

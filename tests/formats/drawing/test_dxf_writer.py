@@ -29,7 +29,7 @@ def up(shapes):
 
     from vorotool.geometry.arguments.polygons import as_polygons
 
-    return replace(as_polygons(shapes), y_up=True)
+    return replace(as_polygons(shapes), y_axis="up")
 
 
 def written(value, what):
@@ -118,7 +118,7 @@ def test_hulls_have_true_arcs():
     for entity in drawing.modelspace():
         if entity.dxftype() != "LWPOLYLINE":
             continue
-        rows = [(x, -y, -bulge) for x, y, _, _, bulge in entity]  # y of points goes downwards
+        rows = [(x, y, bulge) for x, y, _, _, bulge in entity]
         for (x, y, bulge), (u, v, _) in zip(rows, [*rows[1:], rows[0]], strict=True):
             center = ezdxf.math.bulge_center((x, y), (u, v), bulge)
             found.append([x, y, u, v, center.x, center.y])
@@ -152,12 +152,12 @@ def test_shapes_return(tmp_path):
     vorotool.write(shapes, tmp_path / "a.dxf")
     again = vorotool.read(tmp_path / "a.dxf")
     assert isinstance(again, PolygonSet)
-    assert again.y_up
+    assert again.y_axis == "up"
     assert shapely.equals(to_shapely(again)[0], to_shapely(shapes)[0])
 
 
 def test_y_is_turned_over_where_it_goes_downwards(tmp_path):
-    vorotool.write(vorotool.skeleton_exact([[0, 0], [4, 0], [0, 3]]), tmp_path / "a.dxf")
+    vorotool.write(vorotool.skeleton_exact([[0, 0], [4, 0], [0, 3]]), tmp_path / "a.dxf", y_up=False)
     lines = to_shapely(vorotool.read(tmp_path / "a.dxf"))
     assert shapely.total_bounds(lines).tolist() == [0, -3, 4, 0]
 

@@ -223,7 +223,7 @@ def test_rings_that_do_not_cross_keep_their_vertices():
 def test_units(attributes, scale, unit):
     shapes, _ = svg('<rect width="10" height="20"/>', attributes)
     assert shapes.unit == unit
-    assert not shapes.y_up
+    assert shapes.y_axis != "up"
     assert shapes.xy.max(axis=0) == pytest.approx([10 * scale, 20 * scale])
 
 

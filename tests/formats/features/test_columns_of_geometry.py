@@ -26,7 +26,7 @@ def test_points_and_polygons_in_text(tmp_path, header, delimiter):
     points = vorotool.read(path)
     assert points.xy.tolist() == [[1, 2], [3, 4]]
     assert points.properties == {"name": ["a", "c"], "pop": ["3.50", None]}
-    assert points.y_up
+    assert points.y_axis == "up"
     rows = [["name", header], ["a", f'"{LAKE.wkt}"'], ["b", '"LINESTRING (5 5, 6 7)"']]
     shapes = vorotool.read(saved(tmp_path, "".join(delimiter.join(row) + "\n" for row in rows)))
     assert shapes.is_line.tolist() == [False, True]

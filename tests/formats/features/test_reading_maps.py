@@ -33,7 +33,7 @@ def test_polygons_with_all_that_they_carry(tmp_path, fmt):
     assert isinstance(shapes, PolygonSet)
     assert shapes.feature.tolist() == [0, 1, 1, 2]
     assert shapes.part.tolist() == [1, 1, 2, 1]
-    assert shapes.y_up
+    assert shapes.y_axis == "up"
     assert crs_name(shapes.crs) == "EPSG:2056"
     parts = [part for shape in SHAPES for part in shapely.get_parts(shape)]
     assert all(shapely.equals(made, part) for made, part in zip(to_shapely(shapes), parts, strict=True))
@@ -51,7 +51,7 @@ def test_points(tmp_path, fmt, geometry):
     assert points.xy.tolist() == [[1, 2], [0.1, 1 / 3], [-5e6, 7]]
     assert points.properties["name"] == ATTRIBUTES["name"]
     assert points.properties["depth"] == ATTRIBUTES["depth"]
-    assert (points.y_up, crs_name(points.crs)) == (True, "EPSG:2056")
+    assert (points.y_axis, crs_name(points.crs)) == ("up", "EPSG:2056")
 
 
 @pytest.mark.parametrize("fmt", FORMATS)

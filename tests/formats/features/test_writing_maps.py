@@ -25,7 +25,7 @@ BOXES = shapely.box([0, 20, 40], 0, [9, 33.3, 41], [9, 0.1, 1 / 3])
 def shapes(**described):
     return PolygonSet(
         shapely.get_coordinates([shapely.LinearRing(box.exterior.coords[:-1]) for box in BOXES]).reshape(3, 5, 2)[:, :4]
-        .reshape(-1, 2), [0, 4, 8, 12], [0, 0, 0], [0, 1, 2], y_up=True, **described,
+        .reshape(-1, 2), [0, 4, 8, 12], [0, 0, 0], [0, 1, 2], y_axis="up", **described,
     )  # fmt: skip
 
 

@@ -65,7 +65,7 @@ def test_features_are_those_of_a_collection(written, form, name, items):
     assert type(read) is type(whole)
     assert np.array_equal(read.xy, whole.xy)
     assert read.properties == whole.properties
-    assert read.y_up
+    assert read.y_axis == "up"
 
 
 @pytest.mark.parametrize("form", FORMS)

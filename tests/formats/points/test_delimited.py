@@ -54,7 +54,7 @@ def test_recognised_headers(header, used, point):
     is_map = used.lower().startswith("lon")
     assert notes[1:] == ([degrees] if is_map else [])
     points = read(text)
-    assert points.y_up == is_map
+    assert (points.y_axis == "up") == is_map
     assert points.crs == ({"type": "name", "properties": {"name": "urn:ogc:def:crs:OGC:1.3:CRS84"}} if is_map else None)
 
 

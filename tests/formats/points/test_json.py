@@ -12,7 +12,7 @@ from vorotool.formats.io.sources import STANDARD_INPUT
 def test_json():
     points = read("[[1, 2], [3.5, -4]]", "a.json")
     assert points.xy.tolist() == [[1, 2], [3.5, -4]]
-    assert not points.y_up
+    assert points.y_axis != "up"
     assert len(read("[]", "a.json")) == 0
     assert rows(b"\xef\xbb\xbf[[1, 2]]", STANDARD_INPUT) == [[1, 2]]
 
@@ -66,7 +66,7 @@ def test_geojson():
     )
     points = read(text, "a.geojson")
     assert points.xy.tolist() == [[1, 2], [3.5, 4]]
-    assert points.y_up
+    assert points.y_axis == "up"
     assert points.crs == crs
     assert points.properties == {
         "id": ["a", 7],

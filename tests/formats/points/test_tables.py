@@ -122,5 +122,5 @@ def test_columns_of_longitude_and_latitude_are_a_map_in_every_form(tmp_path, for
     text = "lon,lat\n1.5,2\n3,4\n" if form == "csv" else '[{"lon": 1.5, "lat": 2}, {"lon": 3, "lat": 4}]'
     (tmp_path / f"a.{form}").write_text(text)
     points = vorotool.read(tmp_path / f"a.{form}")
-    assert points.y_up
+    assert points.y_axis == "up"
     assert points.crs == {"type": "name", "properties": {"name": "urn:ogc:def:crs:OGC:1.3:CRS84"}}

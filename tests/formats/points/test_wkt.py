@@ -14,7 +14,7 @@ def test_wkt():
     )
     points = read(text, "a.wkt")
     assert points.xy.tolist() == [[1, 2], [3, 4], [5, 6.5], [7, 8]]
-    assert points.y_up
+    assert points.y_axis == "up"
     assert points.crs == {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::4326"}}
     assert read("POINT (1 2)\nSRID=0;POINT (2 3)", "a.wkt").crs is None
     degrees = (
@@ -34,7 +34,7 @@ def test_wkt():
 @pytest.mark.parametrize("text", ["", "\n", "POINT EMPTY", "MULTIPOINT EMPTY", "GEOMETRYCOLLECTION EMPTY"])
 def test_wkt_without_points(text):
     assert len(read(text, "a.wkt")) == 0
-    assert read(text, "a.wkt").y_up
+    assert read(text, "a.wkt").y_axis == "up"
 
 
 @pytest.mark.parametrize(

@@ -47,7 +47,7 @@ def test_feature_collection():
         "name": ["A", "A", None, None, None, None, None],
         "n": [None, None, 1.5, None, None, None, None],
     }
-    assert (shapes.y_up, shapes.crs) == (True, CRS)
+    assert (shapes.y_axis, shapes.crs) == ("up", CRS)
     assert notes_of(text, "a.geojson") == ["a.geojson: 2 features without a geometry are left out"]
     back = written(shapes, "geojson")
     assert_same(read(back, "a.geojson"), shapes)

@@ -15,7 +15,7 @@ def test_one_shell():
     for text in (SHELL, [*SHELL, [0, 0]], [SHELL], {"polygons": [SHELL]}, {"polygons": [{"shell": SHELL}]}):
         shapes = read(json.dumps(text))
         assert rings(shapes) == [(0, 0, SHELL)]
-        assert not shapes.y_up
+        assert shapes.y_axis != "up"
         assert shapes.ids is None
     assert read(b"\xef\xbb\xbf[[0, 0], [9, 0], [0, 9]]").xy.tolist() == SHELL
 
@@ -43,13 +43,13 @@ def test_many():
 def test_nothing(text):
     shapes = read(text)
     assert len(shapes) == 0
-    assert written(shapes, "json") == '{"polygons":[]}\n'
+    assert written(shapes, "json") == '{"y_axis":"none","polygons":[]}\n'
 
 
 def test_writing():
     shapes = read("[[0, 0.1], [1e-9, 1e300], [0.30000000000000004, 2]]")
     assert written(shapes, "json").replace("e+", "e") == (  # which versions of orjson write or not
-        '{"polygons":[\n{"shell":[[0.0,0.1],[1e-9,1e300],[0.30000000000000004,2.0]],"holes":[]}\n]}\n'
+        '{"y_axis":"none","polygons":[\n{"shell":[[0.0,0.1],[1e-9,1e300],[0.30000000000000004,2.0]],"holes":[]}\n]}\n'
     )
     assert "[0.3,2.0]" in written(read("[[0, 0.1], [1, 3], [0.32, 2]]"), "json", decimals=1)
     assert_same(read(written(shapes, "json")), shapes)

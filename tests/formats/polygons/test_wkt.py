@@ -25,7 +25,7 @@ def test_wkt():
         (0, 0, 3), (1, 0, 3), (0, 1, 3), (0, 2, 3), (2, 3, 2), (2, 4, 2), (2, 5, 2), (2, 6, 2), (0, 7, 3),
     ]  # fmt: skip
     assert shapes.part.tolist() == [1, 1, 2, 1, 1, 2, 1, 2]
-    assert shapes.y_up
+    assert shapes.y_axis == "up"
     assert shapes.crs == {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::4326"}}
     assert_same(read(written(shapes, "wkt"), "a.wkt"), replace(shapes, crs=None))
     assert read("LINESTRING (0 0, 1 1)", "a.wkt").crs is None

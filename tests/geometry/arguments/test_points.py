@@ -88,26 +88,26 @@ def test_what_is_ours_is_given_back():
 
 
 @pytest.mark.parametrize(
-    ("columns", "y_up", "is_geographic"),
+    ("columns", "y_axis", "is_geographic"),
     [
-        (("x", "y"), False, False),
-        (("LON", "Lat"), True, True),
-        (("longitude", "latitude"), True, True),
-        (("Easting", "Northing"), True, False),
+        (("x", "y"), "none", False),
+        (("LON", "Lat"), "up", True),
+        (("longitude", "latitude"), "up", True),
+        (("Easting", "Northing"), "up", False),
     ],
 )
-def test_names_of_columns_tell_as_in_files(columns, y_up, is_geographic, tmp_path):
+def test_names_of_columns_tell_as_in_files(columns, y_axis, is_geographic, tmp_path):
     frame = pd.DataFrame({columns[1]: [5.0, 6.0], "note": ["a", "b"], columns[0]: [1.0, 2.0]}, index=[30, 10])
     made = as_points(frame)
     assert made.xy.tolist() == [[1, 5], [2, 6]]
-    assert (made.y_up, made.crs is not None) == (y_up, is_geographic)
+    assert (made.y_axis, made.crs is not None) == (y_axis, is_geographic)
     assert (made.index.tolist(), made.properties) == ([30, 10], {"note": ["a", "b"]})
     path = tmp_path / "a.csv"
     frame.to_csv(path, index=False)
     file = read(path)
-    assert (file.xy.tolist(), file.y_up, file.crs, file.properties) == (
+    assert (file.xy.tolist(), file.y_axis, file.crs, file.properties) == (
         made.xy.tolist(),
-        y_up,
+        y_axis,
         made.crs,
         made.properties,
     )
@@ -137,9 +137,9 @@ def test_what_geopandas_knows_is_kept():
     assert made.index.tolist() == ["p", "q", "r"]
     assert made.properties == {"name": ["a", None, "c"]}
     assert made.crs["properties"]["name"] == "urn:ogc:def:crs:EPSG::2056"
-    assert made.y_up
+    assert made.y_axis == "up"
     assert (as_points(SERIES.values).crs, as_points(SERIES.values).index) == (made.crs, None)
-    assert not as_points(POINTS).y_up
+    assert as_points(POINTS).y_axis == "up"
 
 
 def test_rows_with_several_points_or_none():

@@ -121,11 +121,11 @@ def test_what_geopandas_knows_is_kept():
     assert isinstance(made.index, pd.Index)
     assert made.properties == {"name": ["a", None, None, "c"], "count": [1, 2, 2, 3]}
     assert made.crs["properties"]["name"] == "urn:ogc:def:crs:EPSG::2056"
-    assert made.y_up
+    assert made.y_axis == "up"
     assert as_polygons(FRAME.geometry).index.tolist() == ["p", "q", "q", "r"]
     values = as_polygons(FRAME.geometry.values)
-    assert (values.index, values.crs, values.y_up) == (None, made.crs, True)
-    assert not as_polygons(SHAPES).y_up  # as ever: lists of shapely are drawn as arrays are
+    assert (values.index, values.crs, values.y_axis) == (None, made.crs, "up")
+    assert as_polygons(SHAPES).y_axis == "up"
 
 
 def test_a_system_without_a_code_is_spelled_out():

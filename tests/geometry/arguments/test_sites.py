@@ -125,7 +125,7 @@ def test_images_on_maps_give_sites_on_the_map():
     grid = map_grid((30.0, 0.0, 2600000.0, 0.0, -10.0, 1200000.0), unit="m", crs=member_of_text("EPSG:2056"))
     sites = as_sites(Raster(LABELS, grid))
     assert crs_name(sites.polygons.crs) == "EPSG:2056"
-    assert sites.polygons.y_up
+    assert sites.polygons.y_axis == "up"
     assert shapely.total_bounds(to_shapely(sites.polygons)).tolist() == [
         2600060, 1199920, 2600600, 1200000,
     ]  # fmt: skip

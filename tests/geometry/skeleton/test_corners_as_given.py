@@ -64,7 +64,7 @@ def read_ends(path, fmt):
         networkx = pytest.importorskip("networkx")
         return {(node["x"], node["y"]) for _, node in networkx.read_graphml(path).nodes(data=True)}
     drawn = ezdxf.readfile(path).modelspace()
-    return {(x, -y) for line in drawn.query("LINE") for x, y, _ in (line.dxf.start, line.dxf.end)}
+    return {(x, y) for line in drawn.query("LINE") for x, y, _ in (line.dxf.start, line.dxf.end)}
 
 
 @pytest.mark.filterwarnings("ignore::vorotool.errors.RepairWarning")

@@ -9,6 +9,7 @@ from support.families.point_families import FAMILIES, draw
 from vorotool import UsageError, delaunay
 from vorotool.render.canvas.png import layer_bands
 from vorotool.render.layers.mesh import LAYERS, mesh_layers, mesh_page
+from vorotool.types.fields import with_y_axis
 
 pytestmark = pytest.mark.filterwarnings("ignore::vorotool.VorotoolWarning")
 
@@ -37,7 +38,7 @@ def test_crowded_points_have_fine_lines():
 @pytest.mark.parametrize("name", FAMILIES)
 def test_every_family_can_be_drawn(name):
     mesh = delaunay(draw(name, 60, 2))
-    page = mesh_page(mesh, width=200, y_up=True)
+    page = mesh_page(with_y_axis(mesh, "up"), width=200)
     image = np.concatenate(list(layer_bands(mesh_layers(mesh, page, LAYERS), page)))
     assert image.shape == (page.height, 600)
     assert (image < 200).any()

@@ -18,6 +18,7 @@ from vorotool import LimitError, alpha_complex, alpha_curves, alpha_shape
 from vorotool.geometry.alpha.complex import CLASSES
 from vorotool.render.canvas.palettes import BOUNDARY, CELLS, SEED, SINGULAR
 from vorotool.render.pages.alpha_html import MOST_POINTS, check_html_size, write_alpha_html
+from vorotool.types.fields import with_y_axis
 
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 needs_browser = pytest.mark.skipif(
@@ -114,7 +115,7 @@ def test_the_buttons_and_the_slider_move_r(page, tmp_path):
 
 def test_y_upwards():
     family = alpha_complex([[0, 0], [4, 0], [0, 3]])
-    assert page_of(family, y_up=True) != page_of(family, y_up=False)
+    assert page_of(with_y_axis(family, "up")) != page_of(with_y_axis(family, "down")) == page_of(family)
 
 
 def test_too_many_points():

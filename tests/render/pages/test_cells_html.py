@@ -24,6 +24,7 @@ from vorotool.render.pages.cells_html import (
     shapes_of_map,
     write_cells_html,
 )
+from vorotool.types.fields import with_y_axis
 
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 needs_browser = pytest.mark.skipif(
@@ -87,7 +88,7 @@ def test_labels_are_outlined():
 def test_cells_are_outlined(y_up):
     points = np.random.default_rng(3).uniform(0, 50, (30, 2))
     cells = voronoi_cells(points, frame=(0, 0, 50, 30))
-    data = data_of(page_of(shapes_of_cells(cells, y_up=y_up), np.ones(30, int), {}))
+    data = data_of(page_of(shapes_of_cells(with_y_axis(cells, "up" if y_up else "down")), np.ones(30, int), {}))
     found = polygons_of(data)
     for cell, area in zip(cells.to_shapely(), found.values(), strict=True):
         assert area.area * 2500 == pytest.approx(cell.area, abs=1e-3)

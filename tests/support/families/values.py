@@ -34,7 +34,7 @@ def point_set(count=12, seed=3):
     xy[-1] = xy[0]
     names = [chr(97 + k) for k in range(count)]
     index = pandas.Index(np.arange(100, 100 + count), name="station")
-    return vorotool.PointSet(xy, properties={"name": names}, y_up=True, crs=crs_member(CRS), index=index)
+    return vorotool.PointSet(xy, properties={"name": names}, y_axis="up", crs=crs_member(CRS), index=index)
 
 
 def polygon_set():
@@ -48,7 +48,7 @@ def polygon_set():
         feature=[0, 1, 1, 2],
         properties={"depth": [1, 2, 2, None]},
         crs=crs_member(CRS),
-        y_up=True,
+        y_axis="up",
         index=pandas.Index([7, 8, 8, 9], name="row"),
     )
     return shapes

@@ -33,7 +33,7 @@ def written(shapes, fmt, *, decimals=None):
 def assert_same(a, b):
     assert rings(a) == rings(b)
     np.testing.assert_array_equal(a.part, b.part)
-    assert (a.ids, a.properties, a.y_up, a.crs) == (b.ids, b.properties, b.y_up, b.crs)
+    assert (a.ids, a.properties, a.y_axis, a.crs) == (b.ids, b.properties, b.y_axis, b.crs)
 
 
 def error_of(text, name="shapes.json", kind=InputError, **options):

@@ -127,9 +127,7 @@ def _check_options(o: AlphaShapeOptions, targets: list[Target]) -> None:
     if o.overlay is not None and not pictures:
         raise UsageError("--overlay is for pictures of a shape: use -f svg or -f png, or leave it out")
     plots = ["svg"] if any(target.what in PLOTS and target.fmt == "svg" for target in targets) else []
-    if o.y_up is not None and plots and not pictures and "html" not in formats:
-        raise UsageError("--y-up and --y-down are for pictures of a shape, but curves are a plot: leave them out")
-    check_picture_options(o, pictures or plots, layers_of("alphashape"), png_has_width=True, has_page="html" in formats)
+    check_picture_options(o, pictures or plots, layers_of("alphashape"), png_has_width=True)
 
 
 def _check_method(o: AlphaShapeOptions, formats: set[str]) -> None:

@@ -109,7 +109,7 @@ def _check_options(o: TriangulationOptions, targets: list[Target]) -> None:
     pictures = sorted(formats & set(PICTURES))
     if o.layers is not None and not pictures:
         raise UsageError("--layers is for pictures: use -f svg or -f png, or leave it out")
-    check_picture_options(o, pictures, layers_of("delaunay"), png_has_width=True, has_page="html" in formats)
+    check_picture_options(o, pictures, layers_of("delaunay"), png_has_width=True)
 
 
 def _check_method(o: TriangulationOptions, targets: list[Target]) -> None:

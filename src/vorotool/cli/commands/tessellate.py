@@ -142,8 +142,7 @@ def _check_output_options(o: TessellationOptions, outputs: set[tuple[str, str]])
     if o.layers is not None and not outputs & _PICTURES:
         raise UsageError("--layers is for pictures: --what color, labels as SVG, or the diagram as PNG")
     pictures = sorted(outputs & _PICTURES - (set() if o.draws_diagram else {("diagram", "png")}))
-    has_page = any(fmt == "html" for _, fmt in outputs)
-    check_picture_options(o, [fmt for _, fmt in pictures], layers_of("tessellate"), has_page=has_page)
+    check_picture_options(o, [fmt for _, fmt in pictures], layers_of("tessellate"))
 
 
 def _products(run: Run, o: TessellationOptions, given: JobInput) -> Products | StreamedProducts:

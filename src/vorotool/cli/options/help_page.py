@@ -18,10 +18,10 @@ _GROUPS = {
     "Method": "method graph passes by max_distance r alpha auto regions rule hole_threshold region_threshold step "
     "tolerance sampling compare boundary side gap complete features prune join_junctions start end ends smooth "
     "distance every along count local neck",
-    "Input": "columns input_format input_layer input_crs crs page volume pixel_size spacing seeds connectivity "
+    "Input": "columns input_format input_layer input_crs crs y_up page volume pixel_size spacing seeds connectivity "
     "threshold invert min_area fill_holes outline border simplify join_tolerance",
     "Frame": "size window cell_size frame clip enclosures",
-    "Pictures": "layers slice overlay width y_up scale drawing_unit aspect extent background colors "
+    "Pictures": "layers slice overlay width scale drawing_unit aspect extent background colors "
     "line_widths label_by legend scale_bar animate frames fps",
     "Many inputs": "out_dir files_from null jobs keep_going dry_run resume shard follow table cluster",
     "Checks and resources": "verify strict stats threads max_pixels max_sites quiet verbose",

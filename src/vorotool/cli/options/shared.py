@@ -389,7 +389,11 @@ OPTIONS: dict[str, Decorator] = {
         help="Draw pictures over this image, at its size: coordinates are its pixels.",
         shell_complete=files(IMAGE_NAMES),
     ),
-    "y-up": click.option("--y-up/--y-down", default=None, help="Draw pictures with y upwards or downwards."),
+    "y-up": click.option(
+        "--y-up/--y-down",
+        default=None,
+        help="Direction of y in the input; by default up on maps and in DXF, down in images and SVG.",
+    ),
 }
 
 

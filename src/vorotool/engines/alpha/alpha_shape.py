@@ -336,7 +336,7 @@ def _polygons(family: AlphaComplex, region: NDArray[np.int32], progress: Progres
         kinds,
         of[order],
         ids=list(range(1, count + 1)),
-        y_up=mesh.y_up,
+        y_axis=mesh.y_axis,
         crs=mesh.crs,
     )
 

@@ -49,7 +49,7 @@ def repaired_polygons(graph: PlanarGraph) -> RepairedPolygons:
         None if given.ids is None else [given.ids[i] for i in source.tolist()],
         None if given.feature is None else given.feature[source],
         {name: [values[i] for i in source.tolist()] for name, values in given.properties.items()},
-        given.y_up,
+        given.y_axis,
         given.crs,
         unit=given.unit,
         index=index_of_rows(given.index, source),

@@ -149,4 +149,4 @@ def _joined(mesh: Triangulation, given: PointSet) -> PointSet:
         properties[name] = [*old_values, *given.properties.get(name, [None] * len(given))]
     xy = np.concatenate([mesh.points, given.xy])
     index = joined_index(mesh.index, len(mesh.points), given.index, len(given))
-    return PointSet(xy, labels, properties, mesh.y_up, mesh.crs, mesh.first_number, index, mesh.frame)
+    return PointSet(xy, labels, properties, mesh.y_axis, mesh.crs, mesh.first_number, index, mesh.frame)

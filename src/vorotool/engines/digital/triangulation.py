@@ -331,7 +331,7 @@ def repair_digital(
         arrays = core.arrays(threads, progress)
         known: Any = {"labels": labels.astype(np.int64), "properties": seeds.properties, "index": seeds.index}
         box = None if seeds.frame is None else seeds.frame.box.stretched(sides.x, sides.y)
-        return Triangulation(points, **arrays, **known, frame=box)
+        return Triangulation(points, **arrays, **known, y_axis=seeds.y_axis, frame=box)
 
     mesh = mesh_of(core)
     fault = triangulation_fault(mesh, threads, progress)

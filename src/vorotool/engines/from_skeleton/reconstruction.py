@@ -312,7 +312,7 @@ def _assembled(skeleton: Skeleton, rings: list[Ring]) -> PolygonSet:
         None if given.ids is None else [given.ids[p] for p in own],
         given.feature[own],
         {name: [values[p] for p in own] for name, values in given.properties.items()},
-        y_up=given.y_up,
+        y_axis=given.y_axis,
         unit=given.unit,
         crs=given.crs,
         index=index_of_rows(given.index, polygon[order[~is_hole]]),

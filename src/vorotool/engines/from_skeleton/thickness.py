@@ -15,6 +15,7 @@ from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.skeleton import INTERIOR, Skeleton
+from vorotool.types.axis import is_up
 
 SLACK = 46
 """A disc covers what is at most 2^-46 of the largest coordinate beyond it: 64 units in the last place of that."""
@@ -34,7 +35,7 @@ def thickness_of_pixels(
         raise InputError("the skeleton has a gap, so that discs do not touch the outline: compute it without")
     inside = with_arcs(skeleton, skeleton.side == INTERIOR)
     (height, width), (down, across) = shape, map(float, sides)
-    lowest = -(height - 1) * down if skeleton.y_up else 0.0
+    lowest = -(height - 1) * down if is_up(skeleton) else 0.0
     made = _core.thickness.local_thickness(
         core_skeleton(inside, threads=threads),
         (0.0, lowest),
@@ -45,7 +46,7 @@ def thickness_of_pixels(
         checked_threads(threads),
         progress,
     )
-    return np.ascontiguousarray(made[::-1]) if skeleton.y_up else made
+    return np.ascontiguousarray(made[::-1]) if is_up(skeleton) else made
 
 
 def slack_of(skeleton: Skeleton, shape: tuple[int, int], sides: tuple[float, float]) -> float:

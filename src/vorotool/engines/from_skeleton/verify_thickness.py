@@ -16,6 +16,7 @@ from vorotool.geometry.checks import as_array
 from vorotool.geometry.numbers import pair_of_doubles, shown_number, whole_number
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.skeleton import EDGE, INTERIOR, Skeleton
+from vorotool.types.axis import is_up
 
 Floats = NDArray[np.float64]
 
@@ -86,7 +87,7 @@ def verify_thickness(
     chosen = _spread(thickness, samples)
     for done, pixel in enumerate(chosen.tolist()):
         row, column = divmod(pixel, width)
-        place = np.array([column * sides[1], (-row if skeleton.y_up else row) * sides[0]], dtype=np.float64)
+        place = np.array([column * sides[1], (-row if is_up(skeleton) else row) * sides[0]], dtype=np.float64)
         found, named = float(thickness[row, column]), f"the thickness in row {row}, column {column}"
         distance = discs.distance(place)
         if distance > BESIDE * min(sides):

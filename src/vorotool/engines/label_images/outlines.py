@@ -172,7 +172,7 @@ def outlines(
     raster = as_raster(image, "image", is_grey=True)
     if threshold is not None:
         threshold, invert = settled_threshold(raster, threshold, invert=invert)
-        raster = Raster(grey_values(raster), mask=raster.mask)
+        raster = Raster(grey_values(raster), mask=raster.mask, y_axis=raster.y_axis)
     height, width = raster.values.shape[:2]
     values = foreground_values(raster, threshold, invert=invert)
     if cleaning := Cleaning.of(min_area, fill_holes):
@@ -203,6 +203,7 @@ def outlines(
         np.cumsum(np.diff(ids, prepend=ids[:1]) > 0) if len(ids) else None,
         properties={"label": ids.tolist()} if by_label else {},
         connectivity=connectivity if outline == "crack" else None,
+        y_axis=raster.y_axis,
         frame=Frame(*origin, width, height).box,
     )
     return polygons if simplify is None else simplified_polygons(polygons, simplify)

@@ -116,6 +116,7 @@ def _on_lattice(points: PointSet, finest: int, *, strict: bool) -> tuple[SeedSet
         scale=snapped.scale,
         snapped=snapped.moves,
         largest_move=snapped.largest_move,
+        y_axis=points.y_axis,
         **sites_of_points(points.xy, labels, points, strict=strict),
     )
     return seeds, snapped
@@ -200,16 +201,18 @@ def seeds_from_raster(
         values = cleaned_values(values, cleaning, mode, connectivity=connectivity, missing=raster.mask).mask
     if not values.any():
         report_no_foreground(strict=strict)
-        return replace(_no_seeds(frame, has_objects=mode != "pixels"), grid=raster.grid)
+        return replace(_no_seeds(frame, has_objects=mode != "pixels"), y_axis=raster.y_axis, grid=raster.grid)
     kind = default_objects(values, note=note) if mode in (None, "centroids") else mode
     if kind == "pixels":
         x, y = _foreground(values, max_sites)
         labels = np.arange(1, len(x) + 1, dtype=np.uint32)
         sites = np.stack([x, y], axis=1).astype(np.float64)
-        return SeedSet(x, y, labels, frame=frame, sites=sites, site_labels=labels, grid=raster.grid)
+        return SeedSet(
+            x, y, labels, frame=frame, sites=sites, site_labels=labels, y_axis=raster.y_axis, grid=raster.grid
+        )
     objects = label_values(values) if kind == "labels" else numbered_components(values, connectivity)
     made = _seeds_of_objects(objects, frame, centroids_only=mode == "centroids", max_sites=max_sites, strict=strict)
-    return replace(made, grid=raster.grid)
+    return replace(made, y_axis=raster.y_axis, grid=raster.grid)
 
 
 def _no_seeds(frame: Frame, *, has_objects: bool) -> SeedSet:

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.formats.drawing.ezdxf_library import ezdxf_module
+from vorotool.types.axis import DOWN, YAxis
 
 Floats = NDArray[np.float64]
 
@@ -29,9 +30,9 @@ _FORBIDDEN = '<>/\\":;?*|=`,'
 class DxfDrawing:
     """Entities on layers, in the coordinates of the data."""
 
-    def __init__(self, *, unit: str | None, y_up: bool) -> None:
+    def __init__(self, *, unit: str | None, y_axis: YAxis) -> None:
         ezdxf = self._library = ezdxf_module()
-        self._turn = 1.0 if y_up else -1.0
+        self._turn = -1.0 if y_axis == DOWN else 1.0
         with self._fixed():
             self._document = ezdxf.new(_VERSION, units=_NUMBERS.get(unit or "", 0))
         self._space = self._document.modelspace()

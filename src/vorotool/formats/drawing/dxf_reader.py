@@ -20,6 +20,7 @@ from vorotool.formats.drawing.recognition import BINARY_DXF
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.types.axis import UP
 
 MOST_ENTITIES = 2**17
 """Of a drawing once its blocks are there as often as they are inserted, where that is more than the file holds; and
@@ -69,7 +70,7 @@ def _polygons(name: str, blocks: _Blocks, options: ReadOptions, unit: str | None
         layers += [layer] * len(parts)
     if gaps:
         options.note(Message(f"{name}: {_words_of_gaps(gaps, near, unit)}"))
-    return shapes_to_polygons(name, shapes, options, unit=unit, y_up=True, properties={"layer": layers})
+    return shapes_to_polygons(name, shapes, options, unit=unit, y_axis=UP, properties={"layer": layers})
 
 
 def _words_of_gaps(gaps: list[tuple[Gap, str]], near: float, unit: str | None) -> str:

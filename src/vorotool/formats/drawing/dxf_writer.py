@@ -29,8 +29,7 @@ DEPTH = "depth"
 
 def write_dxf(out: BinaryIO, value: Any, *, what: str) -> None:
     """Write a result on a layer of its name; offset curves on one for each distance."""
-    unit, y_up = _described(value)
-    drawing = DxfDrawing(unit=unit, y_up=y_up)
+    drawing = DxfDrawing(unit=value.unit, y_axis=value.y_axis)
     if isinstance(value, Skeleton | LedOn | SmoothLines | SkeletonPoints):
         value = value.as_given
     own: dict[type, Callable[[DxfDrawing, Any, str], None]] = {
@@ -46,15 +45,6 @@ def write_dxf(out: BinaryIO, value: Any, *, what: str) -> None:
     else:
         own.get(type(value), _add_features)(drawing, value, what)
     drawing.write(out)
-
-
-def _described(value: Any) -> tuple[str | None, bool]:
-    """Unit and direction of the coordinates of a result: of what it is made of, if it does not say so itself."""
-    made_of = value
-    for name in ("path", "skeleton", "shape", "polygons", "family", "mesh"):
-        made_of = getattr(made_of, name, made_of)
-    unit = getattr(made_of, "unit", None)
-    return unit, bool(getattr(made_of, "y_up", False))
 
 
 # ---- curves ----------------------------------------------------------------------------------------

@@ -16,6 +16,7 @@ from vorotool.formats.drawing.fill_rules import filled_polygons, nested_polygons
 from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.geometry.length_units import ratio
 from vorotool.geometry.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet, set_of_rings
+from vorotool.types.axis import DOWN, YAxis
 
 NESTED = "nested"
 """A rule beside those of SVG: closed curves are shells, holes, and shells in these by how they lie in one another, each
@@ -40,7 +41,7 @@ def shapes_to_polygons(
     options: ReadOptions,
     *,
     unit: str | None = None,
-    y_up: bool = False,
+    y_axis: YAxis = DOWN,
     properties: dict[str, list[Any]] | None = None,
 ) -> PolygonSet:
     """Flatten the curves of shapes, one feature a shape."""
@@ -62,7 +63,7 @@ def shapes_to_polygons(
         feature=collected.feature,
         ids=ids if named else None,
         properties={key: [values[k] for k in owner] for key, values in columns.items()},
-        y_up=y_up,
+        y_axis=y_axis,
         unit=unit,
     )
     if collected.outlines:

@@ -18,6 +18,7 @@ from vorotool.geometry.arguments.sites import Sites
 from vorotool.geometry.points.conversion import part_numbers, single_points
 from vorotool.geometry.polygons.conversion import polygons_of_geometry
 from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.types.axis import UP
 
 _POINTS, _SHAPES, _COLLECTION = (0, 4), (1, 2, 3, 5, 6), 7  # type numbers of GEOS
 
@@ -87,7 +88,7 @@ def _shapes_of(features: Features, kept: NDArray[np.int64], options: ReadOptions
 
     def described(items: NDArray[np.int64]) -> dict[str, Any]:
         owners = kept[items].astype(np.int32)
-        fields = {"feature": owners, "y_up": True, "crs": features.crs}
+        fields = {"feature": owners, "y_axis": UP, "crs": features.crs}
         if not options.properties:
             return fields
         _check_attributes(features, len(owners), "polygons")
@@ -116,14 +117,14 @@ def feature_points(features: Features, options: ReadOptions) -> PointRows:
     owners = kept[items]
     options.check_sites(features.name, len(points))
     if not len(points):
-        return PointRows(no_points(options.axes), None, {}, {"y_up": True, "crs": features.crs})
+        return PointRows(no_points(options.axes), None, {}, {"y_axis": UP, "crs": features.crs})
     _check_finite(features, geometry, kept)
     columns = _point_columns(features, owners) if options.properties else {}
     found = shapely.get_coordinates(points, include_z=options.wants_z)
     if options.wants_z and not np.isfinite(found[:, 2]).all():
         owner = owners[int(np.argmin(np.isfinite(found[:, 2])))]
         raise InputError(f"{features.name}, feature {owner + 1}: the point has no finite z; give all points one")
-    return PointRows(found, None, columns, {"y_up": True, "crs": features.crs})
+    return PointRows(found, None, columns, {"y_axis": UP, "crs": features.crs})
 
 
 def _point_columns(features: Features, owners: NDArray[np.int64]) -> dict[str, list[Any]]:

@@ -9,6 +9,7 @@ from vorotool.errors import NO_PROPERTIES, InputError, LimitError
 from vorotool.formats.io.sources import Source, check_nesting
 from vorotool.formats.parsing.json_lines import parse_lines
 from vorotool.formats.parsing.reader_options import shortened
+from vorotool.types.axis import YAxis, y_axis_member
 
 MOST_CELLS = 10**8
 """Properties times objects: as a table, features that share no names would need memory by the square."""
@@ -39,6 +40,14 @@ def refuse_table(name: str, document: Sequence[Any], advice: str) -> None:
     if isinstance(row, dict) and row and not row.keys() & {"type", "shell", "line"}:
         fields = ", ".join([*list(row)[:4], *["…"] * (len(row) > 4)])
         raise InputError(f"{name} holds a table, whose rows have {fields}, not {advice}")
+
+
+def read_y_axis(name: str, document: Mapping[str, Any], usual: YAxis) -> YAxis:
+    """Return which way y goes, as a document says, else as usual in its form."""
+    try:
+        return y_axis_member(document, usual)
+    except InputError as error:
+        raise InputError(f"{name}: {error}") from None
 
 
 def features_of(name: str, document: Mapping[str, Any]) -> list[Any]:

@@ -11,6 +11,7 @@ from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import shortened
 from vorotool.geometry.crs import crs_name, same_crs
+from vorotool.types.axis import MEMBER
 
 RECORD_MARK = b"\x1e"
 """What each text of a GeoJSON text sequence begins with; it may then have several lines."""
@@ -61,7 +62,8 @@ def parse_lines(source: Source) -> Any:
         return rows
     features = [_feature(source.name, line, row) for line, row in zip(lines, rows, strict=True)]
     crs = _common_crs(source.name, lines, rows)
-    return {"type": "FeatureCollection", "features": features} | ({} if crs is None else {"crs": crs})
+    known = ({} if crs is None else {"crs": crs}) | _common_axis(source.name, lines, rows)
+    return {"type": "FeatureCollection", "features": features} | known
 
 
 def _records(data: bytes) -> Iterator[tuple[int, bytes]]:
@@ -80,6 +82,15 @@ def _feature(name: str, line: int, row: dict[str, Any]) -> dict[str, Any]:
     if kind != "Feature":
         raise InputError(f"{name}, line {line}: {shortened(row)} is no feature, as those before are")
     return row
+
+
+def _common_axis(name: str, lines: list[int], rows: list[dict[str, Any]]) -> dict[str, Any]:
+    """Return the ``y_axis`` member that all features have."""
+    axis = rows[0].get(MEMBER)
+    other = next((line for line, row in zip(lines, rows, strict=True) if row.get(MEMBER) != axis), None)
+    if other is not None:
+        raise InputError(f"{name}, line {other}: {MEMBER} is not {axis!r}, as on line {lines[0]}: give both the same")
+    return {} if axis is None else {MEMBER: axis}
 
 
 def _common_crs(name: str, lines: list[int], rows: list[dict[str, Any]]) -> Any:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError, LimitError, option
 from vorotool.geometry.curves.well_known import flattened_note
 from vorotool.geometry.pixel_frame import MAX_PIXELS
+from vorotool.types.axis import YAxis
 
 LARGEST_LABEL = 0xFFFFFFFF
 """Labels are uint32: there cannot be more sites either."""
@@ -40,6 +41,7 @@ class ReadOptions:
     to_crs: Any = None  # that of the system in which coordinates are wanted
     flatten: float | None = None  # how far lines may be from the curves of drawings
     join_tolerance: float | None = None  # how far ends of curves may be apart that are joined
+    y_axis: YAxis | None = None  # which way y goes, where the caller says it
     wants_z: bool = False  # points are of space, and have a z
 
     @property

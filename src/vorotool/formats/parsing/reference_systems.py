@@ -9,13 +9,16 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError, Kind, Message, option
+from vorotool.errors import InputError, Kind, Message, UsageError, option
 from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.geometry.crs import crs_member, crs_name, is_geographic, same_crs
 from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.types.axis import DOWN, UP, YAxis
+from vorotool.types.fields import with_y_axis
 
 _CRS, _TO_CRS = option("--input-crs", "crs"), option("--crs", "to_crs")
+_Y_DOWN = option("--y-down", "y_up=False")
 
 Placed = TypeVar("Placed", PointSet, PolygonSet)
 
@@ -33,9 +36,17 @@ def with_crs(value: Placed, name: str, options: ReadOptions) -> Placed:
             from vorotool.formats.parsing.reprojection import reprojected
 
             value = replace(value, xy=reprojected(value.xy, name, value.crs, options.to_crs))
-        value = replace(value, crs=options.to_crs, y_up=True)
+        value = replace(value, crs=options.to_crs, y_axis=UP)
     note_degrees(value, name, options.note)
     return value
+
+
+def with_stated_axis(value: Any, name: str, axis: YAxis) -> Any:
+    """Return an input whose y goes the way that the caller states."""
+    crs = getattr(getattr(value, "polygons", value), "crs", None)
+    if axis == DOWN and crs is not None:
+        raise UsageError(f"{name} is in {crs_name(crs)}, where y goes up: leave out {_Y_DOWN}")
+    return with_y_axis(value, axis)
 
 
 def declared_in(value: Placed, name: str, declared: Any) -> Placed:
@@ -43,7 +54,7 @@ def declared_in(value: Placed, name: str, declared: Any) -> Placed:
     if declared is None:
         return value
     if value.crs is None:
-        return replace(value, crs=declared, y_up=True)
+        return replace(value, crs=declared, y_axis=UP)
     if not same_crs(value.crs, declared):
         raise InputError(
             f"{name} is in {crs_name(value.crs)}, as it says itself, not in {crs_name(declared)}: leave out "

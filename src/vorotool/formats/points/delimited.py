@@ -32,6 +32,7 @@ from vorotool.geometry.coordinate_names import (
 from vorotool.geometry.crs import LONGITUDE_LATITUDE, crs_member
 from vorotool.geometry.number_text import typed_texts
 from vorotool.geometry.points.point_set import PointSet
+from vorotool.types.axis import UNSTATED, UP
 
 _QUOTED = re.compile(r'"[^"]*"')
 
@@ -169,7 +170,10 @@ def _read_rows(layout: _Layout, options: ReadOptions) -> PointRows:
 def placed_by(x: str, y: str, options: ReadOptions) -> dict[str, Any]:
     """Give the direction of y and the coordinate reference system of points, which the names of the columns tell."""
     is_geographic = is_longitude_latitude(x, y) and options.crs is None
-    return {"y_up": is_map(x, y), "crs": crs_member(LONGITUDE_LATITUDE) if is_geographic else None}
+    return {
+        "y_axis": UP if is_map(x, y) else UNSTATED,
+        "crs": crs_member(LONGITUDE_LATITUDE) if is_geographic else None,
+    }
 
 
 def _counted_by(layout: _Layout) -> str:

@@ -15,6 +15,7 @@ from vorotool.formats.parsing.geojson import (
     list_of,
     parse_json,
     property_columns,
+    read_y_axis,
 )
 from vorotool.formats.parsing.geometry_advice import not_a_point_advice
 from vorotool.formats.parsing.reader_options import ReadOptions, position_array, shortened
@@ -23,6 +24,7 @@ from vorotool.formats.points.rows import PointRows, point_set
 from vorotool.formats.points.tables import is_table, points_of_objects
 from vorotool.formats.text.feature_collection import stated_unit
 from vorotool.geometry.points.point_set import PointSet
+from vorotool.types.axis import UP
 
 _READER = option("skeleton-exact reads", 'geometry="polygons" reads')
 _ALONG = option("--what points -f csv there", "points_along")
@@ -107,7 +109,7 @@ def _read_document(name: str, document: Mapping[str, Any], options: ReadOptions)
     if crs is unit is None and options.crs is None:
         note_unnamed(name, found[:, :2], options.note)
     properties = _properties(name, features, collected) if options.properties else {}
-    return PointRows(found, None, properties, {"y_up": True, "crs": crs, "unit": unit})
+    return PointRows(found, None, properties, {"y_axis": read_y_axis(name, document, UP), "crs": crs, "unit": unit})
 
 
 def _collect(collected: _Collected, index: int, feature: Any, place: str) -> None:

@@ -16,6 +16,7 @@ from vorotool.geometry.crs import without_number
 from vorotool.geometry.curves.well_known import geometry_of_texts
 from vorotool.geometry.points.conversion import COLLECTION, MULTIPOINT, POINT, part_numbers, single_points
 from vorotool.geometry.points.point_set import PointSet
+from vorotool.types.axis import UP
 
 
 def read_wkt(source: Source, options: ReadOptions) -> PointSet:
@@ -36,7 +37,7 @@ def wkt_rows(source: Source, options: ReadOptions) -> PointRows:
     points, owners = single_points(geometries)
     options.check_sites(source.name, len(points))
     if not len(points):
-        return PointRows(no_points(options.axes), None, {}, {"y_up": True, "crs": crs})
+        return PointRows(no_points(options.axes), None, {}, {"y_axis": UP, "crs": crs})
     found = shapely.get_coordinates(points, include_z=options.wants_z)
     bad = np.flatnonzero(~np.isfinite(found).all(axis=1))
     if bad.size:
@@ -49,7 +50,7 @@ def wkt_rows(source: Source, options: ReadOptions) -> PointRows:
         options.note_heights(source.name)
     parts = part_numbers(owners)
     properties = {"part": parts.tolist()} if options.properties and parts.max() > 1 else {}
-    return PointRows(found, None, properties, {"y_up": True, "crs": crs})
+    return PointRows(found, None, properties, {"y_axis": UP, "crs": crs})
 
 
 def geometry_texts(source: Source) -> tuple[list[str], list[int], list[int]]:

@@ -18,6 +18,7 @@ from vorotool.formats.parsing.geojson import (
     list_of,
     parse_json,
     property_columns,
+    read_y_axis,
 )
 from vorotool.formats.parsing.geometry_advice import OF_SITES, not_a_shape_advice
 from vorotool.formats.parsing.reader_options import ReadOptions, shortened
@@ -29,6 +30,7 @@ from vorotool.formats.text.tables import json_text
 from vorotool.geometry.arguments.sites import Sites
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.table import Computed
+from vorotool.types.axis import UP
 
 
 def read_geojson(source: Source, options: ReadOptions) -> PolygonSet:
@@ -62,7 +64,7 @@ def _read(source: Source, options: ReadOptions, *, takes_points: bool = False) -
             _collect(collector, index, geometry, place(index))
     crs, unit = document.get("crs"), stated_unit(document)
     known = _described(source.name, features, collector.features, options)
-    polygons = collector.finish(**known, y_up=True, crs=crs, unit=unit)
+    polygons = collector.finish(**known, y_axis=read_y_axis(source.name, document, UP), crs=crs, unit=unit)
     if crs is unit is None and options.crs is None:
         note_unnamed(source.name, polygons.xy, options.note)
     return polygons, features
@@ -110,7 +112,7 @@ def write_geojson(out: BinaryIO, polygons: PolygonSet) -> None:
     if texts is None:
         texts = [json_text(_joined([_geometry(polygons, i) for i in range(*each)])) for each in ranges]
     shape = RowShape(("", ',"geometry":', "}"), ",\n")
-    write_collection(out, [Column("", openings), Column("", texts)], shape, crs=polygons.crs)
+    write_collection(out, [Column("", openings), Column("", texts)], shape, crs=polygons.crs, y_axis=polygons.y_axis)
 
 
 def _opening(polygons: PolygonSet, index: int) -> str:

@@ -9,7 +9,7 @@ import numpy as np
 
 from vorotool.errors import InputError, option
 from vorotool.formats.io.sources import Source
-from vorotool.formats.parsing.geojson import parse_json, property_columns, refuse_table
+from vorotool.formats.parsing.geojson import parse_json, property_columns, read_y_axis, refuse_table
 from vorotool.formats.parsing.reader_options import ReadOptions, shortened
 from vorotool.formats.polygons.geojson import read_geojson
 from vorotool.formats.polygons.geojson import read_sites as read_geojson_sites
@@ -19,6 +19,8 @@ from vorotool.geometry.arguments.sites import Sites, as_sites
 from vorotool.geometry.polygons.conversion import closed_ring
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.products.formats import resolved
+from vorotool.types.axis import MEMBER as Y_AXIS
+from vorotool.types.axis import UNSTATED
 
 _AS_GEOJSON = option("--what offset -f geojson", 'fmt="geojson"')
 
@@ -40,12 +42,14 @@ def read_json(source: Source, options: ReadOptions) -> PolygonSet:
     for index, item in enumerate(items):
         _collect(collector, index, item, place(index))
     owners = collector.features
+    axis = read_y_axis(source.name, document, UNSTATED) if isinstance(document, dict) else UNSTATED
     described = [item if isinstance(item, dict) else {} for item in items]
     has_ids = options.properties and any("id" in item for item in described)
     polygons = collector.finish(
         ids=[described[i].get("id") for i in owners] if has_ids else None,
         feature=_features(described, owners, place),
         properties=property_columns(source.name, described, owners, "polygons") if options.properties else {},
+        y_axis=axis,
     )
     options.note_left_out(source.name, len(items) - len(owners))
     if isinstance(document, list) and len(polygons) > 1 and all(isinstance(item, list) for item in items):
@@ -151,7 +155,7 @@ def _features(described: list[dict[str, Any]], owners: list[int], place: Any) ->
 
 def write_json(out: BinaryIO, polygons: PolygonSet) -> None:
     """Write ``{"polygons": […]}``, one polygon or line a line of text."""
-    out.write(b"{")
+    out.write(f'{{"{Y_AXIS}":"{polygons.y_axis}",'.encode())
     write_items(out, polygons)
     out.write(b"}\n")
 

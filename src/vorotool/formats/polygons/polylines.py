@@ -50,7 +50,8 @@ def geojson_wording(polygons: PolygonSet, polygon: NDArray[np.integer], own: Map
         named = "" if name is None else f'"id":{json_text(name)},'
         described = dict(zip(table, values, strict=True))
         openings.append(f'{{"type":"Feature",{named}"properties":{json_text(described)}{GEOJSON_LINE[0]}')
-    return Wording(collection_opening(polygons.crs) + b"\n", openings, "],[", ",", "]]}},\n", b"]}\n", *GEOJSON_LINE)
+    opening = collection_opening(polygons.crs, polygons.y_axis) + b"\n"
+    return Wording(opening, openings, "],[", ",", "]]}},\n", b"]}\n", *GEOJSON_LINE)
 
 
 def wkt_wording(count: int) -> Wording:

@@ -21,6 +21,7 @@ from vorotool.geometry.arguments.sites import Sites
 from vorotool.geometry.curves.well_known import geometry_of_texts
 from vorotool.geometry.polygons.conversion import polygons_of_geometry
 from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.types.axis import UP
 
 _COMMENT = re.compile(rb"^\s*#.*$", re.MULTILINE)
 _SHAPE = re.compile(rb"POLYGON|LINESTRING|LINEARRING|CIRCULARSTRING|CURVE|SURFACE|TIN|TRIANGLE", re.IGNORECASE)
@@ -64,7 +65,7 @@ def _read(source: Source, options: ReadOptions, *, takes_points: bool = False) -
     if shapely.has_z(geometries).any():
         options.note_heights(source.name)
     polygons = polygons_of_geometry(geometries, takes_points=takes_points)
-    return replace(polygons, y_up=True, crs=crs), geometries
+    return replace(polygons, y_axis=UP, crs=crs), geometries
 
 
 def holds_shapes(data: bytes) -> bool:

@@ -28,6 +28,7 @@ from vorotool.geometry.alpha.tables import (
     shape_point_table,
 )
 from vorotool.geometry.coordinate_grid import on_grid
+from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.polygons.polygon_set import HOLE, SHELL, PolygonSet, set_of_rings
 from vorotool.geometry.ragged import owners, within
 from vorotool.geometry.table import Table
@@ -88,9 +89,7 @@ def write_shape_edges(
     names = [name for name in table if name[:2] not in ("x_", "y_")]
     columns = {name: table[name] for name in names}
     mesh = shape.family.mesh
-    write_features(
-        out, columns, mesh.points, shape.family.edges[chosen], crs=mesh.crs, precision=precision, threads=threads
-    )
+    write_features(out, columns, shape.family.edges[chosen], mesh, precision=precision, threads=threads)
 
 
 def write_general(out: BinaryIO, shape: AlphaShape, fmt: str) -> None:
@@ -99,7 +98,7 @@ def write_general(out: BinaryIO, shape: AlphaShape, fmt: str) -> None:
         for geometry, _ in _parts(shape):
             out.write(f"{geometry['type'].upper()} {_wkt(geometry)}\n".encode())
     else:
-        _write_collection(out, shape.family.mesh.crs, _parts(shape))
+        _write_collection(out, shape.family.mesh, _parts(shape))
 
 
 def write_hull_geojson(out: BinaryIO, hull: AlphaHull) -> None:
@@ -114,7 +113,7 @@ def write_hull_geojson(out: BinaryIO, hull: AlphaHull) -> None:
             place = on_grid(mesh.points[v]).tolist()
             yield {"type": "Point", "coordinates": place}, {"class": "point", "label": int(mesh.label_array[v])}
 
-    _write_collection(out, mesh.crs, parts())
+    _write_collection(out, mesh, parts())
 
 
 def _polygon_set(polygons: list[list[NDArray[np.float64]]]) -> PolygonSet:
@@ -150,8 +149,10 @@ def _parts(shape: AlphaShape) -> Iterator[tuple[dict[str, Any], dict[str, Any]]]
         yield {"type": "Point", "coordinates": place}, {"class": "isolated", "label": int(mesh.label_array[v])}
 
 
-def _write_collection(out: BinaryIO, crs: Any, parts: Iterator[tuple[dict[str, Any], dict[str, Any]]]) -> None:
-    out.write(collection_opening(crs))
+def _write_collection(
+    out: BinaryIO, mesh: Triangulation, parts: Iterator[tuple[dict[str, Any], dict[str, Any]]]
+) -> None:
+    out.write(collection_opening(mesh.crs, mesh.y_axis))
     separator = "\n"
     for geometry, properties in parts:
         feature = {"type": "Feature", "properties": properties, "geometry": geometry}

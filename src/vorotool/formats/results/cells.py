@@ -19,6 +19,8 @@ from vorotool.geometry.coordinate_grid import current_decimals, on_grid
 from vorotool.geometry.mesh.cells import CellSet, Nesting
 from vorotool.geometry.ragged import owners, within
 from vorotool.geometry.table import Computed, Lookup, Table
+from vorotool.types.axis import MEMBER as Y_AXIS
+from vorotool.types.axis import UNSTATED, YAxis
 
 
 def write_cells(out: BinaryIO, cells: CellSet, fmt: str, *, precision: int | None = None, threads: int = 0) -> None:
@@ -40,6 +42,7 @@ class CellShapes:
     nesting: Nesting  # where rings, polygons and cells begin
     ids: Sequence[Any] | None = None  # names of the features; by default the property `id`, else labels
     crs: Any = None  # the `crs` member of GeoJSON
+    y_axis: YAxis = UNSTATED
 
     def texts(self, style: str, rows: NDArray[np.int64] | None = None) -> Computed:
         """The column of the cells' polygons, or that of other rows of polygons."""
@@ -79,7 +82,7 @@ def _shapes_of(cells: CellSet) -> CellShapes:
     x, y = np.ascontiguousarray(on_grid(cells.sites).T)
     columns = {"label": cells.label_array, "x": x, "y": y}
     made = written_cells(cells.coordinates, cells.nesting, in_box=cells.polygon_starts is None)
-    return CellShapes(columns, cells.properties, *made, crs=cells.crs)
+    return CellShapes(columns, cells.properties, *made, crs=cells.crs, y_axis=cells.y_axis)
 
 
 def written_cells(
@@ -103,7 +106,7 @@ def _write_geojson(out: BinaryIO, cells: CellShapes, precision: int | None, thre
         head, opening = Column("id", texts), ('{"type":"Feature",', around[0])
     shape = RowShape((*opening, *around[1:], "}"), ",\n", "null")
     columns = [head, *columns, Column("", cells.texts("geojson"))]
-    write_collection(out, columns, shape, crs=cells.crs, precision=precision, threads=threads)
+    write_collection(out, columns, shape, crs=cells.crs, y_axis=cells.y_axis, precision=precision, threads=threads)
 
 
 def _write_json(out: BinaryIO, cells: CellSet, precision: int | None, threads: int) -> None:
@@ -125,7 +128,7 @@ def _write_json(out: BinaryIO, cells: CellSet, precision: int | None, threads: i
         head.append(Column.of("part", part + 1))
         opening.append(',"part":')
     shape = RowShape((*opening, *around.around, "}"), ",\n", "null")
-    out.write(b'{"polygons":[')
+    out.write(f'{{"{Y_AXIS}":"{cells.y_axis}","polygons":['.encode())
     columns = [*head, *columns, Column("", shapes.texts("json", rows))]
     write_list_rows(out, columns, shape, precision=precision, threads=threads)
     out.write(b"]}\n")
@@ -152,6 +155,7 @@ def _write_npz(out: BinaryIO, cells: CellSet, _precision: int | None, threads: i
         "vertex_x": x,
         "vertex_y": y,
         "frame": np.array(cells.frame.sides),
+        Y_AXIS: np.array([cells.y_axis]),
     }
     write_npz(out, [Column.of(name, values) for name, values in arrays.items()], threads)
 

@@ -40,4 +40,4 @@ def write_distances(
     names = [json_text(name) for name in found.rows]
     columns = [Column.of("", names), Column("", table["distance"]), *coordinates]
     shape = RowShape((opening, *between, "]]}}"), ",\n", "null")
-    write_collection(out, columns, shape, crs=found.crs, precision=precision, threads=threads)
+    write_collection(out, columns, shape, crs=found.crs, y_axis=found.y_axis, precision=precision, threads=threads)

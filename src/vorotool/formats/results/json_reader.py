@@ -11,13 +11,14 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source
-from vorotool.formats.parsing.geojson import parse_json
+from vorotool.formats.parsing.geojson import parse_json, read_y_axis
 from vorotool.formats.parsing.reader_options import ReadOptions, shortened
 from vorotool.formats.polygons.json import read_json
 from vorotool.formats.text.json_writer import SITE_KINDS
 from vorotool.formats.text.tables import json_text
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.skeleton.skeleton import SiteTable
+from vorotool.types.axis import UNSTATED
 
 
 class JsonRows:
@@ -113,7 +114,7 @@ def read_polygons_of(rows: JsonRows, options: ReadOptions) -> PolygonSet:
     polygons = read_json(Source(rows.name, b"", "json", only_polygons), options)
     return replace(
         polygons,
-        y_up=document.get("y_up") is True,
+        y_axis=read_y_axis(rows.name, document, UNSTATED),
         crs=document.get("crs"),
         connectivity=document.get("connectivity"),
         unit=read_unit(rows.name, document),

@@ -58,27 +58,34 @@ def _write_geojson(
     rows = mesh.edges if what == "edges" else mesh.triangles
     stored = _TABLES[what](mesh).stored()
     columns = {name: stored[name] for name in stored if name.startswith("label") or name == "length"}
-    write_features(out, columns, mesh.points, rows, crs=mesh.crs, precision=precision, threads=threads)
+    write_features(out, columns, rows, mesh, precision=precision, threads=threads)
 
 
 def write_features(
     out: BinaryIO,
     columns: Mapping[str, Any],
-    points: NDArray[np.float64],
     rows: NDArray[np.int32],
+    mesh: AnyTriangulation | ProximityGraph,
     *,
-    crs: Any = None,
     precision: int | None = None,
     threads: int = 0,
 ) -> None:
     """Write edges or triangles as GeoJSON, streamed: one feature each, whose id is its number from 1."""
-    x, y = np.ascontiguousarray(points.T)
+    x, y = np.ascontiguousarray(mesh.points.T)
     ring = [*rows.T, *([rows[:, 0]] if rows.shape[1] == 3 else [])]
     corners = [Column.of_places(values, index) for index in ring for values in (x, y)]
     properties = [json_column(Column.of(name, column), precision) for name, column in columns.items()]
     numbers = Column.of("id", np.arange(1, len(rows) + 1))
     shape = _feature_shape(list(columns), rows.shape[1])
-    write_collection(out, [numbers, *properties, *corners], shape, crs=crs, precision=precision, threads=threads)
+    write_collection(
+        out,
+        [numbers, *properties, *corners],
+        shape,
+        crs=mesh.crs,
+        y_axis=mesh.y_axis,
+        precision=precision,
+        threads=threads,
+    )
 
 
 def _feature_shape(names: list[str], vertices: int) -> RowShape:

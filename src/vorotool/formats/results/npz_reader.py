@@ -25,6 +25,7 @@ from vorotool.geometry.arguments.sites import Sites, as_sites
 from vorotool.geometry.polygons.polygon_set import LINE, PolygonSet
 from vorotool.geometry.ragged import divides
 from vorotool.geometry.skeleton.skeleton import KINDS, SIDES, Skeleton
+from vorotool.types.axis import MEMBER as Y_AXIS
 
 _CELLS = option("delaunay --what cells", "voronoi_cells")
 _AS_JSON = option("-f json", 'fmt="json"')
@@ -78,6 +79,7 @@ def _skeleton(name: str, arrays: Arrays) -> dict[str, Any]:
     return {
         "type": TYPE,
         "version": VERSION,
+        **_axis(arrays),
         "polygons": _polygons(name, arrays),
         "sites": [
             {
@@ -139,7 +141,7 @@ def _polygons(name: str, arrays: Arrays) -> list[dict[str, Any]]:
 
 
 # ---- cells ---------------------------------------------------------------------------------------
-_OF_CELLS = ("cell_starts", "polygon_starts", "ring_starts", "vertex_x", "vertex_y", "frame")
+_OF_CELLS = (Y_AXIS, "cell_starts", "polygon_starts", "ring_starts", "vertex_x", "vertex_y", "frame")
 
 
 def _cells(name: str, arrays: Arrays) -> dict[str, Any]:
@@ -159,7 +161,7 @@ def _cells(name: str, arrays: Arrays) -> dict[str, Any]:
         for part, (shell, *holes) in enumerate(parts, 1):
             found = {"id": ids[cell], "part": part, "properties": properties, "shell": shell, "holes": holes}
             polygons.append(found)
-    return {"polygons": polygons}
+    return {"polygons": polygons, **_axis(arrays)}
 
 
 def _present(values: NDArray[Any], missing: NDArray[Any] | None) -> list[Any]:
@@ -167,6 +169,12 @@ def _present(values: NDArray[Any], missing: NDArray[Any] | None) -> list[Any]:
     if missing is None or len(missing) != len(listed):
         return listed
     return [None if none else value for value, none in zip(listed, missing.tolist(), strict=True)]
+
+
+def _axis(arrays: Arrays) -> dict[str, Any]:
+    """Which way y goes, where there is a word for it."""
+    found = arrays.get(Y_AXIS)
+    return {} if found is None else {Y_AXIS: found.tolist()[0] if found.size == 1 else found.tolist()}
 
 
 # ---- arrays --------------------------------------------------------------------------------------

@@ -24,6 +24,7 @@ from vorotool.formats.text.row_writer import Column
 from vorotool.formats.text.tables import json_text
 from vorotool.geometry.ragged import starts_of
 from vorotool.geometry.skeleton.offsets import PIECE_KINDS, RING_KINDS, Offsets
+from vorotool.types.axis import MEMBER as Y_AXIS
 
 TYPE = "vorotool.offsets"
 VERSION = 1
@@ -34,8 +35,7 @@ def write_json(out: BinaryIO, offsets: Offsets, *, precision: int | None = None,
     """Polygons, sites, shapes, rings and pieces, one object a line of text; all indices are 0-based."""
     polygons, step = as_written(offsets.polygons)
     head: dict[str, Any] = {"type": TYPE, "version": VERSION}
-    if polygons.y_up:
-        head["y_up"] = True
+    head[Y_AXIS] = polygons.y_axis
     if polygons.crs is not None:
         head["crs"] = polygons.crs
     if polygons.unit is not None:

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from typing import Any, BinaryIO
 
+import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.formats.polygons.writer import write_polygons
 from vorotool.formats.results.offset_json import write_json
 from vorotool.formats.text.tables import write_arrays, write_table
 from vorotool.geometry.skeleton.offsets import Offsets
+from vorotool.types.axis import MEMBER as Y_AXIS
 
 
 def write_offsets(
@@ -38,6 +40,7 @@ def offset_arrays(offsets: Offsets) -> dict[str, NDArray[Any]]:
     return {
         **{f"piece_{name}": values[:, 0] for name, values in places.items()},
         **{f"piece_{name.replace('x', 'y')}": values[:, 1] for name, values in places.items()},
+        Y_AXIS: np.array([offsets.y_axis]),
         "piece_site": offsets.site,
         "ring_start": offsets.ring_start,
         "shape_start": offsets.shape_start,

@@ -58,7 +58,7 @@ def _write_geojson(
     around = object_shape([column.name for column in columns], '"properties":', opening).around
     shape = RowShape(('{"type":"Feature",', *around, *between, after), ",\n", "null")
     rows = [Column("id", Lookup(texts, ids.index)), *columns, *coordinates]
-    write_collection(out, rows, shape, crs=polygons.crs, precision=precision, threads=threads)
+    write_collection(out, rows, shape, crs=polygons.crs, y_axis=polygons.y_axis, precision=precision, threads=threads)
 
 
 _LEFT_OUT = frozenset(["id", "arc", "x", "y", "x_a", "y_a", "x_b", "y_b"])

@@ -31,6 +31,7 @@ from vorotool.formats.text.row_writer import Column
 from vorotool.formats.text.tables import json_text
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.skeleton.skeleton import KINDS, SIDES, SiteTable, Skeleton
+from vorotool.types.axis import MEMBER as Y_AXIS
 
 TYPE = "vorotool.skeleton"
 VERSION = 1
@@ -49,8 +50,7 @@ def write_json(out: BinaryIO, skeleton: Skeleton, *, precision: int | None = Non
         head["gap"] = skeleton.gap
     if skeleton.features != "separate":
         head["features"] = skeleton.features
-    if polygons.y_up:
-        head["y_up"] = True
+    head[Y_AXIS] = polygons.y_axis
     if polygons.crs is not None:
         head["crs"] = polygons.crs
     if polygons.unit is not None:

@@ -19,6 +19,7 @@ from vorotool.geometry.skeleton.smooth_lines import SmoothLines
 from vorotool.geometry.skeleton.tables import arc_table, branch_table, element_table, polygon_table
 from vorotool.geometry.table import Table
 from vorotool.products.formats import TABLES
+from vorotool.types.axis import MEMBER as Y_AXIS
 
 
 def write_skeleton(
@@ -78,6 +79,7 @@ def skeleton_arrays(skeleton: Skeleton) -> dict[str, NDArray[Any]]:
         "ring_x": polygons.xy[:, 0],
         "ring_y": polygons.xy[:, 1],
         **{name: getattr(polygons, name) for name in ("ring_start", "ring_kind", "ring_polygon")},
+        Y_AXIS: np.array([polygons.y_axis]),
         "frame": np.array(frame, dtype=np.float64),
         "gap": np.array([skeleton.gap]),
         **({LATTICE_STEP: np.array([step])} if step else {}),

@@ -56,6 +56,7 @@ def _shapes_of(cells: VoronoiMap, tolerance: float | None) -> CellShapes:
         *written_cells(points, Nesting(start, cells.polygon_start, cells.cell_start)),
         cells.ids,
         cells.crs,
+        cells.y_axis,
     )
 
 
@@ -81,4 +82,13 @@ def _border_wording(cells: VoronoiMap) -> Wording:
         '"geometry":{"type":"LineString","coordinates":[['
         for row in rows
     ]
-    return Wording(collection_opening(cells.crs) + b"\n", openings, "],[", ",", "]]}},\n", b"]}\n", *GEOJSON_LINE)
+    opening = collection_opening(cells.crs, cells.y_axis) + b"\n"
+    return Wording(
+        opening,
+        openings,
+        "],[",
+        ",",
+        "]]}},\n",
+        b"]}\n",
+        *GEOJSON_LINE,
+    )

@@ -25,6 +25,7 @@ from vorotool.geometry.ragged import starts_of
 from vorotool.geometry.table import Lookup
 from vorotool.geometry.voronoi.tables import KINDS, kinds_of
 from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
+from vorotool.types.axis import MEMBER as Y_AXIS
 
 TYPE = "vorotool.voronoi"
 VERSION = 1
@@ -60,7 +61,7 @@ def described(cells: VoronoiMap) -> dict[str, Any]:
 def _placed(polygons: PolygonSet) -> dict[str, Any]:
     names = ("crs", "unit", "connectivity")
     known = {name: getattr(polygons, name) for name in names if getattr(polygons, name) is not None}
-    return ({"y_up": True} if polygons.y_up else {}) | known
+    return {Y_AXIS: polygons.y_axis} | known
 
 
 def _document(polygons: PolygonSet) -> dict[str, Any]:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source
+from vorotool.formats.parsing.geojson import read_y_axis
 from vorotool.formats.parsing.npz_columns import npz_columns
 from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.formats.results.json_reader import JsonRows, opened_rows, read_unit
@@ -27,6 +28,7 @@ from vorotool.formats.results.voronoi_json import (
 from vorotool.formats.text.tables import json_bytes, write_arrays
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.voronoi.voronoi_map import OUTSIDE, VoronoiMap
+from vorotool.types.axis import UNSTATED
 
 Arrays = Mapping[str, NDArray[Any]]
 
@@ -187,7 +189,7 @@ def _polygons(held: _Held, about: JsonRows, options: ReadOptions) -> PolygonSet:
     return PolygonSet(
         xy=np.stack([x, y], axis=1),
         feature=held.indices("polygon_feature", None, 0, _MOST).astype(np.int32),
-        y_up=document.get("y_up") is True,
+        y_axis=read_y_axis(held.name, document, UNSTATED),
         crs=document.get("crs"),
         connectivity=document.get("connectivity"),
         unit=read_unit(held.name, document),

@@ -10,6 +10,7 @@ from typing import Any, BinaryIO
 from vorotool.formats.text.row_writer import Column, RowShape, write_list_rows
 from vorotool.formats.text.tables import json_text
 from vorotool.geometry.length_units import ascii_unit, is_known
+from vorotool.types.axis import MEMBER, UP, YAxis
 
 _UNIT: ContextVar[str | None] = ContextVar("unit of coordinates", default=None)
 
@@ -24,11 +25,12 @@ def unit_member(unit: str | None) -> Iterator[None]:
         _UNIT.reset(token)
 
 
-def collection_opening(crs: Any) -> bytes:
-    """The text before the features of a collection, whose ``crs`` member may be None."""
+def collection_opening(crs: Any, y_axis: YAxis) -> bytes:
+    """Return the text before the features of a collection, whose ``crs`` member may be None."""
     unit = _UNIT.get() if crs is None else None
     member = "" if crs is None else f'"crs":{json_text(crs)},'
     member += "" if unit is None else f'"unit":{json_text(unit)},'
+    member += "" if y_axis == UP else f'"{MEMBER}":"{y_axis}",'
     return f'{{"type":"FeatureCollection",{member}"features":['.encode()
 
 
@@ -43,11 +45,12 @@ def write_collection(
     columns: Sequence[Column],
     shape: RowShape,
     *,
-    crs: Any = None,
+    crs: Any,
+    y_axis: YAxis,
     precision: int | None = None,
     threads: int = 0,
 ) -> None:
     """Write a collection, streamed: one feature a row."""
-    out.write(collection_opening(crs))
+    out.write(collection_opening(crs, y_axis))
     write_list_rows(out, columns, shape, precision=precision, threads=threads)
     out.write(b"]}\n")

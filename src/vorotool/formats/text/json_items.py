@@ -5,6 +5,8 @@ from __future__ import annotations
 from types import TracebackType
 from typing import Any, Self
 
+from vorotool.types.axis import MEMBER
+
 
 class JsonItems:
     """A file that takes a list in JSON or a collection in GeoJSON, and passes its items on, some at a time."""
@@ -42,12 +44,18 @@ class JsonItems:
     @property
     def crs(self) -> Any:
         """The ``crs`` member of a collection; None where there is none."""
+        return self.members.get("crs")
+
+    @property
+    def members(self) -> dict[str, Any]:
+        """What a collection says of all its features, beside them."""
         import orjson
 
         opening = self._opening or b""
         # of an empty list the closing follows the opening at once
         text = opening.removesuffix(b"\n").removesuffix(b"]}") + b"]}" if opening.startswith(b"{") else b"{}"
-        return orjson.loads(text).get("crs")
+        opening_members = orjson.loads(text)
+        return {name: opening_members[name] for name in ("crs", "unit", MEMBER) if opening_members.get(name) is not None}
 
     def _take_lines(self, lines: bytes) -> None:
         """Pass whole lines on but the last, and but the first of all, the opening."""

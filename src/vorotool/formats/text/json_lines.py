@@ -19,8 +19,8 @@ class JsonLines(JsonItems):
 
     def take(self, items: bytes) -> None:
         """Write some items."""
-        crs = self.crs
-        if crs is not None:
-            member = f'"crs":{json_text(crs)},'.encode()
+        members = self.members
+        if members:
+            member = json_text(members)[1:-1].encode() + b","
             items = (b"\n" + items).replace(b"\n" + _FEATURE, b"\n" + _FEATURE + member)[1:]
         self._out.write(items)

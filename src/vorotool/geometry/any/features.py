@@ -356,8 +356,8 @@ def _on_map(table: Table, image: LabelImage, own: Mapping[str, Any]) -> Table:
     left_out = {"bbox_x", "bbox_y", "bbox_w", "bbox_h"}
     grid = image.grid
     if grid is not None and grid.transform is not None:
-        if grid.is_square and grid.is_upright and grid.is_north_up and image.sides == SQUARE:
-            table = scaled_table(table, grid.width, properties=own, origin=grid.center, y_up=True)
+        if grid.is_square and grid.is_upright and image.sides == SQUARE:
+            table = scaled_table(table, grid.width, properties=own, origin=grid.center, y_up=grid.is_north_up)
         else:  # a length in pixels, or in the unit of a spacing, is none on the map
             left_out |= LENGTHS | AREAS
     columns = table.stored().items()

@@ -9,6 +9,7 @@ import numpy as np
 from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.geometry.polygons.polygon_set import LINE, PolygonSet
 from vorotool.geometry.ragged import within
+from vorotool.types.axis import UP
 
 
 def mirrored_polygons(polygons: PolygonSet) -> PolygonSet:
@@ -19,7 +20,7 @@ def mirrored_polygons(polygons: PolygonSet) -> PolygonSet:
     is_line = np.repeat(polygons.ring_kind == LINE, sizes)
     taken = first + np.where(is_line, place, (size - place) % np.maximum(size, 1))
     frame = None if polygons.frame is None else polygons.frame.stretched(1.0, -1.0)
-    return replace(polygons, xy=polygons.xy[taken] * (1.0, -1.0) + 0.0, y_up=True, frame=frame)
+    return replace(polygons, xy=polygons.xy[taken] * (1.0, -1.0) + 0.0, y_axis=UP, frame=frame)
 
 
 def mirrored_seeds(seeds: SeedSet) -> SeedSet:

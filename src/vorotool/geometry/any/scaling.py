@@ -24,6 +24,7 @@ LENGTHS = frozenset(
         *("birth", "death", "persistence"),
     }
 )
+_UNSCALED = (Meaning.NUMBER, Meaning.AXIS)
 AREAS = frozenset({"area", "object_area"})
 """Columns of tables that are lengths, coordinates included, and areas; the others are numbers, labels and names."""
 
@@ -32,7 +33,7 @@ def scaled(
     value: Any, factor: Fraction, origin: Place = None, *, unit: str | None = None, of_steps: bool = False
 ) -> Any:
     """Give a result in units of which one is ``1 / factor`` of the old."""
-    measures = {name: each for name, each in _declared(value).items() if each.meaning is not Meaning.NUMBER}
+    measures = {name: each for name, each in _declared(value).items() if each.meaning not in _UNSCALED}
     if not measures:
         raise UsageError(f"a {type(value).__name__} is not scaled")
     parts: dict[str, Any] = {}

@@ -15,6 +15,7 @@ from vorotool.geometry.arguments.tables import index_of, listed
 from vorotool.geometry.crs import crs_member, member_of_text, without_number
 from vorotool.geometry.curves.well_known import flattened_note, geometry_of_texts, without_curves
 from vorotool.geometry.row_index import index_of_rows
+from vorotool.types.axis import UP, YAxis, y_axis_member
 
 SIMPLE_TYPES = ("Point", "LineString", "Polygon")
 GEOMETRY_TYPES = frozenset({*SIMPLE_TYPES, *(f"Multi{kind}" for kind in SIMPLE_TYPES), "GeometryCollection"})
@@ -35,8 +36,8 @@ class HeldFeatures:
     index: Any = None  # pandas Index, array or sequence: what a series or a data frame calls them
     crs: Any = None  # the `crs` member of GeoJSON
     curves: int = 0  # how many curves of texts were flattened
-    # they come from a form in which features say where they are: pictures have y upwards, and what has no geometry is
-    # left out, since an index or an id tells of the others which they are
+    y_axis: YAxis = UP
+    # features have an index or an id, so that those without geometry are left out
     is_map: bool = False
 
     @property
@@ -61,7 +62,7 @@ class HeldFeatures:
             "properties": {name: [values[k] for k in own] for name, values in self.properties.items()},
             "index": index_of_rows(self.index, owners),
             "crs": self.crs,
-            "y_up": self.is_map,
+            "y_axis": self.y_axis,
         }
 
 
@@ -186,7 +187,7 @@ def _of_geojson(document: Any) -> HeldFeatures | None:
     if not is_geojson(document):
         return None
     if document["type"] in GEOMETRY_TYPES:
-        return HeldFeatures([document], crs=document.get("crs"), is_map=True)
+        return HeldFeatures([document], crs=document.get("crs"), y_axis=y_axis_member(document, UP), is_map=True)
     features = [document] if document["type"] == "Feature" else document.get("features")
     if isinstance(features, str) or not isinstance(features, Iterable):
         raise InputError('the FeatureCollection has no list of features: add "features": […]')
@@ -203,6 +204,7 @@ def _of_geojson(document: Any) -> HeldFeatures | None:
         {str(name): [row.get(name) for row in rows] for name in names},
         [feature.get("id") for feature in features] if any("id" in feature for feature in features) else None,
         crs=document.get("crs"),
+        y_axis=y_axis_member(document, UP),
         is_map=True,
     )
 

@@ -48,7 +48,7 @@ def _points_of(source: Any, name: str) -> PointSet:
         assert source.sites is not None  # SeedSet has filled them in
         labels = None if source.site_labels is None else source.site_labels.astype(np.int64)
         frame = None if source.frame is None else source.frame.box
-        return PointSet(source.sites, labels, source.properties, index=source.index, frame=frame)
+        return PointSet(source.sites, labels, source.properties, y_axis=source.y_axis, index=source.index, frame=frame)
     if isinstance(source, PolygonSet):
         raise InputError("these are polygons or lines: give points, for example their centroids or vertices")
     if isinstance(source, Raster | LabelImage):
@@ -122,7 +122,7 @@ def _points_of_features(held: HeldFeatures) -> PointSet:
     labels = labels_of(properties[LABEL]) if LABEL in properties else None
     if labels is not None:
         del properties[LABEL]
-    return PointSet(xy, labels, properties, y_up=held.is_map, crs=held.crs, index=index)
+    return PointSet(xy, labels, properties, y_axis=held.y_axis, crs=held.crs, index=index)
 
 
 def _positions(held: HeldFeatures) -> tuple[NDArray[np.float64], NDArray[np.int64]]:

@@ -27,6 +27,7 @@ from vorotool.geometry.polygons.conversion import polygons_of_geometry
 from vorotool.geometry.polygons.polygon_set import LINE, PolygonSet
 from vorotool.geometry.row_index import index_of_rows
 from vorotool.products.formats import resolved
+from vorotool.types.axis import UP
 
 _BY = option("--by", "by")
 EXPECTED = (
@@ -111,7 +112,7 @@ def _of_points(points: PointSet) -> Sites:
         np.arange(count, dtype=np.int32),
         ids=None if points.labels is None else points.labels.tolist(),
         properties=points.properties,
-        y_up=points.y_up,
+        y_axis=points.y_axis,
         crs=points.crs,
         index=points.index,
     )
@@ -140,7 +141,7 @@ def _on_map(outlines: PolygonSet, grid: PixelGrid, first: tuple[int, int]) -> Po
 
     low, high = bounds(on_map(np.array(outlines.frame.sides).reshape(2, 2)))
     frame = Box(*low.tolist(), *high.tolist()) if grid.is_upright else None
-    return replace(outlines, xy=on_map(outlines.xy), y_up=True, crs=grid.crs, frame=frame)
+    return replace(outlines, xy=on_map(outlines.xy), y_axis=UP, crs=grid.crs, frame=frame)
 
 
 def _of_polygons(polygons: PolygonSet) -> Sites:

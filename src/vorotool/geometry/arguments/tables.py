@@ -22,6 +22,7 @@ from vorotool.geometry.crs import LONGITUDE_LATITUDE, crs_member
 from vorotool.geometry.numbers import shown_number
 from vorotool.geometry.points.point_set import PointSet, labels_of
 from vorotool.geometry.volumes.volume_points import VolumePoints
+from vorotool.types.axis import UNSTATED, UP
 
 ROWS_FIRST = ("y", "lat", "north", "row", "r", "i")
 """How names begin, or are, of a first column that may be the y of two."""
@@ -50,7 +51,7 @@ def points_of_table(table: Any, name: str) -> PointSet:
     is_geographic = is_longitude_latitude(texts[x], texts[y])
     return PointSet(
         **_taken(table, texts, columns, chosen),
-        y_up=is_map(texts[x], texts[y]),
+        y_axis=UP if is_map(texts[x], texts[y]) else UNSTATED,
         crs=crs_member(LONGITUDE_LATITUDE) if is_geographic else None,
     )
 

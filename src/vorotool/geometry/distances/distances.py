@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.table import Lookup, Table
 from vorotool.geometry.values import Geometric, Pictured, Tabular, Value, placed
+from vorotool.types.axis import YAxis
 
 HAUSDORFF, FROM_A, FROM_B, SMALLEST = "hausdorff", "a to b", "b to a", "smallest"
 """Names of distances in tables: the larger of both directions, each of them, and the smallest one."""
@@ -93,9 +94,9 @@ class Distances(Value, Tabular, Geometric, Pictured):
         return b.crs if a.crs is None else a.crs
 
     @property
-    def y_up(self) -> bool:
-        """Whether pictures are drawn y upwards."""
-        return self.shapes[0].y_up
+    def y_axis(self) -> YAxis:
+        """Direction of y where the coordinates come from."""
+        return self.shapes[0].y_axis
 
     @property
     def places(self) -> NDArray[np.float64]:

@@ -16,6 +16,7 @@ from vorotool.geometry.row_index import check_index
 from vorotool.geometry.values import Geometric, Pictured, Tabular, Value, counted, placed
 from vorotool.products.formats import resolved
 from vorotool.types import fields as f
+from vorotool.types.axis import UNSTATED, YAxis
 from vorotool.types.fields import record
 
 
@@ -52,8 +53,8 @@ class CellSet(Value, Tabular, Geometric, Pictured):
         The input's own labels. Without them point i has label i + 1.
     properties : dict of str to sequence, optional
         Other columns of the input, one value per point.
-    y_up : bool
-        Whether pictures of this input are drawn with y upwards.
+    y_axis : {"none", "up", "down"}
+        Direction of y where the coordinates come from; "none" where nothing states it.
     crs : object, optional
         The ``crs`` member of a GeoJSON input.
     index : pandas Index, array or sequence, optional
@@ -82,7 +83,7 @@ class CellSet(Value, Tabular, Geometric, Pictured):
     cell_starts: NDArray[np.int64] | None = f.numbers(np.int64, "cells", default=None)
     labels: NDArray[np.int64] | None = f.numbers(np.int64, "sites", default=None)
     properties: dict[str, Any] = field(default_factory=dict)
-    y_up: bool = False
+    y_axis: YAxis = f.y_axis(default=UNSTATED)
     crs: Any = None
     index: Any = None
 

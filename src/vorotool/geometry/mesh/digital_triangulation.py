@@ -12,6 +12,7 @@ from vorotool.geometry.mesh.triangulation import ALL, Triangulation, lengths_of
 from vorotool.geometry.row_index import check_index
 from vorotool.geometry.values import Graph, Pictured, Tabular, Value, WithParts, counted, placed
 from vorotool.types import fields as f
+from vorotool.types.axis import UNSTATED, YAxis
 from vorotool.types.fields import record
 
 
@@ -38,8 +39,8 @@ class DigitalTriangulation(Value, Tabular, WithParts, Graph, Pictured):
         Numbers of corners of the pixel lattice at which three and four labels meet.
     properties : dict of str to sequence, optional
         Other columns of the input, one value per site.
-    y_up : bool
-        Whether pictures of this input are drawn with y upwards.
+    y_axis : {"none", "up", "down"}
+        Direction of y where the coordinates come from; "none" where nothing states it.
     crs : object, optional
         The ``crs`` member of a GeoJSON input.
     index : pandas Index, array or sequence, optional
@@ -70,7 +71,7 @@ class DigitalTriangulation(Value, Tabular, WithParts, Graph, Pictured):
     three_label_corners: int = 0
     four_label_corners: int = 0
     properties: dict[str, Any] = field(default_factory=dict)
-    y_up: bool = False
+    y_axis: YAxis = f.y_axis(default=UNSTATED)
     crs: Any = None
     index: Any = None
 

@@ -70,16 +70,6 @@ class ProximityGraph(Value, Tabular, Geometric, Graph, Pictured):
         return self.mesh.properties
 
     @property
-    def y_up(self) -> bool:
-        """Whether pictures of this input are drawn y upwards."""
-        return self.mesh.y_up
-
-    @property
-    def crs(self) -> Any:
-        """The coordinate reference system of the input, if it had one."""
-        return self.mesh.crs
-
-    @property
     def first_number(self) -> int:
         """Number of the first point in files of Triangle."""
         return self.mesh.first_number

@@ -17,6 +17,7 @@ from vorotool.geometry.row_index import check_index
 from vorotool.geometry.values import Graph, Pictured, Tabular, Value, WithParts, counted, placed
 from vorotool.products.formats import resolved
 from vorotool.types import fields as f
+from vorotool.types.axis import UNSTATED, YAxis
 from vorotool.types.fields import record
 
 FLAT = 2.0**-20
@@ -57,8 +58,8 @@ class Triangulation(Value, Tabular, WithParts, Graph, Pictured):
         The input's own labels. Without them point i has label i + 1.
     properties : dict of str to sequence, optional
         Other columns of the input, one value per point.
-    y_up : bool
-        Whether pictures of this input are drawn with y upwards.
+    y_axis : {"none", "up", "down"}
+        Direction of y where the coordinates come from; "none" where nothing states it.
     crs : object, optional
         The ``crs`` member of a GeoJSON input.
     first_number : {1, 0}
@@ -94,7 +95,7 @@ class Triangulation(Value, Tabular, WithParts, Graph, Pictured):
     first: NDArray[np.int32] = f.index("points")
     labels: NDArray[np.int64] | None = f.numbers(np.int64, "points", default=None)
     properties: dict[str, Any] = field(default_factory=dict)
-    y_up: bool = False
+    y_axis: YAxis = f.y_axis(default=UNSTATED)
     crs: Any = None
     first_number: int = 1
     index: Any = None

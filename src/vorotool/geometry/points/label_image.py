@@ -14,6 +14,7 @@ from vorotool.geometry.pixel_grid import PixelGrid
 from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.geometry.spacing import SQUARE, PixelSides
 from vorotool.geometry.values import Geometric, Graph, Pixels, Tabular, Value, counted, placed
+from vorotool.types.axis import DOWN, YAxis
 
 COUNTED = 1 << 24
 """Labels of images of more pixels are not counted to describe one."""
@@ -66,6 +67,11 @@ class LabelImage(Value, Tabular, Geometric, Graph, Pixels):
         """Rows and columns."""
         return (self.labels.shape[0], self.labels.shape[1])
 
+    @property
+    def y_axis(self) -> YAxis:
+        """Direction of y: that of the seeds; without any rows go down."""
+        return DOWN if self.seeds is None else self.seeds.y_axis
+
     def flipped(self) -> LabelImage:
         """The image with its rows in reverse order, for pictures with y upwards; its seeds move along.
 
@@ -79,6 +85,11 @@ class LabelImage(Value, Tabular, Geometric, Graph, Pixels):
             last = 2 * frame.y + frame.height - 1  # y of a seed becomes last - y
             seeds = replace(seeds, y=last * seeds.scale - seeds.y)
         return LabelImage(self.labels[::-1], frame, seeds, sides=self.sides)
+
+    @property
+    def crs(self) -> Any:
+        """The ``crs`` member of GeoJSON for the map that the image lies on; None without one."""
+        return None if self.grid is None else self.grid.crs
 
     def _array(self) -> NDArray[Any]:
         return self.labels

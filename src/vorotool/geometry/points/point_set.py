@@ -15,6 +15,7 @@ from vorotool.geometry.coordinates import coordinate_rows
 from vorotool.geometry.row_index import check_index
 from vorotool.geometry.values import Geometric, Pictured, Tabular, Value, counted, placed
 from vorotool.types import fields as f
+from vorotool.types.axis import UNSTATED, YAxis
 from vorotool.types.fields import record
 
 LABEL = "label"
@@ -33,8 +34,8 @@ class PointSet(Value, Tabular, Geometric, Pictured):
         The input's own labels (each at least 1). Without them point i has label i + 1.
     properties : dict of str to sequence, optional
         Other columns of the input, each of length n, copied to outputs that have one row or feature a point.
-    y_up : bool
-        Whether pictures of this input are drawn with y upwards (GeoJSON and WKT).
+    y_axis : {"none", "up", "down"}
+        Direction of y where the coordinates come from; "none" where nothing states it.
     crs : object, optional
         The ``crs`` member of a GeoJSON input, copied to GeoJSON outputs.
     first_number : {1, 0}
@@ -62,7 +63,7 @@ class PointSet(Value, Tabular, Geometric, Pictured):
     xy: NDArray[np.float64] = f.position("points", 2)
     labels: NDArray[np.int64] | None = f.numbers(np.int64, "points", default=None)
     properties: dict[str, Any] = field(default_factory=dict)
-    y_up: bool = False
+    y_axis: YAxis = f.y_axis(default=UNSTATED)
     crs: Any = None
     first_number: int = 1
     index: Any = None
@@ -98,7 +99,7 @@ def known_of_points(points: Any) -> dict[str, Any]:
 
     Labels that repeat name groups of points, not points: they become a property.
     """
-    known = {name: getattr(points, name) for name in ("labels", "properties", "y_up", "crs", "index")}
+    known = {name: getattr(points, name) for name in ("labels", "properties", "y_axis", "crs", "index")}
     labels = known["labels"]
     if labels is not None and not (labels[1:] > labels[:-1]).all() and len(np.unique(labels)) < len(labels):
         name = LABEL if LABEL not in known["properties"] else f"voro_{LABEL}"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -11,9 +10,12 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError
 from vorotool.geometry.pixel_grid import PixelGrid
 from vorotool.geometry.values import Pixels, Value, placed
+from vorotool.types import fields as f
+from vorotool.types.axis import DOWN, YAxis
+from vorotool.types.fields import record
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@record
 class Raster(Value, Pixels):
     """A single-channel image, or a color image that still has to be thresholded.
 
@@ -27,6 +29,8 @@ class Raster(Value, Pixels):
         Pixels that are background whatever their values, as those of a masked array are.
     is_lossy : bool
         The file keeps values nearly, as JPEG does: they are no labels, and no mask until there is a threshold.
+    y_axis : {"down", "up", "none"}
+        Direction of y: "down" unless the first row is the lowest one.
 
     Raises
     ------
@@ -43,6 +47,7 @@ class Raster(Value, Pixels):
     grid: PixelGrid | None = None
     mask: NDArray[np.bool_] | None = None
     is_lossy: bool = False
+    y_axis: YAxis = f.y_axis(default=DOWN)
 
     def __post_init__(self) -> None:
         if isinstance(self.values, np.ma.MaskedArray):
@@ -67,6 +72,11 @@ class Raster(Value, Pixels):
     def shape(self) -> tuple[int, int]:
         """Rows and columns."""
         return (self.values.shape[0], self.values.shape[1])
+
+    @property
+    def crs(self) -> Any:
+        """The ``crs`` member of GeoJSON for the map that the image lies on; None without one."""
+        return None if self.grid is None else self.grid.crs
 
     def _array(self) -> NDArray[Any]:
         return self.values

@@ -16,6 +16,7 @@ from vorotool.geometry.pixel_grid import PixelGrid
 from vorotool.geometry.row_index import check_index
 from vorotool.geometry.values import Geometric, Pictured, Tabular, Value, counted
 from vorotool.types import fields as f
+from vorotool.types.axis import UNSTATED, YAxis
 from vorotool.types.fields import record
 
 SCALES = tuple(2**k for k in range(41))
@@ -48,6 +49,8 @@ class SeedSet(Value, Tabular, Geometric, Pictured):
         Seeds that were moved to the lattice.
     largest_move : float
         The largest of these moves, in pixels.
+    y_axis : {"none", "up", "down"}
+        Direction of y where the coordinates come from; "none" where nothing states it.
     grid : PixelGrid, optional
         Sides and places of the pixels of the image that the seeds come from.
     index : pandas Index, array or sequence, optional
@@ -76,6 +79,7 @@ class SeedSet(Value, Tabular, Geometric, Pictured):
     properties: dict[str, Any] = field(default_factory=dict)
     snapped: int = 0
     largest_move: float = 0.0
+    y_axis: YAxis = f.y_axis(default=UNSTATED)
     grid: PixelGrid | None = None
     index: Any = None
 

@@ -18,6 +18,7 @@ from vorotool.geometry.ragged import divides, following, starts_of, within
 from vorotool.geometry.row_index import check_index
 from vorotool.geometry.values import Geometric, Pictured, Tabular, Value, counted, placed
 from vorotool.types import fields as f
+from vorotool.types.axis import UNSTATED, YAxis
 from vorotool.types.fields import record
 
 SHELL, HOLE, LINE = 0, 1, 2
@@ -49,8 +50,8 @@ class PolygonSet(Value, Tabular, Geometric, Pictured):
         The object of the input that each polygon is a part of, from 0, not decreasing. By default each is its own.
     properties : dict of str to sequence, optional
         Other columns of the input, one value per polygon.
-    y_up : bool
-        Whether pictures of this input are drawn with y upwards (GeoJSON and WKT).
+    y_axis : {"none", "up", "down"}
+        Direction of y where the coordinates come from; "none" where nothing states it.
     crs : object, optional
         The ``crs`` member of a GeoJSON input, copied to GeoJSON outputs.
     connectivity : {8, 4}, optional
@@ -84,7 +85,7 @@ class PolygonSet(Value, Tabular, Geometric, Pictured):
     ids: Sequence[Any] | None = None
     feature: NDArray[np.int32] | None = f.index("polygons", default=None)
     properties: dict[str, Any] = field(default_factory=dict)
-    y_up: bool = False
+    y_axis: YAxis = f.y_axis(default=UNSTATED)
     crs: Any = None
     connectivity: int | None = None
     unit: str | None = None

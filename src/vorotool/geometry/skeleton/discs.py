@@ -87,11 +87,6 @@ class Discs(Value, Tabular, Curved, Pictured):
     def __len__(self) -> int:
         return len(self.radius)
 
-    @property
-    def y_up(self) -> bool:
-        """Whether pictures are drawn y upwards."""
-        return self.polygons.y_up
-
     def feet_of(self, disc: int) -> NDArray[np.float64]:
         """Return the places where a disc touches the boundary, by the numbers of their sites."""
         return self.feet[self.foot_start[disc] : self.foot_start[disc + 1]]
@@ -179,7 +174,7 @@ class Discs(Value, Tabular, Curved, Pictured):
             np.full(count, SHELL),
             np.arange(count, dtype=np.int32),
             **self._described(),
-            y_up=polygons.y_up,
+            y_axis=polygons.y_axis,
             unit=polygons.unit,
             crs=polygons.crs,
             index=index_of_rows(polygons.index, self.polygon),

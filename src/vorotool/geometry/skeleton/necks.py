@@ -67,11 +67,6 @@ class Necks(Value, Tabular, Geometric, Pictured):
     def __len__(self) -> int:
         return len(self.width)
 
-    @property
-    def y_up(self) -> bool:
-        """Whether pictures are drawn y upwards."""
-        return self.skeleton.y_up
-
     @cached_property
     def polygon(self) -> NDArray[np.int32]:
         """(n,) the polygon that each is in."""

@@ -149,11 +149,6 @@ class Offsets(Value, Tabular, Curved, Pictured):
         )
         return areas
 
-    @property
-    def y_up(self) -> bool:
-        """Whether pictures are drawn y upwards."""
-        return self.polygons.y_up
-
     def flattened(self, tolerance: float | None = None) -> PolygonSet:
         """Return the shapes as polygons, with arcs replaced by chords.
 
@@ -182,7 +177,7 @@ class Offsets(Value, Tabular, Curved, Pictured):
             self.ring_kind,
             self.shape_of_ring,  # type: ignore[arg-type]
             **self._described(),
-            y_up=self.polygons.y_up,
+            y_axis=self.polygons.y_axis,
             unit=self.polygons.unit,
             crs=self.polygons.crs,
             index=index_of_rows(self.polygons.index, self.polygon),

@@ -64,11 +64,6 @@ class Parts(Value, Tabular, Geometric, Pictured):
     def __len__(self) -> int:
         return len(self.polygons)
 
-    @property
-    def y_up(self) -> bool:
-        """Whether pictures are drawn y upwards."""
-        return self.polygons.y_up
-
     @cached_property
     def width(self) -> NDArray[np.float64]:
         """(p,) diameters of the largest discs."""

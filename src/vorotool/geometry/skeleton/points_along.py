@@ -66,11 +66,6 @@ class SkeletonPoints(Value, Tabular, WithParts, Pictured):
     def __len__(self) -> int:
         return len(self.arc)
 
-    @property
-    def y_up(self) -> bool:
-        """Whether pictures are drawn y upwards."""
-        return self.skeleton.y_up
-
     @cached_property
     def polygon(self) -> NDArray[np.int32]:
         """(n,) the polygon that each is in; -1 outside."""

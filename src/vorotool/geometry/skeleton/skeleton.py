@@ -189,11 +189,6 @@ class Skeleton(Value, Tabular, Branched, Pictured):
         apart = np.abs(self.vertices[:, [0, 0, 1, 1]] - sides)
         return np.asarray((apart <= 8 * np.spacing(np.abs(sides).max())).any(axis=1))
 
-    @property
-    def y_up(self) -> bool:
-        """Whether pictures are drawn y upwards."""
-        return self.polygons.y_up
-
     @cached_property
     def site_ends(self) -> NDArray[np.float64]:
         """(s, 2, 2) the ends of each site, with a gap those of the shortened edges; a vertex has one place twice."""

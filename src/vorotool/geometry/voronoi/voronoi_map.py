@@ -134,11 +134,6 @@ class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
         """The properties without the column that holds the labels."""
         return other_columns(self.properties, self.labels)
 
-    @property
-    def crs(self) -> Any:
-        """The coordinate reference system of the input."""
-        return self.polygons.crs
-
     @cached_property
     def is_parabola(self) -> NDArray[np.bool_]:
         """(a,) whether each arc is a parabola."""

@@ -60,7 +60,6 @@ class Derived:
             what=what,
             layers=o.layers,
             width=o.width or 1000,
-            y_up=o.y_up,
             backdrop=self.backdrop,
             styled=styled or self._styled,
         )

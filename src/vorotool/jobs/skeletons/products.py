@@ -268,7 +268,7 @@ class SkeletonProducts(ABC, Generic[Options]):
         if criterion is not None:
             is_length = criterion in LENGTHS
             shown = (criterion, length_in_units(self.options.pixel_size, threshold) if is_length else threshold)
-        write_skeleton_html(out, whole, values, arc_profiles(whole), shown=shown, y_up=self.options.y_up)
+        write_skeleton_html(out, whole, values, arc_profiles(whole), shown=shown)
 
     def _page(self, value: Skeleton) -> Page:
         from vorotool.render.canvas.layers import ImagePage
@@ -276,7 +276,7 @@ class SkeletonProducts(ABC, Generic[Options]):
 
         if self.backdrop is not None:
             return self._styled(ImagePage(self.backdrop))
-        page = skeleton_page(value, width=self.options.width or 1000, y_up=self.options.y_up)
+        page = skeleton_page(value, width=self.options.width or 1000)
         return self._styled(page)
 
     def _write_picture(self, out: BinaryIO, target: Target) -> None:

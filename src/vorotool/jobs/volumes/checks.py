@@ -100,7 +100,7 @@ def _check_outputs(o: TessellationOptions, targets: Sequence[Target]) -> None:
         raise UsageError("--layers is for pictures: use --what color as PNG or SVG, or leave it out")
     if o.slice is not None and not pictures:
         raise UsageError("--slice is for pictures: use --what color as PNG or SVG, or leave it out")
-    check_picture_options(o, pictures, VOLUME_PRODUCTS["color"].layers, has_page="html" in formats)
+    check_picture_options(o, pictures, VOLUME_PRODUCTS["color"].layers)
 
 
 def _is_ome_zarr(target: Target) -> bool:

@@ -9,6 +9,7 @@ from vorotool.geometry.mesh.cells import CellSet
 from vorotool.geometry.ragged import following, owners, within
 from vorotool.render.canvas.layers import Lines, Page, Polygons
 from vorotool.render.canvas.palettes import EDGE, INK, cell_color
+from vorotool.types.axis import is_up
 
 LAYERS = ("cells", "diagram")
 """Filled cells, and their boundaries as lines."""
@@ -50,9 +51,9 @@ def cell_lines(cells: CellSet, page: Page) -> Lines:
     return Lines("diagram", cells.coordinates, sides, INK, _line_width(cells, page))
 
 
-def cells_page(cells: CellSet, *, width: int = 1000, y_up: bool | None = None) -> Page:
+def cells_page(cells: CellSet, *, width: int = 1000) -> Page:
     """The page that shows the frame of cells; y upwards where the input says so."""
-    return Page(cells.frame.sides, width=width, y_up=cells.y_up if y_up is None else y_up)
+    return Page(cells.frame.sides, width=width, y_up=is_up(cells))
 
 
 def _line_width(cells: CellSet, page: Page) -> float:

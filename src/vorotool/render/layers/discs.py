@@ -12,6 +12,7 @@ from vorotool.render.canvas.layers import Layer, Page, Points, bounds_of
 from vorotool.render.canvas.palettes import RESULT, SEED
 from vorotool.render.label_images.png import checked_layers
 from vorotool.render.layers.polygons import names_of_features, polygon_layers
+from vorotool.types.axis import is_up
 
 LAYERS = ("polygons", "discs", "feet", "labels")
 """From below."""
@@ -39,8 +40,8 @@ def _points(discs: Discs, spacing: float) -> list[Layer]:
     return [Points("points", polygons.xy[alone], SEED, min(max(spacing / 16, 0.3), 3.0))] if len(alone) else []
 
 
-def disc_page(discs: Discs, *, width: int = 1000, y_up: bool | None = None) -> Page:
+def disc_page(discs: Discs, *, width: int = 1000) -> Page:
     """The page of a picture, as of `mesh_page`: with all polygons and discs."""
     across = discs.radius[:, None]
     shown = [Points("shown", places) for places in (discs.polygons.xy, discs.xy - across, discs.xy + across)]
-    return Page(bounds_of(shown), width=width, y_up=discs.y_up if y_up is None else y_up)
+    return Page(bounds_of(shown), width=width, y_up=is_up(discs))

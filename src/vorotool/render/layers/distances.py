@@ -13,6 +13,7 @@ from vorotool.render.canvas.layers import Layer, Lines, Page, Points, bounds_of
 from vorotool.render.canvas.palettes import FAINT, RESULT, SEED
 from vorotool.render.label_images.png import checked_layers
 from vorotool.render.layers.polygons import polygon_layers
+from vorotool.types.axis import is_up
 
 LAYERS = ("first", "second", "distances")
 """From below."""
@@ -45,7 +46,7 @@ def _shape(name: str, polygons: PolygonSet, page: Page, color: str) -> list[Laye
     return [replace(layer, name=f"{name}-{kind}" if i else name) for i, (kind, layer) in enumerate(drawn)]
 
 
-def distance_page(found: Distances, *, width: int = 1000, y_up: bool | None = None) -> Page:
+def distance_page(found: Distances, *, width: int = 1000) -> Page:
     """The page of a picture, as of `polygon_page`: with both shapes."""
     shown = [Points("shown", polygons.xy) for polygons in found.shapes]
-    return Page(bounds_of(shown), width=width, y_up=found.y_up if y_up is None else y_up)
+    return Page(bounds_of(shown), width=width, y_up=is_up(found))

@@ -13,6 +13,7 @@ from vorotool.render.canvas.layers import Layer, Lines, Page, Points, Polygons, 
 from vorotool.render.canvas.names import column_texts, without_empty
 from vorotool.render.canvas.palettes import CELLS, INK, WHITE
 from vorotool.render.label_images.png import checked_layers
+from vorotool.types.axis import is_up
 
 LAYERS = ("triangles", "edges", "points", "labels")
 """From below."""
@@ -46,9 +47,8 @@ def mesh_page(
     mesh: AnyTriangulation | ProximityGraph,
     *,
     width: int = 1000,
-    y_up: bool | None = None,
     bounds: tuple[float, float, float, float] | None = None,
 ) -> Page:
     """The page of a picture: with all points of a triangulation, or with other bounds."""
-    up = mesh.y_up if y_up is None else y_up
+    up = is_up(mesh)
     return Page(bounds or bounds_of([Points("points", mesh.points)]), width=width, y_up=up)

@@ -62,11 +62,11 @@ def _cuts(necks: Necks, page: Page, name: str, color: str) -> Lines:
     return Lines(name, necks.feet.reshape(-1, 2), pairs, color, width)
 
 
-def neck_page(necks: Necks, *, width: int = 1000, y_up: bool | None = None) -> Page:
+def neck_page(necks: Necks, *, width: int = 1000) -> Page:
     """The page of a picture: that of the skeleton."""
-    return skeleton_page(necks.skeleton, width=width, y_up=y_up)
+    return skeleton_page(necks.skeleton, width=width)
 
 
-def part_page(parts: Parts, *, width: int = 1000, y_up: bool | None = None) -> Page:
+def part_page(parts: Parts, *, width: int = 1000) -> Page:
     """The page of a picture: that of the pieces."""
-    return polygon_page(parts.polygons, width=width, y_up=y_up)
+    return polygon_page(parts.polygons, width=width)

@@ -11,6 +11,7 @@ from vorotool.render.canvas.layers import Arcs, Layer, Page, Points, bounds_of
 from vorotool.render.canvas.palettes import RESULT
 from vorotool.render.label_images.png import checked_layers
 from vorotool.render.layers.polygons import names_of_features, polygon_layers
+from vorotool.types.axis import is_up
 
 LAYERS = ("polygons", "offset", "labels")
 """From below."""
@@ -40,9 +41,9 @@ def offset_layers(offsets: Offsets, page: Page, layers: Iterable[str]) -> list[L
     return [layer for name in LAYERS if name in wanted for layer in made[name]]
 
 
-def offset_page(offsets: Offsets, *, width: int = 1000, y_up: bool | None = None) -> Page:
+def offset_page(offsets: Offsets, *, width: int = 1000) -> Page:
     """The page of a picture, as of `mesh_page`: with all polygons and curves."""
     corners = np.concatenate([offsets.polygons.xy, offsets.start])
     tolerance = _FINE * (float(np.ptp(corners, axis=0).max()) or 1.0) if len(corners) else 1.0
     shown = [Points("shown", offsets.polygons.xy), Points("shown", offsets.flattened(tolerance).xy)]
-    return Page(bounds_of(shown), width=width, y_up=offsets.y_up if y_up is None else y_up)
+    return Page(bounds_of(shown), width=width, y_up=is_up(offsets))

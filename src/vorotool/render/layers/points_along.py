@@ -33,6 +33,6 @@ def skeleton_point_layers(points: SkeletonPoints, page: Page, layers: Iterable[s
     return made
 
 
-def point_page(points: SkeletonPoints, *, width: int = 1000, y_up: bool | None = None) -> Page:
+def point_page(points: SkeletonPoints, *, width: int = 1000) -> Page:
     """The page of a picture: that of the skeleton."""
-    return skeleton_page(points.skeleton, width=width, y_up=y_up)
+    return skeleton_page(points.skeleton, width=width)

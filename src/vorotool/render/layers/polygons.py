@@ -14,6 +14,7 @@ from vorotool.render.canvas.layers import Layer, Lines, Page, Points, Polygons, 
 from vorotool.render.canvas.names import column_texts, without_empty
 from vorotool.render.canvas.palettes import FAINT, LIGHT, RESULT, WHITE
 from vorotool.render.label_images.png import checked_layers
+from vorotool.types.axis import is_up
 
 SHAPE_LAYERS = ("shape", "labels")
 
@@ -106,7 +107,7 @@ def names_of_features(polygons: PolygonSet, page: Page) -> Texts:
     return without_empty(Texts("labels", places, names, size=name_size(page, len(names)), halo=WHITE, is_centered=True))
 
 
-def polygon_page(polygons: PolygonSet, *, width: int = 1000, y_up: bool | None = None) -> Page:
+def polygon_page(polygons: PolygonSet, *, width: int = 1000) -> Page:
     """The page of a picture, as of `mesh_page`: with all polygons and lines."""
-    up = polygons.y_up if y_up is None else y_up
+    up = is_up(polygons)
     return Page(bounds_of([Points("shown", polygons.xy)]), width=width, y_up=up)

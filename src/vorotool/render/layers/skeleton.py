@@ -15,6 +15,7 @@ from vorotool.render.canvas.names import without_empty
 from vorotool.render.canvas.palettes import INK, RESULT, SEED, WHITE
 from vorotool.render.label_images.png import checked_layers
 from vorotool.render.layers.polygons import feature_names, polygon_layers
+from vorotool.types.axis import is_up
 
 LAYERS = ("polygons", "elements", "points", "skeleton", "exact", "nodes", "labels")
 """From below."""
@@ -72,7 +73,6 @@ def skeleton_page(
     skeleton: Skeleton,
     *,
     width: int = 1000,
-    y_up: bool | None = None,
     bounds: tuple[float, float, float, float] | None = None,
 ) -> Page:
     """The page of a picture, as of `mesh_page`: with all polygons and the frame, if arcs are cut by one."""
@@ -80,7 +80,7 @@ def skeleton_page(
     if skeleton.frame is not None:
         x, y, w, h = skeleton.frame
         shown.append(np.array([[x, y], [x + w, y + h]]))
-    up = skeleton.y_up if y_up is None else y_up
+    up = is_up(skeleton)
     return Page(bounds or bounds_of([Points("shown", np.concatenate(shown))]), width=width, y_up=up)
 
 

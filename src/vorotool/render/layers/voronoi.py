@@ -18,6 +18,7 @@ from vorotool.render.canvas.names import column_texts, without_empty
 from vorotool.render.canvas.palettes import EDGE, INK, WHITE, cell_color
 from vorotool.render.label_images.png import checked_layers
 from vorotool.render.layers.polygons import polygon_layers
+from vorotool.types.axis import is_up
 
 LAYERS = ("cells", "edges", "objects", "labels")
 """From below: filled cells, all that bounds them as lines, the sites, and their names."""
@@ -43,10 +44,10 @@ def voronoi_layers(cells: VoronoiMap, page: Page, layers: Iterable[str]) -> list
     return [layer for name in LAYERS if name in wanted for layer in made[name]]
 
 
-def voronoi_page(cells: VoronoiMap, *, width: int = 1000, y_up: bool | None = None) -> Page:
+def voronoi_page(cells: VoronoiMap, *, width: int = 1000) -> Page:
     """The page that shows the frame of a map; y upwards where the input says so."""
     x, y, w, h = cells.frame
-    return Page((x, y, x + w, y + h), width=width, y_up=cells.polygons.y_up if y_up is None else y_up)
+    return Page((x, y, x + w, y + h), width=width, y_up=is_up(cells.polygons))
 
 
 def map_colors(cells: VoronoiMap) -> NDArray[np.uint32]:

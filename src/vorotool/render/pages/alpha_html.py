@@ -18,6 +18,7 @@ from vorotool.geometry.box import bounds
 from vorotool.geometry.numbers import nearest_double
 from vorotool.geometry.table import Table
 from vorotool.products.formats import AS_PICTURE
+from vorotool.types.axis import is_up
 
 MOST_POINTS = 100_000
 """Some 30 MB of data: browsers draw so many in about a second."""
@@ -35,14 +36,12 @@ def check_html_size(family: AlphaComplex) -> None:
         )
 
 
-def write_alpha_html(
-    out: BinaryIO, family: AlphaComplex, curves: Table, *, r: Radius | None = None, y_up: bool | None = None
-) -> None:
+def write_alpha_html(out: BinaryIO, family: AlphaComplex, curves: Table, *, r: Radius | None = None) -> None:
     """Write a page with a slider over r: the shape, the classes of its edges, and curves."""
     check_html_size(family)
     page = Path(__file__).with_name(PAGE).read_text(encoding="utf-8")
     before, after = page.split(_PLACE)
-    up = family.mesh.y_up if y_up is None else y_up
+    up = is_up(family.mesh)
     data = json.dumps(_data(family, curves, _first_radius(family, r), up), separators=(",", ":"), allow_nan=False)
     out.write(f"{before}{data}{after}".encode())
 

@@ -21,6 +21,7 @@ from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 from vorotool.products.formats import AS_SVG
 from vorotool.render.canvas.palettes import cell_color
 from vorotool.render.label_images.crack_outline import crack_loops
+from vorotool.types.axis import is_up
 
 MOST_CELLS, MOST_VERTICES = 100_000, 3_000_000
 """Some 30 MB of data: browsers draw so many in about a second."""
@@ -43,20 +44,20 @@ class Shapes(NamedTuple):
     y_up: bool = False  # y goes upwards
 
 
-def shapes_of_cells(cells: CellSet, *, y_up: bool | None = None) -> Shapes:
+def shapes_of_cells(cells: CellSet) -> Shapes:
     """Give the outlines of cells."""
     rings, polygons, of_cells = cells.nesting
     ids = [str(label) for label in cells.label_array.tolist()]
-    up = cells.y_up if y_up is None else y_up
+    up = is_up(cells)
     return Shapes(cells.coordinates, rings, np.asarray(polygons)[np.asarray(of_cells)], ids, cells.frame.sides, up)
 
 
-def shapes_of_map(cells: VoronoiMap, *, y_up: bool | None = None) -> Shapes:
+def shapes_of_map(cells: VoronoiMap) -> Shapes:
     """Give the outlines of the cells of a Voronoi map, with lines instead of curves."""
     x, y, w, h = cells.frame
     xy, rings = cell_rings(cells, _FINE * max(w, h))
     ids = [str(label) for label in (range(1, len(cells) + 1) if cells.ids is None else cells.ids)]
-    up = cells.polygons.y_up if y_up is None else y_up
+    up = is_up(cells.polygons)
     return Shapes(xy, rings, cells.polygon_start[cells.cell_start], ids, (x, y, x + w, y + h), up)
 
 

@@ -16,6 +16,7 @@ from vorotool.geometry.box import bounds
 from vorotool.geometry.skeleton.critical_values import ArcProfiles, CriticalValues
 from vorotool.geometry.skeleton.skeleton import Skeleton
 from vorotool.products.formats import AS_PICTURE
+from vorotool.types.axis import is_up
 
 MOST_ARCS = 100_000
 """Some 20 MB of data: browsers draw so many in about a second."""
@@ -38,13 +39,12 @@ def write_skeleton_html(
     profiles: ArcProfiles,
     *,
     shown: tuple[str, float] | None = None,
-    y_up: bool | None = None,
 ) -> None:
     """Write a page with a slider over the threshold of each criterion."""
     check_html_size(skeleton)
     page = Path(__file__).with_name(PAGE).read_text(encoding="utf-8")
     before, after = page.split(_PLACE)
-    data = _shapes(skeleton, skeleton.y_up if y_up is None else y_up)
+    data = _shapes(skeleton, is_up(skeleton))
     data["shown"] = list(shown or (values[0].criterion, 0.0))
     data["profiles"] = {
         "kind": _packed(profiles.kind, "<i1"),
