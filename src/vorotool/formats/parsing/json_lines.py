@@ -62,7 +62,7 @@ def parse_lines(source: Source) -> Any:
         return rows
     features = [_feature(source.name, line, row) for line, row in zip(lines, rows, strict=True)]
     crs = _common_crs(source.name, lines, rows)
-    known = ({} if crs is None else {"crs": crs}) | _common_axis(source.name, lines, rows)
+    known = ({} if crs is None else {"crs": crs}) | _common_members(source.name, lines, rows)
     return {"type": "FeatureCollection", "features": features} | known
 
 
@@ -84,13 +84,19 @@ def _feature(name: str, line: int, row: dict[str, Any]) -> dict[str, Any]:
     return row
 
 
-def _common_axis(name: str, lines: list[int], rows: list[dict[str, Any]]) -> dict[str, Any]:
-    """Return the ``y_axis`` member that all features have."""
-    axis = rows[0].get(MEMBER)
-    other = next((line for line, row in zip(lines, rows, strict=True) if row.get(MEMBER) != axis), None)
-    if other is not None:
-        raise InputError(f"{name}, line {other}: {MEMBER} is not {axis!r}, as on line {lines[0]}: give both the same")
-    return {} if axis is None else {MEMBER: axis}
+def _common_members(name: str, lines: list[int], rows: list[dict[str, Any]]) -> dict[str, Any]:
+    """Return which way y goes, and the unit of coordinates, where all features state the same."""
+    members: dict[str, Any] = {}
+    for member in (MEMBER, "unit"):
+        stated = rows[0].get(member)
+        other = next((line for line, row in zip(lines, rows, strict=True) if row.get(member) != stated), None)
+        if other is not None:
+            raise InputError(
+                f"{name}, line {other}: {member} is not {stated!r}, as on line {lines[0]}: give both the same"
+            )
+        if stated is not None:
+            members[member] = stated
+    return members
 
 
 def _common_crs(name: str, lines: list[int], rows: list[dict[str, Any]]) -> Any:
