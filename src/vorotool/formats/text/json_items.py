@@ -55,7 +55,9 @@ class JsonItems:
         # of an empty list the closing follows the opening at once
         text = opening.removesuffix(b"\n").removesuffix(b"]}") + b"]}" if opening.startswith(b"{") else b"{}"
         opening_members = orjson.loads(text)
-        return {name: opening_members[name] for name in ("crs", "unit", MEMBER) if opening_members.get(name) is not None}
+        return {
+            name: opening_members[name] for name in ("crs", "unit", MEMBER) if opening_members.get(name) is not None
+        }
 
     def _take_lines(self, lines: bytes) -> None:
         """Pass whole lines on but the last, and but the first of all, the opening."""
