@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from vorotool.errors import InputError, Kind, Message, UsageError, VorotoolWarning, warn
 from vorotool.jobs.inputs import no_seeds
 from vorotool.jobs.options import TessellationOptions
 from vorotool.jobs.run_log import Run
-from vorotool.jobs.units import AUTO
+from vorotool.jobs.units import PixelSize, unit_stats
 
 if TYPE_CHECKING:
     from vorotool.geometry.pixel_frame import Frame
+    from vorotool.geometry.pixel_grid import PixelGrid
     from vorotool.geometry.points.point_set import PointSet
     from vorotool.geometry.points.seed_set import SeedSet
     from vorotool.geometry.polygons.polygon_set import PolygonSet
@@ -38,7 +40,11 @@ def seeds_on_map(run: Run, o: TessellationOptions, value: PointSet | PolygonSet)
         raise UsageError("--cell-size must be more than 0, and at most 1e100")
     low, high = (np.zeros(2), np.zeros(2)) if is_empty else bounds(value.xy)
     frame, grid = map_frame(low, high, o.cell_size, window=o.window, y_axis=value.y_axis, crs=value.crs)
-    o = replace(o, window=(frame.x, frame.y, frame.width, frame.height), size=None, pixel_size=o.pixel_size or AUTO)
+    size = _size_of_cells(o, o.cell_size, grid)
+    run.stats |= unit_stats(size)
+    if o.max_distance is not None:
+        o = replace(o, max_distance=o.max_distance * (1 if o.pixel_size is None else o.pixel_size.factor))
+    o = replace(o, window=(frame.x, frame.y, frame.width, frame.height), size=None, pixel_size=size)
     if is_empty:
         return o, replace(no_seeds(run, o), grid=grid)
     placed = replace(value, xy=in_cells(value.xy, grid))
@@ -48,6 +54,19 @@ def seeds_on_map(run: Run, o: TessellationOptions, value: PointSet | PolygonSet)
         with run.phase("rasterize"):
             seeds = _seeds_of_features(o, placed, frame)
     return o, replace(seeds, grid=grid)
+
+
+def _size_of_cells(o: TessellationOptions, side: Fraction, grid: PixelGrid) -> PixelSize:
+    """Return the size by which results are in the unit of the map, times ``--pixel-size``."""
+    from vorotool.geometry.spacing import PixelSides
+
+    asked = PixelSize(Fraction(1), None) if o.pixel_size is None else o.pixel_size
+    x, y = grid.center
+    factor = float(asked.factor)
+    sides = PixelSides((1, 1), side * asked.factor)
+    return PixelSize(
+        Fraction(1), asked.unit, origin=(x * factor, y * factor), y_up=grid.is_north_up, crs=grid.crs, sides=sides
+    )
 
 
 def _seeds_of_features(o: TessellationOptions, polygons: PolygonSet, frame: Frame) -> SeedSet:

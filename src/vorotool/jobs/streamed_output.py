@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -57,6 +58,11 @@ class Stream:
         )
 
 
+def scale_of_squares(step: Fraction) -> float | None:
+    """Return what squared distances are multiplied by; None where they are in pixels."""
+    return None if step == 1 else float(step * step)
+
+
 def check_chunks(o: TessellationOptions, frame: Frame, dtype: np.dtype[Any]) -> tuple[int, int]:
     """Choose rows and columns of the chunks of a store."""
     from vorotool.formats.zarr.arrays import chunks_of, zarr_module
@@ -106,7 +112,9 @@ def write_store(run: Run, o: TessellationOptions, target: Target, stream: Stream
     with open_store(target.path, no_clobber=o.no_clobber, inputs=inputs) as store:
         grid = stream.kind.get("grid")
         folder = array_folder(store, target.path, grid=grid, is_labels=target.what == "labels")
-        array = create_array(folder, frame.shape, dtype=dtype, chunks=chunks)
+        scale = stream.kind.get("scale")
+        about = None if scale is None else {"scale": scale}  # no name that readers would turn integers to floats by
+        array = create_array(folder, frame.shape, dtype=dtype, chunks=chunks, attributes=about)
         limits = [(first, min(chunks[0], frame.height - first)) for first in range(0, frame.height, chunks[0])]
         if o.cluster is not None and o.out_dir is None:
             write_on_cluster(run, folder, stream.band, limits, address=o.cluster, jobs=o.jobs)

@@ -21,7 +21,7 @@ from vorotool.jobs.inputs import refuse
 from vorotool.jobs.options import TessellationOptions
 from vorotool.jobs.pixel_sizes import written_grid
 from vorotool.jobs.run_log import Run
-from vorotool.jobs.streamed_output import Stream, check_chunks, write_file, write_store
+from vorotool.jobs.streamed_output import Stream, check_chunks, scale_of_squares, write_file, write_store
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import sides_of, unit_text
 
@@ -131,7 +131,8 @@ class StreamedProducts:
     def _kind(self, what: str) -> dict[str, Any]:
         """What TIFF files say of the pixels."""
         nodata = None if self._max_distance(what) is None else 0
-        return {"grid": self.grid, "nodata": nodata, "tiled": self.options.tiled}
+        scale = scale_of_squares(self.image.sides.step) if what == "distance2" else None
+        return {"grid": self.grid, "nodata": nodata, "scale": scale, "tiled": self.options.tiled}
 
     def _rows(self, what: Quantity, dtype: np.dtype[Any], first: int, rows: int) -> NDArray[Any]:
         show = self._progress

@@ -36,6 +36,7 @@ from vorotool.geometry.points.raster import Raster
 from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.progress import Progress
+from vorotool.geometry.spacing import SQUARE
 from vorotool.geometry.table import Table
 from vorotool.jobs import animations
 from vorotool.jobs.input_lengths import lengths_of_image
@@ -54,7 +55,7 @@ from vorotool.jobs.options import TessellationOptions
 from vorotool.jobs.picture_world import check_column, world_of
 from vorotool.jobs.pixel_sizes import with_pixel_size, written_grid
 from vorotool.jobs.run_log import Run
-from vorotool.jobs.streamed_output import RowsOf, Stream, check_chunks, write_file, write_store
+from vorotool.jobs.streamed_output import RowsOf, Stream, check_chunks, scale_of_squares, write_file, write_store
 from vorotool.jobs.streamed_tessellation import StreamedProducts, rows_of_large
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import sides_of, table_in_units, unit_columns, unit_text
@@ -95,7 +96,7 @@ def products(run: Run, o: TessellationOptions, given: JobInput) -> Products | St
             read = ReadSeeds(seeds, grid=seeds.grid)
         else:
             read = _seeds_of(run, o, value)
-        if read.grid is not None or isinstance(value, Raster):
+        if isinstance(value, Raster):
             o = with_pixel_size(run, o, given, read.grid)
     with run.phase("prepare" if o.method == "exact" else "tessellate"):
         return Products(run, o, given, read, _rows_of(run, o, read.seeds))
@@ -123,7 +124,7 @@ def _rows_of(run: Run, o: TessellationOptions, seeds: SeedSet) -> Tessellator | 
         method=o.method,
         passes=o.passes or 2,
         max_distance=o.max_distance,
-        sides=sides_of(o),
+        sides=SQUARE if o.method == "propagation" and o.spacing is None else sides_of(o),
         strict=o.strict,
         threads=o.threads,
         max_pixels=o.max_pixels,
@@ -227,7 +228,7 @@ class Products:
             )
         if target.what != "distance2":
             return
-        if self.options.spacing is not None:
+        if self.sides.step != 1:
             step = self._exact_rows().step
             self.run.note(f"squared distances are in squares of a step of {step}{unit_text(self.options.pixel_size)}")
         elif seeds.scale > 1:
@@ -244,8 +245,8 @@ class Products:
         rows = self._exact_rows()
         if what == "distance":
             return self._streamed(what, rows.distances, np.dtype(np.float32), 0)
-        largest = int(np.iinfo(rows.square_dtype).max)
-        return self._streamed(what, rows.squared_distances, rows.square_dtype, largest)
+        largest, scale = int(np.iinfo(rows.square_dtype).max), scale_of_squares(rows.step)
+        return self._streamed(what, rows.squared_distances, rows.square_dtype, largest, scale=scale)
 
     def _streamed(self, what: Any, rows_of: RowsOf, dtype: np.dtype[Any], largest: int, **kind: Any) -> Stream:
         band = partial(self._band, what, dtype)
@@ -331,7 +332,7 @@ class Products:
     def _scale_bar(self) -> ScaleBar | None:
         o, seeds = self.options, self.rows.seeds
         bar = world_of(self.run, o.looks, frame=(seeds.frame or self.rows.frame).box, size=o.pixel_size).scale_bar
-        if bar is None or o.spacing is None:
+        if bar is None or self.sides == SQUARE:
             return bar
         return bar._replace(factor=float(self.sides.lengths[-1]))  # of a pixel across the picture
 

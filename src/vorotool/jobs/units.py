@@ -263,7 +263,8 @@ def check_units(o: JobOptions, targets: Sequence[Target]) -> None:
     """Refuse a size of pixels that nothing shows, and no length is measured by."""
     if o.unit is None or o.unit.is_spacing or measured(o):
         return
-    if not shows_units(targets) and not o.scale_bar:
+    of_map = getattr(o, "cell_size", None) is not None and any(each.what.startswith("distance") for each in targets)
+    if not shows_units(targets) and not o.scale_bar and not of_map:
         raise UsageError("--pixel-size is for tables and vectors: use --what table, or leave it out")
 
 
@@ -340,7 +341,9 @@ def unit_stats(size: PixelSize | None) -> dict[str, Any]:
     if size is None or size.is_auto:
         return {}
     found: dict[str, Any] = {"pixel_size": float(size.factor), "unit": size.unit}
-    if size.sides is not None:
+    if size.sides is not None and not size.is_spacing:
+        found["pixel_size"] = float(size.sides.lengths[-1])
+    elif size.sides is not None:
         sides = [float(side) for side in reversed(size.sides.lengths)]
         found = {"spacing": sides, "spacing_step": str(size.sides.step), "unit": size.unit}
     if size.crs is None:

@@ -1,6 +1,7 @@
 """``tessellate --cell-size``: points, lines and polygons of a map as images on it, checked with rasterio."""
 
 import json
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -167,3 +168,45 @@ def test_batches_and_streams(run, tmp_path):
     data = (tmp_path / "in/a.geojson").read_bytes()
     assert run("tessellate", "-", "--cell-size", "50", "-o", "b.tif", "-q", data=data).code == 0
     assert (tmp_path / "b.tif").read_bytes() == (tmp_path / "a.tif").read_bytes()
+
+
+# ---- units of the map ---------------------------------------------------------------------------
+@pytest.mark.parametrize(("cell", "factor"), [("12.5", ()), ("0.0125km", ()), ("12.5", ("--pixel-size", "2ft"))])
+def test_distances_are_in_units_of_the_map(run, tmp_path, cell, factor):
+    """Every pixel of all three results, against the places of seeds and centers as fractions."""
+    quarters = [(2, 2), (43, 58), (19, 7)]  # of cells of 12.5, so that no seed is moved
+    places = [(2600000 + Fraction(25 * x, 8), 1200000 + Fraction(25 * y, 8)) for x, y in quarters]
+    write(tmp_path / "in.geojson", [shapely.Point(*map(float, place)) for place in places])
+    window = ["--window", "2600000,1200000,150,200"]
+    words = ["tessellate", "in.geojson", "--cell-size", cell, *window, *factor, "-q", "--stats", "s.json"]
+    for what in ("distance", "distance2"):
+        assert run(*words, "--what", what, "-o", f"{what}.tif").code == 0
+    unit = 2 if factor else 1
+    stats = json.loads((tmp_path / "s.json").read_text())
+    step = Fraction(stats["distance2_step"])
+    with rasterio.open(tmp_path / "distance2.tif") as file:
+        squares, (scale,) = file.read(1), file.scales
+    with rasterio.open(tmp_path / "distance.tif") as file:
+        distances = file.read(1)
+    assert squares.dtype.kind in "iu"
+    assert scale == float(step * step)
+    cells = Fraction(25, 2)
+    for row, column in np.ndindex(squares.shape):
+        x, y = 2600000 + (column + Fraction(1, 2)) * cells, 1200200 - (row + Fraction(1, 2)) * cells
+        least = min((x - a) ** 2 + (y - b) ** 2 for a, b in places) * unit * unit
+        assert int(squares[row, column]) * step * step == least
+        assert float(distances[row, column]) == pytest.approx(float(least) ** 0.5, rel=1e-7)
+
+
+def test_the_largest_distance_is_in_units_of_the_map(run, tmp_path):
+    """1 km cells, 20 km: the disc of a radius of 20 cells, not of 20 000."""
+    write(tmp_path / "in.geojson", [shapely.Point(2650500, 1250500)])
+    words = ["--cell-size", "1000", "--window", "2600000,1200000,101000,101000", "-q", "-o", "out.tif"]
+    for length in ("20000", "20km"):
+        assert run("tessellate", "in.geojson", *words, "--max-distance", length).code == 0
+        labels, *_ = read(tmp_path / "out.tif")
+        y, x = np.indices(labels.shape) - 50
+        assert (labels > 0).tolist() == (x * x + y * y <= 400).tolist()
+    rows = run("tessellate", "in.geojson", *words[:5], "--what", "table", "--max-distance", "20km").rows
+    assert float(rows[0]["max_distance"]) == 20000
+    assert float(rows[0]["area"]) == np.count_nonzero(labels) * 10**6

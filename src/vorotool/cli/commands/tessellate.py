@@ -72,8 +72,8 @@ _PICTURES = {(what, fmt) for what, each in PRODUCTS["tessellate"].items() for fm
     "--cell-size",
     type=ExactLength(),
     metavar="SIDE",
-    help="Side of a pixel in the units of points, lines or polygons on a map, or with a unit; --window is in the units "
-    "of the map, too.",
+    help="Side of a pixel in the units of points, lines or polygons on a map, or with a unit; --window, "
+    "--max-distance and distances are in the units of the map, too.",
 )
 @spacing_option()
 @volume_options()

@@ -36,6 +36,7 @@ def write_label_image(
     bit_depth: int | None = None,
     grid: PixelGrid | None = None,
     nodata: int | None = None,
+    scale: float | None = None,
     tiled: bool = False,
     threads: int = 0,
 ) -> None:
@@ -48,9 +49,8 @@ def write_label_image(
         check_png(kind, largest_label, depth)
         write_png(out, bands, shape, bit_depth=depth, palette=palette, threads=threads)
     elif fmt == "tiff":
-        write_tiff(
-            out, bands, shape, dtype=kind, palette=palette, grid=grid, nodata=nodata, tiled=tiled, threads=threads
-        )
+        of_pixels: dict[str, Any] = {"grid": grid, "nodata": nodata, "scale": scale, "tiled": tiled}
+        write_tiff(out, bands, shape, dtype=kind, palette=palette, **of_pixels, threads=threads)
     elif fmt == "npy":
         write_npy(out, bands, shape, dtype=kind)
     elif fmt == "text":

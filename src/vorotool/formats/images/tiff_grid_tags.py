@@ -34,6 +34,9 @@ _INCHES, _CENTIMETRES, NO_UNIT = 2, 3, 1
 _DOUBLE, _SHORT, _ASCII = 12, 3, 2
 """Types of tags."""
 
+_METADATA = 42112
+"""The tag of GDAL for further metadata."""
+
 _LARGEST_CODE = 32766
 """Codes of coordinate reference systems are numbers of 16 bits, of which the last are for others."""
 
@@ -62,6 +65,12 @@ def grid_tags(
     if grid.form == "ome":
         xml = ome_xml(shape, dtype, grid.width, grid.height, grid.unit or "µm")
     return {**resolution_tags(grid), **({} if xml is None else {"description": xml})}
+
+
+def scale_tag(scale: float) -> Tag:
+    """State what values are multiplied by, as GDAL does."""
+    item = f'<Item name="SCALE" sample="0" role="scale">{scale!r}</Item>'
+    return (_METADATA, _ASCII, 0, f"<GDALMetadata>{item}</GDALMetadata>", True)
 
 
 def imagej_unit(unit: str) -> str:

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from vorotool.formats.images.npy import stored
-from vorotool.formats.images.tiff_grid_tags import grid_tags
+from vorotool.formats.images.tiff_grid_tags import grid_tags, scale_tag
 from vorotool.formats.io.row_bands import BLOCK_BYTES, blocks, checked
 from vorotool.geometry.parallel import in_order
 from vorotool.geometry.pixel_grid import PixelGrid
@@ -40,11 +40,14 @@ def write_tiff(
     palette: NDArray[np.uint8] | None = None,
     grid: PixelGrid | None = None,
     nodata: int | None = None,
+    scale: float | None = None,
     tiled: bool = False,
     threads: int = 0,
 ) -> None:
     """Write a single-page TIFF from bands of rows, in bounded memory; a BigTIFF where the pixels need it."""
     tags = grid_tags(grid, shape, np.dtype(dtype), nodata=nodata)
+    if scale is not None:
+        tags["extratags"] = [*tags.get("extratags", ()), scale_tag(scale)]
     if tiled:
         tags["tile"] = (TILE, TILE)
     if out.seekable():

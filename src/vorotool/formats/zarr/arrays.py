@@ -46,7 +46,14 @@ def chunks_of(shape: tuple[int, int], dtype: DTypeLike, asked: tuple[int, int] |
     return min(rows, shape[0]), min(columns, shape[1])
 
 
-def create_array(store: Any, shape: tuple[int, ...], *, dtype: DTypeLike, chunks: tuple[int, ...]) -> Any:
+def create_array(
+    store: Any,
+    shape: tuple[int, ...],
+    *,
+    dtype: DTypeLike,
+    chunks: tuple[int, ...],
+    attributes: dict[str, Any] | None = None,
+) -> Any:
     """Make an array for an image or a volume in an empty folder."""
     zarr = zarr_module()
     return to_its_end(
@@ -58,6 +65,7 @@ def create_array(store: Any, shape: tuple[int, ...], *, dtype: DTypeLike, chunks
             compressors=[zarr.codecs.ZstdCodec(level=_LEVEL)],
             fill_value=0,
             dimension_names=("z", "y", "x")[-len(shape) :],
+            attributes=attributes,
             overwrite=False,
             zarr_format=3,
         )
