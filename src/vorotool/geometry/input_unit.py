@@ -37,7 +37,7 @@ def unit_of(value: Any) -> InputUnit | None:
     shapes = getattr(value, "polygons", value)
     if shapes.crs is not None:
         return unit_of_crs(shapes.crs)
-    unit = getattr(shapes, "unit", None) or unit_of_columns(value.properties)
+    unit = getattr(shapes, "unit", None) or unit_of_columns(getattr(value, "properties", {}))
     return None if unit is None else InputUnit(unit_name(unit))
 
 

@@ -78,7 +78,7 @@ class ShapeProducts:
     ) -> None:
         self.run, self.options, self.radius = run, options, radius
         self._has_told_regions = False
-        self.backdrop = placed_backdrop(options.pixel_size, given.backdrop)
+        self.backdrop = placed_backdrop(run, options, given.backdrop)
         is_allowed = isinstance(points, SeedSet) or not len(points)
         self._empty: dict[str, Any] = {"strict": options.strict, "allow_empty": is_allowed}
         with run.phase("triangulate") as progress:

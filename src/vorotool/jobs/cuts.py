@@ -10,8 +10,10 @@ from vorotool.errors import InputError, Kind, Message
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.options import ComputingOptions, TriangulationOptions
 from vorotool.jobs.run_log import Run
+from vorotool.jobs.second_files import in_first_unit, unit_of_image, unit_of_vectors
 
 if TYPE_CHECKING:
+    from vorotool.geometry.pixel_grid import PixelGrid
     from vorotool.geometry.points.point_set import PointSet
     from vorotool.geometry.points.seed_set import SeedSet
     from vorotool.geometry.polygons.polygon_set import PolygonSet
@@ -28,10 +30,21 @@ def read_clip(
 
     value = read_cut(run, o, "--clip", path)
     if isinstance(points, PointSet):
+        value = in_first_unit(run, o, (path, value), (given.name, unit_of_vectors(o, points)), crs=points.crs)
         points = in_one_crs(run, (path, value), (given.name, points))
     else:
         check_image_crs((path, value), given.name, None if points.grid is None else points.grid.crs)
+        value = in_unit_of_image(run, o, (path, value), given, points.grid)
     return points, list(to_shapely(value)[polygons_among(run, path, value)])
+
+
+def in_unit_of_image(
+    run: Run, o: ComputingOptions, cut: tuple[str, PolygonSet], given: JobInput, grid: PixelGrid | None
+) -> PolygonSet:
+    """Give polygons in pixels, or on the map where results are."""
+    size = o.pixel_size
+    is_of_map = size is not None and (size.origin is not None or size.sides is not None)
+    return in_first_unit(run, o, cut, (given.name, unit_of_image(o, grid)), pixels=not is_of_map)
 
 
 def read_cut(run: Run, o: ComputingOptions, option: str, path: str) -> PolygonSet:
@@ -42,7 +55,7 @@ def read_cut(run: Run, o: ComputingOptions, option: str, path: str) -> PolygonSe
     from vorotool.geometry.crs import crs_member
     from vorotool.geometry.polygons.polygon_set import PolygonSet
 
-    value = read(path, geometry="polygons", properties=False, threads=o.threads, note=partial(_note_of_cut, run))
+    value = read(path, geometry="polygons", threads=o.threads, note=partial(_note_of_cut, run))
     if not isinstance(value, PolygonSet):
         raise InputError(f"{path} is an image: give {option} a file of polygons")
     if o.crs is not None and value.crs is not None:

@@ -24,6 +24,7 @@ from vorotool.jobs.picture_style import styled_page
 from vorotool.jobs.picture_world import world_of_polygons
 from vorotool.jobs.pictures import Drawing, drawing_of, write_layers
 from vorotool.jobs.run_log import Run
+from vorotool.jobs.second_files import coordinates_of, in_first_unit, unit_of_vectors
 from vorotool.jobs.skeleton_checks import check_layers
 from vorotool.jobs.targets import Target, check_picture_options, check_precision
 from vorotool.products.formats import PICTURES
@@ -61,10 +62,10 @@ class DistanceProducts:
 
     def _read(self, given: JobInput) -> PolygonSet:
         with opened_input(self.options, given, "sites") as source:
-            _, value = read_opened(
-                self.run, self.options, given, source, columns=self.options.columns, properties=False
-            )
-        polygons = as_sites(value).polygons
+            o = self.options
+            _, value = read_opened(self.run, o, given, source, columns=o.columns, wants_unit=True, properties=False)
+        unit = None if self.run.coordinates is None else self.run.coordinates.unit
+        polygons = replace(as_sites(value).polygons, unit=unit)
         if not len(polygons):
             report_no_geometry(self.run, self.options, given.name)
         return polygons
@@ -79,6 +80,9 @@ class DistanceProducts:
                 f"{one.name} is in {crs_name(a.crs)}, but {other.name} in {crs_name(b.crs)}: bring them into one "
                 f"coordinate reference system: --crs {crs_name(a.crs)} does"
             )
+        unit = unit_of_vectors(self.options, a)
+        b = in_first_unit(self.run, self.options, (other.name, b), (one.name, unit), crs=a.crs)
+        self.run.coordinates = coordinates_of(self.options, a)
         for which, mine, its in ((one, a, b), (other, b, a)):
             if mine.crs is None and its.crs is not None:
                 self.run.note(

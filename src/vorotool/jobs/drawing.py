@@ -36,6 +36,7 @@ from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target, check_picture_options
 from vorotool.products.inputs import DRAWN_NAMES, Holds, known_input_format
 from vorotool.products.registry import PRODUCTS, Product
+from vorotool.render.canvas.layers import Backdrop
 from vorotool.types.axis import y_axis_of
 
 _SKELETONS = PRODUCTS["skeleton-exact"]
@@ -180,6 +181,18 @@ def _objects(run: Run, image: LabelImage) -> LabelImage:
     return LabelImage(objects, image.frame)
 
 
+def _placed(run: Run, o: DrawingOptions, given: JobInput, value: Lined) -> Backdrop | None:
+    """Give the image of ``--overlay`` in the coordinates of what is drawn."""
+    backdrop = given.backdrop
+    if backdrop is None:
+        return None
+    from vorotool.geometry.input_unit import unit_of
+    from vorotool.jobs.second_files import side_of_backdrop
+
+    run.coordinates = unit_of(value) if getattr(value, "polygons", value).crs is None else None
+    return replace(backdrop, side=side_of_backdrop(run, o, backdrop.grid))
+
+
 def _of_layers(run: Run, o: DrawingOptions, given: JobInput, value: Lined, fmt: str) -> Drawing:
     from vorotool.render.canvas.png import check_picture_size
 
@@ -196,7 +209,7 @@ def _of_layers(run: Run, o: DrawingOptions, given: JobInput, value: Lined, fmt: 
         value,
         layers=o.layers,
         width=o.width or 1000,
-        backdrop=given.backdrop,
+        backdrop=_placed(run, o, given, value),
         styled=partial(styled_page, looks=o.looks, world=world_of_polygons(run, o, polygons)),
     )
     if fmt == "png":

@@ -33,14 +33,6 @@ def lengths_of_vectors(o: Options, value: PointSet | PolygonSet | Sites) -> Opti
     return _converted(o, unit, _shapes(value))
 
 
-def unit_stated(value: PointSet | PolygonSet | Sites) -> str | None:
-    """Return the unit that an input states itself, without a coordinate reference system."""
-    from vorotool.geometry.input_unit import unit_of
-
-    unit = None if _shapes(value).crs is not None else unit_of(value)
-    return None if unit is None else unit.unit
-
-
 def _shapes(value: PointSet | PolygonSet | Sites) -> PointSet | PolygonSet:
     from vorotool.geometry.arguments.sites import Sites
 

@@ -64,6 +64,7 @@ def read_opened(
     *,
     columns: str | None = None,
     properties: bool = True,
+    wants_unit: bool = False,
 ) -> tuple[Computing, Any]:
     """Read what is open, whole, as the options say: points, polygons or sites, as it was opened, or an image.
 
@@ -73,9 +74,11 @@ def read_opened(
     from vorotool.geometry.points.point_set import PointSet
     from vorotool.geometry.points.raster import Raster
     from vorotool.geometry.polygons.polygon_set import PolygonSet
-    from vorotool.jobs.input_lengths import lengths_of_image, lengths_of_vectors, side_of_pixel, unit_stated
+    from vorotool.jobs.input_lengths import lengths_of_image, lengths_of_vectors, side_of_pixel
 
-    wants_unit = bool(measured(o)) or (o.pixel_size is not None and o.pixel_size.is_auto)  # a column may state it
+    wants_unit = (
+        wants_unit or bool(measured(o)) or (o.pixel_size is not None and o.pixel_size.is_auto)
+    )  # a column may state it
     wants_properties = properties and not o.no_properties
 
     def read(of: Opened, note: Callable[[str], None] = no_note, **more: Any) -> Any:
@@ -106,7 +109,9 @@ def read_opened(
     if isinstance(o, SiteOptions):
         refuse(o.for_images(), "is for images, but the input is a list of points")
     o = lengths_of_vectors(o, value)
-    run.unit = unit_stated(value)
+    from vorotool.jobs.second_files import coordinates_of
+
+    run.coordinates = coordinates_of(o, value)
     if o.pixel_size is not None:
         run.stats |= unit_stats(o.pixel_size)
     return o, value if wants_properties or not wants_unit else replace(value, properties={})
@@ -261,14 +266,15 @@ def read_backdrop(o: JobOptions) -> Backdrop | None:
     import io
 
     from vorotool.formats.images.png_writer import write_png
-    from vorotool.formats.images.rgb_reader import read_picture
+    from vorotool.formats.images.rgb_reader import picture_and_grid
     from vorotool.formats.io.sources import read_source, reading
     from vorotool.formats.parsing.reader_options import ReadOptions
     from vorotool.formats.recognition import image_source
     from vorotool.render.canvas.layers import Backdrop
 
     with reading(o.overlay):
-        pixels = read_picture(image_source(read_source(o.overlay)), ReadOptions(page=o.page, max_pixels=o.max_pixels))
+        options = ReadOptions(page=o.page, max_pixels=o.max_pixels)
+        pixels, grid = picture_and_grid(image_source(read_source(o.overlay)), options)
     height, width = pixels.shape[:2]
 
     def encode() -> bytes:
@@ -276,7 +282,7 @@ def read_backdrop(o: JobOptions) -> Backdrop | None:
         write_png(out, [pixels.reshape(height, 3 * width)], (height, width), rgb=True, threads=o.threads)
         return out.getvalue()
 
-    return Backdrop(pixels, encode)
+    return Backdrop(pixels, encode, grid=grid)
 
 
 def note_other_size(run: Run, o: JobOptions, given: JobInput, shape: Sequence[int]) -> None:

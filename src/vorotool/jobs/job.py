@@ -76,7 +76,7 @@ def process_input(recipe: Recipe[Options], run: Run, options: Options, path: str
     decimals = None if computing is None else computing.decimals
     is_verified = computing is not None and computing.verify
     deviation = 0.0
-    stated = run.unit if size is None else unit
+    stated = unit if size is not None or run.coordinates is None else run.coordinates.unit
     with committed_together(), safe_texts(is_safe), unit_column(unit), unit_member(stated):
         for target in targets:
             if options.out_dir is not None:

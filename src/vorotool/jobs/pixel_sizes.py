@@ -204,10 +204,13 @@ def placed_mesh(size: PixelSize | None, mesh: Placed) -> Placed:
     return made
 
 
-def placed_backdrop(size: PixelSize | None, backdrop: Backdrop | None) -> Backdrop | None:
+def placed_backdrop(run: Run, o: ComputingOptions, backdrop: Backdrop | None) -> Backdrop | None:
     """Give the image of ``--overlay`` as what is drawn over it lies."""
+    from vorotool.jobs.second_files import side_of_backdrop
+
+    size = o.pixel_size
     if backdrop is not None and size is not None and size.sides is not None:
         raise UsageError("--overlay shows pixels as squares: leave it out with --spacing")
-    if backdrop is None or size is None or not size.y_up:
-        return backdrop
-    return replace(backdrop, y_up=True)
+    if backdrop is None:
+        return None
+    return replace(backdrop, y_up=size is not None and size.y_up, side=side_of_backdrop(run, o, backdrop.grid))

@@ -50,7 +50,8 @@ class Run:
         self._stack = ExitStack()
         self.reads_image = False
         self.stats: dict[str, Any] = {"command": command, "version": __version__}
-        self.unit: str | None = None  # of the coordinates of the input, where no reference system states it
+        # the unit of the coordinates of points, lines and polygons, where no reference system states it
+        self.coordinates: InputUnit | None = None
         self.pixel: InputUnit | None = None  # the side of a pixel of the input, where that is known
 
     def __enter__(self) -> Run:

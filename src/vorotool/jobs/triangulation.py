@@ -71,7 +71,7 @@ class MeshProducts:
 
     def __init__(self, run: Run, options: TriangulationOptions, given: JobInput, read: ReadPoints) -> None:
         self.run, self.options = run, options
-        self.backdrop, self.clip = placed_backdrop(options.pixel_size, given.backdrop), read.clip
+        self.backdrop, self.clip = placed_backdrop(run, options, given.backdrop), read.clip
         self._cells: CellSet | None = None
         points = read.points
         if self.wants_mesh:

@@ -45,7 +45,7 @@ class VoronoiProducts:
             with run.phase("read polygons"):
                 read, cuts = read_cuts(run, read, given)
         self.options, self.is_image = read.options, read.is_image
-        self.backdrop = placed_backdrop(self.options.pixel_size, given.backdrop)
+        self.backdrop = placed_backdrop(run, self.options, given.backdrop)
         self.features = read.sites.count
         self._sites, self._clip = read.sites, cuts.get("clip")
         self.cells = self._made(read.sites, cuts)

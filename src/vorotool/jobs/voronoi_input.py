@@ -11,14 +11,16 @@ from numpy.typing import NDArray
 from vorotool.formats.io.sources import reading
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.polygons.ring_arrays import RingArrays
-from vorotool.jobs.cuts import check_image_crs, in_one_crs, polygons_among, read_cut
+from vorotool.jobs.cuts import check_image_crs, in_one_crs, in_unit_of_image, polygons_among, read_cut
 from vorotool.jobs.inputs import JobInput, opened_input, read_opened, refuse, report_no_geometry
 from vorotool.jobs.options import VoronoiOptions
 from vorotool.jobs.run_log import Run
+from vorotool.jobs.second_files import in_first_unit, unit_of_vectors
 from vorotool.jobs.skeleton_input import outlined
 
 if TYPE_CHECKING:
     from vorotool.geometry.arguments.sites import Sites
+    from vorotool.geometry.pixel_grid import PixelGrid
 
 
 class ReadSites(NamedTuple):
@@ -27,6 +29,7 @@ class ReadSites(NamedTuple):
     sites: Sites  # of the input; not yet joined
     is_image: bool  # whether they are the objects of an image
     options: VoronoiOptions  # with the size of pixels, and lengths and places, as the image has them
+    grid: PixelGrid | None = None  # what the image says of its pixels
 
 
 def read_sites(run: Run, o: VoronoiOptions, given: JobInput) -> ReadSites:
@@ -45,8 +48,8 @@ def read_sites(run: Run, o: VoronoiOptions, given: JobInput) -> ReadSites:
             report_no_geometry(run, o)
         return ReadSites(sites, is_image=False, options=o)
     refuse({"columns": o.columns}, "is for lists of points, but the input is an image")
-    polygons, _, o, _, _ = outlined(run, o, given, value)
-    return ReadSites(as_sites(polygons), is_image=True, options=o)
+    polygons, _, o, _, grid = outlined(run, o, given, value)
+    return ReadSites(as_sites(polygons), is_image=True, options=o, grid=grid)
 
 
 def read_cuts(run: Run, read: ReadSites, given: JobInput) -> tuple[ReadSites, dict[str, PolygonSet]]:
@@ -60,7 +63,10 @@ def read_cuts(run: Run, read: ReadSites, given: JobInput) -> tuple[ReadSites, di
             source = (given.name, read.sites.polygons)
             if read.is_image:
                 check_image_crs((path, value), given.name, source[1].crs)
+                value = in_unit_of_image(run, o, (path, value), given, read.grid)
             else:
+                first = (given.name, unit_of_vectors(o, read.sites))
+                value = in_first_unit(run, o, (path, value), first, crs=source[1].crs)
                 placed = in_one_crs(run, (path, value), source)
                 read = read._replace(sites=replace(read.sites, polygons=placed))
             if name == "clip":

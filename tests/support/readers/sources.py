@@ -2,7 +2,7 @@
 
 from vorotool.formats.images.label_images import label_image_of
 from vorotool.formats.images.reader import read_image
-from vorotool.formats.images.rgb_reader import read_picture
+from vorotool.formats.images.rgb_reader import picture_and_grid
 from vorotool.formats.io.sources import Source
 from vorotool.formats.opening import opened
 from vorotool.formats.parsing.reader_options import ReadOptions
@@ -21,7 +21,7 @@ def image_of(source, *, input_format=None, **options):
 
 
 def picture_of(source, **options):
-    return read_picture(image_source(source), ReadOptions(**options))
+    return picture_and_grid(image_source(source), ReadOptions(**options))[0]
 
 
 def labels_of(data, name="-"):

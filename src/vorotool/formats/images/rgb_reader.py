@@ -12,15 +12,20 @@ from vorotool.formats.images import png_reader, tiff_reader
 from vorotool.formats.images.reader import read_image
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions
+from vorotool.geometry.pixel_grid import PixelGrid
 
 _WHITE = 255
 
 
-def read_picture(source: Source, options: ReadOptions) -> NDArray[np.uint8]:
-    """Read an image as a screen shows it."""
+def picture_and_grid(source: Source, options: ReadOptions) -> tuple[NDArray[np.uint8], PixelGrid | None]:
+    """Read an image as a screen shows it, and what its file says of its pixels."""
     if source.format != "tiff" or tiff_reader.tiff_pages(source) == 1:
         options = replace(options, page=None)
-    values = read_image(source, options).values
+    image = read_image(source, options)
+    return _as_seen(source, image.values), image.grid
+
+
+def _as_seen(source: Source, values: NDArray[Any]) -> NDArray[np.uint8]:
     palette = png_reader.png_palette(source) if source.format == "png" else None
     if palette is not None and values.ndim == 2:
         colors: NDArray[np.uint8] = palette[values]

@@ -53,7 +53,7 @@ class SkeletonProducts(ABC, Generic[Options]):
             self._polygons, self.is_mask, options, frame, grid = read_polygons(run, options, given)
         if frame is None:
             refuse({"what thickness": "thickness" in options.what}, "is for images, but the input is polygons or lines")
-        self.options, self.backdrop = options, placed_backdrop(options.pixel_size, given.backdrop)
+        self.options, self.backdrop = options, placed_backdrop(run, options, given.backdrop)
         self._is_told = False  # what was repaired, once
         check_column(options.label_by, self._polygons.properties)
         world = world_of_polygons(run, options, self._polygons, size=options.pixel_size)

@@ -13,6 +13,7 @@ from vorotool.geometry.box import bounds
 from vorotool.geometry.curves.circular_arcs import chords_of
 from vorotool.geometry.curves.flatten import polylines
 from vorotool.geometry.curves.mixed_arcs import MixedArcs
+from vorotool.geometry.pixel_grid import PixelGrid
 from vorotool.geometry.ragged import following, owners, starts_of, within
 from vorotool.render.canvas.palettes import INK, SEED
 from vorotool.render.canvas.styles import PictureStyle
@@ -301,6 +302,8 @@ class Backdrop:
     pixels: NDArray[np.uint8]  # (H, W, 3) uint8 array: red, green and blue
     encode: Callable[[], bytes]  # gives the image as the bytes of a PNG file
     y_up: bool = False  # what is drawn over it has y upwards: row r is at y = -r
+    grid: PixelGrid | None = None  # what its file says of its pixels
+    side: float = 1.0  # of a pixel, in the coordinates of what is drawn over it
 
 
 class ImagePage(Page):
@@ -309,7 +312,9 @@ class ImagePage(Page):
     def __init__(self, backdrop: Backdrop) -> None:
         height, width = backdrop.pixels.shape[:2]
         top = 0.5 - height if backdrop.y_up else -0.5
-        super().__init__((-0.5, top, width - 0.5, top + height), width=width, y_up=backdrop.y_up)
+        box = (-0.5, top, width - 0.5, top + height)
+        left, low, right, high = (edge * backdrop.side for edge in box)
+        super().__init__((left, low, right, high), width=width, y_up=backdrop.y_up)
         self.height, self._backdrop = height, backdrop
 
     @property
@@ -319,8 +324,8 @@ class ImagePage(Page):
 
     def place(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """(n, 2) px from the left and from the top."""
-        return (points * (1.0, -1.0) if self.y_up else points) + 0.5
+        return (points * (1.0, -1.0) if self.y_up else points) / self._backdrop.side + 0.5
 
     def length(self, distance: float) -> float:
         """Px of a distance."""
-        return distance
+        return distance / self._backdrop.side

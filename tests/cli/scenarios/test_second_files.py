@@ -1,0 +1,172 @@
+"""Files beside the input: converted where they state a unit, in the coordinates of the input where they do not."""
+
+import json
+from fractions import Fraction
+
+import ezdxf
+import numpy as np
+import pytest
+import shapely
+import tifffile
+
+METRES = {"mm": Fraction(1, 1000), "um": Fraction(1, 10**6), "in": Fraction(254, 10**4), "m": Fraction(1)}
+MASK = np.zeros((40, 60), np.uint8)
+MASK[5:20, 5:25] = MASK[25:36, 20:55] = 255
+SITES = [shapely.box(0, 0, 10, 10), shapely.box(30, 5, 40, 15), shapely.box(8, 30, 20, 40)]
+CLIP = shapely.box(-5, -5, 35, 45)
+CODES = {"in": 1, "mm": 4, "m": 6}
+
+
+def text(geometries, unit=None, **members):
+    members |= {} if unit is None else {"unit": unit}
+    features = [
+        {"type": "Feature", "properties": {"kind": k}, "geometry": shapely.geometry.mapping(each)}
+        for k, each in enumerate(geometries)
+    ]
+    return json.dumps({"type": "FeatureCollection", **members, "features": features})
+
+
+def scaled(shape, factor):
+    return shapely.transform(shape, lambda xy: xy * float(factor))
+
+
+def dxf(path, shape, unit):
+    drawing = ezdxf.new(units=CODES[unit])
+    for ring in shapely.get_parts(shape):
+        drawing.modelspace().add_lwpolyline(ring.exterior.coords[:-1], close=True)
+    drawing.saveas(path)
+
+
+def areas(done):
+    assert done.code == 0, done.err
+    return [float(row["area"]) for row in done.rows]
+
+
+@pytest.mark.parametrize("first", ["mm", "in", "m"])
+@pytest.mark.parametrize("second", ["mm", "in", "um"])
+@pytest.mark.parametrize("option", ["--clip", "--enclosures"])
+def test_a_file_in_another_unit(run, tmp_path, first, second, option):
+    """The same rectangle, in the unit of the sites, and in another one."""
+    (tmp_path / "in.geojson").write_text(text(SITES, first))
+    (tmp_path / "same.geojson").write_text(text([CLIP], first))
+    other = scaled(CLIP, METRES[first] / METRES[second])
+    (tmp_path / "other.geojson").write_text(text([other], second))
+    words = ["voronoi", "in.geojson", "--what", "table", "-f", "csv", "--frame=-50,-50,150,150", option]
+    expected = areas(run(*words, "same.geojson"))
+    done = run(*words, "other.geojson")
+    assert areas(done) == pytest.approx(expected, rel=1e-12)
+    assert done.err == ""
+    assert sum(expected) == pytest.approx(40 * 50 if option == "--clip" else 150 * 150)
+
+
+@pytest.mark.parametrize("unit", ["in", "mm"])
+def test_drawings_state_theirs(run, tmp_path, unit):
+    (tmp_path / "in.geojson").write_text(text(SITES, "mm"))
+    dxf(tmp_path / "clip.dxf", scaled(CLIP, METRES["mm"] / METRES[unit]), unit)
+    done = run("voronoi", "in.geojson", "--clip", "clip.dxf", "--what", "table", "-f", "csv")
+    assert sum(areas(done)) == pytest.approx(40 * 50)
+    points = [shapely.Point(xy) for xy in [(1, 2), (20, 30), (5, 40)]]
+    (tmp_path / "points.geojson").write_text(text(points, "mm"))
+    done = run("delaunay", "points.geojson", "--clip", "clip.dxf", "--what", "table", "-f", "csv")
+    assert sum(areas(done)) == pytest.approx(40 * 50)
+
+
+def test_a_drawing_beside_a_map(run, tmp_path):
+    crs = {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::2056"}}
+    (tmp_path / "in.geojson").write_text(text(SITES, crs=crs))
+    dxf(tmp_path / "clip.dxf", scaled(CLIP, 1000), "mm")
+    done = run("voronoi", "in.geojson", "--clip", "clip.dxf", "--what", "table", "-f", "csv")
+    assert sum(areas(done)) == pytest.approx(40 * 50)
+
+
+# ---- images -------------------------------------------------------------------------------------
+def image(path):
+    sizes = {"PhysicalSizeX": 0.5, "PhysicalSizeY": 0.5, "PhysicalSizeXUnit": "µm", "PhysicalSizeYUnit": "µm"}
+    tifffile.imwrite(path, MASK, ome=True, metadata={"axes": "YX", **sizes})
+
+
+@pytest.mark.parametrize("command", ["voronoi", "delaunay"])
+@pytest.mark.parametrize("size", ["", "--pixel-size auto", "--pixel-size 0.5um"])
+def test_results_clip_results(run, tmp_path, command, size):
+    """What vorotool writes of an image in um clips the image, whatever its results are in."""
+    image(tmp_path / "in.tif")
+    words = [command, "in.tif", *size.split(), "--what", "table", "-f", "csv"]
+    half = [shapely.box(-0.5, -0.5, 29.5, 39.5)]
+    (tmp_path / "pixels.geojson").write_text(text(half, y_axis="down"))
+    (tmp_path / "um.geojson").write_text(text([scaled(half[0], 0.5)], "um", y_axis="down"))
+    side = Fraction(1, 2) if size else 1
+    plain, stated = run(*words, "--clip", "pixels.geojson"), run(*words, "--clip", "um.geojson")
+    assert areas(plain) == areas(stated)
+    assert sum(areas(plain)) == pytest.approx(float(30 * 40 * side**2))
+    assert "pixels.geojson states no unit: its coordinates are taken to be pixels of in.tif" in plain.err
+    assert "um.geojson" not in stated.err
+    assert run("voronoi", "in.tif", "--pixel-size", "0.5um", "-o", "cells.geojson", "-q").code == 0
+    assert json.loads((tmp_path / "cells.geojson").read_text())["unit"] == "um"
+    done = run(*words, "--clip", "cells.geojson")
+    assert sum(areas(done)) == pytest.approx(float(60 * 40 * side**2))
+    assert "cells.geojson" not in done.err
+
+
+# ---- what states none ---------------------------------------------------------------------------
+def test_what_states_none_is_as_it_is(run, tmp_path):
+    (tmp_path / "in.geojson").write_text(text(SITES, "mm"))
+    (tmp_path / "clip.wkt").write_text(CLIP.wkt)
+    done = run("voronoi", "in.geojson", "--clip", "clip.wkt", "--what", "table", "-f", "csv")
+    assert sum(areas(done)) == pytest.approx(40 * 50)
+    assert "clip.wkt states no unit: its coordinates are taken to be those of in.geojson" in done.err
+
+
+def test_a_unit_that_cannot_be_converted(run, tmp_path):
+    (tmp_path / "in.wkt").write_text("\n".join(each.wkt for each in SITES))
+    (tmp_path / "clip.geojson").write_text(text([CLIP], "mm"))
+    words = ["voronoi", "in.wkt", "--clip", "clip.geojson", "--what", "table", "-f", "csv"]
+    done = run(*words)
+    assert sum(areas(done)) == pytest.approx(40 * 50)
+    assert "warning: clip.geojson is in mm, but the unit of in.wkt is not known" in done.err
+    assert run(*words, "--strict").code == 3
+    known = run(*words, "--strict", "--pixel-size", "1cm")
+    assert sum(areas(known)) == pytest.approx(4 * 5)
+
+
+# ---- distances -----------------------------------------------------------------------------------
+@pytest.mark.parametrize("second", ["mm", "in", "um"])
+def test_distances_of_two_files(run, tmp_path, second):
+    """3 mm apart, in whatever unit the second is."""
+    (tmp_path / "a.geojson").write_text(text([shapely.box(0, 0, 4, 4)], "mm"))
+    b = scaled(shapely.box(7, 0, 9, 4), METRES["mm"] / METRES[second])
+    (tmp_path / "b.geojson").write_text(text([b], second))
+    done = run("distance", "a.geojson", "b.geojson", "--what", "smallest", "-f", "csv")
+    assert done.code == 0, done.err
+    assert float(done.rows[0]["distance"]) == pytest.approx(3, rel=1e-12)
+    assert run("distance", "a.geojson", "b.geojson", "-o", "o.geojson", "-q").code == 0
+    assert json.loads((tmp_path / "o.geojson").read_text())["unit"] == "mm"
+    assert shapely.from_geojson((tmp_path / "o.geojson").read_text()).bounds[2] == pytest.approx(9)
+    (tmp_path / "c.wkt").write_text(shapely.box(7, 0, 9, 4).wkt)
+    done = run("distance", "a.geojson", "c.wkt", "--what", "smallest", "-f", "csv")
+    assert (float(done.rows[0]["distance"]), "c.wkt states no unit" in done.err) == (3, True)
+
+
+# ---- pictures over an image ---------------------------------------------------------------------
+@pytest.mark.parametrize("fmt", ["svg", "png"])
+@pytest.mark.parametrize("command", ["delaunay --layers points", "alphashape -r {}", "voronoi --frame {f}", "draw"])
+def test_pictures_over_an_image(run, tmp_path, command, fmt):
+    """Coordinates in nm over pixels of 0.5 um: as the same in pixels."""
+    image(tmp_path / "im.tif")
+    shapes = [shapely.Point(xy) for xy in [(1, 2), (50, 30), (5, 36), (30, 9)]]
+    shapes = shapes if command.startswith(("del", "alp")) else SITES
+    (tmp_path / "pixels.geojson").write_text(text(shapes, y_axis="down"))
+    (tmp_path / "nm.geojson").write_text(text([scaled(each, 500) for each in shapes], "nm", y_axis="down"))
+    written = []
+    for name, side in (("pixels", 1), ("nm", 500)):
+        words = command.format(40 * side, f=",".join(str(side * each) for each in (0, 0, 40, 40))).split()
+        done = run(words[0], f"{name}.geojson", *words[1:], "--overlay", "im.tif", "-o", f"{name}.{fmt}")
+        assert (done.code, done.err) == (0, ""), done.err
+        written.append((tmp_path / f"{name}.{fmt}").read_bytes())
+    assert written[0] == written[1]
+
+
+def test_an_overlay_without_a_size(run, tmp_path):
+    tifffile.imwrite(tmp_path / "im.tif", MASK)
+    (tmp_path / "in.geojson").write_text(text(SITES, "mm"))
+    done = run("voronoi", "in.geojson", "--overlay", "im.tif", "-o", "o.png")
+    assert (done.code, "im.tif states no size of its pixels" in done.err) == (0, True)
