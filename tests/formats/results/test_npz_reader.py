@@ -89,31 +89,39 @@ def damaged(tmp_path, arrays):
     return tmp_path / "a.npz"
 
 
+def about(**members):
+    """Return the array with what is no list, with other members."""
+    document = json.loads(arrays_of(vorotool.skeleton_exact(SHAPES["polygon"]))["about"].tobytes())
+    return np.frombuffer(json.dumps(document | members).encode(), dtype=np.uint8)
+
+
 @pytest.mark.parametrize(
     ("changed", "words"),
     [
         ({"arc_target": None}, "arc_target"),
-        ({"frame": None}, "has no array frame"),
+        ({"about": None}, "has no array about"),
         ({"vertex_x": np.zeros(3)}, "arrays that belong together are of different lengths"),
         ({"vertex_r": "nan"}, "vertex_r"),
         ({"ring_x": "nan"}, "ring_x"),
         ({"ring_start": np.array([0, 9])}, "ring_start"),
         ({"ring_start": np.array([0.0, 6.0])}, "ring_start"),
         ({"ring_start": np.array([0, 0, 6])}, "ring_start"),
-        ({"ring_start": np.array([], int)}, "ring_start should grow"),
-        ({"ring_kind": np.zeros(2, int), "ring_polygon": np.zeros(2, int)}, "are not of as many rings as ring_start"),
+        ({"ring_start": np.array([], int)}, "ring_start"),
+        ({"ring_kind": np.zeros(2, int), "ring_polygon": np.zeros(2, int)}, "ring_kind"),
         ({"ring_polygon": np.array([1])}, "ring_polygon"),
         ({"ring_polygon": np.array([-1])}, "ring_polygon"),
-        ({"arc_control_x": "text", "arc_control_y": "text"}, "arcs 0: control is"),
-        ({"arc_source": "large"}, "arcs 0: source is 99; write a whole number from 0"),
-        ({"arc_kind": "large"}, 'arcs 0: kind is 99; write "line" or "parabola"'),
-        ({"arc_side": "large"}, "arcs 0: side is 99"),
-        ({"arc_site_a": "large"}, "arcs 0: sites are"),
-        ({"site_kind": "large"}, "sites 0: kind is 99"),
-        ({"site_index": "large"}, "sites 0: index is 99"),
-        ({"frame": np.zeros(3)}, "the frame is"),
-        ({"gap": np.array([-1.0])}, "-1.0"),
-        ({"arc_source": np.array([f"{k}" for k in range(9)])}, "'0'"),
+        ({"arc_control_x": "text", "arc_control_y": "text"}, "arc_control_x is of type"),
+        ({"arc_source": "large"}, "arc_source 0 is 99; write whole numbers from 0"),
+        ({"arc_kind": "large"}, "arc_kind 0 is 99; write whole numbers from 0 to 1"),
+        ({"arc_side": "large"}, "arc_side 0 is 99"),
+        ({"arc_site_a": "large"}, "arc_site_a 0 is 99"),
+        ({"site_kind": "large"}, "site_kind 0 is 99"),
+        ({"site_index": "large"}, "site_index 0 is 99"),
+        ({"about": about(frame=[0, 0, 1])}, "the frame is"),
+        ({"about": about(gap=-1)}, "-1"),
+        ({"about": about(version=2)}, "version 2"),
+        ({"about": np.zeros(3)}, "about is of type float64"),
+        ({"arc_source": np.array([f"{k}" for k in range(9)])}, "arc_source is of type"),
     ],
 )
 def test_damage_is_named(tmp_path, changed, words):
@@ -164,6 +172,38 @@ def test_what_holds_no_polygons(tmp_path):
     assert len(vorotool.read(points)) == 3
     with pytest.raises(InputError, match=r"a\.npz holds no polygons that are read: an NPZ has those of cells"):
         vorotool.read(points, geometry="polygons")
-    offsets = damaged(tmp_path, arrays_of(vorotool.offset(SHAPES["polygon"], 1)))
-    with pytest.raises(InputError, match=r"offset curves the table \(of points_along\) or the JSON"):
-        vorotool.read(offsets)
+
+
+OFFSETS = ("start", "end", "center", "site", "ring_start", "shape_start", "distance", "polygon")
+
+
+@pytest.mark.parametrize("features", ["separate", "together"])
+def test_offset_curves_are_read(shapes, tmp_path, features):
+    made = vorotool.offset(shapes("holes and lines"), [-1, 2, 300], features=features)
+    vorotool.write(made, tmp_path / "a.npz")
+    read = vorotool.read(tmp_path / "a.npz")
+    assert_same(OFFSETS, read, made)
+    assert read.features == features
+    vorotool.verify_offsets(read)
+    polygons = vorotool.read(tmp_path / "a.npz", geometry="polygons")
+    assert np.array_equal(polygons.xy, made.polygons.xy)
+
+
+@pytest.mark.parametrize("what", ["skeleton", "offset"])
+def test_what_is_known_of_polygons_is_read(tmp_path, what):
+    described = {"ids": ["a", None], "properties": {"name": ["x", "y"], "of": [[1], {"k": 2}]}, "unit": "mm"}
+    given = vorotool.PolygonSet(
+        [[0, 0], [4, 0], [0, 3], [10, 0], [14, 0], [10, 3]], [0, 3, 6], [0, 0], [0, 1], y_axis="up", **described
+    )
+    made = vorotool.skeleton_exact(given, side="both") if what == "skeleton" else vorotool.offset(given, 1)
+    vorotool.write(made, tmp_path / "a.npz")
+    read = vorotool.read(tmp_path / "a.npz").polygons
+    assert (read.ids, read.properties, read.unit, read.y_axis) == (*described.values(), "up")
+
+
+def test_ends_of_sites_outside_are_read(shapes, tmp_path):
+    crossed = [[[0, 0], [9, 0], [9, 4], [0, 4]], [[4, -3], [6, -3], [6, 7], [4, 7]]]
+    made = vorotool.skeleton_exact(crossed, side="both")
+    assert made.site_table.ends is not None
+    vorotool.write(made, tmp_path / "a.npz")
+    assert np.array_equal(vorotool.read(tmp_path / "a.npz").site_table.ends, made.site_table.ends, equal_nan=True)

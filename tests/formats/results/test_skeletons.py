@@ -12,7 +12,7 @@ import vorotool
 from support.readers.sources import read_as
 from support.readers.written import rows_of, streamed, written
 from vorotool.errors import UsageError
-from vorotool.formats.results.skeletons import skeleton_arrays
+from vorotool.formats.results.skeleton_files import skeleton_arrays
 from vorotool.products.registry import parts_of
 
 DATA = Path(__file__).parents[3] / "data"

@@ -251,14 +251,13 @@ def arrays_of(data):
 
 def faulty_arrays():
     yield lambda a: a.pop("arc_left"), "arc_left"
-    yield lambda a: a.update(vertex_r=a["vertex_r"][1:]), "arrays of different lengths belong together"
-    yield lambda a: a.update(vertex_x=np.full(len(a["vertex_x"]), np.inf)), "vertex_x holds what is no finite number"
+    yield lambda a: a.update(vertex_r=a["vertex_r"][1:]), "arrays that belong together are of different lengths"
+    yield lambda a: a.update(vertex_x=np.full(len(a["vertex_x"]), np.inf)), "vertex_x 0 is inf; write finite numbers"
     yield lambda a: a.update(arc_source=a["arc_source"] + 1000), "arc_source 0 is"
     yield lambda a: a.update(arc_source=a["arc_source"] * 0.5), "write whole numbers"
-    yield lambda a: a.update(arc_control_x=np.zeros(len(a["arc_cut"]))), "has half a control point"
+    yield lambda a: a.update(arc_control_x=np.zeros(len(a["arc_cut"]))), "arc_control_x or arc_control_y"
     yield lambda a: a.update(cell_start=a["cell_start"][::-1].copy()), "cell_start must rise"
     yield lambda a: a.update(cell_ring_arcs=-a["cell_ring_arcs"]), "whose side is"
-    yield lambda a: a.update(frame=a["frame"][:3]), "the frame is"
     yield lambda a: a.update(about=np.zeros(3)), "about is of type float64"
     yield lambda a: a.update(about=np.frombuffer(b"[1", dtype=np.uint8)), "about, line 1"
     yield lambda a: a.update(about=np.frombuffer(b"{}", dtype=np.uint8)), "about holds no Voronoi map"

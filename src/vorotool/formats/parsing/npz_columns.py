@@ -17,11 +17,12 @@ from vorotool.formats.parsing.reader_options import ReadOptions
 
 NPZ_MAGIC = b"PK\x03\x04"
 _SKELETON = frozenset({"arc_source", "vertex_r", "ring_start"})
+_OFFSETS = frozenset({"piece_start_x", "shape_distance", "about"})
 _VORONOI = frozenset({"cell_ring_arcs", "cell_start", "vertex_r", "about"})
 _CELLS = frozenset({"cell_starts", "polygon_starts", "ring_starts", "vertex_x", "vertex_y"})
 
 
-def npz_holds(data: bytes) -> Literal["points", "polygons", "skeleton", "voronoi"]:
+def npz_holds(data: bytes) -> Literal["points", "polygons", "skeleton", "offsets", "voronoi"]:
     """Tell what an archive holds by the names of its arrays: all else is taken for points."""
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
@@ -30,6 +31,8 @@ def npz_holds(data: bytes) -> Literal["points", "polygons", "skeleton", "voronoi
         return "points"
     if names >= _VORONOI:
         return "voronoi"
+    if names >= _OFFSETS:
+        return "offsets"
     return "skeleton" if names >= _SKELETON else "polygons" if names >= _CELLS else "points"
 
 

@@ -62,7 +62,7 @@ def read_sites(source: Source, options: ReadOptions) -> Sites:
     document = parse_json(source)
     if isinstance(document, dict) and document.get("type") == "vorotool.voronoi":
         options.note(f"{source.name} holds a Voronoi map: the sites in it are read")
-        sites: Sites = resolved("formats.results.voronoi_json:read_sites")(source, options)
+        sites: Sites = resolved("formats.results.voronoi_files:read_sites")(source, options)
         return sites
     if isinstance(document, dict) and "polygons" not in document and "type" in document:
         return read_geojson_sites(source, options)

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any, BinaryIO
+from typing import BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.formats.polygons.polylines import Wording, geojson_wording, wkt_wording, write_polylines
 from vorotool.formats.results.centerlines import write_centerlines
-from vorotool.formats.results.placed_polygons import LATTICE_STEP, as_written
-from vorotool.formats.results.skeleton_json import write_json
+from vorotool.formats.results.skeleton_files import skeleton_arrays, write_json
 from vorotool.formats.text.tables import write_arrays, write_table
 from vorotool.geometry.curves.flatten import chained
 from vorotool.geometry.skeleton.led_on import LedOn
@@ -19,7 +18,6 @@ from vorotool.geometry.skeleton.smooth_lines import SmoothLines
 from vorotool.geometry.skeleton.tables import arc_table, branch_table, element_table, polygon_table
 from vorotool.geometry.table import Table
 from vorotool.products.formats import TABLES
-from vorotool.types.axis import MEMBER as Y_AXIS
 
 
 def write_skeleton(
@@ -55,35 +53,6 @@ def _table(skeleton: Skeleton, what: str, threads: int) -> Table:
     if what == "elements":
         return element_table(skeleton)
     return (polygon_table if what == "table" else branch_table)(skeleton, threads=threads)
-
-
-def skeleton_arrays(skeleton: Skeleton) -> dict[str, NDArray[Any]]:
-    """1-D arrays of all that a skeleton holds, as in its JSON; no polygon, side or source is -1."""
-    table, (polygons, step) = skeleton.site_table, as_written(skeleton.polygons)
-    vertices = (skeleton.as_given if step else skeleton).vertices
-    frame = () if skeleton.frame is None else skeleton.frame
-    return {
-        "vertex_x": vertices[:, 0],
-        "vertex_y": vertices[:, 1],
-        "vertex_r": skeleton.radius,
-        "arc_source": skeleton.arcs[:, 0],
-        "arc_target": skeleton.arcs[:, 1],
-        "arc_kind": skeleton.is_parabola.astype(np.int8),
-        "arc_control_x": skeleton.control[:, 0],
-        "arc_control_y": skeleton.control[:, 1],
-        "arc_site_a": skeleton.sites[:, 0],
-        "arc_site_b": skeleton.sites[:, 1],
-        **{f"arc_{name}": getattr(skeleton, name) for name in ("polygon", "side", "branch", "length", "error_bound")},
-        **{f"site_{name}": getattr(table, name) for name in ("kind", "polygon", "ring", "index")},
-        **{f"site_{name}": getattr(table, name) for name in ("source_ring", "source_index")},
-        "ring_x": polygons.xy[:, 0],
-        "ring_y": polygons.xy[:, 1],
-        **{name: getattr(polygons, name) for name in ("ring_start", "ring_kind", "ring_polygon")},
-        Y_AXIS: np.array([polygons.y_axis]),
-        "frame": np.array(frame, dtype=np.float64),
-        "gap": np.array([skeleton.gap]),
-        **({LATTICE_STEP: np.array([step])} if step else {}),
-    }
 
 
 # ---- polylines -----------------------------------------------------------------------------------

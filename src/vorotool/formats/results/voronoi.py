@@ -9,8 +9,7 @@ from numpy.typing import NDArray
 
 from vorotool.formats.polygons.polylines import GEOJSON_LINE, Wording, wkt_wording, write_polylines
 from vorotool.formats.results.cells import CellShapes, write_shapes, written_cells
-from vorotool.formats.results.voronoi_json import write_json
-from vorotool.formats.results.voronoi_npz import write_npz
+from vorotool.formats.results.voronoi_files import write_json, write_npz
 from vorotool.formats.text.feature_collection import collection_opening
 from vorotool.formats.text.tables import json_text, write_table
 from vorotool.geometry.mesh.cells import Nesting

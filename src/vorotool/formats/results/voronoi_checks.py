@@ -2,45 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
-from vorotool.formats.results.json_reader import JsonRows
 from vorotool.geometry.ragged import owners
 from vorotool.geometry.voronoi.voronoi_map import OUTSIDE, VoronoiMap
-
-
-def pairs_of_sites(rows: JsonRows, arcs: list[Any], count: int) -> NDArray[np.int32]:
-    """Read the sites left and right of each arc; null is `OUTSIDE`."""
-
-    def is_right(value: Any) -> bool:
-        return type(value) is list and len(value) == 2 and all(v is None or _is_index(v, count) for v in value)
-
-    values = [row.get("sites") for row in arcs]
-    if not all(map(is_right, values)):
-        raise rows.fault("arcs", arcs, "sites", is_right, f"two of the {count} sites, from 0, or null")
-    pairs = [[OUTSIDE if site is None else site for site in pair] for pair in values]
-    return np.array(pairs, dtype=np.int32).reshape(-1, 2)
-
-
-def _is_index(value: Any, count: int) -> bool:
-    return type(value) is int and 0 <= value < count
-
-
-@contextmanager
-def naming_values(name: str) -> Iterator[None]:
-    """Let what values say of their arrays begin with the name of the input."""
-    try:
-        yield
-    except InputError as error:
-        if str(error).startswith(name):
-            raise
-        raise InputError(f"{name}: {error.marked}") from error
 
 
 def check_map(name: str, cells: VoronoiMap) -> None:

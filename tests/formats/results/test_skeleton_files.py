@@ -11,7 +11,7 @@ from support.readers.written import ARCS, written
 from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions
-from vorotool.formats.results.skeleton_json import read_skeleton
+from vorotool.formats.results.skeleton_files import read_skeleton
 
 SHAPES = vorotool.read(Path(__file__).parents[3] / "data" / "two-shapes.json")
 

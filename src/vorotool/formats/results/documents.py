@@ -1,0 +1,201 @@
+"""What files of results have in common: their type, the polygons that they are of, and sites of these."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import replace
+from typing import Any, BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import InputError
+from vorotool.formats.io.sources import Source
+from vorotool.formats.parsing.geojson import parse_json, read_y_axis
+from vorotool.formats.parsing.npz_columns import npz_columns
+from vorotool.formats.parsing.reader_options import ReadOptions, shortened
+from vorotool.formats.polygons.json import read_json
+from vorotool.formats.results.members import SITE_KINDS
+from vorotool.formats.results.rows import ArrayRows, JsonRows, Rows, is_number
+from vorotool.formats.text.tables import json_bytes, json_text
+from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.skeleton.skeleton import SiteTable
+from vorotool.types.axis import MEMBER as Y_AXIS
+from vorotool.types.axis import UNSTATED
+
+ABOUT = "about"
+"""The array with the UTF-8 of JSON of what is no list: type and version, and what is known of polygons and sites."""
+
+VERSION = 1
+_RINGS = ("ring_start", "ring_kind", "ring_polygon")
+_MOST = 2**31 - 1
+
+
+# ---- writing -------------------------------------------------------------------------------------
+def head_of(kind: str, own: Mapping[str, Any], polygons: PolygonSet) -> dict[str, Any]:
+    """Return the members before the lists: type and version, what a result has of its own, and where it lies."""
+    names = ("crs", "unit", "connectivity")
+    known = {name: getattr(polygons, name) for name in names if getattr(polygons, name) is not None}
+    return {"type": kind, "version": VERSION, **own, Y_AXIS: polygons.y_axis, **known}
+
+
+def write_head(out: BinaryIO, head: Mapping[str, Any]) -> None:
+    """Write the beginning of a document."""
+    out.write(json_text(head).removesuffix("}").encode() + b",\n")
+
+
+def polygon_arrays(polygons: PolygonSet) -> dict[str, NDArray[Any]]:
+    """Return the arrays of polygons."""
+    assert polygons.feature is not None
+    return {
+        "ring_x": polygons.xy[:, 0],
+        "ring_y": polygons.xy[:, 1],
+        **{name: getattr(polygons, name) for name in _RINGS},
+        "polygon_feature": polygons.feature,
+    }
+
+
+def about_array(head: Mapping[str, Any], polygons: PolygonSet, **more: Any) -> dict[str, NDArray[Any]]:
+    """Return the array with what is no list, and with the ids and properties of polygons."""
+    described = described_rows(len(polygons), polygons.ids, polygons.properties)
+    return {ABOUT: np.frombuffer(json_bytes({**head, **more, "polygons": described}), dtype=np.uint8)}
+
+
+def described_rows(count: int, ids: Sequence[Any] | None, properties: Mapping[str, Sequence[Any]]) -> list[Any]:
+    """Return id and properties of each site or polygon as an object of JSON, as far as there are any."""
+    made: list[dict[str, Any]] = [{} for _ in range(count)] if ids is None else [{"id": value} for value in ids]
+    if properties:
+        columns = {name: list(values) for name, values in properties.items()}
+        for row, each in enumerate(made):
+            each["properties"] = {name: values[row] for name, values in columns.items()}
+    return made
+
+
+# ---- reading -------------------------------------------------------------------------------------
+def opened_document(source: Source, kind: str, noun: str) -> JsonRows:
+    """Parse the JSON of a result, whose type and version are stated."""
+    document = parse_json(source)
+    if not isinstance(document, Mapping) or document.get("type") != kind:
+        raise InputError(f'{source.name} holds no {noun}; its type should be "{kind}"')
+    if document.get("version") != VERSION:
+        found = shortened(document.get("version"))
+        raise InputError(f"{source.name}: version {found} of {kind} is not known; write version {VERSION}")
+    return JsonRows(source.name, document)
+
+
+def opened_archive(source: Source, options: ReadOptions, kind: str, noun: str) -> ArrayRows:
+    """Read the arrays of a result."""
+    rows = ArrayRows(source.name, npz_columns(source, options), {})
+    about = rows.array(ABOUT)
+    if about.dtype != np.uint8:
+        raise InputError(f"{source.name}: {ABOUT} is of type {about.dtype}; write bytes (uint8)")
+    document = opened_document(Source(f"{source.name}, {ABOUT}", about.tobytes(), "json"), kind, noun).document
+    return ArrayRows(source.name, rows.arrays, document)
+
+
+def read_polygons(rows: Rows, options: ReadOptions) -> PolygonSet:
+    """Read the polygons of a result, and what it says about all of them."""
+    document = rows.document
+    polygons = _of_arrays(rows, options) if isinstance(rows, ArrayRows) else _of_document(rows, options)
+    return replace(
+        polygons,
+        y_axis=read_y_axis(rows.name, document, UNSTATED),
+        crs=document.get("crs"),
+        connectivity=document.get("connectivity"),
+        unit=_unit(rows.name, document),
+    )
+
+
+def _of_document(rows: Rows, options: ReadOptions) -> PolygonSet:
+    rows.count("polygons")
+    return read_json(Source(rows.name, b"", "json", {"polygons": rows.document["polygons"]}), options)
+
+
+def _of_arrays(rows: ArrayRows, options: ReadOptions) -> PolygonSet:
+    described = JsonRows(rows.name, rows.document).list_of("polygons")
+    check_described(rows, "polygons")
+    options.check_vertices(rows.name, len(rows.array("ring_x")))
+    rings: dict[str, Any] = {name: rows.integers(name, 0, _MOST) for name in _RINGS}
+    with naming_values(rows.name):
+        return PolygonSet(
+            xy=np.stack([rows.reals(f"ring_{axis}") for axis in _alike(rows, "ring_x", "ring_y")], axis=1),
+            **rings,
+            feature=rows.integers("polygon_feature", 0, _MOST).astype(np.int32),
+            **(named_rows(described) if options.properties else {}),
+        )
+
+
+def _alike(rows: ArrayRows, *names: str) -> list[str]:
+    """Return the last letters of arrays that must be of one length."""
+    ArrayRows(rows.name, {name: rows.array(name) for name in names}, {}).together("")
+    return [name[-1] for name in names]
+
+
+def check_described(rows: Rows, member: str) -> None:
+    """Refuse properties that are no objects."""
+    described = JsonRows(rows.name, rows.document)
+    described.values(member, "properties", lambda value: isinstance(value, dict | None), "an object")
+
+
+def named_rows(rows: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+    """Return ids and properties as columns; see `described_rows`."""
+    ids = [row.get("id") for row in rows] if any("id" in row for row in rows) else None
+    own = [row.get("properties") or {} for row in rows]
+    names = dict.fromkeys(name for each in own for name in each)
+    return {"ids": ids, "properties": {name: [each.get(name) for each in own] for name in names}}
+
+
+def _unit(name: str, document: Mapping[str, Any]) -> str | None:
+    unit = document.get("unit")
+    if not isinstance(unit, str | None):
+        raise InputError(f"{name}: the unit is {shortened(unit)}; write a name, such as mm")
+    return unit
+
+
+def read_sites(rows: Rows, polygons: PolygonSet) -> SiteTable:
+    """Read the sites of a result, all of them vertices and edges of its polygons."""
+    kind = rows.choices("sites", "kind", SITE_KINDS)
+    polygon = rows.indices("sites", "polygon", len(polygons))
+    ring, index = (rows.indices("sites", name, len(polygons.xy)) for name in ("ring", "index"))
+    number = polygons.polygon_start[polygon] + ring
+    bad = np.flatnonzero(number >= polygons.polygon_start[polygon + 1])
+    if bad.size:
+        raise InputError(f"{rows.name}, sites {bad[0]}: there is no ring {ring[bad[0]]} in polygon {polygon[bad[0]]}")
+    bad = np.flatnonzero(index >= np.diff(polygons.ring_start)[number])
+    if bad.size:
+        raise InputError(f"{rows.name}, sites {bad[0]}: the ring has no vertex {index[bad[0]]}")
+    source = rows.index_pairs("sites", "source", ("source_ring", "source_index"), _MOST, optional=True)
+    ends = None
+    if rows.has("sites", "from") or rows.has("sites", "to"):
+        ends = np.stack([rows.pairs("sites", name, optional=True) for name in ("from", "to")], axis=1)
+    return SiteTable(kind, polygon, ring, index, source[:, 0], source[:, 1], ends)
+
+
+def read_features(rows: Rows) -> str:
+    """Read whether features are separate, as they are if nothing is said, or together."""
+    value = rows.document.get("features", "separate")
+    if value not in ("separate", "together"):
+        raise InputError(f"{rows.name}: features are {shortened(value)}; write separate or together")
+    return str(value)
+
+
+def read_frame(rows: Rows) -> tuple[float, float, float, float]:
+    """Read the rectangle that a result was cut by."""
+    value: Any = rows.document.get("frame")
+    is_right = type(value) is list and len(value) == 4 and all(map(is_number, value))
+    if not is_right or not np.isfinite(value).all() or min(value[2:]) < 0:
+        raise InputError(f"{rows.name}: the frame is {shortened(value)}; write [x, y, w, h]")
+    x, y, w, h = map(float, value)
+    return (x, y, w, h)
+
+
+@contextmanager
+def naming_values(name: str) -> Iterator[None]:
+    """Let what values say of their arrays begin with the name of the input."""
+    try:
+        yield
+    except InputError as error:
+        if str(error).startswith(name):
+            raise
+        raise InputError(f"{name}: {error.marked}") from error

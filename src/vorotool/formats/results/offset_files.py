@@ -1,0 +1,136 @@
+"""Offset curves as JSON and as NPZ, version 1: all that they hold."""
+
+from __future__ import annotations
+
+from typing import Any, BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import InputError
+from vorotool.formats.io.sources import Source
+from vorotool.formats.parsing.reader_options import ReadOptions
+from vorotool.formats.polygons.json import write_items
+from vorotool.formats.results import documents as d
+from vorotool.formats.results import members as m
+from vorotool.formats.results.placed_polygons import LATTICE_STEP, as_read, as_written
+from vorotool.formats.results.rows import PREFIXES, Rows
+from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.ragged import starts_of
+from vorotool.geometry.skeleton.offsets import PIECE_KINDS, RING_KINDS, Offsets
+
+TYPE = "vorotool.offsets"
+NOUN = "offset curves"
+
+
+# ---- writing -------------------------------------------------------------------------------------
+def write_json(out: BinaryIO, offsets: Offsets, *, precision: int | None = None, threads: int = 0) -> None:
+    """Write polygons, sites, shapes, rings and pieces, one object a line of text; all indices are 0-based."""
+    head, polygons, lists = _parts(offsets)
+    d.write_head(out, head)
+    write_items(out, polygons)
+    for name, members in lists.items():
+        m.write_list(out, name, members, precision=None if name == "sites" else precision, threads=threads)
+    out.write(b"}\n")
+
+
+def offset_arrays(offsets: Offsets) -> dict[str, NDArray[Any]]:
+    """Return the same as 1-D arrays; no polygon is -1, the center of a line NaN."""
+    head, polygons, lists = _parts(offsets)
+    made: dict[str, NDArray[Any]] = {}
+    for name, members in lists.items():
+        made |= m.arrays_of(PREFIXES[name], members)
+    return {**made, **d.polygon_arrays(polygons), **d.about_array(head, polygons)}
+
+
+def _parts(offsets: Offsets) -> tuple[dict[str, Any], PolygonSet, dict[str, list[m.Member]]]:
+    """What is no list, the polygons, and the lists."""
+    polygons, step = as_written(offsets.polygons)
+    own = {} if offsets.features == "separate" else {"features": offsets.features}
+    head = d.head_of(TYPE, own, polygons) | ({LATTICE_STEP: step} if step else {})
+    shapes = [
+        m.numbers("distance", offsets.distance),
+        m.indices("polygon", offsets.polygon, len(polygons)),
+        *_ranges("rings", offsets.shape_start),
+    ]
+    rings = [
+        m.indices("shape", offsets.shape_of_ring),
+        m.choices("kind", RING_KINDS, offsets.ring_kind),
+        *_ranges("pieces", offsets.ring_start),
+    ]
+    pieces = [
+        m.choices("kind", PIECE_KINDS, offsets.is_arc),
+        m.places("start", offsets.start),
+        m.places("end", offsets.end),
+        m.places("center", offsets.center, offsets.is_arc),
+        m.choices("ccw", (False, True), np.where(offsets.is_arc, offsets.piece_distance > 0, -1)),
+        m.indices("site", offsets.site),
+    ]
+    sites = m.site_members(offsets.site_table)
+    return head, polygons, {"sites": sites, "shapes": shapes, "rings": rings, "pieces": pieces}
+
+
+def _ranges(parts: str, start: NDArray[np.int64]) -> list[m.Member]:
+    """The first part of each item, and how many it has."""
+    return [m.indices("first", start[:-1]), m.indices(parts, np.diff(start))]
+
+
+# ---- reading -------------------------------------------------------------------------------------
+def read_offsets(source: Source, options: ReadOptions) -> Offsets:
+    """Read offset curves that were written as JSON."""
+    return _offsets(d.opened_document(source, TYPE, NOUN), options)
+
+
+def read_archive(source: Source, options: ReadOptions) -> Offsets:
+    """Read offset curves that were written as NPZ."""
+    return _offsets(d.opened_archive(source, options, TYPE, NOUN), options)
+
+
+def _offsets(rows: Rows, options: ReadOptions) -> Offsets:
+    polygons = as_read(d.read_polygons(rows, options), rows.document)
+    sites = d.read_sites(rows, polygons)
+    distance = rows.numbers("shapes", "distance")
+    if not distance.all():
+        raise InputError(f"{rows.name}, shapes {np.flatnonzero(distance == 0)[0]}: the distance is 0; write another")
+    start, end, center = _places(rows)
+    return Offsets(
+        start,
+        end,
+        center,
+        rows.indices("pieces", "site", len(sites)),
+        _starts(rows, "rings", "pieces"),
+        _starts(rows, "shapes", "rings"),
+        distance,
+        rows.indices("shapes", "polygon", len(polygons), optional=True),
+        sites,
+        polygons,
+        d.read_features(rows),
+    )
+
+
+def _places(rows: Rows) -> tuple[NDArray[np.float64], ...]:
+    """Ends and centers; an arc that few digits have shrunk to its center is a straight line."""
+    start, end = (rows.pairs("pieces", name, optional=False) for name in ("start", "end"))
+    center = rows.pairs("pieces", "center", optional=True)
+    kind = rows.choices("pieces", "kind", PIECE_KINDS)
+    unlike = np.flatnonzero(np.isnan(center[:, 0]) == (kind == 1))
+    if unlike.size:
+        what = ("null", "[x, y]")[kind[unlike[0]]]
+        raise InputError(
+            f"{rows.name}, pieces {unlike[0]}: the center of {('a line', 'an arc')[kind[unlike[0]]]} is {what}"
+        )
+    center[(start == center).all(axis=1) | (end == center).all(axis=1)] = np.nan
+    return start, end, center
+
+
+def _starts(rows: Rows, member: str, parts: str) -> NDArray[np.int64]:
+    """Where the parts of each item begin: one after the other, all of them."""
+    count = rows.count(parts)
+    first = rows.indices(member, "first", max(count, 1))
+    number = rows.indices(member, parts, count + 1)
+    expected = starts_of(number)
+    wrong = np.flatnonzero((first != expected[:-1]) | (number < 1))
+    if wrong.size or expected[-1] != count:
+        at = wrong[0] if wrong.size else len(first) - 1
+        raise InputError(f"{rows.name}, {member} {at}: the {parts} of each follow those of the one before; list all")
+    return expected

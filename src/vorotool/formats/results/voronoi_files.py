@@ -1,0 +1,272 @@
+"""Voronoi maps as JSON and as NPZ, version 1: all that they hold."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any, BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import InputError
+from vorotool.formats.io.sources import Source
+from vorotool.formats.parsing.reader_options import ReadOptions, no_note, shortened
+from vorotool.formats.polygons.json import write_items
+from vorotool.formats.results import documents as d
+from vorotool.formats.results import members as m
+from vorotool.formats.results.rows import PREFIXES, ArrayRows, JsonRows, Rows, is_number
+from vorotool.formats.results.voronoi_checks import check_map
+from vorotool.formats.text.row_writer import Column, RowShape, write_list_rows, write_rows
+from vorotool.formats.text.tables import json_text, write_arrays
+from vorotool.geometry.arguments.sites import Sites
+from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.ragged import starts_of
+from vorotool.geometry.table import Lookup
+from vorotool.geometry.voronoi.tables import KINDS, kinds_of
+from vorotool.geometry.voronoi.voronoi_map import OUTSIDE, VoronoiMap
+
+TYPE = "vorotool.voronoi"
+NOUN = "Voronoi map"
+_CUTS = ("clip", "enclosures")
+_SIDES = ("left", "right")
+_STARTS = ("ring_start", "polygon_start", "start")
+_MOST = 2**31 - 1
+
+
+# ---- writing -------------------------------------------------------------------------------------
+def write_json(out: BinaryIO, cells: VoronoiMap, *, precision: int | None = None, threads: int = 0) -> None:
+    """Write polygons, sites, vertices, arcs and cells, one object a line of text; all indices are 0-based."""
+    polygons = cells.polygons
+    assert polygons.feature is not None
+    d.write_head(out, _head(cells))
+    write_items(out, polygons, {"feature": polygons.feature.tolist(), "site": cells.polygon_site.tolist()})
+    texts = [json_text(site) for site in d.described_rows(len(cells), cells.ids, cells.properties)]
+    out.write(b',\n"sites":[')
+    write_list_rows(out, [Column("", texts)], RowShape(("", ""), ",\n", ""), threads=threads)
+    out.write(b"]")
+    for name, members in _lists(cells).items():
+        m.write_list(out, name, members, precision=precision, threads=threads)
+    _write_cells(out, cells, threads)
+    out.write(b"}\n")
+
+
+def write_npz(out: BinaryIO, cells: VoronoiMap, *, threads: int = 0) -> None:
+    """Write the same as 1-D arrays; what belongs to no cell is -1."""
+    arrays: dict[str, NDArray[Any]] = {}
+    for name, members in _lists(cells).items():
+        arrays |= m.arrays_of(PREFIXES[name], members)
+    starts = (cells.ring_start, cells.polygon_start, cells.cell_start)
+    arrays |= {"cell_ring_arcs": cells.ring_arcs}
+    arrays |= {f"cell_{name}": values for name, values in zip(_STARTS, starts, strict=True)}
+    arrays |= d.polygon_arrays(cells.polygons) | {"polygon_site": cells.polygon_site}
+    sites = d.described_rows(len(cells), cells.ids, cells.properties)
+    write_arrays(out, arrays | d.about_array(_head(cells), cells.polygons, sites=sites), threads=threads)
+
+
+def _head(cells: VoronoiMap) -> dict[str, Any]:
+    own: dict[str, Any] = {"frame": list(cells.frame)}
+    own |= {} if cells.max_distance is None else {"max_distance": cells.max_distance}
+    own |= {name: _document(getattr(cells, name)) for name in _CUTS if getattr(cells, name) is not None}
+    return d.head_of(TYPE, own, cells.polygons)
+
+
+def _document(polygons: PolygonSet) -> dict[str, Any]:
+    """Polygons as the JSON that would hold them."""
+    import orjson
+
+    out = io.BytesIO()
+    out.write(b"{")
+    assert polygons.feature is not None
+    write_items(out, polygons, {"feature": polygons.feature.tolist()})
+    out.write(b"}")
+    items: dict[str, Any] = orjson.loads(out.getvalue())
+    head = d.head_of(TYPE, {}, polygons)
+    return {name: value for name, value in head.items() if name not in ("type", "version")} | items
+
+
+def _lists(cells: VoronoiMap) -> dict[str, list[m.Member]]:
+    return {
+        "vertices": [*map(m.numbers, "xy", cells.vertices.T), m.numbers("r", cells.radius)],
+        "arcs": [
+            *map(m.indices, ("source", "target"), cells.arcs.T),
+            m.choices("kind", KINDS, kinds_of(cells)),
+            m.places("control", cells.control, cells.is_parabola),
+            m.places("center", cells.center, cells.is_circle),
+            m.index_pairs("sites", cells.sites, _SIDES, none_of=len(cells)),
+            m.truths("cut", cells.is_cut),
+        ],
+    }
+
+
+def _write_cells(out: BinaryIO, cells: VoronoiMap, threads: int) -> None:
+    """Write the rings: before each arc there is a comma, the end of a ring, or the beginning of a cell."""
+    out.write(b',\n"cells":[\n' if len(cells) else b',\n"cells":[')
+    texts = [",", "],["]
+    token = np.zeros(len(cells.ring_arcs), dtype=np.int32)
+    token[cells.ring_start[:-1]] = 1
+    empty, before = '{"rings":[],"shells":[]}', ""
+    full = np.flatnonzero(cells.components)
+    place = 0
+    for cell in full.tolist():
+        before += f"{empty},\n" * (cell - place)
+        shells = cells.polygon_start[cells.cell_start[cell] : cells.cell_start[cell + 1]]
+        first = int(shells[0])
+        token[cells.ring_start[first]] = len(texts)
+        texts.append(f'{before}{{"shells":{json_text((shells - first).tolist())},"rings":[[')
+        place, before = cell + 1, "]]},\n"
+    write_rows(
+        out,
+        [Column("", Lookup(texts, token)), Column("", cells.ring_arcs.astype(np.int64))],
+        RowShape(("", "", "")),
+        threads=threads,
+    )
+    left = [empty] * (len(cells) - place)
+    out.write(("]]}" * bool(full.size) + ",\n" * bool(full.size and left) + ",\n".join(left)).encode())
+    out.write(b"\n]" if len(cells) else b"]")
+
+
+# ---- reading -------------------------------------------------------------------------------------
+def read_voronoi(source: Source, options: ReadOptions) -> VoronoiMap:
+    """Read a Voronoi map that was written as JSON."""
+    rows = d.opened_document(source, TYPE, NOUN)
+    with d.naming_values(rows.name):
+        items = rows.list_of("polygons")
+        polygons = _whole(rows, options)
+        site = rows.indices("polygons", "site", len(rows.list_of("sites")))
+        made = _map(rows, replace(polygons, feature=rows.indices("polygons", "feature", _MOST)), site, options)
+    assert len(items) == len(polygons)
+    check_map(rows.name, made)
+    return made
+
+
+def read_archive(source: Source, options: ReadOptions) -> VoronoiMap:
+    """Read a Voronoi map that was written as NPZ."""
+    rows = d.opened_archive(source, options, TYPE, NOUN)
+    with d.naming_values(rows.name):
+        site = rows.integers("polygon_site", 0, JsonRows(rows.name, rows.document).count("sites"))
+        made = _map(rows, d.read_polygons(rows, options), site.astype(np.int32), options)
+    check_map(rows.name, made)
+    return made
+
+
+def _map(rows: Rows, polygons: PolygonSet, site: NDArray[np.int32], options: ReadOptions) -> VoronoiMap:
+    d.check_described(rows, "sites")
+    sites = JsonRows(rows.name, rows.document).list_of("sites")
+    ends = [rows.indices("arcs", name, rows.count("vertices")) for name in ("source", "target")]
+    control, center = _curves(rows)
+    cells = _of_arrays(rows) if isinstance(rows, ArrayRows) else _of_cells(JsonRows(rows.name, rows.document))
+    if len(cells["cell_start"]) != len(sites) + 1:
+        count = len(cells["cell_start"]) - 1
+        raise InputError(f"{rows.name}: there are {count} cells, but {len(sites)} sites: write one cell a site")
+    pairs = rows.index_pairs("arcs", "sites", _SIDES, len(sites), optional=True)
+    return VoronoiMap(
+        vertices=np.stack([rows.numbers("vertices", axis) for axis in "xy"], axis=1),
+        radius=rows.numbers("vertices", "r", optional=True),
+        arcs=np.stack(ends, axis=1),
+        sites=np.where(pairs < 0, OUTSIDE, pairs).astype(np.int32),
+        control=control,
+        center=center,
+        is_cut=rows.truths("arcs", "cut"),
+        frame=d.read_frame(rows),
+        polygons=polygons,
+        polygon_site=site,
+        **cells,
+        **_limits(rows, options),
+        **(d.named_rows(sites) if options.properties else {}),
+    )
+
+
+def _whole(rows: JsonRows, options: ReadOptions) -> PolygonSet:
+    """The polygons of a document, all of which have vertices."""
+    made = d.read_polygons(rows, replace(options, note=no_note))
+    if len(made) != rows.count("polygons"):
+        raise InputError(f"{rows.name}: a polygon has no vertices; write each with some")
+    return made
+
+
+def read_sites(source: Source, options: ReadOptions) -> Sites:
+    """Read the sites of a Voronoi map that was written as JSON."""
+    return sites_of_map(read_voronoi(source, replace(options, note=no_note)))
+
+
+def sites_of_map(cells: VoronoiMap) -> Sites:
+    """Return the sites that a map was made of."""
+    ids = None if cells.ids is None else list(cells.ids)
+    return Sites(cells.polygons, cells.polygon_site, len(cells), ids, cells.properties)
+
+
+def _limits(rows: Rows, options: ReadOptions) -> dict[str, Any]:
+    """The limit of distance, and what else than the frame a map was cut by."""
+    limit = rows.document.get("max_distance")
+    if limit is not None and not (is_number(limit) and limit > 0):
+        raise InputError(f"{rows.name}: max_distance is {shortened(limit)}; write a length above 0, or leave it out")
+    made: dict[str, Any] = {"max_distance": None if limit is None else float(limit)}
+    for name in _CUTS:
+        part = rows.document.get(name)
+        if part is not None:
+            made[name] = _cut(f"{rows.name}, {name}", part, options)
+    return made
+
+
+def _cut(name: str, document: Any, options: ReadOptions) -> PolygonSet:
+    if not isinstance(document, dict):
+        raise InputError(f'{name}: {shortened(document)} is no object; write {{"polygons": […]}}')
+    rows = JsonRows(name, document)
+    return replace(_whole(rows, options), feature=rows.indices("polygons", "feature", _MOST))
+
+
+def _curves(rows: Rows) -> list[NDArray[np.float64]]:
+    """Control points of parabolas, and centers of circular arcs."""
+    kind = rows.choices("arcs", "kind", tuple(KINDS))
+    found = []
+    for number, (member, words) in enumerate((("control", "control point"), ("center", "center")), 1):
+        places = rows.pairs("arcs", member, optional=True)
+        unlike = np.flatnonzero(np.isnan(places[:, 0]) == (kind == number))
+        if unlike.size:
+            at = int(unlike[0])
+            what = "[x, y]" if kind[at] == number else "null"
+            raise InputError(f"{rows.name}, arcs {at}: the {words} of a {KINDS[kind[at]]} is {what}")
+        found.append(places)
+    return found
+
+
+def _of_arrays(rows: ArrayRows) -> dict[str, Any]:
+    """Arcs along rings, and where rings, polygons and cells begin."""
+    names = ("ring_start", "polygon_start", "cell_start")
+    starts = {own: rows.integers(f"cell_{name}", 0, _MOST) for own, name in zip(names, _STARTS, strict=True)}
+    return {"ring_arcs": rows.integers("cell_ring_arcs", -_MOST, _MOST).astype(np.int32), **starts}
+
+
+def _of_cells(rows: JsonRows) -> dict[str, Any]:
+    """The same of the rings of each cell."""
+    arcs: list[int] = []
+    sizes: list[int] = []
+    first: list[int] = []
+    polygons: list[int] = []
+    for index, cell in enumerate(rows.list_of("cells")):
+        rings, shells = _rings_of(f"{rows.name}, cells {index}", cell)
+        first.extend(len(sizes) + shell for shell in shells)
+        polygons.append(len(shells))
+        for ring in rings:
+            arcs.extend(ring)
+            sizes.append(len(ring))
+    return {
+        "ring_arcs": np.array(arcs, dtype=np.int32),
+        "ring_start": starts_of(np.array(sizes, dtype=np.int64)),
+        "polygon_start": np.array([*first, len(sizes)], dtype=np.int64),
+        "cell_start": starts_of(np.array(polygons, dtype=np.int64)),
+    }
+
+
+def _rings_of(place: str, cell: Mapping[str, Any]) -> tuple[list[list[int]], list[int]]:
+    rings: Any = cell.get("rings")
+    shells: Any = cell.get("shells")
+    is_right = type(rings) is list and all(type(ring) is list and ring for ring in rings)
+    if not is_right or not all(type(arc) is int and 0 < abs(arc) < 2**31 for ring in rings for arc in ring):
+        raise InputError(f"{place}: rings are {shortened(rings)}; write lists of arcs, counted from 1 or from -1 down")
+    begin = type(shells) is list and all(type(shell) is int for shell in shells)
+    if not begin or shells[:1] != [0][: len(rings)] or shells != sorted({*shells}) or shells[-1:] > [len(rings) - 1]:
+        raise InputError(f"{place}: shells are {shortened(shells)}; number those of the {len(rings)} rings, from 0 up")
+    return rings, shells
