@@ -85,7 +85,8 @@ class PixelGrid:
     @property
     def is_size(self) -> bool:
         """Whether it is a size: dots an inch are for print."""
-        return self.transform is not None or self.unit not in (None, "inch", "deg")
+        is_of_print = self.unit == "inch" and self.form == "tiff"
+        return self.transform is not None or (self.unit not in (None, "deg") and not is_of_print)
 
     @property
     def is_upright(self) -> bool:

@@ -71,10 +71,13 @@ def read_opened(
     The options that come back have lengths in its coordinates.
     """
     from vorotool.geometry.arguments.sites import Sites
+    from vorotool.geometry.input_unit import unit_of
     from vorotool.geometry.points.point_set import PointSet
     from vorotool.geometry.points.raster import Raster
     from vorotool.geometry.polygons.polygon_set import PolygonSet
+    from vorotool.jobs.contradictions import check_image_size, check_unit
     from vorotool.jobs.input_lengths import lengths_of_image, lengths_of_vectors, side_of_pixel
+    from vorotool.jobs.second_files import coordinates_of
 
     wants_unit = (
         wants_unit or bool(measured(o)) or (o.pixel_size is not None and o.pixel_size.is_auto)
@@ -105,12 +108,13 @@ def read_opened(
         run.reads_image = True
         note_other_size(run, o, given, value.values.shape)
         run.pixel = side_of_pixel(value.grid)
+        check_image_size(run, o, given.name, value.grid)
         return lengths_of_image(o, value.grid), value
     if isinstance(o, SiteOptions):
         refuse(o.for_images(), "is for images, but the input is a list of points")
     o = lengths_of_vectors(o, value)
-    from vorotool.jobs.second_files import coordinates_of
-
+    if o.pixel_size is not None and o.pixel_size.unit is not None:
+        check_unit(run, o, given.name, unit_of(value))
     run.coordinates = coordinates_of(o, value)
     if o.pixel_size is not None:
         run.stats |= unit_stats(o.pixel_size)

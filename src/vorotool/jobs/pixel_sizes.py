@@ -38,6 +38,8 @@ def with_pixel_size(run: Run, o: Options, given: JobInput, grid: PixelGrid | Non
         return o
     is_spacing = asked is not None and asked.is_spacing
     if not given.has_units and not is_spacing:
+        if grid is not None and grid.is_size and not grid.is_square and takes_spacing(o):
+            run.note(_note_of_size(given, grid, o))
         return o
     if grid is not None and grid.transform is not None:
         size = _on_map(run, given, grid, o)

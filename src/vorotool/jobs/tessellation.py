@@ -39,6 +39,7 @@ from vorotool.geometry.progress import Progress
 from vorotool.geometry.spacing import SQUARE
 from vorotool.geometry.table import Table
 from vorotool.jobs import animations
+from vorotool.jobs.contradictions import check_image_size
 from vorotool.jobs.input_lengths import lengths_of_image
 from vorotool.jobs.inputs import (
     JobInput,
@@ -88,8 +89,8 @@ def products(run: Run, o: TessellationOptions, given: JobInput) -> Products | St
             if large is None:
                 o, value = read_opened(run, o, given, source, columns=o.columns, properties=with_columns)
         if large is not None:
-            o = lengths_of_image(o, large.grid)
-            o = with_pixel_size(run, o, given, large.grid) if o.spacing is not None else o
+            check_image_size(run, o, given.name, large.grid)
+            o = with_pixel_size(run, lengths_of_image(o, large.grid), given, large.grid)
             return StreamedProducts(run, o, large)
         if o.cell_size is not None and not isinstance(value, Raster):
             o, seeds = seeds_on_map(run, o, value)

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from vorotool.geometry.length_units import ratio
 from vorotool.geometry.numbers import shown_number
 
 LARGEST_XML = 2**25
@@ -43,6 +44,17 @@ def ome_sizes(text: str) -> tuple[Fraction, Fraction, str] | None:
     return found.pop() if parse_ome(text, start) and len(found) == 1 else None
 
 
+def states_one_side(text: str) -> str:
+    """Return the name of the one side of a pixel that is stated where the other is not; empty where both are."""
+    found: set[str] = set()
+
+    def start(name: str, attributes: dict[str, str]) -> None:
+        if name == "Pixels":
+            found.update(each for each in _SIZES if each in attributes)
+
+    return found.pop() if parse_ome(text, start) and len(found) == 1 else ""
+
+
 def parse_ome(text: str, start: Callable[[str, dict[str, str]], None]) -> bool:
     """Call a function with the name and the attributes of each element; return whether the text is safe XML."""
     from xml.parsers import expat
@@ -64,12 +76,20 @@ def parse_ome(text: str, start: Callable[[str, dict[str, str]], None]) -> bool:
 
 
 def _sizes_of(attributes: dict[str, str]) -> tuple[Fraction, Fraction, str] | None:
-    """Sides of the pixels of one image."""
-    units = {attributes.get(f"{name}Unit", "µm") for name in _SIZES}
-    sides = [decimal_side(attributes.get(name, "")) for name in _SIZES]
-    if len(units) > 1 or sides[0] is None or sides[1] is None or units & {"pixel", "reference frame"}:
+    """Sides of the pixels of one image, in the unit of the width; one that is not stated is that of a square."""
+    stated = {
+        name: (side, attributes.get(f"{name}Unit", "µm"))
+        for name in _SIZES
+        if (side := decimal_side(attributes.get(name, ""))) is not None
+    }
+    if not stated or any(name in attributes and name not in stated for name in _SIZES):
         return None
-    return sides[0], sides[1], units.pop()
+    either = next(iter(stated.values()))
+    (width, unit), (height, other) = (stated.get(name, either) for name in _SIZES)
+    factor = ratio(other, unit)
+    if factor is None or unit in ("pixel", "reference frame"):
+        return None
+    return width, height * factor, unit
 
 
 def decimal_side(text: str) -> Fraction | None:

@@ -9,7 +9,7 @@ from math import isfinite
 from typing import Any
 
 from vorotool.errors import InputError
-from vorotool.formats.images.ome_xml import ome_sizes
+from vorotool.formats.images.ome_xml import ome_sizes, states_one_side
 from vorotool.geometry.crs import crs_member
 from vorotool.geometry.pixel_grid import GeoKeys, PixelGrid, Transform, map_grid
 
@@ -48,7 +48,11 @@ def grid_of(name: str, file: Any, page: Any) -> PageGrid:
         if crs is None and keys is not None and {GEOGRAPHIC, PROJECTED} & set(_entries(keys)):
             note = f"{name} is in a coordinate reference system without an EPSG code: vectors made of it name none"
         return PageGrid(map_grid(transform, unit=unit, crs=crs, keys=keys), nodata, note)
-    return PageGrid(_ome_grid(file) or _resolution_grid(file, page), nodata, note)
+    ome = _ome_grid(file)
+    one = "" if ome is None else states_one_side(file.pages[0].description)
+    if one:
+        note = f"{name} states {one} alone: its pixels are taken for squares"
+    return PageGrid(ome or _resolution_grid(file, page), nodata, note)
 
 
 def _ome_grid(file: Any) -> PixelGrid | None:

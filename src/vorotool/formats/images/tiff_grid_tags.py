@@ -63,7 +63,7 @@ def grid_tags(
         return {} if None in ratios else {**resolution(ratios, NO_UNIT), "description": description}
     xml = None
     if grid.form == "ome":
-        xml = ome_xml(shape, dtype, grid.width, grid.height, grid.unit or "µm")
+        xml = ome_xml(shape, dtype, grid.width, grid.height, "in" if grid.unit == "inch" else grid.unit or "µm")
     return {**resolution_tags(grid), **({} if xml is None else {"description": xml})}
 
 

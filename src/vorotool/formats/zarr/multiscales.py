@@ -12,6 +12,7 @@ from typing import Any
 
 from vorotool.errors import InputError
 from vorotool.formats.zarr.metadata import read_json, read_metadata
+from vorotool.geometry.length_units import ratio
 from vorotool.geometry.pixel_grid import PixelGrid
 
 VERSION = "0.5"
@@ -130,11 +131,11 @@ def _scale(axes: int, changes: list[dict[str, Any]]) -> tuple[Fraction, ...]:
 def _grid(found: Described) -> PixelGrid | None:
     """Sides of the pixels, if there is a unit."""
     height, width = found.scale[-2:]
-    units = set(found.units[-2:])
-    unit = units.pop() if len(units) == 1 else None
-    if not unit or not all(1e-100 < side < 1e100 for side in (height, width)):
+    other, unit = (str(each) if each else None for each in found.units[-2:])
+    factor = None if unit is None or other is None else ratio(other, unit)
+    if unit is None or factor is None or not all(1e-100 < side < 1e100 for side in (height, width)):
         return None
-    return PixelGrid(width, height, str(unit), "ome")
+    return PixelGrid(width, height * factor, unit, "ome")
 
 
 def write_group(folder: Path, *, grid: PixelGrid | None, name: str, is_labels: bool) -> None:

@@ -23,6 +23,7 @@ from vorotool.geometry.spacing import PixelSides, pixel_sides
 from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
 from vorotool.geometry.volumes.voxel_frame import VoxelFrame
 from vorotool.geometry.volumes.voxel_grid import VoxelGrid
+from vorotool.jobs.contradictions import check_voxel_size
 from vorotool.jobs.input_lengths import lengths_of_voxels
 from vorotool.jobs.inputs import JobInput, refuse, report_no_seeds
 from vorotool.jobs.masks import report_cleaning
@@ -53,6 +54,7 @@ def read_volume_seeds(run: Run, o: TessellationOptions, given: JobInput) -> tupl
         source = open_volume(given.path, input_format=o.input_format)
         if source.note:
             run.note(source.note)
+        check_voxel_size(run, o, given.name, source.grid)
         o = with_voxel_sides(run, lengths_of_voxels(o, source.grid), given, source.grid)
         threshold, invert = _foreground(run, o, source)
         seeds = seeds_of_slabs(

@@ -1,0 +1,113 @@
+"""Sizes that contradict the file, sides in another order, and what OME-TIFFs state: said, and refused with --strict."""
+
+import json
+
+import numpy as np
+import pytest
+import tifffile
+
+MASK = np.zeros((24, 32), np.uint8)
+MASK[3:9, 4:11] = MASK[12:20, 15:30] = 255
+
+
+def ome(path, x=0.325, y=0.325, unit="µm", other=None):
+    sizes = {"PhysicalSizeX": x, "PhysicalSizeY": y, "PhysicalSizeXUnit": unit, "PhysicalSizeYUnit": other or unit}
+    if y is None:
+        del sizes["PhysicalSizeY"], sizes["PhysicalSizeYUnit"]
+    tifffile.imwrite(path, MASK, ome=True, metadata={"axes": "YX", **sizes})
+
+
+@pytest.mark.parametrize(
+    ("sides", "options", "words"),
+    [
+        ((0.325, 0.325), "--pixel-size 0.325mm", "0.325mm contradicts in.tif, which has pixels of 0.325 µm"),
+        ((0.325, 0.325), "--pixel-size 0.65um", "--pixel-size 0.65um contradicts"),
+        ((0.325, 0.5), "--pixel-size 0.325um", "which has pixels of 0.325 x 0.5 µm"),
+        ((0.25, 0.5), "--spacing 0.5,0.25um", "as if its sides were in another order than SX,SY"),
+        ((0.25, 0.5), "--spacing 250,500nm", ""),
+        ((0.325, 0.325), "--pixel-size 0.325um", ""),
+        ((0.325, 0.325), "--pixel-size 325.1nm", ""),
+        ((0.325, 0.325), "--pixel-size 2", ""),
+        ((0.325, 0.325), "--pixel-size auto", ""),
+    ],
+)  # fmt: skip
+@pytest.mark.parametrize("command", ["tessellate --what table", "skeleton-exact --what table", "delaunay --what table"])
+def test_images(run, tmp_path, sides, options, words, command):
+    ome(tmp_path / "in.tif", *sides)
+    call = [*command.split(), "in.tif", *options.split(), "-f", "csv"]
+    done = run(*call, "--stats", "s.json")
+    assert done.code == 0
+    assert ("contradicts" in done.err) == bool(words)
+    assert words in done.err
+    assert len(json.loads((tmp_path / "s.json").read_text())["warnings"]) == bool(words)
+    strict = run(*call, "--strict")
+    assert (strict.code, words in strict.err) == (3 if words else 0, True)
+
+
+def test_volumes(run, tmp_path):
+    sizes = {f"PhysicalSize{axis}": side for axis, side in zip("XYZ", (0.5, 0.5, 2), strict=True)}
+    tifffile.imwrite(tmp_path / "in.tif", np.stack([MASK] * 3), ome=True, metadata={"axes": "ZYX", **sizes})
+    call = ["tessellate", "in.tif", "--volume", "--what", "table", "-f", "csv"]
+    done = run(*call, "--spacing", "2,0.5,0.5um")
+    assert (done.code, "another order than SX,SY,SZ" in done.err) == (0, True)
+    assert run(*call, "--spacing", "2,0.5,0.5um", "--strict").code == 3
+    assert "contradicts" not in run(*call, "--spacing", "0.5,0.5,2um").err
+    assert "contradicts" not in run(*call, "--spacing", "auto").err
+
+
+def test_vectors(run, tmp_path):
+    page = '<svg xmlns="http://www.w3.org/2000/svg" width="9mm" height="9mm"><path d="M1 1h9v20z"/></svg>'
+    (tmp_path / "in.svg").write_text(page)
+    done = run("skeleton-exact", "in.svg", "--pixel-size", "1cm", "--what", "table", "-f", "csv")
+    assert (done.code, "--pixel-size 1cm contradicts in.svg, which has coordinates in mm" in done.err) == (0, True)
+    assert run("skeleton-exact", "in.svg", "--pixel-size", "1cm", "--what", "table", "--strict").code == 3
+    assert "contradicts" not in run("skeleton-exact", "in.svg", "--pixel-size", "0.1cm", "--what", "table").err
+
+
+@pytest.mark.parametrize("what", ["labels", "distance", "table"])
+def test_pixels_that_are_no_squares_are_noted(run, tmp_path, what):
+    ome(tmp_path / "in.tif", 0.25, 0.5)
+    done = run("tessellate", "in.tif", "--what", what, "-o", "o.csv" if what == "table" else "o.tif")
+    assert done.code == 0
+    assert done.err.count("which are no squares: results are in pixels; --spacing auto measures in their sides") == 1
+    done = run(
+        "tessellate", "in.tif", "--what", what, "--spacing", "auto", "-o", "p.csv" if what == "table" else "p.tif"
+    )
+    assert "no squares" not in done.err
+
+
+# ---- OME ----------------------------------------------------------------------------------------
+@pytest.mark.parametrize(
+    ("stated", "sides", "unit"),
+    [
+        ((500, 0.5, "nm", "µm"), (500, 500), "nm"),
+        ((0.5, 750, "µm", "nm"), (0.5, 0.75), "µm"),
+        ((0.001, 0.001, "in"), (0.001, 0.001), "inch"),
+        ((0.5, None), (0.5, 0.5), "µm"),
+    ],
+)
+def test_ome(run, tmp_path, stated, sides, unit):
+    """Mixed units, inches, the width alone; and what is written of it is what was read."""
+    ome(tmp_path / "in.tif", *stated)
+    told = json.loads(run("info", "--json", "in.tif").out)
+    assert (told["pixel_size"], told["unit"]) == ([*map(float, sides)], unit)
+    is_square = sides[0] == sides[1]
+    size = "--pixel-size" if is_square else "--spacing"
+    rows = run("tessellate", "in.tif", "--what", "table", size, "auto", "-q").rows
+    assert sum(float(row["area"]) for row in rows) == pytest.approx(MASK.size * sides[0] * sides[1])
+    assert run("tessellate", "in.tif", "-o", "out.tif", "-q").code == 0
+    again = json.loads(run("info", "--json", "out.tif").out)
+    assert (again["pixel_size"], again["unit"]) == (told["pixel_size"], told["unit"])
+    with tifffile.TiffFile(tmp_path / "out.tif") as file:
+        described = file.pages[0].description
+    assert f'PhysicalSizeXUnit="{"in" if unit == "inch" else unit}"' in described.replace("&#181;", "µ")
+    alone = "states PhysicalSizeX alone: its pixels are taken for squares"
+    assert (alone in run("tessellate", "in.tif", "-o", "out.tif").err) == (stated[1] is None)
+
+
+def test_dots_an_inch_are_still_for_print(run, tmp_path):
+    tifffile.imwrite(tmp_path / "in.tif", MASK, resolution=(300, 300), resolutionunit=2)
+    done = run("tessellate", "in.tif", "--what", "table", "--pixel-size", "auto")
+    assert (done.code, "300 dots an inch" in done.err) == (3, True)
+    done = run("alphashape", "in.tif", "-r", "2mm")
+    assert (done.code, "that of the input is not known" in done.err) == (2, True)
