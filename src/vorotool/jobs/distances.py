@@ -41,6 +41,8 @@ def check_options(o: DistanceOptions, targets: list[Target]) -> None:
     pictures = sorted({target.fmt for target in targets} & set(PICTURES))
     if o.layers is not None and not pictures:
         raise UsageError("--layers is for pictures: use -f svg or -f png, or leave it out")
+    if o.frame is not None and not pictures:
+        raise UsageError("--frame is what pictures show: use -f svg or -f png, or leave it out")
     check_layers(o, PRODUCTS["distance"], targets)
     check_picture_options(o, pictures, layers_of("distance"), png_has_width=True)
 
@@ -57,7 +59,7 @@ class DistanceProducts:
                 b = self._read(other)
             a, b = self._in_one_system((given, a), (other, b))
         self.found = self._measured(a, b)
-        world = world_of_polygons(run, options, _both(a, b))
+        world = world_of_polygons(run, options, _both(a, b), is_cut=False)
         self._styled = partial(styled_page, looks=options.looks, world=world)
 
     def _read(self, given: JobInput) -> PolygonSet:
@@ -111,7 +113,7 @@ class DistanceProducts:
         if target.fmt == "png":
             from vorotool.render.canvas.png import check_picture_size
 
-            check_picture_size(self._drawing().page, self.options.max_pixels)
+            check_picture_size(self._drawing(target).page, self.options.max_pixels)
 
     def verify(self, progress: Progress) -> None:
         """Check the distances, with nothing that they were computed by."""
@@ -123,7 +125,7 @@ class DistanceProducts:
         own = (*inputs, o.other)
         with open_output(target.path, binary=target.is_binary, no_clobber=o.no_clobber, inputs=own) as out:
             if target.fmt in PICTURES:
-                drawing = self._drawing(target.what)
+                drawing = self._drawing(target)
                 write_layers(out, drawing.layers, drawing.page, fmt=target.fmt, threads=o.threads)
                 return
             product = PRODUCTS["distance"][target.what]
@@ -131,14 +133,15 @@ class DistanceProducts:
                 out, self.found, product, target.fmt, precision=o.precision, threads=o.threads, path=target.path
             )
 
-    def _drawing(self, what: str = "distances") -> Drawing:
+    def _drawing(self, target: Target) -> Drawing:
         o = self.options
         shown = self.found
-        if what == "hausdorff":
+        if target.what == "hausdorff":
             shown = replace(shown, smallest=None)
-        elif what == "smallest":
+        elif target.what == "smallest":
             shown = replace(shown, from_a=None, from_b=None)
-        return drawing_of(shown, layers=o.layers, width=o.width or 1000, styled=self._styled)
+        styled = partial(self._styled, fmt=target.fmt)
+        return drawing_of(shown, layers=o.layers, width=o.width or 1000, styled=styled)
 
     def stats(self) -> dict[str, Any]:
         """Counts and sizes."""
@@ -161,4 +164,4 @@ def _both(a: PolygonSet, b: PolygonSet) -> PolygonSet:
     xy = np.concatenate([a.xy, b.xy])
     count = int(len(xy) > 0)
     rings = (np.array([0, len(xy)][: count + 1]), np.full(count, LINE, np.int8), np.zeros(count, np.int32))
-    return PolygonSet(xy, *rings, y_axis=a.y_axis, crs=a.crs, unit=a.unit)
+    return PolygonSet(xy, *rings, y_axis=a.y_axis, crs=a.crs, unit=a.unit, page=a.page, is_drawing=a.is_drawing)

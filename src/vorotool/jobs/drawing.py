@@ -141,6 +141,7 @@ def _of_labels(run: Run, o: DrawingOptions, given: JobInput, image: LabelImage, 
     from vorotool.engines.label_images.regions import region_table
     from vorotool.render.label_images.svg import check_size
 
+    refuse({"frame": o.frame}, "is for shapes, but the input is a label image")
     is_page = fmt == "html"
     check_picture_options(o, [] if is_page else [fmt], LABEL_LAYERS)
     check_column(o.label_by, ())
@@ -205,12 +206,15 @@ def _of_layers(run: Run, o: DrawingOptions, given: JobInput, value: Lined, fmt: 
         run.warn(f"the picture is empty: the input is {kind}, but there are none in it")
     polygons = value if isinstance(value, PolygonSet) else value.polygons
     check_column(o.label_by, (value if isinstance(value, VoronoiMap) else polygons).properties)
+    if o.overlay is not None:
+        refuse({"frame": o.frame}, "is what a picture shows, but one over an image has its size")
+    world = world_of_polygons(run, o, polygons, is_cut=False)
     drawing = drawing_of(
         value,
         layers=o.layers,
         width=o.width or 1000,
         backdrop=_placed(run, o, given, value),
-        styled=partial(styled_page, looks=o.looks, world=world_of_polygons(run, o, polygons)),
+        styled=partial(styled_page, looks=o.looks, world=world, fmt=fmt),
     )
     if fmt == "png":
         check_picture_size(drawing.page, o.max_pixels)

@@ -145,6 +145,7 @@ class DrawingOptions(JobOptions):
     drawing_unit: str | None
     aspect: float | None
     extent: Literal["image", "data"] | None
+    frame: Rectangle | None
     what: tuple[str, ...] = ("picture",)
 
     @property
@@ -294,6 +295,7 @@ class AlphaShapeOptions(SiteOptions):
     drawing_unit: str | None
     aspect: float | None
     extent: Literal["image", "data"] | None
+    frame: Rectangle | None
     method: Method
     r: Fraction | float | None
     alpha: Fraction | None
@@ -396,6 +398,7 @@ class DistanceOptions(ComputingOptions):
     drawing_unit: str | None
     aspect: float | None
     extent: Literal["image", "data"] | None
+    frame: Rectangle | None
 
     @property
     def paper(self) -> Paper:

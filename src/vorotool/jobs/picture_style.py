@@ -160,32 +160,53 @@ def check_layers(looks: Looks, drawn: Sequence[str]) -> None:
                 raise UsageError(f"invalid {option} of {layer!r}: expected a layer of the picture, {', '.join(known)}")
 
 
+Sides = tuple[float, float, float, float]
+"""Least x and y, largest x and y."""
+
+
 class World(NamedTuple):
     """Where what is drawn lies."""
 
     scale_bar: ScaleBar | None = None  # what lengths are written in
     millimetres: Fraction | None = None  # of 1 in the coordinates of the data, for pictures to scale
     aspect: float = 1.0  # px of a unit of y for each of a unit of x
-    frame: tuple[float, float, float, float] | None = None  # of the image that the data come from
+    frame: Sides | None = None  # what is shown instead of the bounds: the image that the data come from, or --frame
+    page: Sides | None = None  # what pictures to scale show instead: --frame, or the page of the drawing
+    is_paper: bool = False  # SVG is 1:1 where nothing else says
 
 
-def styled_page(page: Page, looks: Looks, world: World) -> Page:
+def styled_page(page: Page, looks: Looks, world: World, fmt: str = "svg") -> Page:
     """Give the page of a picture as the options say."""
     from vorotool.render.canvas.layers import MARGIN, Page
-    from vorotool.render.canvas.scaled_page import ScaledPage
 
     if page.backdrop is None:
         frame = None if looks.extent == "data" else world.frame
         bounds = page.bounds if frame is None else frame
         aspect = world.aspect if looks.aspect is None else looks.aspect
-        if looks.scale is not None or looks.drawing_unit is not None:
-            millimetres = _millimetres(looks, world.millimetres)
-            page = ScaledPage(bounds, y_up=page.y_up, millimetres=millimetres)
+        margin = MARGIN if frame is None else 0.0
+        paper = _paper(page.y_up, (bounds, margin), looks, world, fmt)
+        if paper is not None:
+            page = paper
         elif frame is not None or aspect != 1:
-            margin = MARGIN if frame is None else 0.0
             page = Page(bounds, width=page.width, y_up=page.y_up, aspect=aspect, margin=margin)
     page.style = looks.style(world.scale_bar)
     return page
+
+
+def _paper(y_up: bool, shown: tuple[Sides, float], looks: Looks, world: World, fmt: str) -> Page | None:
+    """Return the page of a picture to scale: as the options say, else 1:1 of a drawing that fits a page."""
+    from vorotool.render.canvas.scaled_page import ScaledPage
+
+    is_chosen = looks.scale is not None or looks.drawing_unit is not None
+    if not is_chosen and not (world.is_paper and fmt == "svg"):
+        return None
+    bounds, margin = (world.page, 0.0) if looks.extent != "data" and world.page is not None else shown
+    try:
+        return ScaledPage(bounds, y_up=y_up, millimetres=_millimetres(looks, world.millimetres), margin=margin)
+    except UsageError:
+        if is_chosen:
+            raise
+    return None
 
 
 def color_code(text: str) -> str | None:

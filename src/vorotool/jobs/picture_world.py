@@ -10,7 +10,7 @@ from vorotool.errors import UsageError
 from vorotool.geometry.crs import is_geographic
 from vorotool.geometry.input_unit import InputUnit, unit_of_crs
 from vorotool.geometry.length_units import ratio, unit_name
-from vorotool.jobs.picture_style import Looks, World
+from vorotool.jobs.picture_style import Looks, Sides, World
 
 if TYPE_CHECKING:
     import numpy as np
@@ -40,6 +40,7 @@ def world_of(
     bounds: tuple[float, float, float, float] | None = None,
     frame: Box | None = None,
     size: PixelSize | None = None,
+    is_paper: bool = False,
 ) -> World:
     """Tell where what is drawn lies; a frame is that of an image."""
     is_angular = is_geographic(crs) and frame is None
@@ -52,9 +53,10 @@ def world_of(
         else:
             bar = _scale_bar(crs, unit, size, is_image=frame is not None)
     scale = looks.scale
-    wants_unit = scale is not None and scale.is_ratio and looks.drawing_unit is None
+    wants_unit = is_paper if scale is None else scale.is_ratio and looks.drawing_unit is None
     millimetres = _millimetres(crs, unit, size, run, is_image=frame is not None) if wants_unit else None
-    return World(bar, millimetres, aspect, None if frame is None else frame.sides)
+    is_paper &= looks.aspect is None and millimetres is not None
+    return World(bar, millimetres, aspect, None if frame is None else frame.sides, is_paper=is_paper)
 
 
 def world_of_sites(run: Run, o: SiteOptions, mesh: AnyTriangulation, sites: PointSet | SeedSet) -> World:
@@ -65,16 +67,52 @@ def world_of_sites(run: Run, o: SiteOptions, mesh: AnyTriangulation, sites: Poin
     if isinstance(sites, SeedSet) and sites.frame is not None:
         sides = None if o.pixel_size is None else o.pixel_size.sides
         frame = sites.frame.box if sides is None else sites.frame.box.stretched(sides.x, sides.y)
-    return world_of(run, o.looks, crs=mesh.crs, bounds=_bounds_of(mesh.points), frame=frame, size=o.pixel_size)
+    made = world_of(run, o.looks, crs=mesh.crs, bounds=_bounds_of(mesh.points), frame=frame, size=o.pixel_size)
+    asked = _asked(o)
+    return made if asked is None else made._replace(frame=asked, page=asked)
 
 
-def world_of_polygons(run: Run, o: JobOptions, polygons: PolygonSet, *, size: PixelSize | None = None) -> World:
-    """Tell where polygons and lines lie, or outlines of an image."""
-    sides = _bounds_of(polygons.xy)
-    return world_of(run, o.looks, crs=polygons.crs, unit=polygons.unit, bounds=sides, frame=polygons.frame, size=size)
+def world_of_polygons(
+    run: Run, o: JobOptions, polygons: PolygonSet, *, size: PixelSize | None = None, is_cut: bool = True
+) -> World:
+    """Tell where polygons and lines lie, or outlines of an image; `is_cut` if ``--frame`` cuts what is drawn."""
+    made = _world_of_set(run, o.looks, polygons, size=size, is_paper=o.width is None)
+    asked = _asked(o)
+    return made if asked is None else made._replace(frame=None if is_cut else asked, page=asked)
 
 
-def world_of_value(value: Any, looks: Looks) -> World:
+def _world_of_set(
+    run: Run | None,
+    looks: Looks,
+    polygons: PolygonSet,
+    *,
+    is_paper: bool,
+    bounds: Sides | None = None,
+    size: PixelSize | None = None,
+) -> World:
+    made = world_of(
+        run,
+        looks,
+        crs=polygons.crs,
+        unit=polygons.unit,
+        bounds=bounds or _bounds_of(polygons.xy),
+        frame=polygons.frame,
+        size=size,
+        is_paper=is_paper and polygons.is_drawing,
+    )
+    return made if polygons.page is None else made._replace(page=polygons.page.sides)
+
+
+def _asked(o: JobOptions) -> Sides | None:
+    """Return the sides of ``--frame``, if the command has it."""
+    frame: tuple[float, float, float, float] | None = getattr(o, "frame", None)
+    if frame is None:
+        return None
+    x, y, width, height = frame
+    return (x, y, x + width, y + height)
+
+
+def world_of_value(value: Any, looks: Looks, *, is_paper: bool = False) -> World:
     """Tell where a value of the library lies, and refuse a column that it has not."""
     from vorotool.geometry.mesh.cells import CellSet
     from vorotool.geometry.polygons.polygon_set import PolygonSet
@@ -83,11 +121,12 @@ def world_of_value(value: Any, looks: Looks) -> World:
     if isinstance(value, VoronoiMap):
         check_column(looks.label_by, value.properties, "label_by")
         x, y, w, h = value.frame
-        return world_of(None, looks, crs=value.crs, unit=value.polygons.unit, bounds=(x, y, x + w, y + h))
+        made = _world_of_set(None, looks, value.polygons, is_paper=is_paper, bounds=(x, y, x + w, y + h))
+        return made._replace(frame=None)
     inner = _input_of(value)
     check_column(looks.label_by, inner.properties, "label_by")
     if isinstance(inner, PolygonSet):
-        return world_of(None, looks, crs=inner.crs, unit=inner.unit, bounds=_bounds_of(inner.xy))
+        return _world_of_set(None, looks, inner, is_paper=is_paper)._replace(frame=None)
     points = inner.sites if isinstance(inner, CellSet) else inner.points
     return world_of(None, looks, crs=inner.crs, bounds=_bounds_of(points))
 

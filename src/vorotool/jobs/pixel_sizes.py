@@ -9,7 +9,13 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from vorotool.errors import InputError, Kind, Message, UsageError
 from vorotool.jobs.inputs import JobInput
-from vorotool.jobs.options import ComputingOptions, ShapeOptions, SkeletonOptions, TriangulationOptions
+from vorotool.jobs.options import (
+    AlphaShapeOptions,
+    ComputingOptions,
+    ShapeOptions,
+    SkeletonOptions,
+    TriangulationOptions,
+)
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.units import (
     PixelSize,
@@ -125,7 +131,7 @@ def _mirrored_places(o: Options) -> Options:
     """Options of places and frames, which are given in pixels with y downwards."""
     if o.pixel_size is None or not o.pixel_size.y_up:
         return o
-    if isinstance(o, ShapeOptions | TriangulationOptions) and o.frame is not None:
+    if isinstance(o, ShapeOptions | TriangulationOptions | AlphaShapeOptions) and o.frame is not None:
         x, y, width, height = o.frame
         o = replace(o, frame=(x, -(y + height), width, height))
     if isinstance(o, SkeletonOptions):

@@ -43,7 +43,7 @@ def check_options(o: SkeletonOptions, targets: list[Target]) -> None:
     if isinstance(o, ExactSkeletonOptions):
         _check_exact(o, targets)
     if o.frame is not None and o.side == "interior" and "diagram" not in o.what:
-        raise UsageError("--frame cuts what is outside: use --side exterior or both, or leave it out")
+        _check_page(o, formats)
     if o.frame is not None:
         check_frame(o.frame)
     _check_centerline(o)
@@ -59,6 +59,15 @@ def check_options(o: SkeletonOptions, targets: list[Target]) -> None:
         layers_of(_command(o)),
         png_has_width=True,
     )
+
+
+def _check_page(o: SkeletonOptions, formats: set[str]) -> None:
+    """Refuse a frame that neither cuts anything nor is the page of a picture."""
+    if o.overlay is not None or not formats & set(PICTURES):
+        raise UsageError(
+            "--frame cuts what is outside, and is the page of pictures: use --side exterior or both, -f svg or -f png, "
+            "or leave it out"
+        )
 
 
 def _check_exact(o: ExactSkeletonOptions, targets: list[Target]) -> None:

@@ -192,7 +192,7 @@ class MeshProducts:
         bounds = None
         if {"cells", "diagram"} & set(self._layers(what)):
             bounds = self.cells.frame.sides
-            world = world if bounds == world.frame else world._replace(frame=None)
+            world = world if bounds == world.frame and self.options.frame is None else world._replace(frame=None)
         page = mesh_page(self.mesh, width=self.options.width or 1000, bounds=bounds)
         return styled_page(page, looks, world)
 

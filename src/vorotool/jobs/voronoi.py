@@ -92,7 +92,7 @@ class VoronoiProducts:
         if target.fmt == "png":
             from vorotool.render.canvas.png import check_picture_size
 
-            check_picture_size(self._drawing(target.what).page, self.options.max_pixels)
+            check_picture_size(self._drawing(target).page, self.options.max_pixels)
         if target.fmt == "html":
             from vorotool.render.pages.cells_html import check_html_size
 
@@ -118,7 +118,7 @@ class VoronoiProducts:
         o = self.options
         with open_output(target.path, binary=target.is_binary, no_clobber=o.no_clobber, inputs=inputs) as out:
             if target.fmt in PICTURES:
-                drawing = self._drawing(target.what)
+                drawing = self._drawing(target)
                 write_layers(out, drawing.layers, drawing.page, fmt=target.fmt, threads=o.threads)
             elif target.fmt == "html":
                 self._write_page(out)
@@ -147,15 +147,15 @@ class VoronoiProducts:
         columns = {name: column for name, column in cells.table.items() if name not in ("label", "id")}
         write_cells_html(out, shapes, map_colors(cells), columns | unit_columns(self.options.pixel_size, len(cells)))
 
-    def _drawing(self, what: str) -> Drawing:
+    def _drawing(self, target: Target) -> Drawing:
         o = self.options
         return drawing_of(
-            self._value(what),
-            what=what,
+            self._value(target.what),
+            what=target.what,
             layers=o.layers,
             width=o.width or 1000,
             backdrop=self.backdrop,
-            styled=self._styled,
+            styled=partial(self._styled, fmt=target.fmt),
         )
 
     def stats(self) -> dict[str, Any]:

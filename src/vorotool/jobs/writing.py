@@ -250,12 +250,13 @@ def _draw(value: Any, wanted: _Picture) -> None:
     if is_of(value, "RegionPersistence"):
         _draw_plot(value, wanted)
         return
+    world = world_of_value(value, wanted.looks, is_paper=wanted.width is None)
     drawing = drawing_of(
         value,
         what=wanted.what,
         layers=wanted.layers,
         width=wanted.width or 1000,
-        styled=partial(styled_page, looks=wanted.looks, world=world_of_value(value, wanted.looks)),
+        styled=partial(styled_page, looks=wanted.looks, world=world, fmt=wanted.fmt),
     )
     check_layers(wanted.looks, [layer.name for layer in drawing.layers])
     if wanted.fmt == "png":

@@ -118,8 +118,8 @@ def position(*shape: Axis, default: Any = MISSING, kw_only: bool = False) -> Any
     return _field(Meaning.POSITION, shape, np.float64, default, kw_only=kw_only)
 
 
-def input_frame() -> Any:
-    """Declare the box of an image that a value is made of, which `==` does not look at; other inputs have none."""
+def input_box() -> Any:
+    """Declare the box of the image or the page that a value comes from, which `==` does not look at; or None."""
     return _field(Meaning.POSITION, (), None, None, compare=False)
 
 

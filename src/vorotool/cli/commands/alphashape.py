@@ -12,7 +12,7 @@ from vorotool.cli.options.areas import Area
 from vorotool.cli.options.groups import site_options
 from vorotool.cli.options.help_page import GroupedCommand
 from vorotool.cli.options.lengths import Radius
-from vorotool.cli.options.picture_style import animation_options
+from vorotool.cli.options.picture_style import animation_options, page_option
 from vorotool.cli.options.shared import (
     Decimal,
     Names,
@@ -74,6 +74,7 @@ OF_DIGITAL_RULE = frozenset({"edges", "complex", "family", "spectrum"})
     help="How points are triangulated, as in delaunay.",
 )
 @site_options(all_layers("alphashape"))
+@page_option()
 @animation_options("shapes whose r grows to that of the shape")
 def command(**options: Any) -> None:
     """Find the alpha shape of points: edges that an empty disc of radius r touches at both ends, and what they bound.
@@ -126,6 +127,8 @@ def _check_options(o: AlphaShapeOptions, targets: list[Target]) -> None:
         raise UsageError("--layers is for pictures of a shape: use -f svg or -f png, or leave it out")
     if o.overlay is not None and not pictures:
         raise UsageError("--overlay is for pictures of a shape: use -f svg or -f png, or leave it out")
+    if o.frame is not None and (o.overlay is not None or not pictures):
+        raise UsageError("--frame is what pictures of a shape show: use -f svg or -f png, or leave it out")
     plots = ["svg"] if any(target.what in PLOTS and target.fmt == "svg" for target in targets) else []
     check_picture_options(o, pictures or plots, layers_of("alphashape"), png_has_width=True)
 

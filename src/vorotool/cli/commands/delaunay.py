@@ -103,7 +103,8 @@ def _check_options(o: TriangulationOptions, targets: list[Target]) -> None:
     formats = {target.fmt for target in targets}
     with_cells = {"cells", "diagram"} & set(o.layers or ()) or set(OF_CELLS) & set(o.what)
     for name, given in (("frame", o.frame), ("clip", o.clip)):
-        if given is not None and not with_cells:
+        is_page = name == "frame" and o.overlay is None and formats & set(PICTURES)
+        if given is not None and not with_cells and not is_page:
             raise UsageError(f"--{name} is for cells: use --what cells or table, or leave it out")
     check_precision(o, FORMATS, targets)
     pictures = sorted(formats & set(PICTURES))

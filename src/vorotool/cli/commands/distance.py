@@ -8,7 +8,7 @@ import click
 
 from vorotool.cli.batch.dispatch import refuse_several, run_command
 from vorotool.cli.options.help_page import GroupedCommand
-from vorotool.cli.options.picture_style import picture_style_options
+from vorotool.cli.options.picture_style import page_option, picture_style_options
 from vorotool.cli.options.shared import layers_option, output_options, shared, what_option
 from vorotool.cli.options.suggestions import files
 from vorotool.jobs.inputs import JobInput
@@ -35,6 +35,7 @@ FORMATS = formats_of("distance")
 @layers_option(all_layers("distance"))
 @shared("width", "y-up")
 @picture_style_options()
+@page_option()
 @shared(
     *("threads", "stats", "verify", "strict", "decimals", "precision", "max-pixels", "max-sites", "no-clobber"),
     *("overwrite", "quiet", "verbose"),

@@ -8,7 +8,7 @@ import click
 
 from vorotool.cli.batch.dispatch import run_command
 from vorotool.cli.options.help_page import GroupedCommand
-from vorotool.cli.options.picture_style import picture_style_options
+from vorotool.cli.options.picture_style import page_option, picture_style_options
 from vorotool.cli.options.shared import batch_options, inputs_argument, layers_option, output_options, shared
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.job import Recipe
@@ -31,6 +31,7 @@ FORMATS = formats_of("draw")
 @layers_option(all_layers("draw"))
 @shared("overlay", "width", "y-up")
 @picture_style_options()
+@page_option()
 @shared("out-dir", "threads", "stats", "max-pixels")
 @batch_options(table=False)
 @shared("no-clobber", "overwrite", "quiet", "verbose")

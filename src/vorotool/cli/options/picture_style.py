@@ -9,7 +9,7 @@ from typing import Any
 import click
 
 from vorotool.cli.options.parameter_types import ParameterType
-from vorotool.cli.options.shared import Decorator, in_our_spelling, together
+from vorotool.cli.options.shared import Decorator, Rectangle, in_our_spelling, together
 from vorotool.cli.options.suggestions import words
 from vorotool.jobs.picture_style import DRAWING_UNITS, Scale, color_code
 
@@ -110,6 +110,15 @@ class Aspect(ParameterType[float]):
                 f"{value!r}: expected a number from {LEAST_ASPECT:g} to {1 / LEAST_ASPECT:g}, such as 1", param, ctx
             )
         return number
+
+
+def page_option() -> Decorator:
+    """Add ``--frame`` where it cuts nothing."""
+    return click.option(
+        "--frame",
+        type=Rectangle(),
+        help="What pictures show, and the page of SVG to scale; by default all there is, or the page of an SVG input.",
+    )
 
 
 def picture_style_options(*, has_scale: bool = True) -> Decorator:

@@ -54,6 +54,8 @@ def repaired_polygons(graph: PlanarGraph) -> RepairedPolygons:
         unit=given.unit,
         index=index_of_rows(given.index, source),
         frame=given.frame,
+        page=given.page,
+        is_drawing=given.is_drawing,
     )
     if graph.largest_move:
         polygons = polygons.moved(graph.coordinates()[rings.point])

@@ -314,6 +314,8 @@ def _assembled(skeleton: Skeleton, rings: list[Ring]) -> PolygonSet:
         {name: [values[p] for p in own] for name, values in given.properties.items()},
         y_axis=given.y_axis,
         unit=given.unit,
+        page=given.page,
+        is_drawing=given.is_drawing,
         crs=given.crs,
         index=index_of_rows(given.index, polygon[order[~is_hole]]),
     )

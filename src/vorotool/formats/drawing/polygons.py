@@ -14,6 +14,7 @@ from vorotool.errors import InputError
 from vorotool.formats.drawing.curves import Curve
 from vorotool.formats.drawing.fill_rules import filled_polygons, nested_polygons
 from vorotool.formats.parsing.reader_options import ReadOptions
+from vorotool.geometry.box import Box
 from vorotool.geometry.length_units import ratio
 from vorotool.geometry.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet, set_of_rings
 from vorotool.types.axis import DOWN, YAxis
@@ -41,6 +42,7 @@ def shapes_to_polygons(
     options: ReadOptions,
     *,
     unit: str | None = None,
+    page: Box | None = None,
     y_axis: YAxis = DOWN,
     properties: dict[str, list[Any]] | None = None,
 ) -> PolygonSet:
@@ -65,6 +67,8 @@ def shapes_to_polygons(
         properties={key: [values[k] for k in owner] for key, values in columns.items()},
         y_axis=y_axis,
         unit=unit,
+        page=page,
+        is_drawing=True,
     )
     if collected.outlines:
         options.note(f"{name}: {collected.outlines} closed lines without a fill are read as polygons")

@@ -26,6 +26,7 @@ from vorotool.formats.drawing.svg_styles import Style
 from vorotool.formats.drawing.xml_tree import Element
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions
+from vorotool.geometry.box import Box
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 
 _INKSCAPE = "http://www.inkscape.org/namespaces/inkscape}"
@@ -46,7 +47,7 @@ def read_svg(source: Source, options: ReadOptions) -> PolygonSet:
         options.note(f"{source.name}: {reader.unpainted} shapes without fill and stroke are left out")
     document.note_styles(options.note)
     layers = {"layer": reader.layers} if any(layer is not None for layer in reader.layers) else None
-    return shapes_to_polygons(source.name, reader.shapes, options, unit=page.unit, properties=layers)
+    return shapes_to_polygons(source.name, reader.shapes, options, unit=page.unit, page=page.box, properties=layers)
 
 
 def _unpacked(source: Source) -> bytes:
@@ -64,11 +65,12 @@ def _unpacked(source: Source) -> bytes:
 
 # ---- the page --------------------------------------------------------------------------------------
 class _Page(NamedTuple):
-    """The map to the coordinates that are read, their unit, and what percentages are of."""
+    """The map to the coordinates that are read, their unit, what percentages are of, and what is seen."""
 
     map: Affine
     unit: str | None
     viewport: Viewport
+    box: Box | None
 
 
 def _page(document: Document) -> _Page:
@@ -79,11 +81,12 @@ def _page(document: Document) -> _Page:
     if box is not None and (not box[2] or not box[3]):
         raise InputError(f"{place}: the viewBox is empty, so that nothing is shown; give it a width and a height")
     sizes = {name: _size(root, name, place) for name in ("width", "height")}
-    own = Viewport(*(box[2:] if box else (size or 0.0 for size, _ in sizes.values())))
+    x, y, across, down = box or (0.0, 0.0, *((size or 0.0) / PX for size, _ in sizes.values()))
+    own, seen = Viewport(across, down), _box(x, y, across, down)
     if not any(is_physical for _, is_physical in sizes.values()):
-        return _Page(Affine(), None, own)
+        return _Page(Affine(), None, own, seen)
     if box is None:
-        return _Page(Affine(PX, 0.0, 0.0, PX), "mm", own)
+        return _Page(Affine(PX, 0.0, 0.0, PX), "mm", own, seen and seen.stretched(PX, PX))
     width, height = (sizes[name][0] for name in ("width", "height"))
     if width is None and height is not None:
         width = height * box[2] / box[3]
@@ -94,7 +97,13 @@ def _page(document: Document) -> _Page:
     if not width > 0 or not height > 0:
         raise InputError(f"{place}: the drawing is {width:g} mm by {height:g} mm; give it a width and a height")
     viewport = Viewport(width, height)
-    return _Page(fitted(box, viewport, root.attributes.get("preserveAspectRatio", "")), "mm", own)
+    by = fitted(box, viewport, root.attributes.get("preserveAspectRatio", ""))
+    return _Page(by, "mm", own, _box(0.0, 0.0, width, height))
+
+
+def _box(x: float, y: float, width: float, height: float) -> Box | None:
+    """Return the page, if it has a size."""
+    return Box.of_size(x, y, width, height) if width > 0 and height > 0 else None
 
 
 def _size(root: Element, name: str, place: str) -> tuple[float | None, bool]:

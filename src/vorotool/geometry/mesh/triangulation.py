@@ -99,7 +99,7 @@ class Triangulation(Value, Tabular, WithParts, Graph, Pictured):
     crs: Any = None
     first_number: int = 1
     index: Any = None
-    frame: Box | None = f.input_frame()
+    frame: Box | None = f.input_box()
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -67,7 +67,7 @@ class PointSet(Value, Tabular, Geometric, Pictured):
     crs: Any = None
     first_number: int = 1
     index: Any = None
-    frame: Box | None = f.input_frame()
+    frame: Box | None = f.input_box()
     unit: str | None = None
 
     def __post_init__(self) -> None:

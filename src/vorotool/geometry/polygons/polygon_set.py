@@ -64,6 +64,10 @@ class PolygonSet(Value, Tabular, Geometric, Pictured):
     frame : Box, optional
         The rectangle covered by the pixels of the image that the outlines come from: the default frame of what is made
         of them.
+    page : Box, optional
+        The page of the drawing that the polygons come from, in its coordinates.
+    is_drawing : bool
+        Whether they come from a drawing, whose pictures are 1:1 by default.
 
     Raises
     ------
@@ -90,7 +94,9 @@ class PolygonSet(Value, Tabular, Geometric, Pictured):
     connectivity: int | None = None
     unit: str | None = None
     index: Any = None
-    frame: Box | None = f.input_frame()
+    frame: Box | None = f.input_box()
+    page: Box | None = f.input_box()
+    is_drawing: bool = field(default=False, compare=False)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "xy", coordinate_rows(self.xy, "vertex"))

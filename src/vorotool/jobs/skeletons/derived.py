@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
+from functools import partial
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 from vorotool.geometry.progress import Progress
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
 class Derived:
     """Results that are made when they are asked for."""
 
-    def __init__(self, origin: Origin, backdrop: Backdrop | None, styled: Callable[[Page], Page]) -> None:
+    def __init__(self, origin: Origin, backdrop: Backdrop | None, styled: Callable[..., Page]) -> None:
         self.origin, self.backdrop, self._styled = origin, backdrop, styled
         self.options = origin.options
         self._made: dict[str, Result] = {}
@@ -48,12 +49,12 @@ class Derived:
         if self.result(target.what).draws_itself:
             return
         if picture_format(target.fmt) == "png":
-            page = self._drawing(target.what).page
+            page = self._drawing(target.what, "png").page
             check_picture_size(page, self.options.max_pixels)
             if target.fmt in ANIMATIONS:
                 check_size(self.origin.exact_options, (page.height, page.width))
 
-    def _drawing(self, what: str, value: Any = None, styled: Callable[[Page], Page] | None = None) -> Drawing:
+    def _drawing(self, what: str, fmt: str, value: Any = None, page: Page | None = None) -> Drawing:
         o = self.options
         return drawing_of(
             self.value(what) if value is None else value,
@@ -61,7 +62,7 @@ class Derived:
             layers=o.layers,
             width=o.width or 1000,
             backdrop=self.backdrop,
-            styled=styled or self._styled,
+            styled=partial(self._styled, fmt=fmt) if page is None else lambda _: page,
         )
 
     def write_picture(self, out: BinaryIO, target: Target) -> None:
@@ -72,19 +73,19 @@ class Derived:
         if self.result(target.what).draws_itself:
             self.result(target.what).draw(out, target, self._styled)
             return
-        drawing = self._drawing(target.what)
+        drawing = self._drawing(target.what, target.fmt)
         write_layers(out, drawing.layers, drawing.page, fmt=target.fmt, threads=self.options.threads)
 
     def _write_animation(self, out: BinaryIO, fmt: str) -> None:
         """Offset curves whose distances grow from nothing, on the page of the last ones."""
         from vorotool.engines.offsets.offsets import offset
 
-        shapes, o, page = self.origin.shapes(), self.origin.exact_options, self._drawing("offset").page
+        shapes, o, page = self.origin.shapes(), self.origin.exact_options, self._drawing("offset", "png").page
 
         def draw(part: Fraction) -> NDArray[np.uint8]:
             distances = [float(distance * part) for distance in map(Fraction, o.distance or ())]
             made = offset(shapes, distances, features=o.features, strict=o.strict, threads=o.threads)
-            return layer_pixels(self._drawing("offset", made, lambda _: page).layers, page)
+            return layer_pixels(self._drawing("offset", "png", made, page).layers, page)
 
         write_frames(out, self.origin.run, o, fmt, parts_of_whole(o), draw)
 

@@ -56,7 +56,8 @@ class SkeletonProducts(ABC, Generic[Options]):
         self.options, self.backdrop = options, placed_backdrop(run, options, given.backdrop)
         self._is_told = False  # what was repaired, once
         check_column(options.label_by, self._polygons.properties)
-        world = world_of_polygons(run, options, self._polygons, size=options.pixel_size)
+        is_cut = options.side != "interior" or "diagram" in options.what
+        world = world_of_polygons(run, options, self._polygons, size=options.pixel_size, is_cut=is_cut)
         self._styled = partial(styled_page, looks=options.looks, world=world)
         made = (lambda: self.skeleton), (lambda: self.whole), (lambda: self.centerlines), self._shapes
         origin = Origin(run, options, *made, frame, grid)
@@ -203,7 +204,7 @@ class SkeletonProducts(ABC, Generic[Options]):
         if target.fmt == "png":
             from vorotool.render.canvas.png import check_picture_size
 
-            check_picture_size(self._page(value), self.options.max_pixels)
+            check_picture_size(self._page(value, target.fmt), self.options.max_pixels)
         if target.fmt == "html":
             from vorotool.render.pages.skeleton_html import check_html_size
 
@@ -270,21 +271,21 @@ class SkeletonProducts(ABC, Generic[Options]):
             shown = (criterion, length_in_units(self.options.pixel_size, threshold) if is_length else threshold)
         write_skeleton_html(out, whole, values, arc_profiles(whole), shown=shown)
 
-    def _page(self, value: Skeleton) -> Page:
+    def _page(self, value: Skeleton, fmt: str) -> Page:
         from vorotool.render.canvas.layers import ImagePage
         from vorotool.render.layers.skeleton import skeleton_page
 
         if self.backdrop is not None:
             return self._styled(ImagePage(self.backdrop))
         page = skeleton_page(value, width=self.options.width or 1000)
-        return self._styled(page)
+        return self._styled(page, fmt=fmt)
 
     def _write_picture(self, out: BinaryIO, target: Target) -> None:
         from vorotool.render.layers.lines_along import line_layers
         from vorotool.render.layers.skeleton import picture_layers
 
         value = self._value(target.what)
-        page, wanted = self._page(value), self._layers(target.what)
+        page, wanted = self._page(value, target.fmt), self._layers(target.what)
         lines = self.lines.value(target.what) if target.what in LINES else value
         is_path = target.what == "centerline"
         exact = self.exact if "exact" in wanted and not is_path else None

@@ -68,6 +68,6 @@ class Result(ABC):
         """Counts of it."""
         return {}
 
-    def draw(self, out: BinaryIO, target: Target, styled: Callable[[Page], Page]) -> None:
+    def draw(self, out: BinaryIO, target: Target, styled: Callable[..., Page]) -> None:
         """Draw what draws itself, on a page that is styled as the options say."""
         raise NotImplementedError

@@ -27,13 +27,15 @@ class ScaledPage(Page):
 
     decimals = 4
 
-    def __init__(self, bounds: tuple[float, float, float, float], *, y_up: bool, millimetres: float) -> None:
+    def __init__(
+        self, bounds: tuple[float, float, float, float], *, y_up: bool, millimetres: float, margin: float = MARGIN
+    ) -> None:
         super().__init__(bounds, width=1000, y_up=y_up)
         low, high = np.ldexp(np.array(bounds, dtype=np.float64), -self._exponent).reshape(2, 2)
         span = high - low
         with np.errstate(over="ignore", under="ignore"):
             scale = float(np.ldexp(millimetres, self._exponent))
-            sides = [float(side) for side in (span + 2 * MARGIN * (span.max() or 1.0)) * scale]
+            sides = [float(side) for side in (span + 2 * margin * (span.max() or 1.0)) * scale]
         if not (isfinite(scale) and min(sides) > 0 and LEAST <= max(sides) <= LARGEST):
             raise UsageError(
                 f"the page would be {sides[0]:.3g} mm by {sides[1]:.3g} mm: choose another {option('--scale')}, from "
