@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.errors import UsageError, option
+from vorotool.geometry.named_columns import chosen_column
 from vorotool.geometry.points.point_set import LABEL, labels_of
 from vorotool.geometry.table import Lookup, Table
 
@@ -58,10 +62,50 @@ def names_of(polygons: PolygonSet, polygon: Rows) -> dict[str, Any]:
     return {**columns, "id": ids_of(polygons, polygon)}
 
 
-def with_columns_of(columns: Mapping[str, Any], polygons: PolygonSet, polygon: Rows) -> Table:
-    """Return columns with those of the polygon of each row."""
-    columns_of = polygons.other_columns.items()
-    return Table(columns).with_properties({name: _looked_up(values, polygon) for name, values in columns_of})
+def with_columns_of(columns: Mapping[str, Any], polygons: PolygonSet, polygon: Rows, *, is_part: bool = False) -> Table:
+    """Return columns with those of the polygon of each row: of what is a part of it, those that are wanted."""
+    further = wanted(polygons.properties, polygons.other_columns) if is_part else polygons.other_columns
+    return Table(columns).with_properties({name: _looked_up(values, polygon) for name, values in further.items()})
+
+
+def part_table(columns: Mapping[str, Any], polygons: PolygonSet, polygon: Rows) -> Table:
+    """Return the table of parts of polygons, with the columns that are wanted of these."""
+    return with_columns_of(columns, polygons, polygon, is_part=True)
+
+
+def with_ends(columns: Mapping[str, Any], properties: Mapping[str, Any], ends: Mapping[str, Rows]) -> Table:
+    """Return columns with those that are wanted of the site at each end: ``NAME_a`` and ``NAME_b``."""
+    further = wanted(properties).items()
+    own = {f"{name}_{end}": _looked_up(values, rows) for name, values in further for end, rows in ends.items()}
+    return Table(columns).with_properties(own)
+
+
+def ends_of_regions(columns: Mapping[str, Any], sites: Any) -> Table:
+    """Return a table of pairs of labels of sites with the columns that are wanted of both."""
+    labels = np.zeros(0, np.int64) if sites.site_labels is None else sites.site_labels
+    ends = {end: np.searchsorted(labels, np.asarray(columns[f"label_{end}"])) for end in "ab"}
+    return with_ends(columns, sites.properties, ends)
+
+
+_WANTED: ContextVar[tuple[str, ...]] = ContextVar("wanted", default=())
+
+
+@contextmanager
+def columns_wanted(names: Sequence[str] | None) -> Iterator[None]:
+    """Give rows about parts of features, or about several, these columns of the input."""
+    if isinstance(names, str):
+        raise UsageError(f"invalid with_columns {names!r}: expected a list of names")
+    token = _WANTED.set(tuple(names or ()))
+    try:
+        yield
+    finally:
+        _WANTED.reset(token)
+
+
+def wanted(properties: Mapping[str, Any], further: Mapping[str, Any] | None = None) -> dict[str, Any]:
+    """Return the columns that are wanted, except those that name features anyway."""
+    names = [name for name in _WANTED.get() if further is None or name in further or name not in properties]
+    return {name: chosen_column(properties, name, option("--with", "with_columns")) for name in names}
 
 
 def described_shapes(own: Mapping[str, Any], polygons: PolygonSet, polygon: Rows) -> dict[str, Any]:

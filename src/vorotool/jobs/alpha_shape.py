@@ -34,7 +34,7 @@ from vorotool.jobs.inputs import JobInput, frame_of, note_repeated_labels, read_
 from vorotool.jobs.names import OF_ONE_SHAPE, PLOTS
 from vorotool.jobs.options import AlphaShapeOptions
 from vorotool.jobs.picture_style import styled_page
-from vorotool.jobs.picture_world import check_column, world_of_sites
+from vorotool.jobs.picture_world import check_columns, world_of_sites
 from vorotool.jobs.pictures import write_layers
 from vorotool.jobs.pixel_sizes import placed_backdrop, placed_mesh, placed_sites
 from vorotool.jobs.run_log import Run
@@ -59,7 +59,7 @@ def products(run: Run, o: AlphaShapeOptions, given: JobInput) -> ShapeProducts:
         chosen_radius(o.r, o.alpha, o.auto)
     with run.phase("read"):
         o, points = read_sites(
-            run, o, given, properties="points" in o.what or o.label_by is not None, is_digital=o.method != "exact"
+            run, o, given, properties="points" in o.what or o.names_columns, is_digital=o.method != "exact"
         )
         o, points = placed_sites(run, o, given, points)
     return ShapeProducts(run, o, given, points, chosen_radius(o.r, o.alpha, o.auto))
@@ -88,7 +88,7 @@ class ShapeProducts:
             self.family = alpha_complex(
                 mesh, rule=options.rule, **self._empty, threads=options.threads, progress=progress
             )
-        check_column(options.label_by, self.family.mesh.properties)
+        check_columns(options, self.family.mesh.properties)
         self._world = world_of_sites(run, options, self.family.mesh, points)
         self.has_shape = bool(set(options.what) & OF_ONE_SHAPE)
         if self.has_shape:

@@ -144,7 +144,7 @@ def _of_labels(run: Run, o: DrawingOptions, given: JobInput, image: LabelImage, 
     refuse({"frame": o.frame}, "is for shapes, but the input is a label image")
     is_page = fmt == "html"
     check_picture_options(o, [] if is_page else [fmt], LABEL_LAYERS)
-    check_column(o.label_by, ())
+    check_column(o.label_by, {})
     note_other_size(run, o, given, image.shape)
     image = _objects(run, image)
     with run.phase("color"):

@@ -12,7 +12,7 @@ from vorotool.geometry.progress import Progress
 from vorotool.jobs.inputs import JobInput, naming, read_backdrop
 from vorotool.jobs.options import ComputingOptions, JobOptions
 from vorotool.jobs.run_log import Run
-from vorotool.jobs.targets import Target, check_targets
+from vorotool.jobs.targets import Target, check_targets, check_with
 from vorotool.jobs.units import shows_units, unit_stats
 from vorotool.products.formats import FORMATS
 from vorotool.signals import end_by_exceptions
@@ -48,6 +48,12 @@ class Recipe(Generic[Options]):
     make: Callable[[Run, Options, JobInput], Products]
     geometry: str | None = None  # what it reads beside images
 
+    def check(self, options: Options, targets: list[Target]) -> None:
+        """Refuse options that do not go together, or that no output would show."""
+        if isinstance(options, ComputingOptions) and options.with_columns is not None:
+            check_with(targets)
+        self.check_options(options, targets)
+
 
 def process_input(recipe: Recipe[Options], run: Run, options: Options, path: str, targets: Sequence[Target]) -> None:
     """Read one input, compute, check and write its results, which take their places together."""
@@ -56,6 +62,7 @@ def process_input(recipe: Recipe[Options], run: Run, options: Options, path: str
     from vorotool.formats.text.feature_collection import unit_member
     from vorotool.formats.text.tables import safe_texts, unit_column
     from vorotool.geometry.coordinate_grid import coordinates_written
+    from vorotool.geometry.identity import columns_wanted
 
     computing = options if isinstance(options, ComputingOptions) else None
     check_targets(options, targets, path)
@@ -74,10 +81,12 @@ def process_input(recipe: Recipe[Options], run: Run, options: Options, path: str
     unit = None if size is None else run.stats.get("unit") if size.is_auto else size.unit
     is_safe = computing is not None and computing.safe_csv
     decimals = None if computing is None else computing.decimals
+    wanted = None if computing is None else computing.with_columns
     is_verified = computing is not None and computing.verify
     deviation = 0.0
     stated = unit if size is not None or run.coordinates is None else run.coordinates.unit
-    with committed_together(), safe_texts(is_safe), unit_column(unit), unit_member(stated):
+    units = unit_column(unit), unit_member(stated)
+    with committed_together(), safe_texts(is_safe), units[0], units[1], columns_wanted(wanted):
         for target in targets:
             if options.out_dir is not None:
                 make_folder(Path(target.path).parent)

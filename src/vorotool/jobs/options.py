@@ -172,6 +172,7 @@ class ComputingOptions(JobOptions):
     pixel_size: PixelSize | None
     table: str | None
     no_properties: bool
+    with_columns: tuple[str, ...] | None
     safe_csv: bool
     max_sites: int
 
@@ -184,6 +185,11 @@ class ComputingOptions(JobOptions):
     def table_of_all(self) -> str | None:
         """The file of the tables of all inputs."""
         return self.table
+
+    @property
+    def names_columns(self) -> bool:
+        """Whether options name columns of the input."""
+        return self.label_by is not None or self.with_columns is not None
 
     @property
     def cleans_masks(self) -> str:
@@ -393,6 +399,7 @@ class DistanceOptions(ComputingOptions):
     pixel_size: PixelSize | None = None
     table: str | None = None
     no_properties: bool = True
+    with_columns: tuple[str, ...] | None = None
     safe_csv: bool = False
     scale: Scale | None
     drawing_unit: str | None

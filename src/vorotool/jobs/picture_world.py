@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Mapping
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from vorotool.errors import UsageError
 from vorotool.geometry.crs import is_geographic
 from vorotool.geometry.input_unit import InputUnit, unit_of_crs
 from vorotool.geometry.length_units import ratio, unit_name
+from vorotool.geometry.named_columns import check_plain, chosen_column
+from vorotool.jobs.options import ComputingOptions
 from vorotool.jobs.picture_style import Looks, Sides, World
 
 if TYPE_CHECKING:
@@ -200,11 +201,14 @@ def _millimetres(
     return None if known is None or ratio_of is None else known.side * ratio_of
 
 
-def check_column(label_by: str | None, columns: Iterable[str], option: str = "--label-by") -> None:
-    """Refuse a column that the input has not."""
-    known = list(columns)
-    if label_by is None or label_by in known:
-        return
-    if not known:
-        raise UsageError(f"invalid {option} {label_by!r}: the input has no columns of properties; leave it out")
-    raise UsageError(f"invalid {option} {label_by!r}: expected a column of the input, {', '.join(known)}")
+def check_column(label_by: str | None, columns: Mapping[str, Any], option: str = "--label-by") -> None:
+    """Refuse a column that the input does not have, or that holds objects."""
+    if label_by is not None:
+        check_plain(chosen_column(columns, label_by, option), option)
+
+
+def check_columns(o: JobOptions, columns: Mapping[str, Any]) -> None:
+    """Refuse columns that options name and the input does not have."""
+    check_column(o.label_by, columns)
+    for name in (o.with_columns or ()) if isinstance(o, ComputingOptions) else ():
+        chosen_column(columns, name, "--with")

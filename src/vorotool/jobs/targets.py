@@ -13,7 +13,8 @@ from vorotool.formats.io.atomic_output import is_same_file, spoken
 from vorotool.formats.io.descriptors import STANDARD, descriptor_of, is_same_output, stream_kind
 from vorotool.formats.io.sources import without_gz
 from vorotool.jobs.picture_style import check_style
-from vorotool.products.formats import EXTENSIONS, FORMATS, format_named, with_digits
+from vorotool.products.formats import EXTENSIONS, FORMATS, TABLES, format_named, with_digits
+from vorotool.products.registry import NAMING_FEATURES
 
 if TYPE_CHECKING:
     from vorotool.jobs.options import ComputingOptions, JobOptions
@@ -123,6 +124,16 @@ def check_precision(options: ComputingOptions, formats: Mapping[str, Sequence[st
     *others, last = possible
     instead = f"{', '.join(others)} or {last}" if others else last
     raise UsageError(f"--precision is for numbers in text: use -f {instead}, or leave it out")
+
+
+def check_with(targets: Sequence[Target]) -> None:
+    """Refuse columns of the input that no output would show."""
+    shown = [target for target in targets if target.what in NAMING_FEATURES]
+    if not any(target.fmt in (*TABLES, "geojson", "graphml") or FORMATS[target.fmt].made_from for target in shown):
+        raise UsageError(
+            "--with is for tables and GeoJSON whose rows are parts of features or pairs, such as --what branches, "
+            "points or edges: rows that are features have all columns; leave it out"
+        )
 
 
 def _check_overlay(options: JobOptions, pictures: Sequence[str]) -> None:

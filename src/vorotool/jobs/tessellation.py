@@ -53,7 +53,7 @@ from vorotool.jobs.inputs import (
 )
 from vorotool.jobs.map_cells import seeds_on_map
 from vorotool.jobs.options import TessellationOptions
-from vorotool.jobs.picture_world import check_column, world_of
+from vorotool.jobs.picture_world import check_columns, world_of
 from vorotool.jobs.pixel_sizes import with_pixel_size, written_grid
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.streamed_output import RowsOf, Stream, check_chunks, scale_of_squares, write_file, write_store
@@ -85,7 +85,7 @@ def products(run: Run, o: TessellationOptions, given: JobInput) -> Products | St
     with run.phase("read"):
         with opened_input(o, given, "points" if o.cell_size is None else None) as source:
             large = rows_of_large(o, source)
-            with_columns = "table" in o.what or o.label_by is not None or given.has_page
+            with_columns = "table" in o.what or o.names_columns or given.has_page
             if large is None:
                 o, value = read_opened(run, o, given, source, columns=o.columns, properties=with_columns)
         if large is not None:
@@ -149,7 +149,7 @@ class Products:
     ) -> None:
         self.run, self.options, self.read, self.rows = run, options, read, rows
         self.backdrop, self.sides = given.backdrop, sides_of(options)
-        check_column(options.label_by, read.seeds.properties)
+        check_columns(options, read.seeds.properties)
         self.dtype = label_dtype(rows.seeds.largest_label, options.dtype)
 
     @cached_property
@@ -282,7 +282,10 @@ class Products:
         return table_in_units(self.options.pixel_size, table, properties=properties, has_rows=True)
 
     def _neighbors(self) -> Table:
-        return table_in_units(self.options.pixel_size, neighbor_table(self.image, measures=self.measures))
+        from vorotool.geometry.identity import ends_of_regions
+
+        table = neighbor_table(self.image, measures=self.measures)
+        return ends_of_regions(table_in_units(self.options.pixel_size, table), self.rows.seeds)
 
     def _write_picture(self, out: BinaryIO, target: Target) -> None:
         if target.fmt in ANIMATIONS:

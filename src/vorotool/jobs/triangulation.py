@@ -23,7 +23,7 @@ from vorotool.jobs.cuts import read_clip
 from vorotool.jobs.inputs import JobInput, note_repeated_labels, read_sites
 from vorotool.jobs.options import Rectangle, TriangulationOptions
 from vorotool.jobs.picture_style import styled_page
-from vorotool.jobs.picture_world import check_column, world_of_sites
+from vorotool.jobs.picture_world import check_columns, world_of_sites
 from vorotool.jobs.pictures import write_layers
 from vorotool.jobs.pixel_sizes import clip_in_pixels, in_steps, placed_backdrop, placed_mesh, placed_sites
 from vorotool.jobs.run_log import Run
@@ -51,7 +51,7 @@ def products(run: Run, o: TriangulationOptions, given: JobInput) -> MeshProducts
     """Read points, or find those of an image, and triangulate them."""
     is_digital = o.triangulated_by != "exact"
     with run.phase("read"):
-        properties = bool({"table", "cells"} & set(o.what)) or o.label_by is not None
+        properties = bool({"table", "cells", "measures"} & set(o.what)) or o.names_columns
         o, points = read_sites(run, o, given, properties=properties, is_digital=is_digital)
         o, points = placed_sites(run, o, given, points)
         read = ReadPoints(points, None)
@@ -77,7 +77,7 @@ class MeshProducts:
         if self.wants_mesh:
             with run.phase("triangulate") as progress:
                 self.mesh: Any = placed_mesh(options.pixel_size, self._triangulate(points, progress))
-            check_column(options.label_by, self.mesh.properties)
+            check_columns(options, self.mesh.properties)
             self._world = world_of_sites(run, options, self.mesh, points)
         self.edged: Any = self._with_graph() if self.wants_mesh else None
 
@@ -143,8 +143,7 @@ class MeshProducts:
             return table_in_units(self.options.pixel_size, table, properties=self.mesh.properties)
         if what in ("statistics", "measures"):
             found = self._statistics_in_units()
-            table = found.cells if what == "measures" else found.summary
-            return table
+            return found.measures if what == "measures" else found.summary
         value = self.cells if what == "cells" else self.edged if what == "edges" else self.mesh
         return in_units(self.options.pixel_size, value)
 

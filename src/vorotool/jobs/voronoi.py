@@ -21,7 +21,7 @@ from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.options import VoronoiOptions
 from vorotool.jobs.picture_style import styled_page
-from vorotool.jobs.picture_world import check_column, world_of_polygons
+from vorotool.jobs.picture_world import check_columns, world_of_polygons
 from vorotool.jobs.pictures import Drawing, drawing_of, write_layers
 from vorotool.jobs.pixel_sizes import placed_backdrop
 from vorotool.jobs.run_log import Run
@@ -49,7 +49,7 @@ class VoronoiProducts:
         self.features = read.sites.count
         self._sites, self._clip = read.sites, cuts.get("clip")
         self.cells = self._made(read.sites, cuts)
-        check_column(self.options.label_by, self.cells.properties)
+        check_columns(self.options, self.cells.properties)
         o = self.options
         world = world_of_polygons(run, o, self.cells.polygons, size=o.pixel_size)
         self._styled = partial(styled_page, looks=o.looks, world=world)

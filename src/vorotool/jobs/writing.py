@@ -43,6 +43,7 @@ def write(
     line_width: Mapping[str, float] | None = None,
     background: str | None = None,
     label_by: str | None = None,
+    with_columns: Sequence[str] | None = None,
     legend: bool = False,
     scale_bar: bool = False,
     overwrite: bool = False,
@@ -84,7 +85,11 @@ def write(
     background : str, optional
         Background color of a picture, or ``"none"``; by default white.
     label_by : str, optional
-        Column of the properties that names objects or sites in a picture, instead of their ids.
+        Column of the properties that names objects or sites in a picture, instead of their ids; a path with dots leads
+        into objects.
+    with_columns : sequence of str, optional
+        Columns of the input that rows about parts of features, such as branches, are to have; rows about several, such
+        as edges, have them as ``COLUMN_a`` and ``COLUMN_b``.
     legend, scale_bar : bool
         Draw a legend of the layers, and a scale bar, in corners of a picture.
     overwrite : bool
@@ -111,6 +116,7 @@ def write(
     """
     from vorotool.geometry.checks import checked_flag, checked_threads
     from vorotool.geometry.coordinate_grid import coordinates_written
+    from vorotool.geometry.identity import columns_wanted
 
     path, flatten = _checked_path(path), checked_flatten(flatten)
     if not isinstance(fmt, str | None):
@@ -146,7 +152,7 @@ def write(
             from vorotool.formats.features.geopackage import check_layers
 
             check_layers(fspath(path), product.what, overwrite=overwrite)
-        with coordinates_written(decimals):
+        with coordinates_written(decimals), columns_wanted(with_columns):
             _write_data(value, fspath(path), chosen, product, flatten, precision, threads)
         return
     for option, number in (("flatten", flatten), ("decimals", decimals), ("precision", precision)):
@@ -167,14 +173,20 @@ def _checked_path(path: Any) -> str:
     return name
 
 
-def to_geojson(value: Any, *, what: str | None = None, flatten: Flatten = None) -> dict[str, Any]:
+def to_geojson(
+    value: Any,
+    *,
+    what: str | None = None,
+    flatten: Flatten = None,
+    with_columns: Sequence[str] | None = None,
+) -> dict[str, Any]:
     """Return a value as GeoJSON, with its ids and properties.
 
     Parameters
     ----------
     value : value of the library
         Polygons, cells, a triangulation, an alpha shape or hull, a skeleton, points along one, offsets or centerlines.
-    what, flatten : optional
+    what, flatten, with_columns : optional
         As for `write`.
 
     Returns
@@ -198,8 +210,11 @@ def to_geojson(value: Any, *, what: str | None = None, flatten: Flatten = None) 
 
     import orjson
 
+    from vorotool.geometry.identity import columns_wanted
+
     out, tolerance = io.BytesIO(), checked_flatten(flatten)
-    write_product(out, value, _part(value, "geojson", what, tolerance), "geojson", flatten=tolerance)
+    with columns_wanted(with_columns):
+        write_product(out, value, _part(value, "geojson", what, tolerance), "geojson", flatten=tolerance)
     made: dict[str, Any] = orjson.loads(out.getvalue())
     return made
 

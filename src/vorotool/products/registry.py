@@ -270,6 +270,11 @@ VOLUME_PRODUCTS = {each.what: each for each in _VOLUMES}
 """Those of `tessellate` where the input is a volume."""
 
 
+_OF_PARTS = "skeleton diagram elements branches points transects necks offset centerline"
+NAMING_FEATURES = frozenset(f"edges triangles complex family neighbors {_OF_PARTS}".split(" "))
+"""Products whose rows are parts of features, or about several: they have the columns of these that are asked for."""
+
+
 def formats_of(command: str) -> dict[str, tuple[str, ...]]:
     """Give the formats of each product of a command, the default first."""
     return {what: product.formats for what, product in PRODUCTS[command].items()}

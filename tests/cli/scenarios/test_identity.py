@@ -181,3 +181,142 @@ def test_neighbours_of_cells_refer_to_the_labels_of_the_input(run, tmp_path):
     table = run("voronoi", tmp_path / "in.geojson", "--what", "table", "-f", "csv", "-q")
     assert [(row["label"], row["name"]) for row in table.rows] == [("12", "A"), ("11", "B")]
     assert "voro_label" not in table.rows[0]
+
+
+READ_BACK = ["csv", "tsv", "json", "geojson", "npz", "gpkg", "fgb", "parquet", "jsonl"]
+
+
+@pytest.fixture
+def kinds(tmp_path):
+    """Points and polygons with columns, one of them an object, and one called as one of ours."""
+    places = [(0, 0), (9, 1), (3, 8), (12, 9)]
+    columns = {"type": ["a", "b", "a", None], "length": [1, 2, 3, 4], "kind": [{"name": n} for n in "pqrs"]}
+    rows = [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
+    for name, shapes in {
+        "points": [{"type": "Point", "coordinates": place} for place in places],
+        "polygons": [squares((10 * k,)) for k in range(4)],
+    }.items():
+        features = [
+            {"type": "Feature", "properties": row, "geometry": shape} for row, shape in zip(rows, shapes, strict=True)
+        ]
+        (tmp_path / f"{name}.geojson").write_text(json.dumps({"type": "FeatureCollection", "features": features}))
+    return tmp_path
+
+
+def written_formats(command, what, *, leaving=()):
+    written = registry.PRODUCTS[command][what].written
+    return [fmt for fmt in READ_BACK if fmt in written and fmt not in leaving]
+
+
+def read_any(path):
+    """Read rows of any format by another library."""
+    if path.suffix in (".gpkg", ".fgb", ".jsonl"):
+        frame = geopandas.read_file(path, driver="GeoJSONSeq" if path.suffix == ".jsonl" else None)
+    elif path.suffix == ".parquet":
+        frame = pandas.read_parquet(path)
+    elif path.suffix == ".tsv":
+        frame = pandas.read_csv(path, sep="\t")
+    else:
+        return columns_of(path)
+    return {name: frame[name].tolist() for name in frame}
+
+
+def test_rows_that_are_features_have_all_columns_in_every_format(run, kinds):
+    for command, source, what in (
+        ("skeleton-exact", "polygons", "table"),
+        ("skeleton-exact", "polygons", "parts"),
+        ("skeleton-exact", "polygons", "discs"),
+        ("delaunay", "points", "table"),
+        ("delaunay", "points", "measures"),
+        ("delaunay", "points", "cells"),
+        ("voronoi", "polygons", "cells"),
+        ("voronoi", "polygons", "table"),
+        ("alphashape", "points", "points"),
+    ):
+        for fmt in written_formats(command, what, leaving=["jsonl"] if what != "parts" else []):
+            if (command, what, fmt) in {("voronoi", "cells", "json"), ("voronoi", "cells", "npz")}:
+                continue  # the whole map, not its rows
+            path = kinds / f"{what}.{fmt}"
+            more = ["-r", "9"] if command == "alphashape" else []
+            done = run(command, kinds / f"{source}.geojson", "--what", what, "-o", path, *more, "-q")
+            assert done.code == 0, done.err
+            found = read_any(path)
+            assert list(map(int, found["length"])) == [1, 2, 3, 4], (command, what, fmt)
+            assert [str(value) for value in found["type"][:3]] == ["a", "b", "a"]
+            assert not {"type_a", "polygon"} & set(found)
+
+
+@pytest.mark.parametrize("what", ["skeleton", "branches", "elements", "points", "transects", "centerline", "offset"])
+def test_rows_about_parts_have_the_columns_that_are_asked_for(run, kinds, what):
+    more = {"points": ["--every", "2"], "transects": ["--every", "2"], "offset": ["-d", "-1"]}.get(what, [])
+    whole = {"skeleton": ["json", "npz"], "offset": ["json", "npz"]}.get(what, [])
+    for fmt in written_formats("skeleton-exact", what, leaving=[*whole, "jsonl"]):
+        path = kinds / f"out.{fmt}"
+        command = ("skeleton-exact", kinds / "polygons.geojson", "--what", what, "-o", path, *more, "-q")
+        assert run(*command).code == 0
+        is_feature = what in ("offset", "centerline") and fmt in ("geojson", "gpkg", "fgb", "parquet")
+        is_feature &= not (what == "centerline" and fmt == "parquet")
+        if not is_feature and fmt != "parquet":
+            assert "kind.name" not in (plain := read_any(path))
+            assert not {"voro_length", "voro_kind"} & set(plain)
+        assert run(*command, "--with", "length,kind.name").code == 0
+        found = read_any(path)
+        if not is_feature and fmt != "parquet":
+            by_label = dict(zip(map(int, found["label"]), found["kind.name"], strict=True))
+            assert by_label == {1: "p", 2: "q", 3: "r", 4: "s"}
+            assert list(map(int, found["length"])) == list(map(int, found["label"]))
+
+
+def test_rows_about_pairs_have_the_columns_of_both(run, kinds):
+    for command, source, what, more in (
+        ("delaunay", "points", "edges", []),
+        ("delaunay", "points", "triangles", []),
+        ("alphashape", "points", "edges", ["-r", "9"]),
+        ("alphashape", "points", "complex", ["-r", "9"]),
+        ("alphashape", "points", "family", []),
+        ("tessellate", "points", "neighbors", []),
+        ("voronoi", "polygons", "neighbors", []),
+        ("voronoi", "polygons", "edges", []),
+    ):
+        for fmt in written_formats(command, what, leaving=["jsonl"]):
+            path = kinds / f"{command}.{what}.{fmt}"
+            given = (command, kinds / f"{source}.geojson", "--what", what, "-o", path, *more, "-q")
+            assert run(*given, "--with", "kind.name").code == 0
+            found = read_any(path)
+            assert [name for name in found if name.startswith("kind.name")][:2] == ["kind.name_a", "kind.name_b"]
+            for end in "ab":
+                assert ["pqrs"[int(label) - 1] for label in found[f"label_{end}"]] == found[f"kind.name_{end}"]
+
+
+def test_columns_that_nothing_shows_are_refused(run, kinds):
+    points = kinds / "points.geojson"
+    for arguments, said in (
+        (["--what", "table", "--with", "type"], "--with"),
+        (["--what", "edges", "--with", "type", "-f", "obj"], "--with"),
+        (["--what", "edges", "--with", "nothing"], "'nothing'"),
+        (["--what", "edges", "--with", "type,"], "'type,'"),
+    ):
+        done = run("delaunay", points, *arguments)
+        assert done.code == 2
+        assert said in done.err
+    mesh = vorotool.delaunay(vorotool.read(points))
+    with pytest.raises(vorotool.UsageError, match="with_columns 'nothing'"):
+        vorotool.to_geojson(mesh, what="edges", with_columns=["nothing"])
+    made = vorotool.to_geojson(mesh, what="edges", with_columns=["type"])["features"][0]["properties"]
+    assert (made["type_a"], made["type_b"]) == tuple(mesh.properties["type"][label - 1] for label in (1, 3))
+
+
+def test_a_path_with_dots_names_objects_in_pictures(run, kinds):
+    for command, source, more in (
+        ("voronoi", "polygons", []),
+        ("delaunay", "points", []),
+        ("skeleton-exact", "polygons", []),
+        ("tessellate", "points", ["--what", "color"]),
+        ("draw", "polygons", []),
+    ):
+        given = (command, kinds / f"{source}.geojson", *more, "-f", "svg", "-q")
+        drawn = run(*given, "--label-by", "kind.name")
+        assert all(f">{name}</text>" in drawn.out for name in "pqrs"), (command, drawn.err)
+        refused = run(*given, "--label-by", "kind")
+        assert (refused.code, refused.out) == (3, "")
+        assert "column.name" in refused.err

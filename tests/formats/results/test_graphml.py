@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import vorotool
 from vorotool.formats.results.graphml import write_graphml
+from vorotool.geometry.identity import columns_wanted
 
 SPACE = "{http://graphml.graphdrawing.org/xmlns}"
 CONTROLS = [
@@ -26,7 +27,8 @@ def written(name, value):
     skeleton = vorotool.skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]])
     polygons = replace(skeleton.polygons, properties={name: [value]})
     out = io.BytesIO()
-    write_graphml(out, replace(skeleton, polygons=polygons))
+    with columns_wanted([name]):
+        write_graphml(out, replace(skeleton, polygons=polygons))
     return ET.fromstring(out.getvalue().decode())
 
 

@@ -78,7 +78,7 @@ def test_geojson_keeps_ids_and_properties():
     from vorotool.formats.io.sources import Source
 
     polygons = read_as(Source("a.geojson", json.dumps(source).encode()))
-    document = vorotool.to_geojson(vorotool.skeleton_exact(polygons))
+    document = vorotool.to_geojson(vorotool.skeleton_exact(polygons), with_columns=["name", "kind"])
     assert document["crs"] == source["crs"]
     for feature in document["features"]:
         assert feature["id"] == 7

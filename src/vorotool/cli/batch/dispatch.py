@@ -44,7 +44,7 @@ def run_command(recipe: Recipe[Options], o: Options) -> None:
         raise UsageError("--cluster with -o writes a Zarr store: name it .zarr, or a folder with --out-dir")
     check_units(o, targets)
     o = lengths_in_pixels(o, o.unit)
-    recipe.check_options(o, targets)
+    recipe.check(o, targets)
     with (
         committed_together(),  # the statistics, too
         Run(

@@ -41,7 +41,7 @@ def run_one(recipe: Recipe[Options], o: Options) -> None:
     planned = targets if table is None else [*targets, Target("table", f"part.{table.fmt}", table.fmt)]
     check_units(o, planned)
     o = lengths_in_pixels(o, o.unit)
-    recipe.check_options(o, planned)
+    recipe.check(o, planned)
     if o.shard is not None and not share([Input(source, Path(source).name)], *o.shard):
         notes = [f"{source} is in part 1 of {o.shard[1]}: nothing is done for part {o.shard[0]}"]
     elif not o.dry_run:

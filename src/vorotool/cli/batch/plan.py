@@ -79,7 +79,7 @@ def plan_batch(recipe: Recipe[Options], o: Options) -> Plan[Options]:
         targets.append(Target("table", f"part.{table.fmt}", table.fmt))
     check_units(o, targets)
     o = lengths_in_pixels(o, o.unit)
-    recipe.check_options(o, targets)
+    recipe.check(o, targets)
     return Plan(o, tasks, targets, table, manifest, notes)
 
 

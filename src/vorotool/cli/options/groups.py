@@ -37,5 +37,5 @@ def result_options(layers: tuple[str, ...], *, has_scale: bool = True) -> Decora
         shared("max-pixels", "max-sites"),
         pixel_size_option(),
         batch_options(),
-        shared("no-clobber", "overwrite", "no-properties", "safe-csv", "quiet", "verbose"),
+        shared("no-clobber", "overwrite", "with", "no-properties", "safe-csv", "quiet", "verbose"),
     )

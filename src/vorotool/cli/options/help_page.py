@@ -13,8 +13,8 @@ from vorotool.cli.options.shared import Names
 from vorotool.jobs.terminal import print_text
 
 _GROUPS = {
-    "Output": "output format what dtype chunk levels tiled flatten decimals precision no_properties safe_csv "
-    "no_clobber overwrite",
+    "Output": "output format what dtype chunk levels tiled flatten decimals precision with_columns no_properties "
+    "safe_csv no_clobber overwrite",
     "Method": "method graph passes by max_distance r alpha auto regions rule hole_threshold region_threshold step "
     "tolerance sampling compare boundary side gap complete features prune join_junctions start end ends smooth "
     "distance every along count local neck",

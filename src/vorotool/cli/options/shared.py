@@ -203,6 +203,21 @@ class Names(ParameterType[tuple[str, ...]]):
         return listed(self.choices, incomplete)
 
 
+class Columns(ParameterType[tuple[str, ...]]):
+    """Names of columns, separated by commas."""
+
+    name = "COLUMN[,...]"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[str, ...]:
+        """Split the names."""
+        if isinstance(value, tuple):
+            return value
+        names = tuple(name.strip() for name in value.split(","))
+        if not all(names):
+            self.fail(f"{value!r}: expected names of columns, separated by commas", param, ctx)
+        return names
+
+
 def accumulated(_ctx: click.Context, _param: click.Parameter, value: tuple[tuple[Any, ...], ...]) -> Any:
     """Join the lists of an option that is repeated; None where it is not given."""
     return tuple(dict.fromkeys(each for values in value for each in values)) or None
@@ -350,6 +365,15 @@ OPTIONS: dict[str, Decorator] = {
         "--safe-csv",
         is_flag=True,
         help="Put ' before texts in CSV and TSV that a spreadsheet would take for formulas; numbers stay.",
+    ),
+    "with": click.option(
+        "--with",
+        "with_columns",
+        type=Columns(),
+        multiple=True,
+        callback=accumulated,
+        help="Columns of the input for rows about parts of features (branches, points, ...); for rows about several "
+        "(edges, neighbors) as COLUMN_a, COLUMN_b.",
     ),
     "no-properties": click.option(
         "--no-properties",

@@ -104,7 +104,7 @@ def statistics_of(
         whole &= area >= uncut.areas()
     tree = proximity_graph(mesh, "mst", threads=threads, progress=progress)
     region = float(area.sum()) if has_region or mesh.frame is not None else float(mesh.areas().sum())
-    return CellStatistics(_measured(table, whole), tree.edge_lengths(), region)
+    return CellStatistics(_measured(table, whole), tree.edge_lengths(), region, mesh.properties)
 
 
 def _of_image(image: LabelImage, threads: int, progress: Progress) -> CellStatistics:
@@ -115,7 +115,8 @@ def _of_image(image: LabelImage, threads: int, progress: Progress) -> CellStatis
     sites = np.stack([table["x"], table["y"]], axis=1)
     sites = np.unique(sites, axis=0)  # objects may have one centroid
     tree = proximity_graph(sites, "mst", threads=threads, progress=progress)
-    return CellStatistics(_measured(table, whole), tree.edge_lengths(), float(area.sum()))
+    properties = {} if image.seeds is None else image.seeds.properties
+    return CellStatistics(_measured(table, whole), tree.edge_lengths(), float(area.sum()), properties)
 
 
 def _measured(table: Table, whole: NDArray[np.bool_]) -> Table:

@@ -40,11 +40,13 @@ GEOJSON_LINE = ',"geometry":{"type":"LineString","coordinates":[[', ',"geometry"
 WKT_LINE = "LINESTRING (", "LINESTRING EMPTY\n"
 
 
-def geojson_wording(polygons: PolygonSet, polygon: NDArray[np.integer], own: Mapping[str, Any]) -> Wording:
-    """One feature a polyline, with the id and the properties of its polygon."""
+def geojson_wording(
+    polygons: PolygonSet, polygon: NDArray[np.integer], own: Mapping[str, Any], *, is_part: bool = False
+) -> Wording:
+    """One feature a polyline, with the id and the columns of its polygon; see `with_columns_of`."""
     names = names_of(polygons, polygon)
     ids = names.pop("id")[:].tolist()
-    table = with_columns_of({**names, **own}, polygons, polygon)
+    table = with_columns_of({**names, **own}, polygons, polygon, is_part=is_part)
     openings = []
     for name, *values in zip(ids, *(listed(column) for column in table.values()), strict=True):
         named = "" if name is None else f'"id":{json_text(name)},'

@@ -28,6 +28,7 @@ from vorotool.geometry.alpha.tables import (
     shape_point_table,
 )
 from vorotool.geometry.coordinate_grid import on_grid
+from vorotool.geometry.mesh.tables import END_PLACES
 from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.polygons.polygon_set import HOLE, SHELL, PolygonSet, set_of_rings
 from vorotool.geometry.ragged import owners, within
@@ -86,8 +87,7 @@ def write_shape_edges(
     """Write edges as GeoJSON: LineStrings with labels, length, radii and class."""
     table = shape_edge_table(shape, interior=interior).stored()
     chosen = np.flatnonzero(shape.edge_classes()) if interior else shape.edge_index
-    names = [name for name in table if name[:2] not in ("x_", "y_")]
-    columns = {name: table[name] for name in names}
+    columns = {name: column for name, column in table.items() if name.removeprefix("voro_") not in END_PLACES}
     mesh = shape.family.mesh
     write_features(out, columns, shape.family.edges[chosen], mesh, precision=precision, threads=threads)
 

@@ -42,7 +42,8 @@ def _table(lines: LedOn | SmoothLines) -> Table:
 
 
 def _features(lines: LedOn | SmoothLines) -> Wording:
-    return geojson_wording(lines.path.polygons, lines.polygon, _columns(lines))
+    is_part = not isinstance(lines.lines if isinstance(lines, SmoothLines) else lines, Centerlines)
+    return geojson_wording(lines.path.polygons, lines.polygon, _columns(lines), is_part=is_part)
 
 
 def _columns(lines: LedOn | SmoothLines) -> dict[str, NDArray[Any]]:

@@ -14,7 +14,6 @@ from vorotool.formats.polygons.polylines import Wording, write_polylines
 from vorotool.formats.text.row_writer import Column, RowShape, check_precision, write_rows
 from vorotool.formats.text.tables import json_text
 from vorotool.geometry.arguments.tables import listed
-from vorotool.geometry.identity import with_columns_of
 from vorotool.geometry.skeleton.graph import SkeletonGraph, skeleton_graph
 from vorotool.geometry.skeleton.skeleton import Skeleton
 from vorotool.geometry.xml_text import xml_characters
@@ -36,7 +35,7 @@ def write_graphml(
     precision: int | None = None,
     threads: int = 0,
 ) -> None:
-    """Write a skeleton as an undirected graph in GraphML, with what `to_networkx` gives; geometry is WKT."""
+    """Write a skeleton as an undirected graph in GraphML, with the columns of `skeleton_graph`; geometry is WKT."""
     check_precision(precision)
     graph = skeleton_graph(skeleton, by=by, flatten=flatten)
     edges = _EdgeTexts(graph, precision)
@@ -65,8 +64,7 @@ class _EdgeTexts:
 
     def __init__(self, graph: SkeletonGraph, precision: int | None) -> None:
         self.graph, self.precision = graph, precision
-        polygons = graph.skeleton.polygons
-        columns = with_columns_of(graph.edges.stored(), polygons, graph.polygon)
+        columns = graph.edges
         self.values = {name: listed(column) for name, column in columns.items()}
         geometry = "voro_geometry" if "geometry" in columns else "geometry"
         self.kinds = {**{name: _kind(values) for name, values in self.values.items()}, geometry: "string"}

@@ -15,7 +15,7 @@ from vorotool.formats.text.row_writer import Column, RowShape, write_rows
 from vorotool.formats.text.tables import json_column, object_shape, write_table
 from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation, DigitalTriangulation
 from vorotool.geometry.mesh.proximity import ProximityGraph
-from vorotool.geometry.mesh.tables import edge_table, point_table, triangle_table
+from vorotool.geometry.mesh.tables import END_PLACES, edge_table, point_table, triangle_table
 from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.table import Lookup, Table
 from vorotool.products.formats import TABLES
@@ -57,7 +57,7 @@ def _write_geojson(
     """One feature an edge or triangle; its id is its number from 1, its labels and length are properties."""
     rows = mesh.edges if what == "edges" else mesh.triangles
     stored = _TABLES[what](mesh).stored()
-    columns = {name: stored[name] for name in stored if name.startswith("label") or name == "length"}
+    columns = {name: column for name, column in stored.items() if name.removeprefix("voro_") not in END_PLACES}
     write_features(out, columns, rows, mesh, precision=precision, threads=threads)
 
 

@@ -20,7 +20,11 @@ def write_necks(out: BinaryIO, necks: Necks, fmt: str, *, precision: int | None 
         write_table(out, necks.table(), fmt, precision=precision, threads=threads)
         return
     own = {"width": necks.width, "ratio": necks.ratio, "r_smaller": necks.beside[:, 0], "r_larger": necks.beside[:, 1]}
-    wording = wkt_wording(len(necks)) if fmt == "wkt" else geojson_wording(necks.skeleton.polygons, necks.polygon, own)
+    wording = (
+        wkt_wording(len(necks))
+        if fmt == "wkt"
+        else geojson_wording(necks.skeleton.polygons, necks.polygon, own, is_part=True)
+    )
     start = 2 * np.arange(len(necks))
     write_polylines(out, necks.feet.reshape(-1, 2), start, wording, precision=precision, threads=threads)
 

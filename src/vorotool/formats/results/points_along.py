@@ -8,7 +8,7 @@ from vorotool.formats.io.npy_arrays import write_array
 from vorotool.formats.text.feature_collection import write_collection
 from vorotool.formats.text.row_writer import Column, RowShape, write_rows
 from vorotool.formats.text.tables import json_column, json_text, object_shape, write_table
-from vorotool.geometry.identity import names_of, with_columns_of
+from vorotool.geometry.identity import names_of, part_table
 from vorotool.geometry.skeleton.points_along import SkeletonPoints
 from vorotool.geometry.table import Lookup
 from vorotool.products.formats import TABLES
@@ -45,9 +45,8 @@ def _write_geojson(
 ) -> None:
     polygons = points.skeleton.polygons
     ids = names_of(polygons, points.polygon)["id"]
-    table = points.table().stored()
-    own = {name: column for name, column in table.items() if name not in _LEFT_OUT}
-    described = with_columns_of(own, polygons, points.polygon).stored()
+    table = {name: column for name, column in points.columns().items() if name not in _LEFT_OUT}
+    described = part_table(table, polygons, points.polygon).stored()
     columns = [json_column(Column.of(name, values), precision) for name, values in described.items()]
     texts = ["" if value is None else f'"id":{json_text(value)},' for value in ids.values]
     between: tuple[str, ...] = (",",)

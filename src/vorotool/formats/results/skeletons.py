@@ -15,7 +15,7 @@ from vorotool.geometry.curves.flatten import chained
 from vorotool.geometry.skeleton.led_on import LedOn
 from vorotool.geometry.skeleton.skeleton import SIDES, Skeleton
 from vorotool.geometry.skeleton.smooth_lines import SmoothLines
-from vorotool.geometry.skeleton.tables import arc_table, branch_table, element_table, polygon_table
+from vorotool.geometry.skeleton.tables import arc_table, branch_columns, branch_table, element_table, polygon_table
 from vorotool.geometry.table import Table
 from vorotool.products.formats import TABLES
 
@@ -59,7 +59,7 @@ def _table(skeleton: Skeleton, what: str, threads: int) -> Table:
 def _wording(skeleton: Skeleton, fmt: str, first_arcs: NDArray[np.int64], threads: int) -> Wording:
     if fmt == "wkt":
         return wkt_wording(len(first_arcs))
-    columns = branch_table(skeleton, threads=threads)
+    columns = branch_columns(skeleton, threads=threads)
     own = {name: columns[name] for name in ("branch", "kind", "length", "r_min", "r_max", "r_mean")}
     own["side"] = [None if number < 0 else SIDES[number] for number in skeleton.side[first_arcs].tolist()]
-    return geojson_wording(skeleton.polygons, skeleton.polygon[first_arcs], own)
+    return geojson_wording(skeleton.polygons, skeleton.polygon[first_arcs], own, is_part=True)

@@ -18,4 +18,4 @@ def write_statistics(
     threads: int = 0,
 ) -> None:
     """Write the measures of cells, or their summary."""
-    write_table(out, found.cells if what == "measures" else found.summary, fmt, precision=precision, threads=threads)
+    write_table(out, found.measures if what == "measures" else found.summary, fmt, precision=precision, threads=threads)

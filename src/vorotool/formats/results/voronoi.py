@@ -5,13 +5,13 @@ from __future__ import annotations
 from typing import BinaryIO
 
 import numpy as np
-from numpy.typing import NDArray
 
 from vorotool.formats.polygons.polylines import GEOJSON_LINE, Wording, wkt_wording, write_polylines
 from vorotool.formats.results.cells import CellShapes, write_shapes, written_cells
 from vorotool.formats.results.voronoi_files import write_json, write_npz
 from vorotool.formats.text.feature_collection import collection_opening
 from vorotool.formats.text.tables import json_text, write_table
+from vorotool.geometry.arguments.tables import listed
 from vorotool.geometry.mesh.cells import Nesting
 from vorotool.geometry.numbers import checked_flatten
 from vorotool.geometry.ragged import owners, starts_of
@@ -59,6 +59,10 @@ def _shapes_of(cells: VoronoiMap, tolerance: float | None) -> CellShapes:
     )
 
 
+_LEFT_OUT = frozenset(["x0", "y0", "x1", "y1", "cx", "cy", "r0", "r1", "arc"])
+"""Columns of the table of borders that features do not have."""
+
+
 # ---- borders -------------------------------------------------------------------------------------
 def _write_borders(
     out: BinaryIO, cells: VoronoiMap, fmt: str, tolerance: float | None, precision: int | None, threads: int
@@ -74,8 +78,8 @@ def _write_borders(
 
 def _border_wording(cells: VoronoiMap) -> Wording:
     table = border_table(cells)
-    columns: dict[str, NDArray[np.generic]] = {name: table[name] for name in ("label_a", "label_b", "kind", "length")}
-    rows = zip(*(column.tolist() for column in columns.values()), strict=True)
+    columns = {name: listed(table[name]) for name in table if name.removeprefix("voro_") not in _LEFT_OUT}
+    rows = zip(*columns.values(), strict=True)
     openings = [
         f'{{"type":"Feature","properties":{json_text(dict(zip(columns, row, strict=True)))},'
         '"geometry":{"type":"LineString","coordinates":[['

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from vorotool.geometry.alpha.complex import CLASSES, AlphaComplex
 from vorotool.geometry.alpha.shape import POINT_CLASSES, AlphaShape
+from vorotool.geometry.identity import with_ends
 from vorotool.geometry.mesh.tables import end_columns
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.sorted_sets import distinct
@@ -20,30 +21,28 @@ def shape_edge_table(shape: AlphaShape, *, interior: bool = False) -> Table:
     family = shape.family
     classes = shape.edge_classes()
     chosen = np.flatnonzero(classes).astype(np.int32) if interior else shape.edge_index
-    return Table(
-        {
-            **end_columns(family.mesh, family.edges[chosen]),
-            "length": family.lengths()[chosen],
-            "r_min": family.r_min[chosen],
-            "r_max": family.r_max[chosen],
-            "class": _named(CLASSES, classes[chosen]),
-        }
-    )
+    columns = {
+        **end_columns(family.mesh, family.edges[chosen]),
+        "length": family.lengths()[chosen],
+        "r_min": family.r_min[chosen],
+        "r_max": family.r_max[chosen],
+        "class": _named(CLASSES, classes[chosen]),
+    }
+    return with_ends(columns, family.mesh.properties, dict(zip("ab", family.edges[chosen].T, strict=True)))
 
 
 def family_table(family: AlphaComplex) -> Table:
     """Give one row a Delaunay edge: the radii at which it enters, bounds a triangle, and goes inside."""
     labels = family.mesh.label_array
     a, b = np.ascontiguousarray(family.edges.T)
-    return Table(
-        {
-            "label_a": Lookup(labels, a),
-            "label_b": Lookup(labels, b),
-            "r_min": family.r_min,
-            "r_mid": family.r_mid,
-            "r_max": family.r_max,
-        }
-    )
+    columns = {
+        "label_a": Lookup(labels, a),
+        "label_b": Lookup(labels, b),
+        "r_min": family.r_min,
+        "r_mid": family.r_mid,
+        "r_max": family.r_max,
+    }
+    return with_ends(columns, family.mesh.properties, {"a": a, "b": b})
 
 
 def shape_point_table(shape: AlphaShape) -> Table:

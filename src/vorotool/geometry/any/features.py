@@ -300,10 +300,8 @@ def _of_necks(necks: Necks) -> Features:
 
 def _of_parts(parts: Parts) -> Features:
     polygons = parts.necks.skeleton.polygons
-    columns = without_places(parts.table()).stored()
-    return Features(
-        to_shapely(parts.polygons), with_columns_of(columns, polygons, parts.source), polygons, parts.source
-    )
+    columns = without_places(parts.table(), polygons.properties)
+    return Features(to_shapely(parts.polygons), columns, polygons, parts.source)
 
 
 def _of_offsets(offsets: Offsets, flatten: float | None = None) -> Features:
@@ -320,7 +318,7 @@ def _of_offsets(offsets: Offsets, flatten: float | None = None) -> Features:
 def _of_discs(discs: Discs, flatten: float | None = None) -> Features:
     polygons = discs.polygons
     shapes = discs.flattened(flatten)
-    columns = with_columns_of(discs.table().stored(), polygons, discs.polygon)
+    columns = discs.table()
     return Features(to_shapely(shapes), columns, polygons, discs.polygon)
 
 

@@ -11,13 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError, UsageError, option
-from vorotool.geometry.arguments.descriptions import described, items_of, naming, unexpected
+from vorotool.geometry.arguments.descriptions import items_of, naming, unexpected
 from vorotool.geometry.arguments.features import HeldFeatures, held_features, is_shapely
 from vorotool.geometry.arguments.images import as_raster, is_image
 from vorotool.geometry.arguments.points import as_points
 from vorotool.geometry.arguments.polygons import as_polygons, is_ring
 from vorotool.geometry.arguments.tables import MISSING_TYPES, is_table, listed
 from vorotool.geometry.box import Box, bounds
+from vorotool.geometry.named_columns import check_plain, column_of
 from vorotool.geometry.numbers import shown_number
 from vorotool.geometry.pixel_grid import PixelGrid
 from vorotool.geometry.points.label_image import LabelImage
@@ -165,15 +166,12 @@ def _values(features: Sites, by: Any) -> list[Any]:
     """The value of each feature."""
     if isinstance(by, str):
         columns = features.properties if features.ids is None else {"id": features.ids, **features.properties}
-        column, _, path = by.partition(".")
-        if by not in columns and path and column in columns:
-            inner = [_within(value, path) for value in columns[column]]
-            columns = columns if all(value is None for value in inner) else {**columns, by: inner}
-        if by not in columns:
+        found = column_of(columns, by)
+        if found is None:
             names = ", ".join(columns) or "there is none"
             more = option("", ", or one value a feature")
             raise UsageError(f"invalid {_BY} {by!r}: expected a column of the sites ({names}){more}")
-        by = columns[by]
+        by = found
     try:
         values = [*listed(by)]
     except (TypeError, ValueError):  # a closed file is a ValueError
@@ -184,13 +182,6 @@ def _values(features: Sites, by: Any) -> list[Any]:
     if missing:
         raise InputError(f"invalid {_BY}: feature {missing[0]} has no value ({len(missing)} such features): fill it in")
     return values
-
-
-def _within(value: Any, path: str) -> Any:
-    """Follow a path of names with dots into an object; None where it does not lead anywhere."""
-    for name in path.split("."):
-        value = value.get(name) if isinstance(value, Mapping) else None
-    return value
 
 
 def _is_missing(value: Any) -> bool:
@@ -204,8 +195,6 @@ def _first_appearances(values: list[Any]) -> tuple[NDArray[np.int32], list[Any]]
         try:
             numbers.setdefault(value, len(numbers))
         except TypeError:  # an object or a list
-            raise InputError(
-                f"invalid {_BY}: {shown_number(value)} is {described(value)}, expected texts or numbers; a dot leads "
-                "into an object, such as column.name"
-            ) from None
+            check_plain([value], _BY)
+            raise
     return np.array([numbers[value] for value in values], dtype=np.int32), list(numbers)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import sqrt
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +30,8 @@ class CellStatistics(Value, Tabular):
         Lengths of the edges of the minimum spanning tree of all points.
     area : float
         Of the region that the points lie in.
+    properties : dict of str to sequence, optional
+        Other columns of the input, one value a point or region.
 
     Examples
     --------
@@ -42,6 +45,12 @@ class CellStatistics(Value, Tabular):
     cells: Table
     tree_lengths: NDArray[np.float64]
     area: float
+    properties: dict[str, Any] = field(default_factory=dict)
+
+    @property
+    def measures(self) -> Table:
+        """The cells with the other columns of the input."""
+        return self.cells.with_properties(self.properties)
 
     @property
     def summary(self) -> Table:

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.geometry.arguments.values import check_value
+from vorotool.geometry.identity import with_ends
 from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation, DigitalTriangulation
 from vorotool.geometry.mesh.proximity import ProximityGraph
 from vorotool.geometry.mesh.triangulation import Triangulation
@@ -33,7 +34,12 @@ def edge_table(mesh: AnyTriangulation | ProximityGraph) -> Table:
     ([1, 1, 2], [3, 2, 3], [3.0, 4.0, 5.0])
     """
     check_value(mesh, "mesh", Triangulation, DigitalTriangulation, ProximityGraph)
-    return Table({**end_columns(mesh, mesh.edges), "length": Computed(mesh.edge_lengths, len(mesh.edges))})
+    columns = {**end_columns(mesh, mesh.edges), "length": Computed(mesh.edge_lengths, len(mesh.edges))}
+    return with_ends(columns, mesh.properties, dict(zip("ab", mesh.edges.T, strict=True)))
+
+
+END_PLACES = frozenset(["x_a", "y_a", "x_b", "y_b"])
+"""Columns of the places of the ends of edges, which geometry has."""
 
 
 def end_columns(mesh: AnyTriangulation | ProximityGraph, edges: NDArray[np.int32]) -> dict[str, Lookup]:
@@ -64,7 +70,9 @@ def triangle_table(mesh: AnyTriangulation) -> Table:
     """
     check_value(mesh, "mesh", Triangulation, DigitalTriangulation)
     labels = mesh.label_array
-    return Table({f"label_{name}": Lookup(labels, mesh.triangles[:, k]) for k, name in enumerate("abc")})
+    corners = dict(zip("abc", mesh.triangles.T, strict=True))
+    columns = {f"label_{name}": Lookup(labels, corner) for name, corner in corners.items()}
+    return with_ends(columns, mesh.properties, corners)
 
 
 def point_table(mesh: Triangulation) -> Table:

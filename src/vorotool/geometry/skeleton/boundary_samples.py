@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.identity import names_of
+from vorotool.geometry.identity import names_of, part_table
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.ragged import owners
@@ -75,7 +75,7 @@ def sample_table(samples: BoundarySamples) -> Table:
     """Give one row a seed."""
     site, labels, xy = samples.site, samples.labels, samples.xy
     sites = samples.sites
-    return Table(
+    return part_table(
         {
             "element": np.arange(len(samples)),
             "kind": Lookup(["vertex", "sample"], (samples.segment >= 0).astype(np.int32)),
@@ -86,5 +86,7 @@ def sample_table(samples: BoundarySamples) -> Table:
             "y": np.ascontiguousarray(xy[:, 1]),
             "label_a": np.ma.array(labels[:, 0], mask=labels[:, 0] == 0),
             "label_b": np.ma.array(labels[:, 1], mask=labels[:, 1] == 0),
-        }
+        },
+        samples.polygons,
+        sites.polygon[site],
     )

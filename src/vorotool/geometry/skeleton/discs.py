@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from vorotool.geometry.coordinate_grid import on_grid
 from vorotool.geometry.curves.circular_arcs import chords_of
 from vorotool.geometry.curves.flatten import circle_tolerances
-from vorotool.geometry.identity import described_shapes, names_of
+from vorotool.geometry.identity import described_shapes, names_of, with_columns_of
 from vorotool.geometry.numbers import checked_flatten
 from vorotool.geometry.polygons.polygon_set import SHELL, PolygonSet
 from vorotool.geometry.ragged import within
@@ -138,7 +138,8 @@ class Discs(Value, Tabular, Curved, Pictured):
             columns = {name: column for name, column in columns.items() if name not in names}
             label = np.append(self.polygons.labels[self.site_table.polygon[self.foot_site]], 0)[held]
             columns |= {f"label_{k + 1}": np.ma.array(label[:, k], mask=is_missing[:, k]) for k in range(SHOWN_FEET)}
-        return Table(columns)
+            return Table(columns)
+        return with_columns_of(columns, self.polygons, self.polygon)
 
     def flattened(self, tolerance: float | None = None) -> PolygonSet:
         """Return the circles as polygons, with arcs replaced by chords.

@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 from vorotool.errors import UsageError
 from vorotool.geometry.checks import is_choice
 from vorotool.geometry.curves.flatten import chained
-from vorotool.geometry.identity import names_of
+from vorotool.geometry.identity import names_of, part_table
 from vorotool.geometry.numbers import shown_number
 from vorotool.geometry.skeleton.skeleton import KINDS, SIDES, Skeleton
-from vorotool.geometry.skeleton.tables import branch_table
+from vorotool.geometry.skeleton.tables import branch_columns
 from vorotool.geometry.sorted_sets import distinct
 from vorotool.geometry.table import Lookup, Table
 
@@ -59,16 +59,17 @@ def skeleton_graph(skeleton: Skeleton, *, by: str = "branch", flatten: float | N
 
 
 def _branches(skeleton: Skeleton, first: NDArray[np.int64]) -> Table:
-    table = branch_table(skeleton, threads=1)
-    columns = {name: column for name, column in table.stored().items() if name != "chord"}
-    return Table({"branch": columns.pop("branch"), "side": _sides(skeleton, first), **columns})
+    columns, polygon = branch_columns(skeleton, threads=1), skeleton.polygon[first]
+    del columns["chord"]
+    names = {"branch": columns["branch"], "side": _sides(skeleton, first), **names_of(skeleton.polygons, polygon)}
+    return part_table({**names, **columns}, skeleton.polygons, polygon)
 
 
 def _arcs(skeleton: Skeleton) -> Table:
     least, most, integral = skeleton.arc_radii
     radius = skeleton.radius[skeleton.arcs[:, 0]]
     mean = np.divide(integral, skeleton.length, out=radius, where=skeleton.length > 0)
-    return Table(
+    return part_table(
         {
             "arc": np.arange(len(skeleton)),
             "branch": skeleton.branch,
@@ -79,7 +80,9 @@ def _arcs(skeleton: Skeleton) -> Table:
             "r_min": least,
             "r_max": most,
             "r_mean": mean,
-        }
+        },
+        skeleton.polygons,
+        skeleton.polygon,
     )
 
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError
 from vorotool.geometry.collinearity import is_straight
 from vorotool.geometry.curves.flatten import chained
-from vorotool.geometry.identity import names_of
+from vorotool.geometry.identity import names_of, part_table
 from vorotool.geometry.polygons.vertices_as_given import places_as_given
 from vorotool.geometry.ragged import owners
 from vorotool.geometry.skeleton.skeleton import KINDS, Skeleton
@@ -163,7 +163,7 @@ def led_on_table(lines: LedOn, *, has_branches: bool) -> Table:
     polygon = lines.polygon[line[order]]
     start = np.searchsorted(line[order], np.arange(len(lines)))
     length = np.concatenate([lines.extension_length[first, 0], path.length, lines.extension_length[last, 1]])
-    return Table(
+    return part_table(
         {
             **names_of(path.polygons, polygon),
             **({"branch": line[order]} if has_branches else {}),
@@ -178,5 +178,7 @@ def led_on_table(lines: LedOn, *, has_branches: bool) -> Table:
             "cx": control[:, 0].copy(),
             "cy": control[:, 1].copy(),
             "length": length[order],
-        }
+        },
+        path.polygons,
+        polygon,
     )

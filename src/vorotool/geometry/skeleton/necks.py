@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.identity import names_of
+from vorotool.geometry.identity import names_of, part_table
 from vorotool.geometry.skeleton.skeleton import EDGE, Skeleton
 from vorotool.geometry.table import Lookup, Table
 from vorotool.geometry.values import Geometric, Pictured, Tabular, Value, counted, placed
@@ -112,7 +112,7 @@ class Necks(Value, Tabular, Geometric, Pictured):
                 f"ring_{name}": table.ring[site],
                 f"index_{name}": table.index[site],
             }
-        return Table(columns)
+        return part_table(columns, self.skeleton.polygons, self.polygon)
 
     def _summary(self) -> str:
         polygons = self.skeleton.polygons

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from vorotool.geometry.curves.circular_arcs import chords_of
 from vorotool.geometry.curves.flatten import circle_tolerances
 from vorotool.geometry.curves.inverse_functions import inverse_sine
-from vorotool.geometry.identity import described_shapes, names_of
+from vorotool.geometry.identity import described_shapes, names_of, part_table
 from vorotool.geometry.numbers import checked_flatten
 from vorotool.geometry.polygons.polygon_set import HOLE, SHELL, PolygonSet
 from vorotool.geometry.ragged import owners
@@ -200,7 +200,7 @@ class Offsets(Value, Tabular, Curved, Pictured):
         ring = self.ring_of_piece
         shape = self.shape_of_ring[ring]
         line = ~self.is_arc
-        return Table(
+        return part_table(
             {
                 **names_of(self.polygons, self.polygon[shape]),
                 "shape": shape,
@@ -219,7 +219,9 @@ class Offsets(Value, Tabular, Curved, Pictured):
                 "ccw": np.ma.array((self.piece_distance > 0).astype(np.int8), mask=line),
                 "site_index": self.site,
                 "length": self.length,
-            }
+            },
+            self.polygons,
+            self.polygon[shape],
         )
 
     def _summary(self) -> str:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.identity import described_shapes, names_of
+from vorotool.geometry.identity import described_shapes, names_of, with_columns_of
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.ragged import following
 from vorotool.geometry.skeleton.necks import Necks
@@ -101,7 +101,7 @@ class Parts(Value, Tabular, Geometric, Pictured):
             ``piece, polygon, id, area, width, x, y, cuts``: the width is the diameter of the largest disc of the
             polygon with its center in the piece, x and y this center.
         """
-        return Table(
+        return with_columns_of(
             {
                 "piece": np.arange(len(self)),
                 **names_of(self.necks.skeleton.polygons, self.source),
@@ -110,7 +110,9 @@ class Parts(Value, Tabular, Geometric, Pictured):
                 "x": self.center[:, 0].copy(),
                 "y": self.center[:, 1].copy(),
                 "cuts": self.cuts,
-            }
+            },
+            self.necks.skeleton.polygons,
+            self.source,
         )
 
     def described(self) -> PolygonSet:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.geometry.curves.inverse_functions import hypotenuse
-from vorotool.geometry.identity import names_of
+from vorotool.geometry.identity import names_of, part_table
 from vorotool.geometry.skeleton.given_feet import moved_feet
 from vorotool.geometry.skeleton.skeleton import SIDES, Skeleton
 from vorotool.geometry.table import Lookup, Table
@@ -103,26 +103,28 @@ class SkeletonPoints(Value, Tabular, WithParts, Pictured):
             arc. The width is from foot to foot along centerlines, else twice the radius. Outside there is no polygon.
             Centerlines have ``ring_a, ring_b``, too: numbers of holes, 0 for the shell.
         """
+        return part_table(self.columns(), self.skeleton.polygons, self.polygon)
+
+    def columns(self) -> dict[str, Any]:
+        """Return the columns of the table that are not of the input."""
         skeleton, arc, given = self.skeleton, self.arc, self.as_given
         side = skeleton.side[arc]
-        return Table(
-            {
-                **names_of(skeleton.polygons, self.polygon),
-                "branch": skeleton.branch[arc],
-                "arc": arc,
-                "side": Lookup([*SIDES, None], np.where(side < 0, len(SIDES), side).astype(np.int32)),
-                "along": self.along,
-                "x": given.xy[:, 0].copy(),
-                "y": given.xy[:, 1].copy(),
-                "r": self.radius,
-                "width": self.width,
-                "x_a": given.feet[:, 0, 0].copy(),
-                "y_a": given.feet[:, 0, 1].copy(),
-                "x_b": given.feet[:, 1, 0].copy(),
-                "y_b": given.feet[:, 1, 1].copy(),
-                **self._ring_columns(),
-            }
-        )
+        return {
+            **names_of(skeleton.polygons, self.polygon),
+            "branch": skeleton.branch[arc],
+            "arc": arc,
+            "side": Lookup([*SIDES, None], np.where(side < 0, len(SIDES), side).astype(np.int32)),
+            "along": self.along,
+            "x": given.xy[:, 0].copy(),
+            "y": given.xy[:, 1].copy(),
+            "r": self.radius,
+            "width": self.width,
+            "x_a": given.feet[:, 0, 0].copy(),
+            "y_a": given.feet[:, 0, 1].copy(),
+            "x_b": given.feet[:, 1, 0].copy(),
+            "y_b": given.feet[:, 1, 1].copy(),
+            **self._ring_columns(),
+        }
 
     def _ring_columns(self) -> dict[str, Any]:
         if self.rings is None:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from vorotool.geometry.curves.cubics import cubic_polylines
 from vorotool.geometry.curves.flatten import chained, curve_tolerances
-from vorotool.geometry.identity import names_of
+from vorotool.geometry.identity import names_of, part_table
 from vorotool.geometry.numbers import checked_flatten
 from vorotool.geometry.ragged import owners
 from vorotool.geometry.skeleton.led_on import LedOn
@@ -121,14 +121,16 @@ class SmoothLines(Value, Tabular, Curved, Pictured):
             from 0, and have its error. Outside there is no polygon.
         """
         line, control = self.line, self.as_given.control
-        return Table(
+        return part_table(
             {
                 **names_of(self.path.polygons, self.polygon[line]),
                 "branch": line,
                 "curve": np.arange(len(control)) - self.start[line],
                 **{f"{axis}{k}": control[:, k, n].copy() for k in range(4) for n, axis in enumerate("xy")},
                 "error": self.error[line],
-            }
+            },
+            self.path.polygons,
+            self.polygon[line],
         )
 
     def _summary(self) -> str:

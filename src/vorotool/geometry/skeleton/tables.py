@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError
 from vorotool.geometry.arguments.descriptions import described
 from vorotool.geometry.arguments.values import check_value
-from vorotool.geometry.identity import names_of
+from vorotool.geometry.identity import names_of, part_table
 from vorotool.geometry.parallel import in_chunks
 from vorotool.geometry.polygons.conversion import to_shapely
 from vorotool.geometry.polygons.polygon_set import PolygonSet
@@ -23,7 +23,7 @@ BRANCH_TYPES = ("end-end", "junction-end", "junction-junction", "cycle")
 """As skan has them, by their numbers there."""
 
 BRANCH_COLUMNS = (
-    *("label", "id", "branch", "kind", "length", "chord", "r_min", "r_max", "r_mean"),
+    *("branch", "kind", "length", "chord", "r_min", "r_max", "r_mean"),
     *("type", "tortuosity"),
 )
 
@@ -54,7 +54,7 @@ def arc_table(skeleton: Skeleton) -> Table:
     x, y = np.ascontiguousarray(skeleton.as_given.vertices.T)
     cx, cy = np.ascontiguousarray(skeleton.control.T)
     site_a, site_b = np.ascontiguousarray(skeleton.sites.T)
-    return Table(
+    return part_table(
         {
             **names_of(skeleton.polygons, skeleton.polygon),
             "arc": np.arange(len(skeleton)),
@@ -75,7 +75,9 @@ def arc_table(skeleton: Skeleton) -> Table:
             "length": skeleton.length,
             "error_bound": skeleton.error_bound,
             "branch": skeleton.branch,
-        }
+        },
+        skeleton.polygons,
+        skeleton.polygon,
     )
 
 
@@ -106,7 +108,7 @@ def element_table(skeleton: Skeleton) -> Table:
     is_edge = sites.kind == EDGE
     ends = skeleton.as_given.site_ends
     labels = site_labels(skeleton)
-    return Table(
+    return part_table(
         {
             "element": np.arange(len(sites)),
             "kind": Lookup(["vertex", "edge"], sites.kind.astype(np.int32)),
@@ -119,7 +121,9 @@ def element_table(skeleton: Skeleton) -> Table:
             "y1": np.ma.array(ends[:, 1, 1], mask=~is_edge),
             "label_a": np.ma.array(labels[:, 0], mask=labels[:, 0] == 0),
             "label_b": np.ma.array(labels[:, 1], mask=labels[:, 1] == 0),
-        }
+        },
+        skeleton.polygons,
+        sites.polygon,
     )
 
 
@@ -172,35 +176,38 @@ def branch_table(skeleton: Skeleton, *, threads: int = 0) -> Table:
     (1, 4)
     """
     check_value(skeleton, "skeleton", Skeleton)
+    polygon = skeleton.polygon[_branch_starts(skeleton)]
+    columns = {**names_of(skeleton.polygons, polygon), **branch_columns(skeleton, threads=threads)}
+    return part_table(columns, skeleton.polygons, polygon)
+
+
+def branch_columns(skeleton: Skeleton, *, threads: int = 0) -> dict[str, Any]:
+    """Return the columns of the table of branches without those that name polygons."""
     start = _branch_starts(skeleton)
     if not len(start):
         empty: NDArray[Any] = np.empty(0)
-        return Table(dict.fromkeys(BRANCH_COLUMNS, empty))
+        return dict.fromkeys(BRANCH_COLUMNS, empty)
     a, b = both = _branch_ends(skeleton, start)
     least, most, integral = skeleton.arc_radii_on(threads)
     length = np.add.reduceat(skeleton.length, start)
     integral = np.add.reduceat(integral, start)
     mean = np.divide(integral, length, out=skeleton.radius[a].copy(), where=length > 0)
-    polygon = skeleton.polygon[start]
     framed = skeleton.on_frame[both]
     has_end = ((skeleton.degree[both] == 1) & ~framed).any(axis=0)
     kind = np.select([a == b, has_end, framed.any(axis=0)], [2, 0, 3], 1).astype(np.int32)
     chord = _distance(skeleton.vertices[a], skeleton.vertices[b])
     tortuosity = np.maximum(np.divide(length, chord, out=np.ones(len(chord)), where=chord > 0), 1.0)
-    return Table(
-        {
-            **names_of(skeleton.polygons, polygon),
-            "branch": skeleton.branch[start],
-            "kind": Lookup(["end", "inner", "closed", "frame"], kind),
-            "length": length,
-            "chord": chord,
-            "r_min": np.minimum.reduceat(least, start),
-            "r_max": np.maximum.reduceat(most, start),
-            "r_mean": mean,
-            "type": Lookup(list(BRANCH_TYPES), _branch_types(skeleton, both)),
-            "tortuosity": np.ma.array(tortuosity, mask=chord == 0),
-        }
-    )
+    return {
+        "branch": skeleton.branch[start],
+        "kind": Lookup(["end", "inner", "closed", "frame"], kind),
+        "length": length,
+        "chord": chord,
+        "r_min": np.minimum.reduceat(least, start),
+        "r_max": np.maximum.reduceat(most, start),
+        "r_mean": mean,
+        "type": Lookup(list(BRANCH_TYPES), _branch_types(skeleton, both)),
+        "tortuosity": np.ma.array(tortuosity, mask=chord == 0),
+    }
 
 
 def _branch_types(skeleton: Skeleton, ends: NDArray[np.int32]) -> NDArray[np.int32]:

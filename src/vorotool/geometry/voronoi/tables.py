@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.geometry.identity import with_ends
 from vorotool.geometry.table import Computed, Lookup, Table
 from vorotool.geometry.voronoi.site_shapes import site_distances
 from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
@@ -31,7 +32,7 @@ def border_table(cells: VoronoiMap) -> Table:
     source, target = np.ascontiguousarray(cells.arcs[arc].T)
     x, y = np.ascontiguousarray(cells.vertices.T)
     cx, cy = np.ascontiguousarray(cells.control[arc].T)
-    return Table(
+    return with_ends(
         {
             "label_a": cells.labels[low],
             "label_b": cells.labels[high],
@@ -46,7 +47,9 @@ def border_table(cells: VoronoiMap) -> Table:
             "arc": arc,
             "r0": cells.radius[source],
             "r1": cells.radius[target],
-        }
+        },
+        cells.properties,
+        {"a": low, "b": high},
     )
 
 
@@ -65,7 +68,8 @@ def neighbor_table(cells: VoronoiMap) -> Table:
     pairs, length = neighbor_pairs(cells)
     low, high = cells.labels[pairs.T]
     distance = _when_asked(lambda: site_distances(cells, pairs), len(pairs))
-    return Table({"label_a": low, "label_b": high, "border_length": length, "distance": distance})
+    columns = {"label_a": low, "label_b": high, "border_length": length, "distance": distance}
+    return with_ends(columns, cells.properties, dict(zip("ab", pairs.T, strict=True)))
 
 
 def cell_table(cells: VoronoiMap) -> Table:

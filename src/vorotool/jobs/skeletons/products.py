@@ -20,7 +20,7 @@ from vorotool.jobs.inputs import JobInput, refuse
 from vorotool.jobs.names import DERIVED
 from vorotool.jobs.options import Place, SkeletonOptions
 from vorotool.jobs.picture_style import styled_page
-from vorotool.jobs.picture_world import check_column, world_of_polygons
+from vorotool.jobs.picture_world import check_columns, world_of_polygons
 from vorotool.jobs.pictures import write_layers
 from vorotool.jobs.pixel_sizes import placed_backdrop
 from vorotool.jobs.pruning_choice import CRITERIA, LENGTHS, Pruning, chosen_pruning
@@ -55,7 +55,7 @@ class SkeletonProducts(ABC, Generic[Options]):
             refuse({"what thickness": "thickness" in options.what}, "is for images, but the input is polygons or lines")
         self.options, self.backdrop = options, placed_backdrop(run, options, given.backdrop)
         self._is_told = False  # what was repaired, once
-        check_column(options.label_by, self._polygons.properties)
+        check_columns(options, self._polygons.properties)
         is_cut = options.side != "interior" or "diagram" in options.what
         world = world_of_polygons(run, options, self._polygons, size=options.pixel_size, is_cut=is_cut)
         self._styled = partial(styled_page, looks=options.looks, world=world)

@@ -91,7 +91,7 @@ def _read_points(run: Run, o: TessellationOptions, given: JobInput) -> tuple[Tes
             input_format=o.input_format,
             columns=o.columns,
             max_sites=o.max_sites,
-            properties=("table" in o.what or o.label_by is not None or given.has_page) and not o.no_properties,
+            properties=("table" in o.what or o.names_columns or given.has_page) and not o.no_properties,
             note=run.note,
         )
         seeds = seeds_from_xyz(points, strict=o.strict, check=lambda seeds: _frame_of(o, seeds))

@@ -26,7 +26,7 @@ from vorotool.geometry.table import Table
 from vorotool.geometry.volumes.label_volume import LabelVolume
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.options import TessellationOptions
-from vorotool.jobs.picture_world import check_column, world_of
+from vorotool.jobs.picture_world import check_columns, world_of
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import PixelSize, unit_columns
@@ -72,7 +72,7 @@ class VolumeProducts:
         self.run, self.options, self.read, self.sweep = run, options, read, sweep
         self._is_held = has_page or "color" in options.what
         self._with_distances = (has_page or "table" in options.what) and len(read.seeds) > 0
-        check_column(options.label_by, read.seeds.properties)
+        check_columns(options, read.seeds.properties)
         self.dtype = label_dtype(read.seeds.largest_label, options.dtype)
 
     @cached_property
@@ -150,7 +150,7 @@ class VolumeProducts:
             elif what == "color":
                 self._write_picture(out, target.fmt)
             elif what in _TABLES:
-                table = self._table if what == "table" else neighbors_of_regions(self.regions)
+                table = self._table if what == "table" else self._neighbors()
                 write_product(
                     out,
                     table,
@@ -212,6 +212,11 @@ class VolumeProducts:
     @cached_property
     def _table(self) -> Table:
         return table_of_regions(self.regions, threads=self.options.threads)
+
+    def _neighbors(self) -> Table:
+        from vorotool.geometry.identity import ends_of_regions
+
+        return ends_of_regions(neighbors_of_regions(self.regions), self.read.seeds)
 
     def _write_page(self, out: BinaryIO) -> None:
         from vorotool.render.pages.volume_html import write_volume_html

@@ -8,12 +8,13 @@ from typing import Any
 
 import numpy as np
 
+from vorotool.geometry.named_columns import column_of
 from vorotool.render.canvas.layers import Texts
 
 
 def column_texts(properties: Mapping[str, Sequence[Any]], column: str | None, ids: Iterable[Any]) -> list[str]:
     """Give what is written on objects."""
-    return [text_of(value) for value in (ids if column is None else properties[column])]
+    return [text_of(value) for value in (ids if column is None else column_of(properties, column) or ())]
 
 
 def text_of(value: Any) -> str:
