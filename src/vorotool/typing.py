@@ -91,7 +91,7 @@ FrameLike: TypeAlias = Box | Sequence[float] | ArrayLike
 RealLike: TypeAlias = float | Fraction
 """A number, which is taken exactly."""
 
-Spacing: TypeAlias = float | Fraction | Sequence[float | Fraction]
+Spacing: TypeAlias = float | Fraction | Sequence[float | Fraction] | Literal["auto"]
 """The side of a pixel or voxel, or its (height, width), or (depth, height, width)."""
 
 Side: TypeAlias = Literal["interior", "exterior", "both"]

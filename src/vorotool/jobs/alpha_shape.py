@@ -111,7 +111,7 @@ class ShapeProducts:
             note_repeated_labels(self.run, points, exact)
             return exact
         seeds = points if isinstance(points, SeedSet) else seeds_in_frame(points, partial(frame_of, o), strict=o.strict)
-        frame: Any = {"window": window_of(o, seeds), "strict": o.strict, "threads": o.threads}
+        frame: Any = {"window": window_of(o, seeds), "spacing": 1, "strict": o.strict, "threads": o.threads}
         mesh: AnyTriangulation
         if o.method == "digital":
             mesh = digital_triangulation(seeds, **frame, progress=progress)

@@ -23,6 +23,7 @@ from vorotool.engines.tessellation.frames import (
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import InputError, LimitError, UsageError, option, warn
 from vorotool.geometry.any.scaling import scaled
+from vorotool.geometry.arguments.spacings import asked_sides
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation
 from vorotool.geometry.mesh.triangulation import Triangulation
@@ -30,7 +31,7 @@ from vorotool.geometry.pixel_frame import MAX_PIXELS
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.geometry.progress import Progress
-from vorotool.geometry.spacing import PixelSides, pixel_sides
+from vorotool.geometry.spacing import PixelSides
 
 if TYPE_CHECKING:
     from vorotool.typing import SeedsLike, Spacing
@@ -71,7 +72,7 @@ def digital_triangulation(
         As in `tessellate`; not for a label image.
     image : bool, optional
         As in `tessellate`.
-    spacing : float or (height, width), optional
+    spacing : float, (height, width) or "auto", optional
         As in `tessellate`: coordinates of the result are in its unit. That of a label image holds for it.
     strict : bool
         Refuse several seeds at one place.
@@ -103,7 +104,7 @@ def digital_triangulation(
     ([[0, 1], [0, 2], [1, 2]], [[0, 1, 2]])
     """
     threads = checked_threads(threads)
-    sides = pixel_sides(spacing)
+    sides = asked_sides(source, spacing)
     if isinstance(source, LabelImage):
         if spacing is not None and sides != source.sides:
             raise UsageError(f"spacing is that of the label image, {source.sides.text()}: leave it out")
@@ -270,7 +271,7 @@ def repair_digital(
         As in `tessellate`.
     image : bool, optional
         As in `tessellate`.
-    spacing : float or (height, width), optional
+    spacing : float, (height, width) or "auto", optional
         As in `tessellate`: the mesh is that of the seeds in its unit.
     strict : bool
         Refuse several seeds at one place.
@@ -310,7 +311,7 @@ def repair_digital(
     >>> len(mesh), repair.route, repair.filled
     (3, 'repaired', 1)
     """
-    sides = pixel_sides(spacing)
+    sides = asked_sides(source, spacing)
     frame = asked_frame(shape, window)
     seeds = as_seeds(source, "source", image=image, max_pixels=max_pixels, frame=frame, sides=sides)
     order = one_seed_a_label(seeds)

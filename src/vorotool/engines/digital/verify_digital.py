@@ -11,10 +11,10 @@ from vorotool.engines.tessellation.frames import as_seeds, asked_frame, band_lim
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.engines.tessellation.verify_tessellation import verify_label_image
 from vorotool.errors import VerificationError
+from vorotool.geometry.arguments.spacings import asked_sides
 from vorotool.geometry.arguments.values import check_value
 from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation
 from vorotool.geometry.pixel_frame import Frame
-from vorotool.geometry.spacing import pixel_sides
 
 if TYPE_CHECKING:
     from vorotool.typing import SeedsLike, Spacing
@@ -45,7 +45,7 @@ def verify_digital_triangulation(
         As in `digital_triangulation`.
     image : bool, optional
         As in `digital_triangulation`.
-    spacing : float or (height, width), optional
+    spacing : float, (height, width) or "auto", optional
         As in `digital_triangulation`.
     threads : int
         Number of threads; 0 uses all.
@@ -63,7 +63,7 @@ def verify_digital_triangulation(
     """
     check_value(found, "found", DigitalTriangulation)
     frame = asked_frame(shape, window)
-    sides = pixel_sides(spacing)
+    sides = asked_sides(source, spacing)
     seeds = as_seeds(source, "source", image=image, frame=frame, sides=sides)
     edges, triangles = np.empty((0, 2), np.int64), np.empty((0, 3), np.int64)
     if len(seeds):

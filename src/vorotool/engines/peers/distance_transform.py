@@ -14,10 +14,11 @@ from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.engines.volumes.inner_voxels import outer_voxels
 from vorotool.engines.volumes.volume_tessellator import VolumeSweep
 from vorotool.errors import InputError, UsageError
+from vorotool.geometry.arguments.spacings import asked_sides
 from vorotool.geometry.arguments.volumes import is_volume
 from vorotool.geometry.checks import checked_flag
 from vorotool.geometry.pixel_frame import MAX_PIXELS, Frame
-from vorotool.geometry.spacing import PixelSides, pixel_sides
+from vorotool.geometry.spacing import PixelSides
 
 if TYPE_CHECKING:
     from vorotool.typing import ImageLike, Spacing
@@ -71,7 +72,7 @@ def distance_transform(
     ----------
     mask : (H, W) or (D, H, W) array
         Nonzero pixels or voxels are foreground.
-    spacing : float, (height, width) or (depth, height, width), optional
+    spacing : float, (height, width) or (depth, height, width), or "auto", optional
         Sides of a pixel or voxel, by default 1; SciPy's ``sampling``. A float is the decimal number that it is written
         as.
     return_distances, return_indices : bool
@@ -117,10 +118,10 @@ def distance_transform(
     sweep: Tessellator | _Background | None
     if is_volume(mask):
         values = volume(mask, "mask", max_pixels)
-        sweep = _Background.of(values, pixel_sides(spacing, 3), threads)
+        sweep = _Background.of(values, asked_sides(mask, spacing, 3), threads)
     else:
         values = plane(mask, "mask")
-        sweep = _sweep(values, pixel_sides(spacing), threads, max_pixels)
+        sweep = _sweep(values, asked_sides(mask, spacing), threads, max_pixels)
     if not return_indices:
         return _roots(sweep, values.shape)
     indices = _nearest(sweep, values.shape)

@@ -16,10 +16,11 @@ from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.engines.volumes.inner_voxels import outer_voxels
 from vorotool.engines.volumes.volume_tessellator import VolumeSweep
 from vorotool.errors import InputError, UsageError
+from vorotool.geometry.arguments.spacings import asked_sides
 from vorotool.geometry.arguments.volumes import is_volume
 from vorotool.geometry.numbers import real_number, shown_number
 from vorotool.geometry.pixel_frame import MAX_PIXELS, Frame
-from vorotool.geometry.spacing import PixelSides, as_decimal, pixel_sides
+from vorotool.geometry.spacing import PixelSides, as_decimal
 
 if TYPE_CHECKING:
     from vorotool.typing import ImageLike, Spacing
@@ -46,7 +47,7 @@ def expand_labels(
     distance : float or Fraction
         How far labels grow, between centers of pixels or voxels, this distance included; ``inf`` fills all the
         background.
-    spacing : float, (height, width) or (depth, height, width), optional
+    spacing : float, (height, width) or (depth, height, width), or "auto", optional
         Sides of a pixel or voxel in the unit of `distance`, by default 1. With it floats are the decimal numbers that
         they are written as: three pixels of 0.1 are within 0.3.
     threads : int
@@ -79,7 +80,7 @@ def expand_labels(
     """
     is_solid = is_volume(labels)
     values = volume(labels, "labels", max_pixels) if is_solid else plane(labels, "labels")
-    sides = pixel_sides(spacing, 3 if is_solid else 2)
+    sides = asked_sides(labels, spacing, 3 if is_solid else 2)
     limit = real_number(distance, "distance")
     if not limit >= 0:
         raise UsageError(f"invalid distance {shown_number(distance)}: expected a number from 0")

@@ -12,10 +12,10 @@ from vorotool.engines.label_images.outlines import outlines
 from vorotool.engines.peers.arguments import plane
 from vorotool.engines.skeleton_api import skeleton_exact
 from vorotool.engines.tessellation.frames import require_memory
+from vorotool.geometry.arguments.spacings import asked_sides
 from vorotool.geometry.pixel_frame import MAX_PIXELS, Frame
 from vorotool.geometry.points.raster import Raster
 from vorotool.geometry.progress import Progress
-from vorotool.geometry.spacing import pixel_sides
 
 if TYPE_CHECKING:
     from vorotool.typing import ImageLike, OutlineKind, Spacing
@@ -47,7 +47,7 @@ def local_thickness(
         Around the pixels, or half-way between the centers of pixels inside and outside.
     connectivity : {8, 4}
         Of the pixels of an object.
-    spacing : float or (height, width), optional
+    spacing : float, (height, width) or "auto", optional
         Sides of a pixel, by default 1. A float is the decimal number that it is written as.
     threads : int
         Number of threads; 0 uses all. The result does not depend on it.
@@ -81,7 +81,7 @@ def local_thickness(
     [3.0, 3.0, 3.0, 1.0, 1.0]
     """
     values = plane(mask, "mask")
-    sides = pixel_sides(spacing)
+    sides = asked_sides(mask, spacing)
     height, width = values.shape
     require_memory(Frame(0, 0, max(width, 1), max(height, 1)), max_pixels)
     if not values.any():

@@ -20,12 +20,13 @@ from vorotool.errors import STRICT, InputError, LimitError, UsageError, option, 
 from vorotool.geometry.arguments.images import as_raster, is_image
 from vorotool.geometry.arguments.points import as_points
 from vorotool.geometry.arguments.polygons import as_polygons
+from vorotool.geometry.arguments.spacings import asked_sides
 from vorotool.geometry.numbers import real_number, shown_number
 from vorotool.geometry.pixel_frame import MAX_PIXELS, Frame
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.points.seed_set import SeedSet
-from vorotool.geometry.spacing import SQUARE, PixelSides, pixel_sides
+from vorotool.geometry.spacing import SQUARE, PixelSides
 from vorotool.geometry.volumes.label_volume import LabelVolume
 from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
 from vorotool.geometry.volumes.voxel_frame import VoxelFrame
@@ -220,7 +221,7 @@ def sides_of(source: Any, spacing: Any, axes: int = 2) -> PixelSides:
     """Give the sides of the pixels as they are asked for, else those of labels that have sides."""
     if spacing is None and isinstance(source, LabelImage | LabelVolume):
         return source.sides
-    return pixel_sides(spacing, axes)
+    return asked_sides(source, spacing, axes)
 
 
 def check_out(out: Any, shape: tuple[int, ...]) -> None:

@@ -155,9 +155,10 @@ def tessellate(
         Passes of the propagation.
     max_distance : float or Fraction, optional
         Pixels farther than this from every seed get label 0.
-    spacing : float, (height, width) or (depth, height, width), optional
+    spacing : float, (height, width) or (depth, height, width), or "auto", optional
         Sides of a pixel and so the unit of distances; by default those of a label image, else 1. Coordinates of points
-        are in pixels. A float stands for the decimal number it prints as.
+        are in pixels. A float stands for the decimal number it prints as. ``"auto"`` takes what an image or a volume
+        carries: the size in its file, or the steps of the axes of an xarray; without, such a size is warned of.
     dtype : dtype, optional
         As in `Tessellator.labels`.
     out : (H, W) or (D, H, W) array, optional

@@ -18,8 +18,8 @@ from vorotool.formats.volumes.opening import open_volume
 from vorotool.formats.volumes.points import read_xyz
 from vorotool.formats.volumes.source import VolumeSource
 from vorotool.formats.zarr.store import is_folder
-from vorotool.geometry.pixel_grid import ALIKE, rounded_side
-from vorotool.geometry.spacing import PixelSides, pixel_sides
+from vorotool.geometry.arguments.spacings import sides_of_voxels
+from vorotool.geometry.spacing import PixelSides
 from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
 from vorotool.geometry.volumes.voxel_frame import VoxelFrame
 from vorotool.geometry.volumes.voxel_grid import VoxelGrid
@@ -176,26 +176,13 @@ def _of_file(grid: VoxelGrid | None) -> PixelSize:
     instead = "give numbers and their unit, such as --spacing 0.325,0.325,1.5um"
     if grid is None:
         raise InputError(f"the volume carries no size of its voxels: {instead}")
-    sides = _exact_sides(grid)
+    sides = sides_of_voxels(grid)
     if sides is None:
         raise InputError(
             f"the volume has voxels of {grid.size_text()}, whose sides have no common step that is coarse enough for "
             f"exact distances: {instead}"
         )
     return PixelSize(Fraction(1), grid.unit, is_spacing=True, sides=sides)
-
-
-def _exact_sides(grid: VoxelGrid) -> PixelSides | None:
-    """Sides with a common step: as the file has them, else as the shortest decimal numbers that are alike."""
-    depth, height, width = grid.sides
-    alike = {side: width for side in (height, depth) if abs(side - width) <= ALIKE * width}
-    exact = [alike.get(side, side) for side in (depth, height, width)]
-    for sides in (exact, [*map(rounded_side, exact)]):
-        try:
-            return pixel_sides(sides, 3)
-        except UsageError:
-            continue
-    return None
 
 
 def _written_grid(size: PixelSize | None, sides: PixelSides, grid: VoxelGrid | None) -> VoxelGrid | None:
