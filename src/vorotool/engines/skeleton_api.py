@@ -12,11 +12,11 @@ from vorotool.engines.skeleton.diagrams import (
     skeleton_in,
     skeleton_inside,
 )
-from vorotool.engines.skeleton.exact import Frame, check_features, check_skeleton_options
+from vorotool.engines.skeleton.exact import check_features, check_skeleton_options
 from vorotool.engines.skeleton.open_border import check_border
 from vorotool.geometry.arguments.boxes import as_extent
 from vorotool.geometry.arguments.polygons import as_polygons
-from vorotool.geometry.box import Box
+from vorotool.geometry.box import Box, Extent
 from vorotool.geometry.checks import checked_flag, checked_threads
 from vorotool.geometry.magnitude import check_lengths
 from vorotool.geometry.progress import Progress
@@ -33,8 +33,8 @@ def skeleton_exact(
     features: FeaturesChoice = "separate",
     gap: float = 0.0,
     complete: bool = True,
-    frame: Box | Frame | None = None,
-    border: Box | Frame | None = None,
+    frame: Box | Extent | None = None,
+    border: Box | Extent | None = None,
     strict: bool = False,
     threads: int = 0,
     progress: Progress = None,
@@ -131,7 +131,7 @@ def skeleton_approx(
     side: Side = "interior",
     features: FeaturesChoice = "separate",
     complete: bool | None = None,
-    frame: Box | Frame | None = None,
+    frame: Box | Extent | None = None,
     strict: bool = False,
     threads: int = 0,
     progress: Progress = None,

@@ -4,13 +4,25 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.geometry.numbers import finite_double, nearest_double, real_number
+
+if TYPE_CHECKING:
+    from vorotool.geometry.polygons.polygon_set import PolygonSet
+
+Extent = tuple[float, float, float, float]
+"""The smallest corner of a rectangle, its width and its height: a frame digit by digit as it was given."""
+
+Sides = tuple[float, float, float, float]
+"""The least x and y of a rectangle, and the largest."""
+
+FRAME_MARGIN = 0.1
+"""Of the larger side of the bounds, on each side of the default frame."""
 
 LARGEST = float(np.finfo(np.float64).max)
 
@@ -61,12 +73,12 @@ class Box:
             )
 
     @property
-    def sides(self) -> tuple[float, float, float, float]:
+    def sides(self) -> Sides:
         """Left, bottom, right, top."""
         return (self.left, self.bottom, self.right, self.top)
 
     @property
-    def extent(self) -> tuple[float, float, float, float]:
+    def extent(self) -> Extent:
         """Left, bottom, width, height."""
         return (self.left, self.bottom, self.right - self.left, self.top - self.bottom)
 
@@ -111,3 +123,43 @@ class Box:
             left, bottom = np.maximum(low - wide, -LARGEST)
             right, top = np.minimum(high + wide, LARGEST)
         return Box(left, bottom, right, top)
+
+
+def default_frame(polygons: PolygonSet, max_distance: float | None = None) -> Extent:
+    """Return the box of the image, else the bounds and a tenth of their larger side; around one place a square.
+
+    The margin is larger than `max_distance`, so that the frame holds all places within that distance.
+    """
+    if polygons.frame is not None:
+        return polygons.frame.extent
+    if not len(polygons.xy):
+        return (-1.0, -1.0, 2.0, 2.0)
+    low, high = bounds(polygons.xy)
+    margin = FRAME_MARGIN * float((high - low).max()) or 1.0
+    margin = max(margin, (1 + FRAME_MARGIN) * (max_distance or 0.0))
+    x, y = (low - margin).tolist()
+    w, h = (high - low + 2 * margin).tolist()
+    return (x, y, w, h)
+
+
+def widened(frame: Extent) -> Extent:
+    """Give a frame three times as large around the same middle."""
+    x, y, w, h = frame
+    return (x - w, y - h, 3 * w, 3 * h)
+
+
+def is_extent(frame: Extent) -> bool:
+    """Whether four numbers are a rectangle with an area."""
+    return bool(np.isfinite(frame).all() and frame[2] > 0 and frame[3] > 0)
+
+
+def extent_sides(frame: Extent) -> Sides:
+    """Return the least and the largest coordinates of a frame."""
+    x, y, width, height = frame
+    return (x, y, x + width, y + height)
+
+
+def corners_of(frame: Extent) -> NDArray[np.float64]:
+    """Return the corners of a frame, counter-clockwise from the smallest."""
+    left, bottom, right, top = extent_sides(frame)
+    return np.array([[left, bottom], [right, bottom], [right, top], [left, top]])

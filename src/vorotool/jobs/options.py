@@ -17,12 +17,12 @@ from vorotool.jobs.picture_style import Looks, Paper
 if TYPE_CHECKING:
     from vorotool.engines.centerlines.centerline import Ends
     from vorotool.engines.tessellation.seeding import SeedMode
+    from vorotool.geometry.box import Extent
     from vorotool.jobs.picture_style import Scale
     from vorotool.jobs.pruning_choice import Pruning
     from vorotool.jobs.units import PixelSize
 
 Place = tuple[float, float]
-Rectangle = tuple[float, float, float, float]
 ALL_PAGES = -1
 """Of ``--page all``: each page is an input of a batch."""
 AUTO_LEVELS = -1
@@ -145,7 +145,7 @@ class DrawingOptions(JobOptions):
     drawing_unit: str | None
     aspect: float | None
     extent: Literal["image", "data"] | None
-    frame: Rectangle | None
+    frame: Extent | None
     what: tuple[str, ...] = ("picture",)
 
     @property
@@ -275,7 +275,7 @@ class TriangulationOptions(SiteOptions):
     extent: Literal["image", "data"] | None
     method: Method
     graph: Literal["delaunay", "gabriel", "relative", "mst"]
-    frame: Rectangle | None
+    frame: Extent | None
     clip: str | None
 
     @property
@@ -301,7 +301,7 @@ class AlphaShapeOptions(SiteOptions):
     drawing_unit: str | None
     aspect: float | None
     extent: Literal["image", "data"] | None
-    frame: Rectangle | None
+    frame: Extent | None
     method: Method
     r: Fraction | float | None
     alpha: Fraction | None
@@ -325,7 +325,7 @@ class ShapeOptions(ComputingOptions):
     """What each command has that takes shapes, or the outlines of an image."""
 
     spacing: PixelSize | None
-    frame: Rectangle | None
+    frame: Extent | None
     flatten: float | None
     join_tolerance: float | None
     simplify: float | None
@@ -405,7 +405,7 @@ class DistanceOptions(ComputingOptions):
     drawing_unit: str | None
     aspect: float | None
     extent: Literal["image", "data"] | None
-    frame: Rectangle | None
+    frame: Extent | None
 
     @property
     def paper(self) -> Paper:

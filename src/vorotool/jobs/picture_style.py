@@ -10,6 +10,7 @@ from vorotool.errors import UsageError
 from vorotool.geometry.length_units import METRES
 
 if TYPE_CHECKING:
+    from vorotool.geometry.box import Sides
     from vorotool.jobs.options import JobOptions
     from vorotool.render.canvas.layers import Page
     from vorotool.render.canvas.styles import PictureStyle, ScaleBar
@@ -158,10 +159,6 @@ def check_layers(looks: Looks, drawn: Sequence[str]) -> None:
         for layer, _ in chosen:
             if layer not in known:
                 raise UsageError(f"invalid {option} of {layer!r}: expected a layer of the picture, {', '.join(known)}")
-
-
-Sides = tuple[float, float, float, float]
-"""Least x and y, largest x and y."""
 
 
 class World(NamedTuple):

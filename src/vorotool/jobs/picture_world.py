@@ -11,13 +11,13 @@ from vorotool.geometry.input_unit import InputUnit, unit_of_crs
 from vorotool.geometry.length_units import ratio, unit_name
 from vorotool.geometry.named_columns import check_plain, chosen_column
 from vorotool.jobs.options import ComputingOptions
-from vorotool.jobs.picture_style import Looks, Sides, World
+from vorotool.jobs.picture_style import Looks, World
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from vorotool.geometry.box import Box
+    from vorotool.geometry.box import Box, Extent, Sides
     from vorotool.geometry.mesh.cells import CellSet
     from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation
     from vorotool.geometry.points.point_set import PointSet
@@ -38,7 +38,7 @@ def world_of(
     *,
     crs: Any = None,
     unit: str | None = None,
-    bounds: tuple[float, float, float, float] | None = None,
+    bounds: Sides | None = None,
     frame: Box | None = None,
     size: PixelSize | None = None,
     is_paper: bool = False,
@@ -106,23 +106,25 @@ def _world_of_set(
 
 def _asked(o: JobOptions) -> Sides | None:
     """Return the sides of ``--frame``, if the command has it."""
-    frame: tuple[float, float, float, float] | None = getattr(o, "frame", None)
+    frame: Extent | None = getattr(o, "frame", None)
     if frame is None:
         return None
-    x, y, width, height = frame
-    return (x, y, x + width, y + height)
+    from vorotool.geometry.box import extent_sides
+
+    return extent_sides(frame)
 
 
 def world_of_value(value: Any, looks: Looks, *, is_paper: bool = False) -> World:
     """Tell where a value of the library lies, and refuse a column that it has not."""
+    from vorotool.geometry.box import extent_sides
     from vorotool.geometry.mesh.cells import CellSet
     from vorotool.geometry.polygons.polygon_set import PolygonSet
     from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 
     if isinstance(value, VoronoiMap):
         check_column(looks.label_by, value.properties, "label_by")
-        x, y, w, h = value.frame
-        made = _world_of_set(None, looks, value.polygons, is_paper=is_paper, bounds=(x, y, x + w, y + h))
+        bounds = extent_sides(value.frame)
+        made = _world_of_set(None, looks, value.polygons, is_paper=is_paper, bounds=bounds)
         return made._replace(frame=None)
     inner = _input_of(value)
     check_column(looks.label_by, inner.properties, "label_by")
@@ -160,7 +162,7 @@ def _input_of(value: Any) -> AnyTriangulation | CellSet | PolygonSet:
     return found
 
 
-def _bounds_of(points: NDArray[np.float64]) -> tuple[float, float, float, float]:
+def _bounds_of(points: NDArray[np.float64]) -> Sides:
     from vorotool.geometry.box import bounds
 
     if not len(points):

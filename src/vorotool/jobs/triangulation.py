@@ -21,7 +21,7 @@ from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.geometry.progress import Progress
 from vorotool.jobs.cuts import read_clip
 from vorotool.jobs.inputs import JobInput, note_repeated_labels, read_sites
-from vorotool.jobs.options import Rectangle, TriangulationOptions
+from vorotool.jobs.options import TriangulationOptions
 from vorotool.jobs.picture_style import styled_page
 from vorotool.jobs.picture_world import check_columns, world_of_sites
 from vorotool.jobs.pictures import write_layers
@@ -34,7 +34,7 @@ from vorotool.products.registry import PRODUCTS
 from vorotool.products.writing import write_product
 
 if TYPE_CHECKING:
-    from vorotool.geometry.box import Box
+    from vorotool.geometry.box import Box, Extent
     from vorotool.geometry.mesh.cells import CellSet
     from vorotool.geometry.mesh.statistics import CellStatistics
     from vorotool.render.canvas.layers import Layer, Page, Polygons
@@ -167,7 +167,7 @@ class MeshProducts:
         return self._cells
 
     def _cells_in(
-        self, frame: Box | Rectangle | None, progress: Progress, *, clip: Sequence[Any] | None = None
+        self, frame: Box | Extent | None, progress: Progress, *, clip: Sequence[Any] | None = None
     ) -> CellSet:
         return voronoi_cells(
             self.mesh,

@@ -12,11 +12,12 @@ import vorotool
 from support.families.skeleton_shapes import FAMILIES, regular, under_symmetries
 from support.few import few
 from vorotool.engines.segment_voronoi.verify_segment_voronoi import verify_segment_voronoi
-from vorotool.engines.skeleton.exact import default_frame, shape_diagram, whole_diagram
+from vorotool.engines.skeleton.exact import shape_diagram, whole_diagram
 from vorotool.engines.skeleton.exact import skeleton_of as skeleton_of_shapes
 from vorotool.engines.skeleton.shortened_edges import element_diagram, exact_for, gap_deviation
 from vorotool.engines.skeleton.verify_skeleton import verify_exterior
 from vorotool.errors import InputError, UsageError, VorotoolWarning
+from vorotool.geometry.box import default_frame
 from vorotool.geometry.skeleton.skeleton import EXTERIOR, INTERIOR
 
 DATA = Path(__file__).parents[3] / "data"

@@ -11,12 +11,11 @@ from vorotool.engines.from_skeleton.disc_candidates import Candidates
 from vorotool.engines.from_skeleton.disc_places import bernstein_roots
 from vorotool.engines.from_skeleton.largest_discs import Axis, check_count
 from vorotool.engines.skeleton.diagrams import diagram_of_all, skeleton_in
-from vorotool.engines.skeleton.exact import Frame, default_frame
 from vorotool.errors import InputError
 from vorotool.geometry.arguments.boxes import as_extent
 from vorotool.geometry.arguments.polygons import as_polygons
 from vorotool.geometry.arguments.sites import as_sites
-from vorotool.geometry.box import Box, bounds
+from vorotool.geometry.box import Box, Extent, bounds, corners_of, default_frame, extent_sides, is_extent
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.polygons.used_shapes import used_shapes
@@ -35,7 +34,7 @@ Numbers = NDArray[np.intp]
 def largest_empty_discs(
     shapes: PointsLike | PolygonsLike | ImageLike,
     *,
-    within: Box | Frame | PolygonsLike | None = None,
+    within: Box | Extent | PolygonsLike | None = None,
     count: int = 1,
     threads: int = 0,
     progress: Progress = None,
@@ -93,26 +92,24 @@ def _region(given: PolygonSet, within: Any) -> PolygonSet:
     frame = default_frame(given) if within is None else None
     if isinstance(within, Box) or (isinstance(within, tuple) and len(within) == 4 and np.isscalar(within[0])):
         frame = as_extent(within, "within")
-        if not (np.isfinite(frame).all() and frame[2] > 0 and frame[3] > 0):
+        if not is_extent(frame):
             raise InputError(f"invalid within {frame}: expected X, Y, W, H, the last two above 0, or polygons")
     if frame is None:
         region = as_polygons(within, name="within")
         if len(region) and region.is_line.all():
             raise InputError("invalid within: it has no inside; expected X, Y, W, H, or polygons")
         return region
-    x, y, w, h = frame
-    return as_polygons([[x, y], [x + w, y], [x + w, y + h], [x, y + h]])
+    return as_polygons(corners_of(frame))
 
 
-def shared_region(given: PolygonSet, clip: PolygonSet | None, frame: Frame | None) -> PolygonSet:
+def shared_region(given: PolygonSet, clip: PolygonSet | None, frame: Extent | None) -> PolygonSet:
     """Give what a map in a frame and a clip shares out: what lies in both, if there are both; it may be nothing."""
     if clip is None or frame is None:
         return _region(given, clip or frame)
     import shapely
 
-    x, y, w, h = frame
     area = shapely.union_all(used_shapes(clip)[~clip.is_line])
-    common = shapely.intersection(area, shapely.box(x, y, x + w, y + h))
+    common = shapely.intersection(area, shapely.box(*extent_sides(frame)))
     return as_polygons([each for each in shapely.get_parts(common) if each.area > 0])
 
 

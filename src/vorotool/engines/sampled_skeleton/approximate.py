@@ -12,9 +12,7 @@ from vorotool import _core
 from vorotool.engines.arrangement.lattice_rings import PlacedShapes
 from vorotool.engines.skeleton.contraction import without_equal_nodes
 from vorotool.engines.skeleton.exact import (
-    Frame,
     check_skeleton_options,
-    default_frame,
     face_groups,
     joined_groups,
     of_one_arrangement,
@@ -23,6 +21,7 @@ from vorotool.engines.skeleton.exact import (
     warn_empty,
 )
 from vorotool.errors import LimitError, UsageError
+from vorotool.geometry.box import Extent, default_frame
 from vorotool.geometry.checks import checked_threads, is_choice
 from vorotool.geometry.numbers import finite_double, shown_number
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
@@ -176,7 +175,7 @@ def approximate_skeleton(
     shapes: SampledShapes,
     *,
     side: str = "interior",
-    frame: Frame | None = None,
+    frame: Extent | None = None,
     complete: bool = False,
     tolerance: float = 0.0,
     threads: int = 0,
@@ -201,7 +200,7 @@ def skeleton_of_samples(
     shapes: SampledShapes,
     *,
     side: str,
-    frame: Frame | None,
+    frame: Extent | None,
     complete: bool,
     tolerance: float,
     threads: int,
@@ -230,7 +229,7 @@ def skeleton_of_samples(
     return ApproximateSkeleton(skeleton, seeds, shapes, open_corners, parts)
 
 
-def whole_sampled_diagram(shapes: SampledShapes, *, frame: Frame | None = None, threads: int = 0) -> Skeleton:
+def whole_sampled_diagram(shapes: SampledShapes, *, frame: Extent | None = None, threads: int = 0) -> Skeleton:
     """Give all edges of the Voronoi diagram of samples as arcs, cut by a frame; they have no side and no bounds."""
     check_skeleton_options("both", 0, frame)
     graph, placed = shapes.graph, shapes.placed

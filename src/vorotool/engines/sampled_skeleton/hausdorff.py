@@ -14,8 +14,9 @@ from vorotool.engines.sampled_skeleton.approximate import ApproximateSkeleton, a
 from vorotool.engines.sampled_skeleton.per_feature import FeatureApproximation
 from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi
 from vorotool.engines.skeleton.distances_to_arcs import distances_to, places_on_arcs
-from vorotool.engines.skeleton.exact import Frame, ShapeDiagram, skeleton_of, widened
+from vorotool.engines.skeleton.exact import ShapeDiagram, skeleton_of
 from vorotool.errors import VorotoolWarning
+from vorotool.geometry.box import Extent, widened
 from vorotool.geometry.ragged import starts_of
 from vorotool.geometry.skeleton.skeleton import Skeleton
 
@@ -91,7 +92,7 @@ def _both_ways(found: ApproximateSkeleton, *, side: str, threads: int) -> dict[s
 
 
 def exact_skeleton(
-    found: ApproximateSkeleton, *, side: str = "interior", frame: Frame | None = None, threads: int = 0
+    found: ApproximateSkeleton, *, side: str = "interior", frame: Extent | None = None, threads: int = 0
 ) -> Skeleton:
     """Compute the exact skeleton of the shapes that were sampled."""
     graph, placed = found.shapes.graph, found.shapes.placed

@@ -30,10 +30,10 @@ from vorotool.engines.sampled_skeleton.approximate import (
 from vorotool.engines.sampled_skeleton.refinement import refined_skeleton, refuse_unproved, skeleton_within
 from vorotool.engines.skeleton.both_sides import joined_sides
 from vorotool.engines.skeleton.contraction import contraction
-from vorotool.engines.skeleton.exact import Frame, warn_empty
+from vorotool.engines.skeleton.exact import warn_empty
 from vorotool.engines.skeleton.per_feature import joined_with_places
 from vorotool.errors import LimitError, VorotoolWarning
-from vorotool.geometry.box import bounds
+from vorotool.geometry.box import Extent, bounds
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.progress import Progress
@@ -110,7 +110,7 @@ def approximation(
     side: str = "interior",
     features: str = "separate",
     complete: bool = False,
-    frame: Frame | None = None,
+    frame: Extent | None = None,
     strict: bool = False,
     most: int = MOST_SEEDS,
     threads: int = 0,
@@ -180,7 +180,7 @@ def approximation_of_sides(
     options: SamplingOptions,
     *,
     side: str,
-    frame: Frame | None = None,
+    frame: Extent | None = None,
     complete: bool = False,
     strict: bool = False,
     most: int = MOST_SEEDS,
@@ -225,7 +225,7 @@ def _of_graph(
     options: SamplingOptions,
     *,
     side: str,
-    frame: Frame | None,
+    frame: Extent | None,
     complete: bool,
     most: int,
     threads: int,
@@ -244,7 +244,7 @@ def samples_of_graph(
     options: SamplingOptions,
     *,
     side: str = "interior",
-    frame: Frame | None = None,
+    frame: Extent | None = None,
     complete: bool = False,
     most: int = MOST_SEEDS,
     threads: int = 0,

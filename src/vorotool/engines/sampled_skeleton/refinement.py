@@ -19,8 +19,9 @@ from vorotool.engines.sampled_skeleton.approximate import (
     skeleton_of_samples,
     told_together,
 )
-from vorotool.engines.skeleton.exact import Frame, warn_empty
+from vorotool.engines.skeleton.exact import warn_empty
 from vorotool.errors import LimitError
+from vorotool.geometry.box import Extent
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.progress import Progress
@@ -40,7 +41,7 @@ def skeleton_within(
     tolerance: float,
     *,
     side: str = "interior",
-    frame: Frame | None = None,
+    frame: Extent | None = None,
     complete: bool = True,
     most: int = MOST_SEEDS,
     threads: int = 0,
@@ -78,7 +79,7 @@ def refined_skeleton(
     groups: SampleGroups,
     *,
     side: str,
-    frame: Frame | None,
+    frame: Extent | None,
     complete: bool,
     most: int,
     threads: int,

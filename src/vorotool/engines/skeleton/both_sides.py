@@ -12,10 +12,11 @@ from numpy.typing import NDArray
 from vorotool.engines.arrangement.lattice_rings import PlacedShapes
 from vorotool.engines.arrangement.planar_graph import arranged, placed_vertices
 from vorotool.engines.features.batches import are_apart
-from vorotool.engines.skeleton.exact import Frame, ShapeDiagram, diagram_of_graph, skeleton_of, warn_empty
+from vorotool.engines.skeleton.exact import ShapeDiagram, diagram_of_graph, skeleton_of, warn_empty
 from vorotool.engines.skeleton.parts import PER_ARC
 from vorotool.engines.skeleton.per_feature import feature_skeleton
 from vorotool.errors import VorotoolWarning
+from vorotool.geometry.box import Extent
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.progress import Progress
@@ -23,7 +24,7 @@ from vorotool.geometry.skeleton.skeleton import EDGE, SiteTable, Skeleton
 
 
 def sides_of(
-    shapes: ShapeDiagram, *, side: str, frame: Frame | None = None, threads: int = 0, progress: Progress = None
+    shapes: ShapeDiagram, *, side: str, frame: Extent | None = None, threads: int = 0, progress: Progress = None
 ) -> Skeleton:
     """Give what is outside of the features of one arrangement, and what is inside each of them by itself."""
     common: dict[str, Any] = {"threads": threads, "progress": progress}

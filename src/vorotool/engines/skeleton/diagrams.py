@@ -10,7 +10,7 @@ from vorotool.engines.arrangement.planar_graph import graph_for_skeletons
 from vorotool.engines.features.batches import together
 from vorotool.engines.skeleton.both_sides import sides_of
 from vorotool.engines.skeleton.contraction import without_equal_nodes
-from vorotool.engines.skeleton.exact import Frame, ShapeDiagram, diagram_of_graph, skeleton_of, whole_diagram
+from vorotool.engines.skeleton.exact import ShapeDiagram, diagram_of_graph, skeleton_of, whole_diagram
 from vorotool.engines.skeleton.feature_elements import feature_elements, sides_of_elements
 from vorotool.engines.skeleton.per_feature import FeatureSkeleton, Seen, feature_skeleton
 from vorotool.engines.skeleton.shortened_edges import (
@@ -19,6 +19,7 @@ from vorotool.engines.skeleton.shortened_edges import (
     skeleton_of_elements,
     whole_element_diagram,
 )
+from vorotool.geometry.box import Extent
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.skeleton import Skeleton
@@ -37,7 +38,7 @@ def skeleton_inside(
     *,
     complete: bool = True,
     look: Callable[[AnyDiagram, Skeleton], Seen] | None = None,
-    border: Frame | None = None,
+    border: Extent | None = None,
     strict: bool = False,
     threads: int = 0,
     progress: Progress = None,
@@ -75,7 +76,7 @@ def skeleton_in(
     side: str,
     features: str,
     complete: bool = True,
-    frame: Frame | None = None,
+    frame: Extent | None = None,
     threads: int = 0,
     progress: Progress = None,
 ) -> Skeleton:
@@ -90,7 +91,7 @@ def skeleton_in(
     return without_equal_nodes(made)
 
 
-def all_edges(diagram: AnyDiagram, *, frame: Frame | None = None, threads: int = 0) -> Skeleton:
+def all_edges(diagram: AnyDiagram, *, frame: Extent | None = None, threads: int = 0) -> Skeleton:
     """Give all edges of a diagram as arcs, cut by a frame: what it is before anything is deleted."""
     if isinstance(diagram, ShapeDiagram):
         return without_equal_nodes(whole_diagram(diagram, frame=frame, threads=threads))

@@ -14,7 +14,7 @@ from vorotool.engines.arrangement.planar_graph import graph_for_skeletons
 from vorotool.engines.segment_voronoi.segment_voronoi import core_diagram, segment_voronoi, unwanted_sides
 from vorotool.engines.skeleton.open_border import Opening
 from vorotool.errors import Kind, Message, UsageError, VorotoolWarning, option, warn
-from vorotool.geometry.box import bounds
+from vorotool.geometry.box import Extent, default_frame, is_extent
 from vorotool.geometry.checks import checked_threads, is_choice
 from vorotool.geometry.numbers import finite_double, shown_number
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
@@ -27,19 +27,15 @@ SIDE_NAMES = ("interior", "exterior", "both")
 FEATURES = ("separate", "together")
 EVERY_GROUP = -1
 """Of arcs that a frame clips, as the core has it."""
-FRAME_MARGIN = 0.1
-"""Of the larger side of the bounds, on each side of the default frame."""
-
-Frame = tuple[float, float, float, float]
 
 
-def check_skeleton_options(side: str, gap: float, frame: Frame | None) -> None:
+def check_skeleton_options(side: str, gap: float, frame: Extent | None) -> None:
     """Raise UsageError for what is no side, gap or frame."""
     if not is_choice(side, SIDE_NAMES):
         raise UsageError(f"the side is {side!r}: use {', '.join(SIDE_NAMES)}")
     if finite_double(gap, "the gap") < 0:
         raise UsageError(f"the gap is {shown_number(gap)}: use a length of 0 or more")
-    if frame is not None and not (np.isfinite(frame).all() and frame[2] > 0 and frame[3] > 0):
+    if frame is not None and not is_extent(frame):
         raise UsageError(f"the frame is {frame}: use X, Y, W, H, the last two above 0")
 
 
@@ -91,7 +87,7 @@ def skeleton_of(
     shapes: ShapeDiagram,
     *,
     side: str = "interior",
-    frame: Frame | None = None,
+    frame: Extent | None = None,
     threads: int = 0,
     progress: Progress = None,
 ) -> Skeleton:
@@ -117,7 +113,7 @@ def interior_skeleton(shapes: ShapeDiagram, *, threads: int = 1, progress: Progr
     return _on_side(shapes, "interior", None, threads, progress)
 
 
-def _on_side(shapes: ShapeDiagram, side: str, frame: Frame | None, threads: int, progress: Progress) -> Skeleton:
+def _on_side(shapes: ShapeDiagram, side: str, frame: Extent | None, threads: int, progress: Progress) -> Skeleton:
     edges, faces = kept_edges(shapes, threads=threads, progress=progress)
     group = face_groups(shapes.placed, side)[faces]
     kept, clips = group >= 0, side != "interior"
@@ -135,7 +131,7 @@ def kept_edges(
     )
 
 
-def whole_diagram(shapes: ShapeDiagram, *, frame: Frame | None = None, threads: int = 0) -> Skeleton:
+def whole_diagram(shapes: ShapeDiagram, *, frame: Extent | None = None, threads: int = 0) -> Skeleton:
     """Give all edges of the diagram as arcs, cut by a frame: what it is before anything is deleted."""
     check_skeleton_options("both", 0, frame)
     count = len(shapes.diagram.edges)
@@ -162,29 +158,6 @@ def face_groups(placed: PlacedShapes, side: str) -> NDArray[np.int32]:
     return group
 
 
-def default_frame(polygons: PolygonSet, max_distance: float | None = None) -> Frame:
-    """Return the box of the image, else the bounds and a tenth of their larger side; around one place a square.
-
-    The margin is larger than `max_distance`, so that the frame holds all places within that distance.
-    """
-    if polygons.frame is not None:
-        return polygons.frame.extent
-    if not len(polygons.xy):
-        return (-1.0, -1.0, 2.0, 2.0)
-    low, high = bounds(polygons.xy)
-    margin = FRAME_MARGIN * float((high - low).max()) or 1.0
-    margin = max(margin, (1 + FRAME_MARGIN) * (max_distance or 0.0))
-    x, y = (low - margin).tolist()
-    w, h = (high - low + 2 * margin).tolist()
-    return (x, y, w, h)
-
-
-def widened(frame: Frame) -> Frame:
-    """Give a frame three times as large around the same middle."""
-    x, y, w, h = frame
-    return (x - w, y - h, 3 * w, 3 * h)
-
-
 def joined_groups(placed: PlacedShapes) -> tuple[int, int]:
     """First group of `face_groups` in which arcs that end in one corner are connected there, and the one after last."""
     outside = len(placed.polygons)
@@ -196,7 +169,7 @@ def assembled(
     edges: NDArray[np.int32],
     group: NDArray[np.int32],
     *,
-    frame: Frame | None,
+    frame: Extent | None,
     clips: bool,
     joins: bool = True,
     threads: int,
@@ -226,7 +199,9 @@ def assembled(
     return skeleton if opening is None else replace(skeleton, border="open")
 
 
-def skeleton_of_arrays(made: dict[str, Any], graph: PlanarGraph, placed: PlacedShapes, frame: Frame | None) -> Skeleton:
+def skeleton_of_arrays(
+    made: dict[str, Any], graph: PlanarGraph, placed: PlacedShapes, frame: Extent | None
+) -> Skeleton:
     """Put a skeleton together from the arrays of the core, in which the polygons of arcs are groups."""
     outside = len(placed.polygons)
     vertices, cut = made["vertices"], made.pop("frame_side")
@@ -249,7 +224,7 @@ def skeleton_of_arrays(made: dict[str, Any], graph: PlanarGraph, placed: PlacedS
     )
 
 
-def on_lattice(frame: Frame, graph: PlanarGraph) -> tuple[float, float, float, float]:
+def on_lattice(frame: Extent, graph: PlanarGraph) -> tuple[float, float, float, float]:
     """Least and most x, then least and most y."""
     x, y, w, h = frame
     (origin_x, origin_y), scale = graph.origin, graph.scale

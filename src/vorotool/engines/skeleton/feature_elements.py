@@ -14,7 +14,7 @@ from vorotool.engines.arrangement.planar_graph import arranged, placed_vertices
 from vorotool.engines.features.batches import BatchShapes, FeatureShapes, in_batches
 from vorotool.engines.features.order import InputOrder
 from vorotool.engines.skeleton.both_sides import joined_sides
-from vorotool.engines.skeleton.exact import Frame, warn_empty
+from vorotool.engines.skeleton.exact import warn_empty
 from vorotool.engines.skeleton.per_feature import FeatureSkeleton, Seen, joined_skeletons
 from vorotool.engines.skeleton.short_edges import ShortEdges
 from vorotool.engines.skeleton.shortened_edges import (
@@ -23,7 +23,7 @@ from vorotool.engines.skeleton.shortened_edges import (
     skeleton_of_elements,
 )
 from vorotool.errors import VorotoolWarning
-from vorotool.geometry.box import bounds
+from vorotool.geometry.box import Extent, bounds
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.skeleton import Skeleton
@@ -85,7 +85,7 @@ def sides_of_elements(
     *,
     side: str,
     complete: bool = True,
-    frame: Frame | None = None,
+    frame: Extent | None = None,
     threads: int = 0,
     progress: Progress = None,
 ) -> Skeleton:

@@ -14,13 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError, UsageError
+from vorotool.geometry.box import Extent, is_extent
 from vorotool.geometry.magnitude import check_lengths
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.skeleton.segment_voronoi import SegmentVoronoiDiagram
 
 Indices = NDArray[np.int64]
-Frame = tuple[float, float, float, float]
 
 ROOM = 1.25
 """Of the sides of the rectangle together: how far around it the lattice has places. What is put away is as far as both
@@ -41,7 +41,7 @@ class Opening:
     graph: PlanarGraph  # with the faces of the graph that it is made of
     # (s,) int32 array: of its points, then its segments, the site of that graph; -1 of what is beyond the border
     site: NDArray[np.int32]
-    frame: Frame
+    frame: Extent
     box: tuple[int, int, int, int]  # least and most x, then y, on the lattice
 
     @property
@@ -60,18 +60,18 @@ class Opening:
         return replace(diagram, vertices=vertices)
 
 
-def around(frame: Frame) -> NDArray[np.float64]:
+def around(frame: Extent) -> NDArray[np.float64]:
     """(2, 2) places that the lattice has to have, too."""
     x, y, w, h = frame
     far = ROOM * (w + h)
     return np.array([[x - far, y - far], [x + w + far, y + h + far]])
 
 
-def check_border(polygons: PolygonSet, frame: Frame | None, *, side: str, features: str, gap: float) -> None:
+def check_border(polygons: PolygonSet, frame: Extent | None, *, side: str, features: str, gap: float) -> None:
     """Raise UsageError for a border that is none, or does not go with the rest; InputError for what is beyond it."""
     if frame is None:
         return
-    if not (np.isfinite(frame).all() and frame[2] > 0 and frame[3] > 0):
+    if not is_extent(frame):
         raise UsageError(f"the border is {frame}: use X, Y, W, H, the last two above 0")
     if side != "interior" or features != "separate" or gap:
         raise UsageError(
@@ -85,7 +85,7 @@ def check_border(polygons: PolygonSet, frame: Frame | None, *, side: str, featur
         raise InputError(f"{place} is beyond the border {frame}: cut polygons there first")
 
 
-def opened(graph: PlanarGraph, frame: Frame) -> Opening:
+def opened(graph: PlanarGraph, frame: Extent) -> Opening:
     """Put segments on the border of a rectangle far away."""
     x, y, w, h = frame
     sides = np.array([x - graph.origin[0], x + w - graph.origin[0], y - graph.origin[1], y + h - graph.origin[1]])

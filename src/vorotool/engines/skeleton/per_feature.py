@@ -13,7 +13,6 @@ from vorotool.engines.features.batches import BatchShapes, FeatureShapes, in_bat
 from vorotool.engines.features.order import InputOrder, Places, stacked
 from vorotool.engines.segment_voronoi.segment_voronoi import NEITHER, segment_voronoi
 from vorotool.engines.skeleton.exact import (
-    Frame,
     ShapeDiagram,
     interior_skeleton,
     sides_not_interior,
@@ -21,6 +20,7 @@ from vorotool.engines.skeleton.exact import (
     warn_empty,
 )
 from vorotool.engines.skeleton.open_border import around, opened
+from vorotool.geometry.box import Extent
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.ragged import starts_of
@@ -42,7 +42,7 @@ def feature_skeleton(
     polygons: PolygonSet,
     *,
     look: Callable[[ShapeDiagram, Skeleton], Seen] | None = None,
-    border: Frame | None = None,
+    border: Extent | None = None,
     strict: bool = False,
     threads: int = 0,
     progress: Progress = None,
@@ -70,7 +70,7 @@ def feature_skeleton(
 def batch_diagram(
     shapes: BatchShapes,
     *,
-    border: Frame | None = None,
+    border: Extent | None = None,
     is_whole: bool = False,
     threads: int = 0,
     progress: Progress = None,
@@ -89,7 +89,7 @@ def batch_diagram(
 
 
 def _opened_diagram(
-    shapes: BatchShapes, border: Frame, is_whole: bool, threads: int, progress: Progress
+    shapes: BatchShapes, border: Extent, is_whole: bool, threads: int, progress: Progress
 ) -> ShapeDiagram:
     opening = opened(shapes.graph, border)
     graph = opening.graph

@@ -14,7 +14,6 @@ from vorotool.engines.arrangement.lattice_rings import PlacedShapes, placed_shap
 from vorotool.engines.arrangement.planar_graph import Placement, arranged, graph_for_skeletons, placed_vertices
 from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, segment_voronoi_of_groups
 from vorotool.engines.skeleton.exact import (
-    Frame,
     ShapeDiagram,
     assembled,
     face_groups,
@@ -24,7 +23,7 @@ from vorotool.engines.skeleton.exact import (
     whole_diagram,
 )
 from vorotool.engines.skeleton.short_edges import ShortEdges
-from vorotool.geometry.box import bounds
+from vorotool.geometry.box import Extent, bounds
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.curves.inverse_functions import angle_of, hypotenuse
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
@@ -121,7 +120,7 @@ def skeleton_of_elements(
     *,
     side: str = "interior",
     complete: bool = True,
-    frame: Frame | None = None,
+    frame: Extent | None = None,
     threads: int = 0,
     progress: Progress = None,
 ) -> Skeleton:
@@ -147,7 +146,7 @@ def skeleton_of_elements(
     return _of_elements(made, elements)
 
 
-def whole_element_diagram(elements: ElementDiagram, *, frame: Frame | None = None, threads: int = 0) -> Skeleton:
+def whole_element_diagram(elements: ElementDiagram, *, frame: Extent | None = None, threads: int = 0) -> Skeleton:
     """Give all edges of the diagram of elements; see `vorotool.engines.skeleton.exact.whole_diagram`."""
     shapes = ShapeDiagram(elements.graph, elements.diagram, elements.placed)
     return _of_elements(whole_diagram(shapes, frame=frame, threads=threads), elements)
@@ -328,7 +327,7 @@ def gap_deviation(skeleton: Skeleton, exact: Skeleton) -> float:
     return float(distance.max())
 
 
-def exact_for(elements: ElementDiagram, side: str, *, frame: Frame | None = None, threads: int = 0) -> Skeleton:
+def exact_for(elements: ElementDiagram, side: str, *, frame: Extent | None = None, threads: int = 0) -> Skeleton:
     """Compute the exact skeleton of the shapes that were decomposed."""
     shapes = elements.shapes
     diagram = segment_voronoi(shapes.points, shapes.segments, threads=threads)

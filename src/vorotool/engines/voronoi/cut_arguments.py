@@ -7,15 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from vorotool.engines.skeleton.exact import default_frame
 from vorotool.engines.voronoi.regions import CutEdges
 from vorotool.errors import InputError
 from vorotool.geometry.arguments.polygons import as_polygons
-from vorotool.geometry.box import bounds
+from vorotool.geometry.box import Extent, bounds, default_frame
 from vorotool.geometry.crs import crs_name, same_crs
 from vorotool.geometry.polygons.polygon_set import LINE, PolygonSet, set_of_rings
-
-Frame = tuple[float, float, float, float]
 
 FARTHEST = 8.0
 """Margin of the frame at most, in extents of what is in it: the frame is on the lattice, whose step grows with it."""
@@ -33,7 +30,7 @@ class GivenCuts:
         """Whether there is one of them."""
         return self.clip is not None or self.enclosures is not None
 
-    def frame_for(self, sites: PolygonSet, frame: Frame | None, limit: float | None) -> Frame | None:
+    def frame_for(self, sites: PolygonSet, frame: Extent | None, limit: float | None) -> Extent | None:
         """Return the frame that was given, else that of an image; without a clip that around sites and enclosures."""
         if frame is None and sites.frame is not None:
             return sites.frame.extent
@@ -73,7 +70,7 @@ def _in_crs(given: PolygonSet, crs: Any, name: str) -> PolygonSet:
     return given
 
 
-def frame_of(edges: CutEdges, frame: Frame | None, clip: PolygonSet | None) -> Frame:
+def frame_of(edges: CutEdges, frame: Extent | None, clip: PolygonSet | None) -> Extent:
     """Give the bounds of what is shared out; of nothing those of what was given."""
     places = edges.given
     if not len(places):

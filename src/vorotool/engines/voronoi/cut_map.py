@@ -17,6 +17,7 @@ from vorotool.engines.voronoi.nearest_elements import NearestElements
 from vorotool.engines.voronoi.overlay import UNKNOWN, Overlay
 from vorotool.engines.voronoi.regions import CutEdges
 from vorotool.errors import VerificationError
+from vorotool.geometry.box import Extent
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.ragged import owners
 from vorotool.geometry.voronoi.voronoi_map import OUTSIDE
@@ -36,12 +37,10 @@ class CutMap:
     arcs: Arcs  # those inside regions and those along cuts; a part is a site
     is_cut: NDArray[np.bool_]  # (a,) bool array: whether each is along a cut
     rings: Rings
-    frame: tuple[float, float, float, float]  # bounds of what is shared out
+    frame: Extent  # bounds of what is shared out
 
 
-def cut_map(
-    local: LocalDiagrams, edges: CutEdges, joint: PlanarGraph, frame: tuple[float, float, float, float]
-) -> CutMap:
+def cut_map(local: LocalDiagrams, edges: CutEdges, joint: PlanarGraph, frame: Extent) -> CutMap:
     """Put the borders of all regions between the cuts, and tell whose each side of each cut is."""
     overlay = Overlay(local, edges, crossings_of(local, edges))
     sites, order = _sites_and_order(overlay)

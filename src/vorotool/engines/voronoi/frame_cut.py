@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from vorotool.engines.voronoi.borders import Borders
 from vorotool.engines.voronoi.curves import INFINITY, CircularArc, controls_of, parabolas_of
 from vorotool.engines.voronoi.moves import Moves
+from vorotool.geometry.box import Extent
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.voronoi.voronoi_map import OUTSIDE
 
@@ -48,7 +49,7 @@ class CutBorders:
 class FrameBox:
     """A frame in input units, and on the lattice."""
 
-    def __init__(self, frame: tuple[float, float, float, float], graph: PlanarGraph) -> None:
+    def __init__(self, frame: Extent, graph: PlanarGraph) -> None:
         x, y, w, h = frame
         self.low, self.high = np.array([x, y]), np.array([x + w, y + h])
         self.origin, self.scale = np.array(graph.origin), graph.scale
@@ -103,7 +104,7 @@ class FrameBox:
         return int(np.argmin(room))
 
 
-def cut_borders(borders: Borders, graph: PlanarGraph, frame: tuple[float, float, float, float]) -> CutBorders:
+def cut_borders(borders: Borders, graph: PlanarGraph, frame: Extent) -> CutBorders:
     """Cut pieces of borders where they leave a frame; what runs along it is left out."""
     box = FrameBox(frame, graph)
     places = graph.coordinates(borders.places).reshape(-1, 2)

@@ -11,13 +11,13 @@ from vorotool.engines.arrangement.flat_rings import with_flat_shells_as_lines
 from vorotool.engines.arrangement.planar_graph import MOST_VERTICES, Placement, arranged, placed_vertices
 from vorotool.engines.voronoi.elements import graph_of_sites
 from vorotool.errors import LimitError
+from vorotool.geometry.box import Extent, corners_of
 from vorotool.geometry.magnitude import check_magnitude
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.polygons.polygon_set import LINE, SHELL, PolygonSet
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.ragged import owners, ranges, starts_of
 
-Frame = tuple[float, float, float, float]
 Indices = NDArray[np.int64]
 Floats = NDArray[np.float64]
 
@@ -42,7 +42,7 @@ class JointGraph:
 
 def joint_graph(
     polygons: PolygonSet,
-    frame: Frame | None,
+    frame: Extent | None,
     clip: PolygonSet | None,
     enclosures: PolygonSet | None,
     *,
@@ -77,10 +77,8 @@ def joint_graph(
     )
 
 
-def _box(frame: Frame) -> PolygonSet:
-    x, y, w, h = frame
-    corners = np.array([[x, y], [x + w, y], [x + w, y + h], [x, y + h]])
-    return _rings(corners, np.array([4]), np.array([SHELL]), np.array([0]))
+def _box(frame: Extent) -> PolygonSet:
+    return _rings(corners_of(frame), np.array([4]), np.array([SHELL]), np.array([0]))
 
 
 def _rings(xy: Floats, sizes: Indices, kinds: NDArray[np.integer], polygons: NDArray[np.integer]) -> PolygonSet:

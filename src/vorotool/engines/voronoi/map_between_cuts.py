@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-from vorotool.engines.voronoi.cut_arguments import Frame, GivenCuts, frame_of
+from vorotool.engines.voronoi.cut_arguments import GivenCuts, frame_of
 from vorotool.engines.voronoi.cut_map import CutMap, cut_map
 from vorotool.engines.voronoi.joint_graph import joint_graph
 from vorotool.engines.voronoi.local_diagrams import local_diagrams
 from vorotool.engines.voronoi.regions import regions_of
 from vorotool.errors import InputError
 from vorotool.geometry.arguments.sites import Sites
+from vorotool.geometry.box import Extent
 from vorotool.geometry.progress import Progress
 
 
 def map_between_cuts(
     given: Sites,
     cuts: GivenCuts,
-    frame: Frame | None,
+    frame: Extent | None,
     limit: float | None,
     *,
     threads: int = 0,

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from vorotool.engines.voronoi.elements import OwnedGraph, owned_graph, shared_elements
 from vorotool.errors import RepairWarning
+from vorotool.geometry.box import Extent
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.sorted_sets import distinct
 from vorotool.geometry.voronoi.shapes import cell_polygons
@@ -42,7 +43,7 @@ def own_areas(cells: VoronoiMap) -> Floats:
     return made
 
 
-def _face_areas(graph: PlanarGraph, frame: tuple[float, float, float, float]) -> Floats:
+def _face_areas(graph: PlanarGraph, frame: Extent) -> Floats:
     """(f,) areas of faces within a frame, with the corners that were given."""
     x, y, w, h = frame
     at = graph.coordinates_as_given

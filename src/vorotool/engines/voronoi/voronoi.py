@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from vorotool.engines.skeleton.exact import Frame, default_frame
 from vorotool.engines.voronoi.assembly import Arcs, Rings, arcs_of, cells_of, rings_of
 from vorotool.engines.voronoi.borders import Borders, borders_of
 from vorotool.engines.voronoi.cut_arguments import given_cuts
@@ -24,6 +23,7 @@ from vorotool.engines.voronoi.nearest_site import site_at
 from vorotool.errors import UsageError
 from vorotool.geometry.arguments.boxes import as_extent
 from vorotool.geometry.arguments.sites import as_sites
+from vorotool.geometry.box import Extent, corners_of, default_frame, is_extent
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.magnitude import check_lengths
 from vorotool.geometry.numbers import finite_double, shown_number
@@ -165,9 +165,9 @@ def voronoi(
     )
 
 
-def _checked_frame(frame: FrameLike) -> Frame:
+def _checked_frame(frame: FrameLike) -> Extent:
     extent = as_extent(frame, "frame")
-    if not (np.isfinite(extent).all() and extent[2] > 0 and extent[3] > 0):
+    if not is_extent(extent):
         raise UsageError(f"invalid frame {extent}: expected X, Y, W, H, the last two above 0")
     check_lengths(extent, "frame's coordinate")
     return extent
@@ -186,7 +186,7 @@ def _checked_limit(max_distance: float, xy: NDArray[np.float64]) -> float:
     return limit
 
 
-def _map(owned: OwnedGraph, frame: Frame, limit: float | None, threads: int, progress: Progress) -> tuple[Arcs, Rings]:
+def _map(owned: OwnedGraph, frame: Extent, limit: float | None, threads: int, progress: Progress) -> tuple[Arcs, Rings]:
     if limit is not None:
         owned = _on_fine_lattice(owned, limit)
     diagram = diagram_of(owned, is_whole=limit is not None, threads=threads, progress=progress)
@@ -212,7 +212,7 @@ def _beside(borders: Borders, cut: CutBorders) -> tuple[Indices, Indices, Indice
     )
 
 
-def _is_beyond(owned: OwnedGraph, level: float, frame: Frame) -> bool:
+def _is_beyond(owned: OwnedGraph, level: float, frame: Extent) -> bool:
     """Whether the middle of a frame, and so all of it if no limit is there, is farther than that from all sites."""
     x, y, w, h = frame
     return not len(owned.graph.points) or site_at(owned, (x + w / 2, y + h / 2), level) == OUTSIDE
@@ -228,9 +228,9 @@ def _on_fine_lattice(owned: OwnedGraph, limit: float) -> OwnedGraph:
 
 
 def _cells_of(
-    owned: OwnedGraph, cut: CutBorders, beside: tuple[Indices, Indices, Indices], level: float, frame: Frame
+    owned: OwnedGraph, cut: CutBorders, beside: tuple[Indices, Indices, Indices], level: float, frame: Extent
 ) -> tuple[Arcs, Rings]:
-    ring = frame_ring(cut, *beside, _corners(frame))
+    ring = frame_ring(cut, *beside, corners_of(frame))
     if (ring.sides == UNKNOWN).any():
         inside = arcs_of(cut, replace(ring, sides=np.full_like(ring.sides, OUTSIDE)), *beside)
         rings = rings_of(inside)
@@ -241,13 +241,7 @@ def _cells_of(
     return arcs, rings_of(arcs)
 
 
-def _corners(frame: Frame) -> NDArray[np.float64]:
-    """Counter-clockwise from the smallest."""
-    x, y, w, h = frame
-    return np.array([[x, y], [x + w, y], [x + w, y + h], [x, y + h]])
-
-
-def _of_frame(owned: OwnedGraph, level: float, frame: Frame, rings: Rings) -> tuple[int, int]:
+def _of_frame(owned: OwnedGraph, level: float, frame: Extent, rings: Rings) -> tuple[int, int]:
     """Site and part along a frame that no border meets: those of what has no shell but the frame."""
     if not len(owned.graph.points):
         return OUTSIDE, OUTSIDE

@@ -5,10 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from vorotool.errors import InputError, UsageError
-from vorotool.geometry.box import Box
+from vorotool.geometry.box import Box, Extent
 from vorotool.geometry.numbers import finite_double, shown_number
-
-Extent = tuple[float, float, float, float]
 
 EXPECTED = "expected a Box or four finite numbers x, y, width, height, the last two above 0"
 

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
+from vorotool.geometry.box import extent_sides
 from vorotool.geometry.ragged import within
 from vorotool.geometry.voronoi.site_shapes import site_shapes
 from vorotool.geometry.voronoi.tables import neighbor_pairs
@@ -46,8 +47,7 @@ def voronoi_layers(cells: VoronoiMap, page: Page, layers: Iterable[str]) -> list
 
 def voronoi_page(cells: VoronoiMap, *, width: int = 1000) -> Page:
     """The page that shows the frame of a map; y upwards where the input says so."""
-    x, y, w, h = cells.frame
-    return Page((x, y, x + w, y + h), width=width, y_up=is_up(cells.polygons))
+    return Page(extent_sides(cells.frame), width=width, y_up=is_up(cells.polygons))
 
 
 def map_colors(cells: VoronoiMap) -> NDArray[np.uint32]:
