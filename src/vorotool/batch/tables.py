@@ -7,10 +7,11 @@ import hashlib
 import json
 import os
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, BinaryIO
 
+from vorotool.batch.name_fields import NameFields
 from vorotool.errors import InputError
 from vorotool.formats.text.tables import safe_text
 
@@ -24,15 +25,40 @@ def part_path(folder: str | os.PathLike[str], source: str, fmt: str) -> str:
 
 
 def join_tables(
-    out: BinaryIO, parts: Sequence[tuple[str, str]], fmt: str, *, is_safe: bool = False, has_unit: bool = False
+    out: BinaryIO,
+    parts: Sequence[tuple[str, str]],
+    fmt: str,
+    *,
+    fields: NameFields | None = None,
+    is_safe: bool = False,
+    has_unit: bool = False,
 ) -> None:
-    """Write the rows of several tables as one, after a first column that names their input."""
+    """Write the rows of several tables as one, after columns that name their input and what its name tells."""
+    fields = fields or NameFields()
     if has_unit:
         _check_units(parts, fmt)
     if fmt == "json":
-        _join_json(out, parts)
+        _join_json(out, parts, fields)
     else:
-        _join_delimited(out, parts, b"\t" if fmt == "tsv" else b",", is_safe=is_safe)
+        _join_delimited(out, parts, b"\t" if fmt == "tsv" else b",", fields, is_safe=is_safe)
+
+
+def write_inputs(out: BinaryIO, rows: Sequence[Mapping[str, Any]], fmt: str, *, is_safe: bool = False) -> None:
+    """Write a row an input."""
+    if fmt == "json":
+        lines = [json.dumps(row).encode() for row in rows]
+        out.write(b"[\n" + b",\n".join(lines) + b"\n]\n")
+        return
+    delimiter = b"\t" if fmt == "tsv" else b","
+    for row in [{name: name for name in rows[0]}, *rows] if rows else []:
+        out.write(delimiter.join(_field(value, is_safe=is_safe) for value in row.values()) + b"\n")
+
+
+def row_count(path: str, fmt: str) -> int:
+    """Return the number of rows of a table."""
+    if fmt == "json":
+        return sum(1 for _ in _json_rows(path))
+    return max(len(_RECORD.findall(Path(path).read_bytes())) - 1, 0)
 
 
 def _check_units(parts: Sequence[tuple[str, str]], fmt: str) -> None:
@@ -59,10 +85,11 @@ def _first_row(path: str, fmt: str) -> dict[str, Any] | None:
         return next(csv.DictReader(file, dialect="excel-tab" if fmt == "tsv" else "excel"), None)
 
 
-def _columns(headers: Iterable[Iterable[bytes]]) -> list[bytes]:
-    """All columns; ours takes the prefix ``voro_`` where an input has one of its name."""
+def _columns(headers: Iterable[Iterable[bytes]], fields: NameFields) -> tuple[list[bytes], list[bytes]]:
+    """Our columns and all others; ours take the prefix ``voro_`` where an input has one of their name."""
     names = list(dict.fromkeys(name for header in headers for name in header))
-    return [b"voro_input" if b"input" in names else b"input", *names]
+    ours = [name.encode() for name in ("input", *fields.names)]
+    return [b"voro_" + name if name in names else name for name in ours], names
 
 
 # ---- CSV and TSV ---------------------------------------------------------------------------------
@@ -74,13 +101,16 @@ _FIELDS = {
 }
 
 
-def _join_delimited(out: BinaryIO, parts: Sequence[tuple[str, str]], delimiter: bytes, *, is_safe: bool) -> None:
+def _join_delimited(
+    out: BinaryIO, parts: Sequence[tuple[str, str]], delimiter: bytes, own: NameFields, *, is_safe: bool
+) -> None:
     fields_of = _FIELDS[delimiter].findall
-    name, *names = _columns(tuple(_header(path, delimiter)) for _, path in parts)
-    out.write(delimiter.join([name, *names]) + b"\n")
+    ours, names = _columns((tuple(_header(path, delimiter)) for _, path in parts), own)
+    out.write(delimiter.join([*ours, *names]) + b"\n")
     for source, path in parts:
         header, *records = _RECORD.findall(Path(path).read_bytes())
-        before = _quoted(safe_text(source) if is_safe else source) + delimiter
+        texts = [_field(value, is_safe=is_safe) for value in (source, *own.values(source))]
+        before = b"".join(text + delimiter for text in texts)
         place = _places(fields_of(header[:-1]), names)
         for record in records:
             if place is None:
@@ -100,18 +130,25 @@ def _places(header: list[bytes], names: list[bytes]) -> list[int] | None:
     return None if header == names else [header.index(name) if name in header else -1 for name in names]
 
 
+def _field(value: Any, *, is_safe: bool) -> bytes:
+    """Return the text of a field; nothing for None."""
+    text = "" if value is None else str(value)
+    return _quoted(safe_text(text) if is_safe else text)
+
+
 def _quoted(name: str) -> bytes:
     text = os.fsencode(name)
-    return text if re.fullmatch(rb"[\w./+@=~%'-]+", text) else b'"' + text.replace(b'"', b'""') + b'"'
+    return text if re.fullmatch(rb"[\w./+@=~%'-]*", text) else b'"' + text.replace(b'"', b'""') + b'"'
 
 
 # ---- JSON ----------------------------------------------------------------------------------------
-def _join_json(out: BinaryIO, parts: Sequence[tuple[str, str]]) -> None:
-    name, *names = _columns(_json_header(path) for _, path in parts)
+def _join_json(out: BinaryIO, parts: Sequence[tuple[str, str]], own: NameFields) -> None:
+    ours, names = _columns((_json_header(path) for _, path in parts), own)
     before = b"[\n"
     for source, path in parts:
         header = _json_header(path)
-        begin = b'{"%b":%b,' % (name, json.dumps(source).encode())
+        values = zip(ours, (source, *own.values(source)), strict=True)
+        begin = b"{" + b"".join(b'"%b":%b,' % (name, json.dumps(value).encode()) for name, value in values)
         absent = b"".join(b',"%b":null' % each for each in names if each not in header)
         for row in _json_rows(path):
             out.write(before + begin + row[1:-1] + absent + b"}")

@@ -81,6 +81,16 @@ class JobOptions:
         return None
 
     @property
+    def table_of_inputs(self) -> str | None:
+        """The file with a row an input, of what has tables."""
+        return None
+
+    @property
+    def names_of_fields(self) -> str | None:
+        """What the names of inputs tell, of what has tables."""
+        return None
+
+    @property
     def looks(self) -> Looks:
         """The looks of pictures."""
         paper = self.paper
@@ -110,7 +120,8 @@ class JobOptions:
     @property
     def is_shared(self) -> bool:
         """Whether there are options of many inputs that mean something for one, too."""
-        return any((self.null, self.dry_run, self.resume, self.shard, self.table_of_all))
+        tables = self.table_of_all, self.table_of_inputs, self.names_of_fields
+        return any((self.null, self.dry_run, self.resume, self.shard, *tables))
 
     def files_of_inputs(self) -> dict[str, str]:
         """Give the files that are read beside each input, by the names of the options."""
@@ -171,6 +182,8 @@ class ComputingOptions(JobOptions):
     precision: int | None
     pixel_size: PixelSize | None
     table: str | None
+    table_inputs: str | None
+    fields: str | None
     no_properties: bool
     with_columns: tuple[str, ...] | None
     safe_csv: bool
@@ -185,6 +198,16 @@ class ComputingOptions(JobOptions):
     def table_of_all(self) -> str | None:
         """The file of the tables of all inputs."""
         return self.table
+
+    @property
+    def table_of_inputs(self) -> str | None:
+        """The file with a row an input."""
+        return self.table_inputs
+
+    @property
+    def names_of_fields(self) -> str | None:
+        """What the names of inputs tell."""
+        return self.fields
 
     @property
     def names_columns(self) -> bool:
@@ -398,6 +421,8 @@ class DistanceOptions(ComputingOptions):
     fill_holes: bool | Fraction = False
     pixel_size: PixelSize | None = None
     table: str | None = None
+    table_inputs: str | None = None
+    fields: str | None = None
     no_properties: bool = True
     with_columns: tuple[str, ...] | None = None
     safe_csv: bool = False

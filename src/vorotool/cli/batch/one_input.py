@@ -10,11 +10,11 @@ from pathlib import Path
 
 from vorotool.batch.inputs import Input
 from vorotool.batch.plan import share
-from vorotool.batch.tables import join_tables, part_path
-from vorotool.cli.batch.plan import JointTable, check_table_only, folder_of_parts, joint_table, named_for_shard
+from vorotool.batch.tables import part_path
+from vorotool.cli.batch.plan import JointTable, folder_of_parts, joint_table, named_for_shard
 from vorotool.cli.batch.progress_bar import progress_bar
 from vorotool.errors import UsageError
-from vorotool.formats.io.atomic_output import check_output, is_same_file, open_output, spoken
+from vorotool.formats.io.atomic_output import check_output, is_same_file, spoken
 from vorotool.formats.io.descriptors import STANDARD, descriptor_of, is_same_output
 from vorotool.jobs.job import Options, Recipe, process_input
 from vorotool.jobs.options import JobOptions
@@ -32,13 +32,14 @@ def run_one(recipe: Recipe[Options], o: Options) -> None:
     if o.resume:
         raise UsageError("--resume needs --out-dir DIR, where it is recorded what was done, and a file as its input")
     o, notes = named_for_shard(o)
-    table = joint_table(o)
+    table = joint_table(recipe, o)
     targets = _targets(recipe, o, source, has_table=table is not None)
     check_stats(o, targets, source)
     if table is not None:
         _check_table(o, table, targets, source)
-        o = replace(o, what=tuple(dict.fromkeys((*(o.what if targets else ()), "table"))))
-    planned = targets if table is None else [*targets, Target("table", f"part.{table.fmt}", table.fmt)]
+        o = replace(o, what=tuple(dict.fromkeys((*(o.what if targets else ()), table.what))))
+        notes += [text for text in [table.fields.note_unmatched([source])] if text]
+    planned = targets if table is None else [*targets, table.target(f"part.{table.fmt}")]
     check_units(o, planned)
     o = lengths_in_pixels(o, o.unit)
     recipe.check(o, planned)
@@ -57,23 +58,25 @@ def run_one(recipe: Recipe[Options], o: Options) -> None:
 def _targets(recipe: Recipe[Options], o: Options, source: str, *, has_table: bool) -> list[Target]:
     """Lay out the outputs; without -o or --out-dir a table of its own is the only one."""
     if has_table and o.output is None and o.out_dir is None:
-        check_table_only(o)
         return []
     return plan_targets(recipe.formats, o.what, output=o.output, fmt=o.format, out_dir=o.out_dir, source=source)
 
 
 def _check_table(o: JobOptions, table: JointTable, targets: Sequence[Target], source: str) -> None:
     """Refuse a table that would replace the input or another output."""
-    is_open = table.path == STANDARD or descriptor_of(table.path) is not None
-    for role, path in () if is_open else (("the input", source), *o.files_read().items()):
-        if is_same_file(Path(table.path), path):
-            raise UsageError(f"--table {table.path} is also {role}, which is never replaced: choose another name")
-    outputs = [(f"the output of {target.what}", target.path) for target in targets]
-    for role, path in [*outputs, *([("--stats", o.stats)] if o.stats else [])]:
-        if is_same_output(table.path, path):
-            where = spoken(table.path) if is_open else table.path
-            raise UsageError(f"--table {table.path}: {where} is also {role}; choose another name")
-    check_output(table.path, no_clobber=o.no_clobber, option="--table")
+    inputs = None if table.inputs is None else table.inputs[0]
+    named = {option: path for option, path in (("--table", table.path), ("--table-inputs", inputs)) if path is not None}
+    for option, path in named.items():
+        is_open = path == STANDARD or descriptor_of(path) is not None
+        for role, other in () if is_open else (("the input", source), *o.files_read().items()):
+            if is_same_file(Path(path), other):
+                raise UsageError(f"{option} {path} is also {role}, which is never replaced: choose another name")
+        outputs = [(f"the output of {target.what}", target.path) for target in targets]
+        for role, other in [*outputs, *([("--stats", o.stats)] if o.stats else [])]:
+            if is_same_output(path, other):
+                where = spoken(path) if is_open else path
+                raise UsageError(f"{option} {path}: {where} is also {role}; choose another name")
+        check_output(path, no_clobber=o.no_clobber, option=option)
 
 
 def _process(
@@ -88,7 +91,7 @@ def _process(
         planned = list(targets)
         if table is not None:
             folder = folder_of_parts(recipe.name, replace(o, out_dir=None), table, stack)
-            planned.append(Target("table", part_path(folder, source, table.fmt), table.fmt))
+            planned.append(table.target(part_path(folder, source, table.fmt)))
         run = stack.enter_context(
             Run(recipe.name, quiet=o.quiet, verbose=o.verbose, stats=o.stats, no_clobber=o.no_clobber, bar=progress_bar)
         )
@@ -96,6 +99,7 @@ def _process(
             run.note(text)
         process_input(recipe, run, o, source, planned)
         if table is not None:
-            with run.phase("write --table"), open_output(table.path, no_clobber=o.no_clobber, option="--table") as out:
-                parts = [(source, planned[-1].path)]
-                join_tables(out, parts, table.fmt, is_safe=table.is_safe, has_unit=table.has_unit)
+            from vorotool.cli.batch.run_many import write_tables
+
+            with run.phase("write --table"):
+                write_tables(table, [(source, planned[-1].path)], {source: (False, "")}, no_clobber=o.no_clobber)

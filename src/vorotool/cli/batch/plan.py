@@ -16,6 +16,7 @@ from click.core import ParameterSource
 
 from vorotool.batch.inputs import Input, expand_inputs, is_several, pages_of, read_names
 from vorotool.batch.manifest import RECORD_ENDING, History, Manifest, digest_of_values, read_history
+from vorotool.batch.name_fields import NameFields
 from vorotool.batch.plan import check_outputs, output_paths, share
 from vorotool.batch.tables import TABLE_FORMATS
 from vorotool.batch.tasks import Task, digest_of
@@ -40,10 +41,23 @@ WITHOUT_EFFECT = frozenset(
 class JointTable:
     """The table of all inputs."""
 
-    path: str  # where it is written, and how
-    fmt: str  # where it is written, and how
+    path: str | None  # where it is written; None where it is only counted
+    fmt: str
+    what: str  # the result whose rows it has
+    fields: NameFields  # columns of the names of inputs
+    inputs: tuple[str, str] | None  # where there is a row an input, and in which format
     is_safe: bool  # texts are no formulas
     has_unit: bool  # tables have a column of their unit
+
+    @property
+    def place(self) -> str:
+        """A file that is written of it."""
+        assert self.path is not None or self.inputs is not None
+        return self.path if self.path is not None else self.inputs[0]  # type: ignore[index]
+
+    def target(self, path: str) -> Target:
+        """Return the table of one input."""
+        return Target(self.what, path, self.fmt)
 
 
 @dataclass(frozen=True)
@@ -63,9 +77,8 @@ def plan_batch(recipe: Recipe[Options], o: Options) -> Plan[Options]:
     """Lay out a batch; nothing is written."""
     _check_options(o)
     o, notes = named_for_shard(o)
-    table = joint_table(o)
+    table = joint_table(recipe, o)
     if o.out_dir is None:
-        check_table_only(o)
         o = replace(o, what=())
     targets = [] if o.out_dir is None else plan_targets(
         recipe.formats, o.what, output=None, fmt=o.format, out_dir=o.out_dir, source="input"
@@ -75,8 +88,9 @@ def plan_batch(recipe: Recipe[Options], o: Options) -> Plan[Options]:
     if manifest is not None:
         tasks = [replace(task, done=manifest.done_before(task.source, history)) for task in tasks]
     if table is not None:
-        o = replace(o, what=tuple(dict.fromkeys((*o.what, "table"))))
-        targets.append(Target("table", f"part.{table.fmt}", table.fmt))
+        o = replace(o, what=tuple(dict.fromkeys((*o.what, table.what))))
+        targets.append(table.target(f"part.{table.fmt}"))
+        notes += [text for text in [table.fields.note_unmatched([task.source for task in tasks])] if text]
     check_units(o, targets)
     o = lengths_in_pixels(o, o.unit)
     recipe.check(o, targets)
@@ -88,7 +102,7 @@ def _check_options(o: JobOptions) -> None:
     inputs = _several(o)
     if o.output is not None:
         raise UsageError(f"{inputs}, but -o names one output: name a folder for all with --out-dir")
-    if o.out_dir is None and table is None:
+    if o.out_dir is None and table is None and o.table_of_inputs is None:
         raise UsageError(f"{inputs}: name a folder for their outputs with --out-dir")
     if o.out_dir is None and o.resume:
         raise UsageError("--resume needs --out-dir DIR, where it is recorded what was done")
@@ -122,11 +136,12 @@ def named_for_shard(o: Options) -> tuple[Options, list[str]]:
     if o.shard is None:
         return o, []
     own: dict[str, Any] = {}
-    for option, path in (("table", o.table_of_all), ("stats", o.stats)):
+    for option, path in (("table", o.table_of_all), ("table_inputs", o.table_of_inputs), ("stats", o.stats)):
         if path is not None and name_of_part(path, *o.shard) != path:
             own[option] = name_of_part(path, *o.shard)
+    named = {option.replace("_", "-"): name for option, name in own.items()}
     part, parts = o.shard
-    return replace(o, **own), [f"--{option} of part {part} of {parts} is {name}" for option, name in own.items()]
+    return replace(o, **own), [f"--{option} of part {part} of {parts} is {name}" for option, name in named.items()]
 
 
 def name_of_part(path: str, part: int, parts: int) -> str:
@@ -137,33 +152,75 @@ def name_of_part(path: str, part: int, parts: int) -> str:
     return str(name.with_name(f"{name.stem}.{mark}{name.suffix}"))
 
 
-def check_table_only(o: JobOptions) -> None:
-    """Refuse other results where the table is the only output."""
-    source = click.get_current_context().get_parameter_source("what")
-    if source != ParameterSource.DEFAULT and o.what != ("table",):
-        raise UsageError(f"--what {','.join(o.what)} needs -o FILE or --out-dir DIR: --table collects tables only")
+def _collected(recipe: Recipe[Options], o: JobOptions, fmt: str) -> str:
+    """Return the result whose rows are collected: one of --what, if that is a table, else `table`."""
+    is_given = click.get_current_context().get_parameter_source("what") != ParameterSource.DEFAULT
+    has_outputs = o.out_dir is not None or o.output is not None
+    if not is_given or "table" in o.what:
+        chosen = ["table"]
+    elif has_outputs:  # what has geometry is written by itself
+        tables = [what for what in o.what if "csv" in recipe.formats[what] and "geojson" not in recipe.formats[what]]
+        chosen = tables or ["table"]
+    else:
+        chosen = list(o.what)
+    if (is_given and not has_outputs and len(o.what) > 1) or len(chosen) > 1:
+        raise UsageError(
+            f"--what {','.join(o.what)}: --table collects the rows of one result; other results need -o FILE or "
+            "--out-dir DIR"
+        )
+    (what,) = chosen
+    if fmt not in recipe.formats.get(what, ()) or (fmt == "json" and what in _NO_ROWS):
+        possible = [name for name, those in recipe.formats.items() if "csv" in those]
+        raise UsageError(f"--table cannot collect {what} as {fmt.upper()}: use --what {', '.join(possible)} as CSV")
+    return what
 
 
-def joint_table(o: JobOptions) -> JointTable | None:
+_NO_ROWS = frozenset(["skeleton", "diagram", "offset", "parts", "cells"])
+"""Results whose JSON is not a list of rows."""
+
+
+def joint_table(recipe: Recipe[Options], o: JobOptions) -> JointTable | None:
     """Return the table of all inputs; its format is what its name says, unless there is no other output for -f."""
-    if not isinstance(o, ComputingOptions) or o.table is None:
+    if not isinstance(o, ComputingOptions):
         return None
-    path = o.table
-    if o.out_dir is None and o.format is not None:
+    fields = NameFields.of(o.fields)
+    path, inputs = o.table, o.table_inputs
+    if path is None and inputs is None:
+        if o.fields is not None:
+            raise UsageError("--fields is for the columns of --table and --table-inputs: name such a file")
+        return None
+    if path is not None and inputs is not None and is_same_output(path, inputs):
+        raise UsageError(f"--table-inputs {inputs} is also --table: choose another name")
+    rows_of_inputs = None if inputs is None else (inputs, _table_format("--table-inputs", inputs))
+    if path is None:
+        fmt = "csv"
+    elif o.out_dir is None and o.format is not None:
         fmt = o.format.lower()
     else:
-        fmt = EXTENSIONS.get(Path(path).suffix.lower(), "" if stream_kind(path) is None else "csv")
+        fmt = _table_format("--table", path)
     if fmt not in TABLE_FORMATS:
-        raise UsageError(f"--table {path} is written as CSV, TSV or JSON: name it .csv, .tsv or .json")
-    return JointTable(path, fmt, o.safe_csv, o.unit is not None)
+        raise _no_table("--table", path or "")
+    return JointTable(path, fmt, _collected(recipe, o, fmt), fields, rows_of_inputs, o.safe_csv, o.unit is not None)
+
+
+def _table_format(option: str, path: str) -> str:
+    """Return the format that the name of a table says; that of a stream is CSV."""
+    fmt = EXTENSIONS.get(Path(path).suffix.lower(), "" if stream_kind(path) is None else "csv")
+    if fmt not in TABLE_FORMATS:
+        raise _no_table(option, path)
+    return fmt
+
+
+def _no_table(option: str, path: str) -> UsageError:
+    return UsageError(f"{option} {path} is written as CSV, TSV or JSON: name it .csv, .tsv or .json")
 
 
 def folder_of_parts(command: str, o: JobOptions, table: JointTable, stack: ExitStack) -> str:
     """Return the folder for the tables of inputs: beside the record of what was done, else one until the end."""
     if o.out_dir is not None:
         return str(Path(o.out_dir) / f".{command}.tables")
-    is_beside = stream_kind(table.path) is None
-    folder = Path(os.path.realpath(table.path)).parent if is_beside else Path(tempfile.gettempdir())
+    is_beside = stream_kind(table.place) is None
+    folder = Path(os.path.realpath(table.place)).parent if is_beside else Path(tempfile.gettempdir())
     try:
         return str(stack.enter_context(temporary_beside(folder / "tables", new_folder)).path)
     except OSError as error:
@@ -193,7 +250,7 @@ def _tasks(recipe: Recipe[Options], o: Options, targets: list[Target], note: Cal
     folder = o.out_dir or ""  # without one there are no targets
     endings = [target.path.removeprefix(str(Path(folder) / "input")) for target in targets]
     tasks = [Task(each.source, output_paths(each.name, endings, folder)) for each in inputs]
-    written = {"--stats": o.stats, "--table": o.table_of_all}
+    written = {"--stats": o.stats, "--table": o.table_of_all, "--table-inputs": o.table_of_inputs}
     check_outputs(tasks, folder, others=written, read=o.files_read())
     if o.shard is None:
         return tasks

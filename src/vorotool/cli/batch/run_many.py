@@ -14,13 +14,14 @@ from typing import Any
 from vorotool.batch.pages import PageName, path_of
 from vorotool.batch.plan import check_inside
 from vorotool.batch.run import Results, run_batch
-from vorotool.batch.tables import join_tables, part_path
+from vorotool.batch.tables import join_tables, part_path, row_count, write_inputs
 from vorotool.batch.tasks import Outcome, Process, Task, digest_of, is_done
 from vorotool.cli.batch.plan import JointTable, Plan, folder_of_parts, plan_batch
 from vorotool.cli.batch.progress_bar import progress_bar
 from vorotool.cli.batch.report import Report
-from vorotool.errors import InputError
+from vorotool.errors import InputError, Message
 from vorotool.formats.io.atomic_output import check_output, open_output
+from vorotool.formats.io.commit import committed_together
 from vorotool.geometry.length_units import unit_name
 from vorotool.jobs.failures import explained
 from vorotool.jobs.job import Options, Recipe, process_input
@@ -81,7 +82,7 @@ def run_many(recipe: Recipe[Options], o: Options) -> None:
                 told=report.tell,
             )
         if plan.table and None not in outcomes:
-            with run.phase("write --table"):
+            with run.phase("write --table"), committed_together():
                 _write_table(plan.table, tasks, outcomes, no_clobber=o.no_clobber)
         report.finish([task.source for task in tasks])
         run.stats |= unit_stats(o.unit)
@@ -98,7 +99,7 @@ def _print_plan(plan: Plan[Options]) -> None:
 
 def _check_files(o: JobOptions) -> None:
     """Find out before any work whether the files of all inputs can be written."""
-    for option, path in (("stats", o.stats), ("table", o.table_of_all)):
+    for option, path in (("stats", o.stats), ("table", o.table_of_all), ("table-inputs", o.table_of_inputs)):
         if path is not None:
             is_inside = o.out_dir is not None and Path(path).parent == Path(o.out_dir)
             may_replace = not o.no_clobber or o.resume
@@ -168,6 +169,38 @@ def _write_table(
         for task, outcome in zip(tasks, outcomes, strict=True)
         if outcome is not None and not outcome.code
     ]
-    _check_units(tasks, outcomes)
-    with open_output(table.path, no_clobber=no_clobber, option="--table") as out:
-        join_tables(out, parts, table.fmt, is_safe=table.is_safe, has_unit=table.has_unit)
+    if table.path is not None:
+        _check_units(tasks, outcomes)
+    states = [None if outcome is None else (outcome.kept, outcome.message) for outcome in outcomes]
+    write_tables(table, parts, dict(zip([task.source for task in tasks], states, strict=True)), no_clobber=no_clobber)
+
+
+def write_tables(
+    table: JointTable,
+    parts: Sequence[tuple[str, str]],
+    states: Mapping[str, tuple[bool, str] | None],
+    *,
+    no_clobber: bool,
+) -> None:
+    """Write the rows of all inputs that were done, and a row an input, which may have failed."""
+    if table.path is not None:
+        with open_output(table.path, no_clobber=no_clobber, option="--table") as out:
+            join_tables(out, parts, table.fmt, fields=table.fields, is_safe=table.is_safe, has_unit=table.has_unit)
+    if table.inputs is None:
+        return
+    path, fmt = table.inputs
+    counts = {source: row_count(part, table.fmt) for source, part in parts}
+    rows = []
+    for source, state in states.items():
+        kept, message = state or (False, "")
+        status = "kept" if kept else "done" if source in counts else "failed"
+        own = dict(zip(table.fields.names, table.fields.values(source), strict=True))
+        named = {f"voro_{name}" if name in _OF_INPUTS else name: value for name, value in own.items()}
+        known = {"status": status, "count": counts.get(source), "error": Message.of(message) or None}
+        rows.append({"input": source, **named, **known})
+    with open_output(path, no_clobber=no_clobber, option="--table-inputs") as out:
+        write_inputs(out, rows, fmt, is_safe=table.is_safe)
+
+
+_OF_INPUTS = ("input", "status", "count", "error")
+"""Columns of the table of inputs."""

@@ -9,6 +9,7 @@ import click
 
 from vorotool.cli.batch.dispatch import run_command
 from vorotool.cli.options.areas import Area
+from vorotool.cli.options.columns import accumulated
 from vorotool.cli.options.groups import site_options
 from vorotool.cli.options.help_page import GroupedCommand
 from vorotool.cli.options.lengths import Radius
@@ -16,7 +17,6 @@ from vorotool.cli.options.picture_style import animation_options, page_option
 from vorotool.cli.options.shared import (
     Decimal,
     Names,
-    accumulated,
     inputs_argument,
     output_options,
 )

@@ -23,7 +23,8 @@ _GROUPS = {
     "Frame": "size window cell_size frame clip enclosures",
     "Pictures": "layers slice overlay width scale drawing_unit aspect extent background colors "
     "line_widths label_by legend scale_bar animate frames fps",
-    "Many inputs": "out_dir files_from null jobs keep_going dry_run resume shard follow table cluster",
+    "Many inputs": "out_dir files_from null jobs keep_going dry_run resume shard follow table table_inputs fields "
+    "cluster",
     "Checks and resources": "verify strict stats threads max_pixels max_sites quiet verbose",
 }
 GROUPS = {title: names.split() for title, names in _GROUPS.items()}

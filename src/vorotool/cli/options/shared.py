@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from vorotool.cli.options.columns import TABLE_OPTIONS, accumulated
 from vorotool.cli.options.parameter_types import ParameterType
 from vorotool.cli.options.suggestions import any_file, files, folders, formats_of, listed, outputs_of, words
 from vorotool.products.inputs import IMAGE_NAMES, NAMES_WITH
@@ -203,26 +204,6 @@ class Names(ParameterType[tuple[str, ...]]):
         return listed(self.choices, incomplete)
 
 
-class Columns(ParameterType[tuple[str, ...]]):
-    """Names of columns, separated by commas."""
-
-    name = "COLUMN[,...]"
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[str, ...]:
-        """Split the names."""
-        if isinstance(value, tuple):
-            return value
-        names = tuple(name.strip() for name in value.split(","))
-        if not all(names):
-            self.fail(f"{value!r}: expected names of columns, separated by commas", param, ctx)
-        return names
-
-
-def accumulated(_ctx: click.Context, _param: click.Parameter, value: tuple[tuple[Any, ...], ...]) -> Any:
-    """Join the lists of an option that is repeated; None where it is not given."""
-    return tuple(dict.fromkeys(each for values in value for each in values)) or None
-
-
 def _named_folder(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
     """Refuse an empty name, such as a variable of a shell that is not set leaves: it would stand for this folder."""
     if value == "":
@@ -277,12 +258,7 @@ OPTIONS: dict[str, Decorator] = {
         **_from_environment("JOBS"),
         help="Worker processes; 0 uses all cores.",
     ),
-    "table": click.option(
-        "--table",
-        metavar="FILE",
-        help="Write the tables of all inputs as one (CSV, TSV, JSON).",
-        shell_complete=files(("csv", "tsv", "json")),
-    ),
+    **TABLE_OPTIONS,
     "files-from": click.option(
         "--files-from",
         metavar="FILE|-",
@@ -366,15 +342,6 @@ OPTIONS: dict[str, Decorator] = {
         is_flag=True,
         help="Put ' before texts in CSV and TSV that a spreadsheet would take for formulas; numbers stay.",
     ),
-    "with": click.option(
-        "--with",
-        "with_columns",
-        type=Columns(),
-        multiple=True,
-        callback=accumulated,
-        help="Columns of the input for rows about parts of features (branches, points, ...); for rows about several "
-        "(edges, neighbors) as COLUMN_a, COLUMN_b.",
-    ),
     "no-properties": click.option(
         "--no-properties",
         is_flag=True,
@@ -421,7 +388,12 @@ OPTIONS: dict[str, Decorator] = {
 }
 
 
-BATCH_OPTIONS = ("files_from", "null", "jobs", "keep_going", "dry_run", "resume", "shard", "follow", "table", "cluster")
+_OF_TABLES = ("table", "table_inputs", "fields")
+BATCH_OPTIONS = (
+    *("files_from", "null", "jobs", "keep_going", "dry_run", "resume", "shard", "follow"),
+    *_OF_TABLES,
+    "cluster",
+)
 """Options of many inputs."""
 
 
@@ -469,7 +441,7 @@ def output_options(formats: Mapping[str, Sequence[str]]) -> Decorator:
 
 def batch_options(*, table: bool = True) -> Decorator:
     """Add the options of many inputs."""
-    return shared(*(name.replace("_", "-") for name in BATCH_OPTIONS if table or name != "table"))
+    return shared(*(name.replace("_", "-") for name in BATCH_OPTIONS if table or name not in _OF_TABLES))
 
 
 def what_option(choices: tuple[str, ...]) -> Decorator:

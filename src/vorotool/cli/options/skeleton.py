@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import click
 
+from vorotool.cli.options.columns import accumulated
 from vorotool.cli.options.groups import result_options
 from vorotool.cli.options.lengths import Distances, Length
 from vorotool.cli.options.picture_style import animation_options
@@ -12,7 +13,6 @@ from vorotool.cli.options.pruning import FORMS, Place, PruningType
 from vorotool.cli.options.shapes import frame_option, shape_options
 from vorotool.cli.options.shared import (
     Decorator,
-    accumulated,
     inputs_argument,
     output_options,
     together,
