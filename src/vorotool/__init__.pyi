@@ -257,12 +257,6 @@ from vorotool.geometry.alpha.persistence import (
 from vorotool.geometry.alpha.shape import (
     AlphaShape as AlphaShape,
 )
-from vorotool.geometry.any.graphs import (
-    to_networkx as to_networkx,
-)
-from vorotool.geometry.any.tables import (
-    table as table,
-)
 from vorotool.geometry.box import (
     Box as Box,
 )

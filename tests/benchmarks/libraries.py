@@ -115,7 +115,7 @@ def pnm() -> None:
 def graphml() -> None:
     """The branches of many shapes."""
     skeleton = vorotool.skeleton_exact(vorotool.outlines(labels(1000).labels, mode="labels"))
-    graph = vorotool.to_networkx(skeleton)
+    graph = skeleton.to_networkx()
     for *_, values in graph.edges(data=True):
         for name, value in list(values.items()):
             values[name] = str(value) if not isinstance(value, int | float | str) else value

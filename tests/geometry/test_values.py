@@ -265,7 +265,7 @@ def test_results_go_on_as_inputs():
     cells, points, table = VALUES["CellSet"], VALUES["SkeletonPoints"], VALUES["Table"]
     filled = ~cells.is_empty
     np.testing.assert_allclose(
-        [each.area for each in vorotool.planar_graph(cells).polygons.to_shapely()], cells.areas()[filled], rtol=1e-12
+        [each.area for each in vorotool.planar_graph(cells).polygons.to_shapely()], cells.areas[filled], rtol=1e-12
     )
     with pytest.warns(vorotool.VorotoolWarning, match="3 of 50 points lie on an earlier point"):
         np.testing.assert_array_equal(vorotool.delaunay(points).points, points.xy)

@@ -159,7 +159,7 @@ def test_lines_and_cells_are_where_they_belong():
     assert {tuple(place) for place in discs.get_offsets().data.tolist()} == {tuple(p) for p in mesh.points.tolist()}
     cells = VALUES["CellSet"]
     area = sum(abs(signed_area(loop)) for patch in axes_of(cells).patches for loop in patch.get_path().to_polygons())
-    assert area == pytest.approx(cells.areas().sum())
+    assert area == pytest.approx(cells.areas.sum())
 
 
 def signed_area(loop):

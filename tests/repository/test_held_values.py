@@ -130,7 +130,7 @@ POLYGON_FUNCTIONS = {
     "planar_graph": (v.planar_graph, "polygons", lambda made: made.points),
     "offset": (lambda shapes: v.offset(shapes, [-1, 2]), "shapes", lambda made: made.start),
     "offset together": (lambda shapes: v.offset(shapes, 1, features="together"), "shapes", lambda made: made.start),
-    "clip": (lambda clip: v.voronoi_cells(XY, clip=clip), "clip", lambda made: made.areas()),
+    "clip": (lambda clip: v.voronoi_cells(XY, clip=clip), "clip", lambda made: made.areas),
 }
 
 
@@ -315,7 +315,7 @@ def test_polygons_as_seeds_say_what_to_do():
 @pytest.mark.parametrize(
     "call",
     [
-        lambda frame: v.voronoi_cells(XY, frame=frame).areas(),
+        lambda frame: v.voronoi_cells(XY, frame=frame).areas,
         lambda frame: v.site_table(v.delaunay(XY), frame=frame)["area"],
         lambda frame: v.skeleton_exact([HOUSE], side="exterior", frame=frame).radius,
         lambda frame: v.skeleton_approx([HOUSE], step=1, side="exterior", frame=frame).radius,

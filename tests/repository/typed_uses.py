@@ -69,7 +69,7 @@ def values() -> None:
     assert_type(vorotool.alpha_shape(vorotool.alpha_complex(mesh), r=2, rule="printed"), vorotool.AlphaShape)
     assert_type(vorotool.outlines(MASK, outline="contour"), vorotool.PolygonSet)
     assert_type(vorotool.to_geojson(mesh), dict[str, Any])
-    assert_type(vorotool.table(mesh), dict[str, npt.NDArray[Any]])
+    assert_type(mesh.table(), vorotool.Table)
     assert_type(vorotool.__version__, str)
     read = vorotool.read("a.csv", geometry="points")
     assert_type(

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from vorotool.geometry.numbers import Flatten
+    from vorotool.geometry.table import Table
 
 _FEATURES = "geometry.any.features"
 _FRAMES = "geometry.any.frames"
@@ -79,13 +80,31 @@ class Value(Record):
 class Tabular:
     """A value with a table."""
 
+    def table(self) -> Table:
+        """Return the table.
+
+        Returns
+        -------
+        Table
+            One row an object, such as an edge of a triangulation, a region of a label image, or an arc of a skeleton;
+            fields that do not exist are masked, None, or NaN.
+
+        Examples
+        --------
+        >>> import vorotool
+        >>> vorotool.skeleton_exact([[0, 0], [4, 0], [0, 3]]).table()["kind"].tolist()
+        ['line', 'line', 'line']
+        """
+        made: Table = resolved("geometry.any.tables:indexed_table")(self).table
+        return made
+
     def to_pandas(self) -> pandas.DataFrame:
         """Give the table as a data frame, which needs pandas.
 
         Returns
         -------
         pandas.DataFrame
-            Columns as `vorotool.table` names them. Rows that come from rows of the input have its index; where a row of
+            The columns of the table. Rows that come from rows of the input have its index; where a row of
             the input has several, its entry is repeated. Integers of which some do not exist are of type ``Int64``.
 
         Raises
@@ -345,7 +364,7 @@ class Branched(_Places):
     def to_networkx(
         self, *, by: Literal["branch", "arc"] = "branch", flatten: Flatten = None
     ) -> networkx.MultiGraph[int]:
-        """Give the graph as one of networkx, which has to be installed; see `vorotool.to_networkx`.
+        """Give the graph as one of networkx, which has to be installed.
 
         Parameters
         ----------
@@ -357,7 +376,12 @@ class Branched(_Places):
         Returns
         -------
         networkx.MultiGraph
-            As `vorotool.to_networkx` gives it.
+            Undirected, with ``crs`` if the input had one. Nodes are numbers of vertices, with ``x``, ``y``, the radius
+            ``r`` and the ``degree``. Edges have the number of their branch or arc for a key, and ``branch`` (also
+            ``arc``), ``label``, ``id``, ``side``, ``kind``, ``length``, ``r_min``, ``r_max``, ``r_mean``, those that
+            are branches ``type`` and ``tortuosity`` as `branch_table` has them, and ``geometry``, a shapely
+            LineString; the properties of the polygon, too. A closed branch joins a node with itself. Missing values
+            are left out.
 
         Raises
         ------
@@ -377,12 +401,17 @@ class Graph:
     """A value that is a graph, or has one."""
 
     def to_networkx(self) -> networkx.Graph[int]:
-        """Give the graph as one of networkx, which has to be installed; see `vorotool.to_networkx`.
+        """Give the graph as one of networkx, which has to be installed.
 
         Returns
         -------
         networkx.Graph
-            As `vorotool.to_networkx` gives it.
+            Undirected, with ``crs`` if the input had one; missing values are left out of the attributes. Triangulation:
+            nodes are numbers of points, from 0, with ``x``, ``y``, ``label`` and the properties, edges have ``length``.
+            Label image or volume: nodes are labels, with the columns of the table, edges join neighbors, with those of
+            `neighbor_table`. Planar graph: nodes are numbers of its points, with ``x`` and ``y``, edges have
+            ``segment``, ``length``, ``face_left`` and ``face_right``. Voronoi map: nodes are numbers of its cells, from
+            0, with the columns of its table, edges join neighbors, with ``border_length`` and ``distance``.
 
         Raises
         ------

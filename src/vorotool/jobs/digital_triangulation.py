@@ -65,7 +65,7 @@ class DigitalProducts(MeshProducts):
 
     def _value(self, what: str, fmt: str) -> Any:
         if what == "compare":
-            return table_in_units(self.options.pixel_size, self.comparison.table)
+            return table_in_units(self.options.pixel_size, self.comparison.differences)
         return super()._value(what, fmt)
 
     def _shape(self) -> str:

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from vorotool.errors import InputError, Kind, Message, UsageError
 from vorotool.formats.io.descriptors import input_identity
-from vorotool.formats.parsing.reader_options import no_note
 from vorotool.jobs.masks import settled_foreground
 from vorotool.jobs.options import (
     ComputingOptions,
@@ -84,7 +83,7 @@ def read_opened(
     )  # a column may state it
     wants_properties = properties and not o.no_properties
 
-    def read(of: Opened, note: Callable[[str], None] = no_note, **more: Any) -> Any:
+    def read(of: Opened, note: Callable[[str], None] | None = None, **more: Any) -> Any:
         return of.read(
             columns=columns,
             max_pixels=o.max_pixels,

@@ -216,7 +216,7 @@ class MeshProducts:
 
         cells = in_units(self.options.pixel_size, self.cells)
         x, y = cells.sites.T
-        measures = {"area": cells.areas(), "perimeter": cells.perimeters(), "x": x, "y": y}
+        measures = {"area": cells.areas, "perimeter": cells.perimeters, "x": x, "y": y}
         columns: dict[str, Any] = {name: values.tolist() for name, values in measures.items()}
         columns |= unit_columns(self.options.pixel_size, len(cells))
         shapes = shapes_of_cells(cells)

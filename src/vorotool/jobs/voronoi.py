@@ -144,7 +144,7 @@ class VoronoiProducts:
 
         cells = in_units(self.options.pixel_size, self.cells)
         shapes = shapes_of_map(cells)
-        columns = {name: column for name, column in cells.table.items() if name not in ("label", "id")}
+        columns = {name: column for name, column in cells.table().items() if name not in ("label", "id")}
         write_cells_html(out, shapes, map_colors(cells), columns | unit_columns(self.options.pixel_size, len(cells)))
 
     def _drawing(self, target: Target) -> Drawing:

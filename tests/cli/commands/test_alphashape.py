@@ -73,7 +73,7 @@ def test_general_holds_all_parts(run, folder):
 
 def test_complex_family_spectrum_and_curves(run):
     rows = run("alphashape", DOTS, "-r", 60, "--what", "complex").rows
-    classes = SHAPE.edge_classes()
+    classes = SHAPE.edge_classes
     assert [row["class"] for row in rows] == [CLASSES[c] for c in classes if c]
     rows = run("alphashape", DOTS, "--what", "family").rows
     assert list(rows[0]) == ["label_a", "label_b", "r_min", "r_mid", "r_max"]
@@ -83,7 +83,7 @@ def test_complex_family_spectrum_and_curves(run):
     assert [float(row["r"]) for row in rows] == FAMILY.spectrum.tolist()
     rows = run("alphashape", DOTS, "--what", "curves").rows
     assert list(rows[0]) == ["r", "area", "perimeter", "regions", "cavities", "edges"]
-    assert float(rows[-1]["area"]) == FAMILY.mesh.areas().sum()
+    assert float(rows[-1]["area"]) == FAMILY.mesh.areas.sum()
     at = FAMILY.reached(60) - 1
     assert (float(rows[at]["area"]), int(rows[at]["regions"])) == (SHAPE.area, SHAPE.region_count)
 

@@ -49,7 +49,7 @@ def test_parts_have_ids_areas_and_neighbors(run):
     expected = vorotool.parts(vorotool.read(SHAPES), neck=0.95)
     own = [each["properties"] for each in found]
     assert [each["piece"] for each in own] == list(range(len(expected)))
-    assert [each["neighbors"] for each in own] == expected.neighbors()
+    assert [each["neighbors"] for each in own] == expected.neighbors
     assert [each["area"] for each in own] == expected.area.tolist()
     assert [shapely.geometry.shape(each["geometry"]).area for each in found] == pytest.approx(expected.area.tolist())
     rows = run("skeleton-exact", SHAPES, "--what", "parts", "--neck", "0.95", "-f", "csv").rows

@@ -126,7 +126,7 @@ def test_graphml_is_read_by_networkx(run, folder):
     assert run("skeleton-exact", SHAPES, "-o", "a.graphml").code == 0
     graph = networkx.read_graphml(folder / "a.graphml", node_type=int, force_multigraph=True)
     skeleton = vorotool.skeleton_exact(vorotool.read(SHAPES))
-    expected = vorotool.to_networkx(skeleton)
+    expected = skeleton.to_networkx()
     assert dict(graph.nodes(data=True)) == dict(expected.nodes(data=True))
     assert graph.number_of_edges() == expected.number_of_edges()
     branches = vorotool.branch_table(skeleton)

@@ -23,7 +23,7 @@ def test_many_cells_meet_at_one_vertex():
     assert len(places) == 108
     cells = voronoi(places)
     verify_voronoi(cells)
-    assert (cells.table["neighbors"] == 2).all()
+    assert (cells.table()["neighbors"] == 2).all()
     assert (cells.areas > 0).all()
 
 

@@ -45,7 +45,7 @@ def check_polygons(shape):
         made.append(shapely.Polygon(shell, holes))
         assert made[-1].is_valid, shapely.is_valid_reason(made[-1])
     areas = shapely.area(shape_triangles(shape))
-    np.testing.assert_allclose(shapely.area(made), shape.region_areas(), rtol=1e-9)
+    np.testing.assert_allclose(shapely.area(made), shape.region_areas, rtol=1e-9)
     assert shape.area == pytest.approx(areas.sum(), rel=1e-12)
     union = shapely.union_all(shape_triangles(shape))
     assert shape.area == pytest.approx(union.area, rel=1e-9)
@@ -80,7 +80,7 @@ def test_shapes_and_curves(name):
             assert curves["perimeter"][k] == pytest.approx(shape.perimeter, rel=1e-13, abs=1e-13)
             assert shape.perimeter == pytest.approx(sum(part.length for part in _boundaries(shape)), rel=1e-12)
             everywhere = classes_of(family, k + 1, k + 1)
-            np.testing.assert_array_equal(shape.edge_classes(), everywhere)
+            np.testing.assert_array_equal(shape.edge_classes, everywhere)
             np.testing.assert_array_equal(np.flatnonzero((everywhere == 1) | (everywhere == 2)), shape.edge_index)
             check_point_classes(shape, everywhere)
 
@@ -91,7 +91,7 @@ def _boundaries(shape):
 
 def check_point_classes(shape, classes):
     edges, first = shape.family.edges, shape.family.mesh.first
-    for v, found in enumerate(shape.point_classes().tolist()):
+    for v, found in enumerate(shape.point_classes.tolist()):
         around = set(classes[(edges == first[v]).any(axis=1)].tolist())
         right = 2 if 2 in around else 3 if 3 in around else 1 if 1 in around else 0
         assert found == right
@@ -99,7 +99,7 @@ def check_point_classes(shape, classes):
     for t in np.flatnonzero(shape.inside):
         for v in shape.family.mesh.triangles[t]:
             touching[v].add(int(shape.region[t]))
-    assert shape.point_regions().tolist() == [min(touching[v], default=-1) for v in first]
+    assert shape.point_regions.tolist() == [min(touching[v], default=-1) for v in first]
     assert shape.isolated.tolist() == [
         v
         for v in range(len(first))
@@ -198,7 +198,7 @@ def test_thresholds():
         check_polygons(dropped)
     both = alpha_shape(family, r=0.8, hole_threshold=100, region_threshold=80)
     assert (both.region_count, both.cavity_count, both.area) == (1, 0, 88.0)
-    np.testing.assert_array_equal(both.edge_classes() == 2, both.edge_classes() == 2)
+    np.testing.assert_array_equal(both.edge_classes == 2, both.edge_classes == 2)
     assert set(both.classes.tolist()) == {"boundary"}
 
 

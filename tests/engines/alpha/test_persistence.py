@@ -91,7 +91,7 @@ def test_sizes_are_those_of_the_shape_before_the_death():
     found = persistence(family)
     for region in np.flatnonzero(np.isfinite(found.death))[::9]:
         rank = int(np.searchsorted(family.spectrum, found.death[region]))
-        table = vorotool.table(alpha_shape(family, r=family.radius_from(rank - 1)))
+        table = alpha_shape(family, r=family.radius_from(rank - 1)).table()
         sizes = list(zip(table["points"].tolist(), table["triangles"].tolist(), strict=True))
         alike = [each == (found.points[region], found.triangles[region]) for each in sizes]
         assert np.isclose(table["area"][alike], found.area[region]).any()

@@ -108,7 +108,7 @@ def test_against_shapely():
         polygon, site = shapely.STRtree(shapely.points(points)).query(peer, predicate="contains")
         areas = np.zeros(len(points))
         areas[site] = shapely.area(shapely.intersection(peer[polygon], frame))
-        np.testing.assert_allclose(cells.areas(), areas, rtol=1e-4)  # GEOS merges close vertices
+        np.testing.assert_allclose(cells.areas, areas, rtol=1e-4)  # GEOS merges close vertices
 
 
 @pytest.mark.parametrize("name", few(SLOW_LAST, QUICK))
@@ -169,7 +169,7 @@ def test_few_and_collinear_points():
         [(2, 0), (4, 0), (4, 2), (2, 2)],
     ]
     strips = quietly([[0, 0], [2, 2], [1, 1], [0, 0]], frame=(0, 0, 2, 2))
-    assert strips.areas().tolist() == [0.5, 0.5, 3.0, 0.0]
+    assert strips.areas.tolist() == [0.5, 0.5, 3.0, 0.0]
     assert len(quietly(np.empty((0, 2)))) == 0
 
 
@@ -179,7 +179,7 @@ def test_sites_outside_the_frame():
     assert cells.is_empty.tolist() == [False, True, True]
     cells = quietly([[-1, 0.5], [1, 0.5]], frame=(0, 0, 1, 1))
     assert cells.is_empty.tolist() == [True, False]
-    assert cells.areas().tolist() == [0.0, 1.0]
+    assert cells.areas.tolist() == [0.0, 1.0]
     cells = quietly([[-1, -1], [1, 1]], frame=(0, 0, 1, 1))
     assert cells.is_empty.tolist() == [True, False]
 
@@ -214,12 +214,12 @@ def test_clip_cuts_cells_into_parts_with_holes():
     shapes = cells.to_shapely()
     assert [shape.geom_type for shape in shapes] == ["Polygon", "MultiPolygon", "Polygon", "Polygon"]
     assert cells.is_empty.tolist() == [False, False, False, True]
-    np.testing.assert_allclose(cells.areas(), [12, 4, 12, 0])
-    np.testing.assert_allclose(cells.perimeters(), shapely.length(shapes))
+    np.testing.assert_allclose(cells.areas, [12, 4, 12, 0])
+    np.testing.assert_allclose(cells.perimeters, shapely.length(shapes))
     holed = quietly([[3, 3]], clip=ring)
     assert [len(shape.interiors) for shape in holed.to_shapely()] == [1]
-    assert holed.areas().tolist() == [28.0]
-    assert holed.perimeters().tolist() == [24.0 + 12.0]
+    assert holed.areas.tolist() == [28.0]
+    assert holed.perimeters.tolist() == [24.0 + 12.0]
 
 
 def test_clip_against_plain_intersection():
@@ -227,7 +227,7 @@ def test_clip_against_plain_intersection():
     area = shapely.Point(0.5, 0.5).buffer(0.4).difference(shapely.Point(0.4, 0.5).buffer(0.15))
     whole, cut = quietly(points), quietly(points, clip=area)
     right = shapely.intersection(whole.to_shapely(), area)
-    np.testing.assert_allclose(cut.areas(), shapely.area(right), atol=1e-12)
+    np.testing.assert_allclose(cut.areas, shapely.area(right), atol=1e-12)
     assert (shapely.area(shapely.symmetric_difference(cut.to_shapely(), right)) < 1e-12).all()
     assert shapely.is_valid(cut.to_shapely()).all()
     inside = shapely.contains_properly(area, whole.to_shapely())
@@ -240,7 +240,7 @@ def test_clip_polygons_are_united_and_repaired():
     bow = shapely.Polygon([(0, 0), (2, 2), (2, 0), (0, 2)])
     with pytest.warns(VorotoolWarning, match=r"^1 of 2 polygons to clip to are not valid .*Self-intersection"):
         cells = voronoi_cells([[1, 1]], clip=[bow, shapely.box(3, 0, 4, 2)])
-    assert cells.areas().tolist() == [4.0]
+    assert cells.areas.tolist() == [4.0]
     assert cells.to_shapely()[0].geom_type == "MultiPolygon"
 
 

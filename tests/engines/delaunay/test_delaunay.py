@@ -165,8 +165,8 @@ def test_chains(points, edges, hull):
     assert edge_set(mesh.edges) == set(map(tuple, edges))
     assert mesh.edges.shape == (len(edges), 2)
     assert mesh.hull.tolist() == hull
-    assert mesh.circumcenters().shape == (0, 2)
-    assert mesh.circumradii().shape == mesh.areas().shape == (0,)
+    assert mesh.circumcenters.shape == (0, 2)
+    assert mesh.circumradii.shape == mesh.areas.shape == (0,)
 
 
 def test_arrays_and_their_types():

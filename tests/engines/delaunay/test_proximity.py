@@ -106,7 +106,7 @@ def test_few_points_and_duplicates():
     with pytest.warns(VorotoolWarning, match="earlier"):
         graph = proximity_graph([[0, 0], [3, 0], [0, 0], [7, 0]], "mst")
     assert graph.edges.tolist() == [[0, 1], [1, 3]]
-    assert graph.degrees().tolist() == [1, 2, 0, 1]
+    assert graph.degrees.tolist() == [1, 2, 0, 1]
 
 
 def test_what_is_refused():
@@ -121,7 +121,7 @@ def test_what_a_graph_turns_into(tmp_path):
     points = vorotool.PointSet([[0, 0], [4, 0], [0, 3], [1, 1]], properties={"name": list("abcd")})
     graph = proximity_graph(points, "mst")
     assert repr(graph) == "ProximityGraph: mst, 4 points, 3 edges"
-    assert vorotool.table(graph)["label_b"].tolist() == [4, 4, 4]
+    assert graph.table()["label_b"].tolist() == [4, 4, 4]
     assert sorted(dict(graph.to_networkx().degree).values()) == [1, 1, 1, 3]
     assert [line.length for line in graph.to_shapely()] == graph.edge_lengths().tolist()
     assert graph.to_pandas()["length"].tolist() == graph.edge_lengths().tolist()

@@ -66,7 +66,7 @@ def test_precision_and_recall_by_the_definition(seed):
         have = found[size - 2]
         assert getattr(comparison, f"{kind}_precision") == (len(have & some) / len(have) if have else 1.0)
         assert getattr(comparison, f"{kind}_recall") == (len(have & every) / len(every) if every else 1.0)
-        table = comparison.table
+        table = comparison.differences
         rows = {"missing": set(), "false": set(), "tie": set()}
         for i in range(table.rows):
             if table["kind"][i] == kind:
@@ -138,7 +138,7 @@ def test_a_suggested_window_shows_more():
 def test_lengths_of_voronoi_edges():
     seeds = distinct_pixels(3, 50, 40).astype(float)
     mesh = delaunay(seeds)
-    centers = mesh.circumcenters()
+    centers = mesh.circumcenters
     low, high = np.array([0.0, 0.0]), np.array([49.0, 49.0])
     whole, inside = voronoi_lengths(mesh, centers, low, high)
     place = {frozenset(e): i for i, e in enumerate(mesh.edges.tolist())}

@@ -65,7 +65,7 @@ def test_four_labels_at_a_corner_are_four_triangles():
     assert found.at_four.all()
     assert (found.three_label_corners, found.four_label_corners) == (0, 1)
     assert found.edges.tolist() == [[0, 1], [0, 2], [1, 3], [2, 3]]
-    assert found.sides().tolist() == [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]]
+    assert found.sides.tolist() == [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]]
 
 
 def test_a_fourth_label_of_background_is_none():

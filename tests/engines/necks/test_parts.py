@@ -23,7 +23,7 @@ def test_dumbbell_is_cut_in_two():
     assert pieces.polygons.ring(0).tolist() == [
         *([0, 0], [4, 0], [4, 1.5], [5.5, 1.5], [5.5, 2.5], [4, 2.5], [4, 4], [0, 4]),
     ]
-    assert (pieces.cuts.tolist(), pieces.neighbors()) == ([1, 1], [[1], [0]])
+    assert (pieces.cuts.tolist(), pieces.neighbors) == ([1, 1], [[1], [0]])
     verify_parts(pieces)
 
 

@@ -33,7 +33,7 @@ def test_what_is_left_is_a_connected_part(criterion):
     for threshold in (1.5, 3.0, 20.0):
         left = vorotool.prune(whole, **{criterion: threshold})
         vorotool.verify_pruning(left, whole)
-        assert networkx.is_connected(vorotool.to_networkx(left))
+        assert networkx.is_connected(left.to_networkx())
         lengths.append(left.length.sum())
     assert lengths == sorted(lengths, reverse=True)
     assert lengths[0] <= whole.length.sum()

@@ -291,7 +291,7 @@ def test_public_functions_take_volumes():
     np.testing.assert_array_equal(vorotool.voronoi_diagram(volume), expected_diagram(labels))
     measures = measure_volume(volume)
     assert vorotool.region_table(volume, measures=measures) == volume_table(volume)
-    assert vorotool.table(volume).keys() == dict(volume_table(volume)).keys()
+    assert volume.table().keys() == dict(volume_table(volume)).keys()
     assert volume.to_pandas()["label"].tolist() == volume_table(volume)["label"].tolist()
     graph = volume.to_networkx()
     assert sorted(tuple(sorted(edge)) for edge in graph.edges) == [pair for pair, _ in expected_borders(labels)]

@@ -54,7 +54,7 @@ def test_row_houses():
 @pytest.mark.parametrize("side", [2, 5])
 def test_squares_have_four_neighbors(side):
     cells = voronoi(squares(side), frame=(-0.5, -0.5, 2 * side, 2 * side))
-    neighbors = np.array(cells.table["neighbors"]).reshape(side, side)
+    neighbors = np.array(cells.table()["neighbors"]).reshape(side, side)
     assert (neighbors[1:-1, 1:-1] == 4).all()
     assert neighbors.sum() == 4 * side * (side - 1)
     assert cells.areas.tolist() == [4.0] * side * side
@@ -257,7 +257,7 @@ def test_features_with_a_common_value_are_one_site():
     cells = voronoi(sites, by=["b", "a", "b", "a"], frame=(-4, -4, 16, 16))
     assert cells.areas.tolist() == [128, 128]
     assert cells.ids == ["b", "a"]
-    assert list(cells.table["id"]) == ["b", "a"]
+    assert list(cells.table()["id"]) == ["b", "a"]
     with pytest.raises(InputError, match="expected one value a feature, 4, but got 2"):
         voronoi(sites, by=["a", "b"])
     with pytest.raises(InputError, match="feature 1 has no value"):

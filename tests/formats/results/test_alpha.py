@@ -28,7 +28,7 @@ def test_edges_as_line_strings():
     for interior in (False, True):
         document = json.loads(written(write_shape_edges, SHAPE, interior=interior))
         assert document["crs"] == {"type": "name"}
-        classes = SHAPE.edge_classes()
+        classes = SHAPE.edge_classes
         chosen = np.flatnonzero(classes) if interior else SHAPE.edge_index
         places = [feature["geometry"]["coordinates"] for feature in document["features"]]
         assert places == FAMILY.points[FAMILY.edges[chosen]].tolist()

@@ -110,7 +110,7 @@ def test_files_of_triangle(mesh, first, tmp_path):
     assert (count, markers) == (len(mesh.edges), 1)
     assert [row[0] for row in edges] == list(range(first, len(edges) + first))
     assert [row[1:3] for row in edges] == (mesh.edges + first).tolist()
-    assert [row[3] for row in edges] == mesh.hull_edges().tolist()
+    assert [row[3] for row in edges] == mesh.hull_edges.tolist()
     header, *triangles = numbers_of(written(mesh, "ele", "triangles"))
     assert header == [len(mesh.triangles), 3, 0]
     assert [row[1:] for row in triangles] == (mesh.triangles + first).tolist()

@@ -21,10 +21,10 @@ def circles(random, count):
 
 def test_circular_arcs():
     arcs, radius, turn = circles(np.random.default_rng(1), 200)
-    np.testing.assert_allclose(arcs.lengths(), radius * turn, rtol=1e-7)
+    np.testing.assert_allclose(arcs.lengths, radius * turn, rtol=1e-7)
     chord = np.sqrt(np.square(arcs.target - arcs.source).sum(axis=1))
     np.testing.assert_allclose(chord, 2 * radius * np.sin(turn / 2), rtol=1e-7)
-    np.testing.assert_allclose(arcs.sagittas(), radius * 2 * np.sin(turn / 4) ** 2, rtol=1e-6)
+    np.testing.assert_allclose(arcs.sagittas, radius * 2 * np.sin(turn / 4) ** 2, rtol=1e-6)
     around = arcs.areas_beside(arcs.center[0])[0]
     assert abs(around) == pytest.approx(radius[0] ** 2 * turn[0] / 2)
 
@@ -41,14 +41,14 @@ def test_slices_of_circles(angle):
 def test_more_than_half_a_circle():
     ends = np.array([[1.0, 0.0]]), np.array([[0.0, -1.0]])
     arc = MixedArcs(*ends, np.full((1, 2), np.nan), np.zeros((1, 2)), np.array([True]))
-    assert arc.lengths()[0] == pytest.approx(1.5 * np.pi)
+    assert arc.lengths[0] == pytest.approx(1.5 * np.pi)
     assert arc.areas_beside(np.zeros(2))[0] == pytest.approx(0.75 * np.pi)
 
 
 def test_the_other_way_round():
     arcs, _, _ = circles(np.random.default_rng(2), 50)
     back = arcs.reversed(np.ones(50, dtype=bool))
-    assert back.lengths().tolist() == pytest.approx(arcs.lengths().tolist())
+    assert back.lengths.tolist() == pytest.approx(arcs.lengths.tolist())
     assert back.areas_beside(np.ones(2)).tolist() == pytest.approx((-arcs.areas_beside(np.ones(2))).tolist())
 
 
@@ -71,4 +71,4 @@ def test_polylines_of_all_kinds(tolerance):
             middle = (along[1:] + along[:-1]) / 2 - center[k]
             assert (radius[k] - np.sqrt(np.square(middle).sum(axis=1)) <= tolerance * (1 + 1e-9)).all()
         steps = np.diff(fine[fine_start[k] : fine_start[k + 1]], axis=0)
-        assert np.sqrt(np.square(steps).sum(axis=1)).sum() == pytest.approx(mixed.lengths()[k], rel=1e-5)
+        assert np.sqrt(np.square(steps).sum(axis=1)).sum() == pytest.approx(mixed.lengths[k], rel=1e-5)

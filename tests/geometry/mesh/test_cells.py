@@ -12,8 +12,8 @@ SQUARES = [[0, 0], [2, 0], [2, 2], [0, 2], [2, 0], [4, 0], [4, 2], [2, 2]]
 def test_empty_cells_have_no_polygon():
     cells = CellSet([[1, 1], [9, 9], [3, 1], [9, 9]], SQUARES, [0, 4, 4, 8, 8], Box(0, 0, 4, 2))
     assert cells.is_empty.tolist() == [False, True, False, True]
-    assert cells.areas().tolist() == [4.0, 0.0, 4.0, 0.0]
-    assert cells.perimeters().tolist() == [8.0, 0.0, 8.0, 0.0]
+    assert cells.areas.tolist() == [4.0, 0.0, 4.0, 0.0]
+    assert cells.perimeters.tolist() == [8.0, 0.0, 8.0, 0.0]
     rings, polygons, of_cells = cells.nesting
     assert (rings.tolist(), polygons.tolist(), of_cells.tolist()) == ([0, 4, 8], [0, 1, 2], [0, 1, 1, 2, 2])
     shapes = cells.to_shapely()
@@ -25,7 +25,7 @@ def test_empty_cells_have_no_polygon():
 def test_no_cells():
     cells = CellSet([], [], [0], Box(0, 0, 1, 1))
     assert len(cells) == 0
-    assert cells.areas().shape == cells.perimeters().shape == cells.to_shapely().shape == (0,)
+    assert cells.areas.shape == cells.perimeters.shape == cells.to_shapely().shape == (0,)
 
 
 def test_polygons_with_holes_and_parts():
@@ -33,8 +33,8 @@ def test_polygons_with_holes_and_parts():
     shell = [[0, 0], [4, 0], [4, 4], [0, 4]]
     far = [[5, 0], [6, 0], [6, 1]]
     cells = CellSet([[0, 0]], [*shell, *hole, *far], [0, 4, 8, 11], Box(0, 0, 9, 9), [0, 2, 3], [0, 2])
-    assert cells.areas().tolist() == [12.5]
-    assert cells.perimeters()[0] == pytest.approx(16 + 8 + 2 + np.sqrt(2))
+    assert cells.areas.tolist() == [12.5]
+    assert cells.perimeters[0] == pytest.approx(16 + 8 + 2 + np.sqrt(2))
     (shape,) = cells.to_shapely()
     assert shape.geom_type == "MultiPolygon"
     assert shape.area == 12.5

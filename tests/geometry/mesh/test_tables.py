@@ -54,7 +54,7 @@ def test_hull_edges_have_one_triangle(name):
     for a, b, c in mesh.triangles.tolist():
         for end in ((a, b), (b, c), (c, a)):
             count[tuple(sorted(end))] += 1
-    assert mesh.hull_edges().tolist() == [times < 2 for times in count.values()]
+    assert mesh.hull_edges.tolist() == [times < 2 for times in count.values()]
 
 
 def test_tables_speak_the_labels_of_the_input():

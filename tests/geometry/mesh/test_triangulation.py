@@ -30,7 +30,7 @@ def within(value, right, error):
 @pytest.mark.parametrize("name", FAMILIES)
 def test_circles_and_areas_against_rationals(name):
     mesh = delaunay(draw(name, 60, 1))
-    centers, radii, areas = mesh.circumcenters(), mesh.circumradii(), mesh.areas()
+    centers, radii, areas = mesh.circumcenters, mesh.circumradii, mesh.areas
     for t, corners in enumerate(mesh.points[mesh.triangles].tolist()):
         a, b, c = ((Fraction(x), Fraction(y)) for x, y in corners)
         (x, y), square = circle(a, b, c)
@@ -44,11 +44,11 @@ def test_circles_and_areas_against_rationals(name):
 
 def test_uniform_points_lose_few_digits():
     mesh = delaunay(draw("uniform", 2000, 2))
-    distances = np.linalg.norm(mesh.points[mesh.triangles] - mesh.circumcenters()[:, None], axis=2)
-    np.testing.assert_allclose(distances, mesh.circumradii()[:, None] * [1, 1, 1], rtol=1e-10)
+    distances = np.linalg.norm(mesh.points[mesh.triangles] - mesh.circumcenters[:, None], axis=2)
+    np.testing.assert_allclose(distances, mesh.circumradii[:, None] * [1, 1, 1], rtol=1e-10)
     hull = mesh.points[mesh.hull]
     around = np.roll(hull, -1, axis=0)
-    assert mesh.areas().sum() == pytest.approx((hull[:, 0] * around[:, 1] - hull[:, 1] * around[:, 0]).sum() / 2)
+    assert mesh.areas.sum() == pytest.approx((hull[:, 0] * around[:, 1] - hull[:, 1] * around[:, 0]).sum() / 2)
 
 
 def test_shapes_are_checked():

@@ -9,7 +9,7 @@ import pytest
 import shapely
 from tests.support.families.site_families import mixed_sites
 
-from vorotool import table, to_geojson, voronoi
+from vorotool import to_geojson, voronoi
 from vorotool.errors import InputError, UsageError
 from vorotool.geometry.voronoi.shapes import PART_OF_RADIUS, flattened_arcs
 
@@ -56,7 +56,7 @@ def test_digons_hold_something():
 
 
 def test_tables(cells):
-    borders, rows = cells.edges, table(cells)
+    borders, rows = cells.edges, cells.table()
     names = ["label", "area", "perimeter", "neighbors", "own_area", "max_distance", "components"]
     assert list(rows) == names
     assert rows["neighbors"].tolist() == [1, 1]

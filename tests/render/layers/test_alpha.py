@@ -29,7 +29,7 @@ def test_every_edge_is_in_the_layer_of_its_class():
     layers = alpha_layers(shape, mesh_page(family.mesh), LAYERS, hull=hull)
     assert [layer.name for layer in layers] == list(LAYERS)
     counts = {layer.name: len(layer.pairs) for layer in layers if isinstance(layer, Lines)}
-    found = np.bincount(shape.edge_classes(), minlength=4).tolist()
+    found = np.bincount(shape.edge_classes, minlength=4).tolist()
     assert [counts[name] for name in ("singular", "boundary", "interior")] == found[1:]
     assert counts["delaunay"] == len(family)
     regions = next(layer for layer in layers if layer.name == "polygons")

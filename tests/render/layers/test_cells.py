@@ -31,7 +31,7 @@ def test_lines_are_the_sides_of_cells_each_once():
     ends = cells.coordinates[lines.pairs]
     length = np.hypot(*(ends[:, 0] - ends[:, 1]).T).sum()
     left, bottom, right, top = cells.frame.sides
-    assert length == pytest.approx((cells.perimeters().sum() + 2 * (right - left + top - bottom)) / 2)
+    assert length == pytest.approx((cells.perimeters.sum() + 2 * (right - left + top - bottom)) / 2)
 
 
 def test_svg_has_a_path_a_part():

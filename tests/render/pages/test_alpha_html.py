@@ -65,7 +65,7 @@ def test_the_page_counts_what_the_library_does(page, r):
     document = browse("--dump-dom", f"{path.as_uri()}{'' if r is None else f'#r={r}'}")
     shape = alpha_shape(family, r=r or 1.25)
     assert f'data-drawn="{r or 1.25:g}"' in document
-    counts = np.bincount(shape.edge_classes(), minlength=4)
+    counts = np.bincount(shape.edge_classes, minlength=4)
     for name, count in zip(CLASSES, counts.tolist(), strict=True):
         assert shown(document, name) == str(count)
     assert shown(document, "points") == str(len(family.points))

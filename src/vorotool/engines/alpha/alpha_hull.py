@@ -83,7 +83,7 @@ def alpha_hull(shape: AlphaShape) -> AlphaHull:
     pieces = arcs.pieces()
     order, ring_start = _rings(pieces)
     on_arcs = {int(node) for node in pieces.nodes[order].reshape(-1) if node >= 0}
-    outer = np.flatnonzero((shape.point_classes() < 3) & (shape.family.mesh.first == np.arange(len(shape.points))))
+    outer = np.flatnonzero((shape.point_classes < 3) & (shape.family.mesh.first == np.arange(len(shape.points))))
     alone = np.array([v for v in outer.tolist() if v not in on_arcs], dtype=np.int32)
     arc = pieces.arc[order]
     place, center = np.ldexp(pieces.place[order], exponent), np.ldexp(arcs.center[arc], exponent)

@@ -392,8 +392,8 @@ def alpha_curves(family: AlphaComplex, *, progress: Progress = None) -> Table:
         family.rank_mid,
         family.rank_max,
         family.sides,
-        family.mesh.areas(),
-        family.lengths(),
+        family.mesh.areas,
+        family.lengths,
         progress,
     )
     return Table({"r": family.spectrum, **curves})

@@ -38,7 +38,7 @@ def _in_small(mesh: Triangulation, component: NDArray[np.int32], threshold: Frac
     """(t,) whether each triangle is in a component (from 0) of at most this area."""
     chosen = component >= 0
     numbers = component[chosen]
-    areas = np.bincount(numbers, weights=mesh.areas()[chosen])
+    areas = np.bincount(numbers, weights=mesh.areas[chosen])
     # A triangle's area is off by about 1e-15 times the product of two sides at most, a sum of n terms by n 2^-53 of it.
     corners = mesh.points[mesh.triangles[chosen]]
     limit = nearest_double(threshold)

@@ -16,7 +16,7 @@ def linked_digital(found: DigitalTriangulation) -> tuple[Triangulation, NDArray[
     points = found.points
     turn = _core.kernel.orient2d(np.ascontiguousarray(points[found.triangles]))
     triangles = np.ascontiguousarray(found.triangles[turn > 0])
-    edges = np.unique(np.concatenate([np.sort(found.edges, axis=1), found.sides()]), axis=0).astype(np.int32)
+    edges = np.unique(np.concatenate([np.sort(found.edges, axis=1), found.sides]), axis=0).astype(np.int32)
     count = len(points)
     keys = edges[:, 0].astype(np.int64) * count + edges[:, 1]
     sides = np.full((len(edges), 2), -1, dtype=np.int32)

@@ -69,7 +69,7 @@ def persistence(
     mesh = family.mesh
     ranks = family.triangle_rank, family.rank_max
     found = _core.alpha.region_persistence(
-        len(family.spectrum), len(mesh.points), mesh.triangles, *ranks, family.sides, mesh.areas(), progress
+        len(family.spectrum), len(mesh.points), mesh.triangles, *ranks, family.sides, mesh.areas, progress
     )
     radius = np.append(family.spectrum, np.inf)
     return RegionPersistence(

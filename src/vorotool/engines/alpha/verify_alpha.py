@@ -182,7 +182,7 @@ def _expected_classes(shape: AlphaShape, reached: NDArray[np.bool_]) -> NDArray[
 
 
 def _check_edges(shape: AlphaShape, expected: NDArray[np.intp]) -> None:
-    classes = shape.edge_classes()
+    classes = shape.edge_classes
     wrong = np.flatnonzero(classes != expected)
     if wrong.size:
         edge = int(wrong[0])

@@ -101,9 +101,9 @@ def statistics_of(
     whole = (area > 0) & ~touches & ~on_hull
     if cells.polygon_starts is not None:
         uncut = voronoi_cells(mesh, frame=cells.frame, threads=threads, progress=progress)
-        whole &= area >= uncut.areas()
+        whole &= area >= uncut.areas
     tree = proximity_graph(mesh, "mst", threads=threads, progress=progress)
-    region = float(area.sum()) if has_region or mesh.frame is not None else float(mesh.areas().sum())
+    region = float(area.sum()) if has_region or mesh.frame is not None else float(mesh.areas.sum())
     return CellStatistics(_measured(table, whole), tree.edge_lengths(), region, mesh.properties)
 
 

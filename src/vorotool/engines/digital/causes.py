@@ -50,7 +50,7 @@ class Causes:
         self._has_region, self._split = has_region, split
         low = np.array([frame.x, frame.y], dtype=np.float64)
         high = low + np.array([frame.width - 1, frame.height - 1])  # corners lie between the outermost pixel centers
-        centers = self._centers = exact.circumcenters()
+        centers = self._centers = exact.circumcenters
         beyond = np.maximum(low - centers, centers - high).max(axis=1, initial=-np.inf)
         edges, triangles = members_of(exact.edges), members_of(exact.triangles)
         self.beyond: dict[Members, float] = dict(zip(triangles, beyond.tolist(), strict=True))

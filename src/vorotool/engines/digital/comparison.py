@@ -82,7 +82,7 @@ def compare_digital(
     Examples
     --------
     >>> comparison = compare_digital([[1, 1], [6, 1], [2, 6]], shape=(8, 8))
-    >>> comparison.triangle_precision, comparison.table.rows
+    >>> comparison.triangle_precision, comparison.differences.rows
     (1.0, 0)
     """
     frame = asked_frame(shape, window)

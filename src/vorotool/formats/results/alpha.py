@@ -77,7 +77,7 @@ def _array(shape: Any, what: str) -> NDArray[Any]:
     if what == "spectrum":
         radii: NDArray[np.float64] = shape.spectrum
         return radii
-    chosen: NDArray[np.int32] = shape.family.edges[np.flatnonzero(shape.edge_classes())]
+    chosen: NDArray[np.int32] = shape.family.edges[np.flatnonzero(shape.edge_classes)]
     return chosen if what == "complex" else shape.edges
 
 
@@ -86,7 +86,7 @@ def write_shape_edges(
 ) -> None:
     """Write edges as GeoJSON: LineStrings with labels, length, radii and class."""
     table = shape_edge_table(shape, interior=interior).stored()
-    chosen = np.flatnonzero(shape.edge_classes()) if interior else shape.edge_index
+    chosen = np.flatnonzero(shape.edge_classes) if interior else shape.edge_index
     columns = {name: column for name, column in table.items() if name.removeprefix("voro_") not in END_PLACES}
     mesh = shape.family.mesh
     write_features(out, columns, shape.family.edges[chosen], mesh, precision=precision, threads=threads)

@@ -115,7 +115,7 @@ def _write_edge(
     """``<edges> <markers>``, then ``<number> <end> <end> <marker>``."""
     out.write(f"{len(mesh.edges)} 1\n".encode())
     ends = _numbers(mesh, mesh.edges, mesh.first_number)
-    columns = [_counted(mesh, len(mesh.edges)), *ends, Column.of("", mesh.hull_edges().astype(np.int64))]
+    columns = [_counted(mesh, len(mesh.edges)), *ends, Column.of("", mesh.hull_edges.astype(np.int64))]
     write_rows(out, columns, RowShape(("", " ", " ", " ", "\n")), threads=threads)
 
 

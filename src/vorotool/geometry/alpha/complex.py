@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import cached_property
 from math import floor, inf, isqrt
 from typing import Any
 
@@ -163,6 +164,7 @@ class AlphaComplex(Value, Tabular, Geometric, Pictured):
         reached, entered = self.reached(checked_radius(r)), self.entered(r)
         return classes_of(self, reached, entered)
 
+    @cached_property
     def lengths(self) -> NDArray[np.float64]:
         """Return the (e,) lengths of the edges, to a relative error of 1e-15; infinite beyond the largest double."""
         a, b = self.points[self.edges[:, 0]], self.points[self.edges[:, 1]]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cached_property
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -92,19 +94,21 @@ class AlphaShape(Value, Tabular, WithParts, Pictured):
     @property
     def area(self) -> float:
         """Area of the shape."""
-        return float(self.region_areas().sum())
+        return float(self.region_areas.sum())
 
     @property
     def perimeter(self) -> float:
         """Length of the boundary edges."""
-        return float(self.family.lengths()[self.edge_index[self.kind == CLASSES.index("boundary")]].sum())
+        return float(self.family.lengths[self.edge_index[self.kind == CLASSES.index("boundary")]].sum())
 
+    @cached_property
     def region_areas(self) -> NDArray[np.float64]:
         """(regions,) areas."""
         inside = self.inside
-        areas = self.family.mesh.areas()[inside]
+        areas = self.family.mesh.areas[inside]
         return np.bincount(self.region[inside], areas, self.region_count).astype(np.float64)
 
+    @cached_property
     def edge_classes(self) -> NDArray[np.uint8]:
         """Return the (e,) indices of the classes of all edges of the family in `CLASSES`."""
         classes = np.zeros(len(self.family), dtype=np.uint8)
@@ -114,6 +118,7 @@ class AlphaShape(Value, Tabular, WithParts, Pictured):
         classes[self.edge_index] = self.kind
         return classes
 
+    @cached_property
     def point_classes(self) -> NDArray[np.uint8]:
         """Return the (n,) indices of the classes of the points in `POINT_CLASSES`; duplicates share one."""
         found = np.zeros(len(self.points), dtype=np.uint8)
@@ -126,6 +131,7 @@ class AlphaShape(Value, Tabular, WithParts, Pictured):
             found[ends] = POINT_CLASSES.index(name)
         return found[mesh.first]
 
+    @cached_property
     def point_regions(self) -> NDArray[np.int32]:
         """Return the (n,) first region of which each point is a vertex, from 0; -1 if there is none."""
         mesh, none = self.family.mesh, np.iinfo(np.int32).max
@@ -140,13 +146,14 @@ class AlphaShape(Value, Tabular, WithParts, Pictured):
         """Return the 0-based points on no edge of the shape, without duplicates."""
         mesh = self.family.mesh
         is_first = mesh.first == np.arange(len(mesh.first))
-        return np.flatnonzero((self.point_classes() == 0) & is_first).astype(np.int32)
+        return np.flatnonzero((self.point_classes == 0) & is_first).astype(np.int32)
 
     @property
     def hole_count(self) -> int:
         """Number of holes of all polygons."""
         return int((self.polygons.ring_kind == HOLE).sum())
 
+    @cached_property
     def holes_of_regions(self) -> NDArray[np.int64]:
         """(regions,) number of holes of each polygon."""
         holes = self.polygons.ring_polygon[self.polygons.ring_kind == HOLE]

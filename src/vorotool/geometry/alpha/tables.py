@@ -19,11 +19,11 @@ from vorotool.geometry.table import Lookup, Table
 def shape_edge_table(shape: AlphaShape, *, interior: bool = False) -> Table:
     """Give one row an edge of a shape, in the order of the family."""
     family = shape.family
-    classes = shape.edge_classes()
+    classes = shape.edge_classes
     chosen = np.flatnonzero(classes).astype(np.int32) if interior else shape.edge_index
     columns = {
         **end_columns(family.mesh, family.edges[chosen]),
-        "length": family.lengths()[chosen],
+        "length": family.lengths[chosen],
         "r_min": family.r_min[chosen],
         "r_max": family.r_max[chosen],
         "class": _named(CLASSES, classes[chosen]),
@@ -49,13 +49,13 @@ def shape_point_table(shape: AlphaShape) -> Table:
     """Give one row a point, in the order of the input."""
     mesh = shape.family.mesh
     x, y = np.ascontiguousarray(mesh.points.T)
-    region = shape.point_regions()
+    region = shape.point_regions
     table = Table(
         {
             "label": mesh.label_array,
             "x": x,
             "y": y,
-            "class": _named(POINT_CLASSES, shape.point_classes()),
+            "class": _named(POINT_CLASSES, shape.point_classes),
             "region": np.ma.array(region + 1, mask=region < 0),
         }
     )
@@ -75,9 +75,9 @@ def region_table(shape: AlphaShape) -> Table:
     return Table(
         {
             "region": np.arange(1, count + 1),
-            "area": shape.region_areas(),
+            "area": shape.region_areas,
             "perimeter": _perimeters(shape),
-            "holes": shape.holes_of_regions(),
+            "holes": shape.holes_of_regions,
             "points": np.bincount(pairs >> 32, minlength=count),
             "triangles": np.bincount(of, minlength=count),
             "bbox_x": low[:, 0],
@@ -91,7 +91,7 @@ def region_table(shape: AlphaShape) -> Table:
 def _perimeters(shape: AlphaShape) -> NDArray[np.float64]:
     boundary = shape.edge_index[shape.kind == CLASSES.index("boundary")]
     region = np.append(shape.region, np.int32(-1))[shape.family.sides[boundary]].max(axis=1)
-    lengths = shape.family.lengths()[boundary]
+    lengths = shape.family.lengths[boundary]
     return np.bincount(region, lengths, shape.region_count).astype(np.float64)
 
 
@@ -102,8 +102,8 @@ def _named(names: tuple[str, ...], numbers: NDArray[np.uint8]) -> list[str]:
 def described_polygons(shape: AlphaShape) -> PolygonSet:
     """Give the polygons of a shape with the area, the perimeter and the number of holes of each."""
     described = {
-        "area": shape.region_areas().tolist(),
+        "area": shape.region_areas.tolist(),
         "perimeter": _perimeters(shape).tolist(),
-        "holes": shape.holes_of_regions().tolist(),
+        "holes": shape.holes_of_regions.tolist(),
     }
     return replace(shape.polygons, properties=described)

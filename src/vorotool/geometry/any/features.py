@@ -169,7 +169,7 @@ def _is_place(name: str) -> bool:
 
 def _of_cells(cells: CellSet) -> Features:
     x, y = np.ascontiguousarray(cells.sites.T)
-    columns = {"label": cells.label_array, "x": x, "y": y, "area": cells.areas(), "perimeter": cells.perimeters()}
+    columns = {"label": cells.label_array, "x": x, "y": y, "area": cells.areas, "perimeter": cells.perimeters}
     made = Table(columns).with_properties(cells.properties)
     return Features(cells.to_shapely(), made, cells, _every(len(cells)))
 

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from vorotool.errors import UsageError
 from vorotool.geometry.any.features import lines
 from vorotool.geometry.extras import needed
 from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation, DigitalTriangulation
@@ -43,49 +42,7 @@ GraphLike = (
 def to_networkx(
     value: GraphLike, *, by: str | None = None, flatten: Flatten = None
 ) -> networkx.Graph[int] | networkx.MultiGraph[int]:
-    """Return a result as an undirected networkx graph; networkx must be installed.
-
-    The graph has ``crs`` if the input had. Missing values are left out of the attributes.
-
-    Parameters
-    ----------
-    value : Skeleton, Triangulation, DigitalTriangulation, ProximityGraph, LabelImage, LabelVolume, PlanarGraph or
-        VoronoiMap
-        Of a skeleton nodes are numbers of vertices, with ``x``, ``y``, the radius ``r`` and the ``degree``; edges have
-        the number of their branch or arc for a key, and ``branch`` (also ``arc``), ``label``, ``id``, ``side``,
-        ``kind``, ``length``, ``r_min``, ``r_max``, ``r_mean``, of branches ``type`` and ``tortuosity`` as
-        `branch_table` has them, and ``geometry``, a shapely LineString; the properties of the polygon, too. Of a
-        triangulation nodes are numbers of points, from 0, with ``x``, ``y``, ``label`` and the properties, edges have
-        ``length``. Of a label image or volume nodes are labels, with the columns of
-        `region_table`, edges join neighbors, with those of `neighbor_table`. Of a planar graph nodes are numbers of
-        its points, with ``x`` and ``y``, edges have ``segment``, ``length``, ``face_left`` and ``face_right``. Of a
-        Voronoi map nodes are numbers of its cells, from 0, with the columns of its table, edges join neighbors, with
-        ``border_length`` and ``distance``.
-    by : {"branch", "arc"}, optional
-        Meaning of an edge of a skeleton; by default a branch. A closed branch joins a node with itself.
-    flatten : float or "auto", optional
-        Largest distance of the geometry from parabolas; by default, or with "auto", as for `Skeleton.flattened`.
-
-    Returns
-    -------
-    networkx.Graph or networkx.MultiGraph
-        A graph; a multigraph for skeletons.
-
-    Raises
-    ------
-    UsageError
-        If networkx is not installed, the value has no graph, ``by`` is unknown, the tolerance is not positive, or
-        ``by`` or ``flatten`` is passed for a value that is not a skeleton.
-
-    Examples
-    --------
-    >>> from vorotool import delaunay, skeleton_exact
-    >>> graph = to_networkx(skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]]))
-    >>> sorted(dict(graph.degree).values()), max(r for _, r in graph.nodes(data="r"))
-    ([1, 1, 1, 1, 3, 3], 1.0)
-    >>> to_networkx(delaunay([[0, 0], [4, 0], [0, 3]])).edges[0, 1]["length"]
-    4.0
-    """
+    """Return a result as an undirected graph of networkx: see `vorotool.geometry.values`."""
     flatten = checked_flatten(flatten)
     if isinstance(value, Skeleton):
         return _of_skeleton(_library(), value, "branch" if by is None else by, flatten)
@@ -95,18 +52,9 @@ def to_networkx(
         (PlanarGraph, _of_planar_graph),
         (VoronoiMap, _of_voronoi),
     ]
-    for kind, maker in makers:
-        if not isinstance(value, kind):
-            continue
-        for name, given in (("by", by), ("flatten", flatten)):
-            if given is not None:
-                raise UsageError(f"{name} is for skeletons: leave it out with a {type(value).__name__}")
-        made: networkx.Graph[int] = maker(_library(), value)
-        return made
-    raise UsageError(
-        f"there is no graph of a {type(value).__name__}: give a Skeleton, Triangulation, DigitalTriangulation, "
-        "ProximityGraph, LabelImage, LabelVolume, PlanarGraph or VoronoiMap"
-    )
+    maker = next(maker for kind, maker in makers if isinstance(value, kind))
+    made: networkx.Graph[int] = maker(_library(), value)
+    return made
 
 
 def _library() -> Any:
@@ -173,7 +121,7 @@ def _of_labels(library: Any, image: LabelImage | LabelVolume) -> Any:
 
 def _of_voronoi(library: Any, cells: VoronoiMap) -> Any:
     graph = library.Graph(**_named(cells.crs))
-    table = dict(cells.table)
+    table = dict(cells.table())
     reach = "voro_max_distance" if "max_distance" in cells.properties else "max_distance"
     table[reach] = np.ma.masked_invalid(table[reach])
     graph.add_nodes_from(enumerate(_rows(table)))

@@ -53,35 +53,6 @@ class IndexedTable(NamedTuple):
     item: NDArray[np.integer] | None = None
 
 
-def table(value: Any) -> dict[str, NDArray[Any]]:
-    """Return the columns of the table of a result as arrays.
-
-    Parameters
-    ----------
-    value : Table, or a value of the library that has one
-        A result, with one row per edge of a triangulation, region of a label image, a label volume or an alpha shape,
-        arc of a skeleton, …; fields that do not exist are masked, None, or NaN.
-
-    Returns
-    -------
-    dict of arrays
-        Arrays of one length, by column name.
-
-    Raises
-    ------
-    UsageError
-        If the value has no table.
-
-    Examples
-    --------
-    >>> import vorotool
-    >>> table(vorotool.skeleton_exact([[0, 0], [4, 0], [0, 3]]))["kind"].tolist()
-    ['line', 'line', 'line']
-    """
-    own = indexed_table(value).table
-    return {name: column if isinstance(column, np.ndarray) else np.array(column) for name, column in own.items()}
-
-
 def indexed_table(value: Any) -> IndexedTable:
     """Give the table of a value, with the rows of the input behind its rows."""
     maker = _MAKERS.get(type(value))
@@ -154,7 +125,7 @@ def _of_discs(discs: Discs) -> IndexedTable:
 
 
 def _of_voronoi(cells: VoronoiMap) -> IndexedTable:
-    return IndexedTable(cells.table, cells, np.arange(len(cells)))
+    return IndexedTable(cells.table(), cells, np.arange(len(cells)))
 
 
 def _of_features(value: Any) -> IndexedTable:
@@ -179,7 +150,7 @@ _MAKERS: dict[type, Callable[[Any], IndexedTable]] = {
     ProximityGraph: lambda graph: IndexedTable(edge_table(graph)),
     CellStatistics: lambda found: IndexedTable(found.summary),
     RegionPersistence: lambda found: IndexedTable(found.table()),
-    DigitalComparison: lambda found: IndexedTable(found.table),
+    DigitalComparison: lambda found: IndexedTable(found.differences),
     CellSet: _of_features,
     AlphaComplex: lambda family: IndexedTable(family_table(family)),
     AlphaShape: lambda shape: IndexedTable(region_table(shape)),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -61,6 +62,7 @@ class MixedArcs:
         is_circle: NDArray[np.bool_] = ~np.isnan(self.center[:, 0])
         return is_circle
 
+    @cached_property
     def lengths(self) -> Floats:
         """(n,) lengths."""
         lengths = bezier.lengths_of(self.source, self.control, self.target)
@@ -83,6 +85,7 @@ class MixedArcs:
             areas[circles] += np.where(self.is_left[circles], segment, -segment)
         return areas
 
+    @cached_property
     def sagittas(self) -> Floats:
         """(n,) how far circular arcs are from their chords; infinity of other arcs."""
         sagittas = np.full(len(self.source), np.inf)

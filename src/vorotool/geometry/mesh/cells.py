@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import field
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -69,7 +70,7 @@ class CellSet(Value, Tabular, Geometric, Pictured):
     --------
     >>> cells = CellSet([[1, 1], [3, 1]], [[0, 0], [2, 0], [2, 2], [0, 2], [2, 0], [4, 0], [4, 2], [2, 2]], [0, 4, 8],
     ...                 Box(0, 0, 4, 2))
-    >>> len(cells), cells.areas().tolist(), cells.perimeters().tolist()
+    >>> len(cells), cells.areas.tolist(), cells.perimeters.tolist()
     (2, [4.0, 4.0], [8.0, 8.0])
     >>> cells.to_shapely()[1].wkt
     'POLYGON ((2 0, 4 0, 4 2, 2 2, 2 0))'
@@ -126,6 +127,7 @@ class CellSet(Value, Tabular, Geometric, Pictured):
         empty: NDArray[np.bool_] = np.diff(self.starts if self.cell_starts is None else self.cell_starts) == 0
         return empty
 
+    @cached_property
     def areas(self) -> NDArray[np.float64]:
         """(n,) areas of the cells, 0 of empty ones.
 
@@ -140,12 +142,14 @@ class CellSet(Value, Tabular, Geometric, Pictured):
         with np.errstate(over="ignore"):
             return np.ldexp(self._sum(x * y[after] - x[after] * y), 2 * exponent - 1)
 
+    @cached_property
     def perimeters(self) -> NDArray[np.float64]:
         """(n,) lengths of the boundaries, those of holes included; 0 of empty cells."""
         with np.errstate(over="ignore"):  # beyond the largest double: infinite
             step = self.coordinates[following(self.nesting.rings)] - self.coordinates
             return self._sum(hypotenuse(step[:, 0], step[:, 1]))
 
+    @cached_property
     def cell_of_vertices(self) -> NDArray[np.int64]:
         """(n + 1,) where the vertices of each cell begin in `coordinates`, and the end."""
         rings, polygons, cells = self.nesting
@@ -161,7 +165,7 @@ class CellSet(Value, Tabular, Geometric, Pictured):
 
     def _sum(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
         """Sums over the vertices of each cell."""
-        starts = self.cell_of_vertices()
+        starts = self.cell_of_vertices
         sums = np.zeros(len(self))
         kept = np.diff(starts) > 0
         if kept.any():

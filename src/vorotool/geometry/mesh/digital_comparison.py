@@ -19,7 +19,7 @@ class DigitalComparison(Value, Tabular):
     ----------
     edge_precision, edge_recall, triangle_precision, triangle_recall : float
         Fraction of the results that are right, and of the required ones that are found; 1 if there are none.
-    table : Table
+    differences : Table
         One row per difference: ``kind`` (edge or triangle), ``difference`` (missing, false or tie), ``label_a``,
         ``label_b``, ``label_c`` (of triangles), ``cause``, and ``voronoi_length``: pixels of the Voronoi edge that
         explains it, inside the frame, where there is one.
@@ -38,7 +38,7 @@ class DigitalComparison(Value, Tabular):
     edge_recall: float
     triangle_precision: float
     triangle_recall: float
-    table: Table
+    differences: Table
     counts: dict[str, int]
     suggestion: str
 

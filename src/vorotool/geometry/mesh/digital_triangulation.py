@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import field
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -59,7 +60,7 @@ class DigitalTriangulation(Value, Tabular, WithParts, Graph, Pictured):
     --------
     >>> points, edges = [[0, 0], [3, 0], [0, 3]], [[0, 1], [0, 2], [1, 2]]
     >>> corner = DigitalTriangulation(points, edges, [[0, 1, 2]], [False], [1, 2, 3])
-    >>> len(corner), corner.sides().tolist()
+    >>> len(corner), corner.sides.tolist()
     (1, [[0, 1], [0, 2], [1, 2]])
     """
 
@@ -91,6 +92,7 @@ class DigitalTriangulation(Value, Tabular, WithParts, Graph, Pictured):
         """Return the (e,) distances between the sites of all or some edges."""
         return lengths_of(self.points, self.edges[rows])
 
+    @cached_property
     def sides(self) -> NDArray[np.int32]:
         """Return the (s, 2) sides of the triangles, each once, smaller index first, in lexicographic order."""
         pairs = self.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -74,14 +75,16 @@ class ProximityGraph(Value, Tabular, Geometric, Graph, Pictured):
         """Number of the first point in files of Triangle."""
         return self.mesh.first_number
 
+    @cached_property
     def hull_edges(self) -> NDArray[np.bool_]:
         """(k,) whether each edge is a side of the hull."""
-        return self.mesh.hull_edges()[self.edge_index]
+        return self.mesh.hull_edges[self.edge_index]
 
     def edge_lengths(self, rows: slice = ALL) -> NDArray[np.float64]:
         """(k,) lengths of the edges, or of some; relative error below 1e-15, infinite beyond the largest double."""
         return lengths_of(self.points, self.edges[rows])
 
+    @cached_property
     def degrees(self) -> NDArray[np.int64]:
         """(n,) how many edges end at each point."""
         return np.bincount(self.edges.reshape(-1), minlength=len(self.points))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import field
 from fractions import Fraction
+from functools import cached_property
 from math import sqrt
 from typing import Any
 
@@ -83,7 +84,7 @@ class Triangulation(Value, Tabular, WithParts, Graph, Pictured):
     --------
     >>> triangle = Triangulation([[0, 0], [4, 0], [0, 3]], [[0, 1, 2]], [[-1, -1, -1]], [[0, 1], [0, 2], [1, 2]],
     ...                          [0, 1, 2], [0, 1, 2])
-    >>> triangle.circumcenters().tolist(), triangle.circumradii().tolist(), triangle.areas().tolist()
+    >>> triangle.circumcenters.tolist(), triangle.circumradii.tolist(), triangle.areas.tolist()
     ([[2.0, 1.5]], [2.5], [6.0])
     """
 
@@ -157,6 +158,7 @@ class Triangulation(Value, Tabular, WithParts, Graph, Pictured):
         """Return the (e,) lengths of all or some edges, to a relative error of 1e-15; infinite on overflow."""
         return lengths_of(self.points, self.edges[rows])
 
+    @cached_property
     def hull_edges(self) -> NDArray[np.bool_]:
         """Return the (e,) mask of edges on the hull; without triangles all edges are."""
         if not len(self.triangles):
@@ -167,6 +169,7 @@ class Triangulation(Value, Tabular, WithParts, Graph, Pictured):
         found: NDArray[np.bool_] = (onward[a] == b) | (onward[b] == a)
         return found
 
+    @cached_property
     def circumcenters(self) -> NDArray[np.float64]:
         """Return the (t, 2) circumcenters of the triangles.
 
@@ -175,10 +178,12 @@ class Triangulation(Value, Tabular, WithParts, Graph, Pictured):
         """
         return self._circles()[0]
 
+    @cached_property
     def circumradii(self) -> NDArray[np.float64]:
         """Return the (t,) circumradii, to a relative error of at most about 1e-9, nearly always about 1e-15."""
         return self._circles()[1]
 
+    @cached_property
     def areas(self) -> NDArray[np.float64]:
         """Return the (t,) positive areas of the triangles.
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -91,6 +92,7 @@ class Discs(Value, Tabular, Curved, Pictured):
         """Return the places where a disc touches the boundary, by the numbers of their sites."""
         return self.feet[self.foot_start[disc] : self.foot_start[disc + 1]]
 
+    @cached_property
     def held_by(self) -> NDArray[np.int64]:
         """(n, 3) feet that hold each disc, as rows of `feet`; -1 for those that there are not.
 
@@ -119,7 +121,7 @@ class Discs(Value, Tabular, Curved, Pictured):
             touches, of which two or three are given: those that hold it, where they are more. Of empty discs instead of
             ``label, id`` there are ``label_1, label_2, label_3``: the features that the feet are on.
         """
-        held = self.held_by()
+        held = self.held_by
         is_missing = held < 0
         names = names_of(self.polygons, self.polygon)
         columns = {

@@ -84,6 +84,7 @@ class Parts(Value, Tabular, Geometric, Pictured):
         """(p,) number of cuts around each."""
         return np.bincount(self.between.reshape(-1), minlength=len(self))
 
+    @cached_property
     def neighbors(self) -> list[list[int]]:
         """Return the pieces beyond the cuts of each piece, ascending."""
         found: list[set[int]] = [set() for _ in range(len(self))]
@@ -129,7 +130,7 @@ class Parts(Value, Tabular, Geometric, Pictured):
             "area": self.area,
             "width": self.width,
             "cuts": self.cuts,
-            "neighbors": object_column(self.neighbors()),
+            "neighbors": object_column(self.neighbors),
         }
         return replace(self.polygons, **described_shapes(own, self.necks.skeleton.polygons, self.source))
 

@@ -38,7 +38,7 @@ def flattened_arcs(cells: VoronoiMap, tolerance: float | None) -> tuple[Floats, 
     paired = _in_pairs(cells)
     bend = (arcs.source - 2 * arcs.control + arcs.target)[paired]
     most[paired] = np.fmin(most[paired], np.sqrt((bend * bend).sum(axis=1)) / _BEND_OF_TWO)
-    most[paired] = np.minimum(most[paired], arcs[paired].sagittas() / 2)
+    most[paired] = np.minimum(most[paired], arcs[paired].sagittas / 2)
     return with_feet_of_corners(cells, *arcs.polylines(most), most)
 
 

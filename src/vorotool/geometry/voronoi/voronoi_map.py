@@ -159,7 +159,7 @@ class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
     @cached_property
     def length(self) -> Floats:
         """(a,) lengths of the arcs."""
-        return self.mixed_arcs.lengths()
+        return self.mixed_arcs.lengths
 
     @cached_property
     def cell_of_polygon(self) -> NDArray[np.int64]:
@@ -223,7 +223,6 @@ class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
         made: Table = resolved(f"{_TABLES}:neighbor_table")(self)
         return made
 
-    @property
     def table(self) -> Table:
         """Table with one row per cell; see `vorotool.geometry.voronoi.tables.cell_table`."""
         made: Table = resolved(f"{_TABLES}:cell_table")(self)

@@ -41,7 +41,7 @@ def alpha_layers(shape: AlphaShape, page: Page, layers: Iterable[str], *, hull: 
 
 
 def _edges(shape: AlphaShape, name: str) -> NDArray[np.int32]:
-    edges: NDArray[np.int32] = shape.family.edges[shape.edge_classes() == CLASSES.index(name)]
+    edges: NDArray[np.int32] = shape.family.edges[shape.edge_classes == CLASSES.index(name)]
     return edges
 
 
