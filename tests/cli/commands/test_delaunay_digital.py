@@ -139,7 +139,7 @@ def test_compare(run):
     table = done.rows
     assert list(table[0]) == ["kind", "difference", "label_a", "label_b", "label_c", "cause", "voronoi_length"]
     comparison = vorotool.compare_digital(vorotool.read(DOTS), shape=(512, 512))
-    assert len(table) == comparison.table.rows == 30
+    assert len(table) == comparison.differences.rows == 30
     assert done.err.splitlines() == [f"note: {comparison.summary()}", f"note: {comparison.suggestion.typed}"]
     stats = json.loads(Path("stats.json").read_text())["compare"]
     assert stats["differences"] == {"edge missing off_frame": 15, "triangle missing off_frame": 15}
