@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,6 +33,7 @@ class Written:
 
     deviation: float = 0.0  # the largest distance of lines from the curves that they stand for
     has_y_down: bool = False
+    system_unread: Any = None  # the coordinate reference system of a file whose readers assume another one
 
 
 _WRITTEN: ContextVar[Written | None] = ContextVar("written", default=None)
@@ -42,6 +44,13 @@ def record_deviation(distances: Floats) -> None:
     written = _WRITTEN.get()
     if written is not None:
         written.deviation = max(written.deviation, float(distances.max(initial=0)))
+
+
+def record_system_unread(crs: Any) -> None:
+    """Record that readers of what is written do not look at its coordinate reference system."""
+    written = _WRITTEN.get()
+    if written is not None:
+        written.system_unread = crs
 
 
 def record_y_down() -> None:

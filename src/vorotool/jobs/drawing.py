@@ -205,6 +205,7 @@ def _of_layers(run: Run, o: DrawingOptions, given: JobInput, value: Lined, fmt: 
     if not len(value):
         run.warn(f"the picture is empty: the input is {kind}, but there are none in it")
     polygons = value if isinstance(value, PolygonSet) else value.polygons
+    run.has_crs = polygons.crs is not None
     check_column(o.label_by, (value if isinstance(value, VoronoiMap) else polygons).properties)
     if o.overlay is not None:
         refuse({"frame": o.frame}, "is what a picture shows, but one over an image has its size")

@@ -106,7 +106,7 @@ def read_opened(
     if isinstance(value, Raster):
         run.reads_image = True
         note_other_size(run, o, given, value.values.shape)
-        run.pixel = side_of_pixel(value.grid)
+        run.pixel, run.grid = side_of_pixel(value.grid), value.grid
         check_image_size(run, o, given.name, value.grid)
         return lengths_of_image(o, value.grid), value
     if isinstance(o, SiteOptions):
@@ -115,6 +115,7 @@ def read_opened(
     if o.pixel_size is not None and o.pixel_size.unit is not None:
         check_unit(run, o, given.name, unit_of(value))
     run.coordinates = coordinates_of(o, value)
+    run.has_crs = (value.polygons if isinstance(value, Sites) else value).crs is not None
     if o.pixel_size is not None:
         run.stats |= unit_stats(o.pixel_size)
     return o, value if wants_properties or not wants_unit else replace(value, properties={})

@@ -63,6 +63,7 @@ def process_input(recipe: Recipe[Options], run: Run, options: Options, path: str
     from vorotool.formats.text.tables import safe_texts, unit_column
     from vorotool.geometry.coordinate_grid import coordinates_written
     from vorotool.geometry.identity import columns_wanted
+    from vorotool.jobs.georeference import pages_drawn, write_world_file
 
     computing = options if isinstance(options, ComputingOptions) else None
     check_targets(options, targets, path)
@@ -91,8 +92,15 @@ def process_input(recipe: Recipe[Options], run: Run, options: Options, path: str
             if options.out_dir is not None:
                 make_folder(Path(target.path).parent)
             with run.phase(f"write {target.what}"), coordinates_written(decimals, is_verified=is_verified) as written:
-                products.write(target, inputs=(path,))
+                with pages_drawn() as pages:
+                    products.write(target, inputs=(path,))
+                if target.fmt == "png":
+                    final: Any = getattr(products, "options", options)  # with the size of pixels that the image states
+                    rules: Any = {"no_clobber": options.no_clobber, "inputs": (path,)}
+                    write_world_file(run, final.unit, pages, target.path, **rules)
             deviation = max(deviation, written.deviation)
+            if written.system_unread is not None:
+                _note_system(run, target, written.system_unread)
             if written.has_y_down:
                 _note_y_down(run, target)
     if options.stats is not None:
@@ -100,6 +108,17 @@ def process_input(recipe: Recipe[Options], run: Run, options: Options, path: str
             run.stats.update({**products.stats(), **unit_stats(options.unit)})
             if deviation:
                 run.stats["deviation"] = deviation
+
+
+def _note_system(run: Run, target: Target, crs: Any) -> None:
+    """Say that readers take JSON lines to be longitude and latitude."""
+    from vorotool.geometry.crs import crs_name, is_geographic
+
+    if not is_geographic(crs):
+        run.note(
+            f"{spoken(target.path)} is in {crs_name(crs)}, but GDAL takes JSON lines to be longitude and latitude: "
+            f"give it -a_srs {crs_name(crs)}, or write a GeoPackage"
+        )
 
 
 def _note_y_down(run: Run, target: Target) -> None:

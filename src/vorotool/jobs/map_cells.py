@@ -42,6 +42,7 @@ def seeds_on_map(run: Run, o: TessellationOptions, value: PointSet | PolygonSet)
     frame, grid = map_frame(low, high, o.cell_size, window=o.window, y_axis=value.y_axis, crs=value.crs)
     size = _size_of_cells(o, o.cell_size, grid)
     run.stats |= unit_stats(size)
+    run.grid = grid
     if o.max_distance is not None:
         o = replace(o, max_distance=o.max_distance * (1 if o.pixel_size is None else o.pixel_size.factor))
     o = replace(o, window=(frame.x, frame.y, frame.width, frame.height), size=None, pixel_size=size)

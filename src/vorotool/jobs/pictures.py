@@ -26,7 +26,9 @@ def write_layers(out: BinaryIO, layers: Sequence[Layer], page: Page, *, fmt: str
         write_layers_svg(out, made.layers, page, insets=made.insets, threads=threads)
     else:
         from vorotool.formats.images.png_writer import write_png
+        from vorotool.jobs.georeference import note_page
 
+        note_page(page)
         has_alpha = page.backdrop is None and page.style.ground is None
         shape = page.height, page.width
         write_png(out, picture_bands(layers, page), shape, rgb=True, has_alpha=has_alpha, threads=threads)

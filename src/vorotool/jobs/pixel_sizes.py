@@ -45,7 +45,7 @@ def with_pixel_size(run: Run, o: Options, given: JobInput, grid: PixelGrid | Non
     is_spacing = asked is not None and asked.is_spacing
     if not given.has_units and not is_spacing:
         if grid is not None and grid.is_size and not grid.is_square and takes_spacing(o):
-            run.note(_note_of_size(given, grid, o))
+            run.note(_note_of_size(given, grid, o, "distances"))
         return o
     if grid is not None and grid.transform is not None:
         size = _on_map(run, given, grid, o)
@@ -90,11 +90,11 @@ def _spacing_of(grid: PixelGrid) -> PixelSize:
     return PixelSize(Fraction(1), grid.unit, is_spacing=True, sides=sides)
 
 
-def _note_of_size(given: JobInput, grid: PixelGrid, o: ComputingOptions) -> str:
+def _note_of_size(given: JobInput, grid: PixelGrid, o: ComputingOptions, what: str = "results") -> str:
     if grid.is_square:
         return f"{given.name} carries a pixel size of {grid.size_text()}: --pixel-size auto uses it"
     measure = "; --spacing auto measures in their sides" if takes_spacing(o) else ""
-    return f"{given.name} has pixels of {grid.size_text()}, which are no squares: results are in pixels{measure}"
+    return f"{given.name} has pixels of {grid.size_text()}, which are no squares: {what} are in pixels{measure}"
 
 
 def _on_map(run: Run, given: JobInput, grid: PixelGrid, o: ComputingOptions) -> PixelSize | None:

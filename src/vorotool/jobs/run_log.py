@@ -18,6 +18,7 @@ from vorotool.signals import end_by_exceptions
 
 if TYPE_CHECKING:
     from vorotool.geometry.input_unit import InputUnit
+    from vorotool.geometry.pixel_grid import PixelGrid
 
 PROGRESS_AFTER = 1.0
 """Seconds before a progress bar appears on a terminal."""
@@ -53,6 +54,8 @@ class Run:
         # the unit of the coordinates of points, lines and polygons, where no reference system states it
         self.coordinates: InputUnit | None = None
         self.pixel: InputUnit | None = None  # the side of a pixel of the input, where that is known
+        self.grid: PixelGrid | None = None  # the pixels of the input, or the cells that are laid over it
+        self.has_crs = False  # points, lines and polygons name a coordinate reference system
 
     def __enter__(self) -> Run:
         """Collect warnings from here on."""

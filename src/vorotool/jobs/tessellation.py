@@ -89,6 +89,7 @@ def products(run: Run, o: TessellationOptions, given: JobInput) -> Products | St
             if large is None:
                 o, value = read_opened(run, o, given, source, columns=o.columns, properties=with_columns)
         if large is not None:
+            run.grid = large.grid
             check_image_size(run, o, given.name, large.grid)
             o = with_pixel_size(run, lengths_of_image(o, large.grid), given, large.grid)
             return StreamedProducts(run, o, large)

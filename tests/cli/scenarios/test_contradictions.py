@@ -69,7 +69,8 @@ def test_pixels_that_are_no_squares_are_noted(run, tmp_path, what):
     ome(tmp_path / "in.tif", 0.25, 0.5)
     done = run("tessellate", "in.tif", "--what", what, "-o", "o.csv" if what == "table" else "o.tif")
     assert done.code == 0
-    assert done.err.count("which are no squares: results are in pixels; --spacing auto measures in their sides") == 1
+    of = "results" if what == "table" else "distances"
+    assert done.err.count(f"which are no squares: {of} are in pixels; --spacing auto measures in their sides") == 1
     done = run(
         "tessellate", "in.tif", "--what", what, "--spacing", "auto", "-o", "p.csv" if what == "table" else "p.tif"
     )

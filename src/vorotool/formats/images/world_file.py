@@ -9,7 +9,7 @@ from pathlib import Path
 from vorotool.errors import InputError
 from vorotool.formats.io.descriptors import stream_kind
 from vorotool.formats.io.sources import STANDARD_INPUT
-from vorotool.geometry.pixel_grid import PixelGrid, map_grid
+from vorotool.geometry.pixel_grid import PixelGrid, Transform, map_grid
 
 _LARGEST = 4096
 """Bytes; six numbers need some hundred."""
@@ -27,6 +27,13 @@ def world_grid(name: str) -> PixelGrid | None:
             continue
         return _parsed(str(path), data)
     return None
+
+
+def world_text(transform: Transform) -> bytes:
+    """Write the six numbers of a world file, whose place is that of the center of the first pixel."""
+    a, b, x, d, e, y = map(float, transform)
+    numbers = (a, d, b, e, x + (a + b) / 2, y + (d + e) / 2)
+    return "".join(f"{number!r}\n" for number in numbers).encode("ascii")
 
 
 def _candidates(image: Path) -> Iterator[Path]:

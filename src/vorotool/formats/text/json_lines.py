@@ -6,6 +6,7 @@ from typing import BinaryIO
 
 from vorotool.formats.text.json_items import JsonItems
 from vorotool.formats.text.tables import json_text
+from vorotool.geometry.coordinate_grid import record_system_unread
 
 _FEATURE = b'{"type":"Feature",'
 
@@ -20,6 +21,7 @@ class JsonLines(JsonItems):
     def take(self, items: bytes) -> None:
         """Write some items."""
         members = self.members
+        record_system_unread(members.get("crs"))
         if members:
             member = json_text(members)[1:-1].encode() + b","
             items = (b"\n" + items).replace(b"\n" + _FEATURE, b"\n" + _FEATURE + member)[1:]
