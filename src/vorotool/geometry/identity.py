@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import UsageError, option
 from vorotool.geometry.named_columns import chosen_column
+from vorotool.geometry.numbers import shown_number
 from vorotool.geometry.points.point_set import LABEL, labels_of
 from vorotool.geometry.table import Lookup, Table
 
@@ -93,8 +94,9 @@ _WANTED: ContextVar[tuple[str, ...]] = ContextVar("wanted", default=())
 @contextmanager
 def columns_wanted(names: Sequence[str] | None) -> Iterator[None]:
     """Give rows about parts of features, or about several, these columns of the input."""
-    if isinstance(names, str):
-        raise UsageError(f"invalid with_columns {names!r}: expected a list of names")
+    is_list = isinstance(names, list | tuple) and all(isinstance(name, str) for name in names)
+    if names is not None and not is_list:
+        raise UsageError(f"invalid with_columns {shown_number(names)}: expected a list of names")
     token = _WANTED.set(tuple(names or ()))
     try:
         yield

@@ -6,7 +6,7 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from vorotool.errors import UsageError
+from vorotool.errors import InputError, UsageError
 from vorotool.jobs.options import ComputingOptions
 from vorotool.jobs.units import PixelSize, Sides, in_coordinates, measured, refuse_lengths
 
@@ -45,6 +45,8 @@ def lengths_of_image(o: Options, grid: PixelGrid | None) -> Options:
         return o
     unit = None if grid is None else unit_of_grid(grid)
     if grid is None or unit is None:
+        if o.pixel_size is not None and o.pixel_size.is_auto:
+            sized(grid, o)
         return _refused(o)
     if not unit.is_length:
         return _refused_degrees(o, grid.crs)
@@ -52,6 +54,20 @@ def lengths_of_image(o: Options, grid: PixelGrid | None) -> Options:
     if grid.is_square:
         sides = sides[1], sides[1]
     return in_coordinates(o, Sides(unit.unit, sides, _step(o)))
+
+
+def sized(grid: PixelGrid | None, o: ComputingOptions) -> PixelGrid:
+    """Return the grid of an image whose file has to state the size of its pixels."""
+    is_spacing = o.pixel_size is not None and o.pixel_size.is_spacing
+    instead = "give a number and its unit, such as --pixel-size 0.325um"
+    if is_spacing:
+        instead = "give numbers and their unit, such as --spacing 0.325,0.5um"
+    if grid is None:
+        raise InputError(f"the image carries no pixel size: {instead}")
+    if not grid.is_size:
+        dots = f"{float(1 / grid.width):.10g}"
+        raise InputError(f"the image carries {dots} dots an inch, which is for print, and no pixel size: {instead}")
+    return grid
 
 
 def lengths_of_voxels(o: Options, grid: VoxelGrid | None) -> Options:

@@ -8,6 +8,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from vorotool.errors import InputError, Kind, Message, UsageError
+from vorotool.jobs.input_lengths import sized
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.options import (
     AlphaShapeOptions,
@@ -60,18 +61,11 @@ def with_pixel_size(run: Run, o: Options, given: JobInput, grid: PixelGrid | Non
 
 
 def _of_file(grid: PixelGrid | None, o: ComputingOptions) -> PixelSize:
-    instead = "give a number and its unit, such as --pixel-size 0.325um"
-    is_spacing = o.pixel_size is not None and o.pixel_size.is_spacing
-    if is_spacing:
-        instead = "give numbers and their unit, such as --spacing 0.325,0.5um"
-    if grid is None:
-        raise InputError(f"the image carries no pixel size: {instead}")
-    if not grid.is_size:
-        dots = f"{float(1 / grid.width):.10g}"
-        raise InputError(f"the image carries {dots} dots an inch, which is for print, and no pixel size: {instead}")
-    if is_spacing:
+    grid = sized(grid, o)
+    if o.pixel_size is not None and o.pixel_size.is_spacing:
         return _spacing_of(grid)
     if not grid.is_square:
+        instead = "give a number and its unit, such as --pixel-size 0.325um"
         measure = "use --spacing auto, or " if takes_spacing(o) else ""
         raise InputError(f"the image has pixels of {grid.size_text()}, which are no squares: {measure}{instead}")
     return PixelSize(grid.width, grid.unit)

@@ -221,7 +221,7 @@ def test_images_by_both_pipelines(run, folder):
         (["--what", "hull", "-r", 3, "--hole-threshold", 1], "the hull has no thresholds"),
         (["-r", 3, "--layers", "points"], "--layers"),
         (["-r", "inf", "--what", "hull"], "the hull of an infinite radius is the convex hull"),
-        (["-r", 3, "--region-threshold", -1], "region_threshold is -1: give an area of at least 0"),
+        (["-r", 3, "--region-threshold", -1], "'-1'"),
     ],
 )
 def test_usage(run, arguments, words):

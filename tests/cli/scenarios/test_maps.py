@@ -89,13 +89,13 @@ def test_streams_on_both_sides(run, process, lakes, fmt):
     os.mkfifo(lakes / f"pipe.{fmt}")
     feeder = threading.Thread(target=(lakes / f"pipe.{fmt}").write_bytes, args=(data,))
     feeder.start()
-    started = process("skeleton-exact", f"pipe.{fmt}", "-q", "-f", fmt, "-o", "/dev/stdout")
+    started = process("skeleton-exact", f"pipe.{fmt}", "-q", "--with", "name", "-f", fmt, "-o", "/dev/stdout")
     out, err = started.communicate(timeout=120)
     feeder.join()
     assert (started.returncode, err) == (0, b"")
     (lakes / f"made.{fmt}").write_bytes(out)
     assert set(load(lakes / f"made.{fmt}")["name"]) == {"Zugersee", "Aegerisee"}
-    assert run("skeleton-exact", "-", "-q", "-o", f"again.{fmt}", data=data).code == 0
+    assert run("skeleton-exact", "-", "-q", "--with", "name", "-o", f"again.{fmt}", data=data).code == 0
     assert (lakes / f"again.{fmt}").read_bytes() == out
 
 
