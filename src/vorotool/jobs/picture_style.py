@@ -39,6 +39,9 @@ class Paper(NamedTuple):
     extent: str | None = None
 
 
+SCALE_BAR = "scale-bar"
+"""What the color of the scale bar is chosen by, as that of a layer."""
+
 OPTIONS = ("scale", "unit", "background", "color", "line-width", "label-by", "legend", "scale-bar", "aspect", "extent")
 """Those that looks are chosen by, in the order of their fields."""
 
@@ -102,11 +105,16 @@ def check_style(
         raise UsageError("--scale S is millimetres a unit: leave out --unit, or use --scale 1:N")
     if looks.background is not None and o.overlay is not None:
         raise UsageError("--overlay is the ground: leave out --background")
-    for option, chosen in (("color", looks.colors), ("line-width", looks.line_widths)):
-        for layer, _ in chosen:
-            if not any(layer in layers[fmt] for fmt in pictures):
-                known = dict.fromkeys(each for fmt in pictures for each in layers[fmt])
-                raise UsageError(f"--{option} {layer}: the picture has {', '.join(known)}; choose of these")
+    _check_colors(looks, pictures, layers)
+
+
+def _check_colors(looks: Looks, pictures: Sequence[str], layers: Mapping[str, Sequence[str]]) -> None:
+    """Refuse colors and widths of layers that no picture has; the scale bar has a color, too."""
+    bar = [SCALE_BAR] if looks.has_scale_bar else []
+    for option, chosen, others in (("color", looks.colors, bar), ("line-width", looks.line_widths, [])):
+        known = list(dict.fromkeys([*(each for fmt in pictures for each in layers[fmt]), *others]))
+        for layer in (layer for layer, _ in chosen if layer not in known):
+            raise UsageError(f"--{option} {layer}: the picture has {', '.join(known)}; choose of these")
 
 
 def looks_of(

@@ -137,8 +137,8 @@ def picture_style_options(*, has_scale: bool = True) -> Decorator:
             "colors",
             type=OfLayer(Color(), "red"),
             multiple=True,
-            help="Color of a layer of pictures, such as skeleton=#0000ff or seeds=red, of cells that of borders; "
-            "may be given again.",
+            help="Color of a layer of pictures, such as skeleton=#0000ff or seeds=red, of cells that of borders, or "
+            "scale-bar=white; may be given again.",
         ),
         click.option(
             "--line-width",

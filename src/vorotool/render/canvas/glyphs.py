@@ -15,7 +15,8 @@ HEIGHT, WIDTH, ADVANCE = 7, 5, 6
 """Of a glyph, and from one to the next, in cells."""
 
 _FIRST, _UNKNOWN = " ", "?"
-_ALIKE = {"µ": "u", "\N{GREEK SMALL LETTER MU}": "u"}
+_MICRO = bytes.fromhex("7c2020203c")
+"""Columns of µ and of the Greek letter."""
 _COLUMNS = bytes.fromhex(
     "0000000000 00005f0000 0007000700 147f147f14 242a7f2a12 2313086462 3649552250 0005030000 001c224100 0041221c00"
     "14083e0814 08083e0808 0050300000 0808080808 0060600000 2010080402 3e5149453e 00427f4000 4261514946 2141454b31"
@@ -34,10 +35,10 @@ _COLUMNS = bytes.fromhex(
 @cache
 def _glyph(letter: str) -> NDArray[np.bool_]:
     """(7, 5) the cells of a letter; of one with an accent those of the letter without it."""
-    letter = _ALIKE.get(letter, letter)
     plain = unicodedata.normalize("NFKD", letter)[:1]
     index = ord(plain if " " <= plain <= "~" else _UNKNOWN) - ord(_FIRST)
-    columns = np.frombuffer(_COLUMNS, np.uint8, WIDTH, WIDTH * index)
+    is_micro = plain == "\N{GREEK SMALL LETTER MU}"
+    columns = np.frombuffer(_MICRO, np.uint8) if is_micro else np.frombuffer(_COLUMNS, np.uint8, WIDTH, WIDTH * index)
     return (columns >> np.arange(HEIGHT, dtype=np.uint8)[:, None] & 1).astype(bool)
 
 

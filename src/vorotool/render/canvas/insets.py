@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import UsageError, option
 from vorotool.render.canvas.layers import Arcs, Curves, Layer, Lines, Page, Points, Polygons, Texts
-from vorotool.render.canvas.palettes import FAINT, INK, WHITE
+from vorotool.render.canvas.palettes import FAINT, INK, WHITE, edge_color, is_light
 from vorotool.render.canvas.styles import ScaleBar
 
 LETTERS = 1 / 60
@@ -109,7 +109,7 @@ def _fill(layer: Polygons) -> str:
 
 
 def _scale_bar(bar: ScaleBar, page: Page) -> list[Layer]:
-    """A line with serifs in the lower left corner, and its length over it, both with a white edge."""
+    """A line with serifs in the lower left corner, and its length over it; white on dark ground."""
     size = letter_size(page)
     unit = page.length(1.0) / bar.factor  # px of a unit of the bar
     longest = LONGEST * page.width / unit if unit > 0 else 0.0
@@ -119,11 +119,14 @@ def _scale_bar(bar: ScaleBar, page: Page) -> list[Layer]:
     left, low, serif = 2 * size, page.height - 2 * size, 0.3 * size
     right = left + length * unit
     places = np.array([[left, low - serif], [left, low], [right, low], [right, low - serif]])
-    lines = _line("scale-bar", places, INK, 2.0)
+    ground = page.style.ground
+    usual = INK if page.backdrop is not None or ground is None or is_light(ground) else WHITE
+    color = page.style.of("scale-bar")[0] or usual
+    lines = _line("scale-bar", places, color, 2.0)
     over = np.array([[(left + right) / 2, low - 1.1 * size]])
     name = f"{length:.10g} {bar.unit}" if bar.unit else f"{length:.10g}"
     return [
-        replace(lines, name="scale-bar-halo", color=WHITE, width=5.0),
+        replace(lines, name="scale-bar-halo", color=edge_color(color), width=5.0),
         lines,
-        Texts("scale-bar-length", over, [name], size=size, halo=WHITE, is_centered=True),
+        Texts("scale-bar-length", over, [name], color, size, edge_color(color), is_centered=True),
     ]

@@ -72,12 +72,24 @@ class PicturePalette(NamedTuple):
     ink: int = -1
     object: int = -1
     has_halos: bool = False
+    letter_edge: int = -1
 
     @property
     def opaque(self) -> list[int]:
         """Entries of lines, seeds and letters."""
-        found = {self.line, self.seed, self.halo, self.border, self.ink} - {-1}
+        found = {self.line, self.seed, self.halo, self.border, self.ink, self.letter_edge} - {-1}
         return sorted(found)
+
+
+def is_light(color: str) -> bool:
+    """Whether letters and lines of a color, ``#rrggbb``, are lost on white."""
+    red, green, blue = bytes.fromhex(color[1:])
+    return 299 * red + 587 * green + 114 * blue > 180_000
+
+
+def edge_color(color: str) -> str:
+    """Return the color of the edge around letters, lines and points that sets them off: white, dark around light."""
+    return INK if is_light(color) else WHITE
 
 
 def cell_color(color_class: int) -> str:
@@ -109,10 +121,14 @@ def picture_palette(
         if layer in chosen or (layer == "labels" and "diagram" in chosen) or (layer == "objects" and has_halos):
             own[layer] = len(names)
             names.append(chosen.get(layer, LINE if layer == "labels" else names[seed]))
+    letter_edge = halo
+    if has_halo and is_light(names[own["labels"]]):
+        letter_edge = len(names)
+        names.append(INK)
     if len(names) > LARGEST_PALETTE:
         most = LARGEST_PALETTE - (len(names) - count)
         raise LimitError(f"{classes} color classes: a palette picture has at most {most}, use {AS_SVG}")
     depth = 4 if len(names) <= 16 else 8
     return PicturePalette(
-        _triples(names), line, seed, depth, halo, own["cells"], own["labels"], own["objects"], has_halos
+        _triples(names), line, seed, depth, halo, own["cells"], own["labels"], own["objects"], has_halos, letter_edge
     )

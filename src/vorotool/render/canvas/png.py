@@ -12,7 +12,7 @@ from vorotool.geometry.ragged import owners, ranges
 from vorotool.products.formats import AS_SVG
 from vorotool.render.canvas.glyphs import ADVANCE, HEIGHT, text_cells
 from vorotool.render.canvas.layers import Arcs, CurvedPolygons, Curves, Layer, Lines, Page, Points, Polygons, Texts
-from vorotool.render.canvas.palettes import WHITE
+from vorotool.render.canvas.palettes import edge_color
 from vorotool.render.canvas.pixel_page import PixelPage
 
 FINE = 4
@@ -183,7 +183,9 @@ class _Canvas:
         if layer.is_led:
             left = left + cell * ADVANCE * np.array([len(text) for text in layer.texts]) / 2
         corner = np.floor(np.stack([left, foot], axis=1) - cell / 2).astype(np.int64)
-        ink, halo = self._color(layer.color), self._color(layer.halo or WHITE)
+        if cell % FINE == 0:  # whole pixels, which are not blurred
+            corner -= corner % FINE
+        ink, halo = self._color(layer.color), self._color(layer.halo or edge_color(layer.color))
         for begin in range(0, len(layer.texts), _TEXTS):
             owner, cells, is_ink = text_cells(layer.texts[begin : begin + _TEXTS])
             at = corner[begin + owner] + cell * cells

@@ -10,6 +10,7 @@ import numpy as np
 
 from vorotool.errors import UsageError, option
 from vorotool.render.canvas.layers import MARGIN, Arcs, Curves, Layer, Lines, Page, Points, Polygons, Texts
+from vorotool.render.canvas.palettes import edge_color
 from vorotool.render.canvas.styles import PictureStyle
 
 PX = 96 / 25.4
@@ -78,4 +79,6 @@ def _styled(layer: Layer, color: str | None, width: float | None) -> Layer:
         return replace(layer, edge=color)
     if isinstance(layer, Polygons):  # areas of many colors keep them: what is chosen is that of their outlines
         return replace(layer, colors=[color]) if len(layer.colors) == 1 else replace(layer, edge=color)
+    if isinstance(layer, Points | Texts) and layer.halo is not None:
+        return replace(layer, color=color, halo=edge_color(color))
     return replace(layer, color=color)

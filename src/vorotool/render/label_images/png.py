@@ -141,7 +141,7 @@ class _Letters:
         x, y = (names.places[owner] + cells).T
         order = np.lexsort((is_ink, y))
         self.x, self.y = x[order], y[order]
-        self.value = np.where(is_ink[order], palette.ink, palette.halo).astype(np.uint8)
+        self.value = np.where(is_ink[order], palette.ink, palette.letter_edge).astype(np.uint8)
 
     def draw(self, picture: NDArray[np.uint8], top: int) -> None:
         """Set the pixels of a band; what is outside is left out."""

@@ -15,7 +15,7 @@ from vorotool.geometry.points.label_image import LabelImage
 from vorotool.products.formats import AS_PNG
 from vorotool.render.canvas.halos import halo_width
 from vorotool.render.canvas.layers import Backdrop, Layer, Page
-from vorotool.render.canvas.palettes import EDGE, FAINT, INK, SEED, WHITE, cell_color
+from vorotool.render.canvas.palettes import EDGE, FAINT, INK, SEED, cell_color, edge_color
 from vorotool.render.canvas.pixel_page import PixelPage
 from vorotool.render.canvas.styles import PictureStyle
 from vorotool.render.canvas.svg import CAPITAL, edge_style, fill_style, halo_style, image_element, layer_parts
@@ -155,7 +155,7 @@ def _outlines(page: _Page, objects: NDArray[np.integer], wanted: Iterable[str]) 
     if "seeds" not in wanted or page.style.width_of("seeds", LINE_WIDTH) == 0:
         return
     if page.backdrop is not None:
-        yield f'<g id="seeds-halo" fill="none"{_stroke(page, "seeds", WHITE, wider=True)}>'
+        yield f'<g id="seeds-halo" fill="none"{_stroke(page, "seeds", edge_color(color), wider=True)}>'
         yield from (f'<path vector-effect="non-scaling-stroke" d="{path}"/>' for _, path in paths)
         yield "</g>"
     yield f'<g id="seeds" fill="none"{_stroke(page, "seeds", color)}>'
@@ -223,7 +223,8 @@ def _names(page: _Page, names: Names) -> Iterator[str]:
     spacing = math.sqrt(page.width * page.height / max(len(names.texts), 1))
     size = min(max(spacing / 4, 6.0), 16.0)
     style = f'text-anchor="middle" font-family="Helvetica, Arial, sans-serif" font-size="{_short(size)}"'
-    yield f'<g id="labels" {style} fill="{page.style.of("labels")[0] or INK}" {halo_style(WHITE, size)}>'
+    color = page.style.of("labels")[0] or INK
+    yield f'<g id="labels" {style} fill="{color}" {halo_style(edge_color(color), size)}>'
     for text, (column, row) in zip(names.texts, names.places.tolist(), strict=True):
         x, y = page.place(column, row + CAPITAL * size / page.scale_down / 2)
         yield f'<text x="{x}" y="{y}">{escape(text)}</text>'
@@ -233,8 +234,9 @@ def _names(page: _Page, names: Names) -> Iterator[str]:
 def _discs(page: _Page) -> Iterator[str]:
     places = page.seeds()
     radius = min(max(disc_radius(page.image.shape, len(places)) * page.scale, 1.2), 4.0)
-    halo = "" if page.backdrop is None else f" {edge_style(WHITE, min(1.0, radius))}"
-    yield f'<g id="seeds" fill="{page.style.of("seeds")[0] or SEED}"{halo}>'
+    color = page.style.of("seeds")[0] or SEED
+    halo = "" if page.backdrop is None else f" {edge_style(edge_color(color), min(1.0, radius))}"
+    yield f'<g id="seeds" fill="{color}"{halo}>'
     for x, y in places.tolist():
         across, down = page.place(x, y)
         yield f'<circle cx="{across}" cy="{down}" r="{_short(radius)}"/>'
