@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import UsageError, option
 from vorotool.geometry.numbers import shown_number, whole_number
+from vorotool.types.axis import DOWN
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -53,10 +54,10 @@ def record_system_unread(crs: Any) -> None:
         written.system_unread = crs
 
 
-def record_y_down() -> None:
-    """Record that y of what is written goes down."""
+def record_axis(value: Any) -> None:
+    """Record whether y of a value that is written goes down."""
     written = _WRITTEN.get()
-    if written is not None:
+    if written is not None and getattr(value, "y_axis", None) == DOWN:
         written.has_y_down = True
 
 

@@ -5,10 +5,8 @@ from __future__ import annotations
 from typing import Any, BinaryIO
 
 from vorotool.errors import UsageError
-from vorotool.geometry.coordinate_grid import record_y_down
 from vorotool.products.formats import FORMATS, TABLE_WRITER, resolved
 from vorotool.products.registry import Product, is_of, parts_of, public_types
-from vorotool.types.axis import DOWN
 
 
 def write_product(
@@ -24,8 +22,7 @@ def write_product(
 ) -> None:
     """Write a result in one of its formats; pictures and pages are none of these."""
     chosen = FORMATS[fmt]
-    if getattr(value, "y_axis", None) == DOWN:
-        record_y_down()
+    resolved("geometry.coordinate_grid:record_axis")(value)
     options: dict[str, Any] = {"flatten": flatten, "precision": precision, "threads": threads}
     writer = chosen.writers.get(product.what)
     if writer is None and fmt not in product.data:
