@@ -19,6 +19,7 @@ from vorotool.formats.parsing.reference_systems import with_stated_axis
 from vorotool.formats.points.tables import is_table
 from vorotool.formats.recognition import image_format, image_source, read_recognised, recognised
 from vorotool.formats.text_recognition import has_no_rows
+from vorotool.geometry.input_unit import unit_of
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.raster import Raster
 from vorotool.geometry.polygons.polygon_set import PolygonSet
@@ -32,8 +33,10 @@ from vorotool.jobs.options import DrawingOptions
 from vorotool.jobs.picture_style import styled_page
 from vorotool.jobs.picture_world import check_column, world_of, world_of_polygons
 from vorotool.jobs.pictures import drawing_of, write_layers
+from vorotool.jobs.pixel_sizes import size_of_file
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target, check_picture_options
+from vorotool.jobs.units import PixelSize
 from vorotool.products.inputs import DRAWN_NAMES, Holds, known_input_format
 from vorotool.products.registry import PRODUCTS, Product
 from vorotool.render.canvas.layers import Backdrop
@@ -116,7 +119,7 @@ def _read(run: Run, o: DrawingOptions, given: JobInput) -> LabelImage | Lined:
     value = read_recognised(holds, source, options)
     if options.y_axis is not None:
         value = with_stated_axis(value, source.name, options.y_axis)
-    return label_image_of(value, source.name) if isinstance(value, Raster) else value
+    return replace(label_image_of(value, source.name), grid=value.grid) if isinstance(value, Raster) else value
 
 
 def _is_empty_collection(source: Source) -> bool:
@@ -146,7 +149,9 @@ def _of_labels(run: Run, o: DrawingOptions, given: JobInput, image: LabelImage, 
     check_picture_options(o, [] if is_page else [fmt], LABEL_LAYERS)
     check_column(o.label_by, {})
     note_other_size(run, o, given, image.shape)
-    image = _objects(run, image)
+    image, size = _objects(run, image), _size(o)
+    if size is not None and size.is_auto:
+        size = size_of_file(image.grid, o)
     with run.phase("color"):
         colors = object_colors(image, threads=o.threads)
     counts = {"shape": image.shape, "colors": int(colors[1].max(initial=0))}
@@ -160,7 +165,7 @@ def _of_labels(run: Run, o: DrawingOptions, given: JobInput, image: LabelImage, 
         image,
         colors,
         o.drawn(default_layers(image, ("cells", "labels") if fmt == "svg" else ("cells",))),
-        o.looks.style(world_of(run, o.looks, frame=image.frame.box).scale_bar),
+        o.looks.style(world_of(run, o.looks, frame=image.frame.box, size=size).scale_bar),
         width=o.width or 1000,
         y_up=bool(o.y_up),
         backdrop=given.backdrop,
@@ -179,7 +184,15 @@ def _objects(run: Run, image: LabelImage) -> LabelImage:
     if image.labels.dtype.itemsize > 1:  # in which labels are written, too
         value = int(image.labels.max())
         run.note(f"{value} is the only value besides 0, and taken for a mask: each of its objects is drawn by itself")
-    return LabelImage(objects, image.frame)
+    return LabelImage(objects, image.frame, grid=image.grid)
+
+
+def _size(o: DrawingOptions) -> PixelSize | None:
+    """Return what lengths are measured by, or refuse it where no picture has any."""
+    scale = o.looks.scale
+    if o.pixel_size is not None and not o.looks.has_scale_bar and not (scale is not None and scale.is_ratio):
+        raise UsageError("--pixel-size is for lengths: add --scale-bar or --scale 1:N, or leave it out")
+    return o.pixel_size
 
 
 def _placed(run: Run, o: DrawingOptions, given: JobInput, value: Lined) -> Backdrop | None:
@@ -187,7 +200,6 @@ def _placed(run: Run, o: DrawingOptions, given: JobInput, value: Lined) -> Backd
     backdrop = given.backdrop
     if backdrop is None:
         return None
-    from vorotool.geometry.input_unit import unit_of
     from vorotool.jobs.second_files import side_of_backdrop
 
     run.coordinates = unit_of(value) if getattr(value, "polygons", value).crs is None else None
@@ -209,7 +221,12 @@ def _of_layers(run: Run, o: DrawingOptions, given: JobInput, value: Lined, fmt: 
     check_column(o.label_by, (value if isinstance(value, VoronoiMap) else polygons).properties)
     if o.overlay is not None:
         refuse({"frame": o.frame}, "is what a picture shows, but one over an image has its size")
-    world = world_of_polygons(run, o, polygons, is_cut=False)
+    size = _size(o)
+    if size is not None and size.is_auto:
+        if unit_of(value) is None:
+            raise UsageError("the input states no unit: give --pixel-size one, such as 0.325um")
+        size = None
+    world = world_of_polygons(run, o, polygons, size=size, is_cut=False)
     drawing = drawing_of(
         value,
         layers=o.layers,

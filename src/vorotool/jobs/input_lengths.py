@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from vorotool.errors import InputError, UsageError
-from vorotool.jobs.options import ComputingOptions
+from vorotool.jobs.options import ComputingOptions, DrawingOptions
 from vorotool.jobs.units import PixelSize, Sides, in_coordinates, measured, refuse_lengths
 
 if TYPE_CHECKING:
@@ -56,7 +56,7 @@ def lengths_of_image(o: Options, grid: PixelGrid | None) -> Options:
     return in_coordinates(o, Sides(unit.unit, sides, _step(o)))
 
 
-def sized(grid: PixelGrid | None, o: ComputingOptions) -> PixelGrid:
+def sized(grid: PixelGrid | None, o: ComputingOptions | DrawingOptions) -> PixelGrid:
     """Return the grid of an image whose file has to state the size of its pixels."""
     is_spacing = o.pixel_size is not None and o.pixel_size.is_spacing
     instead = "give a number and its unit, such as --pixel-size 0.325um"

@@ -157,6 +157,7 @@ class DrawingOptions(JobOptions):
     aspect: float | None
     extent: Literal["image", "data"] | None
     frame: Extent | None
+    pixel_size: PixelSize | None
     what: tuple[str, ...] = ("picture",)
 
     @property

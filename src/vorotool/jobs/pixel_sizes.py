@@ -13,6 +13,7 @@ from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.options import (
     AlphaShapeOptions,
     ComputingOptions,
+    DrawingOptions,
     ShapeOptions,
     SkeletonOptions,
     TriangulationOptions,
@@ -51,7 +52,7 @@ def with_pixel_size(run: Run, o: Options, given: JobInput, grid: PixelGrid | Non
     if grid is not None and grid.transform is not None:
         size = _on_map(run, given, grid, o)
     elif asked is not None:
-        size = _of_file(grid, o)
+        size = size_of_file(grid, o)
     else:
         size = None
         if grid is not None and grid.is_size:
@@ -60,7 +61,8 @@ def with_pixel_size(run: Run, o: Options, given: JobInput, grid: PixelGrid | Non
     return _mirrored_places(replace(o, pixel_size=size))
 
 
-def _of_file(grid: PixelGrid | None, o: ComputingOptions) -> PixelSize:
+def size_of_file(grid: PixelGrid | None, o: ComputingOptions | DrawingOptions) -> PixelSize:
+    """Return the size of pixels that an image states, or refuse one that states none."""
     grid = sized(grid, o)
     if o.pixel_size is not None and o.pixel_size.is_spacing:
         return _spacing_of(grid)

@@ -1,12 +1,15 @@
 """``vorotool draw``."""
 
 import re
+import xml.etree.ElementTree as ET
 from pathlib import Path
 
 import numpy as np
 import pytest
+import tifffile
 from PIL import Image
 
+SVG = "{http://www.w3.org/2000/svg}"
 SHAPES = Path(__file__).parents[3] / "data" / "two-shapes.json"
 
 
@@ -162,3 +165,39 @@ def test_objects_of_a_mask_have_their_own_colors(run, folder, dtype, value):
 def test_a_mask_is_drawn_as_tessellate_takes_it(run, folder):
     assert run("draw", "mask.pbm", "-o", "a.svg").code == 0
     assert re.findall("cell-[0-9]+", (folder / "a.svg").read_text()) == ["cell-1", "cell-2"]
+
+
+# ---- --pixel-size ------------------------------------------------------------------------------------
+def bar(path):
+    """What stands at the scale bar of an SVG, and its length in px."""
+    root = ET.parse(path).getroot()
+    (text,) = (each for each in root.iter(f"{SVG}g") if each.get("id") == "scale-bar-length")
+    return text.find(f"{SVG}text").text
+
+
+def test_scale_bars_of_label_images_have_the_unit_of_pixels(run, tmp_path):
+    labels = np.repeat(np.arange(1, 5, dtype=np.uint8), 100).reshape(4, 100).repeat(20, axis=0)
+    tifffile.imwrite(tmp_path / "plain.tif", labels)
+    tifffile.imwrite(tmp_path / "sized.tif", labels, imagej=True, resolution=(2, 2), metadata={"unit": "um"})
+    run("draw", "plain.tif", "--pixel-size", "0.325um", "--scale-bar", "-o", "made.svg")
+    assert bar(tmp_path / "made.svg") == "5 µm"
+    run("draw", "sized.tif", "--pixel-size", "auto", "--scale-bar", "-o", "made.svg", "--overwrite")
+    assert bar(tmp_path / "made.svg") == "10 µm"
+    run("draw", "plain.tif", "--scale-bar", "-o", "made.svg", "--overwrite")
+    assert bar(tmp_path / "made.svg") == "20 px"
+    done = run("draw", "plain.tif", "--pixel-size", "auto", "--scale-bar", "-o", "none.svg")
+    assert (done.code, "pixel size" in done.err) == (3, True)
+
+
+def test_scale_bars_of_shapes_have_the_unit_of_coordinates(run, tmp_path):
+    square = b"POLYGON ((0 0, 100 0, 100 100, 0 100, 0 0))"
+    run("draw", "-", "--pixel-size", "2mm", "--scale-bar", "-o", "made.svg", data=square)
+    assert bar(tmp_path / "made.svg") == "50 mm"
+    run("draw", "-", "--pixel-size", "2mm", "--scale", "1:4", "-o", "made.svg", "--overwrite", data=square)
+    assert ET.parse(tmp_path / "made.svg").getroot().get("width") == "52mm"
+
+
+def test_a_size_that_nothing_shows_is_refused(run):
+    assert run("draw", "-", "--pixel-size", "2mm", "-f", "svg", data=b"POLYGON ((0 0, 1 0, 1 1, 0 0))").code == 2
+    done = run("draw", "-", "--pixel-size", "auto", "--scale-bar", "-f", "svg", data=b"POLYGON ((0 0, 1 0, 1 1, 0 0))")
+    assert (done.code, "--pixel-size" in done.err) == (2, True)

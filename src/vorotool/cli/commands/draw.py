@@ -9,6 +9,7 @@ import click
 from vorotool.cli.batch.dispatch import run_command
 from vorotool.cli.options.help_page import GroupedCommand
 from vorotool.cli.options.picture_style import page_option, picture_style_options
+from vorotool.cli.options.pixel_size import drawn_pixel_size_option
 from vorotool.cli.options.shared import batch_options, inputs_argument, layers_option, output_options, shared
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.job import Recipe
@@ -32,6 +33,7 @@ FORMATS = formats_of("draw")
 @shared("overlay", "width", "y-up")
 @picture_style_options()
 @page_option()
+@drawn_pixel_size_option()
 @shared("out-dir", "threads", "stats", "max-pixels")
 @batch_options(table=False)
 @shared("no-clobber", "overwrite", "quiet", "verbose")

@@ -104,6 +104,16 @@ def pixel_size_option() -> Decorator:
     )
 
 
+def drawn_pixel_size_option() -> Decorator:
+    """Add ``--pixel-size`` of pictures."""
+    return click.option(
+        "--pixel-size",
+        type=PixelSizeType(),
+        help="Side of a pixel, or unit of the coordinates, such as 0.325um, for --scale-bar and --scale 1:N; auto "
+        "takes what the input states.",
+    )
+
+
 def spacing_option() -> Decorator:
     """Add ``--spacing``."""
     return click.option(
