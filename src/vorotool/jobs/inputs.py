@@ -115,6 +115,8 @@ def read_opened(
     if o.pixel_size is not None and o.pixel_size.unit is not None:
         check_unit(run, o, given.name, unit_of(value))
     run.coordinates = coordinates_of(o, value)
+    if run.coordinates is not None and o.pixel_size is None:
+        run.stats["unit"] = run.coordinates.unit
     run.has_crs = (value.polygons if isinstance(value, Sites) else value).crs is not None
     if o.pixel_size is not None:
         run.stats |= unit_stats(o.pixel_size)

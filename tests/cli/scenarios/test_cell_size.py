@@ -210,3 +210,15 @@ def test_the_largest_distance_is_in_units_of_the_map(run, tmp_path):
     rows = run("tessellate", "in.geojson", *words[:5], "--what", "table", "--max-distance", "20km").rows
     assert float(rows[0]["max_distance"]) == 20000
     assert float(rows[0]["area"]) == np.count_nonzero(labels) * 10**6
+
+
+def test_stores_say_what_squares_are_multiplied_by(run, tmp_path):
+    import zarr
+
+    write(tmp_path / "in.geojson", [shapely.Point(2600006.25, 1200006.25)])
+    window = ["--window", "2600000,1200000,150,200"]
+    words = ["tessellate", "in.geojson", "--cell-size", "12.5", *window, "-q", "--what", "distance2"]
+    assert run(*words, "-o", "out.zarr").code == 0
+    array = zarr.open_array(tmp_path / "out.zarr", mode="r")
+    assert array.dtype.kind in "iu"
+    assert array[-1, 1] * array.attrs["scale"] == 12.5**2

@@ -170,3 +170,20 @@ def test_an_overlay_without_a_size(run, tmp_path):
     (tmp_path / "in.geojson").write_text(text(SITES, "mm"))
     done = run("voronoi", "in.geojson", "--overlay", "im.tif", "-o", "o.png")
     assert (done.code, "im.tif states no size of its pixels" in done.err) == (0, True)
+
+
+# ---- one table of many ---------------------------------------------------------------------------
+def test_one_table_has_one_unit(run, tmp_path):
+    """Lengths of files in other units are not put below each other; which unit it is the statistics say."""
+    folder = tmp_path / "in"
+    folder.mkdir()
+    dxf(folder / "a.dxf", shapely.MultiPolygon(SITES), "mm")
+    dxf(folder / "b.dxf", shapely.MultiPolygon(SITES), "in")
+    done = run("voronoi", "in", "--table", "all.csv", "-q")
+    assert done.code == 3
+    assert "lengths in mm (in/a.dxf) and in inch (in/b.dxf)" in done.err
+    (folder / "b.dxf").unlink()
+    dxf(folder / "c.dxf", shapely.MultiPolygon(SITES), "mm")
+    assert run("voronoi", "in", "--table", "all.csv", "-q").code == 0
+    assert run("voronoi", "in/a.dxf", "-o", "a.csv", "--stats", "s.json", "-q").code == 0
+    assert json.loads((tmp_path / "s.json").read_text())["unit"] == "mm"

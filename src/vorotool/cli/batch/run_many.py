@@ -155,7 +155,7 @@ def _check_units(tasks: Sequence[Task], outcomes: Sequence[Outcome | None]) -> N
 
 def _unit_text(stats: Mapping[str, Any]) -> str:
     """Words for the unit of what was made of an input."""
-    if not {"pixel_size", "spacing"} & set(stats):
+    if not {"pixel_size", "spacing", "unit"} & set(stats):
         return "pixels, or the units of the file"
     unit = "units without a name" if stats["unit"] is None else unit_name(stats["unit"])
     return f"{unit} in {stats['crs']}" if "crs" in stats else unit
