@@ -5,13 +5,14 @@ from importlib import import_module
 
 import numpy as np
 import pytest
+import shapely
 
 import vorotool
 from vorotool import InputError
 from vorotool.geometry.equality import is_equal
 from vorotool.geometry.values import Value
 from vorotool.types import fields as f
-from vorotool.types.fields import Meaning, Record, declared, record
+from vorotool.types.fields import Meaning, Record, declared, record, with_y_axis
 
 ROOM = [[0, 0], [4, 0], [4, 1.5], [6, 1.5], [6, 0], [12, 0], [12, 6], [6, 6], [6, 2.5], [4, 2.5], [4, 4], [0, 4]]
 POINTS = [[0, 0], [4, 0], [0, 3], [5, 5], [2, 1]]
@@ -115,3 +116,16 @@ def test_lengths_and_positions_scale_as_they_are_declared():
     assert made.width.tolist() == [2, 4]
     assert made.xy.tolist() == [[10, 20], [12, 20], [14, 20]]
     assert {each.meaning for each in declared(made).values()} == {Meaning.NUMBER, Meaning.POSITION, Meaning.LENGTH}
+
+
+def test_an_axis_is_that_of_all_values_in_one():
+    skeleton = vorotool.skeleton_exact([[0, 0], [0.4, 0.1], [0.1, 0.3]])
+    assert skeleton.polygons.as_given is not skeleton.polygons
+    up = with_y_axis(skeleton, "up")
+    assert (skeleton.y_axis, up.y_axis, up.as_given.y_axis, up.polygons.as_given.y_axis) == ("none", "up", "up", "up")
+    assert up == skeleton
+    assert np.array_equal(up.polygons.as_given.xy, skeleton.polygons.as_given.xy)
+    found = vorotool.hausdorff(["POINT (0 0)"], ["POINT (3 4)"])
+    assert [shape.y_axis for shape in with_y_axis(found, "down").shapes] == ["down", "down"]
+    cells = vorotool.voronoi([[0, 0], [4, 1]], enclosures=[shapely.LineString([(0, 3), (9, 3)])])
+    assert with_y_axis(cells, "down").enclosures.y_axis == with_y_axis(cells, "down").y_axis == "down"
