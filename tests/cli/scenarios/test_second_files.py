@@ -187,3 +187,19 @@ def test_one_table_has_one_unit(run, tmp_path):
     assert run("voronoi", "in", "--table", "all.csv", "-q").code == 0
     assert run("voronoi", "in/a.dxf", "-o", "a.csv", "--stats", "s.json", "-q").code == 0
     assert json.loads((tmp_path / "s.json").read_text())["unit"] == "mm"
+
+
+@pytest.mark.parametrize("name", ["cells.gpkg", "cells.shp", "cells.parquet"])
+def test_files_of_maps_state_it_in_a_column(run, tmp_path, name):
+    """Where a format has no member: what vorotool writes of an image in um clips that image."""
+    import geopandas
+
+    image(tmp_path / "in.tif")
+    assert run("voronoi", "in.tif", "--pixel-size", "auto", "-o", name, "-q").code == 0
+    frame = (geopandas.read_parquet if name.endswith("parquet") else geopandas.read_file)(tmp_path / name)
+    assert set(frame["unit"]) == {"um"}
+    done = run("voronoi", "in.tif", "--clip", name, "--what", "table", "-f", "csv")
+    assert sum(areas(done)) == pytest.approx(60 * 40)
+    assert f"{name} states no unit" not in done.err
+    assert run("voronoi", "in.tif", "-o", "plain.gpkg", "-q").code == 0
+    assert "unit" not in geopandas.read_file(tmp_path / "plain.gpkg")

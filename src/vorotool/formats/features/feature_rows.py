@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from vorotool.formats.text.json_items import JsonItems
 from vorotool.formats.text.row_writer import Column
-from vorotool.formats.text.tables import json_text
+from vorotool.formats.text.tables import current_unit, json_text
 from vorotool.geometry.table import Lookup
 
 _DATE = re.compile(r"\d{4}-\d\d-\d\d")
@@ -78,6 +78,9 @@ class FeatureRows(JsonItems):
         numbered = [list(range(1, len(self._rows) + 1)), [None] * len(self._ids)]
         if self.is_of_features and self._ids not in [*listed.values(), *numbered]:
             listed = {"feature_id" if "id" in listed else "id": self._ids} | listed
+        unit = current_unit() if self.is_of_features else None
+        if unit is not None:
+            listed["voro_unit" if "unit" in listed else "unit"] = [unit] * len(self._ids)
         return {name: _typed(values, is_measured=name in self._measured) for name, values in listed.items()}
 
 

@@ -68,6 +68,11 @@ def unit_column(unit: str | None) -> Iterator[None]:
         _UNIT.reset(token)
 
 
+def current_unit() -> str | None:
+    """Return the unit that tables name which are being written."""
+    return _UNIT.get()
+
+
 def _with_unit(table: Table) -> dict[str, Any]:
     columns, unit = table.stored(), _UNIT.get()
     if unit is None or not columns:
