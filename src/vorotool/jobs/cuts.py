@@ -89,8 +89,9 @@ def check_image_crs(cut: tuple[str, PolygonSet], source: str, crs: Any) -> None:
 
 def in_one_crs(run: Run, cut: tuple[str, PolygonSet], data: tuple[str, Data]) -> Data:
     """Check that polygons and data are in one coordinate reference system, as far as they name any."""
-    from vorotool.formats.parsing.reference_systems import declared_in, note_degrees
+    from vorotool.formats.parsing.reference_systems import declared_in
     from vorotool.geometry.crs import crs_name
+    from vorotool.geometry.degrees import note_degrees
 
     (path, polygons), (source, value) = cut, data
     if value.crs is None and polygons.crs is None:

@@ -135,8 +135,8 @@ def _refused(o: Options, instead: str = "") -> Options:
 
 
 def _refused_degrees(o: Options, crs: Any, xy: Any = ()) -> Options:
-    from vorotool.formats.parsing.reference_systems import projected_advice
     from vorotool.geometry.crs import crs_name
+    from vorotool.geometry.degrees import projected_advice
 
     advice = "gdalwarp -t_srs brings it into a projected system" if isinstance(xy, tuple) else projected_advice(xy)
     where = "" if crs is None else f" ({crs_name(crs)})"

@@ -43,6 +43,7 @@ def with_pixel_size(run: Run, o: Options, given: JobInput, grid: PixelGrid | Non
     """Give options with the size of the pixels of an image: as the user says, else what the file says of a map."""
     asked = o.pixel_size
     if asked is not None and not asked.is_auto:
+        run.stats |= unit_stats(asked)
         return o
     is_spacing = asked is not None and asked.is_spacing
     if not given.has_units and not is_spacing:

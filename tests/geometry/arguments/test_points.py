@@ -14,6 +14,7 @@ import xarray
 from hypothesis import given
 from hypothesis import strategies as st
 
+import vorotool
 from vorotool import InputError, PointSet, PolygonSet, Raster, SeedSet, UsageError, read
 from vorotool.geometry.arguments.points import as_place, as_points
 
@@ -219,8 +220,6 @@ def test_nothing_is_no_points():
         (pd.DataFrame({"a": ["u"], "b": ["v"]}), "expected columns x, y or lon, lat"),
         (pd.DataFrame(), "DataFrame"),
         ({"x": [1, 2], "y": [1]}, "the columns x and y differ in length"),
-        ([shapely.Point(1, 2), shapely.Point()], "point 2"),
-        ([shapely.Point(1, 2), None], "point 2"),
         ([shapely.box(0, 0, 1, 1)], "point 1"),
         (shapely.LineString([(0, 0), (1, 1)]), "LineString"),
         (geopandas.GeoSeries([shapely.Point(1, 2), shapely.box(0, 0, 1, 1)]), "point 2"),
@@ -257,3 +256,27 @@ def test_rows_stay_in_step(counts):
     assert made.xy.tolist() == [[i, k] for i, k in expected]
     assert list(made.index) == [names[i] for i, _ in expected]
     assert made.properties["n"] == [i for i, _ in expected]
+
+
+def test_features_without_geometry_are_left_out_with_a_warning():
+    points = [shapely.Point(0, 0), shapely.Point(), shapely.Point(4, 0), shapely.Point(0, 3), None]
+    for function in (vorotool.delaunay, vorotool.alpha_shape):
+        with pytest.warns(vorotool.VorotoolWarning, match="features at index 1, 4 have no geometry: left out"):
+            assert len(function(points).points) == 3
+    assert len(vorotool.delaunay(geopandas.GeoSeries(points)).points) == 3
+    assert vorotool.voronoi(points).areas[[1, 4]].tolist() == [0, 0]
+
+
+def test_longitude_and_latitude_of_data_frames_are_warned_of():
+    places = [(8.0, 47.0), (9.0, 47.0), (8.0, 48.0)]
+    frame = geopandas.GeoDataFrame(geometry=[shapely.Point(place) for place in places], crs=4326)
+    areas = geopandas.GeoDataFrame(geometry=[shapely.Point(place).buffer(0.1) for place in places], crs=4326)
+    for function, source in (
+        (vorotool.delaunay, frame),
+        (vorotool.voronoi, frame),
+        (vorotool.voronoi, areas),
+        (vorotool.skeleton_exact, areas),
+    ):
+        with pytest.warns(vorotool.VorotoolWarning, match="treated as planar.*EPSG:32632"):
+            function(source)
+        function(source.to_crs(32632))

@@ -128,6 +128,7 @@ def test_what_geopandas_knows_is_kept():
     assert as_polygons(SHAPES).y_axis == "up"
 
 
+@pytest.mark.filterwarnings("ignore:.*treated as planar")
 def test_a_system_without_a_code_is_spelled_out():
     own = FRAME.set_crs("+proj=laea +lat_0=47 +lon_0=8", allow_override=True)
     text = as_polygons(own).crs["properties"]["name"]

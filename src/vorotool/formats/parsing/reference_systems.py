@@ -11,13 +11,14 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError, Kind, Message, UsageError, option
 from vorotool.formats.parsing.reader_options import ReadOptions
-from vorotool.geometry.crs import crs_member, crs_name, is_geographic, same_crs
+from vorotool.geometry.crs import crs_member, crs_name, same_crs
+from vorotool.geometry.degrees import TO_CRS, note_degrees
 from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.types.axis import DOWN, UP, YAxis
 from vorotool.types.fields import with_y_axis
 
-_CRS, _TO_CRS = option("--input-crs", "crs"), option("--crs", "to_crs")
+_CRS = option("--input-crs", "crs")
 _Y_DOWN = option("--y-down", "y_up=False")
 
 Placed = TypeVar("Placed", PointSet, PolygonSet)
@@ -29,7 +30,7 @@ def with_crs(value: Placed, name: str, options: ReadOptions) -> Placed:
     if options.to_crs is not None:
         if value.crs is None:
             raise InputError(
-                f"{name} names no coordinate reference system, so that {_TO_CRS} cannot bring it into another one: "
+                f"{name} names no coordinate reference system, so that {TO_CRS} cannot bring it into another one: "
                 f"say which it is in with {_CRS}"
             )
         if not same_crs(value.crs, options.to_crs):
@@ -58,27 +59,9 @@ def declared_in(value: Placed, name: str, declared: Any) -> Placed:
     if not same_crs(value.crs, declared):
         raise InputError(
             f"{name} is in {crs_name(value.crs)}, as it says itself, not in {crs_name(declared)}: leave out "
-            f"{_CRS}, which reprojects nothing; {_TO_CRS} does"
+            f"{_CRS}, which reprojects nothing; {TO_CRS} does"
         )
     return value
-
-
-def note_degrees(value: PointSet | PolygonSet, name: str, note: Callable[[str], None]) -> None:
-    """Tell where an input is of longitude and latitude that lengths are in degrees, and what to do."""
-    if is_geographic(value.crs):
-        text = f"{name}: longitude and latitude are treated as planar, lengths are in degrees"
-        note(Message(f"{text}; {projected_advice(value.xy)}", Kind.DEGREES, source=name))
-
-
-def projected_advice(xy: NDArray[np.float64]) -> str:
-    """Name the zone of UTM that an input lies in, if it does not spread over more than two."""
-    if len(xy):
-        (west, south), (east, north) = xy.min(axis=0).tolist(), xy.max(axis=0).tolist()
-        if west >= -180 and east <= 180 and south >= -80 and north <= 84 and east - west <= 12:
-            zone = min(60, int(((west + east) / 2 + 180) // 6) + 1)
-            code = f"EPSG:{(32600 if south + north >= 0 else 32700) + zone}"
-            return option(f"--crs {code}", f'to_crs="{code}"') + " works in metres (UTM)"
-    return f"{_TO_CRS} brings them into a projected system"
 
 
 def note_unnamed(name: str, xy: NDArray[np.float64], note: Callable[[str], None]) -> None:

@@ -36,6 +36,7 @@ def wkt_rows(source: Source, options: ReadOptions) -> PointRows:
         _check_geometry(geometries[index], texts[index], f"{source.name}, line {lines[index]}")
     points, owners = single_points(geometries)
     options.check_sites(source.name, len(points))
+    options.note_left_out(source.name, len(geometries) - len(np.unique(owners)))
     if not len(points):
         return PointRows(no_points(options.axes), None, {}, {"y_axis": UP, "crs": crs})
     found = shapely.get_coordinates(points, include_z=options.wants_z)

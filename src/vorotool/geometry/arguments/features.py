@@ -88,6 +88,19 @@ def _held(source: Any) -> HeldFeatures | None:
     return None if items is None else _of_items(items, index_of(source))
 
 
+def report_missing(held: HeldFeatures, owners: NDArray[Any]) -> None:
+    """Warn of features that are left out, without a geometry, by their indices."""
+    missing = np.setdiff1d(np.arange(len(held.items)), owners).tolist()
+    if missing:
+        more = f" and {len(missing) - NAMED} more" if len(missing) > NAMED else ""
+        noun, has = ("features", "have") if len(missing) > 1 else ("feature", "has")
+        warn(f"{noun} at index {', '.join(map(str, missing[:NAMED]))}{more} {has} no geometry: left out")
+
+
+NAMED = 10
+"""Features that are named in a warning."""
+
+
 def is_shapely(value: Any) -> bool:
     """Tell whether a value is one geometry of shapely; arrays of geopandas have a type for each."""
     return isinstance(getattr(value, "geom_type", None), str)

@@ -8,11 +8,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError
+from vorotool.errors import InputError, warn
 from vorotool.geometry.arguments.descriptions import described, items_of, naming, refuse_paths, unexpected
-from vorotool.geometry.arguments.features import HeldFeatures, held_features, is_shapely, joined_parts
+from vorotool.geometry.arguments.features import HeldFeatures, held_features, is_shapely, joined_parts, report_missing
 from vorotool.geometry.arguments.tables import is_table, points_of_table
 from vorotool.geometry.coordinates import MOST_AXES, number_array
+from vorotool.geometry.degrees import note_degrees
 from vorotool.geometry.numbers import pair_of_doubles
 from vorotool.geometry.points.conversion import part_numbers, single_points
 from vorotool.geometry.points.label_image import LabelImage
@@ -60,7 +61,9 @@ def _points_of(source: Any, name: str) -> PointSet:
         return PointSet(_checked(source, name))
     held = held_features(source)
     if held is not None:
-        return _points_of_features(held)
+        points = _points_of_features(held)
+        note_degrees(points, name, warn)
+        return points
     if is_table(source):
         return points_of_table(source, name)
     return PointSet(_checked(source, name))
@@ -111,6 +114,8 @@ def _no_point(what: str, place: str) -> InputError:
 # ---- features --------------------------------------------------------------------------------------
 def _points_of_features(held: HeldFeatures) -> PointSet:
     xy, owners = _positions(held)
+    if not held.is_map:  # what has an index says itself which are left out
+        report_missing(held, owners)
     properties = {name: [values[k] for k in owners.tolist()] for name, values in held.properties.items()}
     if held.ids is not None:
         ids = {"id": [held.ids[k] for k in owners.tolist()]}
@@ -133,8 +138,6 @@ def _positions(held: HeldFeatures) -> tuple[NDArray[np.float64], NDArray[np.int6
     for number, item in enumerate(held.items):
         place = f"point {number + 1}"
         found = list(_positions_of(item, place))
-        if not found and not held.is_map:
-            raise _no_point("empty", place)
         positions.extend(found)
         owners.extend([number] * len(found))
     return number_array(positions, "point"), np.array(owners, dtype=np.int64)
@@ -145,10 +148,6 @@ def _positions_of_geometry(held: HeldFeatures) -> tuple[NDArray[np.float64], NDA
 
     geometry = held.geometry
     there = ~shapely.is_missing(geometry) & ~shapely.is_empty(geometry)
-    if not (held.is_map or there.all()):  # no index would tell of the others which they are
-        at = int(there.argmin())
-        kind = None if geometry[at] is None else geometry[at].geom_type
-        raise _no_point("None" if kind is None else f"an empty {kind}", f"point {at + 1}")
     kept = np.flatnonzero(there)
     parts, items = geometry[kept], kept
     while len(parts):

@@ -8,11 +8,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError
+from vorotool.errors import InputError, warn
 from vorotool.geometry.arguments.descriptions import described, items_of, naming, refuse_paths, unexpected
-from vorotool.geometry.arguments.features import HeldFeatures, held_features, is_geojson, is_shapely, joined_parts
+from vorotool.geometry.arguments.features import (
+    HeldFeatures,
+    held_features,
+    is_geojson,
+    is_shapely,
+    joined_parts,
+)
 from vorotool.geometry.arguments.tables import is_table
 from vorotool.geometry.coordinates import coordinate_rows, number_array
+from vorotool.geometry.degrees import note_degrees
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.raster import Raster
 from vorotool.geometry.polygons.conversion import polygons_of_geometry, to_shapely
@@ -58,7 +65,9 @@ def _polygons_in(source: Any, name: str) -> PolygonSet:
         return outlined
     held = held_features(source)
     if held is not None:
-        return _of_features(held)
+        polygons = _of_features(held)
+        note_degrees(polygons, name, warn)
+        return polygons
     if is_table(source) and not isinstance(source, Mapping):
         raise unexpected(source, EXPECTED)
     if isinstance(source, Mapping) or is_ring(source):

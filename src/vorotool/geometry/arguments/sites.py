@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError, UsageError, option
+from vorotool.errors import InputError, UsageError, option, warn
 from vorotool.geometry.arguments.descriptions import items_of, naming, unexpected
 from vorotool.geometry.arguments.features import HeldFeatures, held_features, is_shapely
 from vorotool.geometry.arguments.images import as_raster, is_image
@@ -18,6 +18,7 @@ from vorotool.geometry.arguments.points import as_points
 from vorotool.geometry.arguments.polygons import as_polygons, is_ring
 from vorotool.geometry.arguments.tables import MISSING_TYPES, is_table, listed
 from vorotool.geometry.box import Box, bounds
+from vorotool.geometry.degrees import note_degrees
 from vorotool.geometry.named_columns import check_plain, column_of
 from vorotool.geometry.numbers import shown_number
 from vorotool.geometry.pixel_grid import PixelGrid
@@ -72,7 +73,7 @@ def _features(source: Any, name: str) -> Sites:
     with naming(name):
         held = held_features(source)
         if held is not None:
-            return _of_held(held)
+            return _of_held(held, name)
         if not isinstance(source, Iterable) or getattr(source, "ndim", 1) == 0:
             raise unexpected(source, EXPECTED)
     if is_ring(source) or is_table(source):
@@ -80,11 +81,12 @@ def _features(source: Any, name: str) -> Sites:
     return _of_polygons(as_polygons(source, name))
 
 
-def _of_held(held: HeldFeatures) -> Sites:
+def _of_held(held: HeldFeatures, name: str) -> Sites:
     items = np.empty(len(held.items), dtype=object)
     items[:] = [_shapely_of(item) for item in held.items]
     made = polygons_of_geometry(items, lambda own: {"feature": own, **held.described(own)}, takes_points=True)
     assert made.feature is not None
+    note_degrees(made, name, warn)
     return Sites(made, made.feature, len(items), held.ids, held.properties, held.index)
 
 
