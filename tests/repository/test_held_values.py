@@ -229,6 +229,7 @@ VOLUME_FUNCTIONS = {"tessellate", "region_table", "neighbor_table", "voronoi_dia
     ("function", "form"),
     some(IMAGE_FUNCTIONS, IMAGE_FORMS, {"tessellate", "seeds_from_raster"}, ["uint8", "Raster", "xarray"]),
 )
+@pytest.mark.filterwarnings("ignore:the input has pixels of:vorotool.VorotoolWarning")
 def test_images(function, form):
     """Label images, and masks, whose components are the objects."""
     call, _, read = IMAGE_FUNCTIONS[function]

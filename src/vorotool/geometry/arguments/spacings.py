@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from vorotool.errors import UsageError, warn
+from vorotool.errors import InputError, UsageError, warn
 from vorotool.geometry.arguments.grids import grid_of
 from vorotool.geometry.crs import is_geographic
 from vorotool.geometry.length_units import ratio
@@ -27,7 +27,12 @@ def asked_sides(source: Any, spacing: Any, axes: int = 2) -> PixelSides:
         return pixel_sides(spacing, axes)
     if spacing not in (None, AUTO):
         raise UsageError(f"invalid spacing {spacing!r}: expected numbers, or 'auto' for the size that an image carries")
-    grid = carried_grid(source, axes)
+    try:
+        grid = carried_grid(source, axes)
+    except InputError:
+        if spacing == AUTO:
+            raise
+        grid = None  # who reads the value says what is wrong with its axes
     what = "pixels" if axes == 2 else "voxels"
     if spacing is None:
         if grid is not None and not isinstance(getattr(source, "sides", None), PixelSides):  # labels have theirs
