@@ -184,7 +184,7 @@ def _scale_options() -> tuple[Decorator, ...]:
         click.option(
             "--extent",
             type=click.Choice(["image", "data"], case_sensitive=False),
-            help="What pictures of an image's result show: the whole image, as by default, or the data and a margin.",
+            help="What pictures show of an image or a drawing: all of it, as by default, or the data and a margin.",
         ),
     )
 
