@@ -41,6 +41,14 @@ def unit_of(value: Any) -> InputUnit | None:
     return None if unit is None else InputUnit(unit_name(unit))
 
 
+def own_unit(value: Any) -> str | None:
+    """Return the unit that a value states, or what it was made of."""
+    while value is not None and not hasattr(value, "unit"):
+        value = next((getattr(value, name) for name in ("polygons", "skeleton", "path") if hasattr(value, name)), None)
+    unit: str | None = getattr(value, "unit", None)
+    return unit
+
+
 def unit_of_columns(columns: Mapping[str, Any]) -> str | None:
     """Return the unit of length that a column of a table states for all rows."""
     for name in COLUMNS:

@@ -114,9 +114,11 @@ def write(
     >>> write(vorotool.alpha_shape([[0, 0], [4, 0], [0, 3]], r=2.5), "build/shape.geojson")
     >>> write(vorotool.skeleton_exact([[0, 0], [4, 0], [0, 3]]), "build/skeleton.svg")
     """
+    from vorotool.formats.text.feature_collection import unit_member
     from vorotool.geometry.checks import checked_flag, checked_threads
     from vorotool.geometry.coordinate_grid import coordinates_written
     from vorotool.geometry.identity import columns_wanted
+    from vorotool.geometry.input_unit import own_unit
 
     path, flatten = _checked_path(path), checked_flatten(flatten)
     if not isinstance(fmt, str | None):
@@ -152,7 +154,7 @@ def write(
             from vorotool.formats.features.geopackage import check_layers
 
             check_layers(fspath(path), product.what, overwrite=overwrite)
-        with coordinates_written(decimals), columns_wanted(with_columns):
+        with coordinates_written(decimals), columns_wanted(with_columns), unit_member(own_unit(value)):
             _write_data(value, fspath(path), chosen, product, flatten, precision, threads)
         return
     for option, number in (("flatten", flatten), ("decimals", decimals), ("precision", precision)):
@@ -210,10 +212,12 @@ def to_geojson(
 
     import orjson
 
+    from vorotool.formats.text.feature_collection import unit_member
     from vorotool.geometry.identity import columns_wanted
+    from vorotool.geometry.input_unit import own_unit
 
     out, tolerance = io.BytesIO(), checked_flatten(flatten)
-    with columns_wanted(with_columns):
+    with columns_wanted(with_columns), unit_member(own_unit(value)):
         write_product(out, value, _part(value, "geojson", what, tolerance), "geojson", flatten=tolerance)
     made: dict[str, Any] = orjson.loads(out.getvalue())
     return made

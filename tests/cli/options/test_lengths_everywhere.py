@@ -305,3 +305,20 @@ def test_units_are_told_and_kept(run, tmp_path, source, unit):
         assert again["unit"] == told["unit"]
     assert run("voronoi", shapes, "-o", "o.geojson", "-q").code == 0
     assert json.loads(run("info", "--json", "o.geojson").out)["unit"] == told["unit"]
+
+
+def test_the_library_keeps_units(tmp_path):
+    import vorotool as library
+
+    shapes, _ = svg(tmp_path)
+    drawing = library.read(tmp_path / shapes)
+    skeleton = library.skeleton_exact(drawing)
+    values = [drawing, library.voronoi(drawing), skeleton, library.offset(drawing, [1])]
+    values.append(library.points_along(skeleton, every=2))
+    for value in values:
+        assert library.to_geojson(value)["unit"] == "mm"
+        library.write(value, tmp_path / "o.geojson")
+        assert json.loads((tmp_path / "o.geojson").read_text())["unit"] == "mm"
+    assert library.read(tmp_path / "o.geojson").unit == "mm"
+    plain = library.read(tmp_path / geojson(tmp_path, "plain")[0])
+    assert "unit" not in library.to_geojson(plain)
