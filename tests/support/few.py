@@ -18,4 +18,6 @@ def slow(*values: Any) -> Any:
 
 
 def _marked(value: Any, mark: pytest.MarkDecorator) -> Any:
+    if isinstance(value, type(pytest.param())):
+        return pytest.param(*value.values, marks=(*value.marks, mark), id=value.id)
     return pytest.param(*(value if isinstance(value, tuple) else (value,)), marks=mark)
