@@ -109,9 +109,9 @@ def _asked(o: JobOptions) -> Sides | None:
     frame: Extent | None = getattr(o, "frame", None)
     if frame is None:
         return None
-    from vorotool.geometry.box import extent_sides
+    from vorotool.geometry.box import Box
 
-    return extent_sides(frame)
+    return Box.of_size(*frame).sides
 
 
 def world_of_value(value: Any, looks: Looks, *, is_paper: bool = False) -> World:
