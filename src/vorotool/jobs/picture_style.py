@@ -180,6 +180,16 @@ class World(NamedTuple):
     is_paper: bool = False  # SVG is 1:1 where nothing else says
 
 
+def _check_places(page: Page, data: Sides) -> None:
+    """Refuse a page that is so small beside the data that their places on it are no numbers."""
+    import numpy as np
+
+    with np.errstate(over="ignore", invalid="ignore"):
+        corners = page.place(np.array(data).reshape(2, 2))
+    if not np.isfinite(corners).all():
+        raise UsageError("the frame is too small beside the coordinates: use a larger one")
+
+
 def styled_page(page: Page, looks: Looks, world: World, fmt: str = "svg") -> Page:
     """Give the page of a picture as the options say."""
     from vorotool.render.canvas.layers import MARGIN, Page
@@ -189,11 +199,12 @@ def styled_page(page: Page, looks: Looks, world: World, fmt: str = "svg") -> Pag
         bounds = page.bounds if frame is None else frame
         aspect = world.aspect if looks.aspect is None else looks.aspect
         margin = MARGIN if frame is None else 0.0
-        paper = _paper(page.y_up, (bounds, margin), looks, world, fmt)
+        paper, data = _paper(page.y_up, (bounds, margin), looks, world, fmt), page.bounds
         if paper is not None:
             page = paper
         elif frame is not None or aspect != 1:
             page = Page(bounds, width=page.width, y_up=page.y_up, aspect=aspect, margin=margin)
+        _check_places(page, data)
     page.style = looks.style(world.scale_bar)
     return page
 
