@@ -65,10 +65,10 @@ Columns make_planar_graph(const IndexRows& array, const Vector<const std::int64_
   result["points"] = pairs(graph.points);
   result["point_vertex"] = to_numpy(std::move(graph.point_vertex));
   result["segments"] = two_columns(std::move(graph.segments));
-  result["source_start"] = to_numpy(std::move(graph.source_start));
+  result["source_starts"] = to_numpy(std::move(graph.source_start));
   result["source_edge"] = to_numpy(std::move(graph.source_edge));
   result["segment_faces"] = two_columns(std::move(graph.segment_faces));
-  result["face_start"] = to_numpy(std::move(graph.face_polygons.start));
+  result["face_starts"] = to_numpy(std::move(graph.face_polygons.start));
   result["face_polygon"] = to_numpy(std::move(graph.face_polygons.polygon));
   result["point_holes"] = to_numpy(std::move(graph.point_holes));
   nb::list repairs;
@@ -132,13 +132,13 @@ void bind_arrangement(nb::module_& room) {
            "Lattice points, origin, exponent of the step and the largest move; the points must be finite.");
   room.def("first_at_place", &first_at_place, "points"_a, "progress"_a.none(),
            "For each lattice point the smallest index of one at the same place.");
-  room.def("make_planar_graph", &make_planar_graph, "vertices"_a, "ring_start"_a, "ring_kind"_a,
+  room.def("make_planar_graph", &make_planar_graph, "vertices"_a, "ring_starts"_a, "ring_kind"_a,
            "ring_polygon"_a, "progress"_a.none(),
            "Arrays of a PlanarGraph; repairs: of each kind the count, an edge, and what meets it or -1.");
-  room.def("boundary_rings", &boundary_rings, "graph"_a, "face_start"_a, "face_polygon"_a,
+  room.def("boundary_rings", &boundary_rings, "graph"_a, "face_starts"_a, "face_polygon"_a,
            "progress"_a.none(), "The indices of faces must be in range.");
-  room.def("polygon_faults", &polygon_faults, "points"_a, "ring_start"_a, "polygon_start"_a, "is_coverage"_a,
-           "threads"_a, "progress"_a.none(),
+  room.def("polygon_faults", &polygon_faults, "points"_a, "ring_starts"_a, "polygon_starts"_a,
+           "is_coverage"_a, "threads"_a, "progress"_a.none(),
            "Of each polygon 1 if it is not seen to be one simple ring, 2 if it clashes with others of its "
            "coverage.");
   room.def("find_fault", &fault_of_graph, "points"_a, "segments"_a, "faces"_a.none(), "progress"_a.none());

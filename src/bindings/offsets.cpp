@@ -46,8 +46,8 @@ Columns curves_as_dict(OffsetCurves&& curves) {
   result["end"] = two_columns(std::move(curves.end));
   result["center"] = two_columns(std::move(curves.center));
   result["site"] = to_numpy(std::move(curves.site));
-  result["ring_start"] = to_numpy(std::move(curves.ring_start));
-  result["shape_start"] = to_numpy(std::move(curves.shape_start));
+  result["ring_starts"] = to_numpy(std::move(curves.ring_start));
+  result["shape_starts"] = to_numpy(std::move(curves.shape_start));
   result["polygon"] = to_numpy(std::move(curves.shape_polygon));
   return result;
 }

@@ -60,7 +60,7 @@ Columns take_arrays(SegmentVoronoi& diagram, const std::optional<Vector<const st
   Columns result;
   result["vertices"] = to_numpy(std::move(made.vertices), {vertices, 2});
   result["radius"] = to_numpy(std::move(made.radius), {vertices});
-  result["vertex_start"] = to_numpy(std::move(made.vertex_start), {vertices + 1});
+  result["vertex_starts"] = to_numpy(std::move(made.vertex_start), {vertices + 1});
   result["vertex_sites"] = to_numpy(std::move(made.vertex_sites), {ring});
   result["edges"] = to_numpy(std::move(made.edges), {edges, 2});
   result["edge_sites"] = to_numpy(std::move(made.edge_sites), {edges, 2});
@@ -103,7 +103,7 @@ void bind_segment_voronoi(nb::module_& room) {
       .def(nb::init<const IndexRows&, const IndexRows&, const Places&, const Vector<const double>&,
                     const Indices&, const Indices&, const IndexRows&, const IndexRows&,
                     const std::optional<IndexRows>&>(),
-           "points"_a, "segments"_a, "vertices"_a, "radius"_a, "vertex_start"_a, "vertex_sites"_a, "edges"_a,
+           "points"_a, "segments"_a, "vertices"_a, "radius"_a, "vertex_starts"_a, "vertex_sites"_a, "edges"_a,
            "edge_sites"_a, "segment_faces"_a.none());
   room.def("find_fault", &fault_of_diagram, "diagram"_a, "threads"_a, "progress"_a.none());
 }

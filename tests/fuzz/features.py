@@ -161,7 +161,7 @@ def inside_of(skeleton, feature, given: PolygonSet) -> list:
     sites = np.flatnonzero(np.isin(table.polygon, polygons))
     rings = [r.tobytes() for polygon in polygons.tolist() for r in skeleton.polygons.rings_of(polygon)]
     known = sites[table.source_ring[sites] >= 0]
-    source = given.xy[given.ring_start[table.source_ring[known]] + table.source_index[known]]
+    source = given.xy[given.ring_starts[table.source_ring[known]] + table.source_index[known]]
     first_ring = table.source_ring[known].min(initial=2**30)
     made = [
         *(getattr(skeleton, name)[nodes if name in PLACES[:2] else arcs].tobytes() for name in PLACES),

@@ -41,7 +41,7 @@ def failure(shape: object, random: np.random.Generator) -> str | None:
 def wrong_parts(pieces, ratio, found):
     """What is wrong with parts, as shapely sees them."""
     shapes = pieces.to_shapely()
-    if pieces.polygons.ring_start.size and (np.diff(pieces.polygons.ring_start) > 2).all():
+    if pieces.polygons.ring_starts.size and (np.diff(pieces.polygons.ring_starts) > 2).all():
         for k in np.flatnonzero(~shapely.is_valid(shapes)).tolist():
             return f"piece {k} is not valid: {shapely.is_valid_reason(shapes[k])}"
     if not np.allclose(shapely.area(shapes), pieces.area):

@@ -37,7 +37,7 @@ def changed_by_numbers(diagram: SegmentVoronoiDiagram, rng: np.random.Generator)
     """What changes with the numbers of points and segments, the direction of segments and the number of threads."""
     points, segments, number = renumbered(diagram.points, diagram.segments, rng)
     other = segment_voronoi(points, segments, threads=int(rng.choice([1, 2, 3, 8])))
-    for name in ("vertices", "radius", "vertex_start", "edges"):
+    for name in ("vertices", "radius", "vertex_starts", "edges"):
         if not np.array_equal(getattr(diagram, name), getattr(other, name)):
             return f"a permutation changes {name}"
     if not np.array_equal(number[diagram.edge_sites], other.edge_sites):

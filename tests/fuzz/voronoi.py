@@ -26,7 +26,7 @@ from support.families.site_families import WHOLE, mixed_sites
 from support.oracles.voronoi_oracle import assert_nearest
 from vorotool import VoronoiMap, VorotoolError, verify_voronoi, voronoi
 
-SAME = ("arcs", "sites", "ring_arcs", "ring_start", "polygon_start", "cell_start")
+SAME = ("arcs", "sites", "ring_arcs", "ring_starts", "polygon_starts", "cell_starts")
 PLACES = 40
 ROUNDING = 1e-9
 """Of the frame: what areas may differ by under symmetries, as the lattice is another one."""

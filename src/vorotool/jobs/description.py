@@ -228,7 +228,7 @@ def _of_polygons(value: PolygonSet, note: Callable[[str], None]) -> Description:
 @_told_of.register
 def _of_sites(value: Sites, note: Callable[[str], None]) -> Description:
     polygons = value.polygons
-    sizes = np.diff(polygons.ring_start)[polygons.polygon_start[:-1]]
+    sizes = np.diff(polygons.ring_starts)[polygons.polygon_starts[:-1]]
     points = int((polygons.is_line & (sizes == 1)).sum())
     lines = int(polygons.is_line.sum()) - points
     return {

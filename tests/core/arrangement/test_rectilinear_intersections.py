@@ -36,7 +36,7 @@ def checked(vertices, rings):
 
 def of_outlines(polygons):
     vertices = placed_vertices(polygons).vertices // 4  # leaves room for the shear
-    rings = zip(polygons.ring_start, polygons.ring_start[1:], polygons.ring_kind, polygons.ring_polygon, strict=False)
+    rings = zip(polygons.ring_starts, polygons.ring_starts[1:], polygons.ring_kind, polygons.ring_polygon, strict=False)
     return checked(vertices, list(rings))
 
 

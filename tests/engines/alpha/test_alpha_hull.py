@@ -77,7 +77,7 @@ def test_arcs_are_on_empty_circles_and_follow_one_another(name):
                 np.testing.assert_allclose(np.hypot(*(ends - hull.center).T), r, atol=1e-9 * scale)
             nearest = np.hypot(*(hull.center[:, None] - points).transpose(2, 0, 1))
             assert (nearest > r - 1e-9 * scale).all()
-            for a, b in pairwise(hull.ring_start):
+            for a, b in pairwise(hull.ring_starts):
                 np.testing.assert_array_equal(hull.end[a:b], np.roll(hull.start[a:b], -1, axis=0))
             assert (hull.angles <= np.pi).all()
 
@@ -103,7 +103,7 @@ def test_holes_and_lonely_points():
     grid = np.stack(np.meshgrid(np.arange(9), np.arange(9)), axis=-1).reshape(-1, 2).astype(float)
     ring = grid[(abs(grid - 4).max(axis=1) > 1)]
     hull = alpha_hull(alpha_shape(np.concatenate([ring, [[20.0, 20]]]), r=0.8))
-    assert len(hull.ring_start) == 3
+    assert len(hull.ring_starts) == 3
     assert hull.points.tolist() == [len(ring)]
     area, _ = hull_polygon(hull)
     assert len(area.interiors) == 1

@@ -47,8 +47,8 @@ def test_sources_are_in_the_input(family):
         graph = graph_of(family(rng))
         sites, given = placed_shapes(graph).sites, graph.polygons
         known = np.flatnonzero(sites.source_ring >= 0)
-        vertex = given.ring_start[sites.source_ring[known]] + sites.source_index[known]
-        assert (vertex < given.ring_start[sites.source_ring[known] + 1]).all()
+        vertex = given.ring_starts[sites.source_ring[known]] + sites.source_index[known]
+        assert (vertex < given.ring_starts[sites.source_ring[known] + 1]).all()
         assert (sites.source_ring < 0).sum() == (graph.point_vertex < 0).sum()
 
 
@@ -81,7 +81,7 @@ def test_holes_that_are_points_and_segments_on_the_lattice_only():
     graph = graph_of([shape])
     verify_planar_graph(graph)
     placed = placed_shapes(graph)
-    assert np.diff(placed.polygons.ring_start).tolist() == [4, 2, 1]
+    assert np.diff(placed.polygons.ring_starts).tolist() == [4, 2, 1]
     ends = site_ends(placed)
     assert np.array_equal(ends[: len(graph.points), 0], graph.coordinates())
     made, expected = (

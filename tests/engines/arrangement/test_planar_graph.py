@@ -43,7 +43,7 @@ def quietly(polygons, **options):
 def area_of(graph, polygon):
     """The area of one polygon: that of its borders, each with the polygon on one side only."""
     inside = np.zeros(graph.faces, dtype=bool)
-    inside[np.repeat(np.arange(graph.faces), np.diff(graph.face_start))[graph.face_polygon == polygon]] = True
+    inside[np.repeat(np.arange(graph.faces), np.diff(graph.face_starts))[graph.face_polygon == polygon]] = True
     side = inside[graph.segment_faces].astype(int)
     (ax, ay), (bx, by) = graph.points[graph.segments].astype(float).transpose(1, 2, 0)
     return float(((side[:, 0] - side[:, 1]) * (ax * by - ay * bx)).sum() / 2 * graph.scale * graph.scale)
@@ -186,7 +186,7 @@ def test_natural_earth(name):
     ]
     np.testing.assert_allclose(graph.coordinates(), shapes.xy[graph.point_vertex], atol=graph.largest_move, rtol=0)
     assert graph.largest_move < 2e-7
-    assert (np.diff(graph.face_start) <= 1).all()
+    assert (np.diff(graph.face_starts) <= 1).all()
     for polygon, shape in list(enumerate(to_shapely(shapes)))[:25]:
         assert area_of(graph, polygon) == pytest.approx(shape.area, abs=2 * graph.largest_move * shape.length)
 
@@ -223,7 +223,7 @@ def nested_squares(count):
 def test_polygons_that_nest_deep():
     graph, said = quietly(nested_squares(300))
     assert said == []
-    assert sorted(np.diff(graph.face_start).tolist()) == list(range(301))
+    assert sorted(np.diff(graph.face_starts).tolist()) == list(range(301))
     with pytest.raises(LimitError, match="overlap or nest more than 67108864 times"):
         planar_graph(nested_squares(12_000))
 
@@ -235,19 +235,19 @@ def changed(graph, **arrays):
 def test_the_checker_finds_faults():
     hole = {"shell": SQUARE, "holes": [[[1, 1], [3, 1], [1, 3]]]}
     graph, _ = quietly([hole, {"line": [[20, 20], [30, 20]]}])
-    start = graph.face_start
+    start = graph.face_starts
     for faulty, message in [
         (changed(graph, segments=graph.segments[:, ::-1]), "what lies left of all segments is not face 0"),
         (changed(graph, segment_faces=graph.segment_faces + 7), "a face that does not exist"),
         (changed(graph, segment_faces=1 - graph.segment_faces), "one corner|left of all|does not exist"),
-        (changed(graph, face_start=start[:-1]), "a segment names a face|does not divide"),
-        (changed(graph, face_start=[0, 1, 1, 1]), "face 0, which is unbounded"),
+        (changed(graph, face_starts=start[:-1]), "a segment names a face|does not divide"),
+        (changed(graph, face_starts=[0, 1, 1, 1]), "face 0, which is unbounded"),
         (changed(graph, face_polygon=[1]), "segment 0 divides a polygon of which it is no edge"),
-        (changed(graph, face_start=[0, 0, 0, 0], face_polygon=[]), "segment 0 bounds nothing"),
+        (changed(graph, face_starts=[0, 0, 0, 0], face_polygon=[]), "segment 0 bounds nothing"),
         (changed(graph, source_edge=graph.source_edge[[1, 0, *range(2, 8)]]), "segment 0 is not where edge 1 runs"),
         (changed(graph, point_vertex=np.roll(graph.point_vertex, 1)), "a point is not where its vertex is"),
         (replace(graph, scale=1.0), "this is not the lattice of the input"),
-        (changed(graph, face_start=[0, 0, 2, 2], face_polygon=[1, 0]), "are not ascending"),
+        (changed(graph, face_starts=[0, 0, 2, 2], face_polygon=[1, 0]), "are not ascending"),
     ]:
         with pytest.raises(VerificationError, match=message):
             verify_planar_graph(faulty)

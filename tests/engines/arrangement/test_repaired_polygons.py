@@ -31,15 +31,15 @@ def check(graph, used):
     shapes = used.polygons
     np.testing.assert_array_equal(shapes.xy, graph.coordinates()[used.point])
     following = np.arange(1, len(used.point) + 1)
-    following[shapes.ring_start[1:] - 1] = shapes.ring_start[:-1]
+    following[shapes.ring_starts[1:] - 1] = shapes.ring_starts[:-1]
     there = used.segment >= 0
-    last = shapes.ring_start[1:][shapes.ring_kind == LINE] - 1
+    last = shapes.ring_starts[1:][shapes.ring_kind == LINE] - 1
     assert np.flatnonzero(~there).tolist() == last.tolist()
     ends = np.sort(graph.segments[used.segment[there]], axis=1)
     np.testing.assert_array_equal(
         np.sort(np.stack([used.point, used.point[following % max(len(following), 1)]], axis=1)[there]), ends
     )
-    ring = np.repeat(np.arange(len(shapes.ring_kind)), np.diff(shapes.ring_start))
+    ring = np.repeat(np.arange(len(shapes.ring_kind)), np.diff(shapes.ring_starts))
     source = used.source[shapes.ring_polygon[ring]]
     on_ring = shapes.ring_kind[ring] != LINE
     pairs = sorted(zip(used.segment[on_ring].tolist(), source[on_ring].tolist(), strict=True))
@@ -48,7 +48,7 @@ def check(graph, used):
         expected += [(segment, p) for p in set(graph.polygons_of(left)) ^ set(graph.polygons_of(right))]
     assert pairs == sorted(expected)
     for index in np.flatnonzero(shapes.ring_kind != LINE):
-        corners = used.point[shapes.ring_start[index] : shapes.ring_start[index + 1]]
+        corners = used.point[shapes.ring_starts[index] : shapes.ring_starts[index + 1]]
         assert len(set(corners.tolist())) == len(corners) >= 3
         assert corners[0] == corners.min()
 
@@ -69,7 +69,7 @@ def test_what_the_input_says_of_polygons_is_kept():
     shapes = as_polygons([[[0, 0], [4, 4], [4, 0], [0, 4]], [[5, 5]], SQUARE])
     given = PolygonSet(
         shapes.xy,
-        shapes.ring_start,
+        shapes.ring_starts,
         shapes.ring_kind,
         shapes.ring_polygon,
         ["a", "b", "c"],
@@ -121,7 +121,7 @@ def test_repaired_rings_are_valid(name):
         again, same = both(used.polygons)
         assert again.repairs["crossings"] == again.repairs["idle_segments"] == 0
         assert len(same.polygons) == len(used.polygons)
-        assert (np.diff(same.polygons.ring_start) == np.diff(used.polygons.ring_start)).all()
+        assert (np.diff(same.polygons.ring_starts) == np.diff(used.polygons.ring_starts)).all()
 
 
 def test_natural_earth():

@@ -30,7 +30,7 @@ def test_of_a_rectangle_the_middle(width, height):
     discs = largest_discs(rectangle(width, height, -1.5, 7.25))
     np.testing.assert_allclose(discs.xy, [[-1.5 + width / 2, 7.25 + height / 2]], rtol=1e-15)
     np.testing.assert_allclose(discs.radius, [min(width, height) / 2], rtol=1e-15)
-    assert np.diff(discs.foot_start).tolist() == [4 if width == height else 2]
+    assert np.diff(discs.foot_starts).tolist() == [4 if width == height else 2]
 
 
 def test_of_triangles_the_incircle():
@@ -198,14 +198,14 @@ def test_the_checker_sees_that_a_larger_one_fits():
     other = np.flatnonzero(whole.radius < whole.radius[0])[:1]
     assert len(other) or len(small)
     feet = np.concatenate([whole.feet_of(int(k)) for k in other])
-    sites = np.concatenate([whole.foot_site[slice(*whole.foot_start[[k, k + 1]])] for k in other])
+    sites = np.concatenate([whole.foot_site[slice(*whole.foot_starts[[k, k + 1]])] for k in other])
     alone = replace(
         whole,
         xy=whole.xy[other],
         radius=whole.radius[other],
         polygon=whole.polygon[other],
         rank=np.array([1]),
-        foot_start=np.array([0, len(feet)]),
+        foot_starts=np.array([0, len(feet)]),
         feet=feet,
         foot_site=sites,
     )

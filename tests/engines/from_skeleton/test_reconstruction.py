@@ -89,7 +89,7 @@ def test_points_and_segments_are_holes_again(holes, side, chord):
     square = [[0, 0], [10, 0], [10, 10], [0, 10]]
     skeleton = vorotool.skeleton_exact([{"shell": square, "holes": holes}, [[20, 0], [24, 0], [24, 4]]], side=side)
     again = vorotool.rebuild(skeleton if chord is None else vorotool.prune(skeleton, chord=chord))
-    first = slice(1, int(again.polygon_start[1]))
+    first = slice(1, int(again.polygon_starts[1]))
     assert again.ring_kind[first].tolist() == [1] * len(holes)
     places = [{tuple(place) for place in ring} for ring in holes]
     assert [{tuple(place) for place in again.ring(k + 1).tolist()} for k in range(len(holes))] == places

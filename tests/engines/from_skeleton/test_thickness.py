@@ -102,7 +102,7 @@ def test_a_spacing_is_the_unit():
     wide = vorotool.local_thickness(mask[::5, ::5], spacing=(0.5, 0.2))
     shapes = vorotool.outlines(mask[::5, ::5])
     polygons = vorotool.PolygonSet(
-        shapes.xy * (0.2, 0.5), shapes.ring_start, shapes.ring_kind, shapes.ring_polygon, shapes.ids
+        shapes.xy * (0.2, 0.5), shapes.ring_starts, shapes.ring_kind, shapes.ring_polygon, shapes.ids
     )
     check_thickness(wide, polygons, (0.5, 0.2), 0.02)
 

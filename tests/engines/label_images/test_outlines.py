@@ -36,7 +36,7 @@ def check_crack(made, labels, connectivity):
     assert np.array_equal(areas, np.bincount(objects.ravel())[1:])
     assert np.array_equal(rings < 0, made.ring_kind == HOLE)
     place = made.xy[:, 1] * 1000 + made.xy[:, 0]
-    assert np.array_equal(place[made.ring_start[:-1]], np.minimum.reduceat(place, made.ring_start[:-1]))
+    assert np.array_equal(place[made.ring_starts[:-1]], np.minimum.reduceat(place, made.ring_starts[:-1]))
     if connectivity == 4:
         assert shapely.is_valid(to_shapely(made)).all()
 
@@ -293,6 +293,6 @@ def test_bands_of_lines_are_joined(connectivity):
     expected = outlines(narrow, connectivity=connectivity, mode="labels")
     for threads in (1, 2):
         made = outlines(wide, connectivity=connectivity, mode="labels", threads=threads)
-        for name in ("xy", "ring_start", "ring_kind", "ring_polygon"):
+        for name in ("xy", "ring_starts", "ring_kind", "ring_polygon"):
             assert np.array_equal(getattr(made, name), getattr(expected, name))
         assert made.ids == expected.ids

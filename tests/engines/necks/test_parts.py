@@ -98,7 +98,7 @@ def test_random_shapes(family, seed):
         pieces = parts(shape, neck=ratio, features=features)
         verify_parts(pieces)
         shapes = pieces.to_shapely()
-        full = (np.diff(pieces.polygons.ring_start) > 2).all()
+        full = (np.diff(pieces.polygons.ring_starts) > 2).all()
         assert not full or shapely.is_valid(shapes).all()
         assert shapely.area(shapes) == pytest.approx(pieces.area, rel=1e-9)
 
@@ -109,7 +109,7 @@ def test_order_of_vertices_makes_no_difference(seed):
     expected = parts(ring, neck=0.9)
     for changed in (np.roll(ring, 5, axis=0), ring[::-1]):
         found = parts(changed, neck=0.9)
-        assert found.polygons.ring_start.tolist() == expected.polygons.ring_start.tolist()
+        assert found.polygons.ring_starts.tolist() == expected.polygons.ring_starts.tolist()
         assert found.polygons.xy == pytest.approx(expected.polygons.xy, abs=1e-10)
         assert found.between.tolist() == expected.between.tolist()
 
@@ -174,7 +174,7 @@ def moved(xy):
 def test_a_piece_that_is_missing_is_found():
     made = parts([DUMBBELL, [[20, 0], [24, 0], [22, 4]]])
     kept = made.polygons
-    fewer = vorotool.PolygonSet(kept.xy[:16], kept.ring_start[:3], kept.ring_kind[:2], kept.ring_polygon[:2])
+    fewer = vorotool.PolygonSet(kept.xy[:16], kept.ring_starts[:3], kept.ring_kind[:2], kept.ring_polygon[:2])
     with pytest.raises(VerificationError, match="sum to"):
         verify_parts(
             replace(made, polygons=fewer, source=made.source[:2], radius=made.radius[:2], center=made.center[:2])

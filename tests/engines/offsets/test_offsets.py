@@ -48,12 +48,12 @@ def without(made, shape):
     """Offsets without a shape."""
     rings = np.flatnonzero(made.shape_of_ring != shape)
     pieces = np.flatnonzero(np.isin(made.ring_of_piece, rings))
-    lengths, counts = np.diff(made.ring_start)[rings], np.delete(np.diff(made.shape_start), shape)
+    lengths, counts = np.diff(made.ring_starts)[rings], np.delete(np.diff(made.shape_starts), shape)
     return replace(
         made,
         **{name: getattr(made, name)[pieces] for name in ("start", "end", "center", "site")},
-        ring_start=np.concatenate([[0], np.cumsum(lengths)]),
-        shape_start=np.concatenate([[0], np.cumsum(counts)]),
+        ring_starts=np.concatenate([[0], np.cumsum(lengths)]),
+        shape_starts=np.concatenate([[0], np.cumsum(counts)]),
         distance=np.delete(made.distance, shape),
         polygon=np.delete(made.polygon, shape),
     )
@@ -112,12 +112,12 @@ def _same_site(made, other, row):
 def test_the_checker_finds_holes_that_are_filled():
     walls = [[0, 0], [20, 0], [20, 20], [0, 20]]
     made = vorotool.offset({"shell": walls, "holes": [[[5, 5], [5, 15], [15, 15], [15, 5]]]}, 1)
-    first = made.ring_start[1]
+    first = made.ring_starts[1]
     filled = replace(
         made,
         **{name: getattr(made, name)[:first] for name in ("start", "end", "center", "site")},
-        ring_start=made.ring_start[:2],
-        shape_start=np.array([0, 1]),
+        ring_starts=made.ring_starts[:2],
+        shape_starts=np.array([0, 1]),
     )
     with pytest.raises(vorotool.VerificationError, match="not in none"):
         vorotool.verify_offsets(filled)

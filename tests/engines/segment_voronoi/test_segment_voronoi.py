@@ -24,7 +24,7 @@ from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi
 from vorotool.engines.segment_voronoi.verify_segment_voronoi import verify_segment_voronoi
 from vorotool.errors import InputError, LimitError
 
-ARRAYS = ("vertices", "radius", "vertex_start", "vertex_sites", "edges", "edge_sites")
+ARRAYS = ("vertices", "radius", "vertex_starts", "vertex_sites", "edges", "edge_sites")
 SMALL = 16
 """Sites that brute force takes a fraction of a second for."""
 
@@ -132,7 +132,7 @@ def test_numbers_of_sites_change_nothing_else(name):
     diagram = segment_voronoi(points, segments)
     other_points, other_segments, number = renumbered(points, segments, np.random.default_rng(5))
     other = segment_voronoi(other_points, other_segments)
-    for array in ("vertices", "radius", "vertex_start", "edges"):
+    for array in ("vertices", "radius", "vertex_starts", "edges"):
         assert np.array_equal(getattr(diagram, array), getattr(other, array))
     assert np.array_equal(number[diagram.edge_sites], other.edge_sites)
 

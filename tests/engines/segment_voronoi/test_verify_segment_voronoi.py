@@ -136,12 +136,12 @@ def dropped(diagram, vertex):
     other = [v for k in (first, second) for v in edges[k] if v != vertex]
     keep = [k for k in range(len(edges)) if k not in ends]
     number = [v - (v > vertex) for v in range(len(diagram))]
-    start = diagram.vertex_start
+    start = diagram.vertex_starts
     return replace(
         diagram,
         vertices=np.delete(diagram.vertices, vertex, axis=0),
         radius=np.delete(diagram.radius, vertex),
-        vertex_start=np.cumsum([0, *np.delete(np.diff(start), vertex)]),
+        vertex_starts=np.cumsum([0, *np.delete(np.diff(start), vertex)]),
         vertex_sites=np.delete(diagram.vertex_sites, np.arange(start[vertex], start[vertex + 1])),
         edges=[[number[v] if v >= 0 else -1 for v in edges[k]] for k in keep]
         + [[number[v] if v >= 0 else -1 for v in other]],
@@ -150,7 +150,7 @@ def dropped(diagram, vertex):
 
 
 def test_missing_vertices(graph):
-    for vertex in np.flatnonzero(np.diff(graph.vertex_start) == 3):
+    for vertex in np.flatnonzero(np.diff(graph.vertex_starts) == 3):
         assert fault_of(dropped(graph, vertex)[0])
 
 
@@ -199,7 +199,7 @@ def test_edges_of_one_bisector_exchanged():
 
 def test_rings(graph):
     ring = graph.vertex_sites.copy()
-    start = int(graph.vertex_start[3])
+    start = int(graph.vertex_starts[3])
     ring[start : start + 3] = np.roll(ring[start : start + 3], 1)
     assert "the smallest site is not the first" in fault_of(replace(graph, vertex_sites=ring))
     ring[start + 1] = ring[start]
@@ -237,9 +237,9 @@ def test_points_and_indices(graph):
         array = getattr(graph, name).copy()
         array[2, 1] = 1000
         assert message in fault_of(replace(graph, **{name: array}))
-    start = graph.vertex_start.copy()
+    start = graph.vertex_starts.copy()
     start[4] = start[6]
-    assert "vertex_start decreases" in fault_of(replace(graph, vertex_start=start))
+    assert "vertex_starts decreases" in fault_of(replace(graph, vertex_starts=start))
 
 
 def test_a_tee_and_a_square_by_their_cells():

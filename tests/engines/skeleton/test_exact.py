@@ -249,7 +249,7 @@ def test_direction_and_start_of_rings_change_nothing():
 @pytest.mark.parametrize("threads", [2, 3])
 def test_threads_change_nothing(threads):
     land = vorotool.read(DATA / "great-lakes.geojson", properties=False)
-    land = vorotool.skeleton_exact(land.xy[: land.ring_start[1]]).polygons
+    land = vorotool.skeleton_exact(land.xy[: land.ring_starts[1]]).polygons
     one, other = (vorotool.skeleton_exact(land, side="both", threads=count) for count in (1, threads))
     for name in ("vertices", "radius", "arcs", "control", "sites", "branch", "length"):
         assert np.array_equal(getattr(one, name), getattr(other, name), equal_nan=name == "control"), name

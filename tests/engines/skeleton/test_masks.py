@@ -74,7 +74,7 @@ def exact_topology(mask, connectivity, pruning=None):
         skeleton = vorotool.prune(skeleton, **dict([pruning]))
     table = vorotool.polygon_table(skeleton)
     assert table["area"].sum() == mask.sum()
-    column, row = np.rint(polygons.xy[polygons.ring_start[polygons.polygon_start[:-1]]] + 0.5).astype(int).T
+    column, row = np.rint(polygons.xy[polygons.ring_starts[polygons.polygon_starts[:-1]]] + 0.5).astype(int).T
     root = connected_roots(skeleton.arcs, len(skeleton.vertices))
     node_polygon = np.zeros(len(root), dtype=int)
     node_polygon[skeleton.arcs[:, 0]] = skeleton.polygon

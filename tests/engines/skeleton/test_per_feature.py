@@ -124,7 +124,7 @@ def test_objects_of_a_label_image_have_no_vertices_of_their_neighbors():
     assert rings == [4, 4, 4]
     assert sum(polygon.area for polygon in map(shapely.Polygon, map(made.polygons.ring, range(3)))) == 6
     table = made.site_table
-    given = outlines.xy[outlines.ring_start[table.source_ring] + table.source_index]
+    given = outlines.xy[outlines.ring_starts[table.source_ring] + table.source_index]
     assert (given == made.site_ends[:, 0]).all()
 
 
@@ -148,7 +148,7 @@ def test_bounds_in_one_sheet_are_apart():
         features, vertices = Features.of(polygons), placed_vertices(polygons).vertices.astype(np.int64)
         reach = rng.integers(0, 1 << 20, len(features))
         sheet = sheets_of_boxes(features, vertices.astype(np.int32), reach=reach[:, None])
-        low, high = (bound.reduceat(vertices, features.vertex_start[:-1]) for bound in (np.minimum, np.maximum))
+        low, high = (bound.reduceat(vertices, features.vertex_starts[:-1]) for bound in (np.minimum, np.maximum))
         wide = reach[:, None] + feature_sheets.APART
         meet = ((low - wide)[:, None] <= (high + wide)[None]).all(axis=2)
         assert not (meet & meet.T & (sheet[:, None] == sheet) & ~np.eye(len(features), dtype=bool)).any()
@@ -174,7 +174,7 @@ def test_batches_hold_each_feature_once():
     batches = batches_of(features, sheet)
     assert sorted(np.concatenate(batches).tolist()) == list(range(1000))
     assert all(len(set(sheet[batch].tolist())) == 1 and (np.diff(batch) > 0).all() for batch in batches)
-    assert len(batches) <= features.vertex_start[-1] // feature_sheets.BATCH + 5
+    assert len(batches) <= features.vertex_starts[-1] // feature_sheets.BATCH + 5
 
 
 def test_outlines_that_cross_all_the_same_are_taken_by_their_bounds():

@@ -132,7 +132,7 @@ def test_labels_are_refused():
 def rings_of(polygons):
     """Rings of polygons as sets of vertices in their order, each from its least one on."""
     made = []
-    for k in range(len(polygons.ring_start) - 1):
+    for k in range(len(polygons.ring_starts) - 1):
         ring = polygons.ring(k)
         made.append(np.roll(ring, -np.lexsort(ring.T)[0], axis=0).tobytes())
     return made

@@ -250,7 +250,7 @@ def test_twice_as_large():
     for name in ("vertices", "radius", "control", "center"):
         np.testing.assert_array_equal(getattr(twice, name), 2 * getattr(once, name))
     for each in fields(once):
-        if each.name in ("arcs", "sites", "is_cut", "ring_arcs", "cell_start"):
+        if each.name in ("arcs", "sites", "is_cut", "ring_arcs", "cell_starts"):
             np.testing.assert_array_equal(getattr(twice, each.name), getattr(once, each.name))
     assert twice.areas.tolist() == (4 * once.areas).tolist()
 

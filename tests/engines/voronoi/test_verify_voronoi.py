@@ -67,14 +67,14 @@ def test_another_order_of_ties():
 
 def exchanged(cells):
     """The cells of two sites in the other order."""
-    half = len(cells.ring_arcs) - cells.ring_start[cells.polygon_start[cells.cell_start[1]]]
+    half = len(cells.ring_arcs) - cells.ring_starts[cells.polygon_starts[cells.cell_starts[1]]]
     rings = np.roll(cells.ring_arcs, half)
-    assert len(cells.ring_start) == 3
+    assert len(cells.ring_starts) == 3
     sites = np.where(cells.sites < 0, cells.sites, 1 - cells.sites)
     return replace(
         cells,
         ring_arcs=rings,
-        ring_start=[0, half, len(rings)],
+        ring_starts=[0, half, len(rings)],
         sites=sites,
         polygons=PolygonSet(
             np.concatenate([cells.polygons.ring(1), cells.polygons.ring(0)]),

@@ -76,8 +76,8 @@ def test_json_is_read_as_polygons(cells):
     polygons = read_as(Source("cells.json", written(cells, "json")))
     rings, starts, _ = cells.nesting
     np.testing.assert_array_equal(polygons.xy, cells.coordinates)
-    np.testing.assert_array_equal(polygons.ring_start, rings)
-    np.testing.assert_array_equal(polygons.polygon_start, starts)
+    np.testing.assert_array_equal(polygons.ring_starts, rings)
+    np.testing.assert_array_equal(polygons.polygon_starts, starts)
     assert list(dict.fromkeys(polygons.ids)) == cells.label_array[~cells.is_empty].tolist()
 
 

@@ -49,7 +49,7 @@ def test_skeletons_are_those_of_the_library(shapes, tmp_path, name, side, gap):
         vorotool.write(skeleton, tmp_path / f"a.{fmt}")
     read, plain = (vorotool.read(tmp_path / f"a.{fmt}") for fmt in ("npz", "json"))
     assert_same(ARCS, read, skeleton)
-    assert_same(("xy", "ring_start", "ring_kind", "ring_polygon"), read.polygons, skeleton.polygons)
+    assert_same(("xy", "ring_starts", "ring_kind", "ring_polygon"), read.polygons, skeleton.polygons)
     assert_same(
         ("kind", "polygon", "ring", "index", "source_ring", "source_index"), read.site_table, skeleton.site_table
     )
@@ -72,7 +72,7 @@ def test_cells_are_those_of_their_json(tmp_path):
     for fmt in ("npz", "json"):
         vorotool.write(cells, tmp_path / f"a.{fmt}")
         read.append(vorotool.read(tmp_path / f"a.{fmt}", geometry="polygons"))
-    assert_same(("xy", "ring_start", "ring_kind", "ring_polygon", "feature"), *read)
+    assert_same(("xy", "ring_starts", "ring_kind", "ring_polygon", "feature"), *read)
     assert read[0].ids == read[1].ids
     assert read[0].properties == read[1].properties
     assert type(vorotool.read(tmp_path / "a.npz")).__name__ == "PolygonSet"
@@ -103,10 +103,10 @@ def about(**members):
         ({"vertex_x": np.zeros(3)}, "arrays that belong together are of different lengths"),
         ({"vertex_r": "nan"}, "vertex_r"),
         ({"ring_x": "nan"}, "ring_x"),
-        ({"ring_start": np.array([0, 9])}, "ring_start"),
-        ({"ring_start": np.array([0.0, 6.0])}, "ring_start"),
-        ({"ring_start": np.array([0, 0, 6])}, "ring_start"),
-        ({"ring_start": np.array([], int)}, "ring_start"),
+        ({"ring_starts": np.array([0, 9])}, "ring_starts"),
+        ({"ring_starts": np.array([0.0, 6.0])}, "ring_starts"),
+        ({"ring_starts": np.array([0, 0, 6])}, "ring_starts"),
+        ({"ring_starts": np.array([], int)}, "ring_starts"),
         ({"ring_kind": np.zeros(2, int), "ring_polygon": np.zeros(2, int)}, "ring_kind"),
         ({"ring_polygon": np.array([1])}, "ring_polygon"),
         ({"ring_polygon": np.array([-1])}, "ring_polygon"),
@@ -174,7 +174,7 @@ def test_what_holds_no_polygons(tmp_path):
         vorotool.read(points, geometry="polygons")
 
 
-OFFSETS = ("start", "end", "center", "site", "ring_start", "shape_start", "distance", "polygon")
+OFFSETS = ("start", "end", "center", "site", "ring_starts", "shape_starts", "distance", "polygon")
 
 
 @pytest.mark.parametrize("features", ["separate", "together"])

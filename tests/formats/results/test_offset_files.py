@@ -14,7 +14,7 @@ from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.formats.results.offset_files import read_offsets
 
 SHAPES = vorotool.read(Path(__file__).parents[3] / "data" / "two-shapes.json")
-ARRAYS = ("start", "end", "center", "site", "ring_start", "shape_start", "distance", "polygon")
+ARRAYS = ("start", "end", "center", "site", "ring_starts", "shape_starts", "distance", "polygon")
 
 
 def text_of(value, **options):

@@ -256,7 +256,7 @@ def faulty_arrays():
     yield lambda a: a.update(arc_source=a["arc_source"] + 1000), "arc_source 0 is"
     yield lambda a: a.update(arc_source=a["arc_source"] * 0.5), "write whole numbers"
     yield lambda a: a.update(arc_control_x=np.zeros(len(a["arc_cut"]))), "arc_control_x or arc_control_y"
-    yield lambda a: a.update(cell_start=a["cell_start"][::-1].copy()), "cell_start must rise"
+    yield lambda a: a.update(cell_starts=a["cell_starts"][::-1].copy()), "cell_starts must rise"
     yield lambda a: a.update(cell_ring_arcs=-a["cell_ring_arcs"]), "whose side is"
     yield lambda a: a.update(about=np.zeros(3)), "about is of type float64"
     yield lambda a: a.update(about=np.frombuffer(b"[1", dtype=np.uint8)), "about, line 1"

@@ -45,7 +45,7 @@ def test_lists_of_anything():
     assert shapes.ring_kind.tolist() == [SHELL, HOLE, SHELL, SHELL, HOLE, LINE]
     assert shapes.feature.tolist() == [0, 1, 2, 3]
     assert len(as_polygons([])) == len(as_polygons(shapely.Polygon())) == 0
-    assert as_polygons({"shell": TRIANGLE}).ring_start.tolist() == [0, 3]
+    assert as_polygons({"shell": TRIANGLE}).ring_starts.tolist() == [0, 3]
     assert as_polygons(shapely.LinearRing(TRIANGLE)).ring_kind.tolist() == [SHELL]
 
 
@@ -88,7 +88,7 @@ FRAME = geopandas.GeoDataFrame(
 
 def rings(polygons):
     """Everything that says where polygons lie."""
-    return [getattr(polygons, name).tolist() for name in ("xy", "ring_start", "ring_kind", "ring_polygon", "feature")]
+    return [getattr(polygons, name).tolist() for name in ("xy", "ring_starts", "ring_kind", "ring_polygon", "feature")]
 
 
 @pytest.mark.parametrize(

@@ -14,7 +14,7 @@ def test_arrays():
     shapes = PolygonSet(XY, STARTS, KINDS, POLYGONS)
     assert len(shapes) == 2
     assert shapes.is_line.tolist() == [False, True]
-    assert shapes.polygon_start.tolist() == [0, 2, 3]
+    assert shapes.polygon_starts.tolist() == [0, 2, 3]
     assert shapes.feature.tolist() == [0, 1]
     assert [ring.tolist() for ring in shapes.rings_of(0)] == [XY[:3], XY[3:6]]
     assert [shapes.place(i) for i in (0, 2, 3, 7)] == [
@@ -31,7 +31,7 @@ def test_no_polygons():
     assert len(empty) == 0
     assert empty.xy.shape == (0, 2)
     assert empty.part.tolist() == empty.is_line.tolist() == []
-    assert empty.polygon_start.tolist() == [0]
+    assert empty.polygon_starts.tolist() == [0]
 
 
 @pytest.mark.parametrize(
@@ -39,11 +39,11 @@ def test_no_polygons():
     [
         ({"xy": [[0, 0, 0]] * 8}, r"vertices must have shape \(n, 2\)"),
         ({"xy": [["a", "b"]] * 8}, "array of numbers"),
-        ({"xy": XY[:7]}, "ring_start"),
-        ({"ring_start": [0, 3, 3, 8]}, "without empty rings"),
-        ({"ring_start": [1, 3, 6, 8]}, "ring_start"),
-        ({"ring_start": [0, 3, 8]}, "for r rings give"),
-        ({"ring_start": [[0, 3, 6, 8]]}, "ring_start"),
+        ({"xy": XY[:7]}, "ring_starts"),
+        ({"ring_starts": [0, 3, 3, 8]}, "without empty rings"),
+        ({"ring_starts": [1, 3, 6, 8]}, "ring_starts"),
+        ({"ring_starts": [0, 3, 8]}, "for r rings give"),
+        ({"ring_starts": [[0, 3, 6, 8]]}, "ring_starts"),
         ({"ring_polygon": [0, 0, 2]}, "without gaps"),
         ({"ring_polygon": [0, 0, -1]}, "without gaps"),
         ({"ring_polygon": [1, 1, 2]}, "from 0"),
@@ -59,7 +59,7 @@ def test_no_polygons():
     ],
 )
 def test_what_is_refused(changed, message):
-    arrays = {"xy": XY, "ring_start": STARTS, "ring_kind": KINDS, "ring_polygon": POLYGONS}
+    arrays = {"xy": XY, "ring_starts": STARTS, "ring_kind": KINDS, "ring_polygon": POLYGONS}
     with pytest.raises(InputError, match=message):
         PolygonSet(**{**arrays, **changed})
 
@@ -67,5 +67,5 @@ def test_what_is_refused(changed, message):
 def test_rings_that_repeat_their_first_vertex():
     xy = [[0, 0], [1, 0], [0, 1], [0, 0], [0, 0], [5, 5], [5, 5], [7, 7], [8, 8], [7, 7], [3, 3]]
     shapes = set_of_rings(xy, [5, 2, 3, 1], [SHELL, SHELL, LINE, SHELL], [0, 1, 2, 3])
-    assert shapes.ring_start.tolist() == [0, 3, 4, 7, 8]
+    assert shapes.ring_starts.tolist() == [0, 3, 4, 7, 8]
     assert shapes.xy.tolist() == [[0, 0], [1, 0], [0, 1], [5, 5], [7, 7], [8, 8], [7, 7], [3, 3]]

@@ -90,7 +90,7 @@ def test_as_a_value(cells):
         cells.to_shapely(flatten=0)
 
 
-@pytest.mark.parametrize("name", ["sites", "control", "radius", "polygon_site", "ring_start", "cell_start"])
+@pytest.mark.parametrize("name", ["sites", "control", "radius", "polygon_site", "ring_starts", "cell_starts"])
 def test_arrays_of_another_shape(cells, name):
     with pytest.raises(InputError, match=name):
         replace(cells, **{name: getattr(cells, name)[:-1]})

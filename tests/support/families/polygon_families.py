@@ -114,7 +114,9 @@ def graph_of(vertices, rings):
     columns = np.array(rings).reshape(-1, 4)
     shapes = PolygonSet(vertices, [0, *columns[:, 1]], columns[:, 2], columns[:, 3])
     vertices = np.ascontiguousarray(vertices, dtype=np.int32)
-    made = _core.arrangement.make_planar_graph(vertices, shapes.ring_start, shapes.ring_kind, shapes.ring_polygon, None)
+    made = _core.arrangement.make_planar_graph(
+        vertices, shapes.ring_starts, shapes.ring_kind, shapes.ring_polygon, None
+    )
     counts = [count for count, _, _ in made.pop("repairs")]
     made.pop("is_repaired")
     made["point_holes"] = made["point_holes"].reshape(-1, 3)

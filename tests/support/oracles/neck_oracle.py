@@ -21,9 +21,9 @@ def brute_necks(skeleton):
     for each in np.unique(feature).tolist():
         chosen = np.flatnonzero(feature == each).tolist()
         rings = [
-            (polygon, kind, list(map(tuple, lattice[slice(*polygons.ring_start[[ring, ring + 1]])].tolist())))
+            (polygon, kind, list(map(tuple, lattice[slice(*polygons.ring_starts[[ring, ring + 1]])].tolist())))
             for polygon in chosen
-            for ring in range(*polygons.polygon_start[[polygon, polygon + 1]])
+            for ring in range(*polygons.polygon_starts[[polygon, polygon + 1]])
             for kind in [int(polygons.ring_kind[ring])]
         ]
         found += [(each, *neck) for neck in Shape(rings).necks()]

@@ -41,14 +41,14 @@ def unit_sides(polygons):
     corners = np.rint(polygons.xy + 0.5).astype(np.int64)
     assert np.array_equal(corners - 0.5, polygons.xy)
     following = np.arange(1, len(corners) + 1)
-    following[polygons.ring_start[1:] - 1] = polygons.ring_start[:-1]
+    following[polygons.ring_starts[1:] - 1] = polygons.ring_starts[:-1]
     way = corners[following] - corners
     assert ((way == 0).sum(axis=1) == 1).all()
     length = np.abs(way).sum(axis=1)
     step = np.repeat(np.sign(way), length, axis=0)
     along = np.arange(length.sum()) - np.repeat(np.cumsum(length) - length, length)
     begin = np.repeat(corners, length, axis=0) + along[:, None] * step
-    owner = np.repeat(np.repeat(polygons.ring_polygon, np.diff(polygons.ring_start)), length)
+    owner = np.repeat(np.repeat(polygons.ring_polygon, np.diff(polygons.ring_starts)), length)
     sides = np.column_stack([owner, begin, begin + step])
     found = np.unique(sides, axis=0)
     assert len(found) == len(sides)  # no side twice
@@ -58,9 +58,9 @@ def unit_sides(polygons):
 def ring_areas(polygons):
     """Signed areas of rings, and the sum of each polygon's."""
     following = np.arange(1, len(polygons.xy) + 1)
-    following[polygons.ring_start[1:] - 1] = polygons.ring_start[:-1]
+    following[polygons.ring_starts[1:] - 1] = polygons.ring_starts[:-1]
     (x, y), (nx, ny) = polygons.xy.T, polygons.xy[following].T
-    rings = np.add.reduceat(x * ny - nx * y, polygons.ring_start[:-1]) / 2
+    rings = np.add.reduceat(x * ny - nx * y, polygons.ring_starts[:-1]) / 2
     return rings, np.bincount(polygons.ring_polygon, rings)
 
 

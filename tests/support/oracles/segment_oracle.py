@@ -44,7 +44,7 @@ class Diagram:
     segments: np.ndarray
     vertices: np.ndarray
     radius: np.ndarray
-    vertex_start: np.ndarray
+    vertex_starts: np.ndarray
     vertex_sites: np.ndarray
     edges: np.ndarray
     edge_sites: np.ndarray
@@ -234,7 +234,7 @@ def differences(got, right, ulps=4):
 
 
 def rings_of(diagram):
-    rings = [tuple(map(int, r)) for r in np.split(diagram.vertex_sites, diagram.vertex_start[1:-1])]
+    rings = [tuple(map(int, r)) for r in np.split(diagram.vertex_sites, diagram.vertex_starts[1:-1])]
     return rings if len(diagram.vertices) else []
 
 

@@ -81,7 +81,7 @@ def alpha_hull(shape: AlphaShape) -> AlphaHull:
     exponent = _scale(shape)
     arcs = _Arcs(shape, exponent)
     pieces = arcs.pieces()
-    order, ring_start = _rings(pieces)
+    order, ring_starts = _rings(pieces)
     on_arcs = {int(node) for node in pieces.nodes[order].reshape(-1) if node >= 0}
     outer = np.flatnonzero((shape.point_classes < 3) & (shape.family.mesh.first == np.arange(len(shape.points))))
     alone = np.array([v for v in outer.tolist() if v not in on_arcs], dtype=np.int32)
@@ -93,7 +93,7 @@ def alpha_hull(shape: AlphaShape) -> AlphaHull:
         place[:, 1],
         center,
         arcs.edge[arc],
-        ring_start,
+        ring_starts,
         alone,
     )
 

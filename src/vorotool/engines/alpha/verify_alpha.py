@@ -216,7 +216,7 @@ def _check_regions(shape: AlphaShape) -> None:
 def _check_rings(shape: AlphaShape) -> None:
     """Each boundary edge once in the rings, with its region on the left; one shell a region; areas that go together."""
     polygons, family = shape.polygons, shape.family
-    ring = owners(np.diff(polygons.ring_start))
+    ring = owners(np.diff(polygons.ring_starts))
     ends = polygons.xy[polygons.following]
     sides = np.concatenate([polygons.xy, ends, polygons.ring_polygon[ring][:, None]], axis=1)
     across = np.append(shape.region, np.int32(-1))[family.mesh.neighbors]

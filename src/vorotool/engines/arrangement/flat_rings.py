@@ -19,8 +19,8 @@ def flat_holes(polygons: PolygonSet, places: NDArray[Any] | None = None) -> NDAr
 
 def with_flat_shells_as_lines(polygons: PolygonSet) -> PolygonSet:
     """Take polygons that are a point or a segment for lines: they are sites, and have no inside."""
-    shell = polygons.polygon_start[:-1]
-    is_alone = np.diff(polygons.polygon_start) == 1
+    shell = polygons.polygon_starts[:-1]
+    is_alone = np.diff(polygons.polygon_starts) == 1
     flat = shell[is_alone & np.equal(polygons.ring_kind[shell], SHELL)]
     flat = flat[_are_flat(polygons, polygons.xy)[flat]]
     if not flat.size:
@@ -31,7 +31,7 @@ def with_flat_shells_as_lines(polygons: PolygonSet) -> PolygonSet:
 
 
 def _are_flat(polygons: PolygonSet, places: NDArray[Any]) -> NDArray[np.bool_]:
-    start, size = polygons.ring_start, np.diff(polygons.ring_start)
+    start, size = polygons.ring_starts, np.diff(polygons.ring_starts)
     ring = owners(size)
     is_other = (places != places[start[:-1]][ring]).any(axis=1)
     vertex = np.where(is_other, np.arange(len(ring)), len(ring))

@@ -35,7 +35,7 @@ def placed_shapes(
     given = graph.polygons
     assert given is not None
     assert graph.vertices is not None
-    vertex = np.concatenate([graph.point_vertex, graph.source_edge[graph.source_start[:-1]]]).astype(np.int64)
+    vertex = np.concatenate([graph.point_vertex, graph.source_edge[graph.source_starts[:-1]]]).astype(np.int64)
     moved = given.moved(graph.coordinates(graph.vertices)) if graph.largest_move > 0 else given
     if any(graph.repairs.values()):
         if is_repaired is None:
@@ -92,7 +92,7 @@ def _of_some_borders(
 
 def _first_polygons(graph: PlanarGraph) -> NDArray[np.int32]:
     first = np.full(graph.faces, -1, dtype=np.int32)
-    first[graph.is_inside] = graph.face_polygon[graph.face_start[:-1][graph.is_inside]]
+    first[graph.is_inside] = graph.face_polygon[graph.face_starts[:-1][graph.is_inside]]
     return first
 
 
@@ -116,18 +116,18 @@ def _table(
     polygon = polygons.ring_polygon[ring]
     kind = np.full(len(vertex), VERTEX, dtype=np.int8)
     kind[len(vertex) - segments :] = EDGE
-    first = polygons.polygon_start.astype(np.int32)[polygon]
+    first = polygons.polygon_starts.astype(np.int32)[polygon]
     return SiteTable(kind, polygon, ring - first, index, source_ring, source_index)
 
 
 def _places(polygons: PolygonSet, vertex: NDArray[np.int64]) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
     """Rings of vertices, and where in these: -1 of those that are -1."""
     ring = _ring_of_vertex(polygons)[vertex]
-    index = (vertex - polygons.ring_start[ring]).astype(np.int32)
+    index = (vertex - polygons.ring_starts[ring]).astype(np.int32)
     none = vertex < 0
     ring[none], index[none] = -1, -1
     return ring, index
 
 
 def _ring_of_vertex(polygons: PolygonSet) -> NDArray[np.int32]:
-    return owners(np.diff(polygons.ring_start), dtype=np.int32)
+    return owners(np.diff(polygons.ring_starts), dtype=np.int32)

@@ -139,7 +139,7 @@ class Arrangement:
 
 def arranged(given: PolygonSet, placement: Placement, *, progress: Progress = None) -> Arrangement:
     """Make the planar graph of polygons whose vertices are placed, without a word about repairs."""
-    rings = given.ring_start, given.ring_kind, given.ring_polygon
+    rings = given.ring_starts, given.ring_kind, given.ring_polygon
     try:
         made = _core.arrangement.make_planar_graph(placement.vertices, *rings, progress)
     except _core.arrangement.TooManyCrossingsError:
@@ -213,9 +213,9 @@ def verify_planar_graph(graph: PlanarGraph, *, progress: Progress = None) -> Non
 
 
 def _face_fault(graph: PlanarGraph) -> str | None:
-    start, polygon = graph.face_start, graph.face_polygon
+    start, polygon = graph.face_starts, graph.face_polygon
     if not divides(start, len(polygon)):
-        return "face_start does not divide face_polygon"
+        return "face_starts does not divide face_polygon"
     faces = graph.segment_faces
     if faces.size and (faces.min() < 0 or faces.max() >= graph.faces):
         return "a segment names a face that does not exist"
@@ -270,7 +270,7 @@ def _source_fault(graph: PlanarGraph) -> str | None:
 
 def _next_vertices(polygons: PolygonSet) -> Any:
     """The vertex after each one around its ring; a line ends at its last one."""
-    last = (polygons.ring_start[1:] - 1)[polygons.ring_kind == LINE]
+    last = (polygons.ring_starts[1:] - 1)[polygons.ring_kind == LINE]
     after = polygons.following.copy()
     after[last] = last
     return after
@@ -281,13 +281,13 @@ def _side_fault(
 ) -> str | None:
     """Check that the polygons of the two sides of a segment differ by polygons whose edges it is part of."""
     count = max(len(given), 1)
-    ring_of_edge = np.searchsorted(given.ring_start, edge, side="right") - 1
+    ring_of_edge = np.searchsorted(given.ring_starts, edge, side="right") - 1
     own = segment * count + given.ring_polygon[ring_of_edge]
     pairs, pair = np.unique(graph.segment_faces, axis=0, return_inverse=True)
     sides: list[Any] = []
     for face in pairs.T:
-        length = np.diff(graph.face_start)[face]
-        sides.append(owners(length) * count + graph.face_polygon[ranges(graph.face_start[face], length)])
+        length = np.diff(graph.face_starts)[face]
+        sides.append(owners(length) * count + graph.face_polygon[ranges(graph.face_starts[face], length)])
     differing = np.setxor1d(*sides)  # pair of faces, and polygon
     first = np.searchsorted(differing, np.arange(len(pairs) + 1) * count)
     length = np.diff(first)[pair.ravel()]

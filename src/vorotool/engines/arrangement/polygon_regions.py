@@ -18,17 +18,17 @@ class PolygonRegions:
     def __init__(self, graph: PlanarGraph) -> None:
         polygon = graph.face_polygon.astype(np.int64)
         self._width = int(polygon.max(initial=0)) + 1
-        face = owners(np.diff(graph.face_start))
+        face = owners(np.diff(graph.face_starts))
         self._keys = face * self._width + polygon  # ascending: polygons of a face are
         left, right = graph.segment_faces.astype(np.int64).T
         beside = np.flatnonzero(graph.is_inside[left] & graph.is_inside[right])
-        counts = np.diff(graph.face_start)[left[beside]]
-        entry = ranges(graph.face_start[left[beside]], counts)
+        counts = np.diff(graph.face_starts)[left[beside]]
+        entry = ranges(graph.face_starts[left[beside]], counts)
         wanted = np.repeat(right[beside], counts) * self._width + polygon[entry]
         rank = np.minimum(np.searchsorted(self._keys, wanted), max(len(self._keys) - 1, 0))
         same = self._keys[rank] == wanted if len(self._keys) else np.zeros(0, dtype=bool)
         self._root = connected_roots(np.stack([entry[same], rank[same]], axis=1), len(self._keys))
-        self.of_first = self._root[graph.face_start[:-1][graph.is_inside]]
+        self.of_first = self._root[graph.face_starts[:-1][graph.is_inside]]
         """Of each face inside, in the first of its polygons."""
 
     def __len__(self) -> int:

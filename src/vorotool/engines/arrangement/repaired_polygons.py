@@ -64,7 +64,7 @@ def repaired_polygons(graph: PlanarGraph) -> RepairedPolygons:
 
 def _borders(graph: PlanarGraph) -> _Rings:
     core = _core.kernel.PlanarGraph(graph.points, graph.segments, graph.segment_faces)
-    found = _core.arrangement.boundary_rings(core, graph.face_start, graph.face_polygon, None)
+    found = _core.arrangement.boundary_rings(core, graph.face_starts, graph.face_polygon, None)
     return _Rings(
         np.diff(found["start"]),
         np.where(found["is_hole"] != 0, HOLE, SHELL),
@@ -79,7 +79,7 @@ def _lines(graph: PlanarGraph, given: PolygonSet) -> _Rings:
     lines = np.flatnonzero(given.ring_kind == LINE)
     segment = owners(graph.source_count)
     edge = graph.source_edge
-    ring = np.searchsorted(given.ring_start, edge, side="right") - 1
+    ring = np.searchsorted(given.ring_starts, edge, side="right") - 1
     on_line = given.ring_kind[ring] == LINE
     segment, edge, ring = segment[on_line], edge[on_line], ring[on_line]
     assert graph.vertices is not None
@@ -93,7 +93,7 @@ def _lines(graph: PlanarGraph, given: PolygonSet) -> _Rings:
     keys = graph.points[ends[:, 0]] * np.sign(along)
     order = np.lexsort((keys[:, 1], keys[:, 0], edge))
     count = np.bincount(np.searchsorted(lines, ring), minlength=len(lines))
-    first = _first_points(graph, vertices[given.ring_start[lines]])
+    first = _first_points(graph, vertices[given.ring_starts[lines]])
     at = starts_of(count)[:-1]
     return _Rings(
         count + 1,
@@ -142,10 +142,10 @@ def _with_flat_holes(graph: PlanarGraph, given: PolygonSet, rings: _Rings, is_fl
 def _flat_rings(graph: PlanarGraph, given: PolygonSet, is_flat: NDArray[np.bool_]) -> tuple[_Rings, NDArray[Any]]:
     """Holes of two points for each segment of one that lies in its polygon, and of one point; and their faces."""
     segment = owners(graph.source_count)
-    ring = np.searchsorted(given.ring_start, graph.source_edge, side="right") - 1
+    ring = np.searchsorted(given.ring_starts, graph.source_edge, side="right") - 1
     pairs = np.unique(np.stack([segment, given.ring_polygon[ring]], axis=1)[is_flat[ring]], axis=0)
     width = max(len(given), 1)
-    keys = owners(np.diff(graph.face_start)) * width + graph.face_polygon
+    keys = owners(np.diff(graph.face_starts)) * width + graph.face_polygon
     sides = graph.segment_faces[pairs[:, 0]].astype(np.int64)
     own = pairs[np.isin(sides * width + pairs[:, 1:], keys).all(axis=1)]
     points, faces, polygons = np.unique(graph.point_holes, axis=0).T
@@ -178,7 +178,7 @@ def _border_edges(used: RepairedPolygons) -> NDArray[Any]:
 
 
 def _polygons_of_edges(used: RepairedPolygons) -> NDArray[np.int32]:
-    return np.repeat(used.polygons.ring_polygon, np.diff(used.polygons.ring_start))
+    return np.repeat(used.polygons.ring_polygon, np.diff(used.polygons.ring_starts))
 
 
 def _inner_faces(graph: PlanarGraph, point: NDArray[Any], segment: NDArray[Any]) -> NDArray[Any]:

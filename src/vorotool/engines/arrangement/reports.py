@@ -62,8 +62,8 @@ def report_small(given: PolygonSet, placement: Placement, *, strict: bool) -> No
 
 def _are_small(given: PolygonSet, steps: NDArray[np.float64]) -> NDArray[np.bool_]:
     """(p,) whether each line is shorter and each polygon narrower than `SMALL`, but not a single place."""
-    first = given.ring_start[given.polygon_start[:-1]]
-    last = given.ring_start[given.polygon_start[:-1] + 1]
+    first = given.ring_starts[given.polygon_starts[:-1]]
+    last = given.ring_starts[given.polygon_starts[:-1] + 1]
     sizes = last - first
     xy, own = steps[ranges(first, sizes)], owners(sizes)
     begin = starts_of(sizes)[:-1]
@@ -85,7 +85,7 @@ def _are_small(given: PolygonSet, steps: NDArray[np.float64]) -> NDArray[np.bool
 def _are_moved(given: PolygonSet, placement: Placement, step: float) -> NDArray[np.bool_]:
     """(p,) whether the lattice has a vertex of each elsewhere than it was given."""
     moved = (np.asarray(placement.origin) + step * placement.vertices.astype(np.float64) != given.xy).any(axis=1)
-    of_vertex = np.repeat(given.ring_polygon, np.diff(given.ring_start))
+    of_vertex = np.repeat(given.ring_polygon, np.diff(given.ring_starts))
     return np.bincount(of_vertex, moved, minlength=len(given)) > 0
 
 
@@ -140,5 +140,5 @@ def _position(polygons: PolygonSet, vertex: int) -> str:
 
 
 def _next_vertex(polygons: PolygonSet, edge: int) -> int:
-    ring = int(np.searchsorted(polygons.ring_start, edge, side="right")) - 1
-    return edge + 1 if edge + 1 < polygons.ring_start[ring + 1] else int(polygons.ring_start[ring])
+    ring = int(np.searchsorted(polygons.ring_starts, edge, side="right")) - 1
+    return edge + 1 if edge + 1 < polygons.ring_starts[ring + 1] else int(polygons.ring_starts[ring])

@@ -97,17 +97,17 @@ def _outlines(skeleton: Skeleton, sites: Numbers, origin: Floats) -> _Outlines:
     """Outlines in the order of their rings, from the one of two sites to the other."""
     touched = _touched(skeleton, sites, origin) - origin[:, None]
     polygons, table = skeleton.polygons, skeleton.site_table
-    ring = (polygons.polygon_start[table.polygon[sites[:, 0]]] + table.ring[sites[:, 0]]).astype(np.intp)
+    ring = (polygons.polygon_starts[table.polygon[sites[:, 0]]] + table.ring[sites[:, 0]]).astype(np.intp)
     # what is inside is on the left of shells that go counterclockwise, and of holes that do not
     is_forward = (_areas(skeleton)[ring] > 0) == (table.ring[sites[:, 0]] == 0)
     order = np.where(is_forward[:, None], [1, 0], [0, 1])
     rows = np.arange(len(sites))[:, None]
     (begin, end), touched = sites[rows, order].T, touched[rows, order]
-    size = np.diff(polygons.ring_start)[ring]
+    size = np.diff(polygons.ring_starts)[ring]
     steps = (table.index[end].astype(np.intp) - table.index[begin]) % size
     count = np.maximum(steps - (table.kind[end] != EDGE), 0)
     start, outline, along = starts_of(count + 2), owners(count + 2), within(count + 2)
-    vertex = polygons.ring_start[ring][outline] + (table.index[begin][outline] + along) % size[outline]
+    vertex = polygons.ring_starts[ring][outline] + (table.index[begin][outline] + along) % size[outline]
     points = polygons.xy[vertex] - origin[outline]
     points[start[:-1]], points[start[1:] - 1] = touched[:, 0], touched[:, 1]
     is_vertex = np.ones(len(points), dtype=bool)
@@ -118,7 +118,7 @@ def _outlines(skeleton: Skeleton, sites: Numbers, origin: Floats) -> _Outlines:
 def _areas(skeleton: Skeleton) -> Floats:
     """Twice the signed area of each ring."""
     polygons = skeleton.polygons
-    start = polygons.ring_start
+    start = polygons.ring_starts
     xy = polygons.xy - np.repeat(polygons.xy[start[:-1]], np.diff(start), axis=0)
     x, y = xy.T
     behind = polygons.following

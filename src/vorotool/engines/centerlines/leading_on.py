@@ -32,7 +32,7 @@ def led_on(lines: LedOn, wanted: NDArray[np.bool_], *, to_middles: bool | NDArra
 
 def _places_before(lines: LedOn) -> Floats:
     """(k, 2, 2) places on each path, one radius after its start and before its end, or its other end."""
-    path, start = lines.path, lines.arc_start
+    path, start = lines.path, lines.arc_starts
     along = np.concatenate([[0], np.cumsum(path.length)])
     first, last = along[start[:-1]], along[start[1:]]
     radius = path.radius[lines.end_nodes]
@@ -48,7 +48,7 @@ def rounded(lines: LedOn) -> tuple[Floats, Floats]:
     polygons, path = lines.path.polygons, lines.path
     if not len(lines):
         return path.vertices, lines.ends
-    largest = np.maximum.reduceat(np.abs(polygons.xy), polygons.ring_start[polygons.polygon_start[:-1]], axis=0)
+    largest = np.maximum.reduceat(np.abs(polygons.xy), polygons.ring_starts[polygons.polygon_starts[:-1]], axis=0)
     shift = 53 - np.frexp(largest.max(axis=1))[1]  # 53 binary places: the largest coordinates are what they were
     of_nodes = np.zeros(len(path.vertices), dtype=np.int64)
     of_nodes[path.arcs] = shift[path.polygon][:, None]

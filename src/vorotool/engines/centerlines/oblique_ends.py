@@ -25,7 +25,7 @@ STEEP = (1 - sqrt(0.5)) / 2
 
 def led_to_oblique_ends(lines: Centerlines, wanted: Booleans) -> Centerlines:
     """Cut off what leads along one edge into its corner, and lead on to the middle of that edge."""
-    path, start = lines.path, lines.arc_start
+    path, start = lines.path, lines.arc_starts
     if path.polygons.connectivity is None:  # no outlines of pixels
         return lines
     kept, ends = np.ones(len(path), dtype=bool), lines.ends.copy()
@@ -48,7 +48,9 @@ def _edges_between_corners(lines: Centerlines, arcs: Numbers) -> NDArray[np.int6
     """(…, 2) where sites of arcs begin that are edges between two corners into which the inside goes; else -1."""
     polygons, table = lines.path.polygons, lines.path.site_table
     sites = lines.path.sites[arcs]
-    vertex = polygons.ring_start[polygons.polygon_start[table.polygon[sites]] + table.ring[sites]] + table.index[sites]
+    vertex = (
+        polygons.ring_starts[polygons.polygon_starts[table.polygon[sites]] + table.ring[sites]] + table.index[sites]
+    )
     before = np.empty(len(polygons.xy), dtype=np.int64)
     before[polygons.following] = np.arange(len(before))
     end = polygons.following[vertex]

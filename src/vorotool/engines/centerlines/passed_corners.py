@@ -16,12 +16,12 @@ Booleans = NDArray[np.bool_]
 def are_passed(skeleton: Skeleton, branches: Branches, twigs: Twigs) -> Booleans:
     """Tell which twigs hang on a cycle, or between two, and lead into a corner much like both beside it."""
     polygons, table = skeleton.polygons, skeleton.site_table
-    has_holes = np.diff(polygons.polygon_start) > 1
+    has_holes = np.diff(polygons.polygon_starts) > 1
     own = np.flatnonzero(has_holes[skeleton.polygon[branches.first]])
     is_passed = _left_without_trees(branches, own)[twigs.node]
     edges = twigs.edges[is_passed]
-    ring = polygons.polygon_start[table.polygon[edges]] + table.ring[edges]
-    start = polygons.ring_start[ring] + table.index[edges]
+    ring = polygons.polygon_starts[table.polygon[edges]] + table.ring[edges]
+    start = polygons.ring_starts[ring] + table.index[edges]
     before = np.empty(len(polygons.xy), dtype=np.intp)
     before[polygons.following] = np.arange(len(before))
     end = polygons.following[start]

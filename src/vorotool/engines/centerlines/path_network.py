@@ -155,7 +155,7 @@ def _numbered(skeleton: Skeleton, arcs: NDArray[np.intp], *, by_edge: bool) -> t
     is_leaf = np.bincount(ends.reshape(-1), minlength=len(skeleton.vertices)) == 1
     table, polygons = skeleton.site_table, skeleton.polygons
     site = skeleton.sites[arcs]
-    vertex = polygons.ring_start[polygons.polygon_start[table.polygon[site]] + table.ring[site]] + table.index[site]
+    vertex = polygons.ring_starts[polygons.polygon_starts[table.polygon[site]] + table.ring[site]] + table.index[site]
     edge = np.zeros(len(is_leaf), dtype=np.int64)
     for column in ends.T:
         edge[column] = vertex.min(axis=1)

@@ -95,8 +95,8 @@ def _sides(skeleton: Skeleton) -> tuple[_Sides, _Sides]:
     for site, own, others in ((left, *keys), (right, *keys[::-1])):
         maybe = np.flatnonzero(is_pruned & (table.kind[site] == EDGE))
         chosen = maybe[~is_among(own[maybe], others)]
-        ring = polygons.polygon_start[table.polygon[site[chosen]]] + table.ring[site[chosen]]
-        vertex = polygons.ring_start[ring] + table.index[site[chosen]]
+        ring = polygons.polygon_starts[table.polygon[site[chosen]]] + table.ring[site[chosen]]
+        vertex = polygons.ring_starts[ring] + table.index[site[chosen]]
         made.append(_Sides(node[chosen], arc[chosen], site[chosen], vertex.astype(np.intp)))
     return made[0], made[1]
 
@@ -114,8 +114,8 @@ def _gaps(skeleton: Skeleton) -> _Gaps:
 
 def _order(skeleton: Skeleton, is_forward: bool) -> _Order:
     polygons = skeleton.polygons
-    ring = owners(np.diff(polygons.ring_start))
-    first, size = polygons.ring_start[ring], np.diff(polygons.ring_start)[ring]
+    ring = owners(np.diff(polygons.ring_starts))
+    first, size = polygons.ring_starts[ring], np.diff(polygons.ring_starts)[ring]
     place = np.arange(len(ring))
     way = polygons.xy[polygons.following] - polygons.xy
     if not is_forward:
@@ -169,9 +169,9 @@ def _sites_of_edges(skeleton: Skeleton) -> Numbers:
     """(n,) the site of the edge that begins at each vertex."""
     polygons, table = skeleton.polygons, skeleton.site_table
     sites = np.flatnonzero(table.kind == EDGE)
-    ring = polygons.polygon_start[table.polygon[sites]] + table.ring[sites]
+    ring = polygons.polygon_starts[table.polygon[sites]] + table.ring[sites]
     found = np.zeros(len(polygons.xy), dtype=np.intp)
-    found[polygons.ring_start[ring] + table.index[sites]] = sites
+    found[polygons.ring_starts[ring] + table.index[sites]] = sites
     return found
 
 

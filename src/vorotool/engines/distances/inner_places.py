@@ -77,8 +77,8 @@ def _candidates(graph: PlanarGraph, diagram: SegmentVoronoiDiagram, chosen: Indi
 
 def _triples(diagram: SegmentVoronoiDiagram, chosen: Indices) -> tuple[Indices, Indices]:
     """All threes of the sites of each vertex, or of some of them: which of the vertices, and (t, 3) sites."""
-    first = diagram.vertex_start[chosen].astype(np.int64)
-    count = np.diff(diagram.vertex_start)[chosen].astype(np.int64)
+    first = diagram.vertex_starts[chosen].astype(np.int64)
+    count = np.diff(diagram.vertex_starts)[chosen].astype(np.int64)
     owners, triples = [], []
     for k in np.unique(count).tolist():
         own = np.flatnonzero(count == k)
@@ -107,7 +107,7 @@ def _sites_as_given(graph: PlanarGraph, sites: Indices) -> _Sites:
     place = np.array(graph.origin) + graph.scale * graph.points
     known = graph.point_vertex >= 0
     place[known] = given.xy[graph.point_vertex[known]]
-    edge = graph.source_edge[graph.source_start[:-1]].astype(np.int64)
+    edge = graph.source_edge[graph.source_starts[:-1]].astype(np.int64)
     segment = np.where(is_point, 0, sites - count)
     point = np.where(is_point, sites, 0)
     if not len(edge):

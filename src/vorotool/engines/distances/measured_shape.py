@@ -61,7 +61,7 @@ def _check_crs(a: PolygonSet, b: PolygonSet) -> None:
 def _measured(polygons: PolygonSet, boundary: bool, progress: Progress) -> MeasuredShape:
     start, after = edges_of(polygons)
     elements = np.stack([polygons.xy[start], polygons.xy[after]], axis=1)
-    ring = np.searchsorted(polygons.ring_start, start, side="right") - 1
+    ring = np.searchsorted(polygons.ring_starts, start, side="right") - 1
     bounds = (polygons.ring_kind != LINE) & (not boundary)
     ring_of = np.where(bounds[ring], ring, -1).astype(np.int32)
     is_hole = (polygons.ring_kind == HOLE).astype(np.int32)
@@ -73,7 +73,7 @@ def _measured(polygons: PolygonSet, boundary: bool, progress: Progress) -> Measu
 def edges_of(polygons: PolygonSet) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """The first and last vertices of edges: of lines all but the last start one, a lone vertex ends at itself."""
     ends_line = np.zeros(len(polygons.xy), dtype=bool)
-    is_open = (polygons.ring_kind == LINE) & (np.diff(polygons.ring_start) > 1)
-    ends_line[polygons.ring_start[1:][is_open] - 1] = True
+    is_open = (polygons.ring_kind == LINE) & (np.diff(polygons.ring_starts) > 1)
+    ends_line[polygons.ring_starts[1:][is_open] - 1] = True
     start = np.flatnonzero(~ends_line)
     return start, polygons.following[start]

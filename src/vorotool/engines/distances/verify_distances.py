@@ -71,8 +71,8 @@ class _Checked:
         import shapely
 
         is_last = np.zeros(len(polygons.xy), dtype=bool)
-        is_last[polygons.ring_start[1:] - 1] = np.diff(polygons.ring_start) > 1
-        is_last &= np.repeat(polygons.ring_kind == LINE, np.diff(polygons.ring_start))
+        is_last[polygons.ring_starts[1:] - 1] = np.diff(polygons.ring_starts) > 1
+        is_last &= np.repeat(polygons.ring_kind == LINE, np.diff(polygons.ring_starts))
         start = np.flatnonzero(~is_last)
         self.ends = np.stack([polygons.xy[start], polygons.xy[polygons.following[start]]], axis=1)
         is_point = (self.ends[:, 0] == self.ends[:, 1]).all(axis=1)

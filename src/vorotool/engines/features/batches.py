@@ -73,7 +73,7 @@ class BatchShapes:
         """(n,) the feature in the batch of each point of the graph."""
         of_vertex, graph = Features.of(self.batch.part).of_vertex, self.graph
         feature = of_vertex[graph.point_vertex]  # of crossings any: they are ends
-        feature[graph.segments] = of_vertex[graph.source_edge[graph.source_start[:-1]]][:, None]
+        feature[graph.segments] = of_vertex[graph.source_edge[graph.source_starts[:-1]]][:, None]
         return feature
 
 
@@ -176,7 +176,7 @@ def are_apart(graph: PlanarGraph) -> bool:
     assert graph.vertices is not None
     if any(graph.repairs.values()):
         return False
-    face = owners(np.diff(graph.face_start))
+    face = owners(np.diff(graph.face_starts))
     feature = given.feature[graph.face_polygon]
     if ((face[1:] == face[:-1]) & (feature[1:] != feature[:-1])).any():
         return False
@@ -192,12 +192,12 @@ def _has_lines_inside(graph: PlanarGraph, given: PolygonSet) -> bool:
     is_free[graph.point_holes[:, 0]] = False
     if is_free.any():
         return True
-    edge = graph.source_edge[graph.source_start[:-1]]
-    ring = np.searchsorted(given.ring_start, edge, side="right") - 1
+    edge = graph.source_edge[graph.source_starts[:-1]]
+    ring = np.searchsorted(given.ring_starts, edge, side="right") - 1
     own = given.feature[given.ring_polygon[ring]]
     of_face = np.full(graph.faces, -1, dtype=np.int64)
     inside = graph.is_inside
-    of_face[inside] = given.feature[graph.face_polygon[graph.face_start[:-1][inside]]]
+    of_face[inside] = given.feature[graph.face_polygon[graph.face_starts[:-1][inside]]]
     beside = of_face[graph.segment_faces]
     return bool(((beside >= 0) & (beside != own[:, None])).any())
 
@@ -311,7 +311,7 @@ def _shapes_of(batch: FeatureBatch, features: Features, checks: bool, progress: 
 def _are_apart(made: Arrangement) -> bool:
     """Whether there is nothing to be repaired, and no face lies in two polygons."""
     graph = made.graph
-    return not any(graph.repairs.values()) and bool((np.diff(graph.face_start) < 2).all())
+    return not any(graph.repairs.values()) and bool((np.diff(graph.face_starts) < 2).all())
 
 
 def _repaired(count: int, parts: Sequence[BatchShapes]) -> NDArray[np.bool_]:

@@ -34,15 +34,15 @@ def own_corners(polygons: PolygonSet) -> OwnCorners | None:
         return None
     is_straight = np.zeros(len(polygons.xy), dtype=bool)
     is_straight[straight] = True
-    start = polygons.ring_start
+    start = polygons.ring_starts
     kept = np.flatnonzero(~is_straight)
     sizes = np.add.reduceat(~is_straight, start[:-1])
-    return OwnCorners(replace(polygons, xy=polygons.xy[kept], ring_start=starts_of(sizes)), kept)
+    return OwnCorners(replace(polygons, xy=polygons.xy[kept], ring_starts=starts_of(sizes)), kept)
 
 
 def _between_likes(polygons: PolygonSet) -> Indices:
     """Vertices between two edges that are both along the rows, or both not; those of lines have none on one side."""
-    xy, start = polygons.xy, polygons.ring_start
+    xy, start = polygons.xy, polygons.ring_starts
     is_along = np.empty(len(xy), dtype=bool)
     np.equal(xy[1:, 1], xy[:-1, 1], out=is_along[:-1])
     is_along[start[1:] - 1] = xy[start[:-1], 1] == xy[start[1:] - 1, 1]
@@ -56,7 +56,7 @@ def _between_likes(polygons: PolygonSet) -> Indices:
 
 def _neighbors(polygons: PolygonSet, vertices: Indices) -> tuple[Indices, Indices]:
     """The vertices before and after some."""
-    start = polygons.ring_start
+    start = polygons.ring_starts
     ring = np.searchsorted(start, vertices, side="right") - 1
     first, last = start[ring], start[ring + 1] - 1
     return np.where(vertices == first, last, vertices - 1), np.where(vertices == last, first, vertices + 1)

@@ -117,7 +117,7 @@ def _point_keys(whole: FeatureShapes, parts: Sequence[BatchShapes]) -> Indices:
 def _segment_keys(parts: Sequence[BatchShapes]) -> Indices:
     """Of the segments of all batches: the first edge that each is part of."""
     return stacked(
-        [shapes.batch.vertices[shapes.graph.source_edge[shapes.graph.source_start[:-1]]] for shapes in parts]
+        [shapes.batch.vertices[shapes.graph.source_edge[shapes.graph.source_starts[:-1]]] for shapes in parts]
     )
 
 
@@ -179,7 +179,7 @@ def _tell_given_vertices(whole: FeatureShapes, columns: dict[str, NDArray[Any]])
     assert whole.corners is not None
     ring, index = columns["source_ring"], columns["source_index"]
     known = np.flatnonzero(ring >= 0)
-    vertex = whole.corners.vertex[whole.used.ring_start[ring[known]] + index[known]]
+    vertex = whole.corners.vertex[whole.used.ring_starts[ring[known]] + index[known]]
     index = index.copy()
-    index[known] = vertex - whole.given.ring_start[ring[known]]
+    index[known] = vertex - whole.given.ring_starts[ring[known]]
     columns["source_index"] = index

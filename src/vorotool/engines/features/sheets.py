@@ -25,8 +25,8 @@ APART = 1
 class Features:
     """The features of polygons, numbered without gaps."""
 
-    polygon_start: Indices  # (f + 1,) int64 array: the first polygon of each, and the number of polygons
-    vertex_start: Indices  # (f + 1,) int64 array: the first vertex of each, and the number of vertices
+    polygon_starts: Indices  # (f + 1,) int64 array: the first polygon of each, and the number of polygons
+    vertex_starts: Indices  # (f + 1,) int64 array: the first vertex of each, and the number of vertices
 
     @classmethod
     def of(cls, polygons: PolygonSet) -> Features:
@@ -34,19 +34,19 @@ class Features:
         assert polygons.feature is not None
         first = np.flatnonzero(np.diff(polygons.feature, prepend=-1))
         start = np.append(first, len(polygons))
-        return cls(start, polygons.ring_start[polygons.polygon_start[start]])
+        return cls(start, polygons.ring_starts[polygons.polygon_starts[start]])
 
     def __len__(self) -> int:
-        return len(self.polygon_start) - 1
+        return len(self.polygon_starts) - 1
 
     @property
     def of_vertex(self) -> Indices:
         """(n,) the feature of each vertex."""
-        return owners(np.diff(self.vertex_start))
+        return owners(np.diff(self.vertex_starts))
 
     def polygons_of(self, chosen: Indices) -> Indices:
         """Polygons of some features."""
-        return ranges(self.polygon_start[chosen], np.diff(self.polygon_start)[chosen])
+        return ranges(self.polygon_starts[chosen], np.diff(self.polygon_starts)[chosen])
 
 
 def sheets_of_boxes(
@@ -59,7 +59,7 @@ def sheets_of_boxes(
     """(f,) sheets of features: on the lattice the bounds of those of one sheet have a gap between them."""
     if len(features) < 2:
         return np.zeros(len(features), dtype=np.int32)
-    first = features.vertex_start[:-1]
+    first = features.vertex_starts[:-1]
     low, high = (bound.reduceat(vertices, first, axis=0).astype(np.int64) for bound in (np.minimum, np.maximum))
     wide = (APART if reach is None else reach + APART) * np.ones((len(features), 1), dtype=np.int64)
     return _core.spatial.disjoint_sheets(np.hstack([low - wide, high + wide]), progress)
@@ -103,7 +103,7 @@ def batches_of(features: Features, sheet: NDArray[np.int32]) -> list[Indices]:
     if not len(features):
         return []
     order = np.argsort(sheet, kind="stable")
-    sizes = np.diff(features.vertex_start)[order]
+    sizes = np.diff(features.vertex_starts)[order]
     begin = starts_of(sizes)[:-1]
     new_sheet = np.diff(sheet[order], prepend=-1) != 0
     of_sheet = begin - np.maximum.accumulate(np.where(new_sheet, begin, 0))

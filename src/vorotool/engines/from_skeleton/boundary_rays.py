@@ -18,7 +18,7 @@ def first_hits(
     polygons: PolygonSet, polygon: NDArray[np.integer], origin: Floats, way: Floats
 ) -> tuple[Floats, NDArray[np.intp]]:
     """Find where each ray meets an edge of its own polygon first, in time linear in the edges of these."""
-    first = polygons.ring_start[polygons.polygon_start]
+    first = polygons.ring_starts[polygons.polygon_starts]
     size = np.diff(first)[polygon]
     places, vertices = np.full((len(polygon), 2), np.nan), np.full(len(polygon), -1, dtype=np.intp)
     ends = np.cumsum(size)

@@ -26,8 +26,8 @@ def section_ends(
     across = np.stack([left, -left], axis=1).reshape(-1, 2)
     polygon = None if own is None else np.repeat(own, 2)
     places, vertices = _first_hits(polygons, polygon, np.repeat(xy, 2, axis=0), across, np.repeat(radius, 2))
-    ring = np.searchsorted(polygons.ring_start, vertices, side="right") - 1
-    rings = np.where(vertices < 0, -1, ring - polygons.polygon_start[polygons.ring_polygon[ring]])
+    ring = np.searchsorted(polygons.ring_starts, vertices, side="right") - 1
+    rings = np.where(vertices < 0, -1, ring - polygons.polygon_starts[polygons.ring_polygon[ring]])
     return places.reshape(-1, 2, 2), rings.reshape(-1, 2).astype(np.int32)
 
 
@@ -37,7 +37,7 @@ def _first_hits(
     """Where each ray meets an edge first, and where that edge begins: edges near the ray are looked at first."""
     way = way / hypotenuse(*way.T)[:, None]
     edges = np.stack([polygons.xy, polygons.xy[polygons.following]], axis=1)
-    of_edge = polygons.ring_polygon[owners(np.diff(polygons.ring_start))]
+    of_edge = polygons.ring_polygon[owners(np.diff(polygons.ring_starts))]
     tree = shapely.STRtree(shapely.linestrings(edges))
     most = 2 * float(np.abs(polygons.xy - polygons.xy[:1]).sum(axis=1).max(initial=0.0))
     places, vertices = origin.copy(), np.full(len(origin), -1, dtype=np.int64)

@@ -59,7 +59,7 @@ class _Pieces:
 def _pieces(lines: LedOn) -> _Pieces:
     path, (first, last) = lines.path, lines.extended
     arcs = np.arange(len(path))
-    start = lines.arc_start
+    start = lines.arc_starts
     nodes = path.vertices[lines.end_nodes]
     of_first = np.stack([lines.ends[first, 0], nodes[first, 0]], axis=1)
     of_last = np.stack([nodes[last, 1], lines.ends[last, 1]], axis=1)

@@ -82,7 +82,7 @@ def _tolerance(discs: Discs) -> float:
 
 
 def _check_feet(discs: Discs, tolerance: float) -> None:
-    counts = np.diff(discs.foot_start)
+    counts = np.diff(discs.foot_starts)
     disc = np.repeat(np.arange(len(discs)), counts)
     at = first_wrong(counts < (2 if discs.within is None else 1))
     if at is not None:
@@ -125,11 +125,11 @@ def _edges(discs: Discs, polygons: NDArray[np.intp]) -> Any:
     import shapely
 
     shapes = discs.polygons
-    starts = shapes.ring_start[shapes.polygon_start]
+    starts = shapes.ring_starts[shapes.polygon_starts]
     own = np.concatenate([np.arange(starts[k], starts[k + 1]) for k in polygons.tolist()])
     ring_polygon = shapes.ring_polygon
     open_end = np.zeros(len(shapes.xy), dtype=bool)
-    open_end[shapes.ring_start[1:][shapes.is_line[ring_polygon]] - 1] = True
+    open_end[shapes.ring_starts[1:][shapes.is_line[ring_polygon]] - 1] = True
     following = np.where(open_end, np.arange(len(shapes.xy)), shapes.following)
     return shapely.linestrings(np.stack([shapes.xy[own], shapes.xy[following[own]]], axis=1))
 

@@ -64,7 +64,7 @@ def _check_across(points: SkeletonPoints, lines: LedOn, line: NDArray[np.int64],
     path, (begin, end) = lines.path, lines.extension_length[line].T
     inside = (points.along > begin) & (points.along < lines.length[line] - end) & points.spans
     reached = np.concatenate([[0.0], np.cumsum(path.length)])
-    along = points.along - begin + reached[lines.arc_start[line]]
+    along = points.along - begin + reached[lines.arc_starts[line]]
     nearest = np.clip(np.searchsorted(reached, along) - 1, 0, len(path) - 1)
     meets = np.minimum(np.abs(along - reached[nearest]), np.abs(along - reached[nearest + 1])) <= tolerance
     on_arc = np.flatnonzero(inside & ~meets)

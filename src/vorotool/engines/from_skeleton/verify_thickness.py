@@ -143,7 +143,7 @@ class _Discs:
         self._columns = np.ascontiguousarray(self.source.T)
         xy, polygons = skeleton.polygons.xy, skeleton.polygons
         self.first, self.last = np.ascontiguousarray(xy.T), np.ascontiguousarray(xy[polygons.following].T)
-        self.polygon = np.repeat(polygons.ring_polygon, np.diff(polygons.ring_start))
+        self.polygon = np.repeat(polygons.ring_polygon, np.diff(polygons.ring_starts))
         self.is_line = polygons.is_line
         self.extent = float(np.abs(xy).max(initial=0.0))
 

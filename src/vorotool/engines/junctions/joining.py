@@ -276,5 +276,5 @@ def _vertices_of(skeleton: Skeleton, table: SiteTable) -> Indices:
     """(s,) the vertex of the polygons that each site is at, or begins at."""
     polygons = skeleton.polygons
     return np.asarray(
-        polygons.ring_start[polygons.polygon_start[table.polygon] + table.ring] + table.index, dtype=np.int64
+        polygons.ring_starts[polygons.polygon_starts[table.polygon] + table.ring] + table.index, dtype=np.int64
     )

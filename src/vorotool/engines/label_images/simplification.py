@@ -32,9 +32,9 @@ def simplified_polygons(polygons: PolygonSet, tolerance: float) -> PolygonSet:
     chains = _chains(polygons)
     points, start = _simplified_chains(chains, tolerance)
     index, sizes = _along_rings(polygons, chains, start)
-    last = polygons.xy[polygons.ring_start[1:][np.equal(polygons.ring_kind, LINE)] - 1]
+    last = polygons.xy[polygons.ring_starts[1:][np.equal(polygons.ring_kind, LINE)] - 1]
     xy = np.concatenate([points, last])[index]
-    return _turned_as(replace(polygons, xy=xy, ring_start=starts_of(sizes)), polygons)
+    return _turned_as(replace(polygons, xy=xy, ring_starts=starts_of(sizes)), polygons)
 
 
 @dataclass(frozen=True)
@@ -84,7 +84,7 @@ def _edge_keys(a: Indices, b: Indices, count: int) -> Indices:
 
 def _nodes(polygons: PolygonSet, point: Indices, count: int) -> NDArray[np.bool_]:
     """(p,) places where chains end."""
-    start = polygons.ring_start
+    start = polygons.ring_starts
     is_line = np.equal(polygons.ring_kind, LINE)
     last = (start[1:] - 1)[is_line]
     after = polygons.following.copy()
@@ -103,7 +103,7 @@ def _nodes(polygons: PolygonSet, point: Indices, count: int) -> NDArray[np.bool_
 
 def _closed_walks(polygons: PolygonSet, is_node: NDArray[np.bool_]) -> tuple[Indices, Indices]:
     """Vertices around each ring, from one node to the same one again, or along a line; and the ring of each."""
-    start, sizes = polygons.ring_start[:-1], np.diff(polygons.ring_start)
+    start, sizes = polygons.ring_starts[:-1], np.diff(polygons.ring_starts)
     first = np.minimum.reduceat(np.where(is_node, np.arange(len(is_node)), len(is_node)), start)
     lengths = sizes + ~np.equal(polygons.ring_kind, LINE)
     ring = owners(lengths)
@@ -137,7 +137,7 @@ def _along_rings(polygons: PolygonSet, chains: _Chains, start: Indices) -> tuple
 
 def _turned_as(made: PolygonSet, given: PolygonSet) -> PolygonSet:
     """Turn rings round that have been folded over, so that shells and holes keep their directions."""
-    start, sizes = made.ring_start[:-1], np.diff(made.ring_start)
+    start, sizes = made.ring_starts[:-1], np.diff(made.ring_starts)
     turned = (_area_signs(made) * _area_signs(given) < 0) & ~np.equal(made.ring_kind, LINE)
     if not turned.any():
         return made
@@ -147,6 +147,6 @@ def _turned_as(made: PolygonSet, given: PolygonSet) -> PolygonSet:
 
 
 def _area_signs(polygons: PolygonSet) -> NDArray[np.float64]:
-    start, after = polygons.ring_start[:-1], polygons.following
-    own = polygons.xy - np.repeat(polygons.xy[start], np.diff(polygons.ring_start), axis=0)
+    start, after = polygons.ring_starts[:-1], polygons.following
+    own = polygons.xy - np.repeat(polygons.xy[start], np.diff(polygons.ring_starts), axis=0)
     return np.sign(np.add.reduceat(own[:, 0] * own[after, 1] - own[:, 1] * own[after, 0], start))

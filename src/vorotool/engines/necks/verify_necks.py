@@ -138,7 +138,7 @@ def _placed(necks: Necks) -> Necks:
 def _placed_parts(parts: Parts) -> Parts:
     """Parts whose corners are where the skeleton has the vertices and edges that these are on."""
     polygons, necks, placed = parts.polygons, parts.necks, _placed(parts.necks)
-    source = np.repeat(parts.source, np.diff(polygons.ring_start[polygons.polygon_start]))
+    source = np.repeat(parts.source, np.diff(polygons.ring_starts[polygons.polygon_starts]))
     others = np.repeat(necks.polygon, 2), necks.feet.reshape(-1, 2), placed.feet.reshape(-1, 2)
     together = necks.skeleton.features == "together"
     xy = places_as_given(polygons.xy, source, necks.skeleton.polygons, together=together, back=True, others=others)
@@ -173,13 +173,13 @@ def _elements(
     polygons: PolygonSet, chosen: NDArray[np.int64], skeleton: Skeleton
 ) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
     """Vertices and edges of some polygons, as the lattice has them."""
-    rings = np.concatenate([np.arange(*polygons.polygon_start[[k, k + 1]]) for k in chosen.tolist()])
-    vertices = np.concatenate([np.arange(*polygons.ring_start[[k, k + 1]]) for k in rings.tolist()])
+    rings = np.concatenate([np.arange(*polygons.polygon_starts[[k, k + 1]]) for k in chosen.tolist()])
+    vertices = np.concatenate([np.arange(*polygons.ring_starts[[k, k + 1]]) for k in rings.tolist()])
     number = np.full(len(polygons.xy), -1)
     number[vertices] = np.arange(len(vertices))
     points = np.rint((polygons.xy[vertices] - skeleton.origin) / (skeleton.scale or 1.0)).astype(np.int32)
     is_last = np.zeros(len(polygons.xy), dtype=bool)
-    is_last[polygons.ring_start[1:] - 1] = polygons.is_line[polygons.ring_polygon]
+    is_last[polygons.ring_starts[1:] - 1] = polygons.is_line[polygons.ring_polygon]
     segments = np.stack([number[vertices], number[polygons.following[vertices]]], axis=1).astype(np.int32)
     has_length = (points[segments[:, 0]] != points[segments[:, 1]]).any(axis=1)
     return points, np.ascontiguousarray(segments[has_length & ~is_last[vertices]])
@@ -212,7 +212,7 @@ def _check_discs(parts: Parts, threads: int, progress: Progress) -> None:
     skeleton = parts.necks.skeleton
     _check_clearances(skeleton, parts.source, parts.center, parts.radius, "piece", threads, progress)
     polygons, after = parts.polygons, parts.polygons.following
-    corner = owners(np.diff(polygons.ring_start[polygons.polygon_start]))
+    corner = owners(np.diff(polygons.ring_starts[polygons.polygon_starts]))
     (x, y), (u, v) = polygons.xy.T, polygons.xy[after].T
     px, py = parts.center[corner].T
     crosses = (y > py) != (v > py)
@@ -238,7 +238,7 @@ def _directed(parts: Parts) -> tuple[Floats, NDArray[np.int64]]:
     """(n, 4) both ends of each edge of the pieces, and the piece."""
     polygons = parts.polygons
     edges = np.concatenate([polygons.xy, polygons.xy[polygons.following]], axis=1)
-    return edges, owners(np.diff(polygons.ring_start[polygons.polygon_start]))
+    return edges, owners(np.diff(polygons.ring_starts[polygons.polygon_starts]))
 
 
 def _check_cuts(parts: Parts) -> None:

@@ -190,8 +190,8 @@ def _joined_curves(order: InputOrder, made: Sequence[tuple[BatchShapes, list[Cur
         rows: dict[str, Any] = own | {
             "site": sites[site],
             "polygon": polygons[own["polygon"]],
-            "rings": np.diff(own["shape_start"]),
-            "pieces": np.diff(own["ring_start"]),
+            "rings": np.diff(own["shape_starts"]),
+            "pieces": np.diff(own["ring_starts"]),
         }
         for name, values in rows.items():
             columns.setdefault(name, []).append(values)
@@ -204,8 +204,8 @@ def _joined_curves(order: InputOrder, made: Sequence[tuple[BatchShapes, list[Cur
     return {
         **{name: found[name][pieces] for name in ("start", "end", "center", "site")},
         "polygon": found["polygon"][chosen],
-        "ring_start": starts_of(found["pieces"][rings]),
-        "shape_start": starts_of(found["rings"][chosen]),
+        "ring_starts": starts_of(found["pieces"][rings]),
+        "shape_starts": starts_of(found["rings"][chosen]),
     }
 
 
@@ -214,7 +214,7 @@ def _no_curves() -> Curves:
     return {
         **dict.fromkeys(("start", "end", "center"), places),
         **dict.fromkeys(("site", "polygon"), numbers),
-        **dict.fromkeys(("ring_start", "shape_start"), start),
+        **dict.fromkeys(("ring_starts", "shape_starts"), start),
     }
 
 
@@ -265,8 +265,8 @@ def _as_offsets(
     }
     return Offsets(
         **columns,
-        ring_start=_joined([curves["ring_start"] for curves in made]),
-        shape_start=_joined([curves["shape_start"] for curves in made]),
+        ring_starts=_joined([curves["ring_starts"] for curves in made]),
+        shape_starts=_joined([curves["shape_starts"] for curves in made]),
         distance=np.repeat(distances, shape_counts),
         site_table=sites,
         polygons=polygons,

@@ -124,14 +124,14 @@ def _check_in_graph(
 
 def with_shapes(offsets: Offsets, chosen: NDArray[np.intp]) -> Offsets:
     """Give some of the shapes."""
-    counts, sizes = np.diff(offsets.shape_start), np.diff(offsets.ring_start)
-    rings = ranges(offsets.shape_start[chosen], counts[chosen])
-    pieces = ranges(offsets.ring_start[rings], sizes[rings])
+    counts, sizes = np.diff(offsets.shape_starts), np.diff(offsets.ring_starts)
+    rings = ranges(offsets.shape_starts[chosen], counts[chosen])
+    pieces = ranges(offsets.ring_starts[rings], sizes[rings])
     return replace(
         offsets,
         **{name: getattr(offsets, name)[pieces] for name in ("start", "end", "center", "site")},
-        ring_start=starts_of(sizes[rings]),
-        shape_start=starts_of(counts[chosen]),
+        ring_starts=starts_of(sizes[rings]),
+        shape_starts=starts_of(counts[chosen]),
         distance=offsets.distance[chosen],
         polygon=offsets.polygon[chosen],
     )
@@ -144,7 +144,7 @@ def _tolerance(offsets: Offsets) -> float:
 
 
 def _check_chains(offsets: Offsets) -> None:
-    at = first_wrong((offsets.end != offsets.start[following(offsets.ring_start)]).any(axis=1))
+    at = first_wrong((offsets.end != offsets.start[following(offsets.ring_starts)]).any(axis=1))
     if at is not None:
         fail(f"piece {at} ends at {_place(offsets.end[at])}, but the next one of its ring does not begin there")
 
@@ -224,14 +224,14 @@ def _check_orientation(offsets: Offsets, tolerance: float) -> None:
         offsets.end,
         offsets.center,
         offsets.site,
-        offsets.ring_start,
-        np.arange(len(offsets.ring_start)),
+        offsets.ring_starts,
+        np.arange(len(offsets.ring_starts)),
         offsets.distance[offsets.shape_of_ring],
         offsets.polygon[offsets.shape_of_ring],
         offsets.site_table,
         offsets.polygons,
     )
-    length = np.add.reduceat(offsets.length, offsets.ring_start[:-1]) if len(single) else np.zeros(0)
+    length = np.add.reduceat(offsets.length, offsets.ring_starts[:-1]) if len(single) else np.zeros(0)
     area = np.where(offsets.ring_kind == SHELL, single.area, -single.area)
     at = first_wrong(area < -tolerance * length)
     if at is not None:

@@ -85,7 +85,7 @@ def _joined(
         return joined
 
     sites = [len(part.points) + len(part.segments) for part in parts]
-    rings = np.concatenate([np.diff(part.vertex_start) for part in parts])
+    rings = np.concatenate([np.diff(part.vertex_starts) for part in parts])
     edges = np.concatenate([part.edges for part in parts])
     return SegmentVoronoiDiagram(
         points,
@@ -109,7 +109,7 @@ def core_diagram(
     diagram: SegmentVoronoiDiagram, segment_faces: NDArray[np.int32] | None = None
 ) -> _core.segment_voronoi.Diagram:
     """The arrays of a diagram, for the core, and left and right of each segment the face of its graph."""
-    names = ("points", "segments", "vertices", "radius", "vertex_start", "vertex_sites", "edges", "edge_sites")
+    names = ("points", "segments", "vertices", "radius", "vertex_starts", "vertex_sites", "edges", "edge_sites")
     return _core.segment_voronoi.Diagram(
         **{name: getattr(diagram, name) for name in names}, segment_faces=segment_faces
     )

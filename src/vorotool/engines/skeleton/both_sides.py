@@ -88,25 +88,25 @@ def _are_equal(one: SiteTable, other: SiteTable) -> bool:
 def _on_polygons(polygons: PolygonSet, table: SiteTable, graph: PlanarGraph) -> SiteTable:
     """Sites of an arrangement, each at a vertex of its polygons or on the edge after it, with its ends."""
     count = len(graph.points)
-    edge = graph.source_edge[graph.source_start[:-1]].astype(np.int64)
+    edge = graph.source_edge[graph.source_starts[:-1]].astype(np.int64)
     beside = np.zeros(count, dtype=np.int64)  # an edge that ends at each point
     beside[graph.segments] = edge[:, None]
     vertex = np.concatenate([np.where(graph.point_vertex >= 0, graph.point_vertex, beside), edge])
     kind = np.repeat([1 - EDGE, EDGE], [count, len(edge)]).astype(np.int8)
-    ring = np.searchsorted(polygons.ring_start, vertex, side="right") - 1
+    ring = np.searchsorted(polygons.ring_starts, vertex, side="right") - 1
     polygon = polygons.ring_polygon[ring]
-    index = (vertex - polygons.ring_start[ring]).astype(np.int32)
+    index = (vertex - polygons.ring_starts[ring]).astype(np.int32)
     places = graph.coordinates()
     ends = np.concatenate([np.repeat(places[:, None], 2, axis=1), places[graph.segments]])
     source = _sources(polygons, table)[kind, vertex]
     source[:count][graph.point_vertex < 0] = -1
-    first = polygons.polygon_start[polygon]
+    first = polygons.polygon_starts[polygon]
     return SiteTable(kind, polygon, (ring - first).astype(np.int32), index, source[:, 0], source[:, 1], ends)
 
 
 def _sources(polygons: PolygonSet, table: SiteTable) -> NDArray[np.int32]:
     """(2, n, 2) the ring and index in the input of each vertex of used polygons, and of the edge after it; or -1."""
     source = np.full((2, len(polygons.xy), 2), -1, dtype=np.int32)
-    vertex = polygons.ring_start[polygons.polygon_start[table.polygon] + table.ring] + table.index
+    vertex = polygons.ring_starts[polygons.polygon_starts[table.polygon] + table.ring] + table.index
     source[table.kind, vertex] = np.stack([table.source_ring, table.source_index], axis=1)
     return source

@@ -118,7 +118,7 @@ def opened(graph: PlanarGraph, frame: Extent) -> Opening:
         np.zeros(len(segments) + 1, dtype=np.int32),
         np.empty(0, dtype=np.int32),
         np.concatenate([faces for _, faces in made]).astype(np.int32),
-        graph.face_start,
+        graph.face_starts,
         graph.face_polygon,
         origin=graph.origin,
         scale=graph.scale,

@@ -90,7 +90,7 @@ def elements_of_shapes(
     placement, box = _placed_within(elements, shapes, within, threads=threads, progress=progress)
     graph = arranged(elements, placement, progress=progress).graph  # rounded ends may touch: nobody asked about these
     owner = owners(np.diff(starts))
-    vertex = np.concatenate([graph.point_vertex, graph.source_edge[graph.source_start[:-1]]])
+    vertex = np.concatenate([graph.point_vertex, graph.source_edge[graph.source_starts[:-1]]])
     common: dict[str, Any] = {"within": box, "threads": threads, "progress": progress}
     if feature is None:
         diagram = segment_voronoi(graph.points, graph.segments, **common)
@@ -240,7 +240,7 @@ def _missing_portions(
     """Vertices of the diagram and corners to join, (k, 2), the sites beside the lines between, and their faces."""
     diagram, corners = elements.diagram, len(elements.shapes.points)
     degree = np.bincount(diagram.edges[kept][diagram.edges[kept] >= 0], minlength=len(diagram))
-    start = diagram.vertex_start
+    start = diagram.vertex_starts
     vertex = np.repeat(np.arange(len(diagram)), np.diff(start))
     at = np.flatnonzero((degree[vertex] == 1) & (elements.element[diagram.vertex_sites] < corners))
     vertex, corner = vertex[at], elements.element[diagram.vertex_sites[at]]
@@ -306,7 +306,7 @@ def _with_portions(
         diagram,
         vertices=np.concatenate([diagram.vertices, diagram.points[site_of[corners]].astype(np.float64)]),
         radius=np.concatenate([diagram.radius, np.zeros(len(corners))]),
-        vertex_start=np.concatenate([diagram.vertex_start, np.full(len(corners), diagram.vertex_start[-1])]),
+        vertex_starts=np.concatenate([diagram.vertex_starts, np.full(len(corners), diagram.vertex_starts[-1])]),
         edges=np.concatenate([diagram.edges, ends.astype(np.int32)]),
         edge_sites=np.concatenate([diagram.edge_sites, sites]),
     )

@@ -37,7 +37,7 @@ def without_border(skeleton: Skeleton, graph: PlanarGraph) -> PlanarGraph:
         points=graph.points[kept],
         segments=number[graph.segments[~is_cut]].astype(np.int32),
         point_vertex=graph.point_vertex[kept],
-        source_start=np.zeros(np.count_nonzero(~is_cut) + 1, dtype=np.int32),
+        source_starts=np.zeros(np.count_nonzero(~is_cut) + 1, dtype=np.int32),
         source_edge=graph.source_edge[:0],
         segment_faces=graph.segment_faces[~is_cut],
         point_holes=graph.point_holes[:0],
@@ -55,7 +55,7 @@ def check_cut_regions(skeleton: Skeleton, graph: PlanarGraph, left: PlanarGraph,
     summed = np.bincount(skeleton.polygon, areas_beside(skeleton, sites), count)
     summed += np.bincount(*_areas_at_border(skeleton, graph, left), count)
     first = np.full(graph.faces, -1)
-    first[graph.is_inside] = graph.face_polygon[graph.face_start[:-1][graph.is_inside]]
+    first[graph.is_inside] = graph.face_polygon[graph.face_starts[:-1][graph.is_inside]]
     of_face, around = face_measures(graph)
     inner = first >= 0
     area, perimeter = (np.bincount(first[inner], values[inner], count) for values in (of_face, around))
@@ -115,7 +115,7 @@ def _stretches(skeleton: Skeleton, graph: PlanarGraph, left: PlanarGraph) -> Flo
         ticks = np.unique(np.concatenate([[low, high], cuts[(cuts > low) & (cuts < high)]]))
         ends = np.repeat(a[None], len(ticks), axis=0)
         ends[:, along] = ticks
-        polygon = int(graph.face_polygon[graph.face_start[inner[0]]])
+        polygon = int(graph.face_polygon[graph.face_starts[inner[0]]])
         rows.append(np.column_stack([np.full(len(ticks) - 1, polygon), ends[:-1], ends[1:]]))
     return np.concatenate([np.zeros((0, 5)), *rows])
 

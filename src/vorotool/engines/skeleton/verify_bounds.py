@@ -160,7 +160,7 @@ def _most_cycles(graph: PlanarGraph, outside: int) -> NDArray[np.int64]:
     parts = border_components(graph) + np.bincount(graph.point_holes[:, 1], minlength=graph.faces)
     polygon = np.full(graph.faces, outside)
     inside = np.flatnonzero(graph.is_inside)
-    polygon[inside] = graph.face_polygon[graph.face_start[inside]]
+    polygon[inside] = graph.face_polygon[graph.face_starts[inside]]
     most = np.zeros(outside + 1, dtype=np.int64)
     np.add.at(most, polygon, np.maximum(parts - 1, 0))
     return most

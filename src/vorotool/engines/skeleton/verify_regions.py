@@ -213,7 +213,7 @@ def _check_sides(regions: SkeletonRegions, inside: NDArray[np.bool_]) -> None:
     if at is not None:
         fail(f"arc {at} is in region {face[at]}, which is on the other side")
     first = (
-        np.where(inside[face], graph.face_polygon[np.minimum(graph.face_start[face], len(graph.face_polygon) - 1)], -1)
+        np.where(inside[face], graph.face_polygon[np.minimum(graph.face_starts[face], len(graph.face_polygon) - 1)], -1)
         if len(graph.face_polygon)
         else np.full(len(face), -1)
     )

@@ -65,8 +65,8 @@ def verify_smooth(smoothed: SmoothLines) -> None:
     error = smoothed.error + ROUNDING * size
     fineness = float(error.max()) / FINENESS
     points, start = _flattened(path, lines, fineness)
-    curves, curve_start = smoothed.flattened(fineness)
-    _check_near(points, start, curves, curve_start, error + fineness, "its curves")
+    curves, curve_starts = smoothed.flattened(fineness)
+    _check_near(points, start, curves, curve_starts, error + fineness, "its curves")
     t = np.tile(np.arange(ON_CURVES + 1) / ON_CURVES, len(smoothed.control))
     on_curves = places_at(np.repeat(smoothed.control, ON_CURVES + 1, axis=0), t)
     _check_places(on_curves, np.repeat(smoothed.line, ON_CURVES + 1), points, start, error + fineness, "its branch")

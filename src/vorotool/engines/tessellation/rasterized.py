@@ -69,7 +69,7 @@ def rasterized(polygons: PolygonSet, frame: Frame) -> NDArray[np.uint32]:
 
 def _edges(polygons: PolygonSet, frame: Frame) -> _Edges:
     """All segments, in the frame's own coordinates; rings close, lines do not, and points are segments of no length."""
-    sizes = np.diff(polygons.ring_start)
+    sizes = np.diff(polygons.ring_starts)
     ring = owners(sizes)
     is_last = within(sizes) == sizes[ring] - 1
     is_open = ((polygons.ring_kind == LINE) | (sizes <= _SHORT))[ring] & (sizes[ring] > 1)
@@ -83,8 +83,8 @@ def _edges(polygons: PolygonSet, frame: Frame) -> _Edges:
 
 def _is_line(polygons: PolygonSet) -> NDArray[np.bool_]:
     """(p,) whether each polygon is drawn as a line."""
-    first = polygons.polygon_start[:-1]
-    short: NDArray[np.bool_] = np.diff(polygons.ring_start)[first] <= _SHORT
+    first = polygons.polygon_starts[:-1]
+    short: NDArray[np.bool_] = np.diff(polygons.ring_starts)[first] <= _SHORT
     return polygons.is_line | short
 
 

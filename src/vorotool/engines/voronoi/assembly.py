@@ -159,11 +159,11 @@ class Cells:
 
     ring_arcs: NDArray[np.int32]  # (k,) int32 array: arcs along each ring, from 1; below 0 against their direction
     # int64 array: where each ring begins there, each polygon among the rings, each cell among the polygons
-    ring_start: Indices
+    ring_starts: Indices
     # int64 array: where each ring begins there, each polygon among the rings, each cell among the polygons
-    polygon_start: Indices
+    polygon_starts: Indices
     # int64 array: where each ring begins there, each polygon among the rings, each cell among the polygons
-    cell_start: Indices
+    cell_starts: Indices
 
 
 def cells_of(rings: Rings, shell: Indices, count: int) -> Cells:

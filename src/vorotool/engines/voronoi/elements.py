@@ -64,7 +64,7 @@ def shared_elements(owned: OwnedGraph, site: Sites) -> tuple[int, int, int]:
         segments = _with_several(segment, site[polygon[is_part]], len(graph))
         points += [(graph.segments[segment, end], polygon[is_part]) for end in (0, 1)]
     if len(graph.face_polygon):
-        faces = _with_several(owners(np.diff(graph.face_start)), site[graph.face_polygon], graph.faces)
+        faces = _with_several(owners(np.diff(graph.face_starts)), site[graph.face_polygon], graph.faces)
     at, of = (np.concatenate(each) for each in zip(*points, strict=True))
     return _with_several(at, site[of], len(graph.points)), segments, faces
 
@@ -119,17 +119,17 @@ def _lacking(graph: PlanarGraph, given: PolygonSet) -> NDArray[np.bool_]:
     assert graph.vertices is not None
     places = graph.vertices.astype(np.int64)
     whole = np.abs(places[given.following] - places).sum(axis=1)
-    own = owners(np.diff(given.ring_start))
+    own = owners(np.diff(given.ring_starts))
     of_vertex, is_line = given.ring_polygon[own], np.equal(given.ring_kind[own], LINE)
     ends_line = np.zeros(len(own), dtype=bool)
-    ends_line[given.ring_start[1:] - 1] = is_line[given.ring_start[1:] - 1]
+    ends_line[given.ring_starts[1:] - 1] = is_line[given.ring_starts[1:] - 1]
     there = np.zeros(len(own), dtype=np.int64)
     if len(graph):
         is_part, _ = _bounding_sources(graph, given)
         ends = graph.points[graph.segments].astype(np.int64)
         length = np.repeat(np.abs(ends[:, 1] - ends[:, 0]).sum(axis=1), graph.source_count)
         np.add.at(there, graph.source_edge[is_part], length[is_part])  # along an edge both coordinates are monotone
-    lacks = ~ends_line & ((there != whole) | (whole == 0)) & (np.diff(given.ring_start)[own] > 1)
+    lacks = ~ends_line & ((there != whole) | (whole == 0)) & (np.diff(given.ring_starts)[own] > 1)
     return np.bincount(of_vertex, lacks, minlength=len(given)) > 0
 
 
@@ -138,13 +138,13 @@ def _as_lines(polygons: PolygonSet, chosen: NDArray[np.bool_]) -> tuple[PolygonS
     is_first = np.diff(polygons.ring_polygon, prepend=-1) > 0
     ring = np.flatnonzero(is_first | ~chosen[polygons.ring_polygon])
     polygon = polygons.ring_polygon[ring]
-    size = np.diff(polygons.ring_start)[ring] + chosen[polygon]
-    taken = ranges(polygons.ring_start[ring], size)
+    size = np.diff(polygons.ring_starts)[ring] + chosen[polygon]
+    taken = ranges(polygons.ring_starts[ring], size)
     ends = np.cumsum(size) - 1
     closed = chosen[polygon]
-    taken[ends[closed]] = polygons.ring_start[ring[closed]]
+    taken[ends[closed]] = polygons.ring_starts[ring[closed]]
     kind = np.where(closed, LINE, polygons.ring_kind[ring])
-    lines = replace(polygons, xy=polygons.xy[taken], ring_start=starts_of(size), ring_kind=kind, ring_polygon=polygon)
+    lines = replace(polygons, xy=polygons.xy[taken], ring_starts=starts_of(size), ring_kind=kind, ring_polygon=polygon)
     return lines, taken
 
 
@@ -152,7 +152,7 @@ def _face_owners(graph: PlanarGraph, site: Sites) -> Sites:
     owner = np.full(graph.faces, -1, dtype=np.int32)
     if len(graph.face_polygon):
         covered = np.flatnonzero(graph.is_inside)
-        owner[covered] = np.minimum.reduceat(site[graph.face_polygon], graph.face_start[covered])
+        owner[covered] = np.minimum.reduceat(site[graph.face_polygon], graph.face_starts[covered])
     return owner
 
 
@@ -162,7 +162,7 @@ def _element_owners(graph: PlanarGraph, given: PolygonSet, site: Sites) -> Sites
     if len(graph):
         is_part, polygon = _bounding_sources(graph, given)
         least = np.where(is_part, site[polygon], NOBODY)
-        owner[count:] = np.minimum.reduceat(least, graph.source_start[:-1])
+        owner[count:] = np.minimum.reduceat(least, graph.source_starts[:-1])
         owner[:count], _ = _core.voronoi.owners_at_points(graph.segments, owner[count:], count)
     point, of_polygon = _lone_places(graph, given)
     np.minimum.at(owner, point, site[of_polygon])
@@ -171,7 +171,7 @@ def _element_owners(graph: PlanarGraph, given: PolygonSet, site: Sites) -> Sites
 
 def _bounding_sources(graph: PlanarGraph, given: PolygonSet) -> tuple[NDArray[np.bool_], NDArray[np.int32]]:
     """Of each source edge of a segment, whether its polygon is bounded there, and the polygon."""
-    ring = owners(np.diff(given.ring_start))[graph.source_edge]
+    ring = owners(np.diff(given.ring_starts))[graph.source_edge]
     polygon = given.ring_polygon[ring]
     is_part = np.ones(len(ring), dtype=bool)
     several = graph.source_count > 1
@@ -182,7 +182,7 @@ def _bounding_sources(graph: PlanarGraph, given: PolygonSet) -> tuple[NDArray[np
         doubtful = doubtful[~is_thin[ring[doubtful]]]
         segment = np.repeat(np.arange(len(graph)), graph.source_count)[doubtful]
         polygons = max(len(given), 1)
-        inside = owners(np.diff(graph.face_start)) * polygons + graph.face_polygon
+        inside = owners(np.diff(graph.face_starts)) * polygons + graph.face_polygon
         left, right = (face.astype(np.int64) * polygons + polygon[doubtful] for face in graph.segment_faces[segment].T)
         is_part[doubtful] = np.isin(left, inside) | np.isin(right, inside)
     return is_part, polygon
@@ -192,7 +192,7 @@ def _lone_places(graph: PlanarGraph, given: PolygonSet) -> tuple[NDArray[np.int6
     """Points that are a whole line or hole, and the polygons that these are of."""
     assert graph.vertices is not None
     places = _packed(graph.vertices)
-    starts = given.ring_start[:-1]
+    starts = given.ring_starts[:-1]
     if not len(starts):
         return np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int32)
     is_one = np.minimum.reduceat(places, starts) == np.maximum.reduceat(places, starts)

@@ -88,21 +88,21 @@ def _rings(xy: Floats, sizes: Indices, kinds: NDArray[np.integer], polygons: NDA
 def _without_lines(clip: PolygonSet) -> PolygonSet:
     """The polygons among polygons and lines."""
     ring = np.flatnonzero(~clip.is_line[clip.ring_polygon])
-    sizes = np.diff(clip.ring_start)[ring]
+    sizes = np.diff(clip.ring_starts)[ring]
     number = np.cumsum(~clip.is_line) - 1
     return _rings(
-        clip.xy[ranges(clip.ring_start[ring], sizes)], sizes, clip.ring_kind[ring], number[clip.ring_polygon[ring]]
+        clip.xy[ranges(clip.ring_starts[ring], sizes)], sizes, clip.ring_kind[ring], number[clip.ring_polygon[ring]]
     )
 
 
 def _as_closed_lines(enclosures: PolygonSet) -> PolygonSet:
     """Each ring of polygons and lines as a line of its own."""
     closes = (np.asarray(enclosures.ring_kind) != LINE).astype(np.int64)
-    own = np.diff(enclosures.ring_start)
+    own = np.diff(enclosures.ring_starts)
     sizes = own + closes
-    taken = ranges(enclosures.ring_start[:-1], sizes)
+    taken = ranges(enclosures.ring_starts[:-1], sizes)
     ends = np.cumsum(sizes) - 1
-    taken[ends[closes > 0]] = enclosures.ring_start[:-1][closes > 0]
+    taken[ends[closes > 0]] = enclosures.ring_starts[:-1][closes > 0]
     return _rings(enclosures.xy[taken], sizes, np.full(len(own), LINE), np.arange(len(own)))
 
 
@@ -110,7 +110,7 @@ def _joined(parts: list[PolygonSet]) -> PolygonSet:
     first = np.cumsum([0, *(len(part) for part in parts)])
     return _rings(
         np.concatenate([part.xy for part in parts]),
-        np.concatenate([np.diff(part.ring_start) for part in parts]),
+        np.concatenate([np.diff(part.ring_starts) for part in parts]),
         np.concatenate([part.ring_kind for part in parts]),
         np.concatenate([part.ring_polygon + at for part, at in zip(parts, first.tolist(), strict=False)]),
     )
@@ -146,7 +146,7 @@ def _noded(given: PolygonSet, graph: PlanarGraph) -> tuple[PolygonSet, NDArray[n
     rank = np.concatenate([np.zeros(count, dtype=np.int64), 1 + np.arange(len(edge))])
     sorting = np.lexsort((rank, np.concatenate([np.arange(count), edge])))
     all_places = np.concatenate([a, place])[sorting].astype(np.int32)
-    ring = np.searchsorted(given.ring_start, edge, side="right") - 1
-    sizes = np.diff(given.ring_start) + np.bincount(ring, minlength=len(given.ring_kind))
+    ring = np.searchsorted(given.ring_starts, edge, side="right") - 1
+    sizes = np.diff(given.ring_starts) + np.bincount(ring, minlength=len(given.ring_kind))
     noded = _rings(all_places.astype(np.float64), sizes, given.ring_kind, given.ring_polygon)
     return noded, all_places

@@ -91,10 +91,10 @@ def _graphs_of_regions(sites: PlanarGraph, site: Sites, count: int, regions: Reg
 
 def _chosen(given: PolygonSet, polygon: Indices, vertices: NDArray[np.int32]) -> tuple[PolygonSet, NDArray[np.int32]]:
     """Some polygons, and where their vertices are."""
-    rings = np.diff(given.polygon_start)[polygon]
-    ring = ranges(given.polygon_start[polygon], rings)
-    sizes = np.diff(given.ring_start)[ring]
-    taken = ranges(given.ring_start[ring], sizes)
+    rings = np.diff(given.polygon_starts)[polygon]
+    ring = ranges(given.polygon_starts[polygon], rings)
+    sizes = np.diff(given.ring_starts)[ring]
+    taken = ranges(given.ring_starts[ring], sizes)
     number = np.repeat(np.arange(len(polygon), dtype=np.int32), rings)
     return PolygonSet(given.xy[taken], starts_of(sizes), given.ring_kind[ring], number), vertices[taken]
 

@@ -46,7 +46,7 @@ def _has_ridges(cells: VoronoiMap) -> bool:
     """Whether a site is more than a point or a segment, from which distances are convex, and largest at vertices."""
     given = cells.polygons
     is_single = np.bincount(cells.polygon_site, minlength=len(cells)) <= 1
-    is_straight = given.is_line & (np.diff(given.ring_start)[given.polygon_start[:-1]] <= _ENDS)
+    is_straight = given.is_line & (np.diff(given.ring_starts)[given.polygon_starts[:-1]] <= _ENDS)
     return not (is_single.all() and is_straight.all())
 
 

@@ -97,7 +97,7 @@ def _as_given(joint: JointGraph) -> Floats:
     edge = graph.source_edge.astype(np.int64)
     source, target = given.xy[edge], given.xy[given.following[edge]]
     ends = graph.segments[owners(graph.source_count)].astype(np.int64)
-    of_frame = given.ring_polygon[np.searchsorted(given.ring_start, edge, side="right") - 1] == joint.frame
+    of_frame = given.ring_polygon[np.searchsorted(given.ring_starts, edge, side="right") - 1] == joint.frame
     for axis in (0, 1):
         along = source[:, axis] == target[:, axis]
         for chosen, may_move in ((along, graph.point_vertex < 0), (along & of_frame, np.ones(len(made), dtype=bool))):
@@ -110,7 +110,7 @@ def _has_source(graph: PlanarGraph, polygons: range) -> NDArray[np.bool_]:
     """(m,) whether an edge of some polygons runs along each segment."""
     given = graph.polygons
     assert given is not None
-    first = given.ring_start[np.searchsorted(given.ring_polygon, [polygons.start, polygons.stop])]
+    first = given.ring_starts[np.searchsorted(given.ring_polygon, [polygons.start, polygons.stop])]
     is_source = (graph.source_edge >= first[0]) & (graph.source_edge < first[1])
     has: NDArray[np.bool_] = np.bincount(owners(graph.source_count)[is_source], minlength=len(graph)) > 0
     return has
@@ -138,7 +138,7 @@ def _parted(graph: PlanarGraph, face: Indices, is_line: NDArray[np.bool_], share
 def _is_shared_out(joint: JointGraph) -> NDArray[np.bool_]:
     """(f,) whether each face is in the frame and in a clip, where they are given."""
     graph = joint.graph
-    face = owners(np.diff(graph.face_start))
+    face = owners(np.diff(graph.face_starts))
     shared = np.ones(graph.faces, dtype=bool)
     for polygons in (range(joint.frame, joint.frame + 1) if joint.frame >= 0 else None, joint.of_clip or None):
         if polygons is not None:
@@ -154,11 +154,11 @@ def _meetings(joint: JointGraph, site: NDArray[np.int32], face: Indices, is_line
     given = graph.polygons
     assert given is not None
     # what polygons cover
-    covered, polygon = face[owners(np.diff(graph.face_start))], graph.face_polygon
+    covered, polygon = face[owners(np.diff(graph.face_starts))], graph.face_polygon
     own = polygon < len(site)
     pairs = [np.stack([covered[own], site[polygon[own]]], axis=1)]
     # what open segments of sites lie in
-    ring = np.searchsorted(given.ring_start, graph.source_edge, side="right") - 1
+    ring = np.searchsorted(given.ring_starts, graph.source_edge, side="right") - 1
     polygon, segment = given.ring_polygon[ring], owners(graph.source_count)
     own = (polygon < len(site)) & ~is_line[segment]
     pairs += [np.stack([face[side], site[polygon[own]]], axis=1) for side in graph.segment_faces[segment[own]].T]
@@ -177,7 +177,7 @@ def _meetings_of_points(
     assert given is not None
     assert graph.vertices is not None
     keys = packed(graph.vertices)
-    starts = given.ring_start[:-1]
+    starts = given.ring_starts[:-1]
     is_one = np.minimum.reduceat(keys, starts) == np.maximum.reduceat(keys, starts)
     is_one &= given.ring_polygon < len(site)
     lone = np.flatnonzero(is_one)

@@ -101,8 +101,8 @@ def _check_rings(cells: VoronoiMap) -> None:
     if at is not None:
         fail(f"a ring passes arc {signed[at]}, which does not exist")
     arc, is_back = np.abs(signed) - 1, signed < 0
-    ring = owners(np.diff(cells.ring_start))
-    cell = cells.cell_of_polygon[owners(np.diff(cells.polygon_start))][ring]
+    ring = owners(np.diff(cells.ring_starts))
+    cell = cells.cell_of_polygon[owners(np.diff(cells.polygon_starts))][ring]
     at = first_wrong(cells.sites[arc, is_back.astype(int)] != cell)
     if at is not None:
         fail(f"ring {ring[at]} of cell {cell[at]} passes arc {arc[at]}, whose side is of {cells.sites[arc[at]]}")
@@ -113,7 +113,7 @@ def _check_rings(cells: VoronoiMap) -> None:
     begin = np.where(is_back, high[arc], low[arc])
     end = np.where(is_back, low[arc], high[arc])
     after = np.arange(1, len(arc) + 1)
-    after[cells.ring_start[1:] - 1] = cells.ring_start[:-1]
+    after[cells.ring_starts[1:] - 1] = cells.ring_starts[:-1]
     at = first_wrong(end != begin[after])
     if at is not None:
         fail(f"ring {ring[at]} goes on at vertex {begin[after[at]]}, but arc {arc[at]} ends at {end[at]}")
@@ -131,9 +131,9 @@ def _check_areas(cells: VoronoiMap) -> None:
     below[cells.is_circle] = _below_circles(cells, source, target)
     arc, is_back = np.abs(cells.ring_arcs.astype(np.int64)) - 1, cells.ring_arcs < 0
     area = -np.bincount(
-        owners(np.diff(cells.ring_start)),
+        owners(np.diff(cells.ring_starts)),
         np.where(is_back, -below[arc], below[arc]),
-        minlength=len(cells.ring_start) - 1,
+        minlength=len(cells.ring_starts) - 1,
     )
     largest = float(np.abs(cells.vertices).max(initial=0))
     slack = AREA * w * h + ROUNDING * largest * (w + h)
@@ -143,7 +143,7 @@ def _check_areas(cells: VoronoiMap) -> None:
     if at is not None:
         fail(f"ring {at} has the area {area[at]}: shells go counter-clockwise, holes clockwise")
     total = float(area.sum())
-    if not (len(cells.cell_start) > 1 and len(cells.polygons)):
+    if not (len(cells.cell_starts) > 1 and len(cells.polygons)):
         return
     whole, name = w * h, "frame"
     if cells.clip is not None:

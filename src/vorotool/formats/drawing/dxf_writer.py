@@ -86,7 +86,7 @@ def _add_smooth(drawing: DxfDrawing, smoothed: SmoothLines, what: str) -> None:
 
 def _add_led_on(drawing: DxfDrawing, lines: LedOn, what: str) -> None:
     """Arcs of each path, and the straight lines that lead on."""
-    for line, (begin, end) in enumerate(itertools.pairwise(lines.arc_start.tolist())):
+    for line, (begin, end) in enumerate(itertools.pairwise(lines.arc_starts.tolist())):
         for side, node in enumerate(lines.end_nodes[line].tolist()):
             led_on = np.stack([lines.path.vertices[node], lines.ends[line, side]])
             if not np.isnan(led_on).any() and (led_on[0] != led_on[1]).any():
@@ -98,20 +98,20 @@ def _add_offsets(drawing: DxfDrawing, offsets: Offsets, what: str) -> None:
     """Rings of arcs and straight lines, on a layer for each distance."""
     bulges = _bulges(offsets.start, offsets.end, offsets.center, offsets.piece_distance > 0)
     distances = offsets.distance[offsets.shape_of_ring].tolist()
-    _add_rings(drawing, [f"{what}_{distance:g}" for distance in distances], offsets.start, bulges, offsets.ring_start)
+    _add_rings(drawing, [f"{what}_{distance:g}" for distance in distances], offsets.start, bulges, offsets.ring_starts)
 
 
 def _add_hull(drawing: DxfDrawing, hull: AlphaHull, what: str) -> None:
     """Rings of arcs, and points without extent."""
     bulges = _bulges(hull.start, hull.end, hull.center, np.zeros(len(hull), dtype=bool))
-    _add_rings(drawing, [what] * (len(hull.ring_start) - 1), hull.start, bulges, hull.ring_start)
+    _add_rings(drawing, [what] * (len(hull.ring_starts) - 1), hull.start, bulges, hull.ring_starts)
     drawing.points(what, hull.shape.family.mesh.points[hull.points])
 
 
 def _add_rings(
-    drawing: DxfDrawing, layers: list[str], start: Floats, bulges: list[float], ring_start: NDArray[np.int64]
+    drawing: DxfDrawing, layers: list[str], start: Floats, bulges: list[float], ring_starts: NDArray[np.int64]
 ) -> None:
-    for layer, (begin, end) in zip(layers, itertools.pairwise(ring_start.tolist()), strict=True):
+    for layer, (begin, end) in zip(layers, itertools.pairwise(ring_starts.tolist()), strict=True):
         drawing.polyline(layer, start[begin:end], is_closed=True, bulges=bulges[begin:end])
 
 

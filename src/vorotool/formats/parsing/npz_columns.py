@@ -16,9 +16,9 @@ from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions
 
 NPZ_MAGIC = b"PK\x03\x04"
-_SKELETON = frozenset({"arc_source", "vertex_r", "ring_start"})
+_SKELETON = frozenset({"arc_source", "vertex_r", "ring_starts"})
 _OFFSETS = frozenset({"piece_start_x", "shape_distance", "about"})
-_VORONOI = frozenset({"cell_ring_arcs", "cell_start", "vertex_r", "about"})
+_VORONOI = frozenset({"cell_ring_arcs", "cell_starts", "vertex_r", "about"})
 _CELLS = frozenset({"cell_starts", "polygon_starts", "ring_starts", "vertex_x", "vertex_y"})
 
 

@@ -126,10 +126,10 @@ def _opening(polygons: PolygonSet, index: int) -> str:
 
 def feature_texts(polygons: PolygonSet, style: str) -> Computed | None:
     """Return the geometry of features as text, made in the core; None where there are lines or few vertices."""
-    if not len(polygons) or polygons.is_line.any() or (np.diff(polygons.ring_start) < 3).any():
+    if not len(polygons) or polygons.is_line.any() or (np.diff(polygons.ring_starts) < 3).any():
         return None
     starts = np.array([first for first, _ in feature_ranges(polygons)] + [len(polygons)], dtype=np.int64)
-    rings, parts = polygons.ring_start, polygons.polygon_start
+    rings, parts = polygons.ring_starts, polygons.polygon_starts
 
     def texts(part: slice) -> Any:
         begin, end, _ = part.indices(len(starts) - 1)

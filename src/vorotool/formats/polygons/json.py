@@ -71,7 +71,7 @@ def read_sites(source: Source, options: ReadOptions) -> Sites:
 
 def _note_holes(name: str, polygons: PolygonSet, options: ReadOptions) -> None:
     """Say that a ring inside the first one is a shell of its own here: where GeoJSON has it, it would be a hole."""
-    low, high = (bound.reduceat(polygons.xy, polygons.ring_start[:-1]) for bound in (np.minimum, np.maximum))
+    low, high = (bound.reduceat(polygons.xy, polygons.ring_starts[:-1]) for bound in (np.minimum, np.maximum))
     within = np.flatnonzero((low >= low[0]).all(axis=1) & (high <= high[0]).all(axis=1))[1:]
     if not within.size:
         return

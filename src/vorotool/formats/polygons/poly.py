@@ -267,10 +267,10 @@ def _segments_of(polygons: PolygonSet) -> NDArray[np.int64]:
     """(m, 2) ends of the edges of all rings and lines."""
     a = np.arange(len(polygons.xy))
     b = a + 1
-    last = polygons.ring_start[1:] - 1
-    b[last] = polygons.ring_start[:-1]
+    last = polygons.ring_starts[1:] - 1
+    b[last] = polygons.ring_starts[:-1]
     keep = np.ones(len(a), dtype=bool)
-    keep[last[(polygons.ring_kind == LINE) | (np.diff(polygons.ring_start) == 1)]] = False
+    keep[last[(polygons.ring_kind == LINE) | (np.diff(polygons.ring_starts) == 1)]] = False
     return np.stack([a, b], axis=1)[keep]
 
 
@@ -286,7 +286,7 @@ def _hole_points(polygons: PolygonSet) -> list[tuple[float, float]]:
     shells = shapely.make_valid(shapely.polygons(shapely.get_exterior_ring(shapes[~polygons.is_line])))
     tree = shapely.STRtree(shells)
     points = []
-    for index in np.flatnonzero((polygons.ring_kind == HOLE) & (np.diff(polygons.ring_start) > 2)).tolist():
+    for index in np.flatnonzero((polygons.ring_kind == HOLE) & (np.diff(polygons.ring_starts) > 2)).tolist():
         hole = shapely.make_valid(shapely.Polygon(polygons.ring(index)))
         inside = shapely.union_all(shells[tree.query(hole, predicate="contains")])
         point = shapely.difference(hole, inside).representative_point()

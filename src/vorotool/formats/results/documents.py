@@ -28,7 +28,7 @@ ABOUT = "about"
 """The array with the UTF-8 of JSON of what is no list: type and version, and what is known of polygons and sites."""
 
 VERSION = 1
-_RINGS = ("ring_start", "ring_kind", "ring_polygon")
+_RINGS = ("ring_starts", "ring_kind", "ring_polygon")
 _MOST = 2**31 - 1
 
 
@@ -158,11 +158,11 @@ def read_sites(rows: Rows, polygons: PolygonSet) -> SiteTable:
     kind = rows.choices("sites", "kind", SITE_KINDS)
     polygon = rows.indices("sites", "polygon", len(polygons))
     ring, index = (rows.indices("sites", name, len(polygons.xy)) for name in ("ring", "index"))
-    number = polygons.polygon_start[polygon] + ring
-    bad = np.flatnonzero(number >= polygons.polygon_start[polygon + 1])
+    number = polygons.polygon_starts[polygon] + ring
+    bad = np.flatnonzero(number >= polygons.polygon_starts[polygon + 1])
     if bad.size:
         raise InputError(f"{rows.name}, sites {bad[0]}: there is no ring {ring[bad[0]]} in polygon {polygon[bad[0]]}")
-    bad = np.flatnonzero(index >= np.diff(polygons.ring_start)[number])
+    bad = np.flatnonzero(index >= np.diff(polygons.ring_starts)[number])
     if bad.size:
         raise InputError(f"{rows.name}, sites {bad[0]}: the ring has no vertex {index[bad[0]]}")
     source = rows.index_pairs("sites", "source", ("source_ring", "source_index"), _MOST, optional=True)

@@ -51,12 +51,12 @@ def _parts(offsets: Offsets) -> tuple[dict[str, Any], PolygonSet, dict[str, list
     shapes = [
         m.numbers("distance", offsets.distance),
         m.indices("polygon", offsets.polygon, len(polygons)),
-        *_ranges("rings", offsets.shape_start),
+        *_ranges("rings", offsets.shape_starts),
     ]
     rings = [
         m.indices("shape", offsets.shape_of_ring),
         m.choices("kind", RING_KINDS, offsets.ring_kind),
-        *_ranges("pieces", offsets.ring_start),
+        *_ranges("pieces", offsets.ring_starts),
     ]
     pieces = [
         m.choices("kind", PIECE_KINDS, offsets.is_arc),

@@ -52,7 +52,7 @@ def _shapes_of(cells: VoronoiMap, tolerance: float | None) -> CellShapes:
     return CellShapes(
         {"label": cells.labels, "area": cells.areas, "perimeter": cells.perimeters},
         cells.other_columns,
-        *written_cells(points, Nesting(start, cells.polygon_start, cells.cell_start)),
+        *written_cells(points, Nesting(start, cells.polygon_starts, cells.cell_starts)),
         cells.ids,
         cells.crs,
         cells.y_axis,

@@ -18,8 +18,8 @@ def check_map(name: str, cells: VoronoiMap) -> None:
     _refuse(name, "arcs", low >= high, lambda at: f"it is from vertex {low[at]} to {high[at]}; write the smaller first")
     signed = cells.ring_arcs.astype(np.int64)
     arc, is_back = np.abs(signed) - 1, signed < 0
-    ring = owners(np.diff(cells.ring_start))
-    cell = cells.cell_of_polygon[owners(np.diff(cells.polygon_start))][ring]
+    ring = owners(np.diff(cells.ring_starts))
+    cell = cells.cell_of_polygon[owners(np.diff(cells.polygon_starts))][ring]
     count = len(cells.arcs)
     wrong = (signed == 0) | (arc >= count)
     _refuse(name, "cells", wrong, lambda at: f"a ring passes arc {signed[at]}; there are {count}", cell)
@@ -33,7 +33,7 @@ def check_map(name: str, cells: VoronoiMap) -> None:
     )
     begin, end = np.where(is_back, high[arc], low[arc]), np.where(is_back, low[arc], high[arc])
     after = np.arange(1, len(arc) + 1)
-    after[cells.ring_start[1:] - 1] = cells.ring_start[:-1]
+    after[cells.ring_starts[1:] - 1] = cells.ring_starts[:-1]
     _refuse(
         name,
         "cells",

@@ -31,7 +31,7 @@ TYPE = "vorotool.voronoi"
 NOUN = "Voronoi map"
 _CUTS = ("clip", "enclosures")
 _SIDES = ("left", "right")
-_STARTS = ("ring_start", "polygon_start", "start")
+_STARTS = ("ring_starts", "polygon_starts", "starts")
 _MOST = 2**31 - 1
 
 
@@ -57,7 +57,7 @@ def write_npz(out: BinaryIO, cells: VoronoiMap, *, threads: int = 0) -> None:
     arrays: dict[str, NDArray[Any]] = {}
     for name, members in _lists(cells).items():
         arrays |= m.arrays_of(PREFIXES[name], members)
-    starts = (cells.ring_start, cells.polygon_start, cells.cell_start)
+    starts = (cells.ring_starts, cells.polygon_starts, cells.cell_starts)
     arrays |= {"cell_ring_arcs": cells.ring_arcs}
     arrays |= {f"cell_{name}": values for name, values in zip(_STARTS, starts, strict=True)}
     arrays |= d.polygon_arrays(cells.polygons) | {"polygon_site": cells.polygon_site}
@@ -105,15 +105,15 @@ def _write_cells(out: BinaryIO, cells: VoronoiMap, threads: int) -> None:
     out.write(b',\n"cells":[\n' if len(cells) else b',\n"cells":[')
     texts = [",", "],["]
     token = np.zeros(len(cells.ring_arcs), dtype=np.int32)
-    token[cells.ring_start[:-1]] = 1
+    token[cells.ring_starts[:-1]] = 1
     empty, before = '{"rings":[],"shells":[]}', ""
     full = np.flatnonzero(cells.components)
     place = 0
     for cell in full.tolist():
         before += f"{empty},\n" * (cell - place)
-        shells = cells.polygon_start[cells.cell_start[cell] : cells.cell_start[cell + 1]]
+        shells = cells.polygon_starts[cells.cell_starts[cell] : cells.cell_starts[cell + 1]]
         first = int(shells[0])
-        token[cells.ring_start[first]] = len(texts)
+        token[cells.ring_starts[first]] = len(texts)
         texts.append(f'{before}{{"shells":{json_text((shells - first).tolist())},"rings":[[')
         place, before = cell + 1, "]]},\n"
     write_rows(
@@ -157,8 +157,8 @@ def _map(rows: Rows, polygons: PolygonSet, site: NDArray[np.int32], options: Rea
     ends = [rows.indices("arcs", name, rows.count("vertices")) for name in ("source", "target")]
     control, center = _curves(rows)
     cells = _of_arrays(rows) if isinstance(rows, ArrayRows) else _of_cells(JsonRows(rows.name, rows.document))
-    if len(cells["cell_start"]) != len(sites) + 1:
-        count = len(cells["cell_start"]) - 1
+    if len(cells["cell_starts"]) != len(sites) + 1:
+        count = len(cells["cell_starts"]) - 1
         raise InputError(f"{rows.name}: there are {count} cells, but {len(sites)} sites: write one cell a site")
     pairs = rows.index_pairs("arcs", "sites", _SIDES, len(sites), optional=True)
     return VoronoiMap(
@@ -234,7 +234,7 @@ def _curves(rows: Rows) -> list[NDArray[np.float64]]:
 
 def _of_arrays(rows: ArrayRows) -> dict[str, Any]:
     """Arcs along rings, and where rings, polygons and cells begin."""
-    names = ("ring_start", "polygon_start", "cell_start")
+    names = ("ring_starts", "polygon_starts", "cell_starts")
     starts = {own: rows.integers(f"cell_{name}", 0, _MOST) for own, name in zip(names, _STARTS, strict=True)}
     return {"ring_arcs": rows.integers("cell_ring_arcs", -_MOST, _MOST).astype(np.int32), **starts}
 
@@ -254,9 +254,9 @@ def _of_cells(rows: JsonRows) -> dict[str, Any]:
             sizes.append(len(ring))
     return {
         "ring_arcs": np.array(arcs, dtype=np.int32),
-        "ring_start": starts_of(np.array(sizes, dtype=np.int64)),
-        "polygon_start": np.array([*first, len(sizes)], dtype=np.int64),
-        "cell_start": starts_of(np.array(polygons, dtype=np.int64)),
+        "ring_starts": starts_of(np.array(sizes, dtype=np.int64)),
+        "polygon_starts": np.array([*first, len(sizes)], dtype=np.int64),
+        "cell_starts": starts_of(np.array(polygons, dtype=np.int64)),
     }
 
 

@@ -19,11 +19,11 @@ from vorotool.geometry.row_index import index_of_rows
 
 def written_polygons(polygons: PolygonSet) -> PolygonSet:
     """Round polygons to the decimals of the file, and repair those that are invalid then."""
-    if polygons.is_line.any() or (np.diff(polygons.ring_start) < 3).any():
+    if polygons.is_line.any() or (np.diff(polygons.ring_starts) < 3).any():
         return replace(polygons, xy=on_grid(polygons.xy))
     assert polygons.feature is not None
     first = np.flatnonzero(np.diff(polygons.feature, prepend=-1))
-    nesting = Nesting(polygons.ring_start, polygons.polygon_start, np.append(first, len(polygons)))
+    nesting = Nesting(polygons.ring_starts, polygons.polygon_starts, np.append(first, len(polygons)))
     made = written_rings(polygons.xy, nesting, decimals=current_decimals())
     if made.nesting is nesting:
         return polygons if made.points is polygons.xy else replace(polygons, xy=made.points)
@@ -43,7 +43,7 @@ def _with_rings(polygons: PolygonSet, points: NDArray[np.float64], nesting: Nest
     return replace(
         polygons,
         xy=points,
-        ring_start=rings,
+        ring_starts=rings,
         ring_kind=kind,
         ring_polygon=owners(np.diff(parts), dtype=np.int32),
         ids=None if polygons.ids is None else [polygons.ids[i] for i in rows],

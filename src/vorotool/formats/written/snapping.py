@@ -205,7 +205,7 @@ def _features_of_faces(
     graph: dict[str, Any], feature: Indices, *, first_only: bool
 ) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
     """Return the features of each face, ascending: where each begins, and all; of a coverage the first alone."""
-    start, polygon = graph["face_start"], graph["face_polygon"]
+    start, polygon = graph["face_starts"], graph["face_polygon"]
     of_face = owners(np.diff(start))
     features = feature[polygon].astype(np.int32)
     kept = np.ones(len(features), dtype=bool)
@@ -229,7 +229,7 @@ def _chains(graph: dict[str, Any], vertices: NDArray[np.int32]) -> list[NDArray[
     lines = len(vertices) // 2
     line, rest = np.divmod(source - (graph["vertex_count"] - 2 * lines), 2)
     at = np.flatnonzero((line >= 0) & (rest == 0))
-    segment = owners(np.diff(graph["source_start"]))[at]
+    segment = owners(np.diff(graph["source_starts"]))[at]
     line = np.repeat(line[at], 2)
     places = points[graph["segments"][segment].reshape(-1)]
     first, last = vertices[0::2][line], vertices[1::2][line]

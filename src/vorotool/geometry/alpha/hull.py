@@ -35,7 +35,7 @@ class AlphaHull(Value, Tabular, Geometric, Pictured):
         Ends of the arcs, and centers of their circles, in input units.
     edge : (k,) int32 array
         The boundary edge of the family that each arc belongs to.
-    ring_start : (q + 1,) int64 array
+    ring_starts : (q + 1,) int64 array
         The first arc of each ring, and k.
     points : (p,) int32 array
         Isolated points of the hull: those neither on an arc nor inside.
@@ -50,7 +50,7 @@ class AlphaHull(Value, Tabular, Geometric, Pictured):
     end: NDArray[np.float64] = f.position("arcs", 2)
     center: NDArray[np.float64] = f.position("arcs", 2)
     edge: NDArray[np.int32] = f.index("arcs")
-    ring_start: NDArray[np.int64] = f.starts("rings", "arcs", least=1)
+    ring_starts: NDArray[np.int64] = f.starts("rings", "arcs", least=1)
     points: NDArray[np.int32] = f.index("points")
 
     def __len__(self) -> int:
@@ -78,7 +78,7 @@ class AlphaHull(Value, Tabular, Geometric, Pictured):
         -------
         xy : (n, 2) float64 array
             Vertices of all rings, each once.
-        ring_start : (q + 1,) int64 array
+        ring_starts : (q + 1,) int64 array
             The first vertex of each ring, and n.
         """
         if not len(self):  # of an image without foreground the radius is infinite
@@ -93,7 +93,7 @@ class AlphaHull(Value, Tabular, Geometric, Pictured):
         x = offset[:, 0] * cosine + offset[:, 1] * sine
         y = offset[:, 1] * cosine - offset[:, 0] * sine
         xy = np.where((step == 0)[:, None], self.start[arc], self.center[arc] + np.stack([x, y], axis=1))
-        return xy, starts_of(counts)[self.ring_start]
+        return xy, starts_of(counts)[self.ring_starts]
 
     def polygons(self) -> list[list[NDArray[np.float64]]]:
         """Return the flattened rings of each polygon: the counter-clockwise shell, then its clockwise holes."""
@@ -123,7 +123,7 @@ class AlphaHull(Value, Tabular, Geometric, Pictured):
         family = self.shape.family
         labels = family.mesh.label_array
         ends = family.edges[self.edge]
-        rings = owners(np.diff(self.ring_start)) + 1
+        rings = owners(np.diff(self.ring_starts)) + 1
         ends_of_arcs = {"0": self.start, "1": self.end}
         return Table(
             {
@@ -138,7 +138,7 @@ class AlphaHull(Value, Tabular, Geometric, Pictured):
         )
 
     def _summary(self) -> str:
-        rings = counted(len(self.ring_start) - 1, "ring")
+        rings = counted(len(self.ring_starts) - 1, "ring")
         return placed(f"r = {self.r:.6g}, {counted(len(self), 'arc')}, {rings}", self.shape.family.mesh.crs)
 
 

@@ -14,9 +14,9 @@ from vorotool.types.axis import UP
 
 def mirrored_polygons(polygons: PolygonSet) -> PolygonSet:
     """Mirror polygons; closed rings begin at the same vertex, and run the other way, so that areas keep their signs."""
-    sizes = np.diff(polygons.ring_start)
+    sizes = np.diff(polygons.ring_starts)
     place = within(sizes)
-    size, first = np.repeat(sizes, sizes), np.repeat(polygons.ring_start[:-1], sizes)
+    size, first = np.repeat(sizes, sizes), np.repeat(polygons.ring_starts[:-1], sizes)
     is_line = np.repeat(polygons.ring_kind == LINE, sizes)
     taken = first + np.where(is_line, place, (size - place) % np.maximum(size, 1))
     frame = None if polygons.frame is None else polygons.frame.stretched(1.0, -1.0)

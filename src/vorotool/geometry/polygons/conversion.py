@@ -55,15 +55,15 @@ def to_shapely(polygons: PolygonSet) -> NDArray[np.object_]:
     """Shapely geometry of each polygon and line, in order; rings of fewer than three vertices are padded."""
     import shapely
 
-    sizes, is_line = np.diff(polygons.ring_start), polygons.is_line
+    sizes, is_line = np.diff(polygons.ring_starts), polygons.is_line
     lines = polygons.ring_kind == LINE
     padded = np.where(lines, np.maximum(sizes, 2), sizes + np.maximum(1, 4 - sizes))
     place = within(padded)
-    taken = np.repeat(polygons.ring_start[:-1], padded) + np.where(place < np.repeat(sizes, padded), place, 0)
+    taken = np.repeat(polygons.ring_starts[:-1], padded) + np.where(place < np.repeat(sizes, padded), place, 0)
     xy, of_line = polygons.xy[taken], np.repeat(lines, padded)
     made = np.empty(len(polygons), dtype=object)
     made[is_line] = shapely.from_ragged_array(shapely.GeometryType.LINESTRING, xy[of_line], (starts_of(padded[lines]),))
-    rings = np.diff(polygons.polygon_start)[~is_line]
+    rings = np.diff(polygons.polygon_starts)[~is_line]
     made[~is_line] = shapely.from_ragged_array(
         shapely.GeometryType.POLYGON, xy[~of_line], (starts_of(padded[~lines]), starts_of(rings))
     )

@@ -49,14 +49,14 @@ class PlanarGraph(Value, Tabular, Geometric, Graph, Pictured):
         Ends of each segment, directed as the first edge that it is part of.
     point_vertex : (n,) int32 array
         The first vertex of the input at each point; -1 for a crossing of edges.
-    source_start : (m + 1,) int32 array
+    source_starts : (m + 1,) int32 array
         Where the edges of each segment begin in `source_edge`.
     source_edge : (k,) int32 array
         The edges of the input that a segment is part of, ascending. Edge k goes from vertex k of the input to the next
         one of its ring.
     segment_faces : (m, 2) int32 array
         The faces left and right of each segment (as seen along it, y upwards). Face 0 is the unbounded one.
-    face_start : (f + 1,) int32 array
+    face_starts : (f + 1,) int32 array
         Where the polygons of each face begin in `face_polygon`.
     face_polygon : (l,) int32 array
         The polygons that each face lies in, ascending.
@@ -97,10 +97,10 @@ class PlanarGraph(Value, Tabular, Geometric, Graph, Pictured):
     points: NDArray[np.int32] = f.index("points", 2)
     segments: NDArray[np.int32] = f.index("segments", 2)
     point_vertex: NDArray[np.int32] = f.index("points")
-    source_start: NDArray[np.int32] = f.index("sources")
+    source_starts: NDArray[np.int32] = f.index("sources")
     source_edge: NDArray[np.int32] = f.index("edges")
     segment_faces: NDArray[np.int32] = f.index("segments", 2)
-    face_start: NDArray[np.int32] = f.index("faces")
+    face_starts: NDArray[np.int32] = f.index("faces")
     face_polygon: NDArray[np.int32] = f.index("polygons")
     origin: tuple[float, float] = (0.0, 0.0)
     scale: float = 1.0
@@ -112,8 +112,8 @@ class PlanarGraph(Value, Tabular, Geometric, Graph, Pictured):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if len(self.source_start) - 1 != len(self.segments):
-            raise InputError("source_start must have an entry more than there are segments")
+        if len(self.source_starts) - 1 != len(self.segments):
+            raise InputError("source_starts must have an entry more than there are segments")
 
     def __len__(self) -> int:
         return len(self.segments)
@@ -121,25 +121,25 @@ class PlanarGraph(Value, Tabular, Geometric, Graph, Pictured):
     @property
     def faces(self) -> int:
         """Number of faces, the unbounded one included."""
-        return len(self.face_start) - 1
+        return len(self.face_starts) - 1
 
     @property
     def is_inside(self) -> NDArray[np.bool_]:
         """(f,) whether each face lies in any polygon."""
-        return np.diff(self.face_start) > 0
+        return np.diff(self.face_starts) > 0
 
     @property
     def source_count(self) -> NDArray[np.int32]:
         """(m,) number of input edges that each segment is part of."""
-        return np.diff(self.source_start)
+        return np.diff(self.source_starts)
 
     def polygons_of(self, face: int) -> NDArray[np.int32]:
         """Polygons that a face lies in, ascending."""
-        return self.face_polygon[self.face_start[face] : self.face_start[face + 1]]
+        return self.face_polygon[self.face_starts[face] : self.face_starts[face + 1]]
 
     def sources_of(self, segment: int) -> NDArray[np.int32]:
         """Input edges that a segment is part of, ascending."""
-        return self.source_edge[self.source_start[segment] : self.source_start[segment + 1]]
+        return self.source_edge[self.source_starts[segment] : self.source_starts[segment + 1]]
 
     def coordinates(self, points: ArrayLike | None = None) -> NDArray[np.float64]:
         """Input coordinates of lattice points, by default of all points of the graph; each rounded once.

@@ -38,8 +38,8 @@ class PolygonSet(Value, Tabular, Geometric, Pictured):
     ----------
     xy : (n, 2) float64 array
         Vertices of all rings, one ring after the other, in the units of the input; finite. All arrays are copied.
-    ring_start : (r + 1,) int64 array
-        Ring k has the vertices ``ring_start[k]`` to ``ring_start[k + 1] - 1``, at least one.
+    ring_starts : (r + 1,) int64 array
+        Ring k has the vertices ``ring_starts[k]`` to ``ring_starts[k + 1] - 1``, at least one.
     ring_kind : (r,) int8 array
         `SHELL`, `HOLE` or `LINE`. A line that ends where it begins repeats its first vertex.
     ring_polygon : (r,) int32 array
@@ -83,7 +83,7 @@ class PolygonSet(Value, Tabular, Geometric, Pictured):
     """
 
     xy: NDArray[np.float64] = f.position("vertices", 2)
-    ring_start: NDArray[np.int64] = f.numbers(np.int64, "starts")
+    ring_starts: NDArray[np.int64] = f.numbers(np.int64, "starts")
     ring_kind: NDArray[np.int8] = f.numbers(np.int8, "rings")
     ring_polygon: NDArray[np.int32] = f.index("rings")
     ids: Sequence[Any] | None = None
@@ -100,9 +100,9 @@ class PolygonSet(Value, Tabular, Geometric, Pictured):
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "xy", coordinate_rows(self.xy, "vertex"))
-        for name, dtype in (("ring_start", np.int64), ("ring_kind", np.int8), ("ring_polygon", np.int32)):
+        for name, dtype in (("ring_starts", np.int64), ("ring_kind", np.int8), ("ring_polygon", np.int32)):
             object.__setattr__(self, name, _integers(getattr(self, name), dtype, name))
-        _check_rings(self.ring_start, self.ring_kind, self.ring_polygon, len(self.xy))
+        _check_rings(self.ring_starts, self.ring_kind, self.ring_polygon, len(self.xy))
         count = len(self)
         feature = np.arange(count) if self.feature is None else self.feature
         object.__setattr__(self, "feature", _checked_features(feature, count))
@@ -163,39 +163,39 @@ class PolygonSet(Value, Tabular, Geometric, Pictured):
         return made
 
     @cached_property
-    def polygon_start(self) -> NDArray[np.int64]:
+    def polygon_starts(self) -> NDArray[np.int64]:
         """(p + 1,) first ring of each polygon, and the number of rings."""
         return np.searchsorted(self.ring_polygon, np.arange(len(self) + 1)).astype(np.int64)
 
     @cached_property
     def is_line(self) -> NDArray[np.bool_]:
         """(p,) whether each is an open line."""
-        return np.equal(self.ring_kind[self.polygon_start[:-1]], LINE)
+        return np.equal(self.ring_kind[self.polygon_starts[:-1]], LINE)
 
     @cached_property
     def following(self) -> NDArray[np.int64]:
         """(n,) the vertex after each one around its ring."""
-        return following(self.ring_start)
+        return following(self.ring_starts)
 
     def ring(self, index: int) -> NDArray[np.float64]:
         """(k, 2) vertices of a ring: a view."""
-        return self.xy[self.ring_start[index] : self.ring_start[index + 1]]
+        return self.xy[self.ring_starts[index] : self.ring_starts[index + 1]]
 
     def rings_of(self, polygon: int) -> Iterator[NDArray[np.float64]]:
         """Vertices of the shell of a polygon, then of its holes; of a line, its own."""
-        for index in range(*self.polygon_start[polygon : polygon + 2].tolist()):
+        for index in range(*self.polygon_starts[polygon : polygon + 2].tolist()):
             yield self.ring(index)
 
     def place(self, vertex: int) -> str:
         """Words for the place of a vertex, all counted from 1: ``polygon 2, hole 1, vertex 5``."""
-        ring = int(np.searchsorted(self.ring_start, vertex, side="right")) - 1
-        return f"{self.ring_place(ring)}, vertex {vertex - int(self.ring_start[ring]) + 1}"
+        ring = int(np.searchsorted(self.ring_starts, vertex, side="right")) - 1
+        return f"{self.ring_place(ring)}, vertex {vertex - int(self.ring_starts[ring]) + 1}"
 
     def ring_place(self, ring: int) -> str:
         """Words for a ring, all counted from 1: ``polygon 2, hole 1``."""
         polygon = int(self.ring_polygon[ring])
         kind = int(self.ring_kind[ring])
-        nth = f" {ring - int(self.polygon_start[polygon])}" if kind == HOLE else ""
+        nth = f" {ring - int(self.polygon_starts[polygon])}" if kind == HOLE else ""
         return f"polygon {polygon + 1}, {_KIND_NAMES[kind]}{nth}"
 
     def _summary(self) -> str:
@@ -235,11 +235,11 @@ def _check_rings(
 ) -> None:
     if len(starts) != len(kinds) + 1 or len(kinds) != len(polygons):
         raise InputError(
-            f"ring_start, ring_kind and ring_polygon are of {len(starts)}, {len(kinds)} and {len(polygons)} values; "
+            f"ring_starts, ring_kind and ring_polygon are of {len(starts)}, {len(kinds)} and {len(polygons)} values; "
             "for r rings give r + 1, r and r"
         )
     if not divides(starts, vertices, least=1):
-        raise InputError(f"ring_start must rise from 0 to the number of vertices, {vertices}, without empty rings")
+        raise InputError(f"ring_starts must rise from 0 to the number of vertices, {vertices}, without empty rings")
     if len(polygons) and (polygons[0] != 0 or not np.isin(np.diff(polygons), (0, 1)).all()):
         raise InputError("ring_polygon must rise from 0 without gaps: number the polygons in order")
     first = np.diff(polygons, prepend=-1) > 0

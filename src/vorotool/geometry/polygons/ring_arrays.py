@@ -28,7 +28,7 @@ class RingArrays:
     @classmethod
     def of(cls, polygons: PolygonSet) -> RingArrays:
         """Give those of a set."""
-        return cls(polygons.xy, np.diff(polygons.ring_start), polygons.ring_kind, np.diff(polygons.polygon_start))
+        return cls(polygons.xy, np.diff(polygons.ring_starts), polygons.ring_kind, np.diff(polygons.polygon_starts))
 
     @classmethod
     def joined(cls, parts: Sequence[RingArrays]) -> RingArrays:
@@ -52,7 +52,7 @@ class RingArrays:
         return replace(
             given,
             xy=self.xy,
-            ring_start=starts_of(self.sizes),
+            ring_starts=starts_of(self.sizes),
             ring_kind=self.kind,
             ring_polygon=owners(self.rings),
             ids=None if given.ids is None else [given.ids[k] for k in own],

@@ -22,9 +22,9 @@ def used_shapes(polygons: PolygonSet) -> NDArray[np.object_]:
     made = to_shapely(polygons)
     if not len(made):
         return made
-    first = polygons.polygon_start[:-1]
-    single = polygons.is_line & (np.diff(polygons.ring_start)[first] == 1)
-    made[single] = shapely.points(polygons.xy[polygons.ring_start[first[single]]])
+    first = polygons.polygon_starts[:-1]
+    single = polygons.is_line & (np.diff(polygons.ring_starts)[first] == 1)
+    made[single] = shapely.points(polygons.xy[polygons.ring_starts[first[single]]])
     for at in np.flatnonzero(~polygons.is_line & ~shapely.is_valid(made)).tolist():
         made[at] = _bounded(list(polygons.rings_of(at)))
     return made

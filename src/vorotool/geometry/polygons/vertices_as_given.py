@@ -25,7 +25,7 @@ def places_as_given(
     if given is polygons or not len(places):
         return places
     here, there = (given.xy, polygons.xy) if back else (polygons.xy, given.xy)
-    own = polygons.ring_polygon[owners(np.diff(polygons.ring_start))]
+    own = polygons.ring_polygon[owners(np.diff(polygons.ring_starts))]
     if others is not None:
         own, here, there = (np.concatenate(pair) for pair in zip((own, here, there), others, strict=True))
     group = np.zeros(len(polygons), dtype=np.int64) if together else np.asarray(polygons.feature, dtype=np.int64)

@@ -40,8 +40,8 @@ class Discs(Value, Tabular, Curved, Pictured):
         The polygon that each is in, the first of several; -1 outside.
     rank : (n,) int32 array
         From 1 for the first of a feature.
-    foot_start : (n + 1,) int64 array
-        The feet of disc i are ``feet[foot_start[i]:foot_start[i + 1]]``.
+    foot_starts : (n + 1,) int64 array
+        The feet of disc i are ``feet[foot_starts[i]:foot_starts[i + 1]]``.
     feet : (k, 2) float64 array
         Where discs touch the boundary.
     foot_site : (k,) int32 array
@@ -76,7 +76,7 @@ class Discs(Value, Tabular, Curved, Pictured):
     radius: NDArray[np.float64] = f.length("discs")
     polygon: NDArray[np.int32] = f.index("discs")
     rank: NDArray[np.int32] = f.index("discs")
-    foot_start: NDArray[np.int64] = f.starts("discs", "feet")
+    foot_starts: NDArray[np.int64] = f.starts("discs", "feet")
     feet: NDArray[np.float64] = f.position("feet", 2)
     foot_site: NDArray[np.int32] = f.index("feet")
     site_table: SiteTable = f.nested()
@@ -90,7 +90,7 @@ class Discs(Value, Tabular, Curved, Pictured):
 
     def feet_of(self, disc: int) -> NDArray[np.float64]:
         """Return the places where a disc touches the boundary, by the numbers of their sites."""
-        return self.feet[self.foot_start[disc] : self.foot_start[disc + 1]]
+        return self.feet[self.foot_starts[disc] : self.foot_starts[disc + 1]]
 
     @cached_property
     def held_by(self) -> NDArray[np.int64]:
@@ -100,7 +100,7 @@ class Discs(Value, Tabular, Curved, Pictured):
         grow, and one of them does if it is opposite.
         """
         made = np.full((len(self), SHOWN_FEET), -1, dtype=np.int64)
-        counts = np.diff(self.foot_start)
+        counts = np.diff(self.foot_starts)
         few = counts <= SHOWN_FEET
         disc = np.repeat(np.arange(len(self)), counts)
         place = within(counts)
@@ -108,7 +108,7 @@ class Discs(Value, Tabular, Curved, Pictured):
         made[disc[own], place[own]] = np.flatnonzero(own)
         for i in np.flatnonzero(~few).tolist():
             chosen = np.array(_holding(self.feet_of(i), self.xy[i]))
-            made[i, : len(chosen)] = self.foot_start[i] + chosen
+            made[i, : len(chosen)] = self.foot_starts[i] + chosen
         return made
 
     def table(self) -> Table:
@@ -130,7 +130,7 @@ class Discs(Value, Tabular, Curved, Pictured):
             "x": self.xy[:, 0].copy(),
             "y": self.xy[:, 1].copy(),
             "r": self.radius,
-            "feet": np.diff(self.foot_start),
+            "feet": np.diff(self.foot_starts),
         }
         for k in range(SHOWN_FEET):
             for axis, name in enumerate("xy"):
@@ -187,7 +187,7 @@ class Discs(Value, Tabular, Curved, Pictured):
         """Ids and properties of the discs."""
         x, y = on_grid(self.xy).T
         own: dict[str, NDArray[Any]] = {"rank": self.rank, "x": x, "y": y, "r": self.radius}
-        own["feet"] = np.diff(self.foot_start)
+        own["feet"] = np.diff(self.foot_starts)
         return described_shapes(own, self.polygons, self.polygon)
 
     def _summary(self) -> str:

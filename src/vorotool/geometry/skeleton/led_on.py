@@ -49,13 +49,13 @@ class LedOn(Value, Tabular, Curved, Pictured):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        lines = len(self.arc_start) - 1
+        lines = len(self.arc_starts) - 1
         if len(self.ends) != lines:
             raise InputError(f"ends must have shape ({lines}, 2, 2), but have {self.ends.shape}")
 
     def __len__(self) -> int:
         """Give the number of lines."""
-        return len(self.arc_start) - 1
+        return len(self.arc_starts) - 1
 
     @cached_property
     def as_given(self) -> Self:
@@ -68,19 +68,19 @@ class LedOn(Value, Tabular, Curved, Pictured):
         return replace(self, path=path, ends=ends.reshape(-1, 2, 2))
 
     @cached_property
-    def arc_start(self) -> NDArray[np.int64]:
+    def arc_starts(self) -> NDArray[np.int64]:
         """(k + 1,) the first arc of each path, and the number of arcs."""
         return np.append(np.flatnonzero(np.diff(self.path.branch, prepend=-1)), len(self.path))
 
     @cached_property
     def polygon(self) -> NDArray[np.int32]:
         """(k,) the polygon of each path."""
-        return self.path.polygon[self.arc_start[:-1]]
+        return self.path.polygon[self.arc_starts[:-1]]
 
     @cached_property
     def end_nodes(self) -> NDArray[np.int32]:
         """(k, 2) the first and the last node of each path."""
-        start = self.arc_start
+        start = self.arc_starts
         nodes: NDArray[np.int32] = np.stack([self.path.arcs[start[:-1], 0], self.path.arcs[start[1:] - 1, 1]], axis=1)
         return nodes
 
@@ -101,7 +101,7 @@ class LedOn(Value, Tabular, Curved, Pictured):
     def line_of_row(self) -> NDArray[np.intp]:
         """(m,) the path of each row of the table, in which extensions are rows, too."""
         first, last = self.extended
-        return np.sort(np.concatenate([first, owners(np.diff(self.arc_start)), last]))
+        return np.sort(np.concatenate([first, owners(np.diff(self.arc_starts)), last]))
 
     @cached_property
     def length(self) -> Floats:
@@ -122,15 +122,15 @@ class LedOn(Value, Tabular, Curved, Pictured):
         if not len(self):
             return np.zeros(0), np.zeros(0)
         least, most, _ = self.path.arc_radii
-        start = self.arc_start[:-1]
+        start = self.arc_starts[:-1]
         return 2 * np.minimum.reduceat(least, start), 2 * np.maximum.reduceat(most, start)
 
     def _summed(self, values: Floats) -> Floats:
-        return np.add.reduceat(values, self.arc_start[:-1]) if len(self) else np.zeros(0)
+        return np.add.reduceat(values, self.arc_starts[:-1]) if len(self) else np.zeros(0)
 
     def flattened(self, tolerance: float | None = None) -> tuple[Floats, NDArray[np.int64]]:
         """Whole lines as polylines, as of `Skeleton.flattened`; no vertex is where one is led on exactly straight."""
-        points, start = chained(*self.path.flattened(tolerance), self.arc_start[:-1])
+        points, start = chained(*self.path.flattened(tolerance), self.arc_starts[:-1])
         first, last = self.extended
         whole = np.concatenate([self.ends[first, 0], points, self.ends[last, 1]])
         line = np.concatenate([first, owners(np.diff(start)), last])
@@ -148,7 +148,7 @@ def led_on_table(lines: LedOn, *, has_branches: bool) -> Table:
     given, nodes = lines.as_given, lines.end_nodes
     path = given.path
     first, last = lines.extended
-    line = np.concatenate([first, owners(np.diff(lines.arc_start)), last])
+    line = np.concatenate([first, owners(np.diff(lines.arc_starts)), last])
     # starts before the arcs of their line, ends behind them: the order is stable
     order = np.argsort(line, kind="stable")
     nothing = np.zeros(len(first)), np.zeros(len(last))

@@ -43,9 +43,9 @@ class Offsets(Value, Tabular, Curved, Pictured):
         Of the circle of each arc, which is at most half of it; NaN on straight lines.
     site : (k,) int32 array
         The site that each piece is at the distance from, a row of `site_table`: an edge of a line, a vertex of an arc.
-    ring_start : (q + 1,) int64 array
+    ring_starts : (q + 1,) int64 array
         The first piece of each ring, and k.
-    shape_start : (s + 1,) int64 array
+    shape_starts : (s + 1,) int64 array
         The first ring of each shape, its shell, and q.
     distance : (s,) float64 array
         Of each shape.
@@ -70,7 +70,7 @@ class Offsets(Value, Tabular, Curved, Pictured):
     --------
     >>> from vorotool import offset
     >>> made = offset([[0, 0], [4, 0], [4, 2], [0, 2]], [-0.5, 1])
-    >>> made.distance.tolist(), np.diff(made.ring_start).tolist(), made.area.round(6).tolist()
+    >>> made.distance.tolist(), np.diff(made.ring_starts).tolist(), made.area.round(6).tolist()
     ([-0.5, 1.0], [4, 8], [3.0, 23.141593])
     """
 
@@ -78,8 +78,8 @@ class Offsets(Value, Tabular, Curved, Pictured):
     end: NDArray[np.float64] = f.position("pieces", 2)
     center: NDArray[np.float64] = f.position("pieces", 2)
     site: NDArray[np.int32] = f.index("pieces")
-    ring_start: NDArray[np.int64] = f.starts("rings", "pieces", least=1)
-    shape_start: NDArray[np.int64] = f.starts("shapes", "rings", least=1)
+    ring_starts: NDArray[np.int64] = f.starts("rings", "pieces", least=1)
+    shape_starts: NDArray[np.int64] = f.starts("shapes", "rings", least=1)
     distance: NDArray[np.float64] = f.length("shapes")
     polygon: NDArray[np.int32] = f.index("shapes")
     site_table: SiteTable = f.nested()
@@ -99,18 +99,18 @@ class Offsets(Value, Tabular, Curved, Pictured):
     @cached_property
     def shape_of_ring(self) -> NDArray[np.int64]:
         """(q,) the shape of each ring."""
-        return owners(np.diff(self.shape_start))
+        return owners(np.diff(self.shape_starts))
 
     @cached_property
     def ring_of_piece(self) -> NDArray[np.int64]:
         """(k,) the ring of each piece."""
-        return owners(np.diff(self.ring_start))
+        return owners(np.diff(self.ring_starts))
 
     @cached_property
     def ring_kind(self) -> NDArray[np.int8]:
         """(q,) `SHELL` or `HOLE`."""
         kind = np.full(len(self.shape_of_ring), HOLE, dtype=np.int8)
-        kind[self.shape_start[:-1]] = SHELL
+        kind[self.shape_starts[:-1]] = SHELL
         return kind
 
     @cached_property
@@ -135,7 +135,7 @@ class Offsets(Value, Tabular, Curved, Pictured):
     @cached_property
     def area(self) -> NDArray[np.float64]:
         """(s,) areas: of the chords' polygons, and of the segments of circles outside, or inside them."""
-        first = self.start[self.ring_start[:-1]][self.ring_of_piece]
+        first = self.start[self.ring_starts[:-1]][self.ring_of_piece]
         a, b = self.start - first, self.end - first
         # sin x near 0 and π: by the chord and the height of its triangle
         x, y = np.where(self.is_arc[:, None], self.start - self.center, 0).T
@@ -145,7 +145,7 @@ class Offsets(Value, Tabular, Curved, Pictured):
         if not len(self):
             return np.zeros(0)
         areas: NDArray[np.float64] = np.add.reduceat(
-            np.add.reduceat(pieces, self.ring_start[:-1]), self.shape_start[:-1]
+            np.add.reduceat(pieces, self.ring_starts[:-1]), self.shape_starts[:-1]
         )
         return areas
 
@@ -173,7 +173,7 @@ class Offsets(Value, Tabular, Curved, Pictured):
         xy, first = chords_of(self.start, self.end, self.center, is_left, each)
         return PolygonSet(
             xy,
-            first[self.ring_start],
+            first[self.ring_starts],
             self.ring_kind,
             self.shape_of_ring,  # type: ignore[arg-type]
             **self._described(),
@@ -205,7 +205,7 @@ class Offsets(Value, Tabular, Curved, Pictured):
                 **names_of(self.polygons, self.polygon[shape]),
                 "shape": shape,
                 "distance": self.piece_distance,
-                "ring": ring - self.shape_start[shape],
+                "ring": ring - self.shape_starts[shape],
                 "ring_kind": Lookup(list(RING_KINDS), self.ring_kind[ring].astype(np.int32)),
                 "piece": np.arange(len(self.site)),
                 "kind": Lookup(list(PIECE_KINDS), self.is_arc.astype(np.int32)),

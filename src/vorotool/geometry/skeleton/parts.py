@@ -73,7 +73,7 @@ class Parts(Value, Tabular, Geometric, Pictured):
     def area(self) -> NDArray[np.float64]:
         """(p,) areas; those of the pieces of a polygon sum to its own, but for rounding."""
         polygons = self.polygons
-        start = polygons.ring_start
+        start = polygons.ring_starts
         first = np.repeat(polygons.xy[start[:-1]], np.diff(start), axis=0)
         (x, y), (u, v) = (polygons.xy - first).T, (polygons.xy[following(start)] - first).T
         twice = np.add.reduceat(x * v - y * u, start[:-1]) if len(x) else np.zeros(0)

@@ -19,7 +19,7 @@ _SHAPES = {
     "segments": (np.int32, 2),
     "vertices": (np.float64, 2),
     "radius": (np.float64, 0),
-    "vertex_start": (np.int32, 0),
+    "vertex_starts": (np.int32, 0),
     "vertex_sites": (np.int32, 0),
     "edges": (np.int32, 2),
     "edge_sites": (np.int32, 2),
@@ -37,8 +37,8 @@ class SegmentVoronoiDiagram:
     vertices: NDArray[np.float64]
     # (v,) float64 array: their radii; 0 at a point where segments meet, which then is the vertex
     radius: NDArray[np.float64]
-    # (v + 1,) int32 array: the sites of vertex i are `vertex_sites[vertex_start[i]:vertex_start[i + 1]]`
-    vertex_start: NDArray[np.int32]
+    # (v + 1,) int32 array: the sites of vertex i are `vertex_sites[vertex_starts[i]:vertex_starts[i + 1]]`
+    vertex_starts: NDArray[np.int32]
     # (k,) int32 array: all sites that the disc touches and whose cells meet there, counter-clockwise from the
     # smallest number. A point whose segments leave no gap of 180 degrees has no cell
     vertex_sites: NDArray[np.int32]
@@ -53,7 +53,7 @@ class SegmentVoronoiDiagram:
             set_rows(self, name, dtype, width)
         for name, count in (
             ("radius", len(self.vertices)),
-            ("vertex_start", len(self.vertices) + 1),
+            ("vertex_starts", len(self.vertices) + 1),
             ("edge_sites", len(self.edges)),
         ):
             if len(getattr(self, name)) != count:
@@ -64,4 +64,4 @@ class SegmentVoronoiDiagram:
 
     def sites_of(self, vertex: int) -> NDArray[np.int32]:
         """Sites around a vertex, counter-clockwise from the smallest number."""
-        return self.vertex_sites[self.vertex_start[vertex] : self.vertex_start[vertex + 1]]
+        return self.vertex_sites[self.vertex_starts[vertex] : self.vertex_starts[vertex + 1]]

@@ -303,7 +303,7 @@ def ends_of_sites(polygons: PolygonSet, table: SiteTable, sites: Any = slice(Non
         column[sites] if isinstance(sites, slice) else column.take(sites)
         for column in (table.polygon, table.ring, table.index, table.kind)
     )
-    first = polygons.ring_start.take(polygons.polygon_start.take(polygon) + ring) + index
+    first = polygons.ring_starts.take(polygons.polygon_starts.take(polygon) + ring) + index
     places = np.empty((*first.shape, 2), dtype=np.int64)
     places[..., 0] = first
     places[..., 1] = np.where(kind == EDGE, polygons.following.take(first), first)

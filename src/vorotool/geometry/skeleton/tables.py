@@ -290,7 +290,7 @@ def polygon_table(skeleton: Skeleton, *, columns: Mapping[str, Any] | None = Non
             **names_of(polygons, np.arange(count)),
             "area": np.ma.array(area, mask=polygons.is_line),
             "perimeter": perimeter,
-            "holes": np.where(polygons.is_line, 0, np.diff(polygons.polygon_start) - 1),
+            "holes": np.where(polygons.is_line, 0, np.diff(polygons.polygon_starts) - 1),
             "length": length,
             "branches": np.bincount(skeleton.polygon[starts[skeleton.side[starts] == INTERIOR]], minlength=count),
             "ends": counted(skeleton.degree == 1),
@@ -356,18 +356,18 @@ def _measures(polygons: PolygonSet, threads: int) -> tuple[NDArray[np.float64], 
     count = len(polygons)
     if not count:
         return np.zeros(0), np.zeros(0)
-    first = polygons.ring_start[:-1]
+    first = polygons.ring_starts[:-1]
     length, products = np.empty((2, len(polygons.xy)))
 
     def fill(part: slice) -> None:
         length[part], products[part] = _edge_measures(polygons, part)
 
     in_chunks(len(length), fill, threads=threads)
-    length[(polygons.ring_start[1:] - 1)[polygons.is_line[polygons.ring_polygon]]] = 0
-    perimeter = np.add.reduceat(np.add.reduceat(length, first), polygons.polygon_start[:-1])
+    length[(polygons.ring_starts[1:] - 1)[polygons.is_line[polygons.ring_polygon]]] = 0
+    perimeter = np.add.reduceat(np.add.reduceat(length, first), polygons.polygon_starts[:-1])
     twice = np.abs(np.add.reduceat(products, first))
     twice = np.where(polygons.ring_kind == 1, -twice, twice)
-    area = np.add.reduceat(twice, polygons.polygon_start[:-1]) / 2
+    area = np.add.reduceat(twice, polygons.polygon_starts[:-1]) / 2
     area[polygons.is_line] = 0
     # crack outlines touch themselves, but never cross
     return area if polygons.connectivity is not None else _with_valid_areas(polygons, area), perimeter
@@ -375,7 +375,7 @@ def _measures(polygons: PolygonSet, threads: int) -> tuple[NDArray[np.float64], 
 
 def _edge_measures(polygons: PolygonSet, part: slice) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Of the edges from some vertices on: lengths, and twice the areas of triangles with the first vertex of a ring."""
-    xy, start = polygons.xy, polygons.ring_start
+    xy, start = polygons.xy, polygons.ring_starts
     here = xy[part]
     begin, end = part.start, part.start + len(here)
     rings = slice(np.searchsorted(start, begin, side="right") - 1, np.searchsorted(start, end))

@@ -44,7 +44,7 @@ def flattened_arcs(cells: VoronoiMap, tolerance: float | None) -> tuple[Floats, 
 
 def _in_pairs(cells: VoronoiMap) -> Indices:
     """Arcs of rings of two: of one piece each they would hold nothing."""
-    first = cells.ring_start[:-1][np.diff(cells.ring_start) == 2]
+    first = cells.ring_starts[:-1][np.diff(cells.ring_starts) == 2]
     arcs: Indices = np.abs(cells.ring_arcs[np.concatenate([first, first + 1])].astype(np.int64)) - 1
     return arcs
 
@@ -57,12 +57,12 @@ def cell_rings(cells: VoronoiMap, tolerance: float | None) -> tuple[Floats, Indi
     row = owners(sizes)
     step = within(sizes)
     taken = np.where(is_back[row], start[arc + 1][row] - 1 - step, start[arc][row] + step)
-    return points[taken], starts_of(sizes)[cells.ring_start]
+    return points[taken], starts_of(sizes)[cells.ring_starts]
 
 
 def cell_polygons(cells: VoronoiMap, tolerance: float | None) -> NDArray[Any]:
     """(s,) each cell as a polygon or multipolygon of shapely; what two cells share is the same in both, bit for bit."""
     points, start = cell_rings(cells, tolerance)
-    nesting = Nesting(start, cells.polygon_start, cells.cell_start)
+    nesting = Nesting(start, cells.polygon_starts, cells.cell_starts)
     made: NDArray[Any] = resolved("formats.written.rings:valid_coverage")(points, nesting)
     return made

@@ -61,11 +61,11 @@ class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
     ring_arcs : (k,) int32 array
         The arcs along each ring, counted from 1, below 0 against their direction. The cell is on the left: shells go
         counter-clockwise, holes clockwise.
-    ring_start : (r + 1,) int64 array
+    ring_starts : (r + 1,) int64 array
         Where each ring begins in `ring_arcs`.
-    polygon_start : (q + 1,) int64 array
+    polygon_starts : (q + 1,) int64 array
         The first ring of each polygon, its shell, and r.
-    cell_start : (s + 1,) int64 array
+    cell_starts : (s + 1,) int64 array
         The first polygon of each cell, and q. Cell i is of site i; it may be empty, or of several polygons.
     frame : (x, y, w, h)
         The rectangle that cells were cut by; with a clip or enclosures the bounds of the divided area.
@@ -107,9 +107,9 @@ class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
     center: Floats = f.position("arcs", 2)
     is_cut: NDArray[np.bool_] = f.numbers(np.bool_, "arcs")
     ring_arcs: NDArray[np.int32] = f.index("ring_arcs")
-    ring_start: NDArray[np.int64] = f.starts("rings", "ring_arcs", least=1)
-    polygon_start: NDArray[np.int64] = f.starts("shapes", "rings", least=1)
-    cell_start: NDArray[np.int64] = f.starts("cells", "shapes")
+    ring_starts: NDArray[np.int64] = f.starts("rings", "ring_arcs", least=1)
+    polygon_starts: NDArray[np.int64] = f.starts("shapes", "rings", least=1)
+    cell_starts: NDArray[np.int64] = f.starts("cells", "shapes")
     frame: tuple[float, float, float, float] = f.position()
     max_distance: float | None = f.length(default=None, kw_only=True)
     clip: PolygonSet | None = f.nested(default=None, kw_only=True)
@@ -122,7 +122,7 @@ class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
 
     def __len__(self) -> int:
         """Give the number of cells, empty ones too."""
-        return len(self.cell_start) - 1
+        return len(self.cell_starts) - 1
 
     @cached_property
     def labels(self) -> NDArray[np.int64]:
@@ -164,13 +164,13 @@ class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
     @cached_property
     def cell_of_polygon(self) -> NDArray[np.int64]:
         """(q,) the cell that each polygon is of."""
-        return owners(np.diff(self.cell_start))
+        return owners(np.diff(self.cell_starts))
 
     @cached_property
     def is_hole(self) -> NDArray[np.bool_]:
         """(r,) whether each ring is a hole."""
-        is_hole = np.ones(len(self.ring_start) - 1, dtype=bool)
-        is_hole[self.polygon_start[:-1]] = False
+        is_hole = np.ones(len(self.ring_starts) - 1, dtype=bool)
+        is_hole[self.polygon_starts[:-1]] = False
         return is_hole
 
     @cached_property
@@ -209,7 +209,7 @@ class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
     @cached_property
     def components(self) -> NDArray[np.int64]:
         """(s,) number of polygons of each cell."""
-        return np.diff(self.cell_start)
+        return np.diff(self.cell_starts)
 
     @property
     def edges(self) -> Table:
@@ -255,11 +255,11 @@ class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
 
     def rings_of(self, cell: int) -> list[list[NDArray[np.int32]]]:
         """Return the arcs along the rings of each polygon of a cell."""
-        polygons = range(*self.cell_start[cell : cell + 2].tolist())
+        polygons = range(*self.cell_starts[cell : cell + 2].tolist())
         return [
             [
-                self.ring_arcs[self.ring_start[ring] : self.ring_start[ring + 1]]
-                for ring in range(*self.polygon_start[polygon : polygon + 2].tolist())
+                self.ring_arcs[self.ring_starts[ring] : self.ring_starts[ring + 1]]
+                for ring in range(*self.polygon_starts[polygon : polygon + 2].tolist())
             ]
             for polygon in polygons
         ]

@@ -34,7 +34,7 @@ def alpha_layers(shape: AlphaShape, page: Page, layers: Iterable[str], *, hull: 
         "points": Points("points", points, radius=min(max(spacing / 12, 0.3), 4.0)),
     }
     if hull is not None:
-        made["hull"] = Arcs("hull", hull.start, hull.end, hull.center, hull.ring_start, CELLS[4], INK, width)
+        made["hull"] = Arcs("hull", hull.start, hull.end, hull.center, hull.ring_starts, CELLS[4], INK, width)
     if "labels" in wanted:
         made["labels"] = site_names(shape.family.mesh, page)
     return [made[name] for name in LAYERS if name in wanted]
@@ -49,5 +49,5 @@ def _regions(shape: AlphaShape) -> Polygons:
     rings = shape.polygons
     corners = np.arange(len(rings.xy), dtype=np.int32)
     ids = [f"region-{number}" for number in range(1, len(rings) + 1)]
-    first = rings.polygon_start
-    return Polygons("polygons", rings.xy, corners, rings.ring_start, first, colors=[CELLS[4]], ids=ids)
+    first = rings.polygon_starts
+    return Polygons("polygons", rings.xy, corners, rings.ring_starts, first, colors=[CELLS[4]], ids=ids)

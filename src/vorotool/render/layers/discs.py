@@ -36,7 +36,7 @@ def disc_layers(discs: Discs, page: Page, layers: Iterable[str]) -> list[Layer]:
 def _points(discs: Discs, spacing: float) -> list[Layer]:
     """Shapes of one place."""
     polygons = discs.polygons
-    alone = polygons.ring_start[:-1][np.diff(polygons.ring_start) == 1]
+    alone = polygons.ring_starts[:-1][np.diff(polygons.ring_starts) == 1]
     return [Points("points", polygons.xy[alone], SEED, min(max(spacing / 16, 0.3), 3.0))] if len(alone) else []
 
 

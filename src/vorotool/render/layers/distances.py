@@ -39,9 +39,9 @@ def _shape(name: str, polygons: PolygonSet, page: Page, color: str) -> list[Laye
     filled, *lines = polygon_layers(polygons, width, name=name, edge=color)
     drawn: list[tuple[str, Layer]] = [] if polygons.is_line.all() else [("polygons", filled)]
     drawn += [("lines", layer) for layer in lines]
-    is_lone = polygons.is_line[polygons.ring_polygon] & (np.diff(polygons.ring_start) == 1)
+    is_lone = polygons.is_line[polygons.ring_polygon] & (np.diff(polygons.ring_starts) == 1)
     if is_lone.any():
-        places = polygons.xy[polygons.ring_start[:-1][is_lone]]
+        places = polygons.xy[polygons.ring_starts[:-1][is_lone]]
         drawn.append(("points", Points(name, places, color, 2 * width + 0.5)))
     return [replace(layer, name=f"{name}-{kind}" if i else name) for i, (kind, layer) in enumerate(drawn)]
 

@@ -29,7 +29,7 @@ def offset_layers(offsets: Offsets, page: Page, layers: Iterable[str]) -> list[L
         offsets.start,
         offsets.end,
         offsets.center,
-        offsets.ring_start,
+        offsets.ring_starts,
         None,
         RESULT,
         width,

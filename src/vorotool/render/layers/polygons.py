@@ -24,9 +24,9 @@ def polygon_layers(
 ) -> list[Layer]:
     """Closed rings filled, open lines drawn."""
     closed = ~polygons.is_line[polygons.ring_polygon]
-    corner_is_closed = np.repeat(closed, np.diff(polygons.ring_start))
+    corner_is_closed = np.repeat(closed, np.diff(polygons.ring_starts))
     corners = np.flatnonzero(corner_is_closed).astype(np.int32)
-    sizes = np.diff(polygons.ring_start)[closed]
+    sizes = np.diff(polygons.ring_starts)[closed]
     per_polygon = np.bincount(polygons.ring_polygon[closed], minlength=len(polygons))
     filled = Polygons(
         name,
@@ -40,7 +40,7 @@ def polygon_layers(
         width=width,
     )
     first = np.flatnonzero(~corner_is_closed)
-    last = np.isin(first, polygons.ring_start[1:] - 1)
+    last = np.isin(first, polygons.ring_starts[1:] - 1)
     pairs = np.stack([first[~last], first[~last] + 1], axis=1).astype(np.int32)
     lines = Lines("lines", polygons.xy, pairs, edge or FAINT, width)
     return [filled, lines] if len(pairs) else [filled]
@@ -51,12 +51,12 @@ def covered(polygons: PolygonSet) -> NDArray[np.bool_] | None:
     if len(polygons) < 2 or polygons.connectivity is not None or polygons.is_line.all():
         return None
     placed, *_ = _core.arrangement.place_on_lattice(polygons.xy, 0, None)
-    rings = polygons.ring_start, polygons.ring_kind, polygons.ring_polygon
+    rings = polygons.ring_starts, polygons.ring_kind, polygons.ring_polygon
     try:
         graph = _core.arrangement.make_planar_graph(placed, *rings, None)
     except (_core.arrangement.TooManyCrossingsError, _core.arrangement.TooManyOverlapsError):
         return np.ones(len(polygons), dtype=bool)
-    counts = np.diff(graph["face_start"])
+    counts = np.diff(graph["face_starts"])
     several = graph["face_polygon"][np.repeat(counts > 1, counts)]
     if not several.size:
         return None
@@ -101,7 +101,7 @@ def names_of_features(polygons: PolygonSet, page: Page) -> Texts:
     inside[~is_line] = shapely.point_on_surface(chosen[~is_line])
     places = np.stack([shapely.get_x(inside), shapely.get_y(inside)], axis=1)
     has_none = np.isnan(places).any(axis=1)  # of a polygon without area
-    corners = polygons.xy[polygons.ring_start[polygons.polygon_start[:-1]]]
+    corners = polygons.xy[polygons.ring_starts[polygons.polygon_starts[:-1]]]
     places[has_none] = corners[order[best]][has_none]
     names = feature_names(polygons, page)
     return without_empty(Texts("labels", places, names, size=name_size(page, len(names)), halo=WHITE, is_centered=True))

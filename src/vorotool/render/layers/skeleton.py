@@ -112,7 +112,7 @@ def _names(skeleton: Skeleton, page: Page) -> Texts:
     assert polygons.feature is not None  # PolygonSet has filled it in
     _, first = np.unique(polygons.feature, return_index=True)
     owner = polygons.feature[polygons.ring_polygon]
-    places = polygons.xy[polygons.ring_start[:-1][np.searchsorted(owner, polygons.feature[first])]]
+    places = polygons.xy[polygons.ring_starts[:-1][np.searchsorted(owner, polygons.feature[first])]]
     arcs = np.flatnonzero((skeleton.side == INTERIOR) & (skeleton.polygon >= 0))
     nodes = skeleton.arcs[arcs].reshape(-1)
     of = np.repeat(np.searchsorted(polygons.feature[first], polygons.feature[skeleton.polygon[arcs]]), 2)

@@ -80,8 +80,8 @@ def _filled(cells: VoronoiMap, curves: Curves, width: float) -> CurvedPolygons:
         "cells",
         curves.points,
         cells.arcs[arc, is_back.astype(int)],
-        cells.ring_start,
-        cells.polygon_start,
+        cells.ring_starts,
+        cells.polygon_starts,
         [cell_color(c) for c in range(int(colors.max(initial=0)) + 1)],
         colors[cell],
         ids,
@@ -101,12 +101,12 @@ def _objects(cells: VoronoiMap, width: float, radius: float) -> list[Layer]:
     if len(areas.corners):
         made.append(replace(areas, colors=[WHITE], is_sheer=True))
     is_end = np.zeros(len(polygons.xy), dtype=bool)
-    is_end[polygons.ring_start[1:][polygons.is_line[polygons.ring_polygon]] - 1] = True
+    is_end[polygons.ring_starts[1:][polygons.is_line[polygons.ring_polygon]] - 1] = True
     pairs = np.stack([np.flatnonzero(~is_end), polygons.following[~is_end]], axis=1).astype(np.int32)
     if len(pairs):
         made.append(Lines("objects", polygons.xy, pairs, INK, max(width, 0.2)))
-    first = polygons.ring_start[polygons.polygon_start[:-1]]
-    is_lone = polygons.is_line & (np.diff(polygons.ring_start)[polygons.polygon_start[:-1]] == 1)
+    first = polygons.ring_starts[polygons.polygon_starts[:-1]]
+    is_lone = polygons.is_line & (np.diff(polygons.ring_starts)[polygons.polygon_starts[:-1]] == 1)
     if is_lone.any():
         name = "object-points" if len(pairs) else "objects"
         made.append(Points(name, polygons.xy[first[is_lone]], radius=radius))

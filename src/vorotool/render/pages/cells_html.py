@@ -58,7 +58,7 @@ def shapes_of_map(cells: VoronoiMap) -> Shapes:
     xy, rings = cell_rings(cells, _FINE * max(w, h))
     ids = [str(label) for label in (range(1, len(cells) + 1) if cells.ids is None else cells.ids)]
     up = is_up(cells.polygons)
-    return Shapes(xy, rings, cells.polygon_start[cells.cell_start], ids, (x, y, x + w, y + h), up)
+    return Shapes(xy, rings, cells.polygon_starts[cells.cell_starts], ids, (x, y, x + w, y + h), up)
 
 
 def shapes_of_labels(labels: NDArray[Any], *, y_up: bool = False, sides: PixelSides = SQUARE) -> Shapes:

@@ -85,7 +85,7 @@ def _shapes(skeleton: Skeleton, y_up: bool) -> dict[str, Any]:
         "control": placed(skeleton.control),
         "length": _packed(skeleton.length, "<f8"),
         "rings": placed(polygons.xy),
-        "ringStart": _packed(polygons.ring_start, "<i4"),
+        "ringStart": _packed(polygons.ring_starts, "<i4"),
         "ringKind": _packed(polygons.ring_kind, "<i1"),
     }
 
