@@ -46,10 +46,15 @@ def test_numbers_of_any_kind_limit_the_distance(kind):
     np.testing.assert_array_equal(found, vorotool.tessellate(POINTS, shape=SHAPE, max_distance=2.0).labels)
 
 
+def test_empty_points_are_left_out_with_a_warning():
+    with pytest.warns(vorotool.VorotoolWarning, match="feature at index 1 has no geometry"):
+        made = vorotool.tessellate([shapely.Point(1, 1), shapely.Point()], shape=(2, 2))
+    assert made.labels.tolist() == [[1, 1], [1, 1]]
+
+
 @pytest.mark.parametrize(
     ("geometry", "message"),
     [
-        ([shapely.Point(1, 1), shapely.Point()], "invalid seeds: point 2 is an empty Point"),
         ([LINE], "invalid seeds: these are polygons or lines"),
         (LINE, "invalid seeds: these are polygons or lines"),
         (shapely.Point(), "no seeds"),

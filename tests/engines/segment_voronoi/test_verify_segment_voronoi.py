@@ -239,7 +239,7 @@ def test_points_and_indices(graph):
         assert message in fault_of(replace(graph, **{name: array}))
     start = graph.vertex_starts.copy()
     start[4] = start[6]
-    assert "vertex_starts decreases" in fault_of(replace(graph, vertex_starts=start))
+    assert "vertex_start decreases" in fault_of(replace(graph, vertex_starts=start))
 
 
 def test_a_tee_and_a_square_by_their_cells():
