@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
-from typing import Any, BinaryIO
+from typing import Any, BinaryIO, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,9 +15,9 @@ from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.geojson import parse_json, read_y_axis
 from vorotool.formats.parsing.npz_columns import npz_columns
 from vorotool.formats.parsing.reader_options import ReadOptions, shortened
-from vorotool.formats.polygons.json import read_json
-from vorotool.formats.results.members import SITE_KINDS
-from vorotool.formats.results.rows import ArrayRows, JsonRows, Rows, is_number
+from vorotool.formats.polygons.json import read_json, write_items
+from vorotool.formats.results.members import SITE_KINDS, Member, arrays_of, write_list
+from vorotool.formats.results.rows import PREFIXES, ArrayRows, JsonRows, Rows, is_number
 from vorotool.formats.text.tables import json_bytes, json_text
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.skeleton.skeleton import SiteTable
@@ -43,6 +43,31 @@ def head_of(kind: str, own: Mapping[str, Any], polygons: PolygonSet) -> dict[str
 def write_head(out: BinaryIO, head: Mapping[str, Any]) -> None:
     """Write the beginning of a document."""
     out.write(json_text(head).removesuffix("}").encode() + b",\n")
+
+
+class Parts(NamedTuple):
+    """A result as its files hold it."""
+
+    head: dict[str, Any]
+    polygons: PolygonSet
+    lists: dict[str, list[Member]]
+
+
+def write_document(out: BinaryIO, parts: Parts, *, precision: int | None, threads: int) -> None:
+    """Write a result as JSON, one object of a list a line of text."""
+    write_head(out, parts.head)
+    write_items(out, parts.polygons)
+    for name, members in parts.lists.items():
+        write_list(out, name, members, precision=None if name == "sites" else precision, threads=threads)
+    out.write(b"}\n")
+
+
+def document_arrays(parts: Parts) -> dict[str, NDArray[Any]]:
+    """Return the same as 1-D arrays."""
+    made: dict[str, NDArray[Any]] = {}
+    for name, members in parts.lists.items():
+        made |= arrays_of(PREFIXES[name], members)
+    return {**made, **polygon_arrays(parts.polygons), **about_array(parts.head, parts.polygons)}
 
 
 def polygon_arrays(polygons: PolygonSet) -> dict[str, NDArray[Any]]:

@@ -10,12 +10,10 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions
-from vorotool.formats.polygons.json import write_items
 from vorotool.formats.results import documents as d
 from vorotool.formats.results import members as m
 from vorotool.formats.results.placed_polygons import LATTICE_STEP, as_read, as_written
-from vorotool.formats.results.rows import PREFIXES, Rows
-from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.formats.results.rows import Rows
 from vorotool.geometry.ragged import starts_of
 from vorotool.geometry.skeleton.offsets import PIECE_KINDS, RING_KINDS, Offsets
 
@@ -26,24 +24,15 @@ NOUN = "offset curves"
 # ---- writing -------------------------------------------------------------------------------------
 def write_json(out: BinaryIO, offsets: Offsets, *, precision: int | None = None, threads: int = 0) -> None:
     """Write polygons, sites, shapes, rings and pieces, one object a line of text; all indices are 0-based."""
-    head, polygons, lists = _parts(offsets)
-    d.write_head(out, head)
-    write_items(out, polygons)
-    for name, members in lists.items():
-        m.write_list(out, name, members, precision=None if name == "sites" else precision, threads=threads)
-    out.write(b"}\n")
+    d.write_document(out, _parts(offsets), precision=precision, threads=threads)
 
 
 def offset_arrays(offsets: Offsets) -> dict[str, NDArray[Any]]:
     """Return the same as 1-D arrays; no polygon is -1, the center of a line NaN."""
-    head, polygons, lists = _parts(offsets)
-    made: dict[str, NDArray[Any]] = {}
-    for name, members in lists.items():
-        made |= m.arrays_of(PREFIXES[name], members)
-    return {**made, **d.polygon_arrays(polygons), **d.about_array(head, polygons)}
+    return d.document_arrays(_parts(offsets))
 
 
-def _parts(offsets: Offsets) -> tuple[dict[str, Any], PolygonSet, dict[str, list[m.Member]]]:
+def _parts(offsets: Offsets) -> d.Parts:
     """What is no list, the polygons, and the lists."""
     polygons, step = as_written(offsets.polygons)
     own = {} if offsets.features == "separate" else {"features": offsets.features}
@@ -67,7 +56,7 @@ def _parts(offsets: Offsets) -> tuple[dict[str, Any], PolygonSet, dict[str, list
         m.indices("site", offsets.site),
     ]
     sites = m.site_members(offsets.site_table)
-    return head, polygons, {"sites": sites, "shapes": shapes, "rings": rings, "pieces": pieces}
+    return d.Parts(head, polygons, {"sites": sites, "shapes": shapes, "rings": rings, "pieces": pieces})
 
 
 def _ranges(parts: str, start: NDArray[np.int64]) -> list[m.Member]:

@@ -10,11 +10,10 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions, shortened
-from vorotool.formats.polygons.json import write_items
 from vorotool.formats.results import documents as d
 from vorotool.formats.results import members as m
 from vorotool.formats.results.placed_polygons import LATTICE_STEP, as_read, as_written
-from vorotool.formats.results.rows import PREFIXES, Rows, is_number
+from vorotool.formats.results.rows import Rows, is_number
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.skeleton.skeleton import KINDS, SIDES, Skeleton
 
@@ -25,24 +24,15 @@ _SITES = ("site_a", "site_b")
 # ---- writing -------------------------------------------------------------------------------------
 def write_json(out: BinaryIO, skeleton: Skeleton, *, precision: int | None = None, threads: int = 0) -> None:
     """Write polygons, sites, vertices and arcs, one object a line of text; all indices are 0-based."""
-    head, polygons, lists = _parts(skeleton)
-    d.write_head(out, head)
-    write_items(out, polygons)
-    for name, members in lists.items():
-        m.write_list(out, name, members, precision=None if name == "sites" else precision, threads=threads)
-    out.write(b"}\n")
+    d.write_document(out, _parts(skeleton), precision=precision, threads=threads)
 
 
 def skeleton_arrays(skeleton: Skeleton) -> dict[str, NDArray[Any]]:
     """Return the same as 1-D arrays; no polygon, side or source is -1."""
-    head, polygons, lists = _parts(skeleton)
-    made: dict[str, NDArray[Any]] = {}
-    for name, members in lists.items():
-        made |= m.arrays_of(PREFIXES[name], members)
-    return {**made, **d.polygon_arrays(polygons), **d.about_array(head, polygons)}
+    return d.document_arrays(_parts(skeleton))
 
 
-def _parts(skeleton: Skeleton) -> tuple[dict[str, Any], PolygonSet, dict[str, list[m.Member]]]:
+def _parts(skeleton: Skeleton) -> d.Parts:
     """What is no list, the polygons, and the lists."""
     polygons, step = as_written(skeleton.polygons)
     own: dict[str, Any] = {} if skeleton.frame is None else {"frame": list(skeleton.frame)}
@@ -62,7 +52,7 @@ def _parts(skeleton: Skeleton) -> tuple[dict[str, Any], PolygonSet, dict[str, li
         m.indices("branch", skeleton.branch),
         m.numbers("length", skeleton.length),
     ]
-    return head, polygons, {"sites": m.site_members(skeleton.site_table), "vertices": vertices, "arcs": arcs}
+    return d.Parts(head, polygons, {"sites": m.site_members(skeleton.site_table), "vertices": vertices, "arcs": arcs})
 
 
 # ---- reading -------------------------------------------------------------------------------------
