@@ -319,7 +319,9 @@ void bind_text(nb::module_& room) {
   nb::enum_<core::text::PolygonStyle>(room, "PolygonStyle")
       .value("wkt", core::text::PolygonStyle::wkt)
       .value("geojson", core::text::PolygonStyle::geojson)
-      .value("json", core::text::PolygonStyle::json);
+      .value("json", core::text::PolygonStyle::json)
+      .value("wkt_lines", core::text::PolygonStyle::wkt_lines)
+      .value("geojson_lines", core::text::PolygonStyle::geojson_lines);
   nb::class_<PolygonRows>(room, "PolygonTexts",
                           "A column of polygons: each row from its first polygon to that of the next.")
       .def(nb::init<const Matrix<const double>&, const PolygonRows::Starts&, const PolygonRows::Starts&,

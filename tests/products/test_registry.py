@@ -10,7 +10,7 @@ import vorotool
 from cli_reference import reference
 from support.processes.ended import ended_python
 from vorotool.cli.main import vorotool as vorotool_command
-from vorotool.products.formats import EXTENSIONS, FORMATS, PICTURES, TABLE_WRITER
+from vorotool.products.formats import EXTENSIONS, FORMATS, GENERAL, PICTURES
 from vorotool.products.registry import PRODUCTS, all_layers, formats_of
 from vorotool.products.writing import resolved
 
@@ -30,9 +30,9 @@ def test_products_have_what_they_name():
 
 
 def test_writers_are_there_and_take_what_they_are_given():
-    writers = {each.writer for own in PRODUCTS.values() for each in own.values()} - {None}
+    writers = {writer for own in PRODUCTS.values() for each in own.values() for writer in each.own.values()}
     writers |= {writer for each in FORMATS.values() for writer in each.writers.values()}
-    for writer in (*writers, TABLE_WRITER):
+    for writer in (*writers, GENERAL):
         assert writer.function.startswith("formats."), "what is drawn is no data"
         parameters = list(inspect.signature(resolved(writer.function)).parameters)
         assert set(writer.takes) == set(parameters[2:]) - {"by"}

@@ -111,7 +111,7 @@ def test_no_rows_need_no_shape():
 
 
 def test_lengths_and_positions_scale_as_they_are_declared():
-    scaled = import_module("vorotool.geometry.any.scaling").scaled
+    scaled = import_module("vorotool.geometry.scaling").scaled
     made = scaled(Strip(**GOOD), 2, (10.0, 20.0))
     assert made.width.tolist() == [2, 4]
     assert made.xy.tolist() == [[10, 20], [12, 20], [14, 20]]

@@ -1,5 +1,7 @@
 #include "core/text/polygon_text.hpp"
 
+#include <vector>
+
 #include "core/text/number_text.hpp"
 
 namespace vorotool::core::text {
@@ -15,6 +17,7 @@ struct Marks {
 constexpr Marks marks_of_wkt{"(", ")", ", ", "", " ", "", ", ", true};
 constexpr Marks marks_of_geojson{"[", "]", ",", "[", ",", "]", ",", true};
 constexpr Marks marks_of_json{"[", "]", ",", "[", ",", "]", ",", false};
+constexpr Marks marks_of_wkt_lines{"(", ")", ", ", "", " ", "", ", ", false};
 
 class Writer {
  public:
@@ -67,6 +70,41 @@ class Writer {
   const Marks& marks_;
 };
 
+bool has_length(const PolygonTexts& texts, std::int64_t line) {
+  const auto begin = static_cast<std::size_t>(texts.rings[static_cast<std::size_t>(line)]);
+  const auto end = static_cast<std::size_t>(texts.rings[static_cast<std::size_t>(line) + 1]);
+  for (std::size_t k = begin + 1; k < end; ++k) {
+    if (texts.vertices[k] != texts.vertices[begin]) return true;
+  }
+  return false;
+}
+
+bool append_lines(std::string& out, const PolygonTexts& texts, std::int64_t first, std::int64_t last) {
+  const bool is_wkt = texts.style == PolygonStyle::wkt_lines;
+  std::vector<std::int64_t> lines;
+  for (std::int64_t line = texts.polygons[static_cast<std::size_t>(first)];
+       line < texts.polygons[static_cast<std::size_t>(last)]; ++line) {
+    if (has_length(texts, line)) lines.push_back(line);
+  }
+  if (lines.empty()) return false;
+  const bool is_multi = lines.size() > 1;
+  Writer writer(out, texts, is_wkt ? marks_of_wkt_lines : marks_of_json);
+  if (is_wkt) {
+    out += is_multi ? "MULTILINESTRING " : "LINESTRING ";
+  } else {
+    out += is_multi ? "{\"type\":\"MultiLineString\",\"coordinates\":"
+                    : "{\"type\":\"LineString\",\"coordinates\":";
+  }
+  if (is_multi) {
+    writer.list(0, static_cast<std::int64_t>(lines.size()),
+                [&](std::int64_t k) { writer.ring(lines[static_cast<std::size_t>(k)]); });
+  } else {
+    writer.ring(lines.front());
+  }
+  if (!is_wkt) out += '}';
+  return true;
+}
+
 }  // namespace
 
 bool PolygonTexts::append(std::string& out, std::size_t row) const {
@@ -83,6 +121,9 @@ bool PolygonTexts::append(std::string& out, std::size_t row) const {
     out += ",\"holes\":";
     writer.list(polygons[at] + 1, polygons[at + 1], [&](std::int64_t k) { writer.ring(k); });
     return true;
+  }
+  if (style == PolygonStyle::wkt_lines || style == PolygonStyle::geojson_lines) {
+    return append_lines(out, *this, first, last);
   }
   if (first == last) return false;
   const bool is_wkt = style == PolygonStyle::wkt, is_multi = last - first > 1;

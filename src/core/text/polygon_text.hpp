@@ -1,4 +1,4 @@
-// Polygons as text, in well-known text and in the JSON of two formats.
+// Polygons and lines as text, in well-known text and in the JSON of two formats.
 #pragma once
 
 #include <cstddef>
@@ -11,9 +11,11 @@
 namespace vorotool::core::text {
 
 enum class PolygonStyle {
-  wkt,      // POLYGON ((0 0, 4 0, 0 3, 0 0)), or MULTIPOLYGON
-  geojson,  // {"type":"Polygon","coordinates":[[[0,0],[4,0],[0,3],[0,0]]]}, or MultiPolygon
-  json,     // "shell":[[0,0],[4,0],[0,3]],"holes":[] of the first polygon: members of an object
+  wkt,            // POLYGON ((0 0, 4 0, 0 3, 0 0)), or MULTIPOLYGON
+  geojson,        // {"type":"Polygon","coordinates":[[[0,0],[4,0],[0,3],[0,0]]]}, or MultiPolygon
+  json,           // "shell":[[0,0],[4,0],[0,3]],"holes":[] of the first polygon: members of an object
+  wkt_lines,      // LINESTRING (0 0, 4 0), or MULTILINESTRING: rings are lines, each a polygon of its own
+  geojson_lines,  // {"type":"LineString","coordinates":[[0,0],[4,0]]}, or MultiLineString
 };
 
 // The polygons of rows. Arrays of beginnings have one entry more than there are, for the end; they must go
@@ -28,7 +30,7 @@ struct PolygonTexts {
   std::size_t size() const { return rows.size() - 1; }
 
   // Appends the polygons of a row; coordinates read back the same. Without any, nothing is appended and the
-  // result is false; but JSON has an empty shell then.
+  // result is false; but JSON has an empty shell then. Lines whose vertices all are one place are left out.
   bool append(std::string& out, std::size_t row) const;
 };
 

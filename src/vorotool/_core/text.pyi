@@ -40,6 +40,10 @@ class PolygonStyle(enum.Enum):
 
     json = 2
 
+    wkt_lines = 3
+
+    geojson_lines = 4
+
 class PolygonTexts:
     """
     A column of polygons: each row from its first polygon to that of the next.

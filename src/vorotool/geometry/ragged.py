@@ -3,13 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 Indices = NDArray[np.int64]
 Lengths = NDArray[Any] | Sequence[int]
+
+
+class Nesting(NamedTuple):
+    """Where the vertices of each ring begin, the rings of each polygon, the polygons of each cell; and the ends."""
+
+    rings: NDArray[np.int64]
+    polygons: NDArray[np.int64]
+    cells: NDArray[np.int64]
 
 
 def starts_of(lengths: Lengths) -> Indices:

@@ -144,6 +144,10 @@ class Table(dict[str, Any], Tabular):
     def __reduce__(self) -> Any:
         return Table, (self.stored(),)
 
+    def _rows(self, _what: str | None = None) -> Any:
+        rows: Any = resolved("geometry.features:Rows")(self)
+        return rows
+
     def __repr__(self) -> str:
         return f"Table: {counted(self.rows, 'row')} of {', '.join(self) or 'no columns'}"
 

@@ -27,8 +27,8 @@ if TYPE_CHECKING:
     from vorotool.geometry.numbers import Flatten
     from vorotool.geometry.table import Table
 
-_FEATURES = "geometry.any.features"
-_FRAMES = "geometry.any.frames"
+_GEOMETRY = "convert.geometry:geometry_of"
+_FRAMES = "convert.frames"
 _SHOWING = "jobs.showing"
 
 
@@ -95,7 +95,7 @@ class Tabular:
         >>> vorotool.skeleton_exact([[0, 0], [4, 0], [0, 3]]).table()["kind"].tolist()
         ['line', 'line', 'line']
         """
-        made: Table = resolved("geometry.any.tables:indexed_table")(self).table
+        made: Table = resolved("geometry.features:rows_of")(self).table()
         return made
 
     def to_pandas(self) -> pandas.DataFrame:
@@ -149,7 +149,7 @@ class Geometric(_Places):
         >>> vorotool.PointSet([[2, 1], [7, 5]]).to_shapely()[1].wkt
         'POINT (7 5)'
         """
-        made: NDArray[Any] = resolved(f"{_FEATURES}:features_of")(self).geometry
+        made: NDArray[Any] = resolved(_GEOMETRY)(self)
         return made
 
     def to_geopandas(self) -> geopandas.GeoDataFrame:
@@ -205,7 +205,7 @@ class WithParts(_Places):
         >>> mesh.to_shapely()[0].area, len(mesh.to_shapely(what="edges"))
         (6.0, 3)
         """
-        made: NDArray[Any] = resolved(f"{_FEATURES}:features_of")(self, what=what).geometry
+        made: NDArray[Any] = resolved(_GEOMETRY)(self, what)
         return made
 
     def to_geopandas(self, *, what: str | None = None) -> geopandas.GeoDataFrame:
@@ -233,7 +233,7 @@ class WithParts(_Places):
         >>> vorotool.delaunay([[0, 0], [4, 0], [0, 3]]).to_geopandas(what="edges")["length"].tolist()
         [3.0, 4.0, 5.0]
         """
-        return resolved(f"{_FRAMES}:to_geopandas")(self, what=what)
+        return resolved(f"{_FRAMES}:to_geopandas")(self, what)
 
 
 class Curved(_Places):
@@ -265,7 +265,7 @@ class Curved(_Places):
         >>> vorotool.offset([[0, 0], [4, 0], [4, 2], [0, 2]], [-0.5]).to_shapely()[0].area
         3.0
         """
-        made: NDArray[Any] = resolved(f"{_FEATURES}:features_of")(self, flatten=flatten).geometry
+        made: NDArray[Any] = resolved(_GEOMETRY)(self, flatten=flatten)
         return made
 
     def to_geopandas(self, *, flatten: Flatten = None) -> geopandas.GeoDataFrame:
@@ -329,7 +329,7 @@ class Branched(_Places):
         >>> vorotool.skeleton_exact([[0, 0], [4, 0], [4, 4], [0, 4]]).to_shapely()[0].wkt
         'LINESTRING (0 0, 2 2)'
         """
-        made: NDArray[Any] = resolved(f"{_FEATURES}:features_of")(self, by=by, flatten=flatten).geometry
+        made: NDArray[Any] = resolved(_GEOMETRY)(self, by, flatten=flatten)
         return made
 
     def to_geopandas(self, *, by: Literal["arc", "branch"] = "arc", flatten: Flatten = None) -> geopandas.GeoDataFrame:
@@ -359,7 +359,7 @@ class Branched(_Places):
         >>> vorotool.skeleton_exact([[0, 0], [4, 0], [4, 4], [0, 4]]).to_geopandas()["r_max"].tolist()
         [2.0, 2.0, 2.0, 2.0]
         """
-        return resolved(f"{_FRAMES}:to_geopandas")(self, by=by, flatten=flatten)
+        return resolved(f"{_FRAMES}:to_geopandas")(self, by, flatten=flatten)
 
     def to_networkx(
         self, *, by: Literal["branch", "arc"] = "branch", flatten: Flatten = None
@@ -394,7 +394,7 @@ class Branched(_Places):
         >>> len(vorotool.skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]]).to_networkx())
         6
         """
-        return resolved("geometry.any.graphs:to_networkx")(self, by=by, flatten=flatten)
+        return resolved("convert.graphs:to_networkx")(self, by=by, flatten=flatten)
 
 
 class Graph:
@@ -424,7 +424,7 @@ class Graph:
         >>> vorotool.delaunay([[0, 0], [4, 0], [0, 3]]).to_networkx().edges[0, 1]["length"]
         4.0
         """
-        return resolved("geometry.any.graphs:to_networkx")(self)
+        return resolved("convert.graphs:to_networkx")(self)
 
 
 class Pictured:

@@ -145,7 +145,7 @@ def placed_polygons(size: PixelSize | None, polygons: PolygonSet) -> PolygonSet:
         polygons = replace(polygons, xy=polygons.xy * steps, frame=frame)
     if size is None or size.origin is None:
         return polygons
-    from vorotool.geometry.any.mirroring import mirrored_polygons
+    from vorotool.geometry.mirroring import mirrored_polygons
 
     return replace(mirrored_polygons(polygons) if size.y_up else polygons, y_axis=UP, crs=size.crs)
 
@@ -161,7 +161,7 @@ def placed_sites(
     o = lengths_in_steps(with_pixel_size(run, o, given, points.grid))
     if o.pixel_size is None or not o.pixel_size.y_up:
         return o, points
-    from vorotool.geometry.any.mirroring import mirrored_seeds
+    from vorotool.geometry.mirroring import mirrored_seeds
 
     return o, mirrored_seeds(points)
 

@@ -11,10 +11,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.convert.geometry import geometry_of_rows
 from vorotool.errors import UsageError
-from vorotool.geometry.any.features import features_of
 from vorotool.geometry.crs import crs_text, is_geographic, member_of_text
 from vorotool.geometry.extras import needed
+from vorotool.geometry.features import Rows, features_of
 from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation
 from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.pixel_grid import PixelGrid
@@ -59,9 +60,10 @@ def _features(value: Any) -> dict[str, Any]:
     import shapely
 
     features = features_of(value)
-    columns = {name: _json_values(column) for name, column in features.columns.items()}
-    there = ~shapely.is_empty(features.geometry)
-    texts = zip(shapely.to_geojson(features.geometry), there, strict=True)
+    assert isinstance(features, Rows)  # alpha hulls have GeoJSON of their own
+    columns = {name: _json_values(column) for name, column in features.table().items()}
+    geometry = geometry_of_rows(features)
+    texts = zip(shapely.to_geojson(geometry), ~shapely.is_empty(geometry), strict=True)
     shapes = [orjson.loads(text) if text is not None and is_there else None for text, is_there in texts]
     rows = zip(*columns.values(), strict=True)
     made: dict[str, Any] = {

@@ -278,7 +278,7 @@ def in_units(size: PixelSize | None, value: Value) -> Value:
     """Give a result in the units of the pixel size, if there is one."""
     if size is None:
         return value
-    from vorotool.geometry.any.scaling import scaled
+    from vorotool.geometry.scaling import scaled
 
     with _within_doubles(size):
         result: Value = scaled(value, size.factor, size.origin, unit=size.unit, of_steps=size.is_spacing)
@@ -301,7 +301,7 @@ def table_in_units(
     """Give a table in the units of the pixel size, if there is one; the input's own columns stay as they are."""
     if size is None:
         return table
-    from vorotool.geometry.any.scaling import scaled_table
+    from vorotool.geometry.scaling import scaled_table
 
     pixel = (1.0, 1.0) if size.sides is None else (float(size.sides.lengths[-1]), float(size.sides.lengths[-2]))
     with _within_doubles(size):

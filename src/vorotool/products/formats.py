@@ -107,8 +107,8 @@ AS_PICTURE = option("-f svg or png", 'fmt="svg" or "png"')
 
 TABLES = ("csv", "tsv", "json", "npz")
 """Formats of tables."""
-TABLE_WRITER = Writer("formats.text.tables:write_table", ("fmt", "precision", "threads"))
-"""Of tables, whatever they tell."""
+GENERAL = Writer("formats.results.writer:write_value", ("fmt", "what", "flatten", "precision", "threads"))
+"""What writes the rows or the features of any value."""
 ANIMATIONS = ("gif", "apng", "webp")
 """Formats of pictures that move."""
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from vorotool.products.formats import ANIMATIONS, FORMATS, PICTURES, TABLE_WRITER, TABLES, Format, Writer
+from vorotool.products.formats import ANIMATIONS, FORMATS, PICTURES, TABLES, Format, Writer
 
 
 @dataclass(frozen=True, slots=True)
@@ -16,8 +16,9 @@ class Product:
     what: str
     # public types of the values that it is written from; those of them that are not the whole value are its parts
     types: tuple[str, ...] = ()
-    data: tuple[str, ...] = ()  # formats that `writer` writes, the default first
-    writer: Writer | None = None  # of all these but tables, which have one of their own
+    data: tuple[str, ...] = ()  # formats that it is written in, the default first
+    # what writes it in formats that are not those of rows and features in general
+    own: Mapping[str, Writer] = field(default_factory=dict)
     # layers of its pictures, from below, by the format of the picture
     layers: Mapping[str, Sequence[str]] = field(default_factory=dict)
     usual_layers: tuple[str, ...] = ()  # those that a picture has where none are chosen
@@ -48,14 +49,13 @@ def _product(
     what: str,
     types: str = "",
     data: str = "",
-    writer: Writer | None = None,
     layers: Mapping[str, Sequence[str]] | None = None,
     usual_layers: str = "",
     **more: Any,
 ) -> Product:
     """Give an entry of the lists below, in which blanks separate names."""
     shown = tuple(usual_layers.split())
-    return Product(what, tuple(types.split()), tuple(data.split()), writer, layers or {}, shown, **more)
+    return Product(what, tuple(types.split()), tuple(data.split()), layers=layers or {}, usual_layers=shown, **more)
 
 
 def _pictures(layers: str) -> dict[str, Sequence[str]]:
@@ -73,17 +73,17 @@ _TESSELLATE = (
         "labels",
         "LabelImage",
         f"{_IMAGES} zarr",
-        _LABELS,
         {"svg": _COLORED["svg"]},
         "cells seeds labels",
+        own=dict.fromkeys(_IMAGES.split(), _LABELS),
         has_page=True,
     ),
-    _product("diagram", "", _IMAGES, None, {"png": _COLORED["png"]}, "diagram"),
-    _product("color", "LabelImage", "", None, _COLORED, "cells seeds", has_page=True, moves=True),
+    _product("diagram", "", _IMAGES, {"png": _COLORED["png"]}, "diagram"),
+    _product("color", "LabelImage", "", _COLORED, "cells seeds", has_page=True, moves=True),
     _product("distance", "", "tiff npy zarr"),
     _product("distance2", "", "tiff npy zarr text"),
-    _product("table", "Table", _TABLES, TABLE_WRITER),
-    _product("neighbors", "", _TABLES, TABLE_WRITER),
+    _product("table", "Table", _TABLES),
+    _product("neighbors", "", _TABLES),
 )
 
 # ---- tessellate, of volumes ----------------------------------------------------------------------
@@ -92,79 +92,91 @@ _SLICES = {fmt: (*layers[:1], *(name for name in layers[1:] if name != "objects"
 _VOLUMES = (
     _product("labels", "LabelVolume", _STACKS, has_page=True),
     _product("diagram", "", _STACKS),
-    _product("color", "", "", None, _SLICES, "cells seeds", has_page=True),
+    _product("color", "", "", _SLICES, "cells seeds", has_page=True),
     _product("distance", "", _STACKS),
     _product("distance2", "", _STACKS),
-    _product("table", "Table", _TABLES, TABLE_WRITER),
-    _product("neighbors", "", _TABLES, TABLE_WRITER),
+    _product("table", "Table", _TABLES),
+    _product("neighbors", "", _TABLES),
 )
 
 # ---- delaunay ------------------------------------------------------------------------------------
-_MESH = Writer("formats.results.meshes:write_mesh")
-_CELLS = Writer("formats.results.cells:write_cells", ("fmt", "precision", "threads"))
+_MESH = dict.fromkeys(("obj", "edge", "ele", "node"), Writer("formats.results.meshes:write_mesh"))
+_CELLS = {
+    "json": Writer("formats.results.cells:write_json", ("precision", "threads")),
+    "npz": Writer("formats.results.cells:write_arrays", ("threads",)),
+}
 _MESHES = "Triangulation DigitalTriangulation"
 _EDGED = f"{_MESHES} ProximityGraph"
-_STATISTICS = Writer("formats.results.statistics:write_statistics")
 _MESH_LAYERS = _pictures("cells triangles diagram edges points labels")
 _DELAUNAY = (
-    _product("edges", _EDGED, "csv tsv json geojson npz npy edge obj", _MESH, _MESH_LAYERS, "edges points"),
+    _product("edges", _EDGED, "csv tsv json geojson npz npy edge obj", _MESH_LAYERS, "edges points", own=_MESH),
     _product(
-        "triangles", _MESHES, "csv tsv json geojson npz npy ele obj", _MESH, _MESH_LAYERS, "triangles edges points"
+        "triangles", _MESHES, "csv tsv json geojson npz npy ele obj", _MESH_LAYERS, "triangles edges points", own=_MESH
     ),
-    _product("cells", "CellSet", "geojson csv tsv json npz wkt", _CELLS, _MESH_LAYERS, "cells points", has_page=True),
-    _product("table", _MESHES, f"{_TABLES} node", _MESH),
-    _product("statistics", "CellStatistics", _TABLES, _STATISTICS),
-    _product("measures", "CellStatistics", _TABLES, _STATISTICS),
-    _product("compare", "", _TABLES, TABLE_WRITER),
+    _product(
+        "cells", "CellSet", "geojson csv tsv json npz wkt", _MESH_LAYERS, "cells points", own=_CELLS, has_page=True
+    ),
+    _product("table", _MESHES, f"{_TABLES} node", own=_MESH),
+    _product("statistics", "CellStatistics", _TABLES),
+    _product("measures", "CellStatistics", _TABLES),
+    _product("compare", "", _TABLES),
 )
 
 # ---- alphashape ----------------------------------------------------------------------------------
-_SHAPE = Writer("formats.results.alpha:write_shape")
+_POLYGON_FILES = dict.fromkeys(
+    ("json", "poly"), Writer("formats.results.writer:write_shapes", ("fmt", "what", "flatten"))
+)
+"""Of features that are polygons."""
 _SHAPE_LAYERS = _pictures("polygons delaunay interior boundary singular hull points labels")
-_EDGES = ("AlphaShape", "csv tsv json geojson npz npy", _SHAPE, _SHAPE_LAYERS)
-_POLYGONS = ("AlphaShape", "geojson wkt json poly", _SHAPE, _SHAPE_LAYERS)
-_GENERAL = ("AlphaShape", "geojson wkt", _SHAPE, _SHAPE_LAYERS)
+_EDGES = ("AlphaShape", "csv tsv json geojson npz npy", _SHAPE_LAYERS)
+_POLYGONS = ("AlphaShape", "geojson wkt json poly", _SHAPE_LAYERS)
+_GENERAL = ("AlphaShape", "geojson wkt", _SHAPE_LAYERS)
 _ALPHASHAPE = (
     _product("edges", *_EDGES, "boundary singular points", has_page=True, moves=True),
-    _product("polygons", *_POLYGONS, "polygons", has_page=True, moves=True, usual_for=("geojson", "wkt", "poly")),
+    _product(
+        "polygons",
+        *_POLYGONS,
+        "polygons",
+        own=_POLYGON_FILES,
+        has_page=True,
+        moves=True,
+        usual_for=("geojson", "wkt", "poly"),
+    ),
     _product("complex", *_EDGES, "interior boundary singular points", has_page=True, moves=True),
     _product("general", *_GENERAL, "polygons boundary singular points", has_page=True, moves=True),
-    _product("family", "AlphaComplex", _TABLES, _SHAPE, has_page=True),
-    _product("spectrum", "AlphaComplex", f"{_TABLES} npy", _SHAPE),
-    _product("curves", "", _TABLES, TABLE_WRITER, {"svg": ()}, has_page=True),
-    _product("persistence", "RegionPersistence", _TABLES, _SHAPE, {"svg": ()}),
-    _product("hull", "AlphaHull", f"geojson {_TABLES}", _SHAPE, _SHAPE_LAYERS, "hull points"),
-    _product("points", "AlphaShape", _TABLES, _SHAPE),
-    _product("table", "AlphaShape", _TABLES, _SHAPE),
+    _product("family", "AlphaComplex", _TABLES, has_page=True),
+    _product("spectrum", "AlphaComplex", f"{_TABLES} npy"),
+    _product("curves", "", _TABLES, {"svg": ()}, has_page=True),
+    _product("persistence", "RegionPersistence", _TABLES, {"svg": ()}),
+    _product("hull", "AlphaHull", f"geojson {_TABLES}", _SHAPE_LAYERS, "hull points"),
+    _product("points", "AlphaShape", _TABLES),
+    _product("table", "AlphaShape", _TABLES),
 )
 
 # ---- skeletons -----------------------------------------------------------------------------------
-_LINES = ("fmt", "flatten", "precision", "threads")
-_SKELETON = Writer("formats.results.skeletons:write_skeleton", ("what", *_LINES))
-_CENTERLINES = Writer("formats.results.centerlines:write_centerlines", _LINES)
-_OFFSETS = Writer("formats.results.offsets:write_offsets", _LINES)
-_DISCS = Writer("formats.results.discs:write_discs", _LINES)
-_RINGS = Writer("formats.polygons.writer:write_polygons", ("fmt",))
 _DISC_LAYERS = _pictures("polygons discs feet labels")
-_DISC_PRODUCT = _product(
-    "discs", "Discs", f"{_TABLES} geojson wkt", _DISCS, _DISC_LAYERS, "polygons discs", is_curved=True
-)
+_DISC_PRODUCT = _product("discs", "Discs", f"{_TABLES} geojson wkt", _DISC_LAYERS, "polygons discs", is_curved=True)
+
+
+def _documents(module: str) -> dict[str, Writer]:
+    """Give what writes all of a result in JSON and as arrays."""
+    json = Writer(f"formats.results.{module}:write_json", ("precision", "threads"))
+    return {"json": json, "npz": Writer(f"formats.results.{module}:write_npz", ("threads",))}
+
+
+_SKELETON, _OFFSETS = _documents("skeleton_files"), _documents("offset_files")
 _THICKNESS = Writer("formats.results.thickness:write_thickness", ("fmt", "threads"))
-_POINTS = Writer("formats.results.points_along:write_skeleton_points")
-_NECKS = Writer("formats.results.necks:write_necks", ("fmt", "precision", "threads"))
-_PARTS = Writer("formats.results.necks:write_parts", ("fmt", "precision", "threads"))
 _CURVES = "json csv tsv geojson npz wkt"
 _ARCS = _pictures("polygons elements points skeleton nodes labels")
 _ALONG = _pictures("polygons skeleton transects points labels")
 _SKELETONS = (
-    _product("skeleton", "Skeleton", _CURVES, _SKELETON, _ARCS, "polygons skeleton", has_page=True, is_curved=True),
-    _product("diagram", "", _CURVES, _SKELETON, _ARCS, "polygons elements points skeleton", is_curved=True),
-    _product("elements", "Skeleton", _TABLES, _SKELETON, _ARCS, "polygons elements points"),
+    _product("skeleton", "Skeleton", _CURVES, _ARCS, "polygons skeleton", own=_SKELETON, has_page=True, is_curved=True),
+    _product("diagram", "", _CURVES, _ARCS, "polygons elements points skeleton", own=_SKELETON, is_curved=True),
+    _product("elements", "Skeleton", _TABLES, _ARCS, "polygons elements points"),
     _product(
         "centerline",
         "Centerlines ExtendedSkeleton SmoothLines",
         f"geojson {_TABLES} wkt",
-        _CENTERLINES,
         _ARCS,
         "polygons skeleton",
         is_curved=True,
@@ -173,31 +185,42 @@ _SKELETONS = (
         "offset",
         "Offsets",
         _CURVES,
-        _OFFSETS,
         _pictures("polygons offset labels"),
         "polygons offset",
+        own=_OFFSETS,
         is_curved=True,
         moves=True,
     ),
-    _product("shape", "PolygonSet", "json geojson wkt poly", _RINGS, _pictures("shape labels"), "shape"),
+    _product("shape", "PolygonSet", "json geojson wkt poly", _pictures("shape labels"), "shape", own=_POLYGON_FILES),
     _DISC_PRODUCT,
-    _product("points", "SkeletonPoints", f"{_TABLES} npy geojson wkt", _POINTS, _ALONG, "polygons skeleton points"),
-    _product("transects", "SkeletonPoints", f"geojson wkt {_TABLES}", _POINTS, _ALONG, "polygons skeleton transects"),
-    _product("thickness", "", "tiff npy", _THICKNESS, {"png": ("thickness",)}, "thickness"),
-    _product("branches", "Skeleton", _TABLES, _SKELETON),
-    _product("table", "Skeleton", _TABLES, _SKELETON),
+    _product("points", "SkeletonPoints", f"{_TABLES} npy geojson wkt", _ALONG, "polygons skeleton points"),
+    _product("transects", "SkeletonPoints", f"geojson wkt {_TABLES}", _ALONG, "polygons skeleton transects"),
+    _product(
+        "thickness",
+        "",
+        "tiff npy",
+        {"png": ("thickness",)},
+        "thickness",
+        own=dict.fromkeys(("tiff", "npy"), _THICKNESS),
+    ),
+    _product("branches", "Skeleton", _TABLES),
+    _product("table", "Skeleton", _TABLES),
 )
 _OF_WHOLE_AXIS = (
     _product(
         "necks",
         "Necks",
         f"{_TABLES} geojson wkt",
-        _NECKS,
         _pictures("polygons skeleton necks labels"),
         "polygons necks",
     ),
     _product(
-        "parts", "Parts", "geojson csv tsv npz json wkt poly", _PARTS, _pictures("parts skeleton cuts labels"), "parts"
+        "parts",
+        "Parts",
+        "geojson csv tsv npz json wkt poly",
+        _pictures("parts skeleton cuts labels"),
+        "parts",
+        own=_POLYGON_FILES,
     ),
 )
 """Only of exact skeletons."""
@@ -206,31 +229,29 @@ _WITHOUT_SAMPLES = {"offset", "discs", "thickness"}
 
 
 # ---- voronoi -------------------------------------------------------------------------------------
-_MAP = Writer("formats.results.voronoi:write_voronoi", ("fmt", "what", *_LINES[1:]))
 _MAP_LAYERS = _pictures("cells edges objects labels")
 _VORONOI = (
     _product(
         "cells",
         "VoronoiMap",
         "geojson csv tsv json npz wkt",
-        _MAP,
         _MAP_LAYERS,
         "cells objects",
+        own=_documents("voronoi_files"),
         has_page=True,
         is_curved=True,
     ),
-    _product("edges", "VoronoiMap", f"{_TABLES} geojson wkt", _MAP, _MAP_LAYERS, "edges objects", is_curved=True),
-    _product("neighbors", "VoronoiMap", _TABLES, _MAP),
-    _product("table", "VoronoiMap", _TABLES, _MAP),
+    _product("edges", "VoronoiMap", f"{_TABLES} geojson wkt", _MAP_LAYERS, "edges objects", is_curved=True),
+    _product("neighbors", "VoronoiMap", _TABLES),
+    _product("table", "VoronoiMap", _TABLES),
     _DISC_PRODUCT,
 )
 
 
 # ---- distance ------------------------------------------------------------------------------------
-_APART = Writer("formats.results.distances:write_distances", ("fmt", "what", "precision", "threads"))
 _APART_LAYERS = _pictures("first second distances")
 _DISTANCE = tuple(
-    _product(what, types, f"{_TABLES} geojson wkt", _APART, _APART_LAYERS, "first second distances")
+    _product(what, types, f"{_TABLES} geojson wkt", _APART_LAYERS, "first second distances")
     for what, types in (("distances", "Distances"), ("hausdorff", ""), ("smallest", ""))
 )
 

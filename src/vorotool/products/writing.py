@@ -5,8 +5,11 @@ from __future__ import annotations
 from typing import Any, BinaryIO
 
 from vorotool.errors import UsageError
-from vorotool.products.formats import FORMATS, TABLE_WRITER, resolved
+from vorotool.products.formats import FORMATS, GENERAL, resolved
 from vorotool.products.registry import Product, is_of, parts_of, public_types
+
+_IN_PLACE = "Table", "LedOn", "SmoothLines"
+"""Types that are written under the name of another result, in the formats of rows and features."""
 
 
 def write_product(
@@ -30,8 +33,7 @@ def write_product(
         with resolved(chosen.maker)(out, product.what, path) as taker:
             write_product(taker, value, product, source, **options)
         return
-    writer = writer or (TABLE_WRITER if is_of(value, "Table") else product.writer)
-    assert writer is not None  # images have none: they are written as they are computed
+    writer = writer or (GENERAL if is_of(value, *_IN_PLACE) else product.own.get(fmt, GENERAL))
     given = {"fmt": fmt, "what": product.what, **options}
     resolved(writer.function)(out, value, **{name: given[name] for name in writer.takes})
 

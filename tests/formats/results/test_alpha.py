@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import json
 
 import numpy as np
@@ -10,23 +9,16 @@ import pytest
 import shapely
 
 from support.families.point_families import draw
+from support.readers.written import written
 from vorotool import PointSet, UsageError, alpha_complex, alpha_hull, alpha_shape, write
-from vorotool.formats.results.alpha import write_general, write_hull_geojson, write_shape_edges
-from vorotool.geometry.coordinate_grid import coordinates_written
 
 FAMILY = alpha_complex(PointSet(draw("uniform", 120, 5), crs={"type": "name"}))
 SHAPE = alpha_shape(FAMILY, r=float(FAMILY.spectrum[len(FAMILY.spectrum) // 2]))
 
 
-def written(function, *arguments, **options):
-    out = io.BytesIO()
-    function(out, *arguments, **options)
-    return out.getvalue().decode()
-
-
 def test_edges_as_line_strings():
     for interior in (False, True):
-        document = json.loads(written(write_shape_edges, SHAPE, interior=interior))
+        document = json.loads(written(SHAPE, "geojson", what="complex" if interior else "edges"))
         assert document["crs"] == {"type": "name"}
         classes = SHAPE.edge_classes
         chosen = np.flatnonzero(classes) if interior else SHAPE.edge_index
@@ -38,17 +30,16 @@ def test_edges_as_line_strings():
 
 
 def test_all_parts_of_a_shape():
-    document = json.loads(written(write_general, SHAPE, "geojson"))
+    document = json.loads(written(SHAPE, "geojson", what="general"))
     parts = [shapely.geometry.shape(feature["geometry"]) for feature in document["features"]]
     kinds = [part.geom_type for part in parts]
     assert kinds.count("Polygon") == SHAPE.region_count
     assert kinds.count("LineString") == int((SHAPE.kind == 1).sum())
     assert kinds.count("Point") == len(SHAPE.isolated)
     assert sum(part.area for part in parts) == pytest.approx(SHAPE.area)
-    lines = written(write_general, SHAPE, "wkt").splitlines()
+    lines = written(SHAPE, "wkt", what="general").decode().splitlines()
     assert [shapely.from_wkt(line) for line in lines] == parts
-    with coordinates_written(4):
-        short = written(write_general, SHAPE, "wkt")
+    short = written(SHAPE, "wkt", what="general", decimals=4)
     assert len(short) < 0.7 * sum(map(len, lines))
     with pytest.raises(UsageError, match="'csv'"):
         write(SHAPE, "a.csv", what="general")
@@ -58,7 +49,7 @@ def test_a_hull_with_a_hole():
     grid = np.stack(np.meshgrid(np.arange(9), np.arange(9)), axis=-1).reshape(-1, 2).astype(float)
     points = np.concatenate([grid[abs(grid - 4).max(axis=1) > 1], [[20.0, 20]]])
     hull = alpha_hull(alpha_shape(points, r=0.8))
-    features = json.loads(written(write_hull_geojson, hull))["features"]
+    features = json.loads(written(hull, "geojson"))["features"]
     (polygon,), (point,) = ([f for f in features if f["geometry"]["type"] == kind] for kind in ("Polygon", "Point"))
     shape = shapely.geometry.shape(polygon["geometry"])
     assert shape.is_valid

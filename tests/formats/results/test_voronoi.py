@@ -13,9 +13,8 @@ import pytest
 import shapely
 
 import vorotool
-from support.readers.written import rows_of
+from support.readers.written import rows_of, written
 from vorotool.errors import InputError, UsageError
-from vorotool.formats.results.voronoi import write_voronoi
 
 DATA = Path(__file__).parents[3] / "data"
 SHAPES = geopandas.GeoDataFrame(
@@ -51,12 +50,6 @@ MAPS = dict(maps())
 def unindexed(cells):
     """What a file holds of a map: all but the index of a data frame."""
     return replace(cells, index=None, polygons=replace(cells.polygons, index=None))
-
-
-def written(cells, fmt, **options):
-    out = io.BytesIO()
-    write_voronoi(out, cells, fmt, **options)
-    return out.getvalue()
 
 
 @pytest.fixture

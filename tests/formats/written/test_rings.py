@@ -7,7 +7,7 @@ import shapely
 import vorotool
 from vorotool.formats.written.rings import geometry, written_rings
 from vorotool.geometry.coordinate_grid import rounded
-from vorotool.geometry.mesh.cells import Nesting
+from vorotool.geometry.ragged import Nesting
 
 DECIMALS = [None, 6, 3, 1, 0]
 

@@ -57,6 +57,6 @@ def in_unit(table: Table, sides: PixelSides) -> Table:
     """Give a table whose lengths are steps of the sides of pixels in the unit of these."""
     if sides == SQUARE:
         return table
-    from vorotool.geometry.any.scaling import scaled_table  # imports all that can be scaled
+    from vorotool.geometry.scaling import scaled_table  # imports all that can be scaled
 
     return scaled_table(table, sides.step, of_steps=True)

@@ -22,7 +22,6 @@ from vorotool.engines.tessellation.frames import (
 )
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import InputError, LimitError, UsageError, option, warn
-from vorotool.geometry.any.scaling import scaled
 from vorotool.geometry.arguments.spacings import asked_sides
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation
@@ -31,6 +30,7 @@ from vorotool.geometry.pixel_frame import MAX_PIXELS
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.geometry.progress import Progress
+from vorotool.geometry.scaling import scaled
 from vorotool.geometry.spacing import PixelSides
 
 if TYPE_CHECKING:

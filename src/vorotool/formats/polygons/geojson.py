@@ -106,13 +106,17 @@ def _collect(collector: RingCollector, feature: int, geometry: Any, place: str) 
 
 def write_geojson(out: BinaryIO, polygons: PolygonSet) -> None:
     """Write one feature for each feature of the input, with its id and properties."""
+    write_collection(out, [feature_columns(polygons)], crs=polygons.crs, y_axis=polygons.y_axis)
+
+
+def feature_columns(polygons: PolygonSet) -> tuple[list[Column], RowShape]:
+    """Return the columns of features, and the text around them."""
     ranges = feature_ranges(polygons)
     openings = [_opening(polygons, first) for first, _ in ranges]
     texts: Computed | list[str] | None = feature_texts(polygons, "geojson")
     if texts is None:
         texts = [json_text(_joined([_geometry(polygons, i) for i in range(*each)])) for each in ranges]
-    shape = RowShape(("", ',"geometry":', "}"), ",\n")
-    write_collection(out, [Column("", openings), Column("", texts)], shape, crs=polygons.crs, y_axis=polygons.y_axis)
+    return [Column("", openings), Column("", texts)], RowShape(("", ',"geometry":', "}"), ",\n")
 
 
 def _opening(polygons: PolygonSet, index: int) -> str:

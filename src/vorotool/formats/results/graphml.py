@@ -10,10 +10,11 @@ from xml.sax.saxutils import escape, quoteattr
 
 import numpy as np
 
-from vorotool.formats.polygons.polylines import Wording, write_polylines
+from vorotool.formats.results.writer import line_column
 from vorotool.formats.text.row_writer import Column, RowShape, check_precision, write_rows
 from vorotool.formats.text.tables import json_text
 from vorotool.geometry.arguments.tables import listed
+from vorotool.geometry.features import Lines
 from vorotool.geometry.skeleton.graph import SkeletonGraph, skeleton_graph
 from vorotool.geometry.skeleton.skeleton import Skeleton
 from vorotool.geometry.xml_text import xml_characters
@@ -54,9 +55,10 @@ def write_graphml(
         between = (f'">{first}', *(f"</data>{name}" for name in others))
         shape = RowShape(('<node id="', *between, "</data></node>\n"))
         write_rows(out, columns, shape, precision=precision, threads=threads)
-    after, empty = "</data></edge>\n", "LINESTRING EMPTY</data></edge>\n"
-    wording = Wording(b"", edges.openings(by), ", ", " ", f"){after}", b"</graph>\n</graphml>\n", "LINESTRING (", empty)
-    write_polylines(out, graph.points, graph.start[:-1], wording, precision=precision, threads=threads)
+    columns = [Column("", edges.openings(by)), line_column(Lines(graph.points, graph.start), "wkt")]
+    shape = RowShape(("", "", "</data></edge>\n"), "", "LINESTRING EMPTY")
+    write_rows(out, columns, shape, precision=precision, threads=threads)
+    out.write(b"</graph>\n</graphml>\n")
 
 
 class _EdgeTexts:
@@ -73,7 +75,7 @@ class _EdgeTexts:
         """One text an edge, up to its first point."""
         graph = self.graph
         keys = [(f'<data key="e{number}">', self.kinds[name]) for number, name in enumerate(self.values)]
-        last = f'<data key="e{len(keys)}">LINESTRING ('
+        last = f'<data key="e{len(keys)}">'
         texts = []
         rows = zip(
             graph.edges[by].tolist(), graph.source.tolist(), graph.target.tolist(), *self.values.values(), strict=True

@@ -2,29 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from typing import Any, BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import UsageError
-from vorotool.formats.io.npy_arrays import write_array
-from vorotool.formats.text.feature_collection import write_collection
 from vorotool.formats.text.row_writer import Column, RowShape, write_rows
-from vorotool.formats.text.tables import json_column, object_shape, write_table
 from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation, DigitalTriangulation
 from vorotool.geometry.mesh.proximity import ProximityGraph
-from vorotool.geometry.mesh.tables import END_PLACES, edge_table, point_table, triangle_table
 from vorotool.geometry.mesh.triangulation import Triangulation
-from vorotool.geometry.table import Lookup, Table
-from vorotool.products.formats import TABLES
-
-_TABLES: dict[str, Callable[[Any], Table]] = {
-    "edges": edge_table,
-    "triangles": triangle_table,
-    "table": point_table,
-}
+from vorotool.geometry.table import Lookup
 
 
 def write_mesh(
@@ -37,63 +26,12 @@ def write_mesh(
     threads: int = 0,
 ) -> None:
     """Write edges, triangles or points; the bytes depend on nothing but the mesh, the format and the precision."""
-    if isinstance(mesh, DigitalTriangulation) and (what == "table" or fmt in ("edge", "ele")):
+    if isinstance(mesh, DigitalTriangulation) and fmt != "obj":
         raise UsageError(
             f"{what} as {fmt!r} is for triangulations: what a digital tessellation shows need not be one; write its "
             "edges or triangles as csv, json, geojson, npz or obj"
         )
-    if fmt == "npy":
-        write_array(out, mesh.edges if what == "edges" else mesh.triangles)
-    elif fmt in TABLES:
-        write_table(out, _TABLES[what](mesh), fmt, precision=precision, threads=threads)
-    else:
-        _WRITERS[fmt](out, mesh, what, precision, threads)
-
-
-# ---- GeoJSON -------------------------------------------------------------------------------------
-def _write_geojson(
-    out: BinaryIO, mesh: AnyTriangulation | ProximityGraph, what: str, precision: int | None, threads: int
-) -> None:
-    """One feature an edge or triangle; its id is its number from 1, its labels and length are properties."""
-    rows = mesh.edges if what == "edges" else mesh.triangles
-    stored = _TABLES[what](mesh).stored()
-    columns = {name: column for name, column in stored.items() if name.removeprefix("voro_") not in END_PLACES}
-    write_features(out, columns, rows, mesh, precision=precision, threads=threads)
-
-
-def write_features(
-    out: BinaryIO,
-    columns: Mapping[str, Any],
-    rows: NDArray[np.int32],
-    mesh: AnyTriangulation | ProximityGraph,
-    *,
-    precision: int | None = None,
-    threads: int = 0,
-) -> None:
-    """Write edges or triangles as GeoJSON, streamed: one feature each, whose id is its number from 1."""
-    x, y = np.ascontiguousarray(mesh.points.T)
-    ring = [*rows.T, *([rows[:, 0]] if rows.shape[1] == 3 else [])]
-    corners = [Column.of_places(values, index) for index in ring for values in (x, y)]
-    properties = [json_column(Column.of(name, column), precision) for name, column in columns.items()]
-    numbers = Column.of("id", np.arange(1, len(rows) + 1))
-    shape = _feature_shape(list(columns), rows.shape[1])
-    write_collection(
-        out,
-        [numbers, *properties, *corners],
-        shape,
-        crs=mesh.crs,
-        y_axis=mesh.y_axis,
-        precision=precision,
-        threads=threads,
-    )
-
-
-def _feature_shape(names: list[str], vertices: int) -> RowShape:
-    kind, opening, closing = ("LineString", "[[", "]]") if vertices == 2 else ("Polygon", "[[[", "]]]")
-    corners = 2 if vertices == 2 else 4
-    properties = object_shape(names, ',"properties":', f',"geometry":{{"type":"{kind}","coordinates":{opening}')
-    between = ("],[" if k % 2 else "," for k in range(2 * corners - 1))
-    return RowShape(('{"type":"Feature","id":', *properties.around, *between, f"{closing}}}}}"), ",\n", "null")
+    _WRITERS[fmt](out, mesh, what, precision, threads)
 
 
 # ---- OBJ -----------------------------------------------------------------------------------------
@@ -147,7 +85,6 @@ def _numbers(mesh: AnyTriangulation | ProximityGraph, rows: NDArray[np.int32], f
 
 
 _WRITERS: dict[str, Callable[[BinaryIO, Any, str, int | None, int], None]] = {
-    "geojson": _write_geojson,
     "obj": _write_obj,
     "edge": _write_edge,
     "ele": _write_ele,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, BinaryIO
+from typing import BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +14,7 @@ from vorotool.formats.results import documents as d
 from vorotool.formats.results import members as m
 from vorotool.formats.results.placed_polygons import LATTICE_STEP, as_read, as_written
 from vorotool.formats.results.rows import Rows
+from vorotool.formats.text.tables import write_arrays
 from vorotool.geometry.ragged import starts_of
 from vorotool.geometry.skeleton.offsets import PIECE_KINDS, RING_KINDS, Offsets
 
@@ -27,9 +28,9 @@ def write_json(out: BinaryIO, offsets: Offsets, *, precision: int | None = None,
     d.write_document(out, _parts(offsets), precision=precision, threads=threads)
 
 
-def offset_arrays(offsets: Offsets) -> dict[str, NDArray[Any]]:
-    """Return the same as 1-D arrays; no polygon is -1, the center of a line NaN."""
-    return d.document_arrays(_parts(offsets))
+def write_npz(out: BinaryIO, offsets: Offsets, *, threads: int = 0) -> None:
+    """Write the same as 1-D arrays; no polygon is -1, the center of a line NaN."""
+    write_arrays(out, d.document_arrays(_parts(offsets)), threads=threads)
 
 
 def _parts(offsets: Offsets) -> d.Parts:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any, BinaryIO
 
 import numpy as np
-from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source
@@ -14,6 +13,7 @@ from vorotool.formats.results import documents as d
 from vorotool.formats.results import members as m
 from vorotool.formats.results.placed_polygons import LATTICE_STEP, as_read, as_written
 from vorotool.formats.results.rows import Rows, is_number
+from vorotool.formats.text.tables import write_arrays
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.skeleton.skeleton import KINDS, SIDES, Skeleton
 
@@ -27,9 +27,9 @@ def write_json(out: BinaryIO, skeleton: Skeleton, *, precision: int | None = Non
     d.write_document(out, _parts(skeleton), precision=precision, threads=threads)
 
 
-def skeleton_arrays(skeleton: Skeleton) -> dict[str, NDArray[Any]]:
-    """Return the same as 1-D arrays; no polygon, side or source is -1."""
-    return d.document_arrays(_parts(skeleton))
+def write_npz(out: BinaryIO, skeleton: Skeleton, *, threads: int = 0) -> None:
+    """Write the same as 1-D arrays; no polygon, side or source is -1."""
+    write_arrays(out, d.document_arrays(_parts(skeleton)), threads=threads)
 
 
 def _parts(skeleton: Skeleton) -> d.Parts:

@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from typing import Any, BinaryIO
 
-from vorotool.formats.text.row_writer import Column, RowShape, write_list_rows
+from vorotool.formats.text.row_writer import Column, RowShape, TypedOutput, write_rows
 from vorotool.formats.text.tables import json_text
 from vorotool.geometry.length_units import ascii_unit, is_known
 from vorotool.types.axis import MEMBER, UP, YAxis
@@ -42,15 +42,22 @@ def stated_unit(document: Mapping[str, Any]) -> str | None:
 
 def write_collection(
     out: BinaryIO,
-    columns: Sequence[Column],
-    shape: RowShape,
+    blocks: Sequence[tuple[Sequence[Column], RowShape]],
     *,
     crs: Any,
     y_axis: YAxis,
     precision: int | None = None,
     threads: int = 0,
 ) -> None:
-    """Write a collection, streamed: one feature a row."""
+    """Write a collection, streamed: one feature a row, of blocks of rows with the same members each."""
     out.write(collection_opening(crs, y_axis))
-    write_list_rows(out, columns, shape, precision=precision, threads=threads)
-    out.write(b"]}\n")
+    is_first = True
+    for columns, shape in blocks:
+        has_rows = len(columns[0].values) > 0
+        if isinstance(out, TypedOutput) and (has_rows or len(blocks) == 1):
+            out.announce(columns)
+        if has_rows:
+            out.write(b"\n" if is_first else b",\n")
+            is_first = False
+            write_rows(out, columns, shape, precision=precision, threads=threads)
+    out.write(b"]}\n" if is_first else b"\n]}\n")

@@ -28,7 +28,7 @@ _SLICE_VALUES = 1 << 16  # numbers of an array that are gathered and written at 
 def write_table(out: BinaryIO, table: Table, fmt: str, *, precision: int | None = None, threads: int = 0) -> None:
     """Write a table; the bytes depend on nothing but the table, the format and the precision."""
     check_precision(precision)
-    columns = [_placed(Column.of(name, values)) for name, values in _with_unit(table).items()]
+    columns = [placed_column(Column.of(name, values)) for name, values in _with_unit(table).items()]
     if fmt in ("csv", "tsv"):
         _write_delimited(out, columns, fmt == "tsv", precision, threads)
     elif fmt == "json":
@@ -42,7 +42,7 @@ _PLACES = frozenset(["z", "cx", "cy", "bbox_x", "bbox_y", *(f"{axis}{end}" for a
 """Columns of coordinates."""
 
 
-def _placed(column: Column) -> Column:
+def placed_column(column: Column) -> Column:
     """Round a column of coordinates to the decimals of the file."""
     values = column.values
     if column.name.removeprefix("voro_") not in _PLACES:

@@ -11,9 +11,8 @@ from numpy.typing import NDArray
 from vorotool.formats.written.report import report_emptied
 from vorotool.formats.written.rings import written_rings
 from vorotool.geometry.coordinate_grid import current_decimals, on_grid
-from vorotool.geometry.mesh.cells import Nesting
 from vorotool.geometry.polygons.polygon_set import HOLE, SHELL, PolygonSet
-from vorotool.geometry.ragged import owners
+from vorotool.geometry.ragged import Nesting, owners
 from vorotool.geometry.row_index import index_of_rows
 
 

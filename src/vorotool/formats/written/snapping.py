@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.geometry.coordinate_grid import Grid
-from vorotool.geometry.mesh.cells import Nesting
-from vorotool.geometry.ragged import following, owners, starts_of
+from vorotool.geometry.ragged import Nesting, following, owners, starts_of
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
 from math import floor, inf, isqrt
@@ -12,9 +13,12 @@ from numpy.typing import NDArray
 
 from vorotool.errors import UsageError
 from vorotool.geometry.curves.inverse_functions import hypotenuse
+from vorotool.geometry.features import Corners, Rows
 from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.numbers import nearest_double, real_number, shown_number
+from vorotool.geometry.table import Table
 from vorotool.geometry.values import Geometric, Pictured, Tabular, Value, counted, placed
+from vorotool.products.formats import resolved
 from vorotool.types import fields as f
 from vorotool.types.fields import record
 
@@ -171,6 +175,17 @@ class AlphaComplex(Value, Tabular, Geometric, Pictured):
         with np.errstate(over="ignore"):
             lengths: NDArray[np.float64] = hypotenuse(*(b - a).T)
         return lengths
+
+    def _rows(self, what: str | None = None) -> Rows:
+        if what == "spectrum":
+            return Rows(Table({"r": self.spectrum}))
+        return Rows(resolved("geometry.alpha.tables:family_table")(self))
+
+    def _features(self, _what: str | None = None, _flatten: float | None = None) -> Rows:
+        return replace(self._rows(), source=self.mesh, geometry=Corners(self.points, self.edges))
+
+    def _matrix(self, _what: str) -> NDArray[np.float64]:
+        return self.spectrum
 
     def _summary(self) -> str:
         radii = counted(len(self.spectrum), "critical radius", "critical radii")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cached_property
 from math import sqrt
 
@@ -10,6 +11,8 @@ from numpy.typing import NDArray
 
 from vorotool.geometry.alpha.shape import AlphaShape
 from vorotool.geometry.curves.inverse_functions import PI, cosine_and_sine, hypotenuse, inverse_sine
+from vorotool.geometry.features import Mixture, Rows, of_points
+from vorotool.geometry.polygons.polygon_set import HOLE, SHELL, set_of_rings
 from vorotool.geometry.ragged import owners, starts_of, within
 from vorotool.geometry.table import Lookup, Table
 from vorotool.geometry.values import Geometric, Pictured, Tabular, Value, counted, placed
@@ -135,6 +138,25 @@ class AlphaHull(Value, Tabular, Geometric, Pictured):
                 "label_b": Lookup(labels, np.ascontiguousarray(ends[:, 1])),
                 "ring": rings,
             }
+        )
+
+    def _rows(self, _what: str | None = None) -> Rows:
+        return Rows(self.table())
+
+    def _features(self, _what: str | None = None, _flatten: float | None = None) -> Mixture:
+        mesh, polygons = self.shape.family.mesh, self.polygons()
+        counts = np.array([len(rings) for rings in polygons], dtype=np.int64)
+        rings = [ring for each in polygons for ring in each]
+        kinds = np.where(within(counts) == 0, SHELL, HOLE)
+        xy = np.concatenate([np.empty((0, 2)), *rings])
+        shapes = set_of_rings(xy, [len(ring) for ring in rings], kinds, owners(counts))
+        named = {"class": ["hull"] * len(polygons)}
+        points = {"class": ["point"] * len(self.points), "label": mesh.label_array[self.points]}
+        return Mixture(
+            (
+                Rows(named, {}, mesh, None, replace(shapes, properties=named)),
+                Rows(points, {}, mesh, self.points, of_points(mesh.points[self.points])),
+            )
         )
 
     def _summary(self) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.geometry.features import Rows
 from vorotool.geometry.table import Table
 from vorotool.geometry.values import Tabular, Value, counted
 from vorotool.types import fields as f
@@ -98,6 +99,9 @@ class RegionPersistence(Value, Tabular):
                 "area": self.area,
             }
         )
+
+    def _rows(self, _what: str | None = None) -> Rows:
+        return Rows(self.table())
 
     def _summary(self) -> str:
         stands = "stands" if self.suggested == 1 else "stand"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,8 +12,12 @@ from vorotool.geometry.alpha.complex import CLASSES, AlphaComplex, Radius
 from vorotool.geometry.numbers import nearest_double
 from vorotool.geometry.polygons.polygon_set import HOLE, PolygonSet
 from vorotool.geometry.values import Pictured, Tabular, Value, WithParts, counted, placed
+from vorotool.products.formats import resolved
 from vorotool.types import fields as f
 from vorotool.types.fields import record
+
+if TYPE_CHECKING:
+    from vorotool.geometry.features import Mixture, Rows
 
 POINT_CLASSES = ("isolated", "singular", "boundary", "interior")
 """Classes of points in a shape: on no edge of it, on edges without a triangle only, on the boundary, inside."""
@@ -158,6 +163,17 @@ class AlphaShape(Value, Tabular, WithParts, Pictured):
         """(regions,) number of holes of each polygon."""
         holes = self.polygons.ring_polygon[self.polygons.ring_kind == HOLE]
         return np.bincount(holes, minlength=self.region_count)
+
+    def _rows(self, what: str | None = None) -> Rows:
+        rows: Rows = resolved("geometry.alpha.tables:shape_rows")(self, what)
+        return rows
+
+    def _features(self, what: str | None = None, _flatten: float | None = None) -> Rows | Mixture:
+        features: Rows | Mixture = resolved("geometry.alpha.tables:shape_features")(self, what)
+        return features
+
+    def _matrix(self, what: str) -> NDArray[np.int32]:
+        return self.family.edges[np.flatnonzero(self.edge_classes)] if what == "complex" else self.edges
 
     def _summary(self) -> str:
         sizes = (counted(len(self.points), "point"), counted(self.region_count, "region"))

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.geometry.alpha.complex import CLASSES, AlphaComplex
 from vorotool.geometry.alpha.shape import POINT_CLASSES, AlphaShape
+from vorotool.geometry.features import Corners, Mixture, Rows, chosen, of_points, point_rows, without_places
 from vorotool.geometry.identity import with_ends
 from vorotool.geometry.mesh.tables import end_columns
 from vorotool.geometry.polygons.polygon_set import PolygonSet
@@ -49,17 +53,17 @@ def shape_point_table(shape: AlphaShape) -> Table:
     """Give one row a point, in the order of the input."""
     mesh = shape.family.mesh
     x, y = np.ascontiguousarray(mesh.points.T)
+    label, *others = _point_columns(shape).items()
+    return Table(dict([label, ("x", x), ("y", y), *others])).with_properties(mesh.properties)
+
+
+def _point_columns(shape: AlphaShape) -> dict[str, Any]:
     region = shape.point_regions
-    table = Table(
-        {
-            "label": mesh.label_array,
-            "x": x,
-            "y": y,
-            "class": _named(POINT_CLASSES, shape.point_classes),
-            "region": np.ma.array(region + 1, mask=region < 0),
-        }
-    )
-    return table.with_properties(mesh.properties)
+    return {
+        "label": shape.family.mesh.label_array,
+        "class": _named(POINT_CLASSES, shape.point_classes),
+        "region": np.ma.array(region + 1, mask=region < 0),
+    }
 
 
 def region_table(shape: AlphaShape) -> Table:
@@ -107,3 +111,63 @@ def described_polygons(shape: AlphaShape) -> PolygonSet:
         "holes": shape.holes_of_regions.tolist(),
     }
     return replace(shape.polygons, properties=described)
+
+
+def shape_rows(shape: AlphaShape, what: str | None) -> Rows:
+    """Give the rows of a part, by default of the regions."""
+    makers: dict[str | None, Callable[[AlphaShape], Table]] = {
+        "edges": shape_edge_table,
+        "complex": partial(shape_edge_table, interior=True),
+        "points": shape_point_table,
+    }
+    return Rows(makers.get(what, region_table)(shape))
+
+
+def shape_features(shape: AlphaShape, what: str | None) -> Rows | Mixture:
+    """Give the rows of a part with their geometry, by default of the polygons."""
+    if what == "general":
+        return _general(shape)
+    return chosen(
+        shape,
+        what,
+        {
+            "polygons": lambda: _polygons(shape),
+            "edges": lambda: _edges(shape),
+            "complex": lambda: _edges(shape, interior=True),
+            "points": lambda: point_rows(_point_columns(shape), shape.family.mesh, shape.points),
+        },
+    )
+
+
+def _edges(shape: AlphaShape, *, interior: bool = False) -> Rows:
+    family = shape.family
+    columns = without_places(shape_edge_table(shape, interior=interior))
+    index = family.edges[np.flatnonzero(shape.edge_classes)] if interior else shape.edges
+    geometry = Corners(family.points, index)
+    return Rows(columns, {}, family.mesh, None, geometry, ids=np.arange(1, len(index) + 1))
+
+
+def _polygons(shape: AlphaShape) -> Rows:
+    polygons = described_polygons(shape)
+    return Rows({"region": _numbers(shape), **polygons.properties}, {}, shape.family.mesh, None, polygons)
+
+
+def _numbers(shape: AlphaShape) -> list[int]:
+    return list(range(1, shape.region_count + 1))
+
+
+def _general(shape: AlphaShape) -> Mixture:
+    """Give all of a shape: regions as polygons, singular edges as lines, isolated points."""
+    mesh, count = shape.family.mesh, shape.region_count
+    polygons = described_polygons(shape)
+    named = {"class": ["region"] * count, "region": _numbers(shape), **polygons.properties}
+    a, b = singular = shape.edges[shape.kind == CLASSES.index("singular")].T
+    edges = {"class": ["singular"] * len(a), "label_a": mesh.label_array[a], "label_b": mesh.label_array[b]}
+    points = {"class": ["isolated"] * len(shape.isolated), "label": mesh.label_array[shape.isolated]}
+    return Mixture(
+        (
+            Rows(named, {}, mesh, None, replace(polygons, ids=None, properties=named)),
+            Rows(edges, {}, mesh, None, Corners(mesh.points, singular.T)),
+            Rows(points, {}, mesh, shape.isolated, of_points(mesh.points[shape.isolated])),
+        )
+    )

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.geometry.features import Rows, of_segments, without_places
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.table import Lookup, Table
 from vorotool.geometry.values import Geometric, Pictured, Tabular, Value, placed
@@ -120,6 +121,19 @@ class Distances(Value, Tabular, Geometric, Pictured):
                 **{name: places[:, k].copy() for k, name in enumerate(("x_a", "y_a", "x_b", "y_b"))},
             }
         )
+
+    def _rows(self, what: str | None = None) -> Rows:
+        return Rows(self._only(what).table())
+
+    def _features(self, what: str | None = None, _flatten: float | None = None) -> Rows:
+        found = self._only(what)
+        return Rows(without_places(found.table()), {}, found, None, of_segments(found.places))
+
+    def _only(self, what: str | None) -> Distances:
+        """Leave the others out."""
+        if what == "hausdorff":
+            return replace(self, smallest=None)
+        return replace(self, from_a=None, from_b=None) if what == "smallest" else self
 
     def _summary(self) -> str:
         words = ", ".join(f"{name} {each.distance:.6g}" for name, each in self.rows.items())

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import field
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,21 +12,13 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError
 from vorotool.geometry.box import Box
 from vorotool.geometry.curves.inverse_functions import hypotenuse
-from vorotool.geometry.ragged import divides, following, starts_of
+from vorotool.geometry.features import Areas, Rows
+from vorotool.geometry.ragged import Nesting, divides, following, starts_of
 from vorotool.geometry.row_index import check_index
 from vorotool.geometry.values import Geometric, Pictured, Tabular, Value, counted, placed
-from vorotool.products.formats import resolved
 from vorotool.types import fields as f
 from vorotool.types.axis import UNSTATED, YAxis
 from vorotool.types.fields import record
-
-
-class Nesting(NamedTuple):
-    """Where the vertices of each ring begin, the rings of each polygon, the polygons of each cell; and the ends."""
-
-    rings: NDArray[np.int64]
-    polygons: NDArray[np.int64]
-    cells: NDArray[np.int64]
 
 
 @record
@@ -156,12 +148,15 @@ class CellSet(Value, Tabular, Geometric, Pictured):
         starts: NDArray[np.int64] = rings[polygons[cells]]
         return starts
 
-    def to_shapely(self) -> NDArray[Any]:
-        """(n,) shapely geometries: polygons, multipolygons where a cell has several parts, empty polygons."""
-        made: NDArray[Any] = resolved("formats.written.rings:valid_coverage")(
-            self.coordinates, self.nesting, in_box=self.polygon_starts is None
-        )
-        return made
+    def _features(self, _what: str | None = None, _flatten: float | None = None) -> Rows:
+        x, y = np.ascontiguousarray(self.sites.T)
+        ours: dict[str, Any] = {"label": self.label_array}
+        if "id" in self.properties:
+            ours["id"] = self.properties["id"]
+        ours |= {"x": x, "y": y, "area": self.areas, "perimeter": self.perimeters}
+        further = {name: column for name, column in self.properties.items() if name != "id"}
+        areas = Areas(self.coordinates, self.nesting, in_box=self.polygon_starts is None)
+        return Rows(ours, further, self, np.arange(len(self)), areas, ids=self.label_array)
 
     def _sum(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
         """Sums over the vertices of each cell."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from vorotool.geometry.features import Rows
 from vorotool.geometry.table import Table
 from vorotool.geometry.values import Tabular, Value
 
@@ -57,6 +58,9 @@ class DigitalComparison(Value, Tabular):
             listed = ", ".join(f"{cause} {count}" for cause, count in by_cause.items())
             parts.append(f"{total} {kind}{'s' if total > 1 else ''} {difference} ({listed})")
         return "; ".join(parts)
+
+    def _rows(self, _what: str | None = None) -> Rows:
+        return Rows(self.differences)
 
     def _summary(self) -> str:
         return self.summary()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import field
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,9 +12,13 @@ from numpy.typing import NDArray
 from vorotool.geometry.mesh.triangulation import ALL, Triangulation, lengths_of
 from vorotool.geometry.row_index import check_index
 from vorotool.geometry.values import Graph, Pictured, Tabular, Value, WithParts, counted, placed
+from vorotool.products.formats import resolved
 from vorotool.types import fields as f
 from vorotool.types.axis import UNSTATED, YAxis
 from vorotool.types.fields import record
+
+if TYPE_CHECKING:
+    from vorotool.geometry.features import Rows
 
 
 @record
@@ -98,6 +102,17 @@ class DigitalTriangulation(Value, Tabular, WithParts, Graph, Pictured):
         pairs = self.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
         sides: NDArray[np.int32] = np.unique(np.sort(pairs, axis=1), axis=0)
         return sides
+
+    def _rows(self, what: str | None = None) -> Rows:
+        rows: Rows = resolved("geometry.mesh.tables:mesh_rows")(self, what)
+        return rows
+
+    def _features(self, what: str | None = None, _flatten: float | None = None) -> Rows:
+        features: Rows = resolved("geometry.mesh.tables:mesh_features")(self, what)
+        return features
+
+    def _matrix(self, what: str) -> NDArray[np.int32]:
+        return self.edges if what == "edges" else self.triangles
 
     def _summary(self) -> str:
         sizes = (counted(len(self.points), "site"), counted(len(self), "triangle"), counted(len(self.edges), "edge"))

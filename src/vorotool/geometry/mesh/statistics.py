@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.geometry.features import Rows
 from vorotool.geometry.summaries import summary_table
 from vorotool.geometry.table import Table
 from vorotool.geometry.values import Tabular, Value, counted
@@ -68,6 +69,9 @@ class CellStatistics(Value, Tabular):
         unit = sqrt(self.area * (edges + 1)) / edges if edges else 1.0
         normalised = self.tree_lengths / unit if unit > 0 else self.tree_lengths[:0]
         return summary_table({**chosen, "tree_length": self.tree_lengths, "tree_normalised": normalised})
+
+    def _rows(self, what: str | None = None) -> Rows:
+        return Rows(self.measures if what == "measures" else self.summary)
 
     def _summary(self) -> str:
         whole = int(np.asarray(self.cells["whole"], dtype=bool).sum())

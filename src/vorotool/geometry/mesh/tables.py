@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.errors import UsageError
 from vorotool.geometry.arguments.values import check_value
+from vorotool.geometry.features import Corners, Rows, chosen, point_rows, without_places
 from vorotool.geometry.identity import with_ends
 from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation, DigitalTriangulation
 from vorotool.geometry.mesh.proximity import ProximityGraph
@@ -36,10 +41,6 @@ def edge_table(mesh: AnyTriangulation | ProximityGraph) -> Table:
     check_value(mesh, "mesh", Triangulation, DigitalTriangulation, ProximityGraph)
     columns = {**end_columns(mesh, mesh.edges), "length": Computed(mesh.edge_lengths, len(mesh.edges))}
     return with_ends(columns, mesh.properties, dict(zip("ab", mesh.edges.T, strict=True)))
-
-
-END_PLACES = frozenset(["x_a", "y_a", "x_b", "y_b"])
-"""Columns of the places of the ends of edges, which geometry has."""
 
 
 def end_columns(mesh: AnyTriangulation | ProximityGraph, edges: NDArray[np.int32]) -> dict[str, Lookup]:
@@ -97,19 +98,53 @@ def point_table(mesh: Triangulation) -> Table:
     [3, 3, 3, 3]
     """
     check_value(mesh, "mesh", Triangulation)
+    return Table(_point_columns(mesh)).with_properties(mesh.properties)
+
+
+def _point_columns(mesh: Triangulation) -> dict[str, Any]:
     count = len(mesh.points)
     is_duplicate = mesh.first != np.arange(count)
     on_hull = np.zeros(count, dtype=bool)
     on_hull[mesh.hull] = True
     labels = mesh.label_array
-    table = Table(
+    return {
+        "label": labels,
+        "x": mesh.points[:, 0],
+        "y": mesh.points[:, 1],
+        "neighbors": np.ma.array(np.bincount(mesh.edges.reshape(-1), minlength=count), mask=is_duplicate),
+        "on_hull": np.ma.array(on_hull, mask=is_duplicate),
+        "duplicate_of_label": np.ma.array(labels[mesh.first], mask=~is_duplicate),
+    }
+
+
+def mesh_rows(mesh: AnyTriangulation | ProximityGraph, what: str | None) -> Rows:
+    """Give the rows of a part, by default of the edges."""
+    if what == "table" and isinstance(mesh, DigitalTriangulation):
+        raise UsageError("the table of points is of triangulations: write the edges or triangles of this")
+    makers: dict[str | None, Callable[[Any], Table]] = {"triangles": triangle_table, "table": point_table}
+    return Rows(makers.get(what, edge_table)(mesh))
+
+
+def mesh_features(mesh: AnyTriangulation | ProximityGraph, what: str | None) -> Rows:
+    """Give the rows of a part with their geometry, by default of the triangles."""
+    return chosen(
+        mesh,
+        what,
         {
-            "label": labels,
-            "x": mesh.points[:, 0],
-            "y": mesh.points[:, 1],
-            "neighbors": np.ma.array(np.bincount(mesh.edges.reshape(-1), minlength=count), mask=is_duplicate),
-            "on_hull": np.ma.array(on_hull, mask=is_duplicate),
-            "duplicate_of_label": np.ma.array(labels[mesh.first], mask=~is_duplicate),
-        }
+            "triangles": lambda: _of_corners(mesh, triangle_table(mesh), mesh.triangles),  # type: ignore[arg-type]
+            "edges": lambda: _of_corners(mesh, edge_table(mesh), mesh.edges),
+            "points": lambda: _of_points(mesh),
+        },
     )
-    return table.with_properties(mesh.properties)
+
+
+def _of_corners(mesh: AnyTriangulation | ProximityGraph, table: Table, index: NDArray[np.int32]) -> Rows:
+    numbers = np.arange(1, len(index) + 1)
+    return Rows(without_places(table), {}, mesh, None, Corners(mesh.points, index), ids=numbers)
+
+
+def _of_points(mesh: Any) -> Rows:
+    columns: dict[str, Any] = {"label": mesh.label_array}
+    if isinstance(mesh, Triangulation):
+        columns = without_places(Table(_point_columns(mesh)))
+    return point_rows(columns, mesh, mesh.points)

@@ -6,7 +6,7 @@ from dataclasses import field
 from fractions import Fraction
 from functools import cached_property
 from math import sqrt
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -20,6 +20,9 @@ from vorotool.products.formats import resolved
 from vorotool.types import fields as f
 from vorotool.types.axis import UNSTATED, YAxis
 from vorotool.types.fields import record
+
+if TYPE_CHECKING:
+    from vorotool.geometry.features import Rows
 
 FLAT = 2.0**-20
 """Triangles whose largest angle has a smaller sine are computed in rationals: floating point would lose half."""
@@ -223,6 +226,17 @@ class Triangulation(Value, Tabular, WithParts, Graph, Pictured):
         rows = np.arange(len(corners))
         b, c = sides[rows, (apex + 2) % 3], -sides[rows, (apex + 1) % 3]
         return corners[rows, apex], b, c, np.asarray(scale), exponent + scale
+
+    def _rows(self, what: str | None = None) -> Rows:
+        rows: Rows = resolved("geometry.mesh.tables:mesh_rows")(self, what)
+        return rows
+
+    def _features(self, what: str | None = None, _flatten: float | None = None) -> Rows:
+        features: Rows = resolved("geometry.mesh.tables:mesh_features")(self, what)
+        return features
+
+    def _matrix(self, what: str) -> NDArray[np.int32]:
+        return self.edges if what == "edges" else self.triangles
 
     def _summary(self) -> str:
         sizes = (counted(len(self.points), "point"), counted(len(self), "triangle"), counted(len(self.edges), "edge"))

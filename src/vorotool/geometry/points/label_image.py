@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +14,11 @@ from vorotool.geometry.pixel_grid import PixelGrid
 from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.geometry.spacing import SQUARE, PixelSides
 from vorotool.geometry.values import Geometric, Graph, Pixels, Tabular, Value, counted, placed
+from vorotool.products.formats import resolved
 from vorotool.types.axis import DOWN, YAxis
+
+if TYPE_CHECKING:
+    from vorotool.geometry.features import Rows
 
 COUNTED = 1 << 24
 """Labels of images of more pixels are not counted to describe one."""
@@ -93,6 +97,14 @@ class LabelImage(Value, Tabular, Geometric, Graph, Pixels):
 
     def _array(self) -> NDArray[Any]:
         return self.labels
+
+    def _rows(self, _what: str | None = None) -> Rows:
+        rows: Rows = resolved("engines.label_images.features:region_rows")(self)
+        return rows
+
+    def _features(self, _what: str | None = None, _flatten: float | None = None) -> Rows:
+        features: Rows = resolved("engines.label_images.features:region_features")(self)
+        return features
 
     def _summary(self) -> str:
         height, width = self.shape

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import field
-from typing import Any
+from dataclasses import field, replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
@@ -17,6 +17,9 @@ from vorotool.geometry.values import Geometric, Pictured, Tabular, Value, counte
 from vorotool.types import fields as f
 from vorotool.types.axis import UNSTATED, YAxis
 from vorotool.types.fields import record
+
+if TYPE_CHECKING:
+    from vorotool.geometry.features import Rows
 
 LABEL = "label"
 """The column whose integers from 1 are the labels of points."""
@@ -89,6 +92,15 @@ class PointSet(Value, Tabular, Geometric, Pictured):
 
     def __array__(self, dtype: DTypeLike | None = None, copy: bool | None = None) -> NDArray[Any]:
         return np.array(self.xy, dtype=dtype, copy=copy)
+
+    def _rows(self, _what: str | None = None) -> Rows:
+        x, y = np.ascontiguousarray(self.xy.T)
+        return replace(self._features(), columns={"label": self.label_array, "x": x, "y": y})
+
+    def _features(self, _what: str | None = None, _flatten: float | None = None) -> Rows:
+        from vorotool.geometry.features import point_rows  # it imports this module
+
+        return point_rows({"label": self.label_array}, self, self.xy)
 
     def _summary(self) -> str:
         return placed(counted(len(self), "point"), self.crs, self.unit)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import field
+from dataclasses import field, replace
 from functools import cached_property
 from typing import Any
 
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.geometry.checks import whole_numbers
+from vorotool.geometry.features import Rows, point_rows
 from vorotool.geometry.pixel_frame import Frame
 from vorotool.geometry.pixel_grid import PixelGrid
 from vorotool.geometry.row_index import check_index
@@ -117,6 +118,18 @@ class SeedSet(Value, Tabular, Geometric, Pictured):
     def largest_label(self) -> int:
         """The largest label, 0 for no seeds."""
         return int(self.labels.max(initial=0))
+
+    def _rows(self, _what: str | None = None) -> Rows:
+        assert self.sites is not None
+        x, y = np.ascontiguousarray(self.sites.T)
+        made = self._features()
+        label, *others = made.columns.items()
+        return replace(made, columns=dict([label, ("x", x), ("y", y), *others]))
+
+    def _features(self, _what: str | None = None, _flatten: float | None = None) -> Rows:
+        assert self.sites is not None
+        area = {} if self.object_area is None else {"object_area": self.object_area}
+        return point_rows({"label": self.site_labels, **area}, self, self.sites)
 
     def _summary(self) -> str:
         sites = 0 if self.sites is None else len(self.sites)

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from vorotool.errors import InputError
+from vorotool.geometry.features import Corners, Rows
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.values import Geometric, Graph, Pictured, Tabular, Value, counted, placed
 from vorotool.types import fields as f
@@ -180,6 +181,11 @@ class PlanarGraph(Value, Tabular, Geometric, Graph, Pictured):
         wanted = _packed(places)
         point = order[np.minimum(np.searchsorted(keys, wanted, sorter=order), len(keys) - 1)]
         return np.where(keys[point] == wanted, point, -1)
+
+    def _features(self, _what: str | None = None, _flatten: float | None = None) -> Rows:
+        (a, b), (left, right) = np.ascontiguousarray(self.segments.T), np.ascontiguousarray(self.segment_faces.T)
+        columns = {"point_a": a, "point_b": b, "face_left": left, "face_right": right}
+        return Rows(columns, {}, self.polygons, None, Corners(self.coordinates(), self.segments))
 
     def _summary(self) -> str:
         sizes = (counted(len(self.points), "point"), counted(len(self), "segment"), counted(self.faces, "face"))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import field, replace
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,13 +13,16 @@ from numpy.typing import ArrayLike, NDArray
 from vorotool.errors import InputError
 from vorotool.geometry.box import Box
 from vorotool.geometry.coordinates import coordinate_rows
-from vorotool.geometry.identity import feature_labels, other_columns
+from vorotool.geometry.identity import feature_labels, names_of, other_columns
 from vorotool.geometry.ragged import divides, following, starts_of, within
 from vorotool.geometry.row_index import check_index
 from vorotool.geometry.values import Geometric, Pictured, Tabular, Value, counted, placed
 from vorotool.types import fields as f
 from vorotool.types.axis import UNSTATED, YAxis
 from vorotool.types.fields import record
+
+if TYPE_CHECKING:
+    from vorotool.geometry.features import Rows
 
 SHELL, HOLE, LINE = 0, 1, 2
 """Kinds of rings: the outer boundary of a polygon, a hole in it, an open line."""
@@ -197,6 +200,15 @@ class PolygonSet(Value, Tabular, Geometric, Pictured):
         kind = int(self.ring_kind[ring])
         nth = f" {ring - int(self.polygon_starts[polygon])}" if kind == HOLE else ""
         return f"polygon {polygon + 1}, {_KIND_NAMES[kind]}{nth}"
+
+    def _features(self, _what: str | None = None, _flatten: float | None = None) -> Rows:
+        from vorotool.geometry.features import Rows  # it imports this module
+
+        every = np.arange(len(self))
+        names = names_of(self, every)
+        if self.ids is None:
+            del names["id"]
+        return Rows(names, self.other_columns, self, every, self)
 
     def _summary(self) -> str:
         lines = int(np.count_nonzero(self.ring_kind == LINE))

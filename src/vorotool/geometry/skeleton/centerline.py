@@ -8,8 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.skeleton.led_on import LedOn, led_on_table
-from vorotool.geometry.table import Table
+from vorotool.geometry.skeleton.led_on import LedOn
 from vorotool.geometry.values import counted, placed
 
 
@@ -38,15 +37,12 @@ class Centerlines(LedOn):
     ([[[0.0, 1.0], [4.0, 1.0]]], [4.0], [2.0])
     """
 
+    has_branches = False
+
     def _summary(self) -> str:
         polygons = self.path.polygons
         text = f"{counted(len(self), 'line')} of {counted(len(polygons), 'polygon')}"
         return placed(text, polygons.crs, polygons.unit)
-
-
-def centerline_table(lines: Centerlines) -> Table:
-    """Give one row an arc, line by line, with the straight lines that lead on."""
-    return led_on_table(lines, has_branches=False)
 
 
 def without_centerline(lines: Centerlines) -> NDArray[np.int64]:

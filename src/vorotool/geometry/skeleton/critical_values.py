@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.geometry.features import Rows
 from vorotool.geometry.values import Tabular, Value, counted
 from vorotool.types.fields import index, numbers, record
 
@@ -51,6 +52,10 @@ class CriticalValues(Value, Tabular):
 
     def __len__(self) -> int:
         return len(self.most)
+
+    def _rows(self, _what: str | None = None) -> Rows:
+        source, target = np.ascontiguousarray(self.ends.T)
+        return Rows({"arc": np.arange(len(self)), "at_source": source, "at_target": target, "most": self.most})
 
     def _summary(self) -> str:
         return f"{self.criterion} of {counted(len(self), 'arc')}"

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from vorotool.geometry.coordinate_grid import on_grid
 from vorotool.geometry.curves.circular_arcs import chords_of
 from vorotool.geometry.curves.flatten import circle_tolerances
+from vorotool.geometry.features import Rows, of_shapes
 from vorotool.geometry.identity import described_shapes, names_of, with_columns_of
 from vorotool.geometry.numbers import checked_flatten
 from vorotool.geometry.polygons.polygon_set import SHELL, PolygonSet
@@ -189,6 +190,12 @@ class Discs(Value, Tabular, Curved, Pictured):
         own: dict[str, NDArray[Any]] = {"rank": self.rank, "x": x, "y": y, "r": self.radius}
         own["feet"] = np.diff(self.foot_starts)
         return described_shapes(own, self.polygons, self.polygon)
+
+    def _rows(self, _what: str | None = None) -> Rows:
+        return Rows(self.table(), source=self.polygons, item=self.polygon)
+
+    def _features(self, _what: str | None = None, flatten: float | None = None) -> Rows:
+        return of_shapes(self.flattened(flatten), self.polygons, self.polygon)
 
     def _summary(self) -> str:
         return placed(counted(len(self), "disc"), self.polygons.crs, self.polygons.unit)

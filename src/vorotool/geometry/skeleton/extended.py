@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from vorotool.geometry.skeleton.led_on import LedOn, led_on_table
-from vorotool.geometry.table import Table
+from vorotool.geometry.skeleton.led_on import LedOn
 from vorotool.geometry.values import counted, placed
 
 
@@ -38,8 +37,3 @@ class ExtendedSkeleton(LedOn):
         polygons = self.path.polygons
         text = f"{counted(len(self), 'branch', 'branches')} of {counted(len(polygons), 'polygon')}"
         return placed(text, polygons.crs, polygons.unit)
-
-
-def extended_table(extended: LedOn) -> Table:
-    """Give one row an arc, branch by branch, with the straight lines that lead on."""
-    return led_on_table(extended, has_branches=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,6 +11,7 @@ from numpy.typing import NDArray
 from vorotool.errors import UsageError
 from vorotool.geometry.checks import is_choice
 from vorotool.geometry.curves.flatten import chained
+from vorotool.geometry.features import Lines, Rows, of_polygons
 from vorotool.geometry.identity import names_of, part_table
 from vorotool.geometry.numbers import shown_number
 from vorotool.geometry.skeleton.skeleton import KINDS, SIDES, Skeleton
@@ -29,12 +31,17 @@ class SkeletonGraph:
     source: NDArray[np.int64]  # (e,) int64 array: the vertices at the ends of each edge
     target: NDArray[np.int64]  # (e,) int64 array: the vertices at the ends of each edge
     polygon: NDArray[np.int32]  # (e,) int32 array: the polygon of each edge; -1 outside
-    # `branch` or `arc`, `label`, `id`, `side`, `kind`, `length`, `r_min`, `r_max`, `r_mean`; of branches `type` and
-    # `tortuosity`, too
-    edges: Table
+    # `branch` or `arc`, `side`, `kind`, `length`, `r_min`, `r_max`, `r_mean`; of branches `type` and `tortuosity`, too
+    columns: dict[str, Any]
     # (k, 2) float64 array: places along the edges, from source to target, the ends included
     points: NDArray[np.float64]
     start: NDArray[np.int64]  # (e + 1,) int64 array: where those of each edge begin
+
+    @property
+    def edges(self) -> Table:
+        """The columns, with those that name polygons and those that are wanted of these."""
+        polygons = self.skeleton.polygons
+        return part_table({**names_of(polygons, self.polygon), **self.columns}, polygons, self.polygon)
 
 
 def skeleton_graph(skeleton: Skeleton, *, by: str = "branch", flatten: float | None = None) -> SkeletonGraph:
@@ -58,32 +65,33 @@ def skeleton_graph(skeleton: Skeleton, *, by: str = "branch", flatten: float | N
     )
 
 
-def _branches(skeleton: Skeleton, first: NDArray[np.int64]) -> Table:
-    columns, polygon = branch_columns(skeleton, threads=1), skeleton.polygon[first]
+def skeleton_features(skeleton: Skeleton, what: str | None, flatten: float | None) -> Rows:
+    """Give each branch as a line, or each arc."""
+    graph = skeleton_graph(skeleton, by="branch" if what in (None, "skeleton", "diagram") else what, flatten=flatten)
+    geometry = Lines(graph.points, graph.start)
+    return of_polygons(graph.columns, skeleton.polygons, graph.polygon, geometry=geometry, is_part=True)
+
+
+def _branches(skeleton: Skeleton, first: NDArray[np.int64]) -> dict[str, Any]:
+    columns = branch_columns(skeleton, threads=1)
     del columns["chord"]
-    names = {"branch": columns["branch"], "side": _sides(skeleton, first), **names_of(skeleton.polygons, polygon)}
-    return part_table({**names, **columns}, skeleton.polygons, polygon)
+    return {"branch": columns.pop("branch"), "side": _sides(skeleton, first), **columns}
 
 
-def _arcs(skeleton: Skeleton) -> Table:
+def _arcs(skeleton: Skeleton) -> dict[str, Any]:
     least, most, integral = skeleton.arc_radii
     radius = skeleton.radius[skeleton.arcs[:, 0]]
     mean = np.divide(integral, skeleton.length, out=radius, where=skeleton.length > 0)
-    return part_table(
-        {
-            "arc": np.arange(len(skeleton)),
-            "branch": skeleton.branch,
-            "side": _sides(skeleton, np.arange(len(skeleton))),
-            **names_of(skeleton.polygons, skeleton.polygon),
-            "kind": Lookup(list(KINDS), skeleton.is_parabola.astype(np.int32)),
-            "length": skeleton.length,
-            "r_min": least,
-            "r_max": most,
-            "r_mean": mean,
-        },
-        skeleton.polygons,
-        skeleton.polygon,
-    )
+    return {
+        "arc": np.arange(len(skeleton)),
+        "branch": skeleton.branch,
+        "side": _sides(skeleton, np.arange(len(skeleton))),
+        "kind": Lookup(list(KINDS), skeleton.is_parabola.astype(np.int32)),
+        "length": skeleton.length,
+        "r_min": least,
+        "r_max": most,
+        "r_mean": mean,
+    }
 
 
 def _sides(skeleton: Skeleton, arcs: NDArray[np.int64]) -> Lookup:

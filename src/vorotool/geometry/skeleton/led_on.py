@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import cached_property
-from typing import Self
+from typing import Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError
 from vorotool.geometry.collinearity import is_straight
 from vorotool.geometry.curves.flatten import chained
+from vorotool.geometry.features import Lines, Rows, of_polygons
 from vorotool.geometry.identity import names_of, part_table
 from vorotool.geometry.polygons.vertices_as_given import places_as_given
 from vorotool.geometry.ragged import owners
@@ -46,6 +47,7 @@ class LedOn(Value, Tabular, Curved, Pictured):
 
     path: Skeleton = f.nested()
     ends: Floats = f.position("lines", 2, 2)
+    has_branches: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -141,6 +143,17 @@ class LedOn(Value, Tabular, Curved, Pictured):
             straight = joint[is_straight(whole[joint - 1], whole[joint], whole[joint + 1])]
             whole, line = np.delete(whole, straight, axis=0), np.delete(line, straight)
         return whole, np.searchsorted(line, np.arange(len(self) + 1))
+
+    def _rows(self, _what: str | None = None) -> Rows:
+        table = led_on_table(self, has_branches=self.has_branches)
+        return Rows(table, source=self.path.polygons, item=self.polygon[self.line_of_row])
+
+    def _features(self, _what: str | None = None, flatten: float | None = None) -> Rows:
+        least, most = self.width_range
+        columns: dict[str, Any] = {"branch": np.arange(len(self))} if self.has_branches else {}
+        columns |= {"length": self.length, "width_mean": self.width_mean, "width_min": least, "width_max": most}
+        geometry = Lines(*self.as_given.flattened(flatten))
+        return of_polygons(columns, self.path.polygons, self.polygon, geometry=geometry, is_part=self.has_branches)
 
 
 def led_on_table(lines: LedOn, *, has_branches: bool) -> Table:

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.geometry.features import Rows, of_polygons, of_segments, without_places
 from vorotool.geometry.identity import names_of, part_table
 from vorotool.geometry.skeleton.skeleton import EDGE, Skeleton
 from vorotool.geometry.table import Lookup, Table
@@ -93,6 +95,9 @@ class Necks(Value, Tabular, Geometric, Pictured):
             ``label, id, x, y, width, ratio, r_smaller, r_larger``, and of both feet ``x_a, y_a, kind_a, ring_a,
             index_a`` and the same with b: the site that the foot is on, a vertex or the edge that begins there.
         """
+        return part_table(self._columns(), self.skeleton.polygons, self.polygon)
+
+    def _columns(self) -> dict[str, Any]:
         table = self.skeleton.site_table
         columns = {
             **names_of(self.skeleton.polygons, self.polygon),
@@ -112,7 +117,14 @@ class Necks(Value, Tabular, Geometric, Pictured):
                 f"ring_{name}": table.ring[site],
                 f"index_{name}": table.index[site],
             }
-        return part_table(columns, self.skeleton.polygons, self.polygon)
+        return columns
+
+    def _rows(self, _what: str | None = None) -> Rows:
+        return Rows(self.table(), source=self.skeleton.polygons, item=self.polygon)
+
+    def _features(self, _what: str | None = None, _flatten: float | None = None) -> Rows:
+        columns = without_places(Table(self._columns()))
+        return of_polygons(columns, self.skeleton.polygons, self.polygon, geometry=of_segments(self.feet), is_part=True)
 
     def _summary(self) -> str:
         polygons = self.skeleton.polygons

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from vorotool.geometry.curves.circular_arcs import chords_of
 from vorotool.geometry.curves.flatten import circle_tolerances
 from vorotool.geometry.curves.inverse_functions import inverse_sine
+from vorotool.geometry.features import Rows, of_shapes
 from vorotool.geometry.identity import described_shapes, names_of, part_table
 from vorotool.geometry.numbers import checked_flatten
 from vorotool.geometry.polygons.polygon_set import HOLE, SHELL, PolygonSet
@@ -161,7 +162,8 @@ class Offsets(Value, Tabular, Curved, Pictured):
         Returns
         -------
         PolygonSet
-            One polygon a shape, with the id and the properties of its polygon and its ``distance``.
+            One polygon a shape, with the id and the properties of its polygon, its ``distance`` and its ``area``: that
+            within the curves.
 
         Raises
         ------
@@ -185,7 +187,7 @@ class Offsets(Value, Tabular, Curved, Pictured):
 
     def _described(self) -> dict[str, Any]:
         """Ids and properties of the shapes: what is around several features has none."""
-        return described_shapes({"distance": self.distance}, self.polygons, self.polygon)
+        return described_shapes({"distance": self.distance, "area": self.area}, self.polygons, self.polygon)
 
     def table(self) -> Table:
         """Return a table with one row per piece.
@@ -223,6 +225,13 @@ class Offsets(Value, Tabular, Curved, Pictured):
             self.polygons,
             self.polygon[shape],
         )
+
+    def _rows(self, _what: str | None = None) -> Rows:
+        shape = self.shape_of_ring[self.ring_of_piece]
+        return Rows(self.table(), source=self.polygons, item=self.polygon[shape])
+
+    def _features(self, _what: str | None = None, flatten: float | None = None) -> Rows:
+        return of_shapes(self.flattened(flatten), self.polygons, self.polygon)
 
     def _summary(self) -> str:
         sizes = f"{counted(len(self), 'shape')}, {counted(len(self.site), 'piece')}"

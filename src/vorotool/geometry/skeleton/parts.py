@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.geometry.features import Rows, of_shapes
 from vorotool.geometry.identity import described_shapes, names_of, with_columns_of
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.ragged import following
@@ -133,6 +134,12 @@ class Parts(Value, Tabular, Geometric, Pictured):
             "neighbors": object_column(self.neighbors),
         }
         return replace(self.polygons, **described_shapes(own, self.necks.skeleton.polygons, self.source))
+
+    def _rows(self, _what: str | None = None) -> Rows:
+        return Rows(self.table(), source=self.necks.skeleton.polygons, item=self.source)
+
+    def _features(self, _what: str | None = None, _flatten: float | None = None) -> Rows:
+        return of_shapes(self.described(), self.necks.skeleton.polygons, self.source)
 
     def _summary(self) -> str:
         whole = self.necks.skeleton.polygons

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.geometry.curves.inverse_functions import hypotenuse
+from vorotool.geometry.features import Corners, Rows, chosen, of_points, of_polygons, of_segments, without_places
 from vorotool.geometry.identity import names_of, part_table
 from vorotool.geometry.skeleton.given_feet import moved_feet
 from vorotool.geometry.skeleton.skeleton import SIDES, Skeleton
@@ -138,6 +139,26 @@ class SkeletonPoints(Value, Tabular, WithParts, Pictured):
         rings = None if self.rings is None else self.rings[kept]
         places = self.along[kept], self.xy[kept], self.radius[kept], self.feet[kept]
         return SkeletonPoints(self.skeleton, self.arc[kept], *places, rings)
+
+    def _rows(self, what: str | None = None) -> Rows:
+        points = self.transects() if what == "transects" else self
+        return Rows(points.table(), source=self.skeleton.polygons, item=points.polygon)
+
+    def _features(self, what: str | None = None, _flatten: float | None = None) -> Rows:
+        return chosen(self, what, {"points": self._points, "transects": self.transects()._segments})
+
+    def _points(self) -> Rows:
+        return self._located(of_points(self.as_given.xy), "x", "y")
+
+    def _segments(self) -> Rows:
+        return self._located(of_segments(self.as_given.feet), "x_a", "y_a", "x_b", "y_b")
+
+    def _located(self, geometry: Corners, *places: str) -> Rows:
+        columns = without_places(Table(self.columns()), *places)
+        return of_polygons(columns, self.skeleton.polygons, self.polygon, geometry=geometry, is_part=True)
+
+    def _matrix(self, what: str) -> NDArray[np.float64]:
+        return (self.transects() if what == "transects" else self).as_given.xy
 
     def _summary(self) -> str:
         polygons = self.skeleton.polygons

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import fields, replace
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,8 +16,12 @@ from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.skeleton.arc_measures import ArcMeasures
 from vorotool.geometry.skeleton.arc_radii import arc_radii
 from vorotool.geometry.values import Branched, Pictured, Tabular, Value, counted, placed
+from vorotool.products.formats import resolved
 from vorotool.types import fields as f
 from vorotool.types.fields import Record, record
+
+if TYPE_CHECKING:
+    from vorotool.geometry.features import Rows
 
 INTERIOR, EXTERIOR = 0, 1
 """Sides of an arc: inside a polygon, or in none."""
@@ -289,6 +293,14 @@ class Skeleton(Value, Tabular, Branched, Pictured):
         ends = np.stack([source, target], axis=1)
         each = curve_tolerances(ends, least, checked_flatten(tolerance))
         return polylines(source, self.control, target, self.is_parabola, each)
+
+    def _rows(self, what: str | None = None) -> Rows:
+        rows: Rows = resolved("geometry.skeleton.tables:skeleton_rows")(self, what)
+        return rows
+
+    def _features(self, what: str | None = None, flatten: float | None = None) -> Rows:
+        features: Rows = resolved("geometry.skeleton.graph:skeleton_features")(self, what, flatten)
+        return features
 
     def _summary(self) -> str:
         branches = counted(int(self.branch[-1]) + 1 if len(self) else 0, "branch", "branches")

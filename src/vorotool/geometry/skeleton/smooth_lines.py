@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.geometry.curves.cubics import cubic_polylines
 from vorotool.geometry.curves.flatten import chained, curve_tolerances
+from vorotool.geometry.features import Lines, Rows, of_polygons
 from vorotool.geometry.identity import names_of, part_table
 from vorotool.geometry.numbers import checked_flatten
 from vorotool.geometry.ragged import owners
@@ -132,6 +134,20 @@ class SmoothLines(Value, Tabular, Curved, Pictured):
             self.path.polygons,
             self.polygon[line],
         )
+
+    def _rows(self, _what: str | None = None) -> Rows:
+        return Rows(self.table(), source=self.path.polygons, item=self.polygon[self.line])
+
+    def _features(self, _what: str | None = None, flatten: float | None = None) -> Rows:
+        columns: dict[str, Any] = {"branch": np.arange(len(self))} if self._has_branches else {}
+        columns |= {"curves": np.diff(self.start), "error": self.error}
+        geometry = Lines(*self.as_given.flattened(flatten))
+        return of_polygons(columns, self.path.polygons, self.polygon, geometry=geometry, is_part=self._has_branches)
+
+    @property
+    def _has_branches(self) -> bool:
+        """Whether lines are branches, and not the one of a polygon."""
+        return isinstance(self.lines, Skeleton) or self.lines.has_branches
 
     def _summary(self) -> str:
         text = f"{counted(len(self.control), 'curve')} in {counted(len(self), 'line')}"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError
 from vorotool.geometry.arguments.descriptions import described
 from vorotool.geometry.arguments.values import check_value
+from vorotool.geometry.features import Rows
 from vorotool.geometry.identity import names_of, part_table
 from vorotool.geometry.parallel import in_chunks
 from vorotool.geometry.polygons.conversion import to_shapely
@@ -79,6 +80,18 @@ def arc_table(skeleton: Skeleton) -> Table:
         skeleton.polygons,
         skeleton.polygon,
     )
+
+
+def skeleton_rows(skeleton: Skeleton, what: str | None) -> Rows:
+    """Give the rows of a part, by default of the arcs."""
+    makers: dict[str | None, Callable[[Skeleton], Table]] = {
+        "elements": element_table,
+        "branches": branch_table,
+        "table": polygon_table,
+    }
+    if what in makers:
+        return Rows(makers[what](skeleton))
+    return Rows(arc_table(skeleton), source=skeleton.polygons, item=skeleton.polygon)
 
 
 def element_table(skeleton: Skeleton) -> Table:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +14,10 @@ from vorotool.geometry.values import Elements, Graph, Tabular, Value
 from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
 from vorotool.geometry.volumes.voxel_frame import VoxelFrame
 from vorotool.geometry.volumes.voxel_grid import VoxelGrid
+from vorotool.products.formats import resolved
+
+if TYPE_CHECKING:
+    from vorotool.geometry.features import Rows
 
 CUBE = PixelSides((1, 1, 1))
 """Sides of 1."""
@@ -75,6 +79,10 @@ class LabelVolume(Value, Tabular, Graph, Elements):
 
     def _array(self) -> NDArray[Any]:
         return self.labels
+
+    def _rows(self, _what: str | None = None) -> Rows:
+        rows: Rows = resolved("engines.label_images.features:region_rows")(self)
+        return rows
 
     def _summary(self) -> str:
         depth, height, width = self.shape

@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.geometry.curves.flatten import circle_tolerances, curve_tolerances, least_focal_distances
-from vorotool.geometry.mesh.cells import Nesting
-from vorotool.geometry.ragged import owners, starts_of, within
+from vorotool.geometry.features import Areas, Lines, Rows, without_places
+from vorotool.geometry.ragged import Nesting, owners, starts_of, within
 from vorotool.geometry.voronoi.cut_corners import with_feet_of_corners
+from vorotool.geometry.voronoi.tables import border_table, cell_table
 from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 from vorotool.products.formats import resolved
 
@@ -62,7 +63,33 @@ def cell_rings(cells: VoronoiMap, tolerance: float | None) -> tuple[Floats, Indi
 
 def cell_polygons(cells: VoronoiMap, tolerance: float | None) -> NDArray[Any]:
     """(s,) each cell as a polygon or multipolygon of shapely; what two cells share is the same in both, bit for bit."""
-    points, start = cell_rings(cells, tolerance)
-    nesting = Nesting(start, cells.polygon_starts, cells.cell_starts)
-    made: NDArray[Any] = resolved("formats.written.rings:valid_coverage")(points, nesting)
+    made: NDArray[Any] = resolved("convert.geometry:shapely_of")(map_features(cells, "cells", tolerance).geometry)
     return made
+
+
+def map_features(cells: VoronoiMap, what: str | None, tolerance: float | None) -> Rows:
+    """Give the rows of borders, or of cells; only without a part with all columns of their table, some of them slow."""
+    every = np.arange(len(cells))
+    if what == "edges":
+        return _borders(cells, tolerance)
+    points, start = cell_rings(cells, tolerance)
+    areas = Areas(points, Nesting(start, cells.polygon_starts, cells.cell_starts))
+    if what is None:
+        return Rows(cell_table(cells), {}, cells, every, areas)
+    further = dict(cells.other_columns)
+    ids = further.pop("id", None) if cells.ids is None else list(cells.ids)
+    names = {"label": cells.labels} | ({} if ids is None else {"id": ids})
+    columns = {**names, "area": cells.areas, "perimeter": cells.perimeters}
+    return Rows(columns, further, cells, every, areas, ids=cells.labels)
+
+
+_LEFT_OUT = "x0", "y0", "x1", "y1", "cx", "cy", "r0", "r1", "arc"
+"""Columns of the table of borders that features do not have."""
+
+
+def _borders(cells: VoronoiMap, tolerance: float | None) -> Rows:
+    """Give a row a piece of a border, in the order of the table."""
+    points, start = flattened_arcs(cells, tolerance)
+    sizes, shown = np.diff(start), cells.is_border
+    geometry = Lines(points[shown[owners(sizes)]], starts_of(sizes[shown]))
+    return Rows(without_places(border_table(cells), *_LEFT_OUT), {}, cells, None, geometry)

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.geometry.features import Rows
 from vorotool.geometry.identity import with_ends
 from vorotool.geometry.table import Computed, Lookup, Table
 from vorotool.geometry.voronoi.site_shapes import site_distances
@@ -87,6 +88,15 @@ def cell_table(cells: VoronoiMap) -> Table:
         "components": cells.components,
     }
     return Table(columns).with_properties(cells.other_columns)
+
+
+def map_rows(cells: VoronoiMap, what: str | None) -> Rows | None:
+    """Give the rows of a part, by default of the cells; None if these are to have their geometry."""
+    if what == "cells":
+        return None
+    if what in ("edges", "neighbors"):
+        return Rows(border_table(cells) if what == "edges" else neighbor_table(cells))
+    return Rows(cell_table(cells), {}, cells, np.arange(len(cells)))
 
 
 def _when_asked(function: Callable[[], NDArray[np.float64]], size: int) -> Computed:

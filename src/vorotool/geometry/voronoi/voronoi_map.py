@@ -23,6 +23,8 @@ from vorotool.types.fields import record
 if TYPE_CHECKING:
     import pandas
 
+    from vorotool.geometry.features import Rows
+
 OUTSIDE = -1
 """The site of what belongs to no cell: the far side of the frame, or of another cut."""
 
@@ -251,7 +253,7 @@ class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
         >>> voronoi([[0, 0], [4, 0]], frame=(0, 0, 4, 2)).to_adjacency().values.tolist()
         [[0.0, 1.0, 2.0], [1.0, 0.0, 2.0]]
         """
-        return resolved("geometry.any.frames:adjacency")(self)
+        return resolved("convert.frames:adjacency")(self)
 
     def rings_of(self, cell: int) -> list[list[NDArray[np.int32]]]:
         """Return the arcs along the rings of each polygon of a cell."""
@@ -263,6 +265,14 @@ class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
             ]
             for polygon in polygons
         ]
+
+    def _rows(self, what: str | None = None) -> Rows | None:
+        rows: Rows | None = resolved(f"{_TABLES}:map_rows")(self, what)
+        return rows
+
+    def _features(self, what: str | None = None, flatten: float | None = None) -> Rows:
+        features: Rows = resolved("geometry.voronoi.shapes:map_features")(self, what, flatten)
+        return features
 
     def _summary(self) -> str:
         sizes = (

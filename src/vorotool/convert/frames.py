@@ -7,11 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from vorotool.geometry.any.features import features_of
-from vorotool.geometry.any.tables import indexed_table
+from vorotool.convert.geometry import geometry_of_rows
 from vorotool.geometry.crs import crs_text
 from vorotool.geometry.extras import needed
+from vorotool.geometry.features import Mixture, Rows, features_of, parts_of, rows_of
+from vorotool.geometry.numbers import Flatten
 from vorotool.geometry.row_index import index_of_rows
+from vorotool.geometry.table import Table
 from vorotool.geometry.voronoi.tables import neighbor_pairs
 from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 
@@ -19,22 +21,42 @@ from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 def to_pandas(value: Any) -> Any:
     """Give the table of a value as a data frame, with the index of the input where rows come from its rows."""
     pandas = needed("pandas", "frames", "data frames")
-    table, source, item = indexed_table(value)
-    return pandas.DataFrame(_series(pandas, table), index=_index(pandas, source, item))
+    rows = rows_of(value)
+    return pandas.DataFrame(_series(pandas, rows.table()), index=_index(pandas, rows.source, rows.item))
 
 
-def to_geopandas(value: Any, **options: Any) -> Any:
-    """Give the features of a value as a data frame of geopandas; see `vorotool.geometry.values`."""
+def to_geopandas(value: Any, what: str | None = None, *, flatten: Flatten = None) -> Any:
+    """Give the rows of a value with their geometry as a data frame of geopandas; see `vorotool.geometry.values`."""
     geopandas = needed("geopandas", "frames", "data frames of geometry")
     pandas = needed("pandas", "frames", "data frames of geometry")
-    features = features_of(value, **options)
-    index = _index(pandas, features.source, features.item)
-    frame = pandas.DataFrame(
-        _series(pandas, features.columns), index=pandas.RangeIndex(len(features.geometry)) if index is None else index
-    )
+    features = features_of(value, what, flatten=flatten)
+    geometry, (table, source, item) = geometry_of_rows(features), _joined(features)
+    index = _index(pandas, source, item)
+    frame = pandas.DataFrame(_series(pandas, table), index=pandas.RangeIndex(len(geometry)) if index is None else index)
     name = "voro_geometry" if "geometry" in frame else "geometry"
-    frame[name] = geopandas.GeoSeries(features.geometry, index=frame.index)
-    return geopandas.GeoDataFrame(frame, geometry=name, crs=crs_text(getattr(features.source, "crs", None)))
+    frame[name] = geopandas.GeoSeries(geometry, index=frame.index)
+    return geopandas.GeoDataFrame(frame, geometry=name, crs=crs_text(getattr(source, "crs", None)))
+
+
+def _joined(features: Rows | Mixture) -> tuple[Table, Any, Any]:
+    """Give the columns of all rows, masked where a kind has none, their source, and the row of it behind each."""
+    parts = list(parts_of(features))
+    if len(parts) == 1:
+        return parts[0].table(), parts[0].source, parts[0].item
+    tables = [rows.table() for rows in parts]
+    names = dict.fromkeys(name for table in tables for name in table)
+    columns = {name: _one_column([(table.get(name), table.rows) for table in tables]) for name in names}
+    items = [
+        np.full(table.rows, -1) if rows.item is None else rows.item for rows, table in zip(parts, tables, strict=True)
+    ]
+    return Table(columns), parts[0].source, np.concatenate(items)
+
+
+def _one_column(parts: list[tuple[Any, int]]) -> Any:
+    """Put columns one after the other; None stands for so many rows without a value."""
+    kind = np.result_type(*(np.asanyarray(column) for column, _ in parts if column is not None))
+    whole = [np.ma.array(np.zeros(rows, kind), mask=True) if column is None else column for column, rows in parts]
+    return np.ma.concatenate(whole)  # type: ignore[no-untyped-call]
 
 
 def adjacency(cells: VoronoiMap) -> Any:

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from vorotool.geometry.any.features import lines
+from vorotool.convert.geometry import lines
 from vorotool.geometry.extras import needed
+from vorotool.geometry.features import Lines
 from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation, DigitalTriangulation
 from vorotool.geometry.mesh.proximity import ProximityGraph
 from vorotool.geometry.mesh.triangulation import Triangulation
@@ -81,7 +82,7 @@ def _of_skeleton(library: Any, skeleton: Skeleton, by: str, flatten: float | Non
     x, y = skeleton.as_given.vertices[parts.nodes].T
     nodes = _rows({"x": x, "y": y, "r": skeleton.radius[parts.nodes], "degree": skeleton.degree[parts.nodes]})
     graph.add_nodes_from(zip(parts.nodes.tolist(), nodes, strict=True))
-    geometry = lines(parts.points, parts.start)
+    geometry = lines(Lines(parts.points, parts.start))
     ends = zip(parts.source.tolist(), parts.target.tolist(), strict=True)
     for (a, b), own, line, polygon in zip(ends, _rows(parts.edges), geometry, parts.polygon.tolist(), strict=True):
         described: dict[str, Any] = {}

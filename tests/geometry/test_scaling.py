@@ -7,7 +7,7 @@ import pytest
 
 import vorotool
 from vorotool import UsageError
-from vorotool.geometry.any.scaling import scaled, scaled_table
+from vorotool.geometry.scaling import scaled, scaled_table
 from vorotool.geometry.table import Table
 
 XY = np.random.default_rng(3).uniform(0, 50, (30, 2))

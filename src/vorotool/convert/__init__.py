@@ -1,0 +1,1 @@
+"""What callers hold, made of values: geometry of shapely, data frames, graphs."""

@@ -1,1 +1,0 @@
-"""Functions of results of every kind: scaled, as tables."""
