@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 from vorotool.errors import InputError, option
 
@@ -37,6 +37,8 @@ class Frame:
     >>> Frame(0, 0, 640, 480).shape
     (480, 640)
     """
+
+    maker: ClassVar[str] = "Frame"
 
     x: int
     y: int

@@ -7,7 +7,7 @@ name when a method is called.
 from __future__ import annotations
 
 from dataclasses import fields
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
@@ -32,11 +32,15 @@ _FRAMES = "convert.frames"
 _SHOWING = "jobs.showing"
 
 
-_MADE_OF = ("path", "skeleton", "shape", "polygons", "family", "mesh")
+_MADE_OF = ("path", "skeleton", "shape", "necks", "family", "mesh", "polygons")
+"""Names of fields with what a value is made of."""
 
 
 class Value(Record):
     """A value: equal to another one of its type if all fields are; like an array it is no key of a dictionary."""
+
+    maker: ClassVar[str] = ""
+    """The function of the library that makes one, for messages."""
 
     def __eq__(self, other: object) -> bool:
         if type(self) is not type(other):
@@ -75,6 +79,12 @@ class Value(Record):
     def _summary(self) -> str:
         """Words for what it holds, on one line, found without going through it."""
         raise NotImplementedError
+
+
+def input_of(value: Any) -> Any:
+    """Give what a value was made of in the end, which has the columns and the reference system of the input."""
+    inner = value._made_of if isinstance(value, Value) else None
+    return value if inner is None else input_of(inner)
 
 
 class Tabular:

@@ -10,14 +10,3 @@ OF_ONE_SHAPE = frozenset({"edges", "polygons", "complex", "general", "hull", "po
 """Results of `alphashape` that are of one radius; the others are of all."""
 PLOTS = ("curves", "persistence")
 """Those whose picture is a plot over the radius."""
-DERIVED = {
-    "offset": "jobs.skeletons.offset_curves:OffsetCurves",
-    "shape": "jobs.skeletons.rebuilt_shape:RebuiltShape",
-    "discs": "jobs.skeletons.inscribed_discs:InscribedDiscs",
-    "points": "jobs.skeletons.steps:Steps",
-    "transects": "jobs.skeletons.steps:Steps",
-    "thickness": "jobs.skeletons.thickness:Thickness",
-    "necks": "jobs.skeletons.neck_cuts:NeckCuts",
-    "parts": "jobs.skeletons.neck_cuts:CutParts",
-}
-"""Results of the skeleton commands that follow from a skeleton or its diagram, and what makes each."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
@@ -10,6 +10,7 @@ from vorotool.geometry.crs import is_geographic
 from vorotool.geometry.input_unit import InputUnit, unit_of_crs
 from vorotool.geometry.length_units import ratio, unit_name
 from vorotool.geometry.named_columns import check_plain, chosen_column
+from vorotool.geometry.values import input_of
 from vorotool.jobs.options import ComputingOptions
 from vorotool.jobs.picture_style import Looks, World
 
@@ -18,7 +19,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from vorotool.geometry.box import Box, Extent, Sides
-    from vorotool.geometry.mesh.cells import CellSet
     from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation
     from vorotool.geometry.points.point_set import PointSet
     from vorotool.geometry.points.seed_set import SeedSet
@@ -126,40 +126,12 @@ def world_of_value(value: Any, looks: Looks, *, is_paper: bool = False) -> World
         bounds = extent_sides(value.frame)
         made = _world_of_set(None, looks, value.polygons, is_paper=is_paper, bounds=bounds)
         return made._replace(frame=None)
-    inner = _input_of(value)
+    inner = input_of(value)
     check_column(looks.label_by, inner.properties, "label_by")
     if isinstance(inner, PolygonSet):
         return _world_of_set(None, looks, inner, is_paper=is_paper)._replace(frame=None)
     points = inner.sites if isinstance(inner, CellSet) else inner.points
     return world_of(None, looks, crs=inner.crs, bounds=_bounds_of(points))
-
-
-def _input_of(value: Any) -> AnyTriangulation | CellSet | PolygonSet:
-    """What of a value has the coordinate reference system and the columns of its input."""
-    from vorotool.geometry.alpha.hull import AlphaHull
-    from vorotool.geometry.alpha.shape import AlphaShape
-    from vorotool.geometry.distances.distances import Distances
-    from vorotool.geometry.skeleton.discs import Discs
-    from vorotool.geometry.skeleton.led_on import LedOn
-    from vorotool.geometry.skeleton.necks import Necks
-    from vorotool.geometry.skeleton.offsets import Offsets
-    from vorotool.geometry.skeleton.parts import Parts
-    from vorotool.geometry.skeleton.points_along import SkeletonPoints
-    from vorotool.geometry.skeleton.skeleton import Skeleton
-    from vorotool.geometry.skeleton.smooth_lines import SmoothLines
-
-    inside: list[tuple[Any, Callable[[Any], Any]]] = [
-        (AlphaHull, lambda hull: hull.shape.family.mesh),
-        (AlphaShape, lambda shape: shape.family.mesh),
-        ((LedOn, SmoothLines), lambda lines: lines.path.polygons),
-        ((SkeletonPoints, Necks), lambda points: points.skeleton.polygons),
-        ((Skeleton, Offsets, Parts, Discs), lambda of: of.polygons),
-        (Distances, lambda found: found.shapes[0]),
-    ]
-    found: AnyTriangulation | CellSet | PolygonSet = next(
-        (get(value) for kind, get in inside if isinstance(value, kind)), value
-    )
-    return found
 
 
 def _bounds_of(points: NDArray[np.float64]) -> Sides:

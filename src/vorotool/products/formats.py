@@ -33,7 +33,8 @@ class Format:
     family: str = ""  # formats of one family are written together, each result in its own
     # what writes results, by their names, beside those formats that a product lists itself
     writers: Mapping[str, Writer] = field(default_factory=dict)
-    beside: str = ""  # only results that have this format, too, are written so
+    beside: str = ""  # results that have this format are written by `writer`, too
+    writer: Writer | None = None
     # it is made from the text of the first of these formats that a product has, by `maker`
     made_from: tuple[str, ...] = ()
     # `module:name` of `maker(out, what, path)`: a context in which there is a file that takes that text
@@ -60,10 +61,6 @@ def _of_maps(name: str, title: str, maker: str, sources: tuple[str, ...] = ("geo
 
 _GRAPHML = Writer("formats.results.graphml:write_graphml", ("flatten", "precision", "threads"))
 _DXF = Writer("formats.drawing.dxf_writer:write_dxf", ("what",))
-_DRAWN = (
-    *("skeleton", "diagram", "centerline", "offset", "shape", "points", "transects", "edges", "triangles", "cells"),
-    *("polygons", "complex", "general", "hull", "necks", "parts"),
-)
 _ALL = (
     Format("png", "PNG", is_text=False, is_image=True),
     Format("tiff", "TIFF", ("tif", "tiff"), is_text=False, is_image=True),
@@ -87,7 +84,7 @@ _ALL = (
     _of_maps("fgb", "FlatGeobuf", "FlatGeobuf"),
     _of_maps("shp", "Shapefile", "Shapefile", parts=(".shx", ".dbf", ".prj", ".cpg")),
     _of_maps("parquet", "GeoParquet", "GeoParquet", ("geojson", "json"), extensions=("parquet", "geoparquet")),
-    Format("dxf", "DXF", writers=dict.fromkeys(_DRAWN, _DXF), beside="geojson"),
+    Format("dxf", "DXF", writer=_DXF, beside="geojson"),
     Format("html", "HTML"),
     Format("gif", "GIF", is_text=False, is_image=True),
     Format("apng", "APNG", is_text=False, is_image=True),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 from vorotool.products.formats import ANIMATIONS, FORMATS, PICTURES, TABLES, Format, Writer
 
@@ -22,6 +22,9 @@ class Product:
     # layers of its pictures, from below, by the format of the picture
     layers: Mapping[str, Sequence[str]] = field(default_factory=dict)
     usual_layers: tuple[str, ...] = ()  # those that a picture has where none are chosen
+    # `module:name`: `name_page(value, width=…)` and `name_layers(value, page, layers)` draw values of its types
+    drawn_by: str = ""
+    made_by: str = ""  # `module:class` of the `Result` of skeleton commands that follows from a skeleton or its diagram
     has_page: bool = False  # the command line writes it as a page of HTML, too
     moves: bool = False  # the command line writes it as an animation, too
     is_curved: bool = False
@@ -35,8 +38,7 @@ class Product:
         return tuple(dict.fromkeys([*self.data, *more]))
 
     def _fits(self, each: Format) -> bool:
-        has_writer = self.what in each.writers and (not each.beside or each.beside in self.data)
-        return has_writer or any(name in self.data for name in each.made_from)
+        return self.what in each.writers or any(name in self.data for name in (each.beside, *each.made_from))
 
     @property
     def formats(self) -> tuple[str, ...]:
@@ -45,21 +47,31 @@ class Product:
         return tuple(dict.fromkeys((*self.written, *self.layers, *pages, *(ANIMATIONS if self.moves else ()))))
 
 
+class Pictures(NamedTuple):
+    """Layers of pictures by their format, and what draws them."""
+
+    layers: Mapping[str, Sequence[str]]
+    drawn_by: str = ""
+
+
 def _product(
     what: str,
     types: str = "",
     data: str = "",
-    layers: Mapping[str, Sequence[str]] | None = None,
+    pictures: Pictures | None = None,
     usual_layers: str = "",
     **more: Any,
 ) -> Product:
     """Give an entry of the lists below, in which blanks separate names."""
+    layers, drawn_by = pictures or Pictures({})
     shown = tuple(usual_layers.split())
-    return Product(what, tuple(types.split()), tuple(data.split()), layers=layers or {}, usual_layers=shown, **more)
+    return Product(
+        what, tuple(types.split()), tuple(data.split()), layers=layers, usual_layers=shown, drawn_by=drawn_by, **more
+    )
 
 
-def _pictures(layers: str) -> dict[str, Sequence[str]]:
-    return dict.fromkeys(PICTURES, tuple(layers.split()))
+def _pictures(layers: str, drawn_by: str) -> Pictures:
+    return Pictures(dict.fromkeys(PICTURES, tuple(layers.split())), drawn_by)
 
 
 _TABLES = " ".join(TABLES)
@@ -73,13 +85,13 @@ _TESSELLATE = (
         "labels",
         "LabelImage",
         f"{_IMAGES} zarr",
-        {"svg": _COLORED["svg"]},
+        Pictures({"svg": _COLORED["svg"]}),
         "cells seeds labels",
         own=dict.fromkeys(_IMAGES.split(), _LABELS),
         has_page=True,
     ),
-    _product("diagram", "", _IMAGES, {"png": _COLORED["png"]}, "diagram"),
-    _product("color", "LabelImage", "", _COLORED, "cells seeds", has_page=True, moves=True),
+    _product("diagram", "", _IMAGES, Pictures({"png": _COLORED["png"]}), "diagram"),
+    _product("color", "LabelImage", "", Pictures(_COLORED), "cells seeds", has_page=True, moves=True),
     _product("distance", "", "tiff npy zarr"),
     _product("distance2", "", "tiff npy zarr text"),
     _product("table", "Table", _TABLES),
@@ -92,7 +104,7 @@ _SLICES = {fmt: (*layers[:1], *(name for name in layers[1:] if name != "objects"
 _VOLUMES = (
     _product("labels", "LabelVolume", _STACKS, has_page=True),
     _product("diagram", "", _STACKS),
-    _product("color", "", "", _SLICES, "cells seeds", has_page=True),
+    _product("color", "", "", Pictures(_SLICES), "cells seeds", has_page=True),
     _product("distance", "", _STACKS),
     _product("distance2", "", _STACKS),
     _product("table", "Table", _TABLES),
@@ -107,14 +119,20 @@ _CELLS = {
 }
 _MESHES = "Triangulation DigitalTriangulation"
 _EDGED = f"{_MESHES} ProximityGraph"
-_MESH_LAYERS = _pictures("cells triangles diagram edges points labels")
+_MESH_LAYERS = _pictures("cells triangles diagram edges points labels", "render.layers.mesh:mesh")
 _DELAUNAY = (
     _product("edges", _EDGED, "csv tsv json geojson npz npy edge obj", _MESH_LAYERS, "edges points", own=_MESH),
     _product(
         "triangles", _MESHES, "csv tsv json geojson npz npy ele obj", _MESH_LAYERS, "triangles edges points", own=_MESH
     ),
     _product(
-        "cells", "CellSet", "geojson csv tsv json npz wkt", _MESH_LAYERS, "cells points", own=_CELLS, has_page=True
+        "cells",
+        "CellSet",
+        "geojson csv tsv json npz wkt",
+        _MESH_LAYERS._replace(drawn_by="jobs.cell_pictures:cell"),
+        "cells points",
+        own=_CELLS,
+        has_page=True,
     ),
     _product("table", _MESHES, f"{_TABLES} node", own=_MESH),
     _product("statistics", "CellStatistics", _TABLES),
@@ -127,7 +145,10 @@ _POLYGON_FILES = dict.fromkeys(
     ("json", "poly"), Writer("formats.results.writer:write_shapes", ("fmt", "what", "flatten"))
 )
 """Of features that are polygons."""
-_SHAPE_LAYERS = _pictures("polygons delaunay interior boundary singular hull points labels")
+_SHAPE_LAYERS = _pictures(
+    "polygons delaunay interior boundary singular hull points labels", "render.layers.alpha:alpha"
+)
+_HULL_LAYERS = _SHAPE_LAYERS._replace(drawn_by="render.layers.alpha:hull")
 _EDGES = ("AlphaShape", "csv tsv json geojson npz npy", _SHAPE_LAYERS)
 _POLYGONS = ("AlphaShape", "geojson wkt json poly", _SHAPE_LAYERS)
 _GENERAL = ("AlphaShape", "geojson wkt", _SHAPE_LAYERS)
@@ -146,16 +167,24 @@ _ALPHASHAPE = (
     _product("general", *_GENERAL, "polygons boundary singular points", has_page=True, moves=True),
     _product("family", "AlphaComplex", _TABLES, has_page=True),
     _product("spectrum", "AlphaComplex", f"{_TABLES} npy"),
-    _product("curves", "", _TABLES, {"svg": ()}, has_page=True),
-    _product("persistence", "RegionPersistence", _TABLES, {"svg": ()}),
-    _product("hull", "AlphaHull", f"geojson {_TABLES}", _SHAPE_LAYERS, "hull points"),
+    _product("curves", "", _TABLES, Pictures({"svg": ()}), has_page=True),
+    _product("persistence", "RegionPersistence", _TABLES, Pictures({"svg": ()})),
+    _product("hull", "AlphaHull", f"geojson {_TABLES}", _HULL_LAYERS, "hull points"),
     _product("points", "AlphaShape", _TABLES),
     _product("table", "AlphaShape", _TABLES),
 )
 
 # ---- skeletons -----------------------------------------------------------------------------------
-_DISC_LAYERS = _pictures("polygons discs feet labels")
-_DISC_PRODUCT = _product("discs", "Discs", f"{_TABLES} geojson wkt", _DISC_LAYERS, "polygons discs", is_curved=True)
+_DISC_LAYERS = _pictures("polygons discs feet labels", "render.layers.discs:disc")
+_DISC_PRODUCT = _product(
+    "discs",
+    "Discs",
+    f"{_TABLES} geojson wkt",
+    _DISC_LAYERS,
+    "polygons discs",
+    made_by="jobs.skeletons.inscribed_discs:InscribedDiscs",
+    is_curved=True,
+)
 
 
 def _documents(module: str) -> dict[str, Writer]:
@@ -167,8 +196,9 @@ def _documents(module: str) -> dict[str, Writer]:
 _SKELETON, _OFFSETS = _documents("skeleton_files"), _documents("offset_files")
 _THICKNESS = Writer("formats.results.thickness:write_thickness", ("fmt", "threads"))
 _CURVES = "json csv tsv geojson npz wkt"
-_ARCS = _pictures("polygons elements points skeleton nodes labels")
-_ALONG = _pictures("polygons skeleton transects points labels")
+_ARCS = _pictures("polygons elements points skeleton nodes labels", "render.layers.skeleton:skeleton")
+_ALONG = _pictures("polygons skeleton transects points labels", "render.layers.points_along:point")
+_STEPS = "jobs.skeletons.steps:Steps"
 _SKELETONS = (
     _product("skeleton", "Skeleton", _CURVES, _ARCS, "polygons skeleton", own=_SKELETON, has_page=True, is_curved=True),
     _product("diagram", "", _CURVES, _ARCS, "polygons elements points skeleton", own=_SKELETON, is_curved=True),
@@ -177,7 +207,7 @@ _SKELETONS = (
         "centerline",
         "Centerlines ExtendedSkeleton SmoothLines",
         f"geojson {_TABLES} wkt",
-        _ARCS,
+        _ARCS._replace(drawn_by="render.layers.lines_along:line"),
         "polygons skeleton",
         is_curved=True,
     ),
@@ -185,23 +215,37 @@ _SKELETONS = (
         "offset",
         "Offsets",
         _CURVES,
-        _pictures("polygons offset labels"),
+        _pictures("polygons offset labels", "render.layers.offsets:offset"),
         "polygons offset",
         own=_OFFSETS,
+        made_by="jobs.skeletons.offset_curves:OffsetCurves",
         is_curved=True,
         moves=True,
     ),
-    _product("shape", "PolygonSet", "json geojson wkt poly", _pictures("shape labels"), "shape", own=_POLYGON_FILES),
+    _product(
+        "shape",
+        "PolygonSet",
+        "json geojson wkt poly",
+        _pictures("shape labels", "render.layers.polygons:shape"),
+        "shape",
+        own=_POLYGON_FILES,
+        made_by="jobs.skeletons.rebuilt_shape:RebuiltShape",
+    ),
     _DISC_PRODUCT,
-    _product("points", "SkeletonPoints", f"{_TABLES} npy geojson wkt", _ALONG, "polygons skeleton points"),
-    _product("transects", "SkeletonPoints", f"geojson wkt {_TABLES}", _ALONG, "polygons skeleton transects"),
+    _product(
+        "points", "SkeletonPoints", f"{_TABLES} npy geojson wkt", _ALONG, "polygons skeleton points", made_by=_STEPS
+    ),
+    _product(
+        "transects", "SkeletonPoints", f"geojson wkt {_TABLES}", _ALONG, "polygons skeleton transects", made_by=_STEPS
+    ),
     _product(
         "thickness",
         "",
         "tiff npy",
-        {"png": ("thickness",)},
+        Pictures({"png": ("thickness",)}),
         "thickness",
         own=dict.fromkeys(("tiff", "npy"), _THICKNESS),
+        made_by="jobs.skeletons.thickness:Thickness",
     ),
     _product("branches", "Skeleton", _TABLES),
     _product("table", "Skeleton", _TABLES),
@@ -211,15 +255,17 @@ _OF_WHOLE_AXIS = (
         "necks",
         "Necks",
         f"{_TABLES} geojson wkt",
-        _pictures("polygons skeleton necks labels"),
+        _pictures("polygons skeleton necks labels", "render.layers.necks:neck"),
         "polygons necks",
+        made_by="jobs.skeletons.neck_cuts:NeckCuts",
     ),
     _product(
         "parts",
         "Parts",
         "geojson csv tsv npz json wkt poly",
-        _pictures("parts skeleton cuts labels"),
+        _pictures("parts skeleton cuts labels", "render.layers.necks:part"),
         "parts",
+        made_by="jobs.skeletons.neck_cuts:CutParts",
         own=_POLYGON_FILES,
     ),
 )
@@ -229,7 +275,7 @@ _WITHOUT_SAMPLES = {"offset", "discs", "thickness"}
 
 
 # ---- voronoi -------------------------------------------------------------------------------------
-_MAP_LAYERS = _pictures("cells edges objects labels")
+_MAP_LAYERS = _pictures("cells edges objects labels", "render.layers.voronoi:voronoi")
 _VORONOI = (
     _product(
         "cells",
@@ -249,7 +295,7 @@ _VORONOI = (
 
 
 # ---- distance ------------------------------------------------------------------------------------
-_APART_LAYERS = _pictures("first second distances")
+_APART_LAYERS = _pictures("first second distances", "render.layers.distances:distance")
 _DISTANCE = tuple(
     _product(what, types, f"{_TABLES} geojson wkt", _APART_LAYERS, "first second distances")
     for what, types in (("distances", "Distances"), ("hausdorff", ""), ("smallest", ""))
@@ -258,8 +304,8 @@ _DISTANCE = tuple(
 
 def _beside_exact(product: Product) -> Product:
     """Beside approximate skeletons pictures can show exact ones."""
-    shown = {fmt: (*layers, "exact") for fmt, layers in _ARCS.items()}
-    return replace(product, layers=shown) if product.layers is _ARCS else product
+    shown = {fmt: (*layers, "exact") for fmt, layers in _ARCS.layers.items()}
+    return replace(product, layers=shown) if product.layers is _ARCS.layers else product
 
 
 def _drawn() -> Product:
@@ -268,7 +314,7 @@ def _drawn() -> Product:
     return Product(
         "picture",
         layers={
-            fmt: tuple(dict.fromkeys((*layers, *_ARCS[fmt], "offset", "shape", *_MAP_LAYERS[fmt])))
+            fmt: tuple(dict.fromkeys((*layers, *_ARCS.layers[fmt], "offset", "shape", *_MAP_LAYERS.layers[fmt])))
             for fmt, layers in of_labels.items()
         },
         has_page=True,
@@ -287,6 +333,8 @@ _BY_COMMAND: dict[str, Sequence[Product]] = {
 }
 PRODUCTS = {command: {each.what: each for each in products} for command, products in _BY_COMMAND.items()}
 """Products of each command, by name."""
+DERIVED = {each.what: each.made_by for each in PRODUCTS["skeleton-exact"].values() if each.made_by}
+"""What makes the results of skeleton commands that follow from a skeleton or its diagram, by their names."""
 VOLUME_PRODUCTS = {each.what: each for each in _VOLUMES}
 """Those of `tessellate` where the input is a volume."""
 

@@ -27,7 +27,7 @@ def write_product(
     chosen = FORMATS[fmt]
     resolved("geometry.coordinate_grid:record_axis")(value)
     options: dict[str, Any] = {"flatten": flatten, "precision": precision, "threads": threads}
-    writer = chosen.writers.get(product.what)
+    writer = chosen.writers.get(product.what, chosen.writer)
     if writer is None and fmt not in product.data:
         source = next(name for name in chosen.made_from if name in product.data)
         with resolved(chosen.maker)(out, product.what, path) as taker:

@@ -5,9 +5,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from vorotool.jobs.names import DERIVED
 from vorotool.products.formats import ANIMATIONS, FORMATS
-from vorotool.products.registry import PRODUCTS, all_layers, formats_of, layers_of
+from vorotool.products.registry import DERIVED, PRODUCTS, all_layers, formats_of, layers_of
 from vorotool.render.label_images import png as label_png
 from vorotool.render.label_images import svg as label_svg
 from vorotool.render.layers import alpha, cells, discs, mesh, necks, offsets, points_along, polygons, skeleton

@@ -75,6 +75,8 @@ class AlphaComplex(Value, Tabular, Geometric, Pictured):
     (2, 3)
     """
 
+    maker = "alpha_complex"
+
     mesh: Triangulation = f.nested()
     edges: NDArray[np.int32] = f.index("edges", 2)
     sides: NDArray[np.int32] = f.index("edges", 2)

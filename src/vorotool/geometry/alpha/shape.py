@@ -57,6 +57,8 @@ class AlphaShape(Value, Tabular, WithParts, Pictured):
     (6.0, 12.0, [[4.0, 0.0], [0.0, 3.0], [0.0, 0.0]])
     """
 
+    maker = "alpha_shape"
+
     family: AlphaComplex = f.nested()
     r: Radius = f.length()
     edge_index: NDArray[np.int32] = f.index("edges")

@@ -12,7 +12,6 @@ from vorotool.geometry.features import Rows, of_segments, without_places
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.table import Lookup, Table
 from vorotool.geometry.values import Geometric, Pictured, Tabular, Value, placed
-from vorotool.types.axis import YAxis
 
 HAUSDORFF, FROM_A, FROM_B, SMALLEST = "hausdorff", "a to b", "b to a", "smallest"
 """Names of distances in tables: the larger of both directions, each of them, and the smallest one."""
@@ -64,6 +63,8 @@ class Distances(Value, Tabular, Geometric, Pictured):
     (True, (8.0, 0.0), (2.0, 1.0), 1.0)
     """
 
+    maker = "hausdorff"
+
     from_a: PlacePair | None
     from_b: PlacePair | None
     smallest: PlacePair | None
@@ -95,9 +96,8 @@ class Distances(Value, Tabular, Geometric, Pictured):
         return b.crs if a.crs is None else a.crs
 
     @property
-    def y_axis(self) -> YAxis:
-        """Direction of y where the coordinates come from."""
-        return self.shapes[0].y_axis
+    def _made_of(self) -> PolygonSet:
+        return self.shapes[0]
 
     @property
     def places(self) -> NDArray[np.float64]:

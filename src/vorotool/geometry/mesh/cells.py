@@ -68,6 +68,8 @@ class CellSet(Value, Tabular, Geometric, Pictured):
     'POLYGON ((2 0, 4 0, 4 2, 2 2, 2 0))'
     """
 
+    maker = "voronoi_cells"
+
     sites: NDArray[np.float64] = f.position("sites", 2)
     coordinates: NDArray[np.float64] = f.position("vertices", 2)
     starts: NDArray[np.int64] = f.numbers(np.int64, "starts")

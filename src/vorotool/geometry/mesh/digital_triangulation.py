@@ -68,6 +68,8 @@ class DigitalTriangulation(Value, Tabular, WithParts, Graph, Pictured):
     (1, [[0, 1], [0, 2], [1, 2]])
     """
 
+    maker = "digital_triangulation"
+
     points: NDArray[np.float64] = f.position("points", 2)
     edges: NDArray[np.int32] = f.index("edges", 2)
     triangles: NDArray[np.int32] = f.index("triangles", 3)

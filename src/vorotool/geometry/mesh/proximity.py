@@ -42,6 +42,8 @@ class ProximityGraph(Value, Tabular, Geometric, Graph, Pictured):
     ([[0, 3], [1, 3], [2, 3]], [1.41, 3.16, 2.24])
     """
 
+    maker = "proximity_graph"
+
     mesh: Triangulation = f.nested()
     kind: str
     edge_index: NDArray[np.int32] = f.index("edges")

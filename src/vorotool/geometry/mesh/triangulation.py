@@ -91,6 +91,8 @@ class Triangulation(Value, Tabular, WithParts, Graph, Pictured):
     ([[2.0, 1.5]], [2.5], [6.0])
     """
 
+    maker = "delaunay"
+
     points: NDArray[np.float64] = f.position("points", 2)
     triangles: NDArray[np.int32] = f.index("triangles", 3)
     neighbors: NDArray[np.int32] = f.index("triangles", 3)

@@ -47,6 +47,8 @@ class LabelImage(Value, Tabular, Geometric, Graph, Pixels):
     (1, 3)
     """
 
+    maker = "tessellate"
+
     labels: NDArray[Any]
     frame: Frame | None = None
     seeds: SeedSet | None = None

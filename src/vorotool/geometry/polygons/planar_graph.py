@@ -95,6 +95,8 @@ class PlanarGraph(Value, Tabular, Geometric, Graph, Pictured):
     (2, [False, True])
     """
 
+    maker = "planar_graph"
+
     points: NDArray[np.int32] = f.index("points", 2)
     segments: NDArray[np.int32] = f.index("segments", 2)
     point_vertex: NDArray[np.int32] = f.index("points")

@@ -37,6 +37,8 @@ class Centerlines(LedOn):
     ([[[0.0, 1.0], [4.0, 1.0]]], [4.0], [2.0])
     """
 
+    maker = "centerline"
+
     has_branches = False
 
     def _summary(self) -> str:

@@ -73,6 +73,8 @@ class Discs(Value, Tabular, Curved, Pictured):
     [[4.0, 0.0], [4.0, 2.0]]
     """
 
+    maker = "largest_discs"
+
     xy: NDArray[np.float64] = f.position("discs", 2)
     radius: NDArray[np.float64] = f.length("discs")
     polygon: NDArray[np.int32] = f.index("discs")

@@ -33,6 +33,8 @@ class ExtendedSkeleton(LedOn):
     ([[[0.0, 1.0], [4.0, 1.0]]], [4.0])
     """
 
+    maker = "extend_ends"
+
     def _summary(self) -> str:
         polygons = self.path.polygons
         text = f"{counted(len(self), 'branch', 'branches')} of {counted(len(polygons), 'polygon')}"

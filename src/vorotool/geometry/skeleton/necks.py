@@ -58,6 +58,8 @@ class Necks(Value, Tabular, Geometric, Pictured):
     ([[[5.0, 1.5], [5.0, 2.5]]], [[2.0, 3.0]], [0.25])
     """
 
+    maker = "necks"
+
     skeleton: Skeleton = f.nested()
     arc: NDArray[np.int32] = f.index("necks")
     xy: NDArray[np.float64] = f.position("necks", 2)

@@ -75,6 +75,8 @@ class Offsets(Value, Tabular, Curved, Pictured):
     ([-0.5, 1.0], [4, 8], [3.0, 23.141593])
     """
 
+    maker = "offset"
+
     start: NDArray[np.float64] = f.position("pieces", 2)
     end: NDArray[np.float64] = f.position("pieces", 2)
     center: NDArray[np.float64] = f.position("pieces", 2)

@@ -55,6 +55,8 @@ class Parts(Value, Tabular, Geometric, Pictured):
     ([17.0, 37.0], [2.0, 3.0], [[0, 1]])
     """
 
+    maker = "parts"
+
     polygons: PolygonSet = f.nested("parts")
     source: NDArray[np.int32] = f.index("parts")
     radius: NDArray[np.float64] = f.length("parts")

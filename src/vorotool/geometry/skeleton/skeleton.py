@@ -131,6 +131,8 @@ class Skeleton(Value, Tabular, Branched, Pictured):
     (5, [(0.0, 0.0), (0.0, 2.0), (1.0, 1.0), (3.0, 1.0), (4.0, 0.0), (4.0, 2.0)])
     """
 
+    maker = "skeleton_exact"
+
     vertices: NDArray[np.float64] = f.position("nodes", 2)
     radius: NDArray[np.float64] = f.length("nodes")
     arcs: NDArray[np.int32] = f.index("arcs", 2)

@@ -56,6 +56,8 @@ class SmoothLines(Value, Tabular, Curved, Pictured):
     [[[0.0, 1.0], [2.0, 1.0], [4.0, 1.0], [6.0, 1.0]]]
     """
 
+    maker = "smooth"
+
     lines: Skeleton | LedOn = f.nested()
     control: Floats = f.position("curves", 4, 2)
     start: NDArray[np.int64] = f.starts("lines", "curves", least=1)

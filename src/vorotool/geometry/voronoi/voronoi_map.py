@@ -101,6 +101,8 @@ class VoronoiMap(Value, Tabular, Curved, Graph, Pictured):
     ([16.0, 24.0, 24.0], 3, [4.0])
     """
 
+    maker = "voronoi"
+
     vertices: Floats = f.position("vertices", 2)
     radius: Floats = f.length("vertices")
     arcs: NDArray[np.int32] = f.index("arcs", 2)

@@ -17,7 +17,6 @@ from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.skeleton import EXTERIOR, Skeleton
 from vorotool.jobs.inputs import JobInput, refuse
-from vorotool.jobs.names import DERIVED
 from vorotool.jobs.options import Place, SkeletonOptions
 from vorotool.jobs.picture_style import styled_page
 from vorotool.jobs.picture_world import check_columns, world_of_polygons
@@ -32,7 +31,7 @@ from vorotool.jobs.skeletons.result import Origin
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import in_units, length_in_units, unit_text
 from vorotool.products.formats import PICTURES, picture_format
-from vorotool.products.registry import PRODUCTS
+from vorotool.products.registry import DERIVED, PRODUCTS
 from vorotool.products.writing import write_product
 
 if TYPE_CHECKING:

@@ -13,7 +13,7 @@ from vorotool.geometry.alpha.shape import AlphaShape
 from vorotool.render.canvas.layers import Arcs, Layer, Lines, Page, Points, Polygons
 from vorotool.render.canvas.palettes import BOUNDARY, CELLS, FAINT, INK, PALE, SINGULAR
 from vorotool.render.label_images.png import checked_layers
-from vorotool.render.layers.mesh import site_names
+from vorotool.render.layers.mesh import mesh_page, site_names
 
 LAYERS = ("polygons", "delaunay", "interior", "boundary", "singular", "hull", "points", "labels")
 """From below."""
@@ -38,6 +38,21 @@ def alpha_layers(shape: AlphaShape, page: Page, layers: Iterable[str], *, hull: 
     if "labels" in wanted:
         made["labels"] = site_names(shape.family.mesh, page)
     return [made[name] for name in LAYERS if name in wanted]
+
+
+def alpha_page(shape: AlphaShape, *, width: int = 1000) -> Page:
+    """The page of a picture: that of the triangulation."""
+    return mesh_page(shape.family.mesh, width=width)
+
+
+def hull_layers(hull: AlphaHull, page: Page, layers: Iterable[str]) -> list[Layer]:
+    """Make layers of an alpha hull, and of the shape of its radius."""
+    return alpha_layers(hull.shape, page, layers, hull=hull)
+
+
+def hull_page(hull: AlphaHull, *, width: int = 1000) -> Page:
+    """The page of a picture: that of the triangulation."""
+    return alpha_page(hull.shape, width=width)
 
 
 def _edges(shape: AlphaShape, name: str) -> NDArray[np.int32]:

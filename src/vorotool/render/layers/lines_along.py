@@ -14,7 +14,7 @@ from vorotool.geometry.skeleton.skeleton import Skeleton
 from vorotool.geometry.skeleton.smooth_lines import SmoothLines
 from vorotool.render.canvas.cubic_curves import CubicCurves
 from vorotool.render.canvas.layers import Curves, Layer, Page
-from vorotool.render.layers.skeleton import skeleton_layers
+from vorotool.render.layers.skeleton import skeleton_layers, skeleton_page
 
 
 def line_layers(
@@ -36,6 +36,11 @@ def line_layers(
         return _smooth(layer, lines) if isinstance(lines, SmoothLines) else _led_on(layer, lines)
 
     return [shown(layer) for layer in made]
+
+
+def line_page(lines: LedOn | SmoothLines, *, width: int = 1000) -> Page:
+    """The page of a picture: that of the skeleton."""
+    return skeleton_page(lines.path, width=width)
 
 
 def _led_on(curves: Curves, lines: LedOn) -> Curves:

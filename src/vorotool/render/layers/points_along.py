@@ -16,7 +16,7 @@ LAYERS = ("polygons", "skeleton", "transects", "points", "labels")
 """From below."""
 
 
-def skeleton_point_layers(points: SkeletonPoints, page: Page, layers: Iterable[str]) -> list[Layer]:
+def point_layers(points: SkeletonPoints, page: Page, layers: Iterable[str]) -> list[Layer]:
     """Make layers of places along a skeleton; discs and lines get finer where there are many."""
     wanted = checked_layers(layers, LAYERS)
     spacing = page.spacing(max(len(points), 1))

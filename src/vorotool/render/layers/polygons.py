@@ -111,3 +111,6 @@ def polygon_page(polygons: PolygonSet, *, width: int = 1000) -> Page:
     """The page of a picture, as of `mesh_page`: with all polygons and lines."""
     up = is_up(polygons)
     return Page(bounds_of([Points("shown", polygons.xy)]), width=width, y_up=up)
+
+
+shape_page = polygon_page
