@@ -8,6 +8,8 @@ BUILD   := build
 PIP     := pip install --quiet --disable-pip-version-check --no-compile
 NEEDED  := $(PYTHON) tools/requirements.py
 .DEFAULT_GOAL := help
+# Or every process of the tests would compile all modules again.
+unexport PYTHONDONTWRITEBYTECODE
 .DELETE_ON_ERROR:
 
 # ---- environment and build ------------------------------------------------------------------------------------
