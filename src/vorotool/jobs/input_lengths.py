@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from vorotool.errors import InputError, UsageError
+from vorotool.jobs.given import changed
 from vorotool.jobs.options import ComputingOptions, DrawingOptions
 from vorotool.jobs.units import PixelSize, Sides, in_coordinates, measured, refuse_lengths
 
@@ -29,7 +29,7 @@ def lengths_of_vectors(o: Options, value: PointSet | PolygonSet | Sites) -> Opti
         return o
     unit = unit_of(value)
     if o.pixel_size is not None and o.pixel_size.is_auto:
-        o = replace(o, pixel_size=_size_of(o.pixel_size, unit))
+        o = changed(o, pixel_size=_size_of(o.pixel_size, unit))
     return _converted(o, unit, _shapes(value))
 
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from vorotool.errors import InputError, Kind, Message, UsageError
 from vorotool.formats.io.descriptors import input_identity
+from vorotool.jobs.given import changed
 from vorotool.jobs.masks import settled_foreground
 from vorotool.jobs.options import (
     ComputingOptions,
@@ -134,7 +135,7 @@ def _tolerances(o: ShapeOptions, source: Opened, read: Callable[..., Any]) -> tu
         first = read(source)
         if not isinstance(first, Raster):
             others: dict[str, Any] = {name: None for name in measured(o) if name not in names}
-            o = lengths_of_vectors(replace(o, **others), first)
+            o = lengths_of_vectors(changed(o, **others), first)
     return source, {name: known_length(getattr(o, name)) for name in names}
 
 

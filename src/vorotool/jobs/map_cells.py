@@ -7,6 +7,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from vorotool.errors import InputError, Kind, Message, UsageError, VorotoolWarning, warn
+from vorotool.jobs.given import changed
 from vorotool.jobs.inputs import no_seeds
 from vorotool.jobs.options import TessellationOptions
 from vorotool.jobs.run_log import Run
@@ -44,8 +45,8 @@ def seeds_on_map(run: Run, o: TessellationOptions, value: PointSet | PolygonSet)
     run.stats |= unit_stats(size)
     run.grid = grid
     if o.max_distance is not None:
-        o = replace(o, max_distance=o.max_distance * (1 if o.pixel_size is None else o.pixel_size.factor))
-    o = replace(o, window=(frame.x, frame.y, frame.width, frame.height), size=None, pixel_size=size)
+        o = changed(o, max_distance=o.max_distance * (1 if o.pixel_size is None else o.pixel_size.factor))
+    o = changed(o, window=(frame.x, frame.y, frame.width, frame.height), size=None, pixel_size=size)
     if is_empty:
         return o, replace(no_seeds(run, o), grid=grid)
     placed = replace(value, xy=in_cells(value.xy, grid))

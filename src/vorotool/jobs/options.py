@@ -1,17 +1,15 @@
 """Options of the commands: one frozen value a job, made once from what the command line gives.
 
-A field is called as its option is, and ``--help`` says what it means; one that is None was not given. Classes that
-others inherit from have no methods of their own, and the others only those that are called: `dataclass` compiles each
-when this module is imported, at the start of every run.
+A field is called as its option is, and ``--help`` says what it means; one that is None was not given.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Literal
 
+from vorotool.jobs.given import Options
 from vorotool.jobs.picture_style import Looks, Paper
 
 if TYPE_CHECKING:
@@ -31,8 +29,7 @@ AUTO_LEVELS = -1
 Method = Literal["exact", "digital", "digital-valid"]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, init=False, repr=False, eq=False)
-class JobOptions:
+class JobOptions(Options):
     """What each command has: outputs, pictures, many inputs, and what is said."""
 
     inputs: tuple[str, ...]
@@ -133,8 +130,7 @@ class JobOptions:
         return {"--files-from": self.files_from, **files} if self.files_from else files
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, repr=False, eq=False)
-class ReadingOptions:
+class ReadingOptions(Options):
     """Of ``info``, which writes no file."""
 
     inputs: tuple[str, ...]
@@ -148,7 +144,6 @@ class ReadingOptions:
     threads: int = 0
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, repr=False, eq=False)
 class DrawingOptions(JobOptions):
     """Of ``draw``, which has one result."""
 
@@ -166,7 +161,6 @@ class DrawingOptions(JobOptions):
         return Paper(self.scale, self.drawing_unit, self.aspect, self.extent)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, init=False, repr=False, eq=False)
 class ComputingOptions(JobOptions):
     """What each command has that computes something of points, polygons or an image."""
 
@@ -221,7 +215,6 @@ class ComputingOptions(JobOptions):
         return "--fill-holes" if self.fill_holes else "--min-area" if self.min_area is not None else ""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, init=False, repr=False, eq=False)
 class SiteOptions(ComputingOptions):
     """What each command has whose sites are points, or the seeds of an image."""
 
@@ -252,7 +245,6 @@ class SiteOptions(ComputingOptions):
         return {"size": self.size, "window": self.window}
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, repr=False, eq=False)
 class TessellationOptions(SiteOptions):
     """Of ``tessellate``."""
 
@@ -288,7 +280,6 @@ class TessellationOptions(SiteOptions):
         return bool(self.layers or self.overlay or self.looks.given())
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, repr=False, eq=False)
 class TriangulationOptions(SiteOptions):
     """Of ``delaunay``."""
 
@@ -317,7 +308,6 @@ class TriangulationOptions(SiteOptions):
         return ({"clip": self.clip} if self.clip else {}) | JobOptions.files_of_inputs(self)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, repr=False, eq=False)
 class AlphaShapeOptions(SiteOptions):
     """Of ``alphashape``."""
 
@@ -344,7 +334,6 @@ class AlphaShapeOptions(SiteOptions):
         return Paper(self.scale, self.drawing_unit, self.aspect, self.extent)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, init=False, repr=False, eq=False)
 class ShapeOptions(ComputingOptions):
     """What each command has that takes shapes, or the outlines of an image."""
 
@@ -380,7 +369,6 @@ class ShapeOptions(ComputingOptions):
         }
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, repr=False, eq=False)
 class VoronoiOptions(ShapeOptions):
     """Of ``voronoi``."""
 
@@ -397,7 +385,6 @@ class VoronoiOptions(ShapeOptions):
         return {name: path for name, path in given.items() if path} | JobOptions.files_of_inputs(self)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, repr=False, eq=False)
 class DistanceOptions(ComputingOptions):
     """Of ``distance``, which compares the input with one other, and makes no batches."""
 
@@ -443,7 +430,6 @@ class DistanceOptions(ComputingOptions):
         return {"B": self.other}
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, init=False, repr=False, eq=False)
 class SkeletonOptions(ShapeOptions):
     """What the commands have that make skeletons."""
 
@@ -465,7 +451,6 @@ class SkeletonOptions(ShapeOptions):
         return set(self.what) != {"offset"}
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, repr=False, eq=False)
 class ExactSkeletonOptions(SkeletonOptions):
     """Of ``skeleton-exact``."""
 
@@ -489,7 +474,6 @@ class ExactSkeletonOptions(SkeletonOptions):
         return ShapeOptions.for_images(self) | {"border": self.border}
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, repr=False, eq=False)
 class ApproximateSkeletonOptions(SkeletonOptions):
     """Of ``skeleton-approx``."""
 

@@ -8,6 +8,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from vorotool.errors import InputError, Kind, Message, UsageError
+from vorotool.jobs.given import changed
 from vorotool.jobs.input_lengths import sized
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.options import (
@@ -59,7 +60,7 @@ def with_pixel_size(run: Run, o: Options, given: JobInput, grid: PixelGrid | Non
         if grid is not None and grid.is_size:
             run.note(_note_of_size(given, grid, o))
     run.stats |= unit_stats(size)
-    return _mirrored_places(replace(o, pixel_size=size))
+    return _mirrored_places(changed(o, pixel_size=size))
 
 
 def size_of_file(grid: PixelGrid | None, o: ComputingOptions | DrawingOptions) -> PixelSize:
@@ -130,10 +131,10 @@ def _mirrored_places(o: Options) -> Options:
         return o
     if isinstance(o, ShapeOptions | TriangulationOptions | AlphaShapeOptions) and o.frame is not None:
         x, y, width, height = o.frame
-        o = replace(o, frame=(x, -(y + height), width, height))
+        o = changed(o, frame=(x, -(y + height), width, height))
     if isinstance(o, SkeletonOptions):
         start, end = (None if place is None else (place[0], -place[1]) for place in (o.start, o.end))
-        o = replace(o, start=start, end=end)
+        o = changed(o, start=start, end=end)
     return o
 
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
 
+from vorotool.jobs.given import changed
 from vorotool.jobs.inputs import JobInput, opened_input, read_opened, refuse, report_no_geometry
 from vorotool.jobs.masks import settled_foreground
 from vorotool.jobs.options import ExactSkeletonOptions, ShapeOptions
@@ -63,7 +63,7 @@ def outlined(run: Run, o: Options, given: JobInput, image: Raster) -> ReadPolygo
     else:
         from vorotool.engines.label_images.simplification import simplified_polygons
 
-        whole = placed_polygons(o.pixel_size, _outlines(run, replace(o, simplify=None), image))
+        whole = placed_polygons(o.pixel_size, _outlines(run, changed(o, simplify=None), image))
         polygons = simplified_polygons(whole, o.simplify)
     return ReadPolygons(polygons, is_mask=True, options=o, frame=frame, grid=image.grid)
 

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 from math import prod
 from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn, TypeVar
 
 from vorotool.errors import UsageError, VorotoolError
+from vorotool.jobs.given import changed
 from vorotool.jobs.names import PLOTS
 from vorotool.jobs.pruning_choice import LENGTHS as PRUNED_LENGTHS
 from vorotool.jobs.pruning_choice import Pruning
@@ -61,7 +62,7 @@ _NUMBERS = {2: "two numbers, SX,SY", 3: "three numbers, SX,SY,SZ"}
 
 def with_spacing(o: Options) -> Options:
     """Give options in which ``--spacing`` is the size of pixels."""
-    spacing: PixelSize | None = next((getattr(o, field.name) for field in fields(o) if field.name == "spacing"), None)
+    spacing: PixelSize | None = vars(o).get("spacing")
     if spacing is None:
         return o
     if o.unit is not None:
@@ -69,13 +70,12 @@ def with_spacing(o: Options) -> Options:
             "--spacing changes distances, --pixel-size only scales what is written: give one of them, --spacing where "
             "pixels are no squares"
         )
-    changed: dict[str, Any] = {"pixel_size": spacing}
-    return replace(o, **changed)
+    return changed(o, pixel_size=spacing)
 
 
 def takes_spacing(o: JobOptions) -> bool:
     """Whether a command has ``--spacing``."""
-    return any(field.name == "spacing" for field in fields(o))
+    return "spacing" in vars(o)
 
 
 def sides_of(o: ComputingOptions, axes: int = 2) -> PixelSides:
@@ -97,12 +97,12 @@ def lengths_in_steps(o: Computing) -> Computing:
     if size is None or size.sides is None:
         return o
     step = size.sides.step
-    given = {field.name: getattr(o, field.name) for field in fields(o)}
-    changed: dict[str, Any] = {name: _in_steps(given[name], step) for name in given if name in _IN_STEPS}
+    given = vars(o)
+    others: dict[str, Any] = {name: _in_steps(given[name], step) for name in given if name in _IN_STEPS}
     prune: Pruning | None = given.get("prune")
     if prune is not None and prune.criterion in PRUNED_LENGTHS:
-        changed["prune"] = prune._replace(threshold=_in_steps(prune.threshold, step))
-    return replace(o, **changed, pixel_size=size._replace(factor=step))
+        others["prune"] = prune._replace(threshold=_in_steps(prune.threshold, step))
+    return changed(o, **others, pixel_size=size._replace(factor=step))
 
 
 def _in_steps(value: Any, step: Fraction) -> Any:
@@ -172,8 +172,8 @@ def lengths_in_pixels(o: Options, size: PixelSize | None) -> Options:
 
 def in_coordinates(o: Options, sides: Sides) -> Options:
     """Give options whose lengths are numbers in coordinates of which 1 is so long."""
-    changed = {name: _in_pixels(name, getattr(o, name), partial(_number, sides)) for name in measured(o)}
-    return replace(o, **changed) if changed else o
+    lengths = {name: _in_pixels(name, getattr(o, name), partial(_number, sides)) for name in measured(o)}
+    return changed(o, **lengths) if lengths else o
 
 
 def refuse_lengths(o: JobOptions, reason: str, kind: type[VorotoolError] = UsageError) -> None:
@@ -188,7 +188,7 @@ def refuse_lengths(o: JobOptions, reason: str, kind: type[VorotoolError] = Usage
 
 def measured(o: JobOptions) -> list[str]:
     """Names of the options that have a unit."""
-    return [field.name for field in fields(o) if _has_unit(getattr(o, field.name))]
+    return [name for name, value in vars(o).items() if _has_unit(value)]
 
 
 def _has_unit(value: Any) -> bool:

@@ -194,12 +194,30 @@ def test_only_what_has_places_is_written():
     def of(command):
         return " ".join(what for what, each in PRODUCTS[command].items() if "dxf" in each.written)
 
-    along = "skeleton diagram centerline offset shape points transects"
+    along = "skeleton diagram centerline offset shape discs points transects"
     assert of("skeleton-exact") == f"{along} necks parts"
-    assert of("skeleton-approx") == along.replace("offset ", "")
+    assert of("skeleton-approx") == along.replace("offset ", "").replace("discs ", "")
+    assert of("distance") == "distances hausdorff smallest"
     assert of("delaunay") == "edges triangles cells"
     assert of("alphashape") == "edges polygons complex general hull"
     assert of("tessellate") == of("draw") == ""
+
+
+def test_discs_are_circles():
+    found = vorotool.largest_discs([[0, 0], [9, 0], [9, 2], [0, 2.5]], count=3)
+    drawn = opened(written(found, "discs")).modelspace()
+    assert [list(each.get_points("xyb")) for each in drawn] == [
+        [(x + r, y, 1), (x - r, y, 1)] for (x, y), r in zip(found.xy.tolist(), found.radius.tolist(), strict=True)
+    ]
+    assert all(each.closed for each in drawn)
+
+
+def test_distances_are_lines():
+    found = vorotool.hausdorff([[0, 0], [4, 0]], [[1, 5]])
+    lines = opened(written(found, "distances")).modelspace()
+    assert [[tuple(end)[:2] for end in (line.dxf.start, line.dxf.end)] for line in lines] == [
+        [tuple(end) for end in pair] for pair in found.places.tolist()
+    ]
 
 
 @pytest.mark.parametrize("name", ["a<b>c", "", "\x07", "Ü", "x" * 400, "0", "Defpoints"])

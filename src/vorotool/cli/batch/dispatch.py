@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 
 import click
 from click.core import ParameterSource
@@ -13,6 +12,7 @@ from vorotool.cli.batch.progress_bar import progress_bar
 from vorotool.errors import UsageError
 from vorotool.formats.io.commit import committed_together
 from vorotool.formats.io.descriptors import stream_kind
+from vorotool.jobs.given import changed
 from vorotool.jobs.inputs import check_streams
 from vorotool.jobs.job import Options, Recipe, process_input
 from vorotool.jobs.options import ALL_PAGES, JobOptions
@@ -60,12 +60,12 @@ def _without_environment(o: Options) -> Options:
     has_jobs, has_cluster = (source(name) == ParameterSource.ENVIRONMENT for name in ("jobs", "cluster"))
     if not has_jobs and not has_cluster:
         return o
-    kept = replace(o, jobs=None if has_jobs else o.jobs, cluster=None if has_cluster else o.cluster)
+    kept = changed(o, jobs=None if has_jobs else o.jobs, cluster=None if has_cluster else o.cluster)
     if not _is_batch(kept):
         return kept
     if not has_cluster:
         return kept if o.cluster is not None else o
-    return replace(o, cluster=None) if kept.jobs is not None else replace(o, jobs=None)
+    return changed(o, cluster=None) if kept.jobs is not None else changed(o, jobs=None)
 
 
 def refuse_several(named: Mapping[str, str]) -> None:

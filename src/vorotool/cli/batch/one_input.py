@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from collections.abc import Sequence
 from contextlib import ExitStack
-from dataclasses import replace
 from pathlib import Path
 
 from vorotool.batch.inputs import Input
@@ -16,6 +15,7 @@ from vorotool.cli.batch.progress_bar import progress_bar
 from vorotool.errors import UsageError
 from vorotool.formats.io.atomic_output import check_output, is_same_file, spoken
 from vorotool.formats.io.descriptors import STANDARD, descriptor_of, is_same_output
+from vorotool.jobs.given import changed
 from vorotool.jobs.job import Options, Recipe, process_input
 from vorotool.jobs.options import JobOptions
 from vorotool.jobs.run_log import Run
@@ -37,7 +37,7 @@ def run_one(recipe: Recipe[Options], o: Options) -> None:
     check_stats(o, targets, source)
     if table is not None:
         _check_table(o, table, targets, source)
-        o = replace(o, what=tuple(dict.fromkeys((*(o.what if targets else ()), table.what))))
+        o = changed(o, what=tuple(dict.fromkeys((*(o.what if targets else ()), table.what))))
         notes += [text for text in [table.fields.note_unmatched([source])] if text]
     planned = targets if table is None else [*targets, table.target(f"part.{table.fmt}")]
     check_units(o, planned)
@@ -90,7 +90,7 @@ def _process(
     with ExitStack() as stack:
         planned = list(targets)
         if table is not None:
-            folder = folder_of_parts(recipe.name, replace(o, out_dir=None), table, stack)
+            folder = folder_of_parts(recipe.name, changed(o, out_dir=None), table, stack)
             planned.append(table.target(part_path(folder, source, table.fmt)))
         run = stack.enter_context(
             Run(recipe.name, quiet=o.quiet, verbose=o.verbose, stats=o.stats, no_clobber=o.no_clobber, bar=progress_bar)

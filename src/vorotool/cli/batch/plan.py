@@ -7,7 +7,7 @@ import re
 import tempfile
 from collections.abc import Callable
 from contextlib import ExitStack
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Generic
 
@@ -25,6 +25,7 @@ from vorotool.errors import OutputError, UsageError
 from vorotool.formats.io.atomic_output import spoken
 from vorotool.formats.io.descriptors import STANDARD, descriptor_of, is_same_output, stream_kind
 from vorotool.formats.io.temporaries import new_folder, temporary_beside
+from vorotool.jobs.given import changed
 from vorotool.jobs.job import Options, Recipe
 from vorotool.jobs.options import ALL_PAGES, ComputingOptions, JobOptions
 from vorotool.jobs.targets import Target, plan_targets
@@ -79,7 +80,7 @@ def plan_batch(recipe: Recipe[Options], o: Options) -> Plan[Options]:
     o, notes = named_for_shard(o)
     table = joint_table(recipe, o)
     if o.out_dir is None:
-        o = replace(o, what=())
+        o = changed(o, what=())
     targets = [] if o.out_dir is None else plan_targets(
         recipe.formats, o.what, output=None, fmt=o.format, out_dir=o.out_dir, source="input"
     )  # fmt: skip
@@ -88,7 +89,7 @@ def plan_batch(recipe: Recipe[Options], o: Options) -> Plan[Options]:
     if manifest is not None:
         tasks = [replace(task, done=manifest.done_before(task.source, history)) for task in tasks]
     if table is not None:
-        o = replace(o, what=tuple(dict.fromkeys((*o.what, table.what))))
+        o = changed(o, what=tuple(dict.fromkeys((*o.what, table.what))))
         targets.append(table.target(f"part.{table.fmt}"))
         notes += [text for text in [table.fields.note_unmatched([task.source for task in tasks])] if text]
     check_units(o, targets)
@@ -141,7 +142,7 @@ def named_for_shard(o: Options) -> tuple[Options, list[str]]:
             own[option] = name_of_part(path, *o.shard)
     named = {option.replace("_", "-"): name for option, name in own.items()}
     part, parts = o.shard
-    return replace(o, **own), [f"--{option} of part {part} of {parts} is {name}" for option, name in named.items()]
+    return changed(o, **own), [f"--{option} of part {part} of {parts} is {name}" for option, name in named.items()]
 
 
 def name_of_part(path: str, part: int, parts: int) -> str:
@@ -233,7 +234,7 @@ def _record(recipe: Recipe[Options], o: Options, targets: list[Target]) -> tuple
         return None, History()
     digest = digest_of_values(
         {
-            "options": {name: getattr(o, name) for field in fields(o) if (name := field.name) not in WITHOUT_EFFECT},
+            "options": {name: value for name, value in vars(o).items() if name not in WITHOUT_EFFECT},
             "files": {name: digest_of(path) for name, path in o.files_of_inputs().items()},
             "outputs": [(target.what, target.fmt) for target in targets],
         }

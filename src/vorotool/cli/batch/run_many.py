@@ -24,6 +24,7 @@ from vorotool.formats.io.atomic_output import check_output, open_output
 from vorotool.formats.io.commit import committed_together
 from vorotool.geometry.length_units import unit_name
 from vorotool.jobs.failures import explained
+from vorotool.jobs.given import changed
 from vorotool.jobs.job import Options, Recipe, process_input
 from vorotool.jobs.options import ALL_PAGES, JobOptions
 from vorotool.jobs.run_log import Run
@@ -39,7 +40,7 @@ def process_one(
     """Process one input, and say nothing but in the outcome."""
     targets = [Target(what, path, fmt) for (what, fmt), path in zip(kinds, outputs, strict=True)]
     if options.page == ALL_PAGES:
-        options = replace(options, page=source.page if isinstance(source, PageName) else None)
+        options = changed(options, page=source.page if isinstance(source, PageName) else None)
     source = path_of(source)
     message, code = "", 0
     with Run(recipe.name, quiet=True, verbose=False, stats=None) as run:
@@ -122,7 +123,7 @@ def _results(recipe: Recipe[Options], plan: Plan[Options], count: int) -> Result
     o = plan.options
     jobs = (os.cpu_count() or 1) if o.jobs == 0 else o.jobs
     files: dict[str, Any] = {name: str(Path(path).absolute()) for name, path in o.files_of_inputs().items()}
-    options = replace(
+    options = changed(
         o,
         threads=o.threads or int(o.cluster is not None or (jobs or 1) > 1),
         stats=None if o.stats is None else os.devnull,  # statistics are made, and sent to this process

@@ -14,6 +14,7 @@ from vorotool.formats.drawing.dxf_drawing import DxfDrawing
 from vorotool.geometry.alpha.hull import AlphaHull
 from vorotool.geometry.curves.inverse_functions import hypotenuse
 from vorotool.geometry.skeleton.centerline import Centerlines
+from vorotool.geometry.skeleton.discs import Discs
 from vorotool.geometry.skeleton.extended import ExtendedSkeleton
 from vorotool.geometry.skeleton.led_on import LedOn
 from vorotool.geometry.skeleton.offsets import Offsets
@@ -39,6 +40,7 @@ def write_dxf(out: BinaryIO, value: Any, *, what: str) -> None:
         SmoothLines: _add_smooth,
         Offsets: _add_offsets,
         AlphaHull: _add_hull,
+        Discs: _add_discs,
     }
     if isinstance(value, SkeletonPoints) and what == "points":
         _add_points(drawing, value)
@@ -99,6 +101,13 @@ def _add_offsets(drawing: DxfDrawing, offsets: Offsets, what: str) -> None:
     bulges = _bulges(offsets.start, offsets.end, offsets.center, offsets.piece_distance > 0)
     distances = offsets.distance[offsets.shape_of_ring].tolist()
     _add_rings(drawing, [f"{what}_{distance:g}" for distance in distances], offsets.start, bulges, offsets.ring_starts)
+
+
+def _add_discs(drawing: DxfDrawing, discs: Discs, what: str) -> None:
+    """Circles of two halves."""
+    across = discs.radius[:, None] * (1, 0)
+    for ends in np.stack([discs.xy + across, discs.xy - across], axis=1):
+        drawing.polyline(what, ends, is_closed=True, bulges=[1.0, 1.0])
 
 
 def _add_hull(drawing: DxfDrawing, hull: AlphaHull, what: str) -> None:

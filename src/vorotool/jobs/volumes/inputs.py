@@ -24,6 +24,7 @@ from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
 from vorotool.geometry.volumes.voxel_frame import VoxelFrame
 from vorotool.geometry.volumes.voxel_grid import VoxelGrid
 from vorotool.jobs.contradictions import check_voxel_size
+from vorotool.jobs.given import changed
 from vorotool.jobs.input_lengths import lengths_of_voxels
 from vorotool.jobs.inputs import JobInput, refuse, report_no_seeds
 from vorotool.jobs.masks import report_cleaning
@@ -167,7 +168,7 @@ def with_voxel_sides(run: Run, o: TessellationOptions, given: JobInput, grid: Vo
         return o
     if asked.is_auto:
         asked = _of_file(grid)
-        o = replace(o, pixel_size=asked)
+        o = changed(o, pixel_size=asked)
     run.stats |= unit_stats(asked)
     return o
 
