@@ -17,10 +17,10 @@ from vorotool.engines.arrangement.planar_graph import planar_graph
 from vorotool.engines.sampled_skeleton.approximate import SamplingOptions, approximate_skeleton, sampled_graph
 from vorotool.engines.sampled_skeleton.error_summary import error_summary
 from vorotool.engines.sampled_skeleton.hausdorff import distances_to, exact_skeleton, places_on_arcs, widened
-from vorotool.geometry.skeleton.skeleton import EDGE
 from vorotool.render.canvas.layers import Curves, Layer, Lines, Page, Points, Texts, bounds_of
 from vorotool.render.canvas.palettes import FAINT, INK, PALE, RESULT, SEED
 from vorotool.render.canvas.svg import write_layers_svg
+from vorotool.types.skeleton.skeleton import EDGE
 
 DATA = Path(__file__).parents[2] / "data"
 SHAPES = {"shape.json": "interior", "two-shapes.json": "interior", "two-segments.wkt": "exterior"}

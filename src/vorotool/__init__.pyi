@@ -245,149 +245,149 @@ from vorotool.formats import (
 from vorotool.formats.samples import (
     sample as sample,
 )
-from vorotool.geometry.alpha.complex import (
-    AlphaComplex as AlphaComplex,
-)
-from vorotool.geometry.alpha.hull import (
-    AlphaHull as AlphaHull,
-)
-from vorotool.geometry.alpha.persistence import (
-    RegionPersistence as RegionPersistence,
-)
-from vorotool.geometry.alpha.shape import (
-    AlphaShape as AlphaShape,
-)
-from vorotool.geometry.box import (
-    Box as Box,
-)
-from vorotool.geometry.distances.distances import (
-    Distances as Distances,
-)
-from vorotool.geometry.distances.distances import (
-    PlacePair as PlacePair,
-)
-from vorotool.geometry.mesh.cells import (
-    CellSet as CellSet,
-)
-from vorotool.geometry.mesh.digital_comparison import (
-    DigitalComparison as DigitalComparison,
-)
-from vorotool.geometry.mesh.digital_triangulation import (
-    DigitalTriangulation as DigitalTriangulation,
-)
-from vorotool.geometry.mesh.proximity import (
-    ProximityGraph as ProximityGraph,
-)
-from vorotool.geometry.mesh.statistics import (
-    CellStatistics as CellStatistics,
-)
-from vorotool.geometry.mesh.tables import (
-    edge_table as edge_table,
-)
-from vorotool.geometry.mesh.tables import (
-    point_table as point_table,
-)
-from vorotool.geometry.mesh.tables import (
-    triangle_table as triangle_table,
-)
-from vorotool.geometry.mesh.triangulation import (
-    Triangulation as Triangulation,
-)
-from vorotool.geometry.pixel_frame import (
-    Frame as Frame,
-)
-from vorotool.geometry.pixel_grid import (
-    PixelGrid as PixelGrid,
-)
-from vorotool.geometry.points.label_image import (
-    LabelImage as LabelImage,
-)
-from vorotool.geometry.points.point_set import (
-    PointSet as PointSet,
-)
-from vorotool.geometry.points.raster import (
-    Raster as Raster,
-)
-from vorotool.geometry.points.seed_set import (
-    SeedSet as SeedSet,
-)
-from vorotool.geometry.polygons.planar_graph import (
-    PlanarGraph as PlanarGraph,
-)
-from vorotool.geometry.polygons.polygon_set import (
-    PolygonSet as PolygonSet,
-)
-from vorotool.geometry.skeleton.centerline import (
-    Centerlines as Centerlines,
-)
-from vorotool.geometry.skeleton.critical_values import (
-    CriticalValues as CriticalValues,
-)
-from vorotool.geometry.skeleton.discs import (
-    Discs as Discs,
-)
-from vorotool.geometry.skeleton.extended import (
-    ExtendedSkeleton as ExtendedSkeleton,
-)
-from vorotool.geometry.skeleton.necks import (
-    Necks as Necks,
-)
-from vorotool.geometry.skeleton.offsets import (
-    Offsets as Offsets,
-)
-from vorotool.geometry.skeleton.parts import (
-    Parts as Parts,
-)
-from vorotool.geometry.skeleton.points_along import (
-    SkeletonPoints as SkeletonPoints,
-)
-from vorotool.geometry.skeleton.skeleton import (
-    Skeleton as Skeleton,
-)
-from vorotool.geometry.skeleton.smooth_lines import (
-    SmoothLines as SmoothLines,
-)
-from vorotool.geometry.skeleton.tables import (
-    arc_table as arc_table,
-)
-from vorotool.geometry.skeleton.tables import (
-    branch_table as branch_table,
-)
-from vorotool.geometry.skeleton.tables import (
-    element_table as element_table,
-)
-from vorotool.geometry.skeleton.tables import (
-    polygon_table as polygon_table,
-)
-from vorotool.geometry.table import (
-    Table as Table,
-)
-from vorotool.geometry.volumes.label_volume import (
-    LabelVolume as LabelVolume,
-)
-from vorotool.geometry.volumes.volume import (
-    Volume as Volume,
-)
-from vorotool.geometry.volumes.volume_points import (
-    VolumePoints as VolumePoints,
-)
-from vorotool.geometry.volumes.volume_seeds import (
-    VolumeSeeds as VolumeSeeds,
-)
-from vorotool.geometry.volumes.voxel_frame import (
-    VoxelFrame as VoxelFrame,
-)
-from vorotool.geometry.volumes.voxel_grid import (
-    VoxelGrid as VoxelGrid,
-)
-from vorotool.geometry.voronoi.voronoi_map import (
-    VoronoiMap as VoronoiMap,
-)
 from vorotool.jobs.writing import (
     to_geojson as to_geojson,
 )
 from vorotool.jobs.writing import (
     write as write,
+)
+from vorotool.types.alpha.complex import (
+    AlphaComplex as AlphaComplex,
+)
+from vorotool.types.alpha.hull import (
+    AlphaHull as AlphaHull,
+)
+from vorotool.types.alpha.persistence import (
+    RegionPersistence as RegionPersistence,
+)
+from vorotool.types.alpha.shape import (
+    AlphaShape as AlphaShape,
+)
+from vorotool.types.box import (
+    Box as Box,
+)
+from vorotool.types.distances.distances import (
+    Distances as Distances,
+)
+from vorotool.types.distances.distances import (
+    PlacePair as PlacePair,
+)
+from vorotool.types.mesh.cells import (
+    CellSet as CellSet,
+)
+from vorotool.types.mesh.digital_comparison import (
+    DigitalComparison as DigitalComparison,
+)
+from vorotool.types.mesh.digital_triangulation import (
+    DigitalTriangulation as DigitalTriangulation,
+)
+from vorotool.types.mesh.proximity import (
+    ProximityGraph as ProximityGraph,
+)
+from vorotool.types.mesh.statistics import (
+    CellStatistics as CellStatistics,
+)
+from vorotool.types.mesh.tables import (
+    edge_table as edge_table,
+)
+from vorotool.types.mesh.tables import (
+    point_table as point_table,
+)
+from vorotool.types.mesh.tables import (
+    triangle_table as triangle_table,
+)
+from vorotool.types.mesh.triangulation import (
+    Triangulation as Triangulation,
+)
+from vorotool.types.pixel_frame import (
+    Frame as Frame,
+)
+from vorotool.types.pixel_grid import (
+    PixelGrid as PixelGrid,
+)
+from vorotool.types.points.label_image import (
+    LabelImage as LabelImage,
+)
+from vorotool.types.points.point_set import (
+    PointSet as PointSet,
+)
+from vorotool.types.points.raster import (
+    Raster as Raster,
+)
+from vorotool.types.points.seed_set import (
+    SeedSet as SeedSet,
+)
+from vorotool.types.polygons.planar_graph import (
+    PlanarGraph as PlanarGraph,
+)
+from vorotool.types.polygons.polygon_set import (
+    PolygonSet as PolygonSet,
+)
+from vorotool.types.skeleton.centerline import (
+    Centerlines as Centerlines,
+)
+from vorotool.types.skeleton.critical_values import (
+    CriticalValues as CriticalValues,
+)
+from vorotool.types.skeleton.discs import (
+    Discs as Discs,
+)
+from vorotool.types.skeleton.extended import (
+    ExtendedSkeleton as ExtendedSkeleton,
+)
+from vorotool.types.skeleton.necks import (
+    Necks as Necks,
+)
+from vorotool.types.skeleton.offsets import (
+    Offsets as Offsets,
+)
+from vorotool.types.skeleton.parts import (
+    Parts as Parts,
+)
+from vorotool.types.skeleton.points_along import (
+    SkeletonPoints as SkeletonPoints,
+)
+from vorotool.types.skeleton.skeleton import (
+    Skeleton as Skeleton,
+)
+from vorotool.types.skeleton.smooth_lines import (
+    SmoothLines as SmoothLines,
+)
+from vorotool.types.skeleton.tables import (
+    arc_table as arc_table,
+)
+from vorotool.types.skeleton.tables import (
+    branch_table as branch_table,
+)
+from vorotool.types.skeleton.tables import (
+    element_table as element_table,
+)
+from vorotool.types.skeleton.tables import (
+    polygon_table as polygon_table,
+)
+from vorotool.types.table import (
+    Table as Table,
+)
+from vorotool.types.volumes.label_volume import (
+    LabelVolume as LabelVolume,
+)
+from vorotool.types.volumes.volume import (
+    Volume as Volume,
+)
+from vorotool.types.volumes.volume_points import (
+    VolumePoints as VolumePoints,
+)
+from vorotool.types.volumes.volume_seeds import (
+    VolumeSeeds as VolumeSeeds,
+)
+from vorotool.types.volumes.voxel_frame import (
+    VoxelFrame as VoxelFrame,
+)
+from vorotool.types.volumes.voxel_grid import (
+    VoxelGrid as VoxelGrid,
+)
+from vorotool.types.voronoi.voronoi_map import (
+    VoronoiMap as VoronoiMap,
 )
 
 _HOME: dict[str, str]

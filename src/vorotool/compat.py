@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from vorotool.convert.polygons import as_polygons
 from vorotool.engines.peers import distance_transform as _distances
 from vorotool.engines.peers import expand_labels as _labels
 from vorotool.engines.peers import medial_axis as _axis
 from vorotool.engines.voronoi.voronoi import voronoi
 from vorotool.errors import InputError, UsageError
-from vorotool.geometry.arguments.polygons import as_polygons
-from vorotool.geometry.numbers import shown_number
+from vorotool.numeric.numbers import shown_number
 
 if TYPE_CHECKING:
     import geopandas

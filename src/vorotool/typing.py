@@ -20,18 +20,18 @@ from typing import Any, Literal, Protocol, TypeAlias, runtime_checkable
 
 from numpy.typing import ArrayLike
 
-from vorotool.geometry.box import Box
-from vorotool.geometry.mesh.triangulation import Triangulation
-from vorotool.geometry.points.label_image import LabelImage
-from vorotool.geometry.points.point_set import PointSet
-from vorotool.geometry.points.raster import Raster
-from vorotool.geometry.points.seed_set import SeedSet
-from vorotool.geometry.polygons.polygon_set import PolygonSet
-from vorotool.geometry.skeleton.skeleton import Skeleton
-from vorotool.geometry.volumes.label_volume import LabelVolume
-from vorotool.geometry.volumes.volume import Volume
-from vorotool.geometry.volumes.volume_points import VolumePoints
-from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
+from vorotool.types.box import Box
+from vorotool.types.mesh.triangulation import Triangulation
+from vorotool.types.points.label_image import LabelImage
+from vorotool.types.points.point_set import PointSet
+from vorotool.types.points.raster import Raster
+from vorotool.types.points.seed_set import SeedSet
+from vorotool.types.polygons.polygon_set import PolygonSet
+from vorotool.types.skeleton.skeleton import Skeleton
+from vorotool.types.volumes.label_volume import LabelVolume
+from vorotool.types.volumes.volume import Volume
+from vorotool.types.volumes.volume_points import VolumePoints
+from vorotool.types.volumes.volume_seeds import VolumeSeeds
 
 
 @runtime_checkable

@@ -9,7 +9,7 @@ import pytest
 from support.readers.written import rows_of
 from vorotool.batch.tables import join_tables
 from vorotool.formats.text.tables import write_table
-from vorotool.geometry.table import Table
+from vorotool.types.table import Table
 
 PLAIN = Table({"label": [1, 2], "x": np.ma.array([0.1, 5], mask=[False, True])})
 ODD = Table({"label": [7], "note": ['a "b", c\nd'], "x": [1e22]}).with_properties({"ü": ["é"], "input": [3.5]})

@@ -9,16 +9,16 @@ import numpy as np
 import pytest
 import shapely
 from PIL import Image
+from vorotool.types.polygons.polygon_set import PolygonSet
 
 import vorotool
 from vorotool.errors import UsageError
-from vorotool.geometry.crs import crs_name, member_of_text
-from vorotool.geometry.length_units import metres
-from vorotool.geometry.number_text import NumberText
-from vorotool.geometry.pixel_grid import PixelGrid, map_grid
-from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.numeric.crs import crs_name, member_of_text
+from vorotool.numeric.length_units import metres
+from vorotool.numeric.number_text import NumberText
 from vorotool.products.formats import FORMATS
 from vorotool.products.inputs import INPUTS, NAMES_WITH, VOLUME_NAMES
+from vorotool.types.pixel_grid import PixelGrid, map_grid
 
 ROOT = Path(__file__).parents[2]
 VERTICES = np.array([[0.1, 0], [4, 1 / 3], [0, 3], [10, 0], [14, 0], [10, 3.5]])

@@ -17,7 +17,7 @@ from fuzz.runner import Cases, options
 from support.families.skeleton_shapes import holed, several, star, valid
 from support.oracles.rotation_oracle import Pair, Rotation, fault
 from vorotool import InputError, outlines
-from vorotool.geometry.arguments.polygons import as_polygons
+from vorotool.convert.polygons import as_polygons
 
 
 def mask(rng: np.random.Generator) -> Any:

@@ -12,13 +12,13 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 from fuzz.runner import run_families
 from support.families.skeleton_shapes import FAMILIES
 from vorotool import VorotoolError
+from vorotool.convert.polygons import as_polygons
 from vorotool.engines.arrangement.lattice_rings import placed_shapes
 from vorotool.engines.arrangement.planar_graph import planar_graph
 from vorotool.engines.sampled_skeleton.approximate import SamplingOptions, approximate_skeleton, sampled_graph
 from vorotool.engines.sampled_skeleton.refinement import skeleton_within
 from vorotool.engines.sampled_skeleton.verify_approximate import verify_approximate
 from vorotool.errors import LimitError
-from vorotool.geometry.arguments.polygons import as_polygons
 
 MOST_SEEDS = 10**5
 

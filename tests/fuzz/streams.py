@@ -16,7 +16,7 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).parents[1]))
 from fuzz.runner import Cases, options
 from support.families.stream_cases import CASES, INPUTS, OUTPUTS, Expected, fault
-from vorotool.geometry.parallel import in_order
+from vorotool.numeric.parallel import in_order
 
 COMBINATIONS = list(itertools.product(CASES, INPUTS, OUTPUTS))
 

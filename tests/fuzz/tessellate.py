@@ -14,6 +14,8 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
+from vorotool.types.points.seed_set import SeedSet
+
 from fuzz.runner import Cases, options
 from support.families.families import fine_case, random_case
 from support.oracles.oracles import nearest_labels, nearest_labels_of_fine_seeds
@@ -21,9 +23,8 @@ from vorotool import _core
 from vorotool.engines.tessellation.bands import SeedBand, SeedBands
 from vorotool.engines.tessellation.frames import SIMD_LEVELS
 from vorotool.engines.tessellation.tessellator import Tessellator
-from vorotool.geometry.pixel_frame import Frame
-from vorotool.geometry.points.seed_set import SeedSet
-from vorotool.geometry.spacing import SQUARE
+from vorotool.types.pixel_frame import Frame
+from vorotool.types.spacing import SQUARE
 
 
 def check(rng: np.random.Generator, side: int) -> tuple[str, int, int]:

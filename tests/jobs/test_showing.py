@@ -18,8 +18,8 @@ from matplotlib.figure import Figure
 
 import vorotool
 from support.families.values import empty_values, example_values, label_image
-from vorotool.geometry.crs import crs_member
-from vorotool.geometry.pixel_grid import map_grid
+from vorotool.numeric.crs import crs_member
+from vorotool.types.pixel_grid import map_grid
 
 VALUES = example_values()
 PICTURED = [name for name, value in VALUES.items() if hasattr(value, "plot")]

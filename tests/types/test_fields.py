@@ -9,10 +9,10 @@ import shapely
 
 import vorotool
 from vorotool import InputError
-from vorotool.geometry.equality import is_equal
-from vorotool.geometry.values import Value
+from vorotool.numeric.equality import is_equal
 from vorotool.types import fields as f
 from vorotool.types.fields import Meaning, Record, declared, record, with_y_axis
+from vorotool.types.values import Value
 
 ROOM = [[0, 0], [4, 0], [4, 1.5], [6, 1.5], [6, 0], [12, 0], [12, 6], [6, 6], [6, 2.5], [4, 2.5], [4, 4], [0, 4]]
 POINTS = [[0, 0], [4, 0], [0, 3], [5, 5], [2, 1]]
@@ -111,7 +111,7 @@ def test_no_rows_need_no_shape():
 
 
 def test_lengths_and_positions_scale_as_they_are_declared():
-    scaled = import_module("vorotool.geometry.scaling").scaled
+    scaled = import_module("vorotool.types.scaling").scaled
     made = scaled(Strip(**GOOD), 2, (10.0, 20.0))
     assert made.width.tolist() == [2, 4]
     assert made.xy.tolist() == [[10, 20], [12, 20], [14, 20]]

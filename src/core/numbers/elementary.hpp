@@ -2,7 +2,7 @@
 // gives.
 //
 // Sums, products, quotients and square roots are rounded alike everywhere; sines, arcs and hypot are not.
-// These are the functions of geometry/curves/inverse_functions.py, operation by operation.
+// These are the functions of numeric/curves/inverse_functions.py, operation by operation.
 #pragma once
 
 namespace vorotool::core::numbers {

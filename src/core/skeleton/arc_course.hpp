@@ -10,7 +10,7 @@ namespace vorotool::core::skeleton {
 
 // By the parameter u of the Bezier curve that the arc is, from 0 at its source to 1 at its target.
 //
-// These are the formulas of geometry/skeleton/arc_measures.py, operation by operation: the slope of a
+// These are the formulas of types/skeleton/arc_measures.py, operation by operation: the slope of a
 // parabola against its directrix is linear in u, and its ends follow from the radii and the height of the
 // Bezier triangle; between two vertices the radius is the root of c^2 + x^2; else it is linear.
 class ArcCourse {

@@ -1,1 +1,1 @@
-"""What callers hold, made of values: geometry of shapely, data frames, graphs."""
+"""What callers hold: made into values, and values into shapely geometry, data frames and graphs."""

@@ -7,15 +7,15 @@ from typing import Any
 
 import numpy as np
 
+from vorotool.convert.extras import needed
 from vorotool.convert.geometry import geometry_of_rows
-from vorotool.geometry.crs import crs_text
-from vorotool.geometry.extras import needed
-from vorotool.geometry.features import Mixture, Rows, features_of, parts_of, rows_of
-from vorotool.geometry.numbers import Flatten
-from vorotool.geometry.row_index import index_of_rows
-from vorotool.geometry.table import Table
-from vorotool.geometry.voronoi.tables import neighbor_pairs
-from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
+from vorotool.numeric.crs import crs_text
+from vorotool.numeric.numbers import Flatten
+from vorotool.numeric.row_index import index_of_rows
+from vorotool.types.features import Mixture, Rows, features_of, parts_of, rows_of
+from vorotool.types.table import Table
+from vorotool.types.voronoi.tables import neighbor_pairs
+from vorotool.types.voronoi.voronoi_map import VoronoiMap
 
 
 def to_pandas(value: Any) -> Any:
@@ -26,7 +26,7 @@ def to_pandas(value: Any) -> Any:
 
 
 def to_geopandas(value: Any, what: str | None = None, *, flatten: Flatten = None) -> Any:
-    """Give the rows of a value with their geometry as a data frame of geopandas; see `vorotool.geometry.values`."""
+    """Give the rows of a value with their geometry as a data frame of geopandas; see `vorotool.types.values`."""
     geopandas = needed("geopandas", "frames", "data frames of geometry")
     pandas = needed("pandas", "frames", "data frames of geometry")
     features = features_of(value, what, flatten=flatten)

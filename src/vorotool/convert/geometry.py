@@ -8,11 +8,11 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from vorotool.formats.written.rings import valid_coverage
-from vorotool.geometry.features import Areas, Corners, Geometry, Lines, Mixture, Rows, features_of, parts_of
-from vorotool.geometry.numbers import Flatten
-from vorotool.geometry.polygons.conversion import to_shapely
-from vorotool.geometry.ragged import with_length
+from vorotool.numeric.numbers import Flatten
+from vorotool.numeric.ragged import with_length
+from vorotool.products.formats import resolved
+from vorotool.types.features import Areas, Corners, Geometry, Lines, Mixture, Rows, features_of, parts_of
+from vorotool.types.polygons.conversion import to_shapely
 
 
 def geometry_of(value: Any, what: str | None = None, *, flatten: Flatten = None) -> NDArray[Any]:
@@ -34,7 +34,8 @@ def shapely_of(geometry: Geometry | NDArray[Any] | None) -> NDArray[Any]:
     elif isinstance(geometry, Lines):
         made = lines(geometry)
     elif isinstance(geometry, Areas):
-        made = valid_coverage(geometry.xy, geometry.nesting, in_box=geometry.in_box)
+        valid = resolved("formats.written.rings:valid_coverage")  # as it would be written without decimals
+        made = valid(geometry.xy, geometry.nesting, in_box=geometry.in_box)
     elif isinstance(geometry, np.ndarray):
         made = geometry
     else:

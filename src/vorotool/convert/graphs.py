@@ -7,22 +7,22 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from vorotool.convert.extras import needed
 from vorotool.convert.geometry import lines
-from vorotool.geometry.extras import needed
-from vorotool.geometry.features import Lines
-from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation, DigitalTriangulation
-from vorotool.geometry.mesh.proximity import ProximityGraph
-from vorotool.geometry.mesh.triangulation import Triangulation
-from vorotool.geometry.numbers import Flatten, checked_flatten
-from vorotool.geometry.points.label_image import LabelImage
-from vorotool.geometry.polygons.planar_graph import PlanarGraph
-from vorotool.geometry.skeleton.graph import skeleton_graph
-from vorotool.geometry.skeleton.skeleton import Skeleton
-from vorotool.geometry.table import Table
-from vorotool.geometry.volumes.label_volume import LabelVolume
-from vorotool.geometry.voronoi.tables import neighbor_pairs
-from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
+from vorotool.numeric.numbers import Flatten, checked_flatten
 from vorotool.products.formats import resolved
+from vorotool.types.features import Lines
+from vorotool.types.mesh.digital_triangulation import AnyTriangulation, DigitalTriangulation
+from vorotool.types.mesh.proximity import ProximityGraph
+from vorotool.types.mesh.triangulation import Triangulation
+from vorotool.types.points.label_image import LabelImage
+from vorotool.types.polygons.planar_graph import PlanarGraph
+from vorotool.types.skeleton.graph import skeleton_graph
+from vorotool.types.skeleton.skeleton import Skeleton
+from vorotool.types.table import Table
+from vorotool.types.volumes.label_volume import LabelVolume
+from vorotool.types.voronoi.tables import neighbor_pairs
+from vorotool.types.voronoi.voronoi_map import VoronoiMap
 
 if TYPE_CHECKING:
     import networkx
@@ -43,7 +43,7 @@ GraphLike = (
 def to_networkx(
     value: GraphLike, *, by: str | None = None, flatten: Flatten = None
 ) -> networkx.Graph[int] | networkx.MultiGraph[int]:
-    """Return a result as an undirected graph of networkx: see `vorotool.geometry.values`."""
+    """Return a result as an undirected graph of networkx: see `vorotool.types.values`."""
     flatten = checked_flatten(flatten)
     if isinstance(value, Skeleton):
         return _of_skeleton(_library(), value, "branch" if by is None else by, flatten)

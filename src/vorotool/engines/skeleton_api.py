@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from vorotool.convert.boxes import as_extent
+from vorotool.convert.polygons import as_polygons
 from vorotool.engines.sampled_skeleton.approximate import SamplingOptions
 from vorotool.engines.sampled_skeleton.per_feature import approximation
 from vorotool.engines.skeleton.diagrams import (
@@ -14,13 +16,11 @@ from vorotool.engines.skeleton.diagrams import (
 )
 from vorotool.engines.skeleton.exact import check_features, check_skeleton_options
 from vorotool.engines.skeleton.open_border import check_border
-from vorotool.geometry.arguments.boxes import as_extent
-from vorotool.geometry.arguments.polygons import as_polygons
-from vorotool.geometry.box import Box, Extent
-from vorotool.geometry.checks import checked_flag, checked_threads
-from vorotool.geometry.magnitude import check_lengths
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.numeric.checks import checked_flag, checked_threads
+from vorotool.numeric.progress import Progress
+from vorotool.types.box import Box, Extent
+from vorotool.types.magnitude import check_lengths
+from vorotool.types.skeleton.skeleton import Skeleton
 
 if TYPE_CHECKING:
     from vorotool.typing import FeaturesChoice, PolygonsLike, Sampling, Side

@@ -6,18 +6,18 @@ from collections.abc import Callable, Mapping
 from os import PathLike
 from typing import TYPE_CHECKING, Any, Literal, cast, overload
 
-from vorotool.geometry.pixel_frame import MAX_PIXELS
+from vorotool.types.pixel_frame import MAX_PIXELS
 
 if TYPE_CHECKING:
-    from vorotool.geometry.numbers import Flatten
-    from vorotool.geometry.points.point_set import PointSet
-    from vorotool.geometry.points.raster import Raster
-    from vorotool.geometry.polygons.polygon_set import PolygonSet
-    from vorotool.geometry.skeleton.offsets import Offsets
-    from vorotool.geometry.skeleton.skeleton import Skeleton
-    from vorotool.geometry.volumes.volume import Volume
-    from vorotool.geometry.volumes.volume_points import VolumePoints
-    from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
+    from vorotool.numeric.numbers import Flatten
+    from vorotool.types.points.point_set import PointSet
+    from vorotool.types.points.raster import Raster
+    from vorotool.types.polygons.polygon_set import PolygonSet
+    from vorotool.types.skeleton.offsets import Offsets
+    from vorotool.types.skeleton.skeleton import Skeleton
+    from vorotool.types.volumes.volume import Volume
+    from vorotool.types.volumes.volume_points import VolumePoints
+    from vorotool.types.voronoi.voronoi_map import VoronoiMap
 
 
 @overload
@@ -147,8 +147,8 @@ def read(
     """
     from vorotool.errors import UsageError
     from vorotool.formats.opening import opened
-    from vorotool.geometry.checks import checked_flag, is_choice
-    from vorotool.geometry.numbers import real_number, shown_number
+    from vorotool.numeric.checks import checked_flag, is_choice
+    from vorotool.numeric.numbers import real_number, shown_number
     from vorotool.products.formats import resolved
     from vorotool.products.inputs import SPACE_READER, VOLUME_READER
 

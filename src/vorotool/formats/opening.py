@@ -13,19 +13,19 @@ from vorotool.formats.images.band_reader import TiffRows, ZarrRows, open_tiff, o
 from vorotool.formats.io.sources import Source, read_source, reading
 from vorotool.formats.parsing.reader_options import ReadOptions, no_note
 from vorotool.formats.recognition import read_recognised, recognised, refuse_for_images
-from vorotool.geometry.checks import checked_flag, checked_threads
-from vorotool.geometry.numbers import Flatten, checked_flatten, checked_tolerance
+from vorotool.numeric.checks import checked_flag, checked_threads
+from vorotool.numeric.numbers import Flatten, checked_flatten, checked_tolerance
 from vorotool.products.inputs import NAMES_WITH, known_input_format
 from vorotool.types.axis import y_axis_of
 
 if TYPE_CHECKING:
-    from vorotool.geometry.arguments.sites import Sites
-    from vorotool.geometry.points.point_set import PointSet
-    from vorotool.geometry.points.raster import Raster
-    from vorotool.geometry.polygons.polygon_set import PolygonSet
-    from vorotool.geometry.skeleton.offsets import Offsets
-    from vorotool.geometry.skeleton.skeleton import Skeleton
-    from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
+    from vorotool.convert.sites import Sites
+    from vorotool.types.points.point_set import PointSet
+    from vorotool.types.points.raster import Raster
+    from vorotool.types.polygons.polygon_set import PolygonSet
+    from vorotool.types.skeleton.offsets import Offsets
+    from vorotool.types.skeleton.skeleton import Skeleton
+    from vorotool.types.voronoi.voronoi_map import VoronoiMap
 
 
 @contextmanager
@@ -118,7 +118,7 @@ class Opened:
 
 def _member(crs: str) -> dict[str, Any]:
     """Give the ``crs`` member of GeoJSON for a name."""
-    from vorotool.geometry.crs import crs_member
+    from vorotool.numeric.crs import crs_member
 
     member = crs_member(crs) if isinstance(crs, str) else None
     if member is None:

@@ -62,8 +62,8 @@ def read_recognised(holds: Holds, source: Source, options: ReadOptions) -> Any:
         return value
     if source.layer is not None and "layers" not in INPUTS[source.format].has:
         raise UsageError(f"{_LAYER} is for files of several layers, but {source.name} has none: leave it out")
+    from vorotool.convert.sites import Sites
     from vorotool.formats.parsing.reference_systems import with_crs
-    from vorotool.geometry.arguments.sites import Sites
 
     if isinstance(value, Sites):
         return replace(value, polygons=with_crs(value.polygons, source.name, options))

@@ -7,7 +7,7 @@ from importlib.resources import files
 from pathlib import Path
 
 from vorotool.errors import UsageError
-from vorotool.geometry.checks import is_choice
+from vorotool.numeric.checks import is_choice
 from vorotool.products.samples import SAMPLES
 
 

@@ -20,15 +20,6 @@ from vorotool.engines.alpha.alpha_shape import (
 from vorotool.engines.alpha.few_points import unjoined
 from vorotool.engines.alpha.persistence import persistence
 from vorotool.errors import warn
-from vorotool.geometry.alpha.complex import AlphaComplex, Radius
-from vorotool.geometry.alpha.persistence import RegionPersistence
-from vorotool.geometry.alpha.shape import AlphaShape
-from vorotool.geometry.numbers import nearest_double
-from vorotool.geometry.points.point_set import PointSet
-from vorotool.geometry.points.seed_set import SeedSet
-from vorotool.geometry.polygons.polygon_set import PolygonSet
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.table import Table
 from vorotool.jobs.animations import check_size, layer_pixels, parts_of_whole, write_frames
 from vorotool.jobs.inputs import JobInput, frame_of, note_repeated_labels, read_sites, window_of
 from vorotool.jobs.names import OF_ONE_SHAPE, PLOTS
@@ -40,17 +31,26 @@ from vorotool.jobs.pixel_sizes import placed_backdrop, placed_mesh, placed_sites
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import in_units, length_in_units, measured, table_in_units
+from vorotool.numeric.numbers import nearest_double
+from vorotool.numeric.progress import Progress
 from vorotool.products.formats import ANIMATIONS, PICTURES, picture_format
 from vorotool.products.registry import PRODUCTS
 from vorotool.products.writing import write_product
+from vorotool.types.alpha.complex import AlphaComplex, Radius
+from vorotool.types.alpha.persistence import RegionPersistence
+from vorotool.types.alpha.shape import AlphaShape
+from vorotool.types.points.point_set import PointSet
+from vorotool.types.points.seed_set import SeedSet
+from vorotool.types.polygons.polygon_set import PolygonSet
+from vorotool.types.table import Table
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from vorotool.geometry.alpha.hull import AlphaHull
-    from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation
     from vorotool.render.canvas.layers import Layer, Page
+    from vorotool.types.alpha.hull import AlphaHull
+    from vorotool.types.mesh.digital_triangulation import AnyTriangulation
 
 
 def products(run: Run, o: AlphaShapeOptions, given: JobInput) -> ShapeProducts:

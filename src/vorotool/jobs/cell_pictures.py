@@ -8,11 +8,11 @@ from collections.abc import Sequence
 from vorotool.engines.delaunay.cells import cell_colors
 from vorotool.engines.delaunay.delaunay import delaunay
 from vorotool.errors import VorotoolWarning
-from vorotool.geometry.mesh.cells import CellSet
 from vorotool.render.canvas.layers import Layer, Page, Points
 from vorotool.render.label_images.png import checked_layers
 from vorotool.render.layers.cells import cell_lines, cell_polygons, cells_page
 from vorotool.render.layers.mesh import site_names
+from vorotool.types.mesh.cells import CellSet
 
 cell_page = cells_page
 

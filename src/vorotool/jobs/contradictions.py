@@ -9,12 +9,12 @@ from vorotool.errors import InputError
 from vorotool.jobs.input_lengths import unit_of_grid
 
 if TYPE_CHECKING:
-    from vorotool.geometry.input_unit import InputUnit
-    from vorotool.geometry.pixel_grid import PixelGrid
-    from vorotool.geometry.volumes.voxel_grid import VoxelGrid
     from vorotool.jobs.options import ComputingOptions
     from vorotool.jobs.run_log import Run
     from vorotool.jobs.units import PixelSize
+    from vorotool.numeric.input_unit import InputUnit
+    from vorotool.types.pixel_grid import PixelGrid
+    from vorotool.types.volumes.voxel_grid import VoxelGrid
 
 ALIKE = Fraction(1, 100)
 """Sides that differ by no more of their length are one: users round them."""
@@ -41,7 +41,7 @@ def check_unit(run: Run, o: ComputingOptions, name: str, unit: InputUnit | None)
 
 
 def _check(run: Run, o: ComputingOptions, name: str, has: str, stated: tuple[str, tuple[Fraction, ...]]) -> None:
-    from vorotool.geometry.length_units import ratio
+    from vorotool.numeric.length_units import ratio
 
     size, (unit, own) = o.pixel_size, stated
     if size is None or size.is_auto or size.unit is None:

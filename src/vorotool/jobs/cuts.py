@@ -13,10 +13,10 @@ from vorotool.jobs.run_log import Run
 from vorotool.jobs.second_files import in_first_unit, unit_of_image, unit_of_vectors
 
 if TYPE_CHECKING:
-    from vorotool.geometry.pixel_grid import PixelGrid
-    from vorotool.geometry.points.point_set import PointSet
-    from vorotool.geometry.points.seed_set import SeedSet
-    from vorotool.geometry.polygons.polygon_set import PolygonSet
+    from vorotool.types.pixel_grid import PixelGrid
+    from vorotool.types.points.point_set import PointSet
+    from vorotool.types.points.seed_set import SeedSet
+    from vorotool.types.polygons.polygon_set import PolygonSet
 
 Data = TypeVar("Data", "PointSet", "PolygonSet")
 
@@ -25,8 +25,8 @@ def read_clip(
     run: Run, o: TriangulationOptions, path: str, points: PointSet | SeedSet, given: JobInput
 ) -> tuple[PointSet | SeedSet, Sequence[Any]]:
     """Read the polygons of ``--clip``, as shapely geometry; lines are left out with a note."""
-    from vorotool.geometry.points.point_set import PointSet
-    from vorotool.geometry.polygons.conversion import to_shapely
+    from vorotool.types.points.point_set import PointSet
+    from vorotool.types.polygons.conversion import to_shapely
 
     value = read_cut(run, o, "--clip", path)
     if isinstance(points, PointSet):
@@ -52,8 +52,8 @@ def read_cut(run: Run, o: ComputingOptions, option: str, path: str) -> PolygonSe
     from vorotool.formats import read
     from vorotool.formats.parsing.reader_options import ReadOptions
     from vorotool.formats.parsing.reference_systems import with_crs
-    from vorotool.geometry.crs import crs_member
-    from vorotool.geometry.polygons.polygon_set import PolygonSet
+    from vorotool.numeric.crs import crs_member
+    from vorotool.types.polygons.polygon_set import PolygonSet
 
     value = read(path, geometry="polygons", threads=o.threads, note=partial(_note_of_cut, run))
     if not isinstance(value, PolygonSet):
@@ -90,8 +90,8 @@ def check_image_crs(cut: tuple[str, PolygonSet], source: str, crs: Any) -> None:
 def in_one_crs(run: Run, cut: tuple[str, PolygonSet], data: tuple[str, Data]) -> Data:
     """Check that polygons and data are in one coordinate reference system, as far as they name any."""
     from vorotool.formats.parsing.reference_systems import declared_in
-    from vorotool.geometry.crs import crs_name
-    from vorotool.geometry.degrees import note_degrees
+    from vorotool.numeric.crs import crs_name
+    from vorotool.numeric.degrees import note_degrees
 
     (path, polygons), (source, value) = cut, data
     if value.crs is None and polygons.crs is None:
@@ -111,7 +111,7 @@ def in_one_crs(run: Run, cut: tuple[str, PolygonSet], data: tuple[str, Data]) ->
 
 def _require_same(path: str, crs: Any, source: str, wanted: Any, advice: str) -> None:
     """Refuse polygons in another coordinate reference system than the sites."""
-    from vorotool.geometry.crs import crs_name, same_crs
+    from vorotool.numeric.crs import crs_name, same_crs
 
     if not same_crs(wanted, crs):
         name = crs_name(wanted)
@@ -120,9 +120,9 @@ def _require_same(path: str, crs: Any, source: str, wanted: Any, advice: str) ->
 
 def _check_they_meet(data: PointSet | PolygonSet, polygons: PolygonSet, unnamed: str, named: str, crs: Any) -> None:
     """Refuse to take what lies elsewhere to be in the same system."""
-    from vorotool.geometry.box import bounds
-    from vorotool.geometry.crs import crs_name
-    from vorotool.geometry.points.point_set import PointSet
+    from vorotool.numeric.crs import crs_name
+    from vorotool.types.box import bounds
+    from vorotool.types.points.point_set import PointSet
 
     if not len(data.xy) or not len(polygons.xy):
         return

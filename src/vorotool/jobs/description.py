@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.batch.inputs import expand_inputs, is_several
+from vorotool.convert.sites import Sites
 from vorotool.engines.tessellation.raster_objects import default_objects, foreground_values, numbered_components
 from vorotool.errors import BatchError, InputError, Message, UsageError, VorotoolError
 from vorotool.formats.io.atomic_output import open_output
@@ -22,22 +23,21 @@ from vorotool.formats.volumes.npy_volume import NpyVolume
 from vorotool.formats.volumes.opening import open_volume
 from vorotool.formats.volumes.tiff_stack import TiffStack
 from vorotool.formats.volumes.zarr_volume import ZarrVolume
-from vorotool.geometry.arguments.sites import Sites
-from vorotool.geometry.box import bounds
-from vorotool.geometry.crs import crs_name
-from vorotool.geometry.input_unit import unit_of
-from vorotool.geometry.pixel_grid import PixelGrid
-from vorotool.geometry.points.point_set import PointSet
-from vorotool.geometry.points.raster import Raster
-from vorotool.geometry.polygons.polygon_set import HOLE, PolygonSet
-from vorotool.geometry.skeleton.offsets import Offsets
-from vorotool.geometry.skeleton.skeleton import Skeleton
-from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 from vorotool.jobs.inputs import check_streams, refuse
 from vorotool.jobs.options import ReadingOptions
 from vorotool.jobs.terminal import escaped, tell
+from vorotool.numeric.crs import crs_name
+from vorotool.numeric.input_unit import unit_of
 from vorotool.products.inputs import NAMES_WITH, TAKEN_BY, VOLUME_NAMES, VOLUMES_TAKEN_BY
 from vorotool.types.axis import UNSTATED
+from vorotool.types.box import bounds
+from vorotool.types.pixel_grid import PixelGrid
+from vorotool.types.points.point_set import PointSet
+from vorotool.types.points.raster import Raster
+from vorotool.types.polygons.polygon_set import HOLE, PolygonSet
+from vorotool.types.skeleton.offsets import Offsets
+from vorotool.types.skeleton.skeleton import Skeleton
+from vorotool.types.voronoi.voronoi_map import VoronoiMap
 
 MOST_CHANNELS = 4
 """Values of a pixel of an image: an array whose last axis has no more is one."""

@@ -11,16 +11,16 @@ from vorotool.engines.digital.triangulation import DigitalRepair, digital_triang
 from vorotool.engines.digital.verify_digital import verify_digital_triangulation
 from vorotool.engines.tessellation.seeding import seeds_in_frame
 from vorotool.errors import Message
-from vorotool.geometry.mesh.digital_comparison import DigitalComparison
-from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation
-from vorotool.geometry.points.point_set import PointSet
-from vorotool.geometry.points.seed_set import SeedSet
-from vorotool.geometry.progress import Progress
 from vorotool.jobs.inputs import JobInput, frame_of, window_of
 from vorotool.jobs.options import TriangulationOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.triangulation import MeshProducts, ReadPoints
 from vorotool.jobs.units import sides_of, table_in_units
+from vorotool.numeric.progress import Progress
+from vorotool.types.mesh.digital_comparison import DigitalComparison
+from vorotool.types.mesh.digital_triangulation import AnyTriangulation
+from vorotool.types.points.point_set import PointSet
+from vorotool.types.points.seed_set import SeedSet
 
 
 class DigitalProducts(MeshProducts):

@@ -9,15 +9,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from vorotool.convert.sites import as_sites
 from vorotool.engines.distances.hausdorff import hausdorff
 from vorotool.engines.distances.smallest import distance
 from vorotool.engines.distances.verify_distances import verify_distances
 from vorotool.errors import InputError, UsageError
 from vorotool.formats.io.atomic_output import open_output
-from vorotool.geometry.arguments.sites import as_sites
-from vorotool.geometry.crs import crs_name, same_crs
-from vorotool.geometry.distances.distances import SMALLEST, Distances
-from vorotool.geometry.progress import Progress
 from vorotool.jobs.inputs import JobInput, naming, opened_input, read_opened, report_no_geometry
 from vorotool.jobs.options import DistanceOptions
 from vorotool.jobs.picture_style import styled_page
@@ -27,12 +24,15 @@ from vorotool.jobs.run_log import Run
 from vorotool.jobs.second_files import coordinates_of, in_first_unit, unit_of_vectors
 from vorotool.jobs.skeleton_checks import check_layers
 from vorotool.jobs.targets import Target, check_picture_options, check_precision
+from vorotool.numeric.crs import crs_name, same_crs
+from vorotool.numeric.progress import Progress
 from vorotool.products.formats import PICTURES
 from vorotool.products.registry import PRODUCTS, formats_of, layers_of
 from vorotool.products.writing import write_product
+from vorotool.types.distances.distances import SMALLEST, Distances
 
 if TYPE_CHECKING:
-    from vorotool.geometry.polygons.polygon_set import PolygonSet
+    from vorotool.types.polygons.polygon_set import PolygonSet
 
 
 def check_options(o: DistanceOptions, targets: list[Target]) -> None:
@@ -159,7 +159,7 @@ class DistanceProducts:
 
 def _both(a: PolygonSet, b: PolygonSet) -> PolygonSet:
     """The vertices of both, for where they lie."""
-    from vorotool.geometry.polygons.polygon_set import LINE, PolygonSet
+    from vorotool.types.polygons.polygon_set import LINE, PolygonSet
 
     xy = np.concatenate([a.xy, b.xy])
     count = int(len(xy) > 0)

@@ -19,14 +19,6 @@ from vorotool.formats.parsing.reference_systems import with_stated_axis
 from vorotool.formats.points.tables import is_table
 from vorotool.formats.recognition import image_format, image_source, read_recognised, recognised
 from vorotool.formats.text_recognition import has_no_rows
-from vorotool.geometry.input_unit import unit_of
-from vorotool.geometry.points.label_image import LabelImage
-from vorotool.geometry.points.raster import Raster
-from vorotool.geometry.polygons.polygon_set import PolygonSet
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.skeleton.offsets import Offsets
-from vorotool.geometry.skeleton.skeleton import Skeleton
-from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 from vorotool.jobs.inputs import JobInput, note_other_size, refuse
 from vorotool.jobs.label_pictures import LabelPicture, default_layers, write_label_page
 from vorotool.jobs.options import DrawingOptions
@@ -37,10 +29,18 @@ from vorotool.jobs.pixel_sizes import size_of_file
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target, check_picture_options
 from vorotool.jobs.units import PixelSize
+from vorotool.numeric.input_unit import unit_of
+from vorotool.numeric.progress import Progress
 from vorotool.products.inputs import DRAWN_NAMES, Holds, known_input_format
 from vorotool.products.registry import PRODUCTS, Product
 from vorotool.render.canvas.layers import Backdrop
 from vorotool.types.axis import y_axis_of
+from vorotool.types.points.label_image import LabelImage
+from vorotool.types.points.raster import Raster
+from vorotool.types.polygons.polygon_set import PolygonSet
+from vorotool.types.skeleton.offsets import Offsets
+from vorotool.types.skeleton.skeleton import Skeleton
+from vorotool.types.voronoi.voronoi_map import VoronoiMap
 
 _SKELETONS = PRODUCTS["skeleton-exact"]
 _COLORED = PRODUCTS["tessellate"]["color"].layers

@@ -13,10 +13,10 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from vorotool.geometry.pixel_grid import PixelGrid, Transform
     from vorotool.jobs.run_log import Run
     from vorotool.jobs.units import PixelSize
     from vorotool.render.canvas.layers import Page
+    from vorotool.types.pixel_grid import PixelGrid, Transform
 
 _PAGES: ContextVar[list[Page] | None] = ContextVar("pages", default=None)
 

@@ -11,19 +11,19 @@ from vorotool.jobs.options import ComputingOptions, DrawingOptions
 from vorotool.jobs.units import PixelSize, Sides, in_coordinates, measured, refuse_lengths
 
 if TYPE_CHECKING:
-    from vorotool.geometry.arguments.sites import Sites
-    from vorotool.geometry.input_unit import InputUnit
-    from vorotool.geometry.pixel_grid import PixelGrid
-    from vorotool.geometry.points.point_set import PointSet
-    from vorotool.geometry.polygons.polygon_set import PolygonSet
-    from vorotool.geometry.volumes.voxel_grid import VoxelGrid
+    from vorotool.convert.sites import Sites
+    from vorotool.numeric.input_unit import InputUnit
+    from vorotool.types.pixel_grid import PixelGrid
+    from vorotool.types.points.point_set import PointSet
+    from vorotool.types.polygons.polygon_set import PolygonSet
+    from vorotool.types.volumes.voxel_grid import VoxelGrid
 
 Options = TypeVar("Options", bound=ComputingOptions)
 
 
 def lengths_of_vectors(o: Options, value: PointSet | PolygonSet | Sites) -> Options:
     """Give options in the coordinates of points, lines and polygons; ``--pixel-size auto`` is their unit."""
-    from vorotool.geometry.input_unit import unit_of
+    from vorotool.numeric.input_unit import unit_of
 
     if not measured(o) and (o.pixel_size is None or not o.pixel_size.is_auto):
         return o
@@ -34,7 +34,7 @@ def lengths_of_vectors(o: Options, value: PointSet | PolygonSet | Sites) -> Opti
 
 
 def _shapes(value: PointSet | PolygonSet | Sites) -> PointSet | PolygonSet:
-    from vorotool.geometry.arguments.sites import Sites
+    from vorotool.convert.sites import Sites
 
     return value.polygons if isinstance(value, Sites) else value
 
@@ -86,7 +86,7 @@ def _step(o: ComputingOptions) -> Fraction | None:
 
 def unit_of_grid(grid: PixelGrid) -> InputUnit | None:
     """Return the unit that the sides of pixels are in; dots an inch are for print."""
-    from vorotool.geometry.input_unit import InputUnit, unit_of_crs
+    from vorotool.numeric.input_unit import InputUnit, unit_of_crs
 
     if not grid.is_size:
         return None
@@ -126,7 +126,7 @@ def _converted(o: Options, unit: InputUnit | None, shapes: PointSet | PolygonSet
 def _refused(o: Options, instead: str = "") -> Options:
     size = o.pixel_size
     if size is not None and size.unit is None and not size.is_auto:
-        from vorotool.geometry.length_units import METRES
+        from vorotool.numeric.length_units import METRES
 
         refuse_lengths(o, f"{size.option} has none: give it one of {', '.join(METRES)}")
     usual = "give --pixel-size, such as 0.325um, or 1m for coordinates in metres"
@@ -135,8 +135,8 @@ def _refused(o: Options, instead: str = "") -> Options:
 
 
 def _refused_degrees(o: Options, crs: Any, xy: Any = ()) -> Options:
-    from vorotool.geometry.crs import crs_name
-    from vorotool.geometry.degrees import projected_advice
+    from vorotool.numeric.crs import crs_name
+    from vorotool.numeric.degrees import projected_advice
 
     advice = "gdalwarp -t_srs brings it into a projected system" if isinstance(xy, tuple) else projected_advice(xy)
     where = "" if crs is None else f" ({crs_name(crs)})"

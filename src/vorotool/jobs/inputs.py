@@ -24,12 +24,12 @@ from vorotool.jobs.units import Measured, known_length, measured, unit_stats
 if TYPE_CHECKING:
     from vorotool.engines.tessellation.seeding import SeedMode
     from vorotool.formats.opening import Opened
-    from vorotool.geometry.mesh.triangulation import Triangulation
-    from vorotool.geometry.pixel_frame import Frame
-    from vorotool.geometry.points.point_set import PointSet
-    from vorotool.geometry.points.raster import Raster
-    from vorotool.geometry.points.seed_set import SeedSet
     from vorotool.render.canvas.layers import Backdrop
+    from vorotool.types.mesh.triangulation import Triangulation
+    from vorotool.types.pixel_frame import Frame
+    from vorotool.types.points.point_set import PointSet
+    from vorotool.types.points.raster import Raster
+    from vorotool.types.points.seed_set import SeedSet
 
 Computing = TypeVar("Computing", bound=ComputingOptions)
 OfSites = TypeVar("OfSites", bound=SiteOptions)
@@ -70,14 +70,14 @@ def read_opened(
 
     The options that come back have lengths in its coordinates.
     """
-    from vorotool.geometry.arguments.sites import Sites
-    from vorotool.geometry.input_unit import unit_of
-    from vorotool.geometry.points.point_set import PointSet
-    from vorotool.geometry.points.raster import Raster
-    from vorotool.geometry.polygons.polygon_set import PolygonSet
+    from vorotool.convert.sites import Sites
     from vorotool.jobs.contradictions import check_image_size, check_unit
     from vorotool.jobs.input_lengths import lengths_of_image, lengths_of_vectors, side_of_pixel
     from vorotool.jobs.second_files import coordinates_of
+    from vorotool.numeric.input_unit import unit_of
+    from vorotool.types.points.point_set import PointSet
+    from vorotool.types.points.raster import Raster
+    from vorotool.types.polygons.polygon_set import PolygonSet
 
     wants_unit = (
         wants_unit or bool(measured(o)) or (o.pixel_size is not None and o.pixel_size.is_auto)
@@ -128,8 +128,8 @@ def _tolerances(o: ShapeOptions, source: Opened, read: Callable[..., Any]) -> tu
     """Give the tolerances of reading as numbers; where these have a unit, a first reading tells that of the input."""
     names = ("flatten", "join_tolerance")
     if any(isinstance(getattr(o, name), Measured) for name in names):
-        from vorotool.geometry.points.raster import Raster
         from vorotool.jobs.input_lengths import lengths_of_vectors
+        from vorotool.types.points.raster import Raster
 
         source = source.fetched()
         first = read(source)
@@ -182,8 +182,8 @@ def read_sites(
     run: Run, o: OfSites, given: JobInput, *, properties: bool, is_digital: bool
 ) -> tuple[OfSites, PointSet | SeedSet]:
     """Read points to triangulate, or find those of an image, as the options say."""
-    from vorotool.geometry.points.point_set import PointSet
-    from vorotool.geometry.points.raster import Raster
+    from vorotool.types.points.point_set import PointSet
+    from vorotool.types.points.raster import Raster
 
     with opened_input(o, given, "points") as source:
         o, value = read_opened(run, o, given, source, columns=o.columns, properties=properties)
@@ -232,7 +232,7 @@ def frame_of(o: SiteOptions, seeds: SeedSet) -> Frame | None:
 
 def asked_frame(o: SiteOptions) -> Frame | None:
     """Give the frame of --window or --size, if there is one."""
-    from vorotool.geometry.pixel_frame import Frame
+    from vorotool.types.pixel_frame import Frame
 
     if o.window is not None:
         return Frame(*o.window)
@@ -252,7 +252,7 @@ def no_seeds(run: Run, o: TessellationOptions) -> SeedSet:
     """Return the seeds of an input without any, with the frame that is asked for."""
     import numpy as np
 
-    from vorotool.geometry.points.seed_set import SeedSet
+    from vorotool.types.points.seed_set import SeedSet
 
     frame = asked_frame(o)
     report_no_seeds(run, o, frame)

@@ -8,12 +8,12 @@ from pathlib import Path
 from typing import Any, Generic, Protocol, TypeVar
 
 from vorotool.formats.io.atomic_output import spoken
-from vorotool.geometry.progress import Progress
 from vorotool.jobs.inputs import JobInput, naming, read_backdrop
 from vorotool.jobs.options import ComputingOptions, JobOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target, check_targets, check_with
 from vorotool.jobs.units import shows_units, unit_stats
+from vorotool.numeric.progress import Progress
 from vorotool.products.formats import FORMATS
 from vorotool.signals import end_by_exceptions
 
@@ -61,9 +61,9 @@ def process_input(recipe: Recipe[Options], run: Run, options: Options, path: str
     from vorotool.formats.io.commit import committed_together
     from vorotool.formats.text.feature_collection import unit_member
     from vorotool.formats.text.tables import safe_texts, unit_column
-    from vorotool.geometry.coordinate_grid import coordinates_written
-    from vorotool.geometry.identity import columns_wanted
     from vorotool.jobs.georeference import pages_drawn, write_world_file
+    from vorotool.numeric.coordinate_grid import coordinates_written
+    from vorotool.types.identity import columns_wanted
 
     computing = options if isinstance(options, ComputingOptions) else None
     check_targets(options, targets, path)
@@ -112,7 +112,7 @@ def process_input(recipe: Recipe[Options], run: Run, options: Options, path: str
 
 def _note_system(run: Run, target: Target, crs: Any) -> None:
     """Say that readers take JSON lines to be longitude and latitude."""
-    from vorotool.geometry.crs import crs_name, is_geographic
+    from vorotool.numeric.crs import crs_name, is_geographic
 
     if not is_geographic(crs):
         run.note(

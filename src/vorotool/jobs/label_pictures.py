@@ -9,15 +9,15 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.points.label_image import LabelImage
+from vorotool.types.points.label_image import LabelImage
 
 if TYPE_CHECKING:
-    from vorotool.geometry.points.seed_set import SeedSet
-    from vorotool.geometry.table import Table
-    from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
     from vorotool.render.canvas.layers import Backdrop, Layer, Page
     from vorotool.render.canvas.styles import PictureStyle
     from vorotool.render.label_images.png import Names
+    from vorotool.types.points.seed_set import SeedSet
+    from vorotool.types.table import Table
+    from vorotool.types.volumes.volume_seeds import VolumeSeeds
 
 BAND_ROWS = 256
 """Rows of a picture that are composed at a time."""

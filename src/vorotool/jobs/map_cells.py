@@ -14,11 +14,11 @@ from vorotool.jobs.run_log import Run
 from vorotool.jobs.units import PixelSize, unit_stats
 
 if TYPE_CHECKING:
-    from vorotool.geometry.pixel_frame import Frame
-    from vorotool.geometry.pixel_grid import PixelGrid
-    from vorotool.geometry.points.point_set import PointSet
-    from vorotool.geometry.points.seed_set import SeedSet
-    from vorotool.geometry.polygons.polygon_set import PolygonSet
+    from vorotool.types.pixel_frame import Frame
+    from vorotool.types.pixel_grid import PixelGrid
+    from vorotool.types.points.point_set import PointSet
+    from vorotool.types.points.seed_set import SeedSet
+    from vorotool.types.polygons.polygon_set import PolygonSet
 
 MOST_NAMED = 5
 """Features without a cell that a warning names."""
@@ -29,9 +29,9 @@ def seeds_on_map(run: Run, o: TessellationOptions, value: PointSet | PolygonSet)
     import numpy as np
 
     from vorotool.engines.tessellation.seeding import seeds_in_frame
-    from vorotool.geometry.box import bounds
-    from vorotool.geometry.map_frame import in_cells, map_frame
-    from vorotool.geometry.points.point_set import PointSet
+    from vorotool.types.box import bounds
+    from vorotool.types.map_frame import in_cells, map_frame
+    from vorotool.types.points.point_set import PointSet
 
     is_empty = not len(value.xy)
     if is_empty and o.window is None:
@@ -60,7 +60,7 @@ def seeds_on_map(run: Run, o: TessellationOptions, value: PointSet | PolygonSet)
 
 def _size_of_cells(o: TessellationOptions, side: Fraction, grid: PixelGrid) -> PixelSize:
     """Return the size by which results are in the unit of the map, times ``--pixel-size``."""
-    from vorotool.geometry.spacing import PixelSides
+    from vorotool.types.spacing import PixelSides
 
     asked = PixelSize(Fraction(1), None) if o.pixel_size is None else o.pixel_size
     x, y = grid.center
@@ -78,7 +78,7 @@ def _seeds_of_features(o: TessellationOptions, polygons: PolygonSet, frame: Fram
     from vorotool.engines.tessellation.frames import require_memory
     from vorotool.engines.tessellation.rasterized import rasterized
     from vorotool.engines.tessellation.seeding import seeds_from_raster
-    from vorotool.geometry.points.raster import Raster
+    from vorotool.types.points.raster import Raster
 
     require_memory(frame, o.max_pixels)
     labels = rasterized(polygons, frame)

@@ -11,7 +11,7 @@ from vorotool.jobs.run_log import Run
 
 if TYPE_CHECKING:
     from vorotool.engines.tessellation.cleaned_masks import Cleaning
-    from vorotool.geometry.points.raster import Raster
+    from vorotool.types.points.raster import Raster
 
 
 class Foreground(NamedTuple):
@@ -78,7 +78,7 @@ def _cleaned(run: Run, o: SiteOptions | ShapeOptions, found: Foreground) -> Fore
 
 def report_cleaning(run: Run, o: ComputingOptions, filled: int, removed: tuple[int, int], what: str) -> None:
     """Put what was filled and left out into the statistics, and into a note."""
-    from vorotool.geometry.numbers import shown_number
+    from vorotool.numeric.numbers import shown_number
 
     if o.fill_holes:
         run.stats[f"filled_{what}"] = filled

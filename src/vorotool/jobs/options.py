@@ -15,10 +15,10 @@ from vorotool.jobs.picture_style import Looks, Paper
 if TYPE_CHECKING:
     from vorotool.engines.centerlines.centerline import Ends
     from vorotool.engines.tessellation.seeding import SeedMode
-    from vorotool.geometry.box import Extent
     from vorotool.jobs.picture_style import Scale
     from vorotool.jobs.pruning_choice import Pruning
     from vorotool.jobs.units import PixelSize
+    from vorotool.types.box import Extent
 
 Place = tuple[float, float]
 ALL_PAGES = -1

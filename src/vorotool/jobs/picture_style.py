@@ -7,13 +7,13 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from vorotool.errors import UsageError
-from vorotool.geometry.length_units import METRES
+from vorotool.numeric.length_units import METRES
 
 if TYPE_CHECKING:
-    from vorotool.geometry.box import Sides
     from vorotool.jobs.options import JobOptions
     from vorotool.render.canvas.layers import Page
     from vorotool.render.canvas.styles import PictureStyle, ScaleBar
+    from vorotool.types.box import Sides
 
 DRAWING_UNITS = ("nm", "um", "mm", "cm", "dm", "m", "km", "in", "ft", "yd")
 """Those of ``--unit``."""
@@ -121,7 +121,7 @@ def looks_of(
     *, color: Mapping[str, str] | None, line_width: Mapping[str, float] | None, background: str | None
 ) -> Looks:
     """Give the looks that the library is asked for; see `vorotool.write`."""
-    from vorotool.geometry.numbers import finite_double
+    from vorotool.numeric.numbers import finite_double
 
     ground = (
         background
@@ -140,7 +140,7 @@ def looks_of(
 
 def _by_layer(given: Any, name: str) -> list[tuple[str, Any]]:
     """Give the layers of a mapping, and what is said of each."""
-    from vorotool.geometry.numbers import shown_number
+    from vorotool.numeric.numbers import shown_number
 
     if given is None:
         return []

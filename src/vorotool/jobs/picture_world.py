@@ -6,27 +6,27 @@ from collections.abc import Mapping
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from vorotool.geometry.crs import is_geographic
-from vorotool.geometry.input_unit import InputUnit, unit_of_crs
-from vorotool.geometry.length_units import ratio, unit_name
-from vorotool.geometry.named_columns import check_plain, chosen_column
-from vorotool.geometry.values import input_of
 from vorotool.jobs.options import ComputingOptions
 from vorotool.jobs.picture_style import Looks, World
+from vorotool.numeric.crs import is_geographic
+from vorotool.numeric.input_unit import InputUnit, unit_of_crs
+from vorotool.numeric.length_units import ratio, unit_name
+from vorotool.types.named_columns import check_plain, chosen_column
+from vorotool.types.values import input_of
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from vorotool.geometry.box import Box, Extent, Sides
-    from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation
-    from vorotool.geometry.points.point_set import PointSet
-    from vorotool.geometry.points.seed_set import SeedSet
-    from vorotool.geometry.polygons.polygon_set import PolygonSet
     from vorotool.jobs.options import JobOptions, SiteOptions
     from vorotool.jobs.run_log import Run
     from vorotool.jobs.units import PixelSize
     from vorotool.render.canvas.styles import ScaleBar
+    from vorotool.types.box import Box, Extent, Sides
+    from vorotool.types.mesh.digital_triangulation import AnyTriangulation
+    from vorotool.types.points.point_set import PointSet
+    from vorotool.types.points.seed_set import SeedSet
+    from vorotool.types.polygons.polygon_set import PolygonSet
 
 STEEPEST = 89.0
 """Degrees of latitude beyond which the world is drawn as at this one: the poles have no aspect."""
@@ -62,7 +62,7 @@ def world_of(
 
 def world_of_sites(run: Run, o: SiteOptions, mesh: AnyTriangulation, sites: PointSet | SeedSet) -> World:
     """Tell where sites lie that are points, or objects of an image."""
-    from vorotool.geometry.points.seed_set import SeedSet
+    from vorotool.types.points.seed_set import SeedSet
 
     frame = None
     if isinstance(sites, SeedSet) and sites.frame is not None:
@@ -109,17 +109,17 @@ def _asked(o: JobOptions) -> Sides | None:
     frame: Extent | None = getattr(o, "frame", None)
     if frame is None:
         return None
-    from vorotool.geometry.box import Box
+    from vorotool.types.box import Box
 
     return Box.of_size(*frame).sides
 
 
 def world_of_value(value: Any, looks: Looks, *, is_paper: bool = False) -> World:
     """Tell where a value of the library lies, and refuse a column that it has not."""
-    from vorotool.geometry.box import extent_sides
-    from vorotool.geometry.mesh.cells import CellSet
-    from vorotool.geometry.polygons.polygon_set import PolygonSet
-    from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
+    from vorotool.types.box import extent_sides
+    from vorotool.types.mesh.cells import CellSet
+    from vorotool.types.polygons.polygon_set import PolygonSet
+    from vorotool.types.voronoi.voronoi_map import VoronoiMap
 
     if isinstance(value, VoronoiMap):
         check_column(looks.label_by, value.properties, "label_by")
@@ -135,7 +135,7 @@ def world_of_value(value: Any, looks: Looks, *, is_paper: bool = False) -> World
 
 
 def _bounds_of(points: NDArray[np.float64]) -> Sides:
-    from vorotool.geometry.box import bounds
+    from vorotool.types.box import bounds
 
     if not len(points):
         return (0.0, 0.0, 0.0, 0.0)
@@ -147,7 +147,7 @@ def aspect_at(latitude: float) -> float:
     """Give how much longer a degree of latitude is than one of longitude, on a sphere."""
     from math import pi
 
-    from vorotool.geometry.curves.inverse_functions import cosine_and_sine
+    from vorotool.numeric.curves.inverse_functions import cosine_and_sine
 
     nearest = min(max(latitude, -STEEPEST), STEEPEST)
     return 1.0 / float(cosine_and_sine(nearest * pi / 180.0)[0])

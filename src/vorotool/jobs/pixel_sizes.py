@@ -30,11 +30,11 @@ from vorotool.jobs.units import (
 from vorotool.types.axis import UP
 
 if TYPE_CHECKING:
-    from vorotool.geometry.pixel_grid import PixelGrid
-    from vorotool.geometry.points.point_set import PointSet
-    from vorotool.geometry.points.seed_set import SeedSet
-    from vorotool.geometry.polygons.polygon_set import PolygonSet
     from vorotool.render.canvas.layers import Backdrop
+    from vorotool.types.pixel_grid import PixelGrid
+    from vorotool.types.points.point_set import PointSet
+    from vorotool.types.points.seed_set import SeedSet
+    from vorotool.types.polygons.polygon_set import PolygonSet
 
 Options = TypeVar("Options", bound=ComputingOptions)
 Placed = TypeVar("Placed")
@@ -77,7 +77,7 @@ def size_of_file(grid: PixelGrid | None, o: ComputingOptions | DrawingOptions) -
 
 def _spacing_of(grid: PixelGrid) -> PixelSize:
     """Both sides as distances take them."""
-    from vorotool.geometry.pixel_grid import sides_of_grid
+    from vorotool.types.pixel_grid import sides_of_grid
 
     sides = sides_of_grid(grid)
     if sides is None:
@@ -113,7 +113,7 @@ def _on_map(run: Run, given: JobInput, grid: PixelGrid, o: ComputingOptions) -> 
             )
         run.note(_note_of_size(given, grid, o))
         return None
-    from vorotool.geometry.crs import crs_name, is_geographic
+    from vorotool.numeric.crs import crs_name, is_geographic
 
     if is_geographic(grid.crs):
         text = f"{given.name}: longitude and latitude are treated as planar, lengths are in degrees"
@@ -146,7 +146,7 @@ def placed_polygons(size: PixelSize | None, polygons: PolygonSet) -> PolygonSet:
         polygons = replace(polygons, xy=polygons.xy * steps, frame=frame)
     if size is None or size.origin is None:
         return polygons
-    from vorotool.geometry.mirroring import mirrored_polygons
+    from vorotool.types.mirroring import mirrored_polygons
 
     return replace(mirrored_polygons(polygons) if size.y_up else polygons, y_axis=UP, crs=size.crs)
 
@@ -155,14 +155,14 @@ def placed_sites(
     run: Run, o: Options, given: JobInput, points: PointSet | SeedSet
 ) -> tuple[Options, PointSet | SeedSet]:
     """Give options with the size of pixels, see `with_pixel_size`, and seeds of an image as they lie on its map."""
-    from vorotool.geometry.points.seed_set import SeedSet
+    from vorotool.types.points.seed_set import SeedSet
 
     if not isinstance(points, SeedSet):
         return lengths_in_steps(o), points
     o = lengths_in_steps(with_pixel_size(run, o, given, points.grid))
     if o.pixel_size is None or not o.pixel_size.y_up:
         return o, points
-    from vorotool.geometry.mirroring import mirrored_seeds
+    from vorotool.types.mirroring import mirrored_seeds
 
     return o, mirrored_seeds(points)
 
@@ -183,7 +183,7 @@ def clip_in_pixels(o: ComputingOptions, clip: Sequence[Any]) -> Sequence[Any]:
 
 def in_steps(o: ComputingOptions, points: PointSet | SeedSet) -> PointSet:
     """Give points in pixels, or the sites of an image, in steps of ``--spacing``."""
-    from vorotool.geometry.arguments.points import as_points
+    from vorotool.convert.points import as_points
 
     sides = sides_of(o)
     steps = (sides.x, sides.y)
@@ -196,7 +196,7 @@ def written_grid(size: PixelSize | None, grid: PixelGrid | None) -> PixelGrid | 
     """Give what images that are written say of their pixels: the sides of ``--spacing``, else what the input says."""
     if size is None or size.sides is None or size.unit is None or (grid is not None and grid.transform is not None):
         return grid
-    from vorotool.geometry.pixel_grid import PixelGrid
+    from vorotool.types.pixel_grid import PixelGrid
 
     height, width = size.sides.lengths
     return PixelGrid(width, height, size.unit, "imagej" if grid is None else grid.form)

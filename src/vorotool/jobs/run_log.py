@@ -12,13 +12,13 @@ from typing import TYPE_CHECKING, Any
 
 from vorotool import __version__
 from vorotool.errors import Kind, Message, VorotoolWarning
-from vorotool.geometry.progress import Progress, Report
 from vorotool.jobs.terminal import tell
+from vorotool.numeric.progress import Progress, Report
 from vorotool.signals import end_by_exceptions
 
 if TYPE_CHECKING:
-    from vorotool.geometry.input_unit import InputUnit
-    from vorotool.geometry.pixel_grid import PixelGrid
+    from vorotool.numeric.input_unit import InputUnit
+    from vorotool.types.pixel_grid import PixelGrid
 
 PROGRESS_AFTER = 1.0
 """Seconds before a progress bar appears on a terminal."""

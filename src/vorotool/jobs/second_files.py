@@ -13,16 +13,16 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from vorotool.geometry.input_unit import InputUnit
-    from vorotool.geometry.pixel_grid import PixelGrid
-    from vorotool.geometry.polygons.polygon_set import PolygonSet
     from vorotool.jobs.options import ComputingOptions, JobOptions
     from vorotool.jobs.run_log import Run
+    from vorotool.numeric.input_unit import InputUnit
+    from vorotool.types.pixel_grid import PixelGrid
+    from vorotool.types.polygons.polygon_set import PolygonSet
 
 
 def unit_of_vectors(o: ComputingOptions, value: Any) -> InputUnit | None:
     """Return the unit of the coordinates of an input: of ``--pixel-size``, else as it states."""
-    from vorotool.geometry.input_unit import InputUnit, unit_of
+    from vorotool.numeric.input_unit import InputUnit, unit_of
 
     size = o.pixel_size
     if size is not None and size.unit is not None:
@@ -39,7 +39,7 @@ def coordinates_of(o: ComputingOptions, value: Any) -> InputUnit | None:
 
 def side_of_backdrop(run: Run, o: JobOptions, grid: PixelGrid | None) -> float:
     """Return the side of a pixel of ``--overlay`` in the coordinates of points, lines and polygons drawn over it."""
-    from vorotool.geometry.length_units import ratio
+    from vorotool.numeric.length_units import ratio
 
     unit = run.coordinates
     if unit is None:
@@ -54,7 +54,7 @@ def side_of_backdrop(run: Run, o: JobOptions, grid: PixelGrid | None) -> float:
 
 def unit_of_image(o: ComputingOptions, grid: PixelGrid | None) -> InputUnit | None:
     """Return what 1 is in the coordinates that files beside an image are in: those of its map, else pixels."""
-    from vorotool.geometry.input_unit import InputUnit
+    from vorotool.numeric.input_unit import InputUnit
 
     size = o.pixel_size
     is_of_map = size is not None and (size.origin is not None or size.sides is not None)
@@ -78,8 +78,8 @@ def in_first_unit(
     (path, value), (source, unit) = second, first
     if value.crs is not None:
         return value
-    from vorotool.geometry.input_unit import unit_of
-    from vorotool.geometry.length_units import ratio
+    from vorotool.numeric.input_unit import unit_of
+    from vorotool.numeric.length_units import ratio
 
     own = unit_of(value)
     if own is None:

@@ -11,22 +11,22 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.convert.extras import needed
 from vorotool.convert.geometry import geometry_of_rows
 from vorotool.errors import UsageError
-from vorotool.geometry.crs import crs_text, is_geographic, member_of_text
-from vorotool.geometry.extras import needed
-from vorotool.geometry.features import Rows, features_of
-from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation
-from vorotool.geometry.mesh.triangulation import Triangulation
-from vorotool.geometry.pixel_grid import PixelGrid
-from vorotool.geometry.points.label_image import LabelImage
-from vorotool.geometry.points.raster import Raster
-from vorotool.geometry.table import Table
 from vorotool.jobs.label_pictures import LabelPicture
 from vorotool.jobs.pictures import Drawing, drawing_of, write_layers
 from vorotool.jobs.writing import to_geojson
+from vorotool.numeric.crs import crs_text, is_geographic, member_of_text
 from vorotool.products.registry import is_of, parts_of
 from vorotool.types.axis import is_up
+from vorotool.types.features import Rows, features_of
+from vorotool.types.mesh.digital_triangulation import DigitalTriangulation
+from vorotool.types.mesh.triangulation import Triangulation
+from vorotool.types.pixel_grid import PixelGrid
+from vorotool.types.points.label_image import LabelImage
+from vorotool.types.points.raster import Raster
+from vorotool.types.table import Table
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -188,7 +188,7 @@ def _visible(values: NDArray[Any]) -> NDArray[np.uint8]:
 
 # ---- axes ----------------------------------------------------------------------------------------
 def plotted(value: Any, ax: Axes | None = None, **style: Any) -> Axes:
-    """Draw a value on axes of matplotlib; see `vorotool.geometry.values.Pictured`."""
+    """Draw a value on axes of matplotlib; see `vorotool.types.values.Pictured`."""
     needed("matplotlib", "plot", "plots")
     from vorotool.render.canvas.axes import draw_on_axes, settle_axes
 

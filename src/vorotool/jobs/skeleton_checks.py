@@ -96,7 +96,7 @@ def may_be_drawn(o: ShapeOptions) -> bool:
 
 def check_frame(frame: tuple[float, ...]) -> None:
     """Refuse a frame that is too far away."""
-    from vorotool.geometry.magnitude import LARGEST
+    from vorotool.types.magnitude import LARGEST
 
     if max(map(abs, frame)) > LARGEST:
         raise UsageError(f"--frame goes too far to compute with: use numbers of at most {LARGEST:g}")

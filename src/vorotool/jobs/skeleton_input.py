@@ -13,10 +13,10 @@ from vorotool.jobs.run_log import Run
 from vorotool.jobs.units import lengths_in_steps, sides_of
 
 if TYPE_CHECKING:
-    from vorotool.geometry.pixel_frame import Frame
-    from vorotool.geometry.pixel_grid import PixelGrid
-    from vorotool.geometry.points.raster import Raster
-    from vorotool.geometry.polygons.polygon_set import PolygonSet
+    from vorotool.types.pixel_frame import Frame
+    from vorotool.types.pixel_grid import PixelGrid
+    from vorotool.types.points.raster import Raster
+    from vorotool.types.polygons.polygon_set import PolygonSet
 
 Options = TypeVar("Options", bound=ShapeOptions)
 
@@ -33,8 +33,8 @@ class ReadPolygons(NamedTuple, Generic[Options]):
 
 def read_polygons(run: Run, o: Options, given: JobInput) -> ReadPolygons[Options]:
     """Read polygons, or the outlines of an image."""
-    from vorotool.geometry.points.raster import Raster
-    from vorotool.geometry.polygons.polygon_set import PolygonSet
+    from vorotool.types.points.raster import Raster
+    from vorotool.types.polygons.polygon_set import PolygonSet
 
     with opened_input(o, given, "polygons") as source:
         o, value = read_opened(run, o, given, source)
@@ -51,7 +51,7 @@ def read_polygons(run: Run, o: Options, given: JobInput) -> ReadPolygons[Options
 
 def outlined(run: Run, o: Options, given: JobInput, image: Raster) -> ReadPolygons[Options]:
     """Give the outlines of an image."""
-    from vorotool.geometry.pixel_frame import Frame
+    from vorotool.types.pixel_frame import Frame
 
     o = with_pixel_size(run, o, given, image.grid)
     sides_of(o)

@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 from vorotool.engines.tessellation.bands import Band
 from vorotool.engines.tessellation.frames import band_limits
 from vorotool.errors import LimitError
-from vorotool.geometry.pixel_frame import Frame
 from vorotool.jobs.options import TessellationOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
+from vorotool.types.pixel_frame import Frame
 
 RowsOf = Callable[[int, int], NDArray[Any]]
 """``rows_of(first, rows)`` gives some rows of an image."""

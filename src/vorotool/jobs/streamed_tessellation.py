@@ -16,7 +16,6 @@ from vorotool.engines.tessellation.streamed_image import ObjectRows, StreamedIma
 from vorotool.errors import LimitError, UsageError
 from vorotool.formats.images.band_reader import TiffRows, ZarrRows
 from vorotool.formats.opening import Opened
-from vorotool.geometry.progress import Progress
 from vorotool.jobs.inputs import refuse
 from vorotool.jobs.options import TessellationOptions
 from vorotool.jobs.pixel_sizes import written_grid
@@ -24,6 +23,7 @@ from vorotool.jobs.run_log import Run
 from vorotool.jobs.streamed_output import Stream, check_chunks, scale_of_squares, write_file, write_store
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import sides_of, unit_text
+from vorotool.numeric.progress import Progress
 
 LARGE = 2**24
 """Pixels from which an image that can be read in bands is not held: a seed in memory takes some 40 bytes."""

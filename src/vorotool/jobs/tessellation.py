@@ -28,16 +28,6 @@ from vorotool.engines.tessellation.seeding import seeds_in_frame
 from vorotool.engines.tessellation.tessellate import labelled_rows, verify_rows
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import LimitError
-from vorotool.geometry.pixel_frame import Frame
-from vorotool.geometry.pixel_grid import PixelGrid
-from vorotool.geometry.points.label_image import LabelImage
-from vorotool.geometry.points.point_set import PointSet
-from vorotool.geometry.points.raster import Raster
-from vorotool.geometry.points.seed_set import SeedSet
-from vorotool.geometry.polygons.polygon_set import PolygonSet
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.spacing import SQUARE
-from vorotool.geometry.table import Table
 from vorotool.jobs import animations
 from vorotool.jobs.contradictions import check_image_size
 from vorotool.jobs.input_lengths import lengths_of_image
@@ -60,10 +50,20 @@ from vorotool.jobs.streamed_output import RowsOf, Stream, check_chunks, scale_of
 from vorotool.jobs.streamed_tessellation import StreamedProducts, rows_of_large
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import sides_of, table_in_units, unit_columns, unit_text
+from vorotool.numeric.progress import Progress
 from vorotool.products.formats import ANIMATIONS
 from vorotool.products.registry import PRODUCTS
 from vorotool.products.writing import write_product
 from vorotool.types.axis import is_up
+from vorotool.types.pixel_frame import Frame
+from vorotool.types.pixel_grid import PixelGrid
+from vorotool.types.points.label_image import LabelImage
+from vorotool.types.points.point_set import PointSet
+from vorotool.types.points.raster import Raster
+from vorotool.types.points.seed_set import SeedSet
+from vorotool.types.polygons.polygon_set import PolygonSet
+from vorotool.types.spacing import SQUARE
+from vorotool.types.table import Table
 
 if TYPE_CHECKING:
     from vorotool.jobs.label_pictures import LabelPicture
@@ -283,7 +283,7 @@ class Products:
         return table_in_units(self.options.pixel_size, table, properties=properties, has_rows=True)
 
     def _neighbors(self) -> Table:
-        from vorotool.geometry.identity import ends_of_regions
+        from vorotool.types.identity import ends_of_regions
 
         table = neighbor_table(self.image, measures=self.measures)
         return ends_of_regions(table_in_units(self.options.pixel_size, table), self.rows.seeds)

@@ -14,11 +14,6 @@ from vorotool.engines.delaunay.site_table import site_table
 from vorotool.engines.delaunay.verify_proximity import verify_proximity_graph
 from vorotool.errors import Kind, Message
 from vorotool.formats.io.sources import reading
-from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation
-from vorotool.geometry.mesh.proximity import ProximityGraph
-from vorotool.geometry.points.point_set import PointSet
-from vorotool.geometry.points.seed_set import SeedSet
-from vorotool.geometry.progress import Progress
 from vorotool.jobs.cuts import read_clip
 from vorotool.jobs.inputs import JobInput, note_repeated_labels, read_sites
 from vorotool.jobs.options import TriangulationOptions
@@ -29,15 +24,20 @@ from vorotool.jobs.pixel_sizes import clip_in_pixels, in_steps, placed_backdrop,
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import in_units, table_in_units, unit_columns
+from vorotool.numeric.progress import Progress
 from vorotool.products.formats import PICTURES
 from vorotool.products.registry import PRODUCTS
 from vorotool.products.writing import write_product
+from vorotool.types.mesh.digital_triangulation import AnyTriangulation
+from vorotool.types.mesh.proximity import ProximityGraph
+from vorotool.types.points.point_set import PointSet
+from vorotool.types.points.seed_set import SeedSet
 
 if TYPE_CHECKING:
-    from vorotool.geometry.box import Box, Extent
-    from vorotool.geometry.mesh.cells import CellSet
-    from vorotool.geometry.mesh.statistics import CellStatistics
     from vorotool.render.canvas.layers import Layer, Page, Polygons
+    from vorotool.types.box import Box, Extent
+    from vorotool.types.mesh.cells import CellSet
+    from vorotool.types.mesh.statistics import CellStatistics
 
 
 class ReadPoints(NamedTuple):

@@ -18,10 +18,10 @@ from vorotool.jobs.pruning_choice import Pruning
 from vorotool.products.formats import FORMATS
 
 if TYPE_CHECKING:
-    from vorotool.geometry.spacing import PixelSides
-    from vorotool.geometry.table import Table
     from vorotool.jobs.options import ComputingOptions, JobOptions
     from vorotool.jobs.targets import Target
+    from vorotool.types.spacing import PixelSides
+    from vorotool.types.table import Table
 
 Value = TypeVar("Value")
 Number = TypeVar("Number", bound="float | Fraction")
@@ -80,7 +80,7 @@ def takes_spacing(o: JobOptions) -> bool:
 
 def sides_of(o: ComputingOptions, axes: int = 2) -> PixelSides:
     """Give the sides of a pixel, or of a voxel, in whose unit distances are: 1 without ``--spacing``."""
-    from vorotool.geometry.spacing import pixel_sides
+    from vorotool.types.spacing import pixel_sides
 
     sides = None if o.pixel_size is None else o.pixel_size.sides
     if sides is None:
@@ -107,7 +107,7 @@ def lengths_in_steps(o: Computing) -> Computing:
 
 def _in_steps(value: Any, step: Fraction) -> Any:
     """A number, or several, in steps: as the decimal number that it is written as."""
-    from vorotool.geometry.spacing import as_decimal
+    from vorotool.types.spacing import as_decimal
 
     if value is None:
         return None
@@ -210,7 +210,7 @@ def _in_pixels(name: str, value: Any, converted: Callable[[str, Measured], Any])
 
 def _check_unit(size: PixelSize | None, option: str, length: Measured) -> None:
     """Refuse a unit that is not known; that of the size of pixels may be any."""
-    from vorotool.geometry.length_units import METRES, is_known
+    from vorotool.numeric.length_units import METRES, is_known
 
     if not is_known(length.unit) and (size is None or size.unit != length.unit):
         known = ", ".join(METRES)
@@ -219,7 +219,7 @@ def _check_unit(size: PixelSize | None, option: str, length: Measured) -> None:
 
 def _number(sides: Sides, option: str, length: Measured) -> Fraction | float:
     """A length, an area or a volume in pixels: exact, or correctly rounded."""
-    from vorotool.geometry.length_units import METRES, ratio
+    from vorotool.numeric.length_units import METRES, ratio
 
     found = ratio(length.unit, sides.unit)
     if found is None:
@@ -278,7 +278,7 @@ def in_units(size: PixelSize | None, value: Value) -> Value:
     """Give a result in the units of the pixel size, if there is one."""
     if size is None:
         return value
-    from vorotool.geometry.scaling import scaled
+    from vorotool.types.scaling import scaled
 
     with _within_doubles(size):
         result: Value = scaled(value, size.factor, size.origin, unit=size.unit, of_steps=size.is_spacing)
@@ -301,7 +301,7 @@ def table_in_units(
     """Give a table in the units of the pixel size, if there is one; the input's own columns stay as they are."""
     if size is None:
         return table
-    from vorotool.geometry.scaling import scaled_table
+    from vorotool.types.scaling import scaled_table
 
     pixel = (1.0, 1.0) if size.sides is None else (float(size.sides.lengths[-1]), float(size.sides.lengths[-2]))
     with _within_doubles(size):
@@ -348,6 +348,6 @@ def unit_stats(size: PixelSize | None) -> dict[str, Any]:
         found = {"spacing": sides, "spacing_step": str(size.sides.step), "unit": size.unit}
     if size.crs is None:
         return found
-    from vorotool.geometry.crs import crs_name
+    from vorotool.numeric.crs import crs_name
 
     return {**found, "crs": crs_name(size.crs)}

@@ -8,8 +8,8 @@ from vorotool.errors import UsageError
 from vorotool.formats.io.atomic_output import open_output
 from vorotool.formats.volumes.writer import write_volume
 from vorotool.formats.zarr.volumes import write_zarr_volume
-from vorotool.geometry.volumes.label_volume import LabelVolume
-from vorotool.geometry.volumes.volume import Volume
+from vorotool.types.volumes.label_volume import LabelVolume
+from vorotool.types.volumes.volume import Volume
 
 _FORMATS = ("tiff", "npy", "zarr")
 

@@ -14,10 +14,6 @@ from vorotool.engines.voronoi.verify_voronoi import verify_voronoi
 from vorotool.engines.voronoi.voronoi import voronoi
 from vorotool.errors import STRICT, InputError, Kind, Message, RepairWarning
 from vorotool.formats.io.atomic_output import open_output
-from vorotool.geometry.polygons.polygon_set import PolygonSet
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.skeleton.discs import Discs
-from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.options import VoronoiOptions
 from vorotool.jobs.picture_style import styled_page
@@ -28,9 +24,13 @@ from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import in_units, length_in_units, unit_columns
 from vorotool.jobs.voronoi_input import read_cuts, read_sites
+from vorotool.numeric.progress import Progress
 from vorotool.products.formats import PICTURES
 from vorotool.products.registry import PRODUCTS
 from vorotool.products.writing import write_product
+from vorotool.types.polygons.polygon_set import PolygonSet
+from vorotool.types.skeleton.discs import Discs
+from vorotool.types.voronoi.voronoi_map import VoronoiMap
 
 
 class VoronoiProducts:

@@ -9,18 +9,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.formats.io.sources import reading
-from vorotool.geometry.polygons.polygon_set import PolygonSet
-from vorotool.geometry.polygons.ring_arrays import RingArrays
 from vorotool.jobs.cuts import check_image_crs, in_one_crs, in_unit_of_image, polygons_among, read_cut
 from vorotool.jobs.inputs import JobInput, opened_input, read_opened, refuse, report_no_geometry
 from vorotool.jobs.options import VoronoiOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.second_files import in_first_unit, unit_of_vectors
 from vorotool.jobs.skeleton_input import outlined
+from vorotool.types.polygons.polygon_set import PolygonSet
+from vorotool.types.polygons.ring_arrays import RingArrays
 
 if TYPE_CHECKING:
-    from vorotool.geometry.arguments.sites import Sites
-    from vorotool.geometry.pixel_grid import PixelGrid
+    from vorotool.convert.sites import Sites
+    from vorotool.types.pixel_grid import PixelGrid
 
 
 class ReadSites(NamedTuple):
@@ -34,8 +34,8 @@ class ReadSites(NamedTuple):
 
 def read_sites(run: Run, o: VoronoiOptions, given: JobInput) -> ReadSites:
     """Read points, lines and polygons, each feature a site, or the objects of an image."""
-    from vorotool.geometry.arguments.sites import as_sites
-    from vorotool.geometry.points.raster import Raster
+    from vorotool.convert.sites import as_sites
+    from vorotool.types.points.raster import Raster
 
     with opened_input(o, given, "sites") as source:
         o, value = read_opened(run, o, given, source, columns=o.columns)

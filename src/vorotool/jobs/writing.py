@@ -10,21 +10,21 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from vorotool.errors import UsageError
 from vorotool.formats.io.descriptors import stream_kind
-from vorotool.geometry.numbers import Flatten, checked_flatten, shown_number, whole_number
-from vorotool.geometry.pixel_frame import MAX_SIDE
-from vorotool.geometry.spacing import SQUARE
 from vorotool.jobs.picture_style import Looks, check_layers, looks_of, styled_page
 from vorotool.jobs.picture_world import check_column, world_of, world_of_value
 from vorotool.jobs.units import PixelSize
+from vorotool.numeric.numbers import Flatten, checked_flatten, shown_number, whole_number
 from vorotool.products.formats import FORMATS, PICTURES, format_named
 from vorotool.products.registry import Product, is_of, parts_of
 from vorotool.products.writing import chosen_part, write_product
 from vorotool.types.axis import is_up, y_axis_of
 from vorotool.types.fields import Record, with_y_axis
+from vorotool.types.pixel_frame import MAX_SIDE
+from vorotool.types.spacing import SQUARE
 
 if TYPE_CHECKING:
-    from vorotool.geometry.alpha.persistence import RegionPersistence
-    from vorotool.geometry.points.label_image import LabelImage
+    from vorotool.types.alpha.persistence import RegionPersistence
+    from vorotool.types.points.label_image import LabelImage
 
 
 def write(
@@ -115,10 +115,10 @@ def write(
     >>> write(vorotool.skeleton_exact([[0, 0], [4, 0], [0, 3]]), "build/skeleton.svg")
     """
     from vorotool.formats.text.feature_collection import unit_member
-    from vorotool.geometry.checks import checked_flag, checked_threads
-    from vorotool.geometry.coordinate_grid import coordinates_written
-    from vorotool.geometry.identity import columns_wanted
-    from vorotool.geometry.input_unit import own_unit
+    from vorotool.numeric.checks import checked_flag, checked_threads
+    from vorotool.numeric.coordinate_grid import coordinates_written
+    from vorotool.numeric.input_unit import own_unit
+    from vorotool.types.identity import columns_wanted
 
     path, flatten = _checked_path(path), checked_flatten(flatten)
     if not isinstance(fmt, str | None):
@@ -213,8 +213,8 @@ def to_geojson(
     import orjson
 
     from vorotool.formats.text.feature_collection import unit_member
-    from vorotool.geometry.identity import columns_wanted
-    from vorotool.geometry.input_unit import own_unit
+    from vorotool.numeric.input_unit import own_unit
+    from vorotool.types.identity import columns_wanted
 
     out, tolerance = io.BytesIO(), checked_flatten(flatten)
     with columns_wanted(with_columns), unit_member(own_unit(value)):
@@ -259,9 +259,9 @@ class _Picture(NamedTuple):
 
 def _draw(value: Any, wanted: _Picture) -> None:
     from vorotool.formats.io.atomic_output import open_output
-    from vorotool.geometry.pixel_frame import MAX_PIXELS
     from vorotool.jobs.pictures import drawing_of, write_layers
     from vorotool.render.canvas.png import check_picture_size
+    from vorotool.types.pixel_frame import MAX_PIXELS
 
     if is_of(value, "LabelImage"):
         _draw_labels(value, wanted)

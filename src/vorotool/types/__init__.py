@@ -1,1 +1,1 @@
-"""Public values and how they declare what they hold."""
+"""The public values: each declares its fields once, and gives its rows, its features and its tables."""

@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 import shapely
 from PIL import Image
+from vorotool.types.alpha.complex import CLASSES
 
 import vorotool
-from vorotool.geometry.alpha.complex import CLASSES
 from vorotool.products.registry import all_layers
 
 DATA = Path(__file__).parents[3] / "data"

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from vorotool.cli.options.lengths import Distances, ExactLength, Length, Radius, measured
-from vorotool.geometry.length_units import METRES, is_known, ratio
 from vorotool.jobs.options import TessellationOptions
 from vorotool.jobs.units import Measured, PixelSize, lengths_in_pixels
+from vorotool.numeric.length_units import METRES, is_known, ratio
 
 XY = np.array([[0, 0], [9, 1], [4, 7], [12, 8], [2, 3], [7, 4], [11, 2], [1, 9], [5, 2], [8, 9]])
 

@@ -20,7 +20,7 @@ from vorotool.cli.options.lengths import Distances, ExactLength, Length
 from vorotool.cli.options.parameter_types import ParameterType
 from vorotool.cli.options.pruning import PruningType
 from vorotool.cli.options.shared import Decimal
-from vorotool.geometry.length_units import unit_name
+from vorotool.numeric.length_units import unit_name
 
 MASK = np.zeros((40, 60), np.uint8)
 MASK[5:20, 5:25] = MASK[25:36, 20:55] = 255

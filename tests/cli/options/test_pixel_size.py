@@ -12,9 +12,9 @@ from support.readers.written import rows_of
 from vorotool.batch.tables import join_tables
 from vorotool.errors import InputError
 from vorotool.formats.text.tables import write_table
-from vorotool.geometry.table import Table
 from vorotool.products.formats import FORMATS
 from vorotool.products.registry import formats_of
+from vorotool.types.table import Table
 
 XY = np.array([[0, 0], [9, 1], [4, 7], [12, 8], [2, 3], [7, 4], [11, 2], [1, 9], [5, 2], [8, 9]])
 SHAPES = [

@@ -10,7 +10,7 @@ from support.families.skeleton_shapes import FAMILIES
 from vorotool.engines.arrangement.lattice_rings import placed_shapes
 from vorotool.engines.arrangement.planar_graph import planar_graph, verify_planar_graph
 from vorotool.errors import VorotoolWarning
-from vorotool.geometry.skeleton.skeleton import EDGE, Skeleton
+from vorotool.types.skeleton.skeleton import EDGE, Skeleton
 
 
 def graph_of(shape):

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shapely
+from vorotool.types.polygons.conversion import to_shapely
 
 from support.few import few
 from support.processes.heard_signals import stop
@@ -22,9 +23,8 @@ from vorotool import (
     read,
     verify_planar_graph,
 )
+from vorotool.convert.polygons import as_polygons
 from vorotool.engines.arrangement import planar_graph as engine
-from vorotool.geometry.arguments.polygons import as_polygons
-from vorotool.geometry.polygons.conversion import to_shapely
 
 DATA = Path(__file__).parents[3] / "data"
 SQUARE = [[0, 0], [8, 0], [8, 8], [0, 8]]

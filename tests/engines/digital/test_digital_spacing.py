@@ -10,7 +10,7 @@ import vorotool
 from vorotool.engines.digital.triangulation import digital_triangulation, repair_digital
 from vorotool.engines.digital.verify_digital import verify_digital_triangulation
 from vorotool.errors import UsageError, VerificationError
-from vorotool.geometry.spacing import pixel_sides
+from vorotool.types.spacing import pixel_sides
 
 SPACINGS = [(1.5, 0.325), (2, 3), (Fraction(1, 3), 1), 0.25]
 SHAPE = (40, 30)

@@ -9,10 +9,10 @@ import pytest
 import shapely
 from scipy import ndimage
 from skimage import morphology, segmentation
+from vorotool.types.points.label_image import LabelImage
 
 import vorotool
 from vorotool.errors import InputError, LimitError, UsageError, VorotoolWarning
-from vorotool.geometry.points.label_image import LabelImage
 
 SHAPES = [(1, 1), (1, 17), (19, 1), (13, 21), (64, 50)]
 DENSITIES = [0.02, 0.3, 0.9]

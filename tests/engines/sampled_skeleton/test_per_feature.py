@@ -8,12 +8,12 @@ import pytest
 import vorotool
 from fuzz.features import FAMILIES, as_set, chosen, differing, inside_of
 from vorotool import _core
+from vorotool.convert.polygons import as_polygons
 from vorotool.engines.features import sheets as feature_sheets
 from vorotool.engines.sampled_skeleton.approximate import SamplingOptions
 from vorotool.engines.sampled_skeleton.per_feature import approximation_of_sides, feature_approximation
 from vorotool.engines.sampled_skeleton.verify_approximate import verify_approximate
 from vorotool.errors import LimitError, UsageError
-from vorotool.geometry.arguments.polygons import as_polygons
 
 ARRAYS = ("vertices", "radius", "arcs", "sites", "polygon", "side", "branch", "length", "error_bound")
 OUTER = [[0, 0], [10, 0], [10, 10], [0, 10]]

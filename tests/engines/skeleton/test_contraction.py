@@ -10,6 +10,7 @@ import vorotool
 from support.families.skeleton_shapes import FAMILIES
 from support.few import few
 from vorotool import verify_skeleton
+from vorotool.convert.polygons import as_polygons
 from vorotool.engines.sampled_skeleton import per_feature
 from vorotool.engines.sampled_skeleton.approximate import SamplingOptions
 from vorotool.engines.sampled_skeleton.per_feature import approximation
@@ -18,7 +19,6 @@ from vorotool.engines.skeleton.contraction import contraction, without_equal_nod
 from vorotool.engines.skeleton.diagrams import all_edges, diagram_of_all
 from vorotool.engines.skeleton.verify_skeleton import check_arrays, check_branches
 from vorotool.errors import VorotoolWarning
-from vorotool.geometry.arguments.polygons import as_polygons
 
 OFFSETS = ((0.0, 0.0), (1e3, 2e3), (5e5, 4e6))
 METHODS = {

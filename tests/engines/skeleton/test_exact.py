@@ -17,8 +17,8 @@ from vorotool.engines.skeleton.exact import skeleton_of as skeleton_of_shapes
 from vorotool.engines.skeleton.shortened_edges import element_diagram, exact_for, gap_deviation
 from vorotool.engines.skeleton.verify_skeleton import verify_exterior
 from vorotool.errors import InputError, UsageError, VorotoolWarning
-from vorotool.geometry.box import default_frame
-from vorotool.geometry.skeleton.skeleton import EXTERIOR, INTERIOR
+from vorotool.types.box import default_frame
+from vorotool.types.skeleton.skeleton import EXTERIOR, INTERIOR
 
 DATA = Path(__file__).parents[3] / "data"
 SIDES = ("interior", "exterior", "both")
@@ -259,7 +259,7 @@ def test_distance_to_the_boundary_is_the_radius():
     lake = vorotool.read(DATA / "great-lakes.geojson")
     with pytest.warns(VorotoolWarning, match="repeated"):
         made = vorotool.skeleton_exact(lake)
-    from vorotool.geometry.polygons.conversion import to_shapely
+    from vorotool.types.polygons.conversion import to_shapely
 
     border = shapely.boundary(shapely.unary_union([shapely.make_valid(s) for s in to_shapely(made.polygons)]))
     assert np.abs(shapely.distance(shapely.points(made.vertices), border) - made.radius).max() < 1e-12

@@ -8,7 +8,7 @@ import pytest
 
 from fuzz.rotation import failure
 from support.oracles.rotation_oracle import Pair, Rotation, fault
-from vorotool.geometry.arguments.polygons import as_polygons
+from vorotool.convert.polygons import as_polygons
 
 SHAPE = as_polygons(
     [[0, 0], [30, 0], [30, 6], [26, 6], [26, 12], [24, 12], [24, 6], [6, 6], [6, 9], [4, 9], [4, 6], [0, 6]]

@@ -9,7 +9,7 @@ import vorotool
 from support.families.skeleton_shapes import FAMILIES, small
 from support.few import few
 from vorotool import VerificationError, skeleton_approx, verify_skeleton
-from vorotool.geometry.arguments.polygons import as_polygons
+from vorotool.convert.polygons import as_polygons
 
 SHAPES = {
     "room": [[0, 0], [8, 0], [8, 3], [4, 1], [0, 3]],

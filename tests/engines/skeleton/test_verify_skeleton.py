@@ -10,7 +10,7 @@ import vorotool
 from vorotool.engines.skeleton.exact import shape_diagram
 from vorotool.engines.skeleton.verify_skeleton import verify_exterior
 from vorotool.errors import VerificationError
-from vorotool.geometry.skeleton.skeleton import EXTERIOR
+from vorotool.types.skeleton.skeleton import EXTERIOR
 
 SHAPES = vorotool.read(Path(__file__).parents[3] / "data" / "two-shapes.json")
 RIGHT = vorotool.skeleton_exact(SHAPES, side="both")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from vorotool.types.points.seed_set import SeedSet
 
 import vorotool
 from support.families.families import fine_case
@@ -13,9 +14,8 @@ from vorotool.engines.tessellation.bands import SeedBand, SeedBands
 from vorotool.engines.tessellation.seed_lattice import finest_scale
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.engines.tessellation.verify_tessellation import verify_label_image
-from vorotool.geometry.pixel_frame import Frame
-from vorotool.geometry.points.seed_set import SeedSet
-from vorotool.geometry.spacing import pixel_sides
+from vorotool.types.pixel_frame import Frame
+from vorotool.types.spacing import pixel_sides
 
 pytestmark = pytest.mark.filterwarnings("ignore:.*seeds (moved|lie)")
 

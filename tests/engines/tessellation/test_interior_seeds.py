@@ -2,6 +2,8 @@
 
 import numpy as np
 import pytest
+from vorotool.types.points.raster import Raster
+from vorotool.types.points.seed_set import SeedSet
 
 from support.few import few
 from support.oracles.oracles import nearest_labels, nearest_squares
@@ -11,9 +13,7 @@ from vorotool.engines.tessellation.seeding import seeds_from_raster
 from vorotool.engines.tessellation.tessellate import verify_rows
 from vorotool.engines.tessellation.tessellator import Tessellator, simd_level
 from vorotool.errors import InputError
-from vorotool.geometry.pixel_frame import Frame
-from vorotool.geometry.points.raster import Raster
-from vorotool.geometry.points.seed_set import SeedSet
+from vorotool.types.pixel_frame import Frame
 
 
 def objects(kind, rng):

@@ -5,15 +5,15 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from scipy import ndimage
+from vorotool.types.points.seed_set import SeedSet
 
 import vorotool
 from support.few import few
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.engines.tessellation.verify_tessellation import verify_label_image
 from vorotool.errors import UsageError, VerificationError
-from vorotool.geometry.pixel_frame import Frame
-from vorotool.geometry.points.seed_set import SeedSet
-from vorotool.geometry.spacing import PixelSides, pixel_sides
+from vorotool.types.pixel_frame import Frame
+from vorotool.types.spacing import PixelSides, pixel_sides
 
 SIDES = [PixelSides((2, 1)), PixelSides((60, 13), Fraction(1, 40)), PixelSides((5, 7)), PixelSides((1000, 1))]
 LEVELS = ("portable", "avx2", "avx512")

@@ -4,18 +4,18 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from vorotool.types.volumes.label_volume import LabelVolume
+from vorotool.types.volumes.volume import Volume
+from vorotool.types.volumes.volume_points import VolumePoints
+from vorotool.types.volumes.volume_seeds import VolumeSeeds
+from vorotool.types.volumes.voxel_frame import VoxelFrame
 
 import vorotool
 from vorotool.engines.volumes.volume_frames import asked_voxel_frame, default_voxel_frame, slab_limits
 from vorotool.engines.volumes.volume_seeding import seeds_from_volume, seeds_from_xyz
 from vorotool.engines.volumes.volume_tessellator import VolumeSweep
 from vorotool.errors import InputError, LimitError, UsageError, VorotoolWarning
-from vorotool.geometry.spacing import PixelSides, pixel_sides
-from vorotool.geometry.volumes.label_volume import LabelVolume
-from vorotool.geometry.volumes.volume import Volume
-from vorotool.geometry.volumes.volume_points import VolumePoints
-from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
-from vorotool.geometry.volumes.voxel_frame import VoxelFrame
+from vorotool.types.spacing import PixelSides, pixel_sides
 
 
 def brute(seeds, frame, units=(1, 1, 1)):

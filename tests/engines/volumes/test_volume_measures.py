@@ -8,17 +8,17 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 from scipy import ndimage
+from vorotool.types.volumes.label_volume import LabelVolume
+from vorotool.types.volumes.volume import Volume
+from vorotool.types.volumes.volume_seeds import VolumeSeeds
+from vorotool.types.volumes.voxel_frame import VoxelFrame
 
 import vorotool
 from vorotool.engines.label_images.regions import measure_regions, region_colors
 from vorotool.engines.volumes.volume_measures import measure_slabs, measure_volume, volume_diagram
 from vorotool.engines.volumes.volume_tables import volume_neighbors, volume_table
 from vorotool.errors import InputError, UsageError
-from vorotool.geometry.spacing import PixelSides, pixel_sides
-from vorotool.geometry.volumes.label_volume import LabelVolume
-from vorotool.geometry.volumes.volume import Volume
-from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
-from vorotool.geometry.volumes.voxel_frame import VoxelFrame
+from vorotool.types.spacing import PixelSides, pixel_sides
 
 DTYPES = (np.uint8, np.uint16, np.uint32, np.int32)
 COLUMNS = [

@@ -4,6 +4,9 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from vorotool.types.volumes.label_volume import LabelVolume
+from vorotool.types.volumes.volume_seeds import VolumeSeeds
+from vorotool.types.volumes.voxel_frame import VoxelFrame
 
 from vorotool.engines.volumes.volume_regions import regions_of_sweep
 from vorotool.engines.volumes.volume_tables import (
@@ -13,10 +16,7 @@ from vorotool.engines.volumes.volume_tables import (
     volume_table,
 )
 from vorotool.engines.volumes.volume_tessellator import VolumeSweep
-from vorotool.geometry.spacing import pixel_sides
-from vorotool.geometry.volumes.label_volume import LabelVolume
-from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
-from vorotool.geometry.volumes.voxel_frame import VoxelFrame
+from vorotool.types.spacing import pixel_sides
 
 FRAME = VoxelFrame(-4, 2, 7, 13, 9, 16)
 

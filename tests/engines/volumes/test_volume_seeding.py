@@ -6,6 +6,12 @@ import numpy as np
 import pytest
 from scipy import ndimage
 from skimage.filters import threshold_otsu
+from vorotool.types.volumes.label_volume import LabelVolume
+from vorotool.types.volumes.volume import Volume
+from vorotool.types.volumes.volume_points import VolumePoints
+from vorotool.types.volumes.volume_seeds import VolumeSeeds
+from vorotool.types.volumes.voxel_frame import VoxelFrame
+from vorotool.types.volumes.voxel_grid import VoxelGrid
 
 import vorotool
 from support.few import few
@@ -14,12 +20,6 @@ from vorotool.engines.volumes.volume_objects import HeldSlices, VolumeObjects
 from vorotool.engines.volumes.volume_seeding import seeds_from_volume, seeds_from_xyz, seeds_of_slabs
 from vorotool.engines.volumes.volume_tessellator import VolumeSweep
 from vorotool.errors import InputError, LimitError, UsageError, VorotoolWarning
-from vorotool.geometry.volumes.label_volume import LabelVolume
-from vorotool.geometry.volumes.volume import Volume
-from vorotool.geometry.volumes.volume_points import VolumePoints
-from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
-from vorotool.geometry.volumes.voxel_frame import VoxelFrame
-from vorotool.geometry.volumes.voxel_grid import VoxelGrid
 
 FORMS = {26: np.ones((3, 3, 3)), 6: ndimage.generate_binary_structure(3, 1)}
 
@@ -107,7 +107,7 @@ def test_outer_voxels_give_what_all_voxels_give(window, limit, units):
     assert seeds.filled.any()
     assert len(seeds) < np.count_nonzero(labels)
     frame = seeds.frame if window is None else VoxelFrame(*window)
-    sides = vorotool.geometry.spacing.PixelSides(units)
+    sides = vorotool.types.spacing.PixelSides(units)
     ours = VolumeSweep(seeds, frame, sides=sides, max_distance=limit, threads=2)
     every = VolumeSweep(all_voxels(labels), frame, sides=sides, max_distance=limit)
     assert np.array_equal(ours.labels(), every.labels())

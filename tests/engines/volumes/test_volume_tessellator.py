@@ -14,7 +14,7 @@ from vorotool.engines.peers.arguments import bare_seeds
 from vorotool.engines.volumes.inner_voxels import outer_voxels
 from vorotool.engines.volumes.volume_tessellator import VolumeSweep
 from vorotool.errors import InputError, LimitError, UsageError
-from vorotool.geometry.spacing import PixelSides
+from vorotool.types.spacing import PixelSides
 
 LEVELS = ("portable", "avx2", "avx512")
 WAYS = ("rows", "bricks")

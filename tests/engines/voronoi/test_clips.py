@@ -12,8 +12,8 @@ from tests.support.oracles.cut_oracle import assert_cut_coverage, assert_nearest
 import vorotool
 from support.few import few
 from vorotool import verify_voronoi, voronoi
+from vorotool.convert.polygons import as_polygons
 from vorotool.errors import InputError, RepairWarning
-from vorotool.geometry.arguments.polygons import as_polygons
 
 BOX = shapely.box(0, 0, 10, 10)
 

@@ -6,9 +6,9 @@ import shapely
 from tests.support.families.site_families import mixed_sites, squares
 from tests.support.oracles.voronoi_oracle import EQUAL, NEARLY, distances_of
 
+from vorotool.convert.sites import as_sites
 from vorotool.engines.voronoi.elements import owned_graph
 from vorotool.engines.voronoi.nearest_site import site_at
-from vorotool.geometry.arguments.sites import as_sites
 
 
 def owned_of(geometry):

@@ -11,11 +11,11 @@ import ezdxf
 import numpy as np
 import pytest
 import shapely
+from vorotool.types.polygons.conversion import to_shapely
+from vorotool.types.polygons.polygon_set import PolygonSet
 
 import vorotool
 from vorotool.errors import UsageError
-from vorotool.geometry.polygons.conversion import to_shapely
-from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.products.registry import PRODUCTS, parts_of
 from vorotool.products.writing import write_product
 
@@ -27,7 +27,7 @@ def up(shapes):
     """Polygons with y upwards."""
     from dataclasses import replace
 
-    from vorotool.geometry.arguments.polygons import as_polygons
+    from vorotool.convert.polygons import as_polygons
 
     return replace(as_polygons(shapes), y_axis="up")
 

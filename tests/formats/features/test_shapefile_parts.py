@@ -11,9 +11,9 @@ import shapely
 
 import vorotool
 from support.processes.leftovers import contents
+from vorotool.convert.polygons import as_polygons
 from vorotool.errors import InputError, OutputError
 from vorotool.formats.io.temporaries import Temporary
-from vorotool.geometry.arguments.polygons import as_polygons
 
 PARTS = (".shp", ".shx", ".dbf", ".prj", ".cpg")
 

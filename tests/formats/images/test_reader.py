@@ -13,7 +13,7 @@ from support.readers.sources import image_of
 from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.formats.io.sources import Source
 from vorotool.formats.recognition import image_format
-from vorotool.geometry.pixel_grid import PixelGrid
+from vorotool.types.pixel_grid import PixelGrid
 
 LIMIT = 10**7
 

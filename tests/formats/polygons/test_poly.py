@@ -3,8 +3,8 @@
 import pytest
 
 from support.readers.polygon_reading import error_of, notes_of, read, rings, written
+from vorotool.convert.polygons import as_polygons
 from vorotool.errors import LimitError
-from vorotool.geometry.arguments.polygons import as_polygons
 
 SHELL = [[0, 0], [9, 0], [9, 9], [0, 9]]
 HOLE = [[1, 1], [7, 1], [1, 7]]

@@ -5,8 +5,8 @@ from dataclasses import replace
 import pytest
 
 from support.readers.polygon_reading import assert_same, error_of, notes_of, read, rings, written
+from vorotool.convert.polygons import as_polygons
 from vorotool.errors import LimitError
-from vorotool.geometry.arguments.polygons import as_polygons
 
 TEXT = """# shapes
 POLYGON ((0 0, 9 0, 0 9, 0 0), (1 1, 2 1, 1 2, 1 1))

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import vorotool
 from vorotool.formats.results.graphml import write_graphml
-from vorotool.geometry.identity import columns_wanted
+from vorotool.types.identity import columns_wanted
 
 SPACE = "{http://graphml.graphdrawing.org/xmlns}"
 CONTROLS = [

@@ -9,7 +9,7 @@ import pytest
 
 from vorotool.errors import UsageError
 from vorotool.formats.text.row_writer import SLICE_ROWS, Column, RowShape, check_precision, write_rows
-from vorotool.geometry.table import Computed, Lookup
+from vorotool.types.table import Computed, Lookup
 
 
 class Count(io.RawIOBase):

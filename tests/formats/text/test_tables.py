@@ -17,8 +17,8 @@ from support.readers.written import rows_of
 from vorotool.errors import UsageError
 from vorotool.formats.io.sources import Source
 from vorotool.formats.text.tables import write_table
-from vorotool.geometry.table import Computed, Lookup, Table
 from vorotool.products.formats import TABLES
+from vorotool.types.table import Computed, Lookup, Table
 
 
 def written(table, fmt, **options):

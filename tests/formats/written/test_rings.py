@@ -6,8 +6,8 @@ import shapely
 
 import vorotool
 from vorotool.formats.written.rings import geometry, written_rings
-from vorotool.geometry.coordinate_grid import rounded
-from vorotool.geometry.ragged import Nesting
+from vorotool.numeric.coordinate_grid import rounded
+from vorotool.numeric.ragged import Nesting
 
 DECIMALS = [None, 6, 3, 1, 0]
 

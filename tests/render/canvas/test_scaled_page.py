@@ -4,12 +4,12 @@ import io
 
 import numpy as np
 import pytest
+from vorotool.types.polygons.conversion import to_shapely
 
 from vorotool.errors import UsageError
 from vorotool.formats.drawing.svg_reader import read_svg
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions
-from vorotool.geometry.polygons.conversion import to_shapely
 from vorotool.render.canvas.layers import Arcs, Curves, Lines, Points, Polygons, Texts
 from vorotool.render.canvas.palettes import WHITE
 from vorotool.render.canvas.scaled_page import ScaledPage, styled_layers

@@ -12,12 +12,12 @@ import pytest
 
 from support.families.point_families import draw
 from vorotool import UsageError, alpha_complex, alpha_curves, alpha_hull, alpha_shape
-from vorotool.geometry.table import Table
 from vorotool.render.canvas.layers import Arcs, Lines, Page, Polygons
 from vorotool.render.canvas.svg import write_layers_svg
 from vorotool.render.layers.alpha import LAYERS, alpha_layers
 from vorotool.render.layers.mesh import mesh_page
 from vorotool.render.pages.alpha_plot import CURVES, write_curves_svg
+from vorotool.types.table import Table
 
 NS = "{http://www.w3.org/2000/svg}"
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from vorotool.engines.tessellation.seed_lattice import finest_scale
-from vorotool.geometry.pixel_frame import Frame
-from vorotool.geometry.spacing import PixelSides
+from vorotool.types.pixel_frame import Frame
+from vorotool.types.spacing import PixelSides
 
 
 def uniform(rng, width, height, n, scale):

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 
 from support.families.segment_families import cells_of_a_map, draw, symmetries
+from vorotool.convert.polygons import as_polygons
 from vorotool.engines.label_images.outlines import outlines
-from vorotool.geometry.arguments.polygons import as_polygons
 
 DATA = sorted(path for end in ("json", "geojson") for path in (Path(__file__).parents[3] / "data").glob(f"*.{end}"))
 """Polygons that come with the project; each of these files is one."""

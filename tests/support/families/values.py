@@ -8,7 +8,7 @@ import numpy as np
 import pandas
 
 import vorotool
-from vorotool.geometry.crs import crs_member
+from vorotool.numeric.crs import crs_member
 
 CRS = "EPSG:2056"
 ARCS = ("arcs", "control", "sites", "polygon", "side", "branch", "length", "error_bound")

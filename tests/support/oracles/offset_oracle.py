@@ -4,10 +4,9 @@ import re
 
 import numpy as np
 import shapely
-
-from vorotool.geometry.polygons.conversion import to_shapely
-from vorotool.geometry.polygons.polygon_set import LINE
-from vorotool.geometry.polygons.ring_arrays import RingArrays
+from vorotool.types.polygons.conversion import to_shapely
+from vorotool.types.polygons.polygon_set import LINE
+from vorotool.types.polygons.ring_arrays import RingArrays
 
 QUADRANT = 64
 """Chords of a quarter of shapely's circles."""

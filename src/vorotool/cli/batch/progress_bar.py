@@ -8,7 +8,7 @@ from contextlib import contextmanager
 
 import click
 
-from vorotool.geometry.progress import Report
+from vorotool.numeric.progress import Report
 
 STEPS = 1000
 """Steps of a bar."""

@@ -12,9 +12,9 @@ from typing import Any
 from vorotool.batch.tasks import Outcome, Task
 from vorotool.cli.batch.progress_bar import progress_bar
 from vorotool.errors import BatchError, Message
-from vorotool.geometry.progress import Progress
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.terminal import print_text, tell
+from vorotool.numeric.progress import Progress
 
 NO_COUNTS = frozenset({"threads", "passes", "steps_per_pixel", "largest_label"})
 """Whole numbers in statistics that mean nothing when they are added."""

@@ -22,7 +22,6 @@ from vorotool.cli.batch.report import Report
 from vorotool.errors import InputError, Message
 from vorotool.formats.io.atomic_output import check_output, open_output
 from vorotool.formats.io.commit import committed_together
-from vorotool.geometry.length_units import unit_name
 from vorotool.jobs.failures import explained
 from vorotool.jobs.given import changed
 from vorotool.jobs.job import Options, Recipe, process_input
@@ -31,6 +30,7 @@ from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
 from vorotool.jobs.terminal import print_text, tell
 from vorotool.jobs.units import unit_stats
+from vorotool.numeric.length_units import unit_name
 from vorotool.signals import end_by_exceptions
 
 

@@ -11,8 +11,8 @@ import click
 
 from vorotool.cli.options.parameter_types import ParameterType
 from vorotool.cli.options.shared import Decimal, Decorator, together
-from vorotool.geometry.length_units import METRES
 from vorotool.jobs.units import Measured
+from vorotool.numeric.length_units import METRES
 
 _NUMBER = r"[-+]?(?:[0-9]++(?:\.[0-9]*+)?|\.[0-9]++)(?:[eE][-+]?[0-9]+)?"
 _AREA = re.compile(rf"({_NUMBER})(?:\s*([^\W\d_]{{1,16}})\^?([23²³]))?")

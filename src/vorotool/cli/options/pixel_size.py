@@ -13,7 +13,7 @@ from vorotool.cli.options.shared import Decimal, Decorator
 from vorotool.jobs.units import AUTO, AUTO_SPACING, PixelSize
 
 if TYPE_CHECKING:
-    from vorotool.geometry.spacing import PixelSides
+    from vorotool.types.spacing import PixelSides
 
 _SIDE = r"([0-9.]+(?:[eE][-+]?[0-9]+)?)\s*([^\W\d_]{1,16})?"
 
@@ -69,7 +69,7 @@ class SpacingType(ParameterType[PixelSize]):
     def _sides(self, value: str, sides: list[Fraction], param: Any, ctx: Any) -> PixelSides:
         """Check that there is a common step."""
         from vorotool.errors import UsageError
-        from vorotool.geometry.spacing import MOST_STEPS, pixel_sides
+        from vorotool.types.spacing import MOST_STEPS, pixel_sides
 
         try:
             return pixel_sides(sides[::-1], len(sides))
@@ -84,7 +84,7 @@ class SpacingType(ParameterType[PixelSize]):
 
 def _ratios(units: list[str | None]) -> list[Fraction] | None:
     """Give how long the unit of each side is in that of the last one; without a unit all are in this one."""
-    from vorotool.geometry.length_units import ratio
+    from vorotool.numeric.length_units import ratio
 
     last = units[-1]
     if len({*units, None}) == 1 or not any(units[:-1]) or set(units) == {last}:

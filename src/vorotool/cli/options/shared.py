@@ -140,7 +140,7 @@ class CrsName(ParameterType[str]):
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
         """Check the name."""
-        from vorotool.geometry.crs import crs_member
+        from vorotool.numeric.crs import crs_member
 
         if crs_member(value) is None:
             self.fail(f"{value!r} is none: write authority and code, such as EPSG:3857 or OGC:CRS84", param, ctx)

@@ -10,12 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError, UsageError, option
-from vorotool.geometry.alpha.complex import CLASSES
-from vorotool.geometry.alpha.hull import AlphaHull
-from vorotool.geometry.alpha.shape import AlphaShape
-from vorotool.geometry.arguments.values import check_value
-from vorotool.geometry.curves.inverse_functions import angle_of, cosine_and_sine, hypotenuse, inverse_sine
-from vorotool.geometry.numbers import nearest_double, shown_number
+from vorotool.numeric.curves.inverse_functions import angle_of, cosine_and_sine, hypotenuse, inverse_sine
+from vorotool.numeric.numbers import nearest_double, shown_number
+from vorotool.types.alpha.complex import CLASSES
+from vorotool.types.alpha.hull import AlphaHull
+from vorotool.types.alpha.shape import AlphaShape
+from vorotool.types.arguments import check_value
 
 # Which discs there are is exact. Where their arcs meet is computed in doubles: crossings closer together than this
 # part of the radius are not told apart, some thousand roundings of it.

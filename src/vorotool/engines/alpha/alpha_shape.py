@@ -22,17 +22,17 @@ from vorotool.engines.alpha.few_points import (
 )
 from vorotool.engines.delaunay.delaunay import delaunay
 from vorotool.errors import InputError, UsageError, option
-from vorotool.geometry.alpha.complex import AlphaComplex, Radius, checked_radius
-from vorotool.geometry.alpha.shape import AlphaShape
-from vorotool.geometry.arguments.values import check_value
-from vorotool.geometry.checks import checked_threads, is_choice
-from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation
-from vorotool.geometry.mesh.triangulation import Triangulation
-from vorotool.geometry.numbers import real_number, shown_number, whole_number
-from vorotool.geometry.polygons.polygon_set import HOLE, SHELL, PolygonSet
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.ragged import ranges, starts_of
-from vorotool.geometry.table import Table
+from vorotool.numeric.checks import checked_threads, is_choice
+from vorotool.numeric.numbers import real_number, shown_number, whole_number
+from vorotool.numeric.progress import Progress
+from vorotool.numeric.ragged import ranges, starts_of
+from vorotool.types.alpha.complex import AlphaComplex, Radius, checked_radius
+from vorotool.types.alpha.shape import AlphaShape
+from vorotool.types.arguments import check_value
+from vorotool.types.mesh.digital_triangulation import DigitalTriangulation
+from vorotool.types.mesh.triangulation import Triangulation
+from vorotool.types.polygons.polygon_set import HOLE, SHELL, PolygonSet
+from vorotool.types.table import Table
 
 if TYPE_CHECKING:
     from vorotool.typing import AlphaRule, MeshLike, RealLike

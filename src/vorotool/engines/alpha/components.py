@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.geometry.alpha.complex import AlphaComplex
-from vorotool.geometry.mesh.triangulation import Triangulation
-from vorotool.geometry.numbers import nearest_double
-from vorotool.geometry.progress import Progress
+from vorotool.numeric.numbers import nearest_double
+from vorotool.numeric.progress import Progress
+from vorotool.types.alpha.complex import AlphaComplex
+from vorotool.types.mesh.triangulation import Triangulation
 
 
 def fill_and_drop(

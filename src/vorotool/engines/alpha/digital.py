@@ -6,9 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation
-from vorotool.geometry.mesh.triangulation import Triangulation
-from vorotool.geometry.points.point_set import known_of_points
+from vorotool.types.mesh.digital_triangulation import DigitalTriangulation
+from vorotool.types.mesh.triangulation import Triangulation
+from vorotool.types.points.point_set import known_of_points
 
 
 def linked_digital(found: DigitalTriangulation) -> tuple[Triangulation, NDArray[np.int32], NDArray[np.int32]]:

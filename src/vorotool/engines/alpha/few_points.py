@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import STRICT, InputError, VorotoolWarning, option, warn
-from vorotool.geometry.alpha.complex import AlphaComplex
-from vorotool.geometry.points.seed_set import SeedSet
+from vorotool.types.alpha.complex import AlphaComplex
+from vorotool.types.points.seed_set import SeedSet
 
 GIVE_R = f": give r itself{option(' (-r)', '')}"
 """Advice where no radius can be chosen."""

@@ -10,9 +10,9 @@ from vorotool import _core
 from vorotool.engines.alpha.alpha_shape import alpha_complex, automatic_rank
 from vorotool.engines.alpha.few_points import unjoined
 from vorotool.errors import UsageError
-from vorotool.geometry.alpha.complex import AlphaComplex
-from vorotool.geometry.alpha.persistence import RegionPersistence
-from vorotool.geometry.progress import Progress
+from vorotool.numeric.progress import Progress
+from vorotool.types.alpha.complex import AlphaComplex
+from vorotool.types.alpha.persistence import RegionPersistence
 
 if TYPE_CHECKING:
     from vorotool.typing import MeshLike

@@ -10,13 +10,13 @@ from numpy.typing import NDArray
 
 from vorotool.engines.delaunay.delaunay import verify_triangulation
 from vorotool.errors import VerificationError
-from vorotool.geometry.alpha.complex import CLASSES, AlphaComplex, Radius
-from vorotool.geometry.alpha.shape import AlphaShape
-from vorotool.geometry.arguments.values import check_value
-from vorotool.geometry.mesh.triangulation import Triangulation
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.ragged import owners
-from vorotool.geometry.sorted_sets import distinct
+from vorotool.numeric.progress import Progress
+from vorotool.numeric.ragged import owners
+from vorotool.numeric.sorted_sets import distinct
+from vorotool.types.alpha.complex import CLASSES, AlphaComplex, Radius
+from vorotool.types.alpha.shape import AlphaShape
+from vorotool.types.arguments import check_value
+from vorotool.types.mesh.triangulation import Triangulation
 
 # Relative error of a squared radius in floating point: a few roundings, and those of the cross product many times as
 # much where it cancels. What is closer to r than this is decided in rational numbers.

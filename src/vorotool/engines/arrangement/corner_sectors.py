@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.curves.inverse_functions import angle_of
-from vorotool.geometry.polygons.planar_graph import PlanarGraph
-from vorotool.geometry.ragged import following
+from vorotool.numeric.curves.inverse_functions import angle_of
+from vorotool.numeric.ragged import following
+from vorotool.types.polygons.planar_graph import PlanarGraph
 
 Indices = NDArray[np.int64]
 

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet
-from vorotool.geometry.ragged import owners
+from vorotool.numeric.ragged import owners
+from vorotool.types.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet
 
 
 def flat_holes(polygons: PolygonSet, places: NDArray[Any] | None = None) -> NDArray[np.bool_]:

@@ -9,12 +9,12 @@ from numpy.typing import NDArray
 
 from vorotool.engines.arrangement.polygon_regions import PolygonRegions
 from vorotool.engines.arrangement.repaired_polygons import inner_faces, parts_of_edges, repaired_polygons
-from vorotool.geometry.polygons.planar_graph import PlanarGraph
-from vorotool.geometry.polygons.polygon_set import PolygonSet
-from vorotool.geometry.polygons.repaired_polygons import RepairedPolygons
-from vorotool.geometry.polygons.ring_arrays import RingArrays
-from vorotool.geometry.ragged import owners
-from vorotool.geometry.skeleton.skeleton import EDGE, VERTEX, SiteTable
+from vorotool.numeric.ragged import owners
+from vorotool.types.polygons.planar_graph import PlanarGraph
+from vorotool.types.polygons.polygon_set import PolygonSet
+from vorotool.types.polygons.repaired_polygons import RepairedPolygons
+from vorotool.types.polygons.ring_arrays import RingArrays
+from vorotool.types.skeleton.skeleton import EDGE, VERTEX, SiteTable
 
 
 @dataclass(frozen=True, eq=False)

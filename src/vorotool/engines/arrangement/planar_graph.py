@@ -10,17 +10,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
+from vorotool.convert.polygons import as_polygons
 from vorotool.engines.arrangement.flat_rings import flat_holes, with_flat_shells_as_lines
 from vorotool.engines.arrangement.reports import report_repairs, report_small
 from vorotool.errors import LimitError, VerificationError
-from vorotool.geometry.arguments.polygons import as_polygons
-from vorotool.geometry.arguments.values import check_value
-from vorotool.geometry.checks import checked_threads
-from vorotool.geometry.magnitude import check_magnitude
-from vorotool.geometry.polygons.planar_graph import REPAIRS, PlanarGraph
-from vorotool.geometry.polygons.polygon_set import LINE, PolygonSet
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.ragged import divides, owners, ranges
+from vorotool.numeric.checks import checked_threads
+from vorotool.numeric.progress import Progress
+from vorotool.numeric.ragged import divides, owners, ranges
+from vorotool.types.arguments import check_value
+from vorotool.types.magnitude import check_magnitude
+from vorotool.types.polygons.planar_graph import REPAIRS, PlanarGraph
+from vorotool.types.polygons.polygon_set import LINE, PolygonSet
 
 if TYPE_CHECKING:
     from vorotool.typing import PolygonsLike

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.polygons.planar_graph import PlanarGraph
-from vorotool.geometry.ragged import owners, ranges
-from vorotool.geometry.skeleton.tables import connected_roots
+from vorotool.numeric.ragged import owners, ranges
+from vorotool.types.polygons.planar_graph import PlanarGraph
+from vorotool.types.skeleton.tables import connected_roots
 
 Indices = NDArray[np.int64]
 

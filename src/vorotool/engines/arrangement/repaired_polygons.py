@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.engines.arrangement.flat_rings import flat_holes
 from vorotool.engines.arrangement.polygon_regions import PolygonRegions
-from vorotool.geometry.polygons.planar_graph import PlanarGraph
-from vorotool.geometry.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet
-from vorotool.geometry.polygons.repaired_polygons import RepairedPolygons
-from vorotool.geometry.ragged import owners, ranges, starts_of
-from vorotool.geometry.row_index import index_of_rows
+from vorotool.numeric.ragged import owners, ranges, starts_of
+from vorotool.numeric.row_index import index_of_rows
+from vorotool.types.polygons.planar_graph import PlanarGraph
+from vorotool.types.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet
+from vorotool.types.polygons.repaired_polygons import RepairedPolygons
 
 
 @dataclass(frozen=True)

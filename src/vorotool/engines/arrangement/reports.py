@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import STRICT, InputError, RepairWarning, warn
-from vorotool.geometry.polygons.planar_graph import REPAIRS
-from vorotool.geometry.polygons.polygon_set import PolygonSet
-from vorotool.geometry.ragged import owners, ranges, starts_of
-from vorotool.geometry.sorted_sets import distinct
+from vorotool.numeric.ragged import owners, ranges, starts_of
+from vorotool.numeric.sorted_sets import distinct
+from vorotool.types.polygons.planar_graph import REPAIRS
+from vorotool.types.polygons.polygon_set import PolygonSet
 
 if TYPE_CHECKING:
     from vorotool.engines.arrangement.planar_graph import Placement

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.convert.points import as_place
 from vorotool.engines.centerlines.ends import Unforked, forked, unforked
 from vorotool.engines.centerlines.leading_on import led_on, rounded
 from vorotool.engines.centerlines.oblique_ends import led_to_oblique_ends
@@ -16,14 +17,13 @@ from vorotool.engines.centerlines.path_network import Network, Paths, Pieces, ge
 from vorotool.engines.centerlines.strip_ends import at_strip_ends
 from vorotool.engines.skeleton.parts import with_arcs
 from vorotool.errors import InputError, UsageError, warn
-from vorotool.geometry.arguments.points import as_place
-from vorotool.geometry.arguments.values import check_value
-from vorotool.geometry.checks import is_choice
-from vorotool.geometry.magnitude import check_lengths
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.ragged import starts_of
-from vorotool.geometry.skeleton.centerline import Centerlines, without_centerline
-from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.numeric.checks import is_choice
+from vorotool.numeric.progress import Progress
+from vorotool.numeric.ragged import starts_of
+from vorotool.types.arguments import check_value
+from vorotool.types.magnitude import check_lengths
+from vorotool.types.skeleton.centerline import Centerlines, without_centerline
+from vorotool.types.skeleton.skeleton import Skeleton
 
 if TYPE_CHECKING:
     from vorotool.typing import PointsLike

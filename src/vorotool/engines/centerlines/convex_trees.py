@@ -15,7 +15,7 @@ from heapq import heapify, heappop, heappush
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.ragged import owners
+from vorotool.numeric.ragged import owners
 
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.intp]

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.centerlines.edge_comparisons import is_blunt
-from vorotool.geometry.ragged import owners, ranges
-from vorotool.geometry.skeleton.skeleton import EDGE, INTERIOR, Skeleton, ends_of_sites
+from vorotool.numeric.ragged import owners, ranges
+from vorotool.types.skeleton.skeleton import EDGE, INTERIOR, Skeleton, ends_of_sites
 
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.intp]

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.exact_products import difference, product
+from vorotool.numeric.exact_products import difference, product
 
 Floats = NDArray[np.float64]
 

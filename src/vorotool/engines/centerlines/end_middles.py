@@ -21,8 +21,8 @@ from numpy.typing import NDArray
 
 from vorotool.engines.centerlines.walks import Walks
 from vorotool.engines.from_skeleton.boundary_rays import first_crossings
-from vorotool.geometry.ragged import owners, starts_of, within
-from vorotool.geometry.skeleton.skeleton import EDGE, Skeleton
+from vorotool.numeric.ragged import owners, starts_of, within
+from vorotool.types.skeleton.skeleton import EDGE, Skeleton
 
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.intp]

@@ -21,9 +21,9 @@ from numpy.typing import NDArray
 
 from vorotool.engines.pruning.pruning import prune
 from vorotool.engines.skeleton.parts import with_arcs
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.skeleton.skeleton import EDGE, INTERIOR, Skeleton
-from vorotool.geometry.skeleton.tables import connected_roots
+from vorotool.numeric.progress import Progress
+from vorotool.types.skeleton.skeleton import EDGE, INTERIOR, Skeleton
+from vorotool.types.skeleton.tables import connected_roots
 
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.intp]

@@ -22,8 +22,8 @@ from vorotool.engines.centerlines.passed_corners import are_passed
 from vorotool.engines.centerlines.pruned_twigs import with_pruned_twigs
 from vorotool.engines.centerlines.round_ends import MOST_WITH_ENDS, grown_runs
 from vorotool.engines.skeleton.parts import with_straight_arcs
-from vorotool.geometry.skeleton.skeleton import INTERIOR, Skeleton, ends_of_sites
-from vorotool.geometry.skeleton.tables import connected_roots
+from vorotool.types.skeleton.skeleton import INTERIOR, Skeleton, ends_of_sites
+from vorotool.types.skeleton.tables import connected_roots
 
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.intp]

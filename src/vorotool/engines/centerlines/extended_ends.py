@@ -12,10 +12,10 @@ import numpy as np
 from vorotool.engines.centerlines.end_pieces import without_end_pieces
 from vorotool.engines.centerlines.leading_on import led_on, rounded
 from vorotool.engines.skeleton.parts import with_arcs
-from vorotool.geometry.arguments.values import check_value
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.skeleton.extended import ExtendedSkeleton
-from vorotool.geometry.skeleton.skeleton import INTERIOR, Skeleton
+from vorotool.numeric.progress import Progress
+from vorotool.types.arguments import check_value
+from vorotool.types.skeleton.extended import ExtendedSkeleton
+from vorotool.types.skeleton.skeleton import INTERIOR, Skeleton
 
 
 def extend_ends(skeleton: Skeleton, *, threads: int = 0, progress: Progress = None) -> ExtendedSkeleton:

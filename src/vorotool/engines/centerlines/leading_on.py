@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from vorotool.engines.centerlines.end_middles import end_middles
 from vorotool.engines.from_skeleton.boundary_rays import first_hits
-from vorotool.geometry.skeleton.led_on import LedOn
+from vorotool.types.skeleton.led_on import LedOn
 
 Floats = NDArray[np.float64]
 

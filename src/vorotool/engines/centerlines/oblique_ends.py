@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.from_skeleton.boundary_rays import first_hits
-from vorotool.geometry.skeleton.centerline import Centerlines
-from vorotool.geometry.skeleton.skeleton import EDGE, Skeleton
+from vorotool.types.skeleton.centerline import Centerlines
+from vorotool.types.skeleton.skeleton import EDGE, Skeleton
 
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.intp]

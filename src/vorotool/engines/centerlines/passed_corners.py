@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from vorotool.engines.centerlines.corner_twigs import Branches, Twigs
 from vorotool.engines.centerlines.edge_comparisons import is_blunt
-from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.types.skeleton.skeleton import Skeleton
 
 Numbers = NDArray[np.intp]
 Booleans = NDArray[np.bool_]

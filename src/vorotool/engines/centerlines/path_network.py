@@ -12,9 +12,9 @@ from vorotool.engines.centerlines.edge_comparisons import TIE
 from vorotool.engines.centerlines.ends import Unforked
 from vorotool.engines.from_skeleton.nearest_point import nearest_place
 from vorotool.engines.skeleton.core_skeleton import core_skeleton
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.ragged import owners, starts_of
-from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.numeric.progress import Progress
+from vorotool.numeric.ragged import owners, starts_of
+from vorotool.types.skeleton.skeleton import Skeleton
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int32]

@@ -20,9 +20,9 @@ from numpy.typing import NDArray
 
 from vorotool.engines.centerlines.convex_trees import Chains, convex_trees
 from vorotool.engines.skeleton.parts import with_straight_arcs
-from vorotool.geometry.ragged import owners, starts_of, within
-from vorotool.geometry.skeleton.skeleton import EDGE, INTERIOR, Skeleton
-from vorotool.geometry.sorted_sets import is_among
+from vorotool.numeric.ragged import owners, starts_of, within
+from vorotool.numeric.sorted_sets import is_among
+from vorotool.types.skeleton.skeleton import EDGE, INTERIOR, Skeleton
 
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.intp]

@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.centerlines.corner_twigs import Branches, Pairs, Twigs
-from vorotool.geometry.ragged import starts_of
-from vorotool.geometry.skeleton.tables import connected_roots
+from vorotool.numeric.ragged import starts_of
+from vorotool.types.skeleton.tables import connected_roots
 
 Numbers = NDArray[np.intp]
 

@@ -22,8 +22,8 @@ from numpy.typing import NDArray
 from vorotool.engines.centerlines.end_pieces import TIP, Reaches
 from vorotool.engines.centerlines.ends import Unforked
 from vorotool.engines.centerlines.path_network import Pieces
-from vorotool.geometry.ragged import owners, starts_of
-from vorotool.geometry.skeleton.skeleton import INTERIOR
+from vorotool.numeric.ragged import owners, starts_of
+from vorotool.types.skeleton.skeleton import INTERIOR
 
 BUMP = 0.25
 """In radii of the disc that a piece hangs on: what is shorter is no branch beside a line."""

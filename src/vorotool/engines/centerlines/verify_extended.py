@@ -12,10 +12,10 @@ from vorotool.engines.centerlines.end_pieces import HAIR, TIP
 from vorotool.engines.common.faults import fail, first_wrong
 from vorotool.engines.pruning.verify_pruning import check_counts
 from vorotool.engines.skeleton.parts import with_arcs
-from vorotool.geometry.arguments.values import check_value
-from vorotool.geometry.polygons.conversion import to_shapely
-from vorotool.geometry.skeleton.extended import ExtendedSkeleton
-from vorotool.geometry.skeleton.skeleton import INTERIOR, Skeleton
+from vorotool.types.arguments import check_value
+from vorotool.types.polygons.conversion import to_shapely
+from vorotool.types.skeleton.extended import ExtendedSkeleton
+from vorotool.types.skeleton.skeleton import INTERIOR, Skeleton
 
 PRECISION = 2.0**-40
 """Of the largest coordinate: how far rounded places may be from the boundary, or outside."""

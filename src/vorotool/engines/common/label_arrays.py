@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
-from vorotool.geometry.checks import as_array
+from vorotool.numeric.checks import as_array
 
 
 def label_array(labels: NDArray[Any], what: str = "pixel") -> NDArray[Any]:

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.spacing import SQUARE, PixelSides
-from vorotool.geometry.table import Table
+from vorotool.numeric.progress import Progress
+from vorotool.types.spacing import SQUARE, PixelSides
+from vorotool.types.table import Table
 
 
 def rows_of(found: NDArray[np.uint32], labels: NDArray[np.uint32]) -> tuple[NDArray[np.intp], int | None]:
@@ -57,6 +57,6 @@ def in_unit(table: Table, sides: PixelSides) -> Table:
     """Give a table whose lengths are steps of the sides of pixels in the unit of these."""
     if sides == SQUARE:
         return table
-    from vorotool.geometry.scaling import scaled_table  # imports all that can be scaled
+    from vorotool.types.scaling import scaled_table  # imports all that can be scaled
 
     return scaled_table(table, sides.step, of_steps=True)

@@ -13,14 +13,14 @@ from vorotool.engines.delaunay.delaunay import delaunay
 from vorotool.engines.delaunay.proximity import proximity_graph
 from vorotool.engines.delaunay.site_table import site_table
 from vorotool.errors import UsageError
-from vorotool.geometry.checks import checked_threads
-from vorotool.geometry.mesh.cells import CellSet
-from vorotool.geometry.mesh.statistics import CellStatistics
-from vorotool.geometry.mesh.triangulation import Triangulation
-from vorotool.geometry.points.label_image import LabelImage
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.table import Table
+from vorotool.numeric.checks import checked_threads
+from vorotool.numeric.progress import Progress
 from vorotool.products.formats import resolved
+from vorotool.types.mesh.cells import CellSet
+from vorotool.types.mesh.statistics import CellStatistics
+from vorotool.types.mesh.triangulation import Triangulation
+from vorotool.types.points.label_image import LabelImage
+from vorotool.types.table import Table
 
 if TYPE_CHECKING:
     from vorotool.typing import FrameLike, MeshLike, PolygonsLike

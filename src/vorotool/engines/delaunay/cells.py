@@ -9,19 +9,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
+from vorotool.convert.boxes import as_box
+from vorotool.convert.polygons import as_geometry
 from vorotool.engines.delaunay.delaunay import core_mesh, delaunay
 from vorotool.engines.delaunay.local_areas import cut_out
 from vorotool.errors import InputError, VerificationError, warn
-from vorotool.geometry.arguments.boxes import as_box
-from vorotool.geometry.arguments.polygons import as_geometry
-from vorotool.geometry.arguments.values import check_value
-from vorotool.geometry.box import Box
-from vorotool.geometry.checks import checked_threads
-from vorotool.geometry.crs import crs_name, same_crs
-from vorotool.geometry.mesh.cells import CellSet
-from vorotool.geometry.mesh.triangulation import Triangulation
-from vorotool.geometry.points.point_set import known_of_points
-from vorotool.geometry.progress import Progress
+from vorotool.numeric.checks import checked_threads
+from vorotool.numeric.crs import crs_name, same_crs
+from vorotool.numeric.progress import Progress
+from vorotool.types.arguments import check_value
+from vorotool.types.box import Box
+from vorotool.types.mesh.cells import CellSet
+from vorotool.types.mesh.triangulation import Triangulation
+from vorotool.types.points.point_set import known_of_points
 
 if TYPE_CHECKING:
     from vorotool.typing import FrameLike, MeshLike, PolygonsLike

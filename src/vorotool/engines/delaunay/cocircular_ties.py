@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.geometry.mesh.triangulation import Triangulation
+from vorotool.types.mesh.triangulation import Triangulation
 
 
 class CocircularTies:

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from vorotool import _core
+from vorotool.convert.points import as_points
 from vorotool.errors import STRICT, InputError, LimitError, VerificationError, warn
-from vorotool.geometry.arguments.points import as_points
-from vorotool.geometry.arguments.values import check_value
-from vorotool.geometry.checks import checked_flag, checked_threads
-from vorotool.geometry.mesh.triangulation import Triangulation
-from vorotool.geometry.points.point_set import known_of_points
-from vorotool.geometry.progress import Progress
+from vorotool.numeric.checks import checked_flag, checked_threads
+from vorotool.numeric.progress import Progress
+from vorotool.types.arguments import check_value
+from vorotool.types.mesh.triangulation import Triangulation
+from vorotool.types.points.point_set import known_of_points
 
 if TYPE_CHECKING:
     from vorotool.typing import SeedsLike

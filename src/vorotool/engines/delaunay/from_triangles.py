@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from vorotool import _core
+from vorotool.convert.points import as_points
 from vorotool.errors import InputError
-from vorotool.geometry.arguments.points import as_points
-from vorotool.geometry.checks import as_array
-from vorotool.geometry.mesh.triangulation import Triangulation
-from vorotool.geometry.points.point_set import known_of_points
+from vorotool.numeric.checks import as_array
+from vorotool.types.mesh.triangulation import Triangulation
+from vorotool.types.points.point_set import known_of_points
 
 Indices = NDArray[np.int32]
 

@@ -8,15 +8,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
+from vorotool.convert.points import as_points
 from vorotool.engines.delaunay.delaunay import MOST_POINTS, core_mesh, delaunay, report_duplicates
 from vorotool.errors import InputError, LimitError
-from vorotool.geometry.arguments.points import as_points
-from vorotool.geometry.arguments.values import check_value
-from vorotool.geometry.checks import checked_threads, whole_numbers
-from vorotool.geometry.mesh.triangulation import Triangulation
-from vorotool.geometry.points.point_set import PointSet, known_of_points
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.row_index import joined_index
+from vorotool.numeric.checks import checked_threads, whole_numbers
+from vorotool.numeric.progress import Progress
+from vorotool.numeric.row_index import joined_index
+from vorotool.types.arguments import check_value
+from vorotool.types.mesh.triangulation import Triangulation
+from vorotool.types.points.point_set import PointSet, known_of_points
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.ragged import owners, starts_of
+from vorotool.numeric.ragged import owners, starts_of
 
 Floats = NDArray[np.float64]
 

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 from vorotool import _core
 from vorotool.engines.delaunay.delaunay import core_mesh, delaunay
 from vorotool.errors import InputError, UsageError
-from vorotool.geometry.checks import checked_threads, is_choice
-from vorotool.geometry.mesh.proximity import KINDS, ProximityGraph
-from vorotool.geometry.mesh.triangulation import Triangulation
-from vorotool.geometry.progress import Progress
+from vorotool.numeric.checks import checked_threads, is_choice
+from vorotool.numeric.progress import Progress
+from vorotool.types.mesh.proximity import KINDS, ProximityGraph
+from vorotool.types.mesh.triangulation import Triangulation
 
 if TYPE_CHECKING:
     from vorotool.typing import MeshLike, ProximityKind

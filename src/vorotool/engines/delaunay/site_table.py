@@ -9,13 +9,13 @@ import numpy as np
 from vorotool import _core
 from vorotool.engines.delaunay.cells import voronoi_cells
 from vorotool.errors import InputError
-from vorotool.geometry.arguments.values import check_value
-from vorotool.geometry.checks import checked_flag, checked_threads
-from vorotool.geometry.curves.inverse_functions import hypotenuse
-from vorotool.geometry.mesh.cells import CellSet
-from vorotool.geometry.mesh.triangulation import Triangulation
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.table import Table
+from vorotool.numeric.checks import checked_flag, checked_threads
+from vorotool.numeric.curves.inverse_functions import hypotenuse
+from vorotool.numeric.progress import Progress
+from vorotool.types.arguments import check_value
+from vorotool.types.mesh.cells import CellSet
+from vorotool.types.mesh.triangulation import Triangulation
+from vorotool.types.table import Table
 
 if TYPE_CHECKING:
     from vorotool.typing import FrameLike

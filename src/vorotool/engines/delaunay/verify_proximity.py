@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import VerificationError
-from vorotool.geometry.arguments.values import check_value
-from vorotool.geometry.mesh.proximity import KINDS, ProximityGraph
+from vorotool.types.arguments import check_value
+from vorotool.types.mesh.proximity import KINDS, ProximityGraph
 
 _NEAR, _NEARER = 1 + 2.0**-30, 2.0**-50
 """What distances are taken larger by, so that rounding leaves out no point: a factor for their own, and of coordinates

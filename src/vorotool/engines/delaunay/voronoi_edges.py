@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.curves.inverse_functions import hypotenuse
-from vorotool.geometry.mesh.triangulation import Triangulation
+from vorotool.numeric.curves.inverse_functions import hypotenuse
+from vorotool.types.mesh.triangulation import Triangulation
 
 
 def voronoi_lengths(

@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.delaunay.voronoi_edges import voronoi_lengths
-from vorotool.geometry.curves.inverse_functions import hypotenuse
-from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation
-from vorotool.geometry.mesh.triangulation import Triangulation
-from vorotool.geometry.pixel_frame import Frame
+from vorotool.numeric.curves.inverse_functions import hypotenuse
+from vorotool.types.mesh.digital_triangulation import DigitalTriangulation
+from vorotool.types.mesh.triangulation import Triangulation
+from vorotool.types.pixel_frame import Frame
 
 SHORT = 1.5
 """Pixels. The centers of the four pixels around a corner lie within √2 of each other: a Voronoi edge that is no longer

@@ -19,12 +19,12 @@ from vorotool.engines.label_images.regions import measure_regions
 from vorotool.engines.tessellation.frames import as_seeds, asked_frame, default_frame, require_memory
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import Message, option
-from vorotool.geometry.checks import checked_threads
-from vorotool.geometry.mesh.digital_comparison import DigitalComparison
-from vorotool.geometry.pixel_frame import MAX_PIXELS, Frame
-from vorotool.geometry.points.label_image import LabelImage
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.table import Table
+from vorotool.numeric.checks import checked_threads
+from vorotool.numeric.progress import Progress
+from vorotool.types.mesh.digital_comparison import DigitalComparison
+from vorotool.types.pixel_frame import MAX_PIXELS, Frame
+from vorotool.types.points.label_image import LabelImage
+from vorotool.types.table import Table
 
 if TYPE_CHECKING:
     from vorotool.typing import SeedsLike

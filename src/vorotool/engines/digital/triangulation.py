@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
+from vorotool.convert.spacings import asked_sides
 from vorotool.engines.common.label_arrays import label_array
 from vorotool.engines.delaunay.delaunay import MOST_POINTS, delaunay, triangulation_fault
 from vorotool.engines.label_images.regions import measure_regions
@@ -22,16 +23,15 @@ from vorotool.engines.tessellation.frames import (
 )
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import InputError, LimitError, UsageError, option, warn
-from vorotool.geometry.arguments.spacings import asked_sides
-from vorotool.geometry.checks import checked_threads
-from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation
-from vorotool.geometry.mesh.triangulation import Triangulation
-from vorotool.geometry.pixel_frame import MAX_PIXELS
-from vorotool.geometry.points.label_image import LabelImage
-from vorotool.geometry.points.seed_set import SeedSet
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.scaling import scaled
-from vorotool.geometry.spacing import PixelSides
+from vorotool.numeric.checks import checked_threads
+from vorotool.numeric.progress import Progress
+from vorotool.types.mesh.digital_triangulation import DigitalTriangulation
+from vorotool.types.mesh.triangulation import Triangulation
+from vorotool.types.pixel_frame import MAX_PIXELS
+from vorotool.types.points.label_image import LabelImage
+from vorotool.types.points.seed_set import SeedSet
+from vorotool.types.scaling import scaled
+from vorotool.types.spacing import PixelSides
 
 if TYPE_CHECKING:
     from vorotool.typing import SeedsLike, Spacing

@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.convert.spacings import asked_sides
 from vorotool.engines.tessellation.frames import as_seeds, asked_frame, band_limits, default_frame
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.engines.tessellation.verify_tessellation import verify_label_image
 from vorotool.errors import VerificationError
-from vorotool.geometry.arguments.spacings import asked_sides
-from vorotool.geometry.arguments.values import check_value
-from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation
-from vorotool.geometry.pixel_frame import Frame
+from vorotool.types.arguments import check_value
+from vorotool.types.mesh.digital_triangulation import DigitalTriangulation
+from vorotool.types.pixel_frame import Frame
 
 if TYPE_CHECKING:
     from vorotool.typing import SeedsLike, Spacing

@@ -7,9 +7,9 @@ from typing import Any
 from vorotool import _core
 from vorotool.engines.distances.inner_places import farthest_inner_place
 from vorotool.engines.distances.measured_shape import MeasuredShape, measured_shapes
-from vorotool.geometry.checks import checked_flag, checked_threads
-from vorotool.geometry.distances.distances import Distances, PlacePair
-from vorotool.geometry.progress import Progress
+from vorotool.numeric.checks import checked_flag, checked_threads
+from vorotool.numeric.progress import Progress
+from vorotool.types.distances.distances import Distances, PlacePair
 
 
 def hausdorff(

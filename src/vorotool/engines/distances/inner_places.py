@@ -14,10 +14,10 @@ from vorotool.engines.arrangement.planar_graph import graph_for_skeletons
 from vorotool.engines.distances.measured_shape import MeasuredShape
 from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, unwanted_sides
 from vorotool.errors import RepairWarning
-from vorotool.geometry.distances.distances import PlacePair
-from vorotool.geometry.polygons.planar_graph import PlanarGraph
-from vorotool.geometry.ragged import ranges
-from vorotool.geometry.skeleton.segment_voronoi import SegmentVoronoiDiagram
+from vorotool.numeric.ragged import ranges
+from vorotool.types.distances.distances import PlacePair
+from vorotool.types.polygons.planar_graph import PlanarGraph
+from vorotool.types.skeleton.segment_voronoi import SegmentVoronoiDiagram
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]

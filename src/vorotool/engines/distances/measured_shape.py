@@ -9,14 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
+from vorotool.convert.sites import as_sites
 from vorotool.errors import InputError
-from vorotool.geometry.arguments.sites import as_sites
-from vorotool.geometry.checks import checked_flag
-from vorotool.geometry.crs import crs_name, same_crs
-from vorotool.geometry.magnitude import check_magnitude
-from vorotool.geometry.polygons.polygon_set import HOLE, LINE, PolygonSet
-from vorotool.geometry.polygons.used_shapes import with_used_rings
-from vorotool.geometry.progress import Progress
+from vorotool.numeric.checks import checked_flag
+from vorotool.numeric.crs import crs_name, same_crs
+from vorotool.numeric.progress import Progress
+from vorotool.types.magnitude import check_magnitude
+from vorotool.types.polygons.polygon_set import HOLE, LINE, PolygonSet
+from vorotool.types.polygons.used_shapes import with_used_rings
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,9 +6,9 @@ from typing import Any
 
 from vorotool import _core
 from vorotool.engines.distances.measured_shape import measured_shapes
-from vorotool.geometry.checks import checked_threads
-from vorotool.geometry.distances.distances import Distances, PlacePair
-from vorotool.geometry.progress import Progress
+from vorotool.numeric.checks import checked_threads
+from vorotool.numeric.progress import Progress
+from vorotool.types.distances.distances import Distances, PlacePair
 
 
 def distance(a: Any, b: Any, *, boundary: bool = False, threads: int = 0, progress: Progress = None) -> Distances:

@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.common.faults import fail
-from vorotool.geometry.arguments.values import check_value
-from vorotool.geometry.curves.inverse_functions import hypotenuse
-from vorotool.geometry.distances.distances import FROM_A, FROM_B, SMALLEST, Distances, PlacePair
-from vorotool.geometry.polygons.polygon_set import LINE, PolygonSet
-from vorotool.geometry.polygons.used_shapes import used_shapes
+from vorotool.numeric.curves.inverse_functions import hypotenuse
+from vorotool.types.arguments import check_value
+from vorotool.types.distances.distances import FROM_A, FROM_B, SMALLEST, Distances, PlacePair
+from vorotool.types.polygons.polygon_set import LINE, PolygonSet
+from vorotool.types.polygons.used_shapes import used_shapes
 
 Floats = NDArray[np.float64]
 

@@ -24,16 +24,16 @@ from vorotool.engines.arrangement.reports import Found, report_repairs, report_s
 from vorotool.engines.features.crack_corners import OwnCorners, own_corners
 from vorotool.engines.features.sheets import Features, batches_of, sheets_of_boxes, sheets_of_cracks, touching_features
 from vorotool.errors import LimitError, warn
-from vorotool.geometry.box import bounds
-from vorotool.geometry.checks import available_threads
-from vorotool.geometry.magnitude import check_magnitude
-from vorotool.geometry.parallel import in_threads
-from vorotool.geometry.polygons.planar_graph import REPAIRS, PlanarGraph
-from vorotool.geometry.polygons.polygon_set import PolygonSet
-from vorotool.geometry.polygons.ring_arrays import RingArrays
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.ragged import owners, starts_of
-from vorotool.geometry.sorted_sets import distinct
+from vorotool.numeric.checks import available_threads
+from vorotool.numeric.parallel import in_threads
+from vorotool.numeric.progress import Progress
+from vorotool.numeric.ragged import owners, starts_of
+from vorotool.numeric.sorted_sets import distinct
+from vorotool.types.box import bounds
+from vorotool.types.magnitude import check_magnitude
+from vorotool.types.polygons.planar_graph import REPAIRS, PlanarGraph
+from vorotool.types.polygons.polygon_set import PolygonSet
+from vorotool.types.polygons.ring_arrays import RingArrays
 
 Indices = NDArray[np.int64]
 Result = TypeVar("Result")

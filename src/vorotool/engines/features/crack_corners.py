@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.polygons.polygon_set import LINE, PolygonSet
-from vorotool.geometry.ragged import starts_of
+from vorotool.numeric.ragged import starts_of
+from vorotool.types.polygons.polygon_set import LINE, PolygonSet
 
 Indices = NDArray[np.int64]
 

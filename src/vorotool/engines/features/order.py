@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.features.batches import BatchShapes, FeatureShapes
-from vorotool.geometry.polygons.polygon_set import PolygonSet
-from vorotool.geometry.polygons.ring_arrays import RingArrays
-from vorotool.geometry.ragged import owners, starts_of, within
-from vorotool.geometry.skeleton.skeleton import SiteTable
+from vorotool.numeric.ragged import owners, starts_of, within
+from vorotool.types.polygons.polygon_set import PolygonSet
+from vorotool.types.polygons.ring_arrays import RingArrays
+from vorotool.types.skeleton.skeleton import SiteTable
 
 Indices = NDArray[np.int64]
 

@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.geometry.polygons.polygon_set import PolygonSet
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.ragged import owners, ranges, starts_of
-from vorotool.geometry.sorted_sets import distinct
+from vorotool.numeric.progress import Progress
+from vorotool.numeric.ragged import owners, ranges, starts_of
+from vorotool.numeric.sorted_sets import distinct
+from vorotool.types.polygons.polygon_set import PolygonSet
 
 Indices = NDArray[np.int64]
 

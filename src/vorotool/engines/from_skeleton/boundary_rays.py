@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.polygons.polygon_set import PolygonSet
-from vorotool.geometry.ragged import owners, ranges
+from vorotool.numeric.ragged import owners, ranges
+from vorotool.types.polygons.polygon_set import PolygonSet
 
 Floats = NDArray[np.float64]
 

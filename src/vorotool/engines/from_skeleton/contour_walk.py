@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.skeleton.site_distances import SitePlaces
-from vorotool.geometry.curves.inverse_functions import angle_of
-from vorotool.geometry.ragged import following
-from vorotool.geometry.skeleton.skeleton import EDGE, Skeleton
-from vorotool.geometry.skeleton.tables import connected_roots
+from vorotool.numeric.curves.inverse_functions import angle_of
+from vorotool.numeric.ragged import following
+from vorotool.types.skeleton.skeleton import EDGE, Skeleton
+from vorotool.types.skeleton.tables import connected_roots
 
 Indices = NDArray[np.int64]
 

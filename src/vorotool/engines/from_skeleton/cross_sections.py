@@ -7,9 +7,9 @@ import shapely
 from numpy.typing import NDArray
 
 from vorotool.engines.from_skeleton.boundary_rays import first_crossings
-from vorotool.geometry.curves.inverse_functions import hypotenuse
-from vorotool.geometry.polygons.polygon_set import PolygonSet
-from vorotool.geometry.ragged import owners
+from vorotool.numeric.curves.inverse_functions import hypotenuse
+from vorotool.numeric.ragged import owners
+from vorotool.types.polygons.polygon_set import PolygonSet
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]

@@ -7,7 +7,7 @@ from dataclasses import dataclass, fields, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.types.skeleton.skeleton import Skeleton
 
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.intp]

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.skeleton.arc_measures import ArcMeasures
-from vorotool.geometry.skeleton.skeleton import EDGE, Skeleton
+from vorotool.types.skeleton.arc_measures import ArcMeasures
+from vorotool.types.skeleton.skeleton import EDGE, Skeleton
 
 Floats = NDArray[np.float64]
 

@@ -7,9 +7,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.curves.circular_arcs import chords_of
-from vorotool.geometry.curves.flatten import circle_tolerances
-from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.numeric.curves.circular_arcs import chords_of
+from vorotool.numeric.curves.flatten import circle_tolerances
+from vorotool.types.skeleton.skeleton import Skeleton
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]

@@ -7,22 +7,22 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.convert.boxes import as_extent
+from vorotool.convert.polygons import as_polygons
+from vorotool.convert.sites import as_sites
 from vorotool.engines.from_skeleton.disc_candidates import Candidates
 from vorotool.engines.from_skeleton.disc_places import bernstein_roots
 from vorotool.engines.from_skeleton.largest_discs import Axis, check_count
 from vorotool.engines.skeleton.diagrams import diagram_of_all, skeleton_in
 from vorotool.errors import InputError
-from vorotool.geometry.arguments.boxes import as_extent
-from vorotool.geometry.arguments.polygons import as_polygons
-from vorotool.geometry.arguments.sites import as_sites
-from vorotool.geometry.box import Box, Extent, bounds, corners_of, default_frame, extent_sides, is_extent
-from vorotool.geometry.checks import checked_threads
-from vorotool.geometry.polygons.polygon_set import PolygonSet
-from vorotool.geometry.polygons.used_shapes import used_shapes
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.ragged import starts_of
-from vorotool.geometry.skeleton.discs import Discs
-from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.numeric.checks import checked_threads
+from vorotool.numeric.progress import Progress
+from vorotool.numeric.ragged import starts_of
+from vorotool.types.box import Box, Extent, bounds, corners_of, default_frame, extent_sides, is_extent
+from vorotool.types.polygons.polygon_set import PolygonSet
+from vorotool.types.polygons.used_shapes import used_shapes
+from vorotool.types.skeleton.discs import Discs
+from vorotool.types.skeleton.skeleton import Skeleton
 
 if TYPE_CHECKING:
     from vorotool.typing import ImageLike, PointsLike, PolygonsLike

@@ -13,12 +13,12 @@ from vorotool.engines.skeleton.clearance import clearance_course, is_maximum, pl
 from vorotool.engines.skeleton.site_distances import SitePlaces
 from vorotool.engines.skeleton_api import skeleton_exact
 from vorotool.errors import UsageError
-from vorotool.geometry.checks import checked_flag
-from vorotool.geometry.numbers import whole_number
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.ragged import starts_of, within
-from vorotool.geometry.skeleton.discs import Discs
-from vorotool.geometry.skeleton.skeleton import INTERIOR, Skeleton
+from vorotool.numeric.checks import checked_flag
+from vorotool.numeric.numbers import whole_number
+from vorotool.numeric.progress import Progress
+from vorotool.numeric.ragged import starts_of, within
+from vorotool.types.skeleton.discs import Discs
+from vorotool.types.skeleton.skeleton import INTERIOR, Skeleton
 
 if TYPE_CHECKING:
     from vorotool.typing import FeaturesChoice, PolygonsLike

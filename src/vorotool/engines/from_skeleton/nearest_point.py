@@ -7,7 +7,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.types.skeleton.skeleton import Skeleton
 
 Floats = NDArray[np.float64]
 

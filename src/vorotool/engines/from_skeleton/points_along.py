@@ -9,15 +9,15 @@ from vorotool import _core
 from vorotool.engines.from_skeleton.sections import sections_along
 from vorotool.engines.skeleton.core_skeleton import core_skeleton
 from vorotool.errors import LimitError, UsageError
-from vorotool.geometry.arguments.values import check_value
-from vorotool.geometry.checks import checked_threads
-from vorotool.geometry.numbers import finite_double
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.skeleton.centerline import Centerlines
-from vorotool.geometry.skeleton.extended import ExtendedSkeleton
-from vorotool.geometry.skeleton.led_on import LedOn
-from vorotool.geometry.skeleton.points_along import SkeletonPoints
-from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.numeric.checks import checked_threads
+from vorotool.numeric.numbers import finite_double
+from vorotool.numeric.progress import Progress
+from vorotool.types.arguments import check_value
+from vorotool.types.skeleton.centerline import Centerlines
+from vorotool.types.skeleton.extended import ExtendedSkeleton
+from vorotool.types.skeleton.led_on import LedOn
+from vorotool.types.skeleton.points_along import SkeletonPoints
+from vorotool.types.skeleton.skeleton import Skeleton
 
 MOST_POINTS = 1 << 27
 """Some 10 GB of arrays."""

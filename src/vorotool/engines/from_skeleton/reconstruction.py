@@ -14,15 +14,15 @@ from vorotool.engines.from_skeleton.contour_walk import Contours, contours_of, s
 from vorotool.engines.from_skeleton.disc_union import Ring, covered_rings
 from vorotool.engines.from_skeleton.simple_rings import cut_at_repetitions, repeats, twice_areas
 from vorotool.errors import UsageError
-from vorotool.geometry.arguments.values import check_value
-from vorotool.geometry.curves.circular_arcs import chords_of, middles_of
-from vorotool.geometry.curves.flatten import circle_tolerances
-from vorotool.geometry.curves.inverse_functions import hypotenuse
-from vorotool.geometry.numbers import Flatten, checked_flatten
-from vorotool.geometry.polygons.polygon_set import HOLE, SHELL, PolygonSet
-from vorotool.geometry.ragged import owners, starts_of
-from vorotool.geometry.row_index import index_of_rows
-from vorotool.geometry.skeleton.skeleton import EDGE, INTERIOR, Skeleton, ends_of_sites
+from vorotool.numeric.curves.circular_arcs import chords_of, middles_of
+from vorotool.numeric.curves.flatten import circle_tolerances
+from vorotool.numeric.curves.inverse_functions import hypotenuse
+from vorotool.numeric.numbers import Flatten, checked_flatten
+from vorotool.numeric.ragged import owners, starts_of
+from vorotool.numeric.row_index import index_of_rows
+from vorotool.types.arguments import check_value
+from vorotool.types.polygons.polygon_set import HOLE, SHELL, PolygonSet
+from vorotool.types.skeleton.skeleton import EDGE, INTERIOR, Skeleton, ends_of_sites
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]

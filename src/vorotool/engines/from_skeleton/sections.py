@@ -9,11 +9,11 @@ import shapely
 from numpy.typing import NDArray
 
 from vorotool.engines.from_skeleton.cross_sections import section_ends
-from vorotool.geometry.curves.inverse_functions import hypotenuse
-from vorotool.geometry.polygons.conversion import to_shapely
-from vorotool.geometry.ragged import owners, within
-from vorotool.geometry.skeleton.led_on import LedOn
-from vorotool.geometry.skeleton.points_along import SkeletonPoints
+from vorotool.numeric.curves.inverse_functions import hypotenuse
+from vorotool.numeric.ragged import owners, within
+from vorotool.types.polygons.conversion import to_shapely
+from vorotool.types.skeleton.led_on import LedOn
+from vorotool.types.skeleton.points_along import SkeletonPoints
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.ragged import following, owners
+from vorotool.numeric.ragged import following, owners
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]

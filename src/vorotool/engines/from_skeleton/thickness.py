@@ -11,11 +11,11 @@ from vorotool import _core
 from vorotool.engines.skeleton.core_skeleton import core_skeleton
 from vorotool.engines.skeleton.parts import with_arcs
 from vorotool.errors import InputError
-from vorotool.geometry.arguments.values import check_value
-from vorotool.geometry.checks import checked_threads
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.skeleton.skeleton import INTERIOR, Skeleton
+from vorotool.numeric.checks import checked_threads
+from vorotool.numeric.progress import Progress
+from vorotool.types.arguments import check_value
 from vorotool.types.axis import is_up
+from vorotool.types.skeleton.skeleton import INTERIOR, Skeleton
 
 SLACK = 46
 """A disc covers what is at most 2^-46 of the largest coordinate beyond it: 64 units in the last place of that."""

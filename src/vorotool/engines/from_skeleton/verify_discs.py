@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 
 from vorotool.engines.common.faults import fail, first_wrong
 from vorotool.engines.skeleton.site_distances import ULPS, largest_coordinate
-from vorotool.geometry.arguments.values import check_value
-from vorotool.geometry.polygons.polygon_set import PolygonSet
-from vorotool.geometry.polygons.used_shapes import used_shapes
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.skeleton.discs import Discs
+from vorotool.numeric.progress import Progress
+from vorotool.types.arguments import check_value
+from vorotool.types.polygons.polygon_set import PolygonSet
+from vorotool.types.polygons.used_shapes import used_shapes
+from vorotool.types.skeleton.discs import Discs
 
 if TYPE_CHECKING:
     from shapely import STRtree
@@ -92,7 +92,7 @@ def _check_feet(discs: Discs, tolerance: float) -> None:
     at = first_wrong(~(away <= tolerance))
     if at is not None:
         fail(f"a foot of disc {disc[at]} is {away[at]} off its circle")
-    from vorotool.geometry.skeleton.skeleton import ends_of_sites
+    from vorotool.types.skeleton.skeleton import ends_of_sites
 
     ends = ends_of_sites(discs.polygons, discs.site_table, discs.foot_site)
     way, from_end = ends[:, 1] - ends[:, 0], discs.feet - ends[:, 0]

@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 
 from vorotool.engines.common.faults import fail, first_wrong
 from vorotool.engines.skeleton.site_distances import SitePlaces
-from vorotool.geometry.curves.inverse_functions import hypotenuse
-from vorotool.geometry.polygons.conversion import to_shapely
-from vorotool.geometry.ragged import owners, starts_of
-from vorotool.geometry.skeleton.led_on import LedOn
-from vorotool.geometry.skeleton.points_along import SkeletonPoints
-from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.numeric.curves.inverse_functions import hypotenuse
+from vorotool.numeric.ragged import owners, starts_of
+from vorotool.types.polygons.conversion import to_shapely
+from vorotool.types.skeleton.led_on import LedOn
+from vorotool.types.skeleton.points_along import SkeletonPoints
+from vorotool.types.skeleton.skeleton import Skeleton
 
 Floats = NDArray[np.float64]
 Booleans = NDArray[np.bool_]

@@ -10,13 +10,13 @@ from numpy.typing import NDArray
 
 from vorotool.engines.common.faults import fail
 from vorotool.errors import InputError, UsageError
-from vorotool.geometry.arguments.descriptions import described
-from vorotool.geometry.arguments.values import check_value
-from vorotool.geometry.checks import as_array
-from vorotool.geometry.numbers import pair_of_doubles, shown_number, whole_number
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.skeleton.skeleton import EDGE, INTERIOR, Skeleton
+from vorotool.numeric.checks import as_array
+from vorotool.numeric.descriptions import described
+from vorotool.numeric.numbers import pair_of_doubles, shown_number, whole_number
+from vorotool.numeric.progress import Progress
+from vorotool.types.arguments import check_value
 from vorotool.types.axis import is_up
+from vorotool.types.skeleton.skeleton import EDGE, INTERIOR, Skeleton
 
 Floats = NDArray[np.float64]
 

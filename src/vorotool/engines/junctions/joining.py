@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.skeleton.core_skeleton import core_skeleton
-from vorotool.geometry.arguments.values import check_value
-from vorotool.geometry.ragged import ranges
-from vorotool.geometry.skeleton.skeleton import EDGE, SiteTable, Skeleton
+from vorotool.numeric.ragged import ranges
+from vorotool.types.arguments import check_value
+from vorotool.types.skeleton.skeleton import EDGE, SiteTable, Skeleton
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]

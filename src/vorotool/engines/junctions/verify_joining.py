@@ -7,9 +7,9 @@ from numpy.typing import NDArray
 
 from vorotool.engines.common.faults import fail, first_wrong
 from vorotool.engines.pruning.verify_pruning import PRECISION, are_parts, check_counts
-from vorotool.geometry.arguments.values import check_value
-from vorotool.geometry.skeleton.skeleton import Skeleton
-from vorotool.geometry.skeleton.tables import branch_table
+from vorotool.types.arguments import check_value
+from vorotool.types.skeleton.skeleton import Skeleton
+from vorotool.types.skeleton.tables import branch_table
 
 
 def verify_joining(joined: Skeleton, skeleton: Skeleton) -> None:

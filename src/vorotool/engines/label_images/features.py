@@ -12,13 +12,13 @@ from numpy.typing import NDArray
 
 from vorotool.engines.label_images.outlines import outlines
 from vorotool.engines.label_images.regions import region_table
-from vorotool.geometry.features import Rows
-from vorotool.geometry.points.label_image import LabelImage
-from vorotool.geometry.polygons.conversion import to_shapely
-from vorotool.geometry.scaling import AREAS, LENGTHS, scaled_table
-from vorotool.geometry.spacing import SQUARE, PixelSides
-from vorotool.geometry.table import Table
-from vorotool.geometry.volumes.label_volume import LabelVolume
+from vorotool.types.features import Rows
+from vorotool.types.points.label_image import LabelImage
+from vorotool.types.polygons.conversion import to_shapely
+from vorotool.types.scaling import AREAS, LENGTHS, scaled_table
+from vorotool.types.spacing import SQUARE, PixelSides
+from vorotool.types.table import Table
+from vorotool.types.volumes.label_volume import LabelVolume
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError, option
-from vorotool.geometry.ragged import following, starts_of, within
+from vorotool.numeric.ragged import following, starts_of, within
 
 _CRACKS = option("--outline crack", 'outline="crack"')
 

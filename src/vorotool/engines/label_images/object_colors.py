@@ -9,9 +9,9 @@ from vorotool.engines.common.label_arrays import label_array
 from vorotool.engines.label_images.regions import region_colors
 from vorotool.engines.tessellation.interior_seeds import surrounded_pixels
 from vorotool.engines.tessellation.tessellator import Tessellator
-from vorotool.geometry.pixel_frame import Frame
-from vorotool.geometry.points.label_image import LabelImage
-from vorotool.geometry.points.seed_set import SeedSet
+from vorotool.types.pixel_frame import Frame
+from vorotool.types.points.label_image import LabelImage
+from vorotool.types.points.seed_set import SeedSet
 
 
 def object_colors(image: LabelImage, *, threads: int = 0) -> tuple[NDArray[np.uint32], NDArray[np.uint32]]:

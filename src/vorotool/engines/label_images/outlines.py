@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
+from vorotool.convert.images import as_raster
 from vorotool.engines.label_images.marching_squares import grey_contours, grey_level, half_way_contours
 from vorotool.engines.label_images.simplification import simplified_polygons
 from vorotool.engines.tessellation.cleaned_masks import Cleaning, cleaned_values
@@ -23,15 +24,14 @@ from vorotool.engines.tessellation.raster_objects import (
     settled_threshold,
 )
 from vorotool.errors import LimitError, UsageError, option
-from vorotool.geometry.arguments.images import as_raster
-from vorotool.geometry.checks import checked_threads, is_choice
-from vorotool.geometry.numbers import shown_number, whole_number
-from vorotool.geometry.pixel_frame import Frame
-from vorotool.geometry.points.label_image import LabelImage
-from vorotool.geometry.points.raster import Raster
-from vorotool.geometry.polygons.polygon_set import PolygonSet
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.ragged import following, owners, starts_of
+from vorotool.numeric.checks import checked_threads, is_choice
+from vorotool.numeric.numbers import shown_number, whole_number
+from vorotool.numeric.progress import Progress
+from vorotool.numeric.ragged import following, owners, starts_of
+from vorotool.types.pixel_frame import Frame
+from vorotool.types.points.label_image import LabelImage
+from vorotool.types.points.raster import Raster
+from vorotool.types.polygons.polygon_set import PolygonSet
 
 if TYPE_CHECKING:
     from vorotool.typing import ImageLike, OutlineKind, RealLike

@@ -12,10 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import UsageError
-from vorotool.geometry.numbers import finite_double, shown_number
-from vorotool.geometry.polygons.polygon_set import LINE, PolygonSet
-from vorotool.geometry.ragged import owners, ranges, starts_of, within
-from vorotool.geometry.sorted_sets import distinct
+from vorotool.numeric.numbers import finite_double, shown_number
+from vorotool.numeric.ragged import owners, ranges, starts_of, within
+from vorotool.numeric.sorted_sets import distinct
+from vorotool.types.polygons.polygon_set import LINE, PolygonSet
 
 Indices = NDArray[np.int64]
 

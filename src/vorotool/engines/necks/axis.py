@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.skeleton.clearance import clearance_course, plateaus
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.skeleton.clearance import ClearanceCourse
-from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.numeric.progress import Progress
+from vorotool.types.skeleton.clearance import ClearanceCourse
+from vorotool.types.skeleton.skeleton import Skeleton
 
 Indices = NDArray[np.int64]
 

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from vorotool.engines.from_skeleton.contour_walk import contours_of, site_points
 from vorotool.engines.necks.axis import Ways
 from vorotool.engines.necks.feet import Feet
-from vorotool.geometry.ragged import following, owners
-from vorotool.geometry.skeleton.skeleton import EDGE, Skeleton
-from vorotool.geometry.skeleton.tables import connected_roots
+from vorotool.numeric.ragged import following, owners
+from vorotool.types.skeleton.skeleton import EDGE, Skeleton
+from vorotool.types.skeleton.tables import connected_roots
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]

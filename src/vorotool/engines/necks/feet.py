@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.necks.axis import Ways
-from vorotool.geometry.skeleton.given_feet import projected
-from vorotool.geometry.skeleton.skeleton import EDGE, Skeleton
+from vorotool.types.skeleton.given_feet import projected
+from vorotool.types.skeleton.skeleton import EDGE, Skeleton
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]

@@ -12,11 +12,11 @@ from vorotool.engines.necks.axis import Ways, clearance_flow, ways_from_necks
 from vorotool.engines.necks.feet import Feet, by_width, feet_of
 from vorotool.engines.skeleton_api import skeleton_exact
 from vorotool.errors import UsageError, option
-from vorotool.geometry.numbers import finite_double, shown_number
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.skeleton.given_feet import moved_feet
-from vorotool.geometry.skeleton.necks import Necks
-from vorotool.geometry.skeleton.skeleton import INTERIOR, Skeleton
+from vorotool.numeric.numbers import finite_double, shown_number
+from vorotool.numeric.progress import Progress
+from vorotool.types.skeleton.given_feet import moved_feet
+from vorotool.types.skeleton.necks import Necks
+from vorotool.types.skeleton.skeleton import INTERIOR, Skeleton
 
 if TYPE_CHECKING:
     from vorotool.typing import FeaturesChoice, PolygonsLike

@@ -13,15 +13,15 @@ from vorotool.engines.from_skeleton.simple_rings import cut_at_repetitions, repe
 from vorotool.engines.necks.cut_axis import CutAxis, Outlines, cut_axis, outlines_of
 from vorotool.engines.necks.feet import Feet
 from vorotool.engines.necks.necks import FoundNecks, check_neck, found_necks, whole_skeleton
-from vorotool.geometry.polygons.polygon_set import HOLE, SHELL, PolygonSet
-from vorotool.geometry.polygons.ring_arrays import RingArrays
-from vorotool.geometry.polygons.vertices_as_given import places_as_given
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.ragged import ranges
-from vorotool.geometry.skeleton.given_feet import moved_feet
-from vorotool.geometry.skeleton.necks import Necks
-from vorotool.geometry.skeleton.parts import Parts
-from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.numeric.progress import Progress
+from vorotool.numeric.ragged import ranges
+from vorotool.types.polygons.polygon_set import HOLE, SHELL, PolygonSet
+from vorotool.types.polygons.ring_arrays import RingArrays
+from vorotool.types.polygons.vertices_as_given import places_as_given
+from vorotool.types.skeleton.given_feet import moved_feet
+from vorotool.types.skeleton.necks import Necks
+from vorotool.types.skeleton.parts import Parts
+from vorotool.types.skeleton.skeleton import Skeleton
 
 if TYPE_CHECKING:
     from vorotool.typing import FeaturesChoice, PolygonsLike

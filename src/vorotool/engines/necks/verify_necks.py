@@ -14,17 +14,17 @@ from vorotool.engines.common.faults import fail, first_wrong
 from vorotool.engines.features.batches import BatchShapes, in_batches
 from vorotool.engines.skeleton.site_distances import SitePlaces
 from vorotool.errors import VorotoolWarning
-from vorotool.geometry.arguments.values import check_value
-from vorotool.geometry.checks import checked_threads
-from vorotool.geometry.polygons.planar_graph import PlanarGraph
-from vorotool.geometry.polygons.polygon_set import PolygonSet
-from vorotool.geometry.polygons.vertices_as_given import places_as_given
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.ragged import owners
-from vorotool.geometry.skeleton.given_feet import moved_feet
-from vorotool.geometry.skeleton.necks import Necks
-from vorotool.geometry.skeleton.parts import Parts
-from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.numeric.checks import checked_threads
+from vorotool.numeric.progress import Progress
+from vorotool.numeric.ragged import owners
+from vorotool.types.arguments import check_value
+from vorotool.types.polygons.planar_graph import PlanarGraph
+from vorotool.types.polygons.polygon_set import PolygonSet
+from vorotool.types.polygons.vertices_as_given import places_as_given
+from vorotool.types.skeleton.given_feet import moved_feet
+from vorotool.types.skeleton.necks import Necks
+from vorotool.types.skeleton.parts import Parts
+from vorotool.types.skeleton.skeleton import Skeleton
 
 Floats = NDArray[np.float64]
 

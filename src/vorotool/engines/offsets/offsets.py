@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
+from vorotool.convert.polygons import as_polygons
 from vorotool.engines.arrangement.planar_graph import arranged, placed_vertices
 from vorotool.engines.features.batches import BatchShapes, are_apart, in_batches, together
 from vorotool.engines.features.order import InputOrder
@@ -25,15 +26,14 @@ from vorotool.engines.skeleton.exact import (
 )
 from vorotool.engines.skeleton.per_feature import batch_diagram
 from vorotool.errors import UsageError, VorotoolWarning
-from vorotool.geometry.arguments.polygons import as_polygons
-from vorotool.geometry.checks import checked_threads
-from vorotool.geometry.magnitude import check_lengths
-from vorotool.geometry.numbers import finite_double
-from vorotool.geometry.polygons.polygon_set import PolygonSet
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.ragged import ranges, starts_of
-from vorotool.geometry.skeleton.offsets import Offsets
-from vorotool.geometry.skeleton.skeleton import SiteTable, Skeleton
+from vorotool.numeric.checks import checked_threads
+from vorotool.numeric.numbers import finite_double
+from vorotool.numeric.progress import Progress
+from vorotool.numeric.ragged import ranges, starts_of
+from vorotool.types.magnitude import check_lengths
+from vorotool.types.polygons.polygon_set import PolygonSet
+from vorotool.types.skeleton.offsets import Offsets
+from vorotool.types.skeleton.skeleton import SiteTable, Skeleton
 
 if TYPE_CHECKING:
     from vorotool.typing import FeaturesChoice, ShapesLike

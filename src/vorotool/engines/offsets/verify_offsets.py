@@ -19,18 +19,18 @@ from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi
 from vorotool.engines.segment_voronoi.verify_segment_voronoi import verify_segment_voronoi
 from vorotool.engines.skeleton.site_distances import ULPS, largest_coordinate
 from vorotool.errors import VorotoolWarning
-from vorotool.geometry.arguments.values import check_value
-from vorotool.geometry.checks import checked_threads
-from vorotool.geometry.curves.circular_arcs import middles_of
-from vorotool.geometry.numbers import finite_double
-from vorotool.geometry.polygons.conversion import to_shapely
-from vorotool.geometry.polygons.planar_graph import PlanarGraph
-from vorotool.geometry.polygons.polygon_set import SHELL
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.ragged import following, ranges, starts_of
-from vorotool.geometry.skeleton.offsets import Offsets
-from vorotool.geometry.skeleton.skeleton import EDGE, ends_of_sites
-from vorotool.geometry.sorted_sets import distinct
+from vorotool.numeric.checks import checked_threads
+from vorotool.numeric.curves.circular_arcs import middles_of
+from vorotool.numeric.numbers import finite_double
+from vorotool.numeric.progress import Progress
+from vorotool.numeric.ragged import following, ranges, starts_of
+from vorotool.numeric.sorted_sets import distinct
+from vorotool.types.arguments import check_value
+from vorotool.types.polygons.conversion import to_shapely
+from vorotool.types.polygons.planar_graph import PlanarGraph
+from vorotool.types.polygons.polygon_set import SHELL
+from vorotool.types.skeleton.offsets import Offsets
+from vorotool.types.skeleton.skeleton import EDGE, ends_of_sites
 
 Floats = NDArray[np.float64]
 

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.convert.images import as_raster
 from vorotool.errors import InputError, LimitError, option
-from vorotool.geometry.arguments.images import as_raster
-from vorotool.geometry.numbers import real_number, shown_number
-from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
-from vorotool.geometry.volumes.voxel_frame import VoxelFrame
+from vorotool.numeric.numbers import real_number, shown_number
+from vorotool.types.volumes.volume_seeds import VolumeSeeds
+from vorotool.types.volumes.voxel_frame import VoxelFrame
 
 if TYPE_CHECKING:
     from vorotool.typing import ImageLike

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.convert.spacings import asked_sides
+from vorotool.convert.volumes import is_volume
 from vorotool.engines.peers.arguments import bare_seeds, plane, volume
 from vorotool.engines.tessellation.frames import require_memory
 from vorotool.engines.tessellation.raster_objects import LARGEST_LABEL
@@ -16,11 +18,9 @@ from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.engines.volumes.inner_voxels import outer_voxels
 from vorotool.engines.volumes.volume_tessellator import VolumeSweep
 from vorotool.errors import InputError, UsageError
-from vorotool.geometry.arguments.spacings import asked_sides
-from vorotool.geometry.arguments.volumes import is_volume
-from vorotool.geometry.numbers import real_number, shown_number
-from vorotool.geometry.pixel_frame import MAX_PIXELS, Frame
-from vorotool.geometry.spacing import PixelSides, as_decimal
+from vorotool.numeric.numbers import real_number, shown_number
+from vorotool.types.pixel_frame import MAX_PIXELS, Frame
+from vorotool.types.spacing import PixelSides, as_decimal
 
 if TYPE_CHECKING:
     from vorotool.typing import ImageLike, Spacing

@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.convert.spacings import asked_sides
 from vorotool.engines.from_skeleton.thickness import thickness_of_pixels
 from vorotool.engines.label_images.outlines import outlines
 from vorotool.engines.peers.arguments import plane
 from vorotool.engines.skeleton_api import skeleton_exact
 from vorotool.engines.tessellation.frames import require_memory
-from vorotool.geometry.arguments.spacings import asked_sides
-from vorotool.geometry.pixel_frame import MAX_PIXELS, Frame
-from vorotool.geometry.points.raster import Raster
-from vorotool.geometry.progress import Progress
+from vorotool.numeric.progress import Progress
+from vorotool.types.pixel_frame import MAX_PIXELS, Frame
+from vorotool.types.points.raster import Raster
 
 if TYPE_CHECKING:
     from vorotool.typing import ImageLike, OutlineKind, Spacing

@@ -15,7 +15,7 @@ from vorotool.engines.pruning.pruning import default_pruning_for_masks, prune
 from vorotool.engines.skeleton_api import skeleton_exact
 from vorotool.engines.tessellation.cleaned_masks import reaches_border
 from vorotool.engines.tessellation.raster_objects import numbered_components
-from vorotool.geometry.checks import checked_flag
+from vorotool.numeric.checks import checked_flag
 
 if TYPE_CHECKING:
     from vorotool.typing import ImageLike

@@ -9,8 +9,8 @@ import numpy as np
 from vorotool.engines.delaunay.cells import voronoi_cells
 from vorotool.engines.delaunay.delaunay import delaunay
 from vorotool.errors import InputError
-from vorotool.geometry.box import Box
-from vorotool.geometry.mesh.triangulation import Triangulation
+from vorotool.types.box import Box
+from vorotool.types.mesh.triangulation import Triangulation
 
 if TYPE_CHECKING:
     import shapely

@@ -14,16 +14,16 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.engines.skeleton.core_skeleton import core_skeleton
 from vorotool.errors import UsageError
-from vorotool.geometry.arguments.values import check_value
-from vorotool.geometry.checks import available_threads, checked_threads, is_choice
-from vorotool.geometry.curves.inverse_functions import inverse_sine
-from vorotool.geometry.numbers import finite_double, shown_number
-from vorotool.geometry.parallel import in_threads
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.ragged import owners, starts_of
-from vorotool.geometry.skeleton.critical_values import CRITERIA, ArcProfiles, CriticalValues
-from vorotool.geometry.skeleton.skeleton import Skeleton
-from vorotool.geometry.sorted_sets import distinct
+from vorotool.numeric.checks import available_threads, checked_threads, is_choice
+from vorotool.numeric.curves.inverse_functions import inverse_sine
+from vorotool.numeric.numbers import finite_double, shown_number
+from vorotool.numeric.parallel import in_threads
+from vorotool.numeric.progress import Progress
+from vorotool.numeric.ragged import owners, starts_of
+from vorotool.numeric.sorted_sets import distinct
+from vorotool.types.arguments import check_value
+from vorotool.types.skeleton.critical_values import CRITERIA, ArcProfiles, CriticalValues
+from vorotool.types.skeleton.skeleton import Skeleton
 
 if TYPE_CHECKING:
     from vorotool.typing import Criterion

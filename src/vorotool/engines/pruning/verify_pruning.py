@@ -6,11 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.common.faults import fail, first_wrong
-from vorotool.geometry.arguments.values import check_value
-from vorotool.geometry.ragged import owners, ranges
-from vorotool.geometry.skeleton.arc_measures import ArcMeasures
-from vorotool.geometry.skeleton.skeleton import Skeleton
-from vorotool.geometry.skeleton.tables import connected_roots
+from vorotool.numeric.ragged import owners, ranges
+from vorotool.types.arguments import check_value
+from vorotool.types.skeleton.arc_measures import ArcMeasures
+from vorotool.types.skeleton.skeleton import Skeleton
+from vorotool.types.skeleton.tables import connected_roots
 
 Floats = NDArray[np.float64]
 

@@ -21,13 +21,13 @@ from vorotool.engines.skeleton.exact import (
     warn_empty,
 )
 from vorotool.errors import LimitError, UsageError
-from vorotool.geometry.box import Extent, default_frame
-from vorotool.geometry.checks import checked_threads, is_choice
-from vorotool.geometry.numbers import finite_double, shown_number
-from vorotool.geometry.polygons.planar_graph import PlanarGraph
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.skeleton.boundary_samples import BoundarySamples
-from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.numeric.checks import checked_threads, is_choice
+from vorotool.numeric.numbers import finite_double, shown_number
+from vorotool.numeric.progress import Progress
+from vorotool.types.box import Extent, default_frame
+from vorotool.types.polygons.planar_graph import PlanarGraph
+from vorotool.types.skeleton.boundary_samples import BoundarySamples
+from vorotool.types.skeleton.skeleton import Skeleton
 
 SAMPLINGS = ("paper", "symmetric")
 MOST_SEEDS = 2**28

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from vorotool.engines.sampled_skeleton.approximate import ApproximateSkeleton
 from vorotool.engines.sampled_skeleton.per_feature import FeatureApproximation
-from vorotool.geometry.curves.inverse_functions import hypotenuse
-from vorotool.geometry.skeleton.skeleton import EDGE
+from vorotool.numeric.curves.inverse_functions import hypotenuse
+from vorotool.types.skeleton.skeleton import EDGE
 
 
 def error_summary(found: ApproximateSkeleton | FeatureApproximation, *, step: float | None = None) -> dict[str, Any]:

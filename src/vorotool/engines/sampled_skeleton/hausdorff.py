@@ -16,9 +16,9 @@ from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi
 from vorotool.engines.skeleton.distances_to_arcs import distances_to, places_on_arcs
 from vorotool.engines.skeleton.exact import ShapeDiagram, skeleton_of
 from vorotool.errors import VorotoolWarning
-from vorotool.geometry.box import Extent, widened
-from vorotool.geometry.ragged import starts_of
-from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.numeric.ragged import starts_of
+from vorotool.types.box import Extent, widened
+from vorotool.types.skeleton.skeleton import Skeleton
 
 TO_EXACT, TO_APPROXIMATE = "from_approximate_to_exact", "from_exact_to_approximate"
 """The two ways of a comparison."""

@@ -33,12 +33,12 @@ from vorotool.engines.skeleton.contraction import contraction
 from vorotool.engines.skeleton.exact import warn_empty
 from vorotool.engines.skeleton.per_feature import joined_with_places
 from vorotool.errors import LimitError, VorotoolWarning
-from vorotool.geometry.box import Extent, bounds
-from vorotool.geometry.polygons.planar_graph import PlanarGraph
-from vorotool.geometry.polygons.polygon_set import PolygonSet
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.ragged import starts_of
-from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.numeric.progress import Progress
+from vorotool.numeric.ragged import starts_of
+from vorotool.types.box import Extent, bounds
+from vorotool.types.polygons.planar_graph import PlanarGraph
+from vorotool.types.polygons.polygon_set import PolygonSet
+from vorotool.types.skeleton.skeleton import Skeleton
 
 Indices = NDArray[np.int64]
 

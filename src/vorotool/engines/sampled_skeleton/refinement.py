@@ -21,11 +21,11 @@ from vorotool.engines.sampled_skeleton.approximate import (
 )
 from vorotool.engines.skeleton.exact import warn_empty
 from vorotool.errors import LimitError
-from vorotool.geometry.box import Extent
-from vorotool.geometry.checks import checked_threads
-from vorotool.geometry.polygons.planar_graph import PlanarGraph
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.numeric.checks import checked_threads
+from vorotool.numeric.progress import Progress
+from vorotool.types.box import Extent
+from vorotool.types.polygons.planar_graph import PlanarGraph
+from vorotool.types.skeleton.skeleton import Skeleton
 
 COARSEST = 2.0**-4
 """Of the extent: the longest gaps that sampling begins with."""

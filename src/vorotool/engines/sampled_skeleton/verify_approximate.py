@@ -11,10 +11,10 @@ from vorotool.engines.common.faults import fail, first_wrong
 from vorotool.engines.sampled_skeleton.approximate import ApproximateSkeleton
 from vorotool.engines.skeleton.verify_bounds import place_error
 from vorotool.engines.skeleton.verify_skeleton import check_arrays, verify_skeleton
-from vorotool.geometry.curves.inverse_functions import hypotenuse
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.ragged import owners
-from vorotool.geometry.skeleton.boundary_samples import BoundarySamples
+from vorotool.numeric.curves.inverse_functions import hypotenuse
+from vorotool.numeric.progress import Progress
+from vorotool.numeric.ragged import owners
+from vorotool.types.skeleton.boundary_samples import BoundarySamples
 
 Floats = NDArray[np.float64]
 

@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.errors import InputError, LimitError, VerificationError, VorotoolError
-from vorotool.geometry.checks import checked_threads
-from vorotool.geometry.polygons.planar_graph import PlanarGraph
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.skeleton.segment_voronoi import LATTICE_LIMIT, SegmentVoronoiDiagram
+from vorotool.numeric.checks import checked_threads
+from vorotool.numeric.progress import Progress
+from vorotool.types.polygons.planar_graph import PlanarGraph
+from vorotool.types.skeleton.segment_voronoi import LATTICE_LIMIT, SegmentVoronoiDiagram
 
 MOST_SITES = 2**28 - 1
 """Of n sites there are at most 2 n - 2 vertices, each with four corner numbers in 31 bits."""

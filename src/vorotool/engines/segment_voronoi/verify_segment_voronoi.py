@@ -5,9 +5,9 @@ from __future__ import annotations
 from vorotool import _core
 from vorotool.engines.segment_voronoi.segment_voronoi import core_diagram
 from vorotool.errors import VerificationError
-from vorotool.geometry.checks import checked_threads
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.skeleton.segment_voronoi import SegmentVoronoiDiagram
+from vorotool.numeric.checks import checked_threads
+from vorotool.numeric.progress import Progress
+from vorotool.types.skeleton.segment_voronoi import SegmentVoronoiDiagram
 
 
 def verify_segment_voronoi(diagram: SegmentVoronoiDiagram, *, threads: int = 0, progress: Progress = None) -> None:

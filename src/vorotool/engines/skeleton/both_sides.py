@@ -16,11 +16,11 @@ from vorotool.engines.skeleton.exact import ShapeDiagram, diagram_of_graph, skel
 from vorotool.engines.skeleton.parts import PER_ARC
 from vorotool.engines.skeleton.per_feature import feature_skeleton
 from vorotool.errors import VorotoolWarning
-from vorotool.geometry.box import Extent
-from vorotool.geometry.polygons.planar_graph import PlanarGraph
-from vorotool.geometry.polygons.polygon_set import PolygonSet
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.skeleton.skeleton import EDGE, SiteTable, Skeleton
+from vorotool.numeric.progress import Progress
+from vorotool.types.box import Extent
+from vorotool.types.polygons.planar_graph import PlanarGraph
+from vorotool.types.polygons.polygon_set import PolygonSet
+from vorotool.types.skeleton.skeleton import EDGE, SiteTable, Skeleton
 
 
 def sides_of(

@@ -7,11 +7,11 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.skeleton.site_distances import SitePlaces
-from vorotool.geometry.checks import checked_threads
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.skeleton.clearance import ClearanceCourse
-from vorotool.geometry.skeleton.segment_voronoi import LATTICE_LIMIT
-from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.numeric.checks import checked_threads
+from vorotool.numeric.progress import Progress
+from vorotool.types.skeleton.clearance import ClearanceCourse
+from vorotool.types.skeleton.segment_voronoi import LATTICE_LIMIT
+from vorotool.types.skeleton.skeleton import Skeleton
 
 
 def clearance_course(skeleton: Skeleton, *, threads: int = 0, progress: Progress = None) -> ClearanceCourse:

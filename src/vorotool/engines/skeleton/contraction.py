@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.skeleton.core_skeleton import core_skeleton
-from vorotool.geometry.skeleton.skeleton import Skeleton
-from vorotool.geometry.skeleton.tables import connected_roots
+from vorotool.types.skeleton.skeleton import Skeleton
+from vorotool.types.skeleton.tables import connected_roots
 
 Indices = NDArray[np.int64]
 

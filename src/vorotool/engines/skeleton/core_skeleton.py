@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from vorotool import _core
-from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.types.skeleton.skeleton import Skeleton
 
 
 def core_skeleton(skeleton: Skeleton, *, threads: int = 1, has_sites: bool = True) -> _core.skeleton.Skeleton:

@@ -19,10 +19,10 @@ from vorotool.engines.skeleton.shortened_edges import (
     skeleton_of_elements,
     whole_element_diagram,
 )
-from vorotool.geometry.box import Extent
-from vorotool.geometry.polygons.polygon_set import PolygonSet
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.numeric.progress import Progress
+from vorotool.types.box import Extent
+from vorotool.types.polygons.polygon_set import PolygonSet
+from vorotool.types.skeleton.skeleton import Skeleton
 
 AnyDiagram = ShapeDiagram | ElementDiagram
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.ragged import owners
-from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.numeric.ragged import owners
+from vorotool.types.skeleton.skeleton import Skeleton
 
 Places = NDArray[np.float64]
 

@@ -14,14 +14,14 @@ from vorotool.engines.arrangement.planar_graph import graph_for_skeletons
 from vorotool.engines.segment_voronoi.segment_voronoi import core_diagram, segment_voronoi, unwanted_sides
 from vorotool.engines.skeleton.open_border import Opening
 from vorotool.errors import Kind, Message, UsageError, VorotoolWarning, option, warn
-from vorotool.geometry.box import Extent, default_frame, is_extent
-from vorotool.geometry.checks import checked_threads, is_choice
-from vorotool.geometry.numbers import finite_double, shown_number
-from vorotool.geometry.polygons.planar_graph import PlanarGraph
-from vorotool.geometry.polygons.polygon_set import PolygonSet
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.skeleton.segment_voronoi import SegmentVoronoiDiagram
-from vorotool.geometry.skeleton.skeleton import EXTERIOR, INTERIOR, Skeleton
+from vorotool.numeric.checks import checked_threads, is_choice
+from vorotool.numeric.numbers import finite_double, shown_number
+from vorotool.numeric.progress import Progress
+from vorotool.types.box import Extent, default_frame, is_extent
+from vorotool.types.polygons.planar_graph import PlanarGraph
+from vorotool.types.polygons.polygon_set import PolygonSet
+from vorotool.types.skeleton.segment_voronoi import SegmentVoronoiDiagram
+from vorotool.types.skeleton.skeleton import EXTERIOR, INTERIOR, Skeleton
 
 SIDE_NAMES = ("interior", "exterior", "both")
 FEATURES = ("separate", "together")

@@ -23,11 +23,11 @@ from vorotool.engines.skeleton.shortened_edges import (
     skeleton_of_elements,
 )
 from vorotool.errors import VorotoolWarning
-from vorotool.geometry.box import Extent, bounds
-from vorotool.geometry.polygons.polygon_set import PolygonSet
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.skeleton.skeleton import Skeleton
-from vorotool.geometry.sorted_sets import distinct
+from vorotool.numeric.progress import Progress
+from vorotool.numeric.sorted_sets import distinct
+from vorotool.types.box import Extent, bounds
+from vorotool.types.polygons.polygon_set import PolygonSet
+from vorotool.types.skeleton.skeleton import Skeleton
 
 
 def feature_elements(

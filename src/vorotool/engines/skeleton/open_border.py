@@ -14,11 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError, UsageError
-from vorotool.geometry.box import Extent, is_extent
-from vorotool.geometry.magnitude import check_lengths
-from vorotool.geometry.polygons.planar_graph import PlanarGraph
-from vorotool.geometry.polygons.polygon_set import PolygonSet
-from vorotool.geometry.skeleton.segment_voronoi import SegmentVoronoiDiagram
+from vorotool.types.box import Extent, is_extent
+from vorotool.types.magnitude import check_lengths
+from vorotool.types.polygons.planar_graph import PlanarGraph
+from vorotool.types.polygons.polygon_set import PolygonSet
+from vorotool.types.skeleton.segment_voronoi import SegmentVoronoiDiagram
 
 Indices = NDArray[np.int64]
 

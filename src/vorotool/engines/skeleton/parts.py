@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.polygons.polygon_set import PolygonSet
-from vorotool.geometry.polygons.ring_arrays import RingArrays
-from vorotool.geometry.skeleton.skeleton import INTERIOR, Skeleton
+from vorotool.types.polygons.polygon_set import PolygonSet
+from vorotool.types.polygons.ring_arrays import RingArrays
+from vorotool.types.skeleton.skeleton import INTERIOR, Skeleton
 
 PER_ARC = ("arcs", "control", "sites", "polygon", "side", "branch", "length", "error_bound")
 

@@ -20,11 +20,11 @@ from vorotool.engines.skeleton.exact import (
     warn_empty,
 )
 from vorotool.engines.skeleton.open_border import around, opened
-from vorotool.geometry.box import Extent
-from vorotool.geometry.polygons.polygon_set import PolygonSet
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.ragged import starts_of
-from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.numeric.progress import Progress
+from vorotool.numeric.ragged import starts_of
+from vorotool.types.box import Extent
+from vorotool.types.polygons.polygon_set import PolygonSet
+from vorotool.types.skeleton.skeleton import Skeleton
 
 Seen = TypeVar("Seen")
 

@@ -23,16 +23,16 @@ from vorotool.engines.skeleton.exact import (
     whole_diagram,
 )
 from vorotool.engines.skeleton.short_edges import ShortEdges
-from vorotool.geometry.box import Extent, bounds
-from vorotool.geometry.checks import checked_threads
-from vorotool.geometry.curves.inverse_functions import angle_of, hypotenuse
-from vorotool.geometry.polygons.planar_graph import PlanarGraph
-from vorotool.geometry.polygons.polygon_set import LINE, PolygonSet
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.ragged import owners
-from vorotool.geometry.skeleton.segment_voronoi import SegmentVoronoiDiagram
-from vorotool.geometry.skeleton.skeleton import Skeleton
-from vorotool.geometry.sorted_sets import is_among
+from vorotool.numeric.checks import checked_threads
+from vorotool.numeric.curves.inverse_functions import angle_of, hypotenuse
+from vorotool.numeric.progress import Progress
+from vorotool.numeric.ragged import owners
+from vorotool.numeric.sorted_sets import is_among
+from vorotool.types.box import Extent, bounds
+from vorotool.types.polygons.planar_graph import PlanarGraph
+from vorotool.types.polygons.polygon_set import LINE, PolygonSet
+from vorotool.types.skeleton.segment_voronoi import SegmentVoronoiDiagram
+from vorotool.types.skeleton.skeleton import Skeleton
 
 DEVIATION_STEPS = 2.0**-14
 """Of the extent: how finely arcs are flattened to measure how far two skeletons are apart."""

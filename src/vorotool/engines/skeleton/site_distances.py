@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.skeleton.skeleton import EDGE, Skeleton
+from vorotool.types.skeleton.skeleton import EDGE, Skeleton
 
 Floats = NDArray[np.float64]
 

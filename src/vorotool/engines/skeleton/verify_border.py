@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from vorotool.engines.common.faults import fail, first_wrong
 from vorotool.engines.skeleton.site_distances import Floats, SitePlaces
 from vorotool.engines.skeleton.verify_regions import AREA, AREA_ULPS, areas_beside, face_measures
-from vorotool.geometry.polygons.planar_graph import PlanarGraph
-from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.types.polygons.planar_graph import PlanarGraph
+from vorotool.types.skeleton.skeleton import Skeleton
 
 Indices = NDArray[np.int64]
 

@@ -14,12 +14,12 @@ from vorotool.engines.skeleton.exact import diagram_of_graph, interior_skeleton,
 from vorotool.engines.skeleton.parts import outside_of, with_arcs, with_polygons
 from vorotool.engines.skeleton.per_feature import batch_diagram
 from vorotool.engines.skeleton.verify_regions import border_components, with_corners_apart
-from vorotool.geometry.box import widened
-from vorotool.geometry.polygons.conversion import to_shapely
-from vorotool.geometry.polygons.planar_graph import PlanarGraph
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.skeleton.skeleton import EXTERIOR, INTERIOR, Skeleton
-from vorotool.geometry.skeleton.tables import connected_roots
+from vorotool.numeric.progress import Progress
+from vorotool.types.box import widened
+from vorotool.types.polygons.conversion import to_shapely
+from vorotool.types.polygons.planar_graph import PlanarGraph
+from vorotool.types.skeleton.skeleton import EXTERIOR, INTERIOR, Skeleton
+from vorotool.types.skeleton.tables import connected_roots
 
 PLACE_ERROR = 2.0**-18
 """Of a lattice step: how far distances of nodes may be wrong. They are rounded to input units, which may be coarser."""

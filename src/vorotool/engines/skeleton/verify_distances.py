@@ -7,10 +7,10 @@ import numpy as np
 from vorotool import _core
 from vorotool.engines.common.faults import fail, first_wrong
 from vorotool.engines.skeleton.site_distances import Floats, SitePlaces
-from vorotool.geometry.polygons.planar_graph import PlanarGraph
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.skeleton.skeleton import Skeleton
-from vorotool.geometry.sorted_sets import distinct
+from vorotool.numeric.progress import Progress
+from vorotool.numeric.sorted_sets import distinct
+from vorotool.types.polygons.planar_graph import PlanarGraph
+from vorotool.types.skeleton.skeleton import Skeleton
 
 _INSIDE = (0.25, 0.5, 0.75)
 """Where arcs are looked at between their ends, in the parameter of the Bezier curve."""

@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 from vorotool.engines.arrangement.corner_sectors import corner_sectors
 from vorotool.engines.common.faults import fail, first_wrong
 from vorotool.engines.skeleton.site_distances import Floats, SitePlaces
-from vorotool.geometry.polygons.planar_graph import PlanarGraph
-from vorotool.geometry.skeleton.skeleton import EXTERIOR, INTERIOR, Skeleton
-from vorotool.geometry.skeleton.tables import connected_roots
-from vorotool.geometry.sorted_sets import distinct, is_among
+from vorotool.numeric.sorted_sets import distinct, is_among
+from vorotool.types.polygons.planar_graph import PlanarGraph
+from vorotool.types.skeleton.skeleton import EXTERIOR, INTERIOR, Skeleton
+from vorotool.types.skeleton.tables import connected_roots
 
 Indices = NDArray[np.int64]
 

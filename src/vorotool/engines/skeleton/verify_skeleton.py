@@ -23,13 +23,13 @@ from vorotool.engines.skeleton.verify_regions import (
     with_corners_apart,
 )
 from vorotool.errors import VorotoolWarning
-from vorotool.geometry.arguments.values import check_value
-from vorotool.geometry.checks import checked_threads
-from vorotool.geometry.polygons.planar_graph import PlanarGraph
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.skeleton.skeleton import INTERIOR, Skeleton
-from vorotool.geometry.skeleton.tables import connected_roots
-from vorotool.geometry.sorted_sets import distinct
+from vorotool.numeric.checks import checked_threads
+from vorotool.numeric.progress import Progress
+from vorotool.numeric.sorted_sets import distinct
+from vorotool.types.arguments import check_value
+from vorotool.types.polygons.planar_graph import PlanarGraph
+from vorotool.types.skeleton.skeleton import INTERIOR, Skeleton
+from vorotool.types.skeleton.tables import connected_roots
 
 
 def verify_skeleton(skeleton: Skeleton, *, threads: int = 0, progress: Progress = None) -> None:

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.smoothing.line_samples import LineSamples
-from vorotool.geometry.ragged import owners, ranges, starts_of
+from vorotool.numeric.ragged import owners, ranges, starts_of
 
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.int64]

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.curves.flatten import chained, polylines
-from vorotool.geometry.ragged import owners, starts_of, within
-from vorotool.geometry.skeleton.led_on import LedOn
-from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.numeric.curves.flatten import chained, polylines
+from vorotool.numeric.ragged import owners, starts_of, within
+from vorotool.types.skeleton.led_on import LedOn
+from vorotool.types.skeleton.skeleton import Skeleton
 
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.int64]

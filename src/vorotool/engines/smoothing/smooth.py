@@ -9,14 +9,14 @@ from vorotool.engines.smoothing.cubic_fits import Stretches, fitted
 from vorotool.engines.smoothing.line_samples import LineSamples, sampled_lines
 from vorotool.engines.smoothing.tangents import closing_tangents, inner_tangents, outer_tangents
 from vorotool.errors import InputError
-from vorotool.geometry.arguments.values import check_value
-from vorotool.geometry.numbers import checked_tolerance
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.skeleton.centerline import Centerlines
-from vorotool.geometry.skeleton.extended import ExtendedSkeleton
-from vorotool.geometry.skeleton.led_on import LedOn
-from vorotool.geometry.skeleton.skeleton import Skeleton
-from vorotool.geometry.skeleton.smooth_lines import SmoothLines
+from vorotool.numeric.numbers import checked_tolerance
+from vorotool.numeric.progress import Progress
+from vorotool.types.arguments import check_value
+from vorotool.types.skeleton.centerline import Centerlines
+from vorotool.types.skeleton.extended import ExtendedSkeleton
+from vorotool.types.skeleton.led_on import LedOn
+from vorotool.types.skeleton.skeleton import Skeleton
+from vorotool.types.skeleton.smooth_lines import SmoothLines
 
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.int64]

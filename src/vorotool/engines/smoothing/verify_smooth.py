@@ -7,13 +7,13 @@ import shapely
 from numpy.typing import NDArray
 
 from vorotool.errors import VerificationError
-from vorotool.geometry.arguments.values import check_value
-from vorotool.geometry.curves.cubics import places_at
-from vorotool.geometry.curves.flatten import chained
-from vorotool.geometry.ragged import owners
-from vorotool.geometry.skeleton.led_on import LedOn
-from vorotool.geometry.skeleton.skeleton import Skeleton
-from vorotool.geometry.skeleton.smooth_lines import SmoothLines, ends_of_lines
+from vorotool.numeric.curves.cubics import places_at
+from vorotool.numeric.curves.flatten import chained
+from vorotool.numeric.ragged import owners
+from vorotool.types.arguments import check_value
+from vorotool.types.skeleton.led_on import LedOn
+from vorotool.types.skeleton.skeleton import Skeleton
+from vorotool.types.skeleton.smooth_lines import SmoothLines, ends_of_lines
 
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.integer]

@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.tessellation.tessellator import Tessellator
-from vorotool.geometry.pixel_frame import Frame
-from vorotool.geometry.points.seed_set import SeedSet
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.spacing import SQUARE, PixelSides
+from vorotool.numeric.progress import Progress
+from vorotool.types.pixel_frame import Frame
+from vorotool.types.points.seed_set import SeedSet
+from vorotool.types.spacing import SQUARE, PixelSides
 
 Quantity = Literal["labels", "distance", "distance2"]
 

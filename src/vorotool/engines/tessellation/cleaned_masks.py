@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from vorotool.engines.tessellation.raster_objects import default_objects, numbered_components
 from vorotool.errors import InputError, UsageError, option
-from vorotool.geometry.checks import is_choice
-from vorotool.geometry.numbers import real_number, shown_number
+from vorotool.numeric.checks import is_choice
+from vorotool.numeric.numbers import real_number, shown_number
 
 if TYPE_CHECKING:
     from vorotool.typing import RealLike

@@ -14,22 +14,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
+from vorotool.convert.images import as_raster, is_image
+from vorotool.convert.points import as_points
+from vorotool.convert.polygons import as_polygons
+from vorotool.convert.spacings import asked_sides
 from vorotool.engines.common.label_arrays import described
 from vorotool.engines.tessellation.seeding import FrameOf, seeds_from_raster, seeds_in_frame
 from vorotool.errors import STRICT, InputError, LimitError, UsageError, option, warn
-from vorotool.geometry.arguments.images import as_raster, is_image
-from vorotool.geometry.arguments.points import as_points
-from vorotool.geometry.arguments.polygons import as_polygons
-from vorotool.geometry.arguments.spacings import asked_sides
-from vorotool.geometry.numbers import real_number, shown_number
-from vorotool.geometry.pixel_frame import MAX_PIXELS, Frame
-from vorotool.geometry.points.label_image import LabelImage
-from vorotool.geometry.points.point_set import PointSet
-from vorotool.geometry.points.seed_set import SeedSet
-from vorotool.geometry.spacing import SQUARE, PixelSides
-from vorotool.geometry.volumes.label_volume import LabelVolume
-from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
-from vorotool.geometry.volumes.voxel_frame import VoxelFrame
+from vorotool.numeric.numbers import real_number, shown_number
+from vorotool.types.pixel_frame import MAX_PIXELS, Frame
+from vorotool.types.points.label_image import LabelImage
+from vorotool.types.points.point_set import PointSet
+from vorotool.types.points.seed_set import SeedSet
+from vorotool.types.spacing import SQUARE, PixelSides
+from vorotool.types.volumes.label_volume import LabelVolume
+from vorotool.types.volumes.volume_seeds import VolumeSeeds
+from vorotool.types.volumes.voxel_frame import VoxelFrame
 
 SIMD_LEVELS = ("portable", "avx2", "avx512")
 BAND_PIXELS = 2**24

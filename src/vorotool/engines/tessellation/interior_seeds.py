@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.pixel_frame import Frame
-from vorotool.geometry.points.seed_set import SeedSet
+from vorotool.types.pixel_frame import Frame
+from vorotool.types.points.seed_set import SeedSet
 
 CHUNK = 1 << 20
 """Seeds that are painted at a time: what that needs beside them stays small."""

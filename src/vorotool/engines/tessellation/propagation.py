@@ -20,12 +20,12 @@ from vorotool.engines.tessellation.frames import (
 )
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import InputError, UsageError, option
-from vorotool.geometry.checks import is_choice
-from vorotool.geometry.numbers import shown_number
-from vorotool.geometry.pixel_frame import MAX_PIXELS, Frame
-from vorotool.geometry.points.label_image import LabelImage
-from vorotool.geometry.points.seed_set import SeedSet
-from vorotool.geometry.progress import Progress
+from vorotool.numeric.checks import is_choice
+from vorotool.numeric.numbers import shown_number
+from vorotool.numeric.progress import Progress
+from vorotool.types.pixel_frame import MAX_PIXELS, Frame
+from vorotool.types.points.label_image import LabelImage
+from vorotool.types.points.seed_set import SeedSet
 
 _EXACT = option("--method exact", 'method="exact"')
 

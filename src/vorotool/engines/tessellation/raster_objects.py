@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.errors import OTSU, STRICT, InputError, Kind, Message, VorotoolWarning, option, warn
-from vorotool.geometry.checks import checked_flag
-from vorotool.geometry.numbers import finite_double
-from vorotool.geometry.points.raster import Raster
+from vorotool.numeric.checks import checked_flag
+from vorotool.numeric.numbers import finite_double
+from vorotool.types.points.raster import Raster
 
 Objects = Literal["components", "labels"]
 Threshold = float | Literal["otsu"] | None

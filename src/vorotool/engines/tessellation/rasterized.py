@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError, option
-from vorotool.geometry.pixel_frame import FARTHEST, Frame
-from vorotool.geometry.polygons.polygon_set import LINE, PolygonSet
-from vorotool.geometry.ragged import owners, ranges, within
+from vorotool.numeric.ragged import owners, ranges, within
+from vorotool.types.pixel_frame import FARTHEST, Frame
+from vorotool.types.polygons.polygon_set import LINE, PolygonSet
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]

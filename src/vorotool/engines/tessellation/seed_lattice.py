@@ -12,16 +12,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import STRICT, InputError, warn
-from vorotool.geometry.curves.inverse_functions import hypotenuse
-from vorotool.geometry.pixel_frame import Frame
-from vorotool.geometry.points.seed_set import SCALES, SeedSet
-from vorotool.geometry.row_index import index_of_rows
-from vorotool.geometry.spacing import SQUARE, PixelSides
-from vorotool.geometry.volumes.volume_seeds import FINEST_SCALE
+from vorotool.numeric.curves.inverse_functions import hypotenuse
+from vorotool.numeric.row_index import index_of_rows
+from vorotool.types.pixel_frame import Frame
+from vorotool.types.points.seed_set import SCALES, SeedSet
+from vorotool.types.spacing import SQUARE, PixelSides
+from vorotool.types.volumes.volume_seeds import FINEST_SCALE
 
 if TYPE_CHECKING:
-    from vorotool.geometry.points.point_set import PointSet
-    from vorotool.geometry.volumes.volume_points import VolumePoints
+    from vorotool.types.points.point_set import PointSet
+    from vorotool.types.volumes.volume_points import VolumePoints
 
 LARGEST_COORDINATE = float(2**44)
 """Coordinates up to here, times 256, are exact in a double."""

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.convert.images import as_raster
+from vorotool.convert.points import as_points
 from vorotool.engines.tessellation.cleaned_masks import Cleaning, cleaned_values
 from vorotool.engines.tessellation.label_sums import numbered, sums
 from vorotool.engines.tessellation.raster_objects import (
@@ -29,15 +31,13 @@ from vorotool.engines.tessellation.seed_lattice import (
     snapped_places,
 )
 from vorotool.errors import LimitError, UsageError, option
-from vorotool.geometry.arguments.images import as_raster
-from vorotool.geometry.arguments.points import as_points
-from vorotool.geometry.arguments.values import check_value
-from vorotool.geometry.checks import is_choice
-from vorotool.geometry.numbers import shown_number, whole_number
-from vorotool.geometry.pixel_frame import Frame
-from vorotool.geometry.points.point_set import PointSet
-from vorotool.geometry.points.seed_set import SeedSet
-from vorotool.geometry.spacing import SQUARE, PixelSides
+from vorotool.numeric.checks import is_choice
+from vorotool.numeric.numbers import shown_number, whole_number
+from vorotool.types.arguments import check_value
+from vorotool.types.pixel_frame import Frame
+from vorotool.types.points.point_set import PointSet
+from vorotool.types.points.seed_set import SeedSet
+from vorotool.types.spacing import SQUARE, PixelSides
 
 if TYPE_CHECKING:
     from vorotool.typing import ImageLike, PointsLike, RealLike

@@ -30,11 +30,11 @@ from vorotool.engines.tessellation.raster_objects import (
 )
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import LimitError, option
-from vorotool.geometry.pixel_frame import Frame
-from vorotool.geometry.points.raster import Raster
-from vorotool.geometry.points.seed_set import SeedSet
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.spacing import SQUARE, PixelSides
+from vorotool.numeric.progress import Progress
+from vorotool.types.pixel_frame import Frame
+from vorotool.types.points.raster import Raster
+from vorotool.types.points.seed_set import SeedSet
+from vorotool.types.spacing import SQUARE, PixelSides
 
 StreamedMode = Literal["pixels", "components", "labels"]
 

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any, Literal, overload
 
 from numpy.typing import NDArray
 
+from vorotool.convert.images import check_image_choice
+from vorotool.convert.volumes import is_of_space, refuse_triples
 from vorotool.engines.tessellation.frames import (
     as_seeds,
     asked_frame,
@@ -20,25 +22,23 @@ from vorotool.engines.tessellation.propagation import PropagatedRows
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.engines.tessellation.verify_tessellation import verify_label_image
 from vorotool.errors import UsageError
-from vorotool.geometry.arguments.images import check_image_choice
-from vorotool.geometry.arguments.values import check_value
-from vorotool.geometry.arguments.volumes import is_of_space, refuse_triples
-from vorotool.geometry.checks import is_choice
-from vorotool.geometry.numbers import shown_number, whole_number
-from vorotool.geometry.pixel_frame import MAX_PIXELS, Frame
-from vorotool.geometry.points.label_image import LabelImage
-from vorotool.geometry.points.seed_set import SeedSet
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.spacing import SQUARE, PixelSides, distance_as_written
-from vorotool.geometry.volumes.label_volume import LabelVolume
+from vorotool.numeric.checks import is_choice
+from vorotool.numeric.numbers import shown_number, whole_number
+from vorotool.numeric.progress import Progress
 from vorotool.products.formats import resolved
+from vorotool.types.arguments import check_value
+from vorotool.types.pixel_frame import MAX_PIXELS, Frame
+from vorotool.types.points.label_image import LabelImage
+from vorotool.types.points.seed_set import SeedSet
+from vorotool.types.spacing import SQUARE, PixelSides, distance_as_written
+from vorotool.types.volumes.label_volume import LabelVolume
 
 if TYPE_CHECKING:
     from numpy.typing import DTypeLike
 
-    from vorotool.geometry.volumes.volume import Volume
-    from vorotool.geometry.volumes.volume_points import VolumePoints
-    from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
+    from vorotool.types.volumes.volume import Volume
+    from vorotool.types.volumes.volume_points import VolumePoints
+    from vorotool.types.volumes.volume_seeds import VolumeSeeds
     from vorotool.typing import SeedsLike, Spacing, VolumeSeedsLike
 
 Method = Literal["exact", "propagation"]

@@ -24,12 +24,12 @@ from vorotool.engines.tessellation.interior_seeds import needed_seeds, paint_see
 from vorotool.engines.tessellation.raster_objects import refuse_distances
 from vorotool.engines.tessellation.seed_lattice import on_coarser_lattice
 from vorotool.errors import InputError, LimitError, UsageError, option
-from vorotool.geometry.checks import checked_threads
-from vorotool.geometry.numbers import shown_number
-from vorotool.geometry.pixel_frame import MAX_SIDE, Frame
-from vorotool.geometry.points.seed_set import SeedSet
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.spacing import SQUARE, PixelSides
+from vorotool.numeric.checks import checked_threads
+from vorotool.numeric.numbers import shown_number
+from vorotool.numeric.progress import Progress
+from vorotool.types.pixel_frame import MAX_SIDE, Frame
+from vorotool.types.points.seed_set import SeedSet
+from vorotool.types.spacing import SQUARE, PixelSides
 
 
 class NothingLabelled:

@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.engines.common.label_arrays import label_array
 from vorotool.errors import InputError, UsageError, VerificationError
-from vorotool.geometry.checks import checked_threads
-from vorotool.geometry.pixel_frame import Frame
-from vorotool.geometry.points.label_image import LabelImage
-from vorotool.geometry.points.seed_set import SeedSet
-from vorotool.geometry.spacing import SQUARE, PixelSides
+from vorotool.numeric.checks import checked_threads
+from vorotool.types.pixel_frame import Frame
+from vorotool.types.points.label_image import LabelImage
+from vorotool.types.points.seed_set import SeedSet
+from vorotool.types.spacing import SQUARE, PixelSides
 
 _FARTHEST = 2**61
 

@@ -13,9 +13,9 @@ from vorotool.engines.tessellation.raster_objects import Objects
 from vorotool.engines.volumes.inner_voxels import outer_voxels
 from vorotool.engines.volumes.volume_objects import VolumeObjects
 from vorotool.errors import LimitError, option
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
-from vorotool.geometry.volumes.voxel_frame import VoxelFrame
+from vorotool.numeric.progress import Progress
+from vorotool.types.volumes.volume_seeds import VolumeSeeds
+from vorotool.types.volumes.voxel_frame import VoxelFrame
 
 CHUNK = 1 << 22
 """Seeds that are placed at a time."""

@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 
 from vorotool.engines.volumes.volume_measures import volume_diagram
 from vorotool.engines.volumes.volume_tessellator import VolumeSweep
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.spacing import PixelSides
-from vorotool.geometry.volumes.label_volume import CUBE
-from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
-from vorotool.geometry.volumes.voxel_frame import VoxelFrame
+from vorotool.numeric.progress import Progress
+from vorotool.types.spacing import PixelSides
+from vorotool.types.volumes.label_volume import CUBE
+from vorotool.types.volumes.volume_seeds import VolumeSeeds
+from vorotool.types.volumes.voxel_frame import VoxelFrame
 
 Quantity = Literal["labels", "distance", "distance2", "diagram"]
 

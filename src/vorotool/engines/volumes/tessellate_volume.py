@@ -11,12 +11,12 @@ from vorotool.engines.tessellation.frames import require_memory, sides_of
 from vorotool.engines.volumes.volume_frames import as_volume_seeds, asked_voxel_frame, default_voxel_frame
 from vorotool.engines.volumes.volume_tessellator import VolumeSweep
 from vorotool.errors import UsageError
-from vorotool.geometry.numbers import shown_number, whole_number
-from vorotool.geometry.pixel_frame import MAX_PIXELS
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.spacing import distance_as_written
-from vorotool.geometry.volumes.label_volume import LabelVolume
-from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
+from vorotool.numeric.numbers import shown_number, whole_number
+from vorotool.numeric.progress import Progress
+from vorotool.types.pixel_frame import MAX_PIXELS
+from vorotool.types.spacing import distance_as_written
+from vorotool.types.volumes.label_volume import LabelVolume
+from vorotool.types.volumes.volume_seeds import VolumeSeeds
 
 if TYPE_CHECKING:
     from numpy.typing import DTypeLike

@@ -12,12 +12,12 @@ from vorotool.engines.common.label_arrays import label_array
 from vorotool.engines.tessellation.frames import squared_limit
 from vorotool.engines.tessellation.verify_tessellation import on_lattice, split_limit
 from vorotool.errors import InputError, UsageError, VerificationError
-from vorotool.geometry.checks import checked_threads
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.spacing import PixelSides, distance_as_written
-from vorotool.geometry.volumes.label_volume import CUBE, LabelVolume
-from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
-from vorotool.geometry.volumes.voxel_frame import VoxelFrame
+from vorotool.numeric.checks import checked_threads
+from vorotool.numeric.progress import Progress
+from vorotool.types.spacing import PixelSides, distance_as_written
+from vorotool.types.volumes.label_volume import CUBE, LabelVolume
+from vorotool.types.volumes.volume_seeds import VolumeSeeds
+from vorotool.types.volumes.voxel_frame import VoxelFrame
 
 
 def verify_volume(volume: LabelVolume, *, max_distance: float | Fraction | None = None, threads: int = 0) -> None:

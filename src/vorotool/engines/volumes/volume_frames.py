@@ -8,15 +8,15 @@ from typing import Any
 
 import numpy as np
 
+from vorotool.convert.volumes import as_volume, is_volume
 from vorotool.engines.tessellation.frames import BAND_PIXELS, MOST_UNASKED, asked_numbers, least_sides
 from vorotool.engines.volumes.volume_seeding import Check, seeds_from_volume, seeds_from_xyz
 from vorotool.errors import LimitError, option
-from vorotool.geometry.arguments.volumes import as_volume, is_volume
-from vorotool.geometry.pixel_frame import MAX_PIXELS
-from vorotool.geometry.volumes.label_volume import LabelVolume
-from vorotool.geometry.volumes.volume import Volume
-from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
-from vorotool.geometry.volumes.voxel_frame import VoxelFrame
+from vorotool.types.pixel_frame import MAX_PIXELS
+from vorotool.types.volumes.label_volume import LabelVolume
+from vorotool.types.volumes.volume import Volume
+from vorotool.types.volumes.volume_seeds import VolumeSeeds
+from vorotool.types.volumes.voxel_frame import VoxelFrame
 
 _FORMS = (
     (3, "shape must be three integers (D, H, W)"),

@@ -10,14 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
+from vorotool.convert.volumes import as_volume
 from vorotool.engines.common.label_arrays import described, label_array, next_row, refuse_negative
 from vorotool.errors import InputError
-from vorotool.geometry.arguments.descriptions import naming
-from vorotool.geometry.arguments.volumes import as_volume
-from vorotool.geometry.checks import checked_threads
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.volumes.label_volume import LabelVolume
-from vorotool.geometry.volumes.volume import Volume
+from vorotool.numeric.checks import checked_threads
+from vorotool.numeric.descriptions import naming
+from vorotool.numeric.progress import Progress
+from vorotool.types.volumes.label_volume import LabelVolume
+from vorotool.types.volumes.volume import Volume
 
 if TYPE_CHECKING:
     from vorotool.typing import VolumeLike

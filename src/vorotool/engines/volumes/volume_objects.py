@@ -21,10 +21,10 @@ from vorotool.engines.tessellation.raster_objects import (
     photograph_signs,
 )
 from vorotool.errors import InputError, option
-from vorotool.geometry.checks import checked_flag
-from vorotool.geometry.numbers import finite_double
-from vorotool.geometry.volumes.volume import Volume
-from vorotool.geometry.volumes.voxel_grid import VoxelGrid
+from vorotool.numeric.checks import checked_flag
+from vorotool.numeric.numbers import finite_double
+from vorotool.types.volumes.volume import Volume
+from vorotool.types.volumes.voxel_grid import VoxelGrid
 
 SLAB_VOXELS = 2**23
 """Voxels that are read at a time, or one slice: each takes up to some 16 bytes while its slab is looked at."""

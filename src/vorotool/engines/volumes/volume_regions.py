@@ -14,9 +14,9 @@ from vorotool.engines.common.label_arrays import label_array
 from vorotool.engines.common.site_rows import largest_by_label, rows_of
 from vorotool.engines.volumes.volume_measures import VolumeMeasures, measure_slabs
 from vorotool.engines.volumes.volume_tessellator import VolumeSweep
-from vorotool.geometry.spacing import PixelSides
-from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
-from vorotool.geometry.volumes.voxel_frame import VoxelFrame
+from vorotool.types.spacing import PixelSides
+from vorotool.types.volumes.volume_seeds import VolumeSeeds
+from vorotool.types.volumes.voxel_frame import VoxelFrame
 
 
 @dataclass(frozen=True, eq=False)

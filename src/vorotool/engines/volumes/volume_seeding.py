@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.convert.volume_points import as_volume_points
+from vorotool.convert.volumes import as_volume
 from vorotool.engines.tessellation.cleaned_masks import Cleaning
 from vorotool.engines.tessellation.label_sums import numbered, parts, sums
 from vorotool.engines.tessellation.raster_objects import Note, report_no_foreground
@@ -19,14 +21,12 @@ from vorotool.engines.volumes.inner_voxels import inner_runs
 from vorotool.engines.volumes.outer_seeds import OuterSeeds
 from vorotool.engines.volumes.volume_objects import HeldSlices, SlicesSource, VolumeObjects
 from vorotool.errors import LimitError, UsageError, option
-from vorotool.geometry.arguments.volume_points import as_volume_points
-from vorotool.geometry.arguments.volumes import as_volume
-from vorotool.geometry.checks import is_choice
-from vorotool.geometry.numbers import shown_number, whole_number
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.volumes.volume_points import VolumePoints
-from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
-from vorotool.geometry.volumes.voxel_frame import VoxelFrame
+from vorotool.numeric.checks import is_choice
+from vorotool.numeric.numbers import shown_number, whole_number
+from vorotool.numeric.progress import Progress
+from vorotool.types.volumes.volume_points import VolumePoints
+from vorotool.types.volumes.volume_seeds import VolumeSeeds
+from vorotool.types.volumes.voxel_frame import VoxelFrame
 
 if TYPE_CHECKING:
     from vorotool.typing import RealLike, VolumeLike, VolumePointsLike

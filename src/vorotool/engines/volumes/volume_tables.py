@@ -14,12 +14,12 @@ from vorotool.engines.common.site_rows import largest_by_label, nearest_sites, s
 from vorotool.engines.volumes.volume_measures import VolumeMeasures, labelled, measure_volume
 from vorotool.engines.volumes.volume_regions import VolumeRegions
 from vorotool.errors import InputError
-from vorotool.geometry.checks import checked_threads
-from vorotool.geometry.numbers import finite_double
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.spacing import PixelSides
-from vorotool.geometry.table import Table
-from vorotool.geometry.volumes.label_volume import LabelVolume
+from vorotool.numeric.checks import checked_threads
+from vorotool.numeric.numbers import finite_double
+from vorotool.numeric.progress import Progress
+from vorotool.types.spacing import PixelSides
+from vorotool.types.table import Table
+from vorotool.types.volumes.label_volume import LabelVolume
 
 if TYPE_CHECKING:
     from vorotool.typing import VolumeLike

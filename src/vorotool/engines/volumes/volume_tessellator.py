@@ -23,12 +23,12 @@ from vorotool.engines.tessellation.tessellator import NothingLabelled
 from vorotool.engines.volumes.inner_voxels import paint_inner
 from vorotool.engines.volumes.volume_frames import default_voxel_frame
 from vorotool.errors import InputError, LimitError, UsageError, option
-from vorotool.geometry.checks import checked_threads
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.spacing import PixelSides
-from vorotool.geometry.volumes.label_volume import CUBE
-from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
-from vorotool.geometry.volumes.voxel_frame import VoxelFrame
+from vorotool.numeric.checks import checked_threads
+from vorotool.numeric.progress import Progress
+from vorotool.types.spacing import PixelSides
+from vorotool.types.volumes.label_volume import CUBE
+from vorotool.types.volumes.volume_seeds import VolumeSeeds
+from vorotool.types.volumes.voxel_frame import VoxelFrame
 
 
 class VolumeSweep:

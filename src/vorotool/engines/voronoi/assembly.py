@@ -12,9 +12,9 @@ from vorotool.engines.voronoi.frame_cut import CutBorders
 from vorotool.engines.voronoi.frame_ring import FrameRing
 from vorotool.engines.voronoi.moves import Moves
 from vorotool.errors import VerificationError
-from vorotool.geometry.curves.mixed_arcs import MixedArcs
-from vorotool.geometry.ragged import ranges, starts_of
-from vorotool.geometry.voronoi.voronoi_map import OUTSIDE
+from vorotool.numeric.curves.mixed_arcs import MixedArcs
+from vorotool.numeric.ragged import ranges, starts_of
+from vorotool.types.voronoi.voronoi_map import OUTSIDE
 
 Indices = NDArray[np.int64]
 Floats = NDArray[np.float64]

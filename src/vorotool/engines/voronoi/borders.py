@@ -13,8 +13,8 @@ from vorotool.engines.segment_voronoi.segment_voronoi import core_diagram
 from vorotool.engines.voronoi.elements import OwnedGraph
 from vorotool.engines.voronoi.limits import STEP, Limit
 from vorotool.errors import VerificationError
-from vorotool.geometry.skeleton.segment_voronoi import SegmentVoronoiDiagram
-from vorotool.geometry.voronoi.voronoi_map import OUTSIDE
+from vorotool.types.skeleton.segment_voronoi import SegmentVoronoiDiagram
+from vorotool.types.voronoi.voronoi_map import OUTSIDE
 
 Indices = NDArray[np.int64]
 

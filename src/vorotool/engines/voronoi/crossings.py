@@ -12,7 +12,7 @@ from vorotool.engines.voronoi.cut_curves import FAR, CutCurves, cut_curves
 from vorotool.engines.voronoi.joint_graph import packed
 from vorotool.engines.voronoi.local_diagrams import LocalDiagrams
 from vorotool.engines.voronoi.regions import CutEdges
-from vorotool.geometry.voronoi.voronoi_map import OUTSIDE
+from vorotool.types.voronoi.voronoi_map import OUTSIDE
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]

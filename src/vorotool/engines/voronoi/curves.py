@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.voronoi.borders import Borders
-from vorotool.geometry.polygons.planar_graph import PlanarGraph
+from vorotool.types.polygons.planar_graph import PlanarGraph
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]

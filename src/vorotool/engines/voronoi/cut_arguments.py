@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 
+from vorotool.convert.polygons import as_polygons
 from vorotool.engines.voronoi.regions import CutEdges
 from vorotool.errors import InputError
-from vorotool.geometry.arguments.polygons import as_polygons
-from vorotool.geometry.box import Extent, bounds, default_frame
-from vorotool.geometry.crs import crs_name, same_crs
-from vorotool.geometry.polygons.polygon_set import LINE, PolygonSet, set_of_rings
+from vorotool.numeric.crs import crs_name, same_crs
+from vorotool.types.box import Extent, bounds, default_frame
+from vorotool.types.polygons.polygon_set import LINE, PolygonSet, set_of_rings
 
 FARTHEST = 8.0
 """Margin of the frame at most, in extents of what is in it: the frame is on the lattice, whose step grows with it."""

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from vorotool.engines.voronoi.borders import Borders
 from vorotool.engines.voronoi.curves import parabolas_of
-from vorotool.geometry.polygons.planar_graph import PlanarGraph
+from vorotool.types.polygons.planar_graph import PlanarGraph
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]

@@ -17,10 +17,10 @@ from vorotool.engines.voronoi.nearest_elements import NearestElements
 from vorotool.engines.voronoi.overlay import UNKNOWN, Overlay
 from vorotool.engines.voronoi.regions import CutEdges
 from vorotool.errors import VerificationError
-from vorotool.geometry.box import Extent
-from vorotool.geometry.polygons.planar_graph import PlanarGraph
-from vorotool.geometry.ragged import owners
-from vorotool.geometry.voronoi.voronoi_map import OUTSIDE
+from vorotool.numeric.ragged import owners
+from vorotool.types.box import Extent
+from vorotool.types.polygons.planar_graph import PlanarGraph
+from vorotool.types.voronoi.voronoi_map import OUTSIDE
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]

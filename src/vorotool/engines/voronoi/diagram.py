@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, unwanted_sides
 from vorotool.engines.voronoi.elements import OwnedGraph
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.skeleton.segment_voronoi import SegmentVoronoiDiagram
+from vorotool.numeric.progress import Progress
+from vorotool.types.skeleton.segment_voronoi import SegmentVoronoiDiagram
 
 
 def diagram_of(

@@ -17,11 +17,11 @@ from vorotool.engines.arrangement.planar_graph import (
 )
 from vorotool.engines.arrangement.reports import report_repairs, report_small
 from vorotool.errors import LimitError
-from vorotool.geometry.magnitude import check_magnitude
-from vorotool.geometry.polygons.planar_graph import PlanarGraph
-from vorotool.geometry.polygons.polygon_set import LINE, PolygonSet
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.ragged import owners, ranges, starts_of
+from vorotool.numeric.progress import Progress
+from vorotool.numeric.ragged import owners, ranges, starts_of
+from vorotool.types.magnitude import check_magnitude
+from vorotool.types.polygons.planar_graph import PlanarGraph
+from vorotool.types.polygons.polygon_set import LINE, PolygonSet
 
 NOBODY = np.int32(2**31 - 1)
 """A site after all others, while the smallest is looked for."""

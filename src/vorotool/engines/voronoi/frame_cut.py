@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from vorotool.engines.voronoi.borders import Borders
 from vorotool.engines.voronoi.curves import INFINITY, CircularArc, controls_of, parabolas_of
 from vorotool.engines.voronoi.moves import Moves
-from vorotool.geometry.box import Extent
-from vorotool.geometry.polygons.planar_graph import PlanarGraph
-from vorotool.geometry.voronoi.voronoi_map import OUTSIDE
+from vorotool.types.box import Extent
+from vorotool.types.polygons.planar_graph import PlanarGraph
+from vorotool.types.voronoi.voronoi_map import OUTSIDE
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]

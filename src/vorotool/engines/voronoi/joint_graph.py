@@ -11,12 +11,12 @@ from vorotool.engines.arrangement.flat_rings import with_flat_shells_as_lines
 from vorotool.engines.arrangement.planar_graph import MOST_VERTICES, Placement, arranged, placed_vertices
 from vorotool.engines.voronoi.elements import graph_of_sites
 from vorotool.errors import LimitError
-from vorotool.geometry.box import Extent, corners_of
-from vorotool.geometry.magnitude import check_magnitude
-from vorotool.geometry.polygons.planar_graph import PlanarGraph
-from vorotool.geometry.polygons.polygon_set import LINE, SHELL, PolygonSet
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.ragged import owners, ranges, starts_of
+from vorotool.numeric.progress import Progress
+from vorotool.numeric.ragged import owners, ranges, starts_of
+from vorotool.types.box import Extent, corners_of
+from vorotool.types.magnitude import check_magnitude
+from vorotool.types.polygons.planar_graph import PlanarGraph
+from vorotool.types.polygons.polygon_set import LINE, SHELL, PolygonSet
 
 Indices = NDArray[np.int64]
 Floats = NDArray[np.float64]

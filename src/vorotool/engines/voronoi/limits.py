@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.segment_voronoi.segment_voronoi import core_diagram
-from vorotool.geometry.polygons.planar_graph import PlanarGraph
-from vorotool.geometry.skeleton.segment_voronoi import SegmentVoronoiDiagram
-from vorotool.geometry.sorted_sets import distinct
+from vorotool.numeric.sorted_sets import distinct
+from vorotool.types.polygons.planar_graph import PlanarGraph
+from vorotool.types.skeleton.segment_voronoi import SegmentVoronoiDiagram
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]

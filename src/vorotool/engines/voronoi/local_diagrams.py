@@ -14,10 +14,10 @@ from vorotool.engines.voronoi.borders import Borders, borders_of
 from vorotool.engines.voronoi.diagram import diagram_of
 from vorotool.engines.voronoi.elements import OwnedGraph, owners_of
 from vorotool.engines.voronoi.regions import Regions
-from vorotool.geometry.polygons.planar_graph import PlanarGraph
-from vorotool.geometry.polygons.polygon_set import PolygonSet
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.ragged import ranges, starts_of
+from vorotool.numeric.progress import Progress
+from vorotool.numeric.ragged import ranges, starts_of
+from vorotool.types.polygons.planar_graph import PlanarGraph
+from vorotool.types.polygons.polygon_set import PolygonSet
 
 Indices = NDArray[np.int64]
 Sites = NDArray[np.int32]

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
+from vorotool.convert.sites import Sites
 from vorotool.engines.voronoi.cut_arguments import GivenCuts, frame_of
 from vorotool.engines.voronoi.cut_map import CutMap, cut_map
 from vorotool.engines.voronoi.joint_graph import joint_graph
 from vorotool.engines.voronoi.local_diagrams import local_diagrams
 from vorotool.engines.voronoi.regions import regions_of
 from vorotool.errors import InputError
-from vorotool.geometry.arguments.sites import Sites
-from vorotool.geometry.box import Extent
-from vorotool.geometry.progress import Progress
+from vorotool.numeric.progress import Progress
+from vorotool.types.box import Extent
 
 
 def map_between_cuts(

@@ -9,12 +9,12 @@ from numpy.typing import NDArray
 
 from vorotool.engines.voronoi.elements import OwnedGraph, owned_graph, shared_elements
 from vorotool.errors import RepairWarning
-from vorotool.geometry.box import Extent
-from vorotool.geometry.polygons.planar_graph import PlanarGraph
-from vorotool.geometry.sorted_sets import distinct
-from vorotool.geometry.voronoi.shapes import cell_polygons
-from vorotool.geometry.voronoi.site_shapes import site_shapes
-from vorotool.geometry.voronoi.voronoi_map import OUTSIDE, VoronoiMap
+from vorotool.numeric.sorted_sets import distinct
+from vorotool.types.box import Extent
+from vorotool.types.polygons.planar_graph import PlanarGraph
+from vorotool.types.voronoi.shapes import cell_polygons
+from vorotool.types.voronoi.site_shapes import site_shapes
+from vorotool.types.voronoi.voronoi_map import OUTSIDE, VoronoiMap
 
 Floats = NDArray[np.float64]
 

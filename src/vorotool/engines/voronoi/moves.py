@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.ragged import ranges
+from vorotool.numeric.ragged import ranges
 
 if TYPE_CHECKING:
     from vorotool.engines.voronoi.assembly import Arcs, Rings

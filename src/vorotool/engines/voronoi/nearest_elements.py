@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from vorotool.engines.voronoi.elements import NOBODY
 from vorotool.engines.voronoi.local_diagrams import LocalDiagrams
-from vorotool.geometry.polygons.used_shapes import used_shapes
-from vorotool.geometry.voronoi.voronoi_map import OUTSIDE
+from vorotool.types.polygons.used_shapes import used_shapes
+from vorotool.types.voronoi.voronoi_map import OUTSIDE
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.voronoi.elements import NOBODY, OwnedGraph
-from vorotool.geometry.voronoi.voronoi_map import OUTSIDE
+from vorotool.types.voronoi.voronoi_map import OUTSIDE
 
 Exact = tuple[Fraction, Fraction]
 

@@ -14,8 +14,8 @@ from vorotool.engines.voronoi.curves import controls_of
 from vorotool.engines.voronoi.joint_graph import packed
 from vorotool.engines.voronoi.local_diagrams import LocalDiagrams
 from vorotool.engines.voronoi.regions import NOBODY, CutEdges, faces_of_sides
-from vorotool.geometry.ragged import owners, starts_of
-from vorotool.geometry.voronoi.voronoi_map import OUTSIDE
+from vorotool.numeric.ragged import owners, starts_of
+from vorotool.types.voronoi.voronoi_map import OUTSIDE
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]

@@ -17,9 +17,9 @@ from vorotool.engines.voronoi.local_diagrams import local_diagrams
 from vorotool.engines.voronoi.measures import graph_again
 from vorotool.engines.voronoi.regions import regions_of
 from vorotool.errors import RepairWarning
-from vorotool.geometry.voronoi.shapes import cell_polygons
-from vorotool.geometry.voronoi.site_shapes import site_shapes
-from vorotool.geometry.voronoi.voronoi_map import OUTSIDE, VoronoiMap
+from vorotool.types.voronoi.shapes import cell_polygons
+from vorotool.types.voronoi.site_shapes import site_shapes
+from vorotool.types.voronoi.voronoi_map import OUTSIDE, VoronoiMap
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]

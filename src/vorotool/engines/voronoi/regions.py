@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.engines.voronoi.joint_graph import JointGraph, packed
 from vorotool.errors import Kind, Message, VorotoolWarning, warn
-from vorotool.geometry.polygons.planar_graph import PlanarGraph
-from vorotool.geometry.ragged import owners, starts_of
-from vorotool.geometry.sorted_sets import distinct, is_among
+from vorotool.numeric.ragged import owners, starts_of
+from vorotool.numeric.sorted_sets import distinct, is_among
+from vorotool.types.polygons.planar_graph import PlanarGraph
 
 Indices = NDArray[np.int64]
 Floats = NDArray[np.float64]

@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.polygons.conversion import to_shapely
-from vorotool.geometry.polygons.used_shapes import used_shapes
-from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
+from vorotool.types.polygons.conversion import to_shapely
+from vorotool.types.polygons.used_shapes import used_shapes
+from vorotool.types.voronoi.voronoi_map import VoronoiMap
 
 Floats = NDArray[np.float64]
 

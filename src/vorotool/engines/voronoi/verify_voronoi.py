@@ -10,13 +10,13 @@ from numpy.typing import NDArray
 from vorotool.engines.common.faults import fail, first_wrong
 from vorotool.engines.voronoi.verify_cuts import EnclosedFaces, shared_out
 from vorotool.errors import UsageError
-from vorotool.geometry.arguments.values import check_value
-from vorotool.geometry.curves.inverse_functions import PI, angle_of
-from vorotool.geometry.numbers import shown_number, whole_number
-from vorotool.geometry.polygons.used_shapes import used_shapes
-from vorotool.geometry.ragged import owners
-from vorotool.geometry.voronoi.shapes import flattened_arcs
-from vorotool.geometry.voronoi.voronoi_map import OUTSIDE, VoronoiMap
+from vorotool.numeric.curves.inverse_functions import PI, angle_of
+from vorotool.numeric.numbers import shown_number, whole_number
+from vorotool.numeric.ragged import owners
+from vorotool.types.arguments import check_value
+from vorotool.types.polygons.used_shapes import used_shapes
+from vorotool.types.voronoi.shapes import flattened_arcs
+from vorotool.types.voronoi.voronoi_map import OUTSIDE, VoronoiMap
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]

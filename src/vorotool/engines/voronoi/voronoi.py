@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from vorotool.convert.boxes import as_extent
+from vorotool.convert.sites import as_sites
 from vorotool.engines.voronoi.assembly import Arcs, Rings, arcs_of, cells_of, rings_of
 from vorotool.engines.voronoi.borders import Borders, borders_of
 from vorotool.engines.voronoi.cut_arguments import given_cuts
@@ -21,14 +23,12 @@ from vorotool.engines.voronoi.map_between_cuts import map_between_cuts
 from vorotool.engines.voronoi.moves import moved_vertices
 from vorotool.engines.voronoi.nearest_site import site_at
 from vorotool.errors import UsageError
-from vorotool.geometry.arguments.boxes import as_extent
-from vorotool.geometry.arguments.sites import as_sites
-from vorotool.geometry.box import Extent, corners_of, default_frame, is_extent
-from vorotool.geometry.checks import checked_threads
-from vorotool.geometry.magnitude import check_lengths
-from vorotool.geometry.numbers import finite_double, shown_number
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.voronoi.voronoi_map import OUTSIDE, VoronoiMap
+from vorotool.numeric.checks import checked_threads
+from vorotool.numeric.numbers import finite_double, shown_number
+from vorotool.numeric.progress import Progress
+from vorotool.types.box import Extent, corners_of, default_frame, is_extent
+from vorotool.types.magnitude import check_lengths
+from vorotool.types.voronoi.voronoi_map import OUTSIDE, VoronoiMap
 
 if TYPE_CHECKING:
     from vorotool.typing import FrameLike, ImageLike, PointsLike, PolygonsLike

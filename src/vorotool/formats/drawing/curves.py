@@ -15,9 +15,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.curves.circular_arcs import chords_of
-from vorotool.geometry.curves.flatten import CURVE_PART, MOST_PIECES
-from vorotool.geometry.curves.inverse_functions import PI, cosine_and_sine, hypotenuse
+from vorotool.numeric.curves.circular_arcs import chords_of
+from vorotool.numeric.curves.flatten import CURVE_PART, MOST_PIECES
+from vorotool.numeric.curves.inverse_functions import PI, cosine_and_sine, hypotenuse
 
 Floats = NDArray[np.float64]
 Point = tuple[float, float]

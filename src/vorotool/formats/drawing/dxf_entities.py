@@ -21,8 +21,8 @@ from vorotool.formats.drawing.curves import (
     turned,
     whole_ellipse,
 )
-from vorotool.geometry.curves.flatten import CURVE_PART, MOST_PIECES
-from vorotool.geometry.curves.inverse_functions import PI, cosine_and_sine, hypotenuse
+from vorotool.numeric.curves.flatten import CURVE_PART, MOST_PIECES
+from vorotool.numeric.curves.inverse_functions import PI, cosine_and_sine, hypotenuse
 
 _SAME = 1e-12
 """Of ways of the unit circle: apart by no more than the digits of files."""

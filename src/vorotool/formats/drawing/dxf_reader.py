@@ -19,8 +19,8 @@ from vorotool.formats.drawing.polygons import NESTED, Shape, shapes_to_polygons
 from vorotool.formats.drawing.recognition import BINARY_DXF
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions
-from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.types.axis import UP
+from vorotool.types.polygons.polygon_set import PolygonSet
 
 MOST_ENTITIES = 2**17
 """Of a drawing once its blocks are there as often as they are inserted, where that is more than the file holds; and

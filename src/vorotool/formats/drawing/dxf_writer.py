@@ -11,16 +11,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.formats.drawing.dxf_drawing import DxfDrawing
-from vorotool.geometry.alpha.hull import AlphaHull
-from vorotool.geometry.curves.inverse_functions import hypotenuse
-from vorotool.geometry.skeleton.centerline import Centerlines
-from vorotool.geometry.skeleton.discs import Discs
-from vorotool.geometry.skeleton.extended import ExtendedSkeleton
-from vorotool.geometry.skeleton.led_on import LedOn
-from vorotool.geometry.skeleton.offsets import Offsets
-from vorotool.geometry.skeleton.points_along import SkeletonPoints
-from vorotool.geometry.skeleton.skeleton import Skeleton
-from vorotool.geometry.skeleton.smooth_lines import SmoothLines
+from vorotool.numeric.curves.inverse_functions import hypotenuse
+from vorotool.types.alpha.hull import AlphaHull
+from vorotool.types.skeleton.centerline import Centerlines
+from vorotool.types.skeleton.discs import Discs
+from vorotool.types.skeleton.extended import ExtendedSkeleton
+from vorotool.types.skeleton.led_on import LedOn
+from vorotool.types.skeleton.offsets import Offsets
+from vorotool.types.skeleton.points_along import SkeletonPoints
+from vorotool.types.skeleton.skeleton import Skeleton
+from vorotool.types.skeleton.smooth_lines import SmoothLines
 
 Floats = NDArray[np.float64]
 

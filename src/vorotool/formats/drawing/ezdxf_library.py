@@ -7,7 +7,7 @@ import sys
 from configparser import ConfigParser
 from typing import Any
 
-from vorotool.geometry.extras import needed
+from vorotool.convert.extras import needed
 
 
 def ezdxf_module(module: str = "ezdxf") -> Any:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from vorotool.formats.drawing.nesting import OUTSIDE, Nesting, nesting_of
 from vorotool.formats.drawing.windings import windings
-from vorotool.geometry.box import bounds
+from vorotool.types.box import bounds
 
 Floats = NDArray[np.float64]
 

@@ -10,8 +10,8 @@ from typing import NamedTuple
 import numpy as np
 
 from vorotool.formats.drawing.curves import Arc, Bezier, Curve, Line, Piece, Point, extent_of
-from vorotool.geometry.length_units import ratio
-from vorotool.geometry.ragged import starts_of
+from vorotool.numeric.length_units import ratio
+from vorotool.numeric.ragged import starts_of
 
 JOINED = Fraction(5, 1000)
 """In mm: how far ends may be apart that are joined, if nothing else is asked for, as files round numbers."""

@@ -14,10 +14,10 @@ from vorotool.errors import InputError
 from vorotool.formats.drawing.curves import Curve
 from vorotool.formats.drawing.fill_rules import filled_polygons, nested_polygons
 from vorotool.formats.parsing.reader_options import ReadOptions
-from vorotool.geometry.box import Box
-from vorotool.geometry.length_units import ratio
-from vorotool.geometry.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet, set_of_rings
+from vorotool.numeric.length_units import ratio
 from vorotool.types.axis import DOWN, YAxis
+from vorotool.types.box import Box
+from vorotool.types.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet, set_of_rings
 
 NESTED = "nested"
 """A rule beside those of SVG: closed curves are shells, holes, and shells in these by how they lie in one another, each

@@ -5,11 +5,11 @@ from __future__ import annotations
 from math import isfinite, sqrt
 from typing import Any
 
+from vorotool.convert.extras import needed
 from vorotool.errors import InputError
 from vorotool.formats.drawing.curves import Bezier, Curve, Line, Piece, Point, arc_between, turned
 from vorotool.formats.parsing.reader_options import shortened
-from vorotool.geometry.curves.inverse_functions import hypotenuse
-from vorotool.geometry.extras import needed
+from vorotool.numeric.curves.inverse_functions import hypotenuse
 
 
 def path_curves(data: str, place: str) -> list[Curve]:

@@ -26,8 +26,8 @@ from vorotool.formats.drawing.svg_styles import Style
 from vorotool.formats.drawing.xml_tree import Element
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions
-from vorotool.geometry.box import Box
-from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.types.box import Box
+from vorotool.types.polygons.polygon_set import PolygonSet
 
 _INKSCAPE = "http://www.inkscape.org/namespaces/inkscape}"
 GZIP_MAGIC = b"\x1f\x8b"

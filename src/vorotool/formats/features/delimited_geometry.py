@@ -16,8 +16,8 @@ from vorotool.formats.io.sources import Source, check_nesting
 from vorotool.formats.parsing.reader_options import shortened
 from vorotool.formats.parsing.reference_systems import crs_of_numbers
 from vorotool.formats.points.delimited import DelimitedText, delimited_text
-from vorotool.geometry.crs import without_number
-from vorotool.geometry.curves.well_known import geometry_of_binary, geometry_of_texts
+from vorotool.numeric.crs import without_number
+from vorotool.numeric.curves.well_known import geometry_of_binary, geometry_of_texts
 
 _GEOMETRY_COLUMNS = ("wkt", "geometry", "geom", "the_geom", "wkb", "wkb_geometry", "wkt_geom")
 _BINARY = re.compile(r"(00|01)([0-9A-Fa-f]{2}){8,}")

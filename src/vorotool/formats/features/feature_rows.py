@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from vorotool.formats.text.json_items import JsonItems
 from vorotool.formats.text.row_writer import Column
 from vorotool.formats.text.tables import current_unit, json_text
-from vorotool.geometry.table import Lookup
+from vorotool.types.table import Lookup
 
 _DATE = re.compile(r"\d{4}-\d\d-\d\d")
 _INTEGERS = range(-(2**63), 2**63)

@@ -9,16 +9,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.convert.sites import Sites
 from vorotool.errors import NO_PROPERTIES, InputError, LimitError
 from vorotool.formats.parsing.geojson import MOST_CELLS
 from vorotool.formats.parsing.geometry_advice import OF_SITES, not_a_point_advice, not_a_shape_advice
 from vorotool.formats.parsing.reader_options import ReadOptions, no_points
 from vorotool.formats.points.rows import PointRows
-from vorotool.geometry.arguments.sites import Sites
-from vorotool.geometry.points.conversion import part_numbers, single_points
-from vorotool.geometry.polygons.conversion import polygons_of_geometry
-from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.types.axis import UP
+from vorotool.types.points.conversion import part_numbers, single_points
+from vorotool.types.polygons.conversion import polygons_of_geometry
+from vorotool.types.polygons.polygon_set import PolygonSet
 
 _POINTS, _SHAPES, _COLLECTION = (0, 4), (1, 2, 3, 5, 6), 7  # type numbers of GEOS
 

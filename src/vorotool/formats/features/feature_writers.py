@@ -14,14 +14,14 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.convert.extras import needed
 from vorotool.errors import OutputError
 from vorotool.formats.features.feature_rows import FeatureRows, TypedColumn
 from vorotool.formats.features.shapefile_parts import PARTS, check_parts, is_whole, older_parts, removal
 from vorotool.formats.io.atomic_output import current_rules, failure, open_output
 from vorotool.formats.io.commit import committed_together
 from vorotool.formats.io.temporaries import new_folder
-from vorotool.geometry.crs import crs_text
-from vorotool.geometry.extras import needed
+from vorotool.numeric.crs import crs_text
 
 _FIXED = {"OGR_CURRENT_DATE": "1970-01-01T00:00:00.000Z"}
 """Options of GDAL that make the same bytes of the same features."""

@@ -20,8 +20,8 @@ from vorotool.formats.features.layers import chosen_layer
 from vorotool.formats.io.limits import check_unpacked, decoding, interruptible
 from vorotool.formats.io.sources import Source, read_source
 from vorotool.formats.parsing.reader_options import ReadOptions
-from vorotool.geometry.crs import member_of_text
-from vorotool.geometry.curves.well_known import geometry_of_binary
+from vorotool.numeric.crs import member_of_text
+from vorotool.numeric.curves.well_known import geometry_of_binary
 
 MAGIC = b"SQLite format 3\0"
 JOURNALS = ("-wal", "-journal")

@@ -7,14 +7,14 @@ from typing import Any
 
 import numpy as np
 
+from vorotool.convert.extras import needed
 from vorotool.errors import InputError
 from vorotool.formats.features.feature_table import Features
 from vorotool.formats.io.limits import check_unpacked, decoding
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions
-from vorotool.geometry.crs import LONGITUDE_LATITUDE, crs_member, member_of_text
-from vorotool.geometry.curves.well_known import geometry_of_binary
-from vorotool.geometry.extras import needed
+from vorotool.numeric.crs import LONGITUDE_LATITUDE, crs_member, member_of_text
+from vorotool.numeric.curves.well_known import geometry_of_binary
 
 _TITLE = "Parquet"
 _BATCH = 4096

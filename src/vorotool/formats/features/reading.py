@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from vorotool.convert.sites import Sites
 from vorotool.formats.features.feature_table import (
     Features,
     feature_points,
@@ -12,11 +13,10 @@ from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.formats.points.rows import PointRows, point_set
 from vorotool.formats.points.tables import rows_of_columns
-from vorotool.geometry.arguments.sites import Sites
-from vorotool.geometry.points.point_set import PointSet
-from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.products.formats import resolved
 from vorotool.products.inputs import INPUTS
+from vorotool.types.points.point_set import PointSet
+from vorotool.types.polygons.polygon_set import PolygonSet
 
 
 def features_of(source: Source) -> Features:

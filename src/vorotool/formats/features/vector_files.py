@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.convert.extras import needed
 from vorotool.errors import InputError
 from vorotool.formats.features.feature_table import Features
 from vorotool.formats.features.layers import chosen_layer
@@ -23,9 +24,8 @@ from vorotool.formats.features.shapefile_parts import archive_of
 from vorotool.formats.io.limits import decoding, interruptible
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions
-from vorotool.geometry.crs import member_of_text
-from vorotool.geometry.curves.well_known import geometry_of_binary
-from vorotool.geometry.extras import needed
+from vorotool.numeric.crs import member_of_text
+from vorotool.numeric.curves.well_known import geometry_of_binary
 
 TITLES = {"fgb": "FlatGeobuf", "shp": "Shapefile", "kml": "KML", "gpx": "GPX"}
 """Formats and what they are called."""

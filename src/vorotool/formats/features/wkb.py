@@ -13,7 +13,7 @@ from vorotool.errors import InputError
 from vorotool.formats.features.feature_table import Features
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reference_systems import crs_of_numbers
-from vorotool.geometry.curves.well_known import geometry_of_binary
+from vorotool.numeric.curves.well_known import geometry_of_binary
 
 _HEXADECIMAL = re.compile(rb"[0-9A-Fa-f\s]*")
 

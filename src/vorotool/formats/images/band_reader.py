@@ -24,9 +24,9 @@ from vorotool.formats.zarr.metadata import read_metadata
 from vorotool.formats.zarr.multiscales import Level, full_size, label_images
 from vorotool.formats.zarr.reader import StoredArray
 from vorotool.formats.zarr.store import is_array, is_folder, is_group, is_store
-from vorotool.geometry.pixel_frame import MAX_PIXELS
-from vorotool.geometry.pixel_grid import PixelGrid
-from vorotool.geometry.points.raster import Raster
+from vorotool.types.pixel_frame import MAX_PIXELS
+from vorotool.types.pixel_grid import PixelGrid
+from vorotool.types.points.raster import Raster
 
 _TIFF_MAGIC = (b"II*\x00", b"MM\x00*", b"II+\x00", b"MM\x00+")
 

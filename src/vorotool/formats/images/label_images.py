@@ -13,9 +13,9 @@ from vorotool.formats.images.label_text import write_label_text
 from vorotool.formats.images.npy import write_npy
 from vorotool.formats.images.png_writer import write_png
 from vorotool.formats.images.tiff_writer import write_tiff
-from vorotool.geometry.pixel_grid import PixelGrid
-from vorotool.geometry.points.label_image import LabelImage
-from vorotool.geometry.points.raster import Raster
+from vorotool.types.pixel_grid import PixelGrid
+from vorotool.types.points.label_image import LabelImage
+from vorotool.types.points.raster import Raster
 
 _ANY_IMAGE = option("-o image.tif or image.npy", "the path image.tif or image.npy")
 

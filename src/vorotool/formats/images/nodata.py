@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from vorotool.formats.images.tiff_grid import PageGrid
 from vorotool.formats.images.world_file import world_grid
-from vorotool.geometry.pixel_grid import PixelGrid
-from vorotool.geometry.points.raster import Raster
+from vorotool.types.pixel_grid import PixelGrid
+from vorotool.types.points.raster import Raster
 
 
 def tiff_raster(name: str, values: NDArray[Any], about: PageGrid, note: Callable[[str], None]) -> Raster:

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from vorotool.geometry.length_units import ratio
-from vorotool.geometry.numbers import shown_number
+from vorotool.numeric.length_units import ratio
+from vorotool.numeric.numbers import shown_number
 
 LARGEST_XML = 2**25
 """Bytes that are parsed at most; of an image with many planes they are some millions."""

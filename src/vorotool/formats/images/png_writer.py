@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import LimitError
 from vorotool.formats.io.row_bands import blocks, check_fits
-from vorotool.geometry.parallel import in_order
+from vorotool.numeric.parallel import in_order
 
 SIGNATURE = b"\x89PNG\r\n\x1a\n"
 LARGEST_SIDE = 2**31 - 1

@@ -17,7 +17,7 @@ from vorotool.formats.io.limits import check_pixels
 from vorotool.formats.io.npy_arrays import npy_header
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions
-from vorotool.geometry.points.raster import Raster
+from vorotool.types.points.raster import Raster
 
 
 def read_image(source: Source, options: ReadOptions) -> Raster:

@@ -12,7 +12,7 @@ from vorotool.formats.images import png_reader, tiff_reader
 from vorotool.formats.images.reader import read_image
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions
-from vorotool.geometry.pixel_grid import PixelGrid
+from vorotool.types.pixel_grid import PixelGrid
 
 _WHITE = 255
 

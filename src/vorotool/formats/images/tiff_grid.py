@@ -10,8 +10,8 @@ from typing import Any
 
 from vorotool.errors import InputError
 from vorotool.formats.images.ome_xml import ome_sizes, states_one_side
-from vorotool.geometry.crs import crs_member
-from vorotool.geometry.pixel_grid import GeoKeys, PixelGrid, Transform, map_grid
+from vorotool.numeric.crs import crs_member
+from vorotool.types.pixel_grid import GeoKeys, PixelGrid, Transform, map_grid
 
 PIXEL_SCALE, TIEPOINT, TRANSFORMATION = 33550, 33922, 34264
 DIRECTORY, DOUBLES, TEXT, NODATA = 34735, 34736, 34737, 42113

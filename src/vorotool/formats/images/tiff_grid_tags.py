@@ -23,9 +23,9 @@ from vorotool.formats.images.tiff_grid import (
     TIEPOINT,
     TRANSFORMATION,
 )
-from vorotool.geometry.crs import crs_name, is_geographic
-from vorotool.geometry.length_units import metres
-from vorotool.geometry.pixel_grid import GeoKeys, PixelGrid
+from vorotool.numeric.crs import crs_name, is_geographic
+from vorotool.numeric.length_units import metres
+from vorotool.types.pixel_grid import GeoKeys, PixelGrid
 
 _LARGEST = 2**32 - 1
 """The largest numerator and denominator."""

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError, LimitError
 from vorotool.formats.compression import unpacking
 from vorotool.formats.images.tiff_layout import TiffLayout
-from vorotool.geometry.parallel import in_order
+from vorotool.numeric.parallel import in_order
 
 SPARE = 2**16
 """Bytes beyond the pixels that a compressed segment may have: some writers fill up a block."""

@@ -21,8 +21,8 @@ from numpy.typing import DTypeLike, NDArray
 from vorotool.formats.images.npy import stored
 from vorotool.formats.images.tiff_grid_tags import grid_tags, scale_tag
 from vorotool.formats.io.row_bands import BLOCK_BYTES, blocks, checked
-from vorotool.geometry.parallel import in_order
-from vorotool.geometry.pixel_grid import PixelGrid
+from vorotool.numeric.parallel import in_order
+from vorotool.types.pixel_grid import PixelGrid
 
 TILE = 512
 """Pixels a side of a tile, as cloud-optimized GeoTIFFs have them."""

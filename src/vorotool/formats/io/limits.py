@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from typing import TypeVar
 
 from vorotool.errors import InputError, LimitError, VorotoolError, option
-from vorotool.geometry.parallel import start
+from vorotool.numeric.parallel import start
 
 _MOMENT = 0.05
 """Seconds after which signals are looked for."""

@@ -10,7 +10,7 @@ from typing import Any
 from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import shortened
-from vorotool.geometry.crs import crs_name, same_crs
+from vorotool.numeric.crs import crs_name, same_crs
 from vorotool.types.axis import MEMBER
 
 RECORD_MARK = b"\x1e"

@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError, LimitError, option
-from vorotool.geometry.curves.well_known import flattened_note
-from vorotool.geometry.pixel_frame import MAX_PIXELS
+from vorotool.numeric.curves.well_known import flattened_note
 from vorotool.types.axis import YAxis
+from vorotool.types.pixel_frame import MAX_PIXELS
 
 LARGEST_LABEL = 0xFFFFFFFF
 """Labels are uint32: there cannot be more sites either."""

@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError, Kind, Message, UsageError, option
 from vorotool.formats.parsing.reader_options import ReadOptions
-from vorotool.geometry.crs import crs_member, crs_name, same_crs
-from vorotool.geometry.degrees import TO_CRS, note_degrees
-from vorotool.geometry.points.point_set import PointSet
-from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.numeric.crs import crs_member, crs_name, same_crs
+from vorotool.numeric.degrees import TO_CRS, note_degrees
 from vorotool.types.axis import DOWN, UP, YAxis
 from vorotool.types.fields import with_y_axis
+from vorotool.types.points.point_set import PointSet
+from vorotool.types.polygons.polygon_set import PolygonSet
 
 _CRS = option("--input-crs", "crs")
 _Y_DOWN = option("--y-down", "y_up=False")

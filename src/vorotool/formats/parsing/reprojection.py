@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.convert.extras import needed
 from vorotool.errors import InputError, UsageError
-from vorotool.geometry.crs import crs_name, crs_text
-from vorotool.geometry.extras import needed
+from vorotool.numeric.crs import crs_name, crs_text
 
 
 def reprojected(xy: NDArray[np.float64], name: str, source: Any, target: Any) -> NDArray[np.float64]:

@@ -6,9 +6,9 @@ import re
 from collections.abc import Sequence
 from typing import NamedTuple
 
+from vorotool.convert.coordinate_names import coordinate_columns, plain_name, space_columns
 from vorotool.errors import InputError, UsageError, option
 from vorotool.formats.parsing.reader_options import ReadOptions, shortened
-from vorotool.geometry.coordinate_names import coordinate_columns, plain_name, space_columns
 
 COLUMNS, _X_Y = option("--columns"), option("--columns X,Y", 'columns="X,Y"')
 _BEGINNINGS = (("x", "y"), ("longitude", "latitude"), ("lon", "lat"), ("lng", "lat"), ("east", "north"))

@@ -15,6 +15,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
+from vorotool.convert.coordinate_names import (
+    coordinate_columns,
+    is_longitude_latitude,
+    is_map,
+)
 from vorotool.errors import NO_PROPERTIES, InputError
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import (
@@ -24,15 +29,10 @@ from vorotool.formats.parsing.reader_options import (
 )
 from vorotool.formats.points.columns import COLUMNS, DECIMAL_COMMA, Chosen, choose, note_no_label, parse_columns
 from vorotool.formats.points.rows import PointRows, point_set
-from vorotool.geometry.coordinate_names import (
-    coordinate_columns,
-    is_longitude_latitude,
-    is_map,
-)
-from vorotool.geometry.crs import LONGITUDE_LATITUDE, crs_member
-from vorotool.geometry.number_text import typed_texts
-from vorotool.geometry.points.point_set import PointSet
+from vorotool.numeric.crs import LONGITUDE_LATITUDE, crs_member
+from vorotool.numeric.number_text import typed_texts
 from vorotool.types.axis import UNSTATED, UP
+from vorotool.types.points.point_set import PointSet
 
 _QUOTED = re.compile(r'"[^"]*"')
 

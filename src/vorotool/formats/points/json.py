@@ -23,8 +23,8 @@ from vorotool.formats.parsing.reference_systems import note_unnamed
 from vorotool.formats.points.rows import PointRows, point_set
 from vorotool.formats.points.tables import is_table, points_of_objects
 from vorotool.formats.text.feature_collection import stated_unit
-from vorotool.geometry.points.point_set import PointSet
 from vorotool.types.axis import UP
+from vorotool.types.points.point_set import PointSet
 
 _READER = option("skeleton-exact reads", 'geometry="polygons" reads')
 _ALONG = option("--what points -f csv there", "points_along")

@@ -14,7 +14,7 @@ from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.formats.points.delimited import explain
 from vorotool.formats.points.rows import PointRows
-from vorotool.geometry.points.point_set import PointSet
+from vorotool.types.points.point_set import PointSet
 
 _FORM = "<vertices> {} <attributes> <0 or 1 boundary markers>"
 _SPACE = option("tessellate --size WxHxD", 'geometry="space"')

@@ -9,8 +9,8 @@ from vorotool.errors import AS_VOLUME, InputError
 from vorotool.formats.io.npy_arrays import npy_header, npy_values
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import LARGEST_LABEL, ReadOptions
-from vorotool.geometry.coordinates import INEXACT, first_inexact
-from vorotool.geometry.points.point_set import PointSet
+from vorotool.numeric.coordinates import INEXACT, first_inexact
+from vorotool.types.points.point_set import PointSet
 
 _ADVICE = "save an (n, 2) or (n, 3) array of numbers with numpy.save"
 

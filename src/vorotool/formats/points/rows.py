@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.points.point_set import PointSet
+from vorotool.types.points.point_set import PointSet
 
 
 class PointRows(NamedTuple):

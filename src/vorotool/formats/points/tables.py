@@ -16,9 +16,9 @@ from vorotool.formats.parsing.reader_options import LARGEST_LABEL, ReadOptions, 
 from vorotool.formats.points.columns import Chosen, chosen_columns, note_no_label
 from vorotool.formats.points.delimited import placed_by
 from vorotool.formats.points.rows import PointRows, point_set
-from vorotool.geometry.coordinates import INEXACT, first_inexact
-from vorotool.geometry.numbers import shown_number
-from vorotool.geometry.points.point_set import PointSet, labels_of
+from vorotool.numeric.coordinates import INEXACT, first_inexact
+from vorotool.numeric.numbers import shown_number
+from vorotool.types.points.point_set import PointSet, labels_of
 
 _MISSING = "_missing"
 

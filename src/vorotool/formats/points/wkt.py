@@ -12,11 +12,11 @@ from vorotool.formats.parsing.geometry_advice import not_a_point_advice
 from vorotool.formats.parsing.reader_options import ReadOptions, no_points, shortened
 from vorotool.formats.parsing.reference_systems import crs_of_numbers
 from vorotool.formats.points.rows import PointRows, point_set
-from vorotool.geometry.crs import without_number
-from vorotool.geometry.curves.well_known import geometry_of_texts
-from vorotool.geometry.points.conversion import COLLECTION, MULTIPOINT, POINT, part_numbers, single_points
-from vorotool.geometry.points.point_set import PointSet
+from vorotool.numeric.crs import without_number
+from vorotool.numeric.curves.well_known import geometry_of_texts
 from vorotool.types.axis import UP
+from vorotool.types.points.conversion import COLLECTION, MULTIPOINT, POINT, part_numbers, single_points
+from vorotool.types.points.point_set import PointSet
 
 
 def read_wkt(source: Source, options: ReadOptions) -> PointSet:

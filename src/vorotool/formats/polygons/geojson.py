@@ -9,6 +9,7 @@ from typing import Any, BinaryIO
 import numpy as np
 
 from vorotool import _core
+from vorotool.convert.sites import Sites
 from vorotool.errors import AS_JSON, InputError
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.geojson import (
@@ -27,10 +28,9 @@ from vorotool.formats.polygons.ring_collector import RingCollector
 from vorotool.formats.text.feature_collection import stated_unit, write_collection
 from vorotool.formats.text.row_writer import Column, RowShape
 from vorotool.formats.text.tables import json_text
-from vorotool.geometry.arguments.sites import Sites
-from vorotool.geometry.polygons.polygon_set import PolygonSet
-from vorotool.geometry.table import Computed
 from vorotool.types.axis import UP
+from vorotool.types.polygons.polygon_set import PolygonSet
+from vorotool.types.table import Computed
 
 
 def read_geojson(source: Source, options: ReadOptions) -> PolygonSet:

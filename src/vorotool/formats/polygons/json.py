@@ -7,6 +7,7 @@ from typing import Any, BinaryIO
 
 import numpy as np
 
+from vorotool.convert.sites import Sites, as_sites
 from vorotool.errors import InputError, option
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.geojson import parse_json, property_columns, read_y_axis, refuse_table
@@ -15,12 +16,11 @@ from vorotool.formats.polygons.geojson import read_geojson
 from vorotool.formats.polygons.geojson import read_sites as read_geojson_sites
 from vorotool.formats.polygons.ring_collector import RingCollector
 from vorotool.formats.text.tables import json_bytes
-from vorotool.geometry.arguments.sites import Sites, as_sites
-from vorotool.geometry.polygons.conversion import closed_ring
-from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.products.formats import resolved
 from vorotool.types.axis import MEMBER as Y_AXIS
 from vorotool.types.axis import UNSTATED
+from vorotool.types.polygons.conversion import closed_ring
+from vorotool.types.polygons.polygon_set import PolygonSet
 
 _AS_GEOJSON = option("--what offset -f geojson", 'fmt="geojson"')
 

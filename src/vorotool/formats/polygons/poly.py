@@ -12,10 +12,10 @@ from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions, shortened
 from vorotool.formats.text.coordinate_text import coordinate_text
-from vorotool.geometry.box import bounds
-from vorotool.geometry.polygons.conversion import to_shapely
-from vorotool.geometry.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet, set_of_rings
-from vorotool.geometry.sorted_sets import distinct
+from vorotool.numeric.sorted_sets import distinct
+from vorotool.types.box import bounds
+from vorotool.types.polygons.conversion import to_shapely
+from vorotool.types.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet, set_of_rings
 
 _VERTICES = "<vertices> 2 <attributes> <0 or 1 boundary markers>"
 _SEGMENTS = "<segments> <0 or 1 boundary markers>"

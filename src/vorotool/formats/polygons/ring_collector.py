@@ -11,7 +11,7 @@ import numpy as np
 
 from vorotool.errors import InputError
 from vorotool.formats.parsing.reader_options import ReadOptions, position_array, shortened
-from vorotool.geometry.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet, set_of_rings
+from vorotool.types.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet, set_of_rings
 
 
 @dataclass

@@ -8,6 +8,7 @@ from typing import Any, BinaryIO
 
 import numpy as np
 
+from vorotool.convert.sites import Sites
 from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source, check_nesting
 from vorotool.formats.parsing.geometry_advice import OF_SITES, not_a_shape_advice
@@ -17,11 +18,10 @@ from vorotool.formats.points.wkt import geometry_texts
 from vorotool.formats.polygons.geojson import feature_ranges, feature_texts
 from vorotool.formats.text.coordinate_text import coordinate_text
 from vorotool.formats.text.row_writer import Column, RowShape, write_rows
-from vorotool.geometry.arguments.sites import Sites
-from vorotool.geometry.curves.well_known import geometry_of_texts
-from vorotool.geometry.polygons.conversion import polygons_of_geometry
-from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.numeric.curves.well_known import geometry_of_texts
 from vorotool.types.axis import UP
+from vorotool.types.polygons.conversion import polygons_of_geometry
+from vorotool.types.polygons.polygon_set import PolygonSet
 
 _COMMENT = re.compile(rb"^\s*#.*$", re.MULTILINE)
 _SHAPE = re.compile(rb"POLYGON|LINESTRING|LINEARRING|CIRCULARSTRING|CURVE|SURFACE|TIN|TRIANGLE", re.IGNORECASE)

@@ -10,7 +10,7 @@ from vorotool.formats.polygons.json import write_json
 from vorotool.formats.polygons.poly import write_poly
 from vorotool.formats.polygons.wkt import write_wkt
 from vorotool.formats.written.polygons import written_polygons
-from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.types.polygons.polygon_set import PolygonSet
 
 _WRITERS: dict[str, Callable[[BinaryIO, PolygonSet], None]] = {
     "json": write_json,

@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 from vorotool.formats.results.writer import written_areas
 from vorotool.formats.text.row_writer import Column, RowShape, write_list_rows
 from vorotool.formats.text.tables import json_column, object_shape, placed_column, write_npz
-from vorotool.geometry.features import Areas, rows_of
-from vorotool.geometry.mesh.cells import CellSet
-from vorotool.geometry.ragged import owners, within
-from vorotool.geometry.table import Lookup
+from vorotool.numeric.ragged import owners, within
 from vorotool.types.axis import MEMBER as Y_AXIS
+from vorotool.types.features import Areas, rows_of
+from vorotool.types.mesh.cells import CellSet
+from vorotool.types.table import Lookup
 
 
 def write_json(out: BinaryIO, cells: CellSet, *, precision: int | None = None, threads: int = 0) -> None:

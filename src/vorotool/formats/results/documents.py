@@ -19,10 +19,10 @@ from vorotool.formats.polygons.json import read_json, write_items
 from vorotool.formats.results.members import SITE_KINDS, Member, arrays_of, write_list
 from vorotool.formats.results.rows import PREFIXES, ArrayRows, JsonRows, Rows, is_number
 from vorotool.formats.text.tables import json_bytes, json_text
-from vorotool.geometry.polygons.polygon_set import PolygonSet
-from vorotool.geometry.skeleton.skeleton import SiteTable
 from vorotool.types.axis import MEMBER as Y_AXIS
 from vorotool.types.axis import UNSTATED
+from vorotool.types.polygons.polygon_set import PolygonSet
+from vorotool.types.skeleton.skeleton import SiteTable
 
 ABOUT = "about"
 """The array with the UTF-8 of JSON of what is no list: type and version, and what is known of polygons and sites."""

@@ -10,14 +10,14 @@ from xml.sax.saxutils import escape, quoteattr
 
 import numpy as np
 
+from vorotool.convert.tables import listed
 from vorotool.formats.results.writer import line_column
 from vorotool.formats.text.row_writer import Column, RowShape, check_precision, write_rows
 from vorotool.formats.text.tables import json_text
-from vorotool.geometry.arguments.tables import listed
-from vorotool.geometry.features import Lines
-from vorotool.geometry.skeleton.graph import SkeletonGraph, skeleton_graph
-from vorotool.geometry.skeleton.skeleton import Skeleton
-from vorotool.geometry.xml_text import xml_characters
+from vorotool.numeric.xml_text import xml_characters
+from vorotool.types.features import Lines
+from vorotool.types.skeleton.graph import SkeletonGraph, skeleton_graph
+from vorotool.types.skeleton.skeleton import Skeleton
 
 _NODE_KEYS = {"x": "double", "y": "double", "r": "double", "degree": "long"}
 _HEAD = (

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from vorotool.formats.text.row_writer import Column, RowShape, write_list_rows
 from vorotool.formats.text.tables import json_text
-from vorotool.geometry.skeleton.skeleton import SiteTable
-from vorotool.geometry.table import Lookup
+from vorotool.types.skeleton.skeleton import SiteTable
+from vorotool.types.table import Lookup
 
 SITE_KINDS = ("vertex", "edge")
 

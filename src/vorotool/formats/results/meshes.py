@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 from vorotool.errors import UsageError
 from vorotool.formats.text.row_writer import Column, RowShape, write_rows
-from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation, DigitalTriangulation
-from vorotool.geometry.mesh.proximity import ProximityGraph
-from vorotool.geometry.mesh.triangulation import Triangulation
-from vorotool.geometry.table import Lookup
+from vorotool.types.mesh.digital_triangulation import AnyTriangulation, DigitalTriangulation
+from vorotool.types.mesh.proximity import ProximityGraph
+from vorotool.types.mesh.triangulation import Triangulation
+from vorotool.types.table import Lookup
 
 
 def write_mesh(

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.convert.sites import Sites, as_sites
 from vorotool.errors import InputError, option
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.npz_columns import npz_columns, npz_holds
@@ -18,10 +19,9 @@ from vorotool.formats.results.offset_files import read_archive as read_offsets
 from vorotool.formats.results.skeleton_files import read_archive as read_skeleton
 from vorotool.formats.results.voronoi_files import read_archive as read_map
 from vorotool.formats.results.voronoi_files import sites_of_map
-from vorotool.geometry.arguments.sites import Sites, as_sites
-from vorotool.geometry.polygons.polygon_set import PolygonSet
-from vorotool.geometry.ragged import divides
+from vorotool.numeric.ragged import divides
 from vorotool.types.axis import MEMBER as Y_AXIS
+from vorotool.types.polygons.polygon_set import PolygonSet
 
 _CELLS = option("delaunay --what cells", "voronoi_cells")
 _AS_JSON = option("-f json", 'fmt="json"')

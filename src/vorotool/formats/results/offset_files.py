@@ -15,8 +15,8 @@ from vorotool.formats.results import members as m
 from vorotool.formats.results.placed_polygons import LATTICE_STEP, as_read, as_written
 from vorotool.formats.results.rows import Rows
 from vorotool.formats.text.tables import write_arrays
-from vorotool.geometry.ragged import starts_of
-from vorotool.geometry.skeleton.offsets import PIECE_KINDS, RING_KINDS, Offsets
+from vorotool.numeric.ragged import starts_of
+from vorotool.types.skeleton.offsets import PIECE_KINDS, RING_KINDS, Offsets
 
 TYPE = "vorotool.offsets"
 NOUN = "offset curves"

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from vorotool import _core
-from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.types.polygons.polygon_set import PolygonSet
 
 LATTICE_STEP = "lattice_step"
 """The member that says that coordinates were rounded to multiples of this for the result."""

@@ -14,8 +14,8 @@ from vorotool.formats.results import members as m
 from vorotool.formats.results.placed_polygons import LATTICE_STEP, as_read, as_written
 from vorotool.formats.results.rows import Rows, is_number
 from vorotool.formats.text.tables import write_arrays
-from vorotool.geometry.polygons.polygon_set import PolygonSet
-from vorotool.geometry.skeleton.skeleton import KINDS, SIDES, Skeleton
+from vorotool.types.polygons.polygon_set import PolygonSet
+from vorotool.types.skeleton.skeleton import KINDS, SIDES, Skeleton
 
 TYPE = "vorotool.skeleton"
 _SITES = ("site_a", "site_b")

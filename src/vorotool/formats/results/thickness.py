@@ -7,7 +7,7 @@ from typing import BinaryIO, Literal
 import numpy as np
 
 from vorotool.formats.images.label_images import write_label_image
-from vorotool.geometry.skeleton.thickness import ThicknessImage
+from vorotool.types.skeleton.thickness import ThicknessImage
 
 ROWS = 256
 """Of a band, which is converted at a time."""

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
-from vorotool.geometry.ragged import owners
-from vorotool.geometry.voronoi.voronoi_map import OUTSIDE, VoronoiMap
+from vorotool.numeric.ragged import owners
+from vorotool.types.voronoi.voronoi_map import OUTSIDE, VoronoiMap
 
 
 def check_map(name: str, cells: VoronoiMap) -> None:

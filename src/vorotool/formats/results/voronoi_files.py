@@ -10,6 +10,7 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.convert.sites import Sites
 from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions, no_note, shortened
@@ -20,12 +21,11 @@ from vorotool.formats.results.rows import PREFIXES, ArrayRows, JsonRows, Rows, i
 from vorotool.formats.results.voronoi_checks import check_map
 from vorotool.formats.text.row_writer import Column, RowShape, write_list_rows, write_rows
 from vorotool.formats.text.tables import json_text, write_arrays
-from vorotool.geometry.arguments.sites import Sites
-from vorotool.geometry.polygons.polygon_set import PolygonSet
-from vorotool.geometry.ragged import starts_of
-from vorotool.geometry.table import Lookup
-from vorotool.geometry.voronoi.tables import KINDS, kinds_of
-from vorotool.geometry.voronoi.voronoi_map import OUTSIDE, VoronoiMap
+from vorotool.numeric.ragged import starts_of
+from vorotool.types.polygons.polygon_set import PolygonSet
+from vorotool.types.table import Lookup
+from vorotool.types.voronoi.tables import KINDS, kinds_of
+from vorotool.types.voronoi.voronoi_map import OUTSIDE, VoronoiMap
 
 TYPE = "vorotool.voronoi"
 NOUN = "Voronoi map"

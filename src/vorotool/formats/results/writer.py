@@ -19,12 +19,12 @@ from vorotool.formats.text.tables import json_column, json_text, object_shape, p
 from vorotool.formats.written.polygons import written_polygons
 from vorotool.formats.written.report import report_emptied
 from vorotool.formats.written.rings import written_rings
-from vorotool.geometry.coordinate_grid import current_decimals, on_grid
-from vorotool.geometry.features import Areas, Corners, Lines, Mixture, Rows, features_of, matrix_of, parts_of, rows_of
-from vorotool.geometry.polygons.polygon_set import PolygonSet
-from vorotool.geometry.ragged import Nesting
-from vorotool.geometry.table import Computed, Lookup
+from vorotool.numeric.coordinate_grid import current_decimals, on_grid
+from vorotool.numeric.ragged import Nesting
 from vorotool.products.formats import TABLES
+from vorotool.types.features import Areas, Corners, Lines, Mixture, Rows, features_of, matrix_of, parts_of, rows_of
+from vorotool.types.polygons.polygon_set import PolygonSet
+from vorotool.types.table import Computed, Lookup
 
 
 def write_value(

@@ -9,7 +9,7 @@ from typing import Any, BinaryIO
 
 from vorotool.formats.text.row_writer import Column, RowShape, TypedOutput, write_rows
 from vorotool.formats.text.tables import json_text
-from vorotool.geometry.length_units import ascii_unit, is_known
+from vorotool.numeric.length_units import ascii_unit, is_known
 from vorotool.types.axis import MEMBER, UP, YAxis
 
 _UNIT: ContextVar[str | None] = ContextVar("unit of coordinates", default=None)

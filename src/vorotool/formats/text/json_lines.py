@@ -6,7 +6,7 @@ from typing import BinaryIO
 
 from vorotool.formats.text.json_items import JsonItems
 from vorotool.formats.text.tables import json_text
-from vorotool.geometry.coordinate_grid import record_system_unread
+from vorotool.numeric.coordinate_grid import record_system_unread
 
 _FEATURE = b'{"type":"Feature",'
 

@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.errors import UsageError, option
-from vorotool.geometry.coordinate_grid import on_grid
-from vorotool.geometry.numbers import shown_number, whole_number
-from vorotool.geometry.parallel import in_order
-from vorotool.geometry.table import Computed, Lookup
+from vorotool.numeric.coordinate_grid import on_grid
+from vorotool.numeric.numbers import shown_number, whole_number
+from vorotool.numeric.parallel import in_order
+from vorotool.types.table import Computed, Lookup
 
 SLICE_ROWS = 1 << 14
 """Rows whose text is made at a time: some 2 MB."""

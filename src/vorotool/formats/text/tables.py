@@ -15,12 +15,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.formats.text.row_writer import Column, RowShape, check_precision, slices, write_list_rows, write_rows
-from vorotool.geometry.coordinate_grid import on_grid
-from vorotool.geometry.length_units import ascii_unit
-from vorotool.geometry.number_text import NumberText
-from vorotool.geometry.parallel import in_order
-from vorotool.geometry.summaries import MEASURE, unit_of_measure
-from vorotool.geometry.table import Computed, Lookup, Table
+from vorotool.numeric.coordinate_grid import on_grid
+from vorotool.numeric.length_units import ascii_unit
+from vorotool.numeric.number_text import NumberText
+from vorotool.numeric.parallel import in_order
+from vorotool.types.summaries import MEASURE, unit_of_measure
+from vorotool.types.table import Computed, Lookup, Table
 
 _SLICE_VALUES = 1 << 16  # numbers of an array that are gathered and written at a time
 

@@ -17,7 +17,7 @@ from vorotool.formats.io.npy_arrays import NpyHeader, npy_header, npy_values
 from vorotool.formats.io.sources import Source
 from vorotool.formats.volumes.mapping import Spool, mapped
 from vorotool.formats.volumes.slabs import checked_slabs
-from vorotool.geometry.volumes.voxel_grid import VoxelGrid
+from vorotool.types.volumes.voxel_grid import VoxelGrid
 
 
 @dataclass(frozen=True)

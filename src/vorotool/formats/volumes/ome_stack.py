@@ -8,8 +8,8 @@ from fractions import Fraction
 from vorotool.errors import InputError
 from vorotool.formats.images.ome_xml import decimal_side, parse_ome
 from vorotool.formats.volumes.source import refuse_axes
-from vorotool.geometry.length_units import ratio
-from vorotool.geometry.volumes.voxel_grid import VoxelGrid
+from vorotool.numeric.length_units import ratio
+from vorotool.types.volumes.voxel_grid import VoxelGrid
 
 PIXEL = "pixel"
 """What OME calls a length that is in no unit."""

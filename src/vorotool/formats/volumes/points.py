@@ -17,10 +17,10 @@ from vorotool.formats.points.columns import parse_columns
 from vorotool.formats.points.npy import check_coordinates, npy_labels
 from vorotool.formats.points.rows import PointRows
 from vorotool.formats.recognition import recognised
-from vorotool.geometry.checks import checked_threads
-from vorotool.geometry.volumes.volume_points import VolumePoints
+from vorotool.numeric.checks import checked_threads
 from vorotool.products.formats import resolved
 from vorotool.products.inputs import NAMES_WITH, SPACE_READERS, known_input_format
+from vorotool.types.volumes.volume_points import VolumePoints
 
 _NUMBERS = option("--columns 1,2,z=3", 'columns="1,2,z=3"')
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError, LimitError, option
-from vorotool.geometry.volumes.voxel_grid import VoxelGrid
+from vorotool.types.volumes.voxel_grid import VoxelGrid
 
 SLAB_BYTES = 2**26
 """Of the slices that are read at a time, where whole volumes are."""

@@ -14,7 +14,7 @@ from vorotool.formats.images.ome_xml import decimal_side
 from vorotool.formats.images.tiff_grid import side_of_imagej, unescaped
 from vorotool.formats.volumes.ome_stack import ome_stack
 from vorotool.formats.volumes.source import refuse_axes
-from vorotool.geometry.volumes.voxel_grid import VoxelGrid
+from vorotool.types.volumes.voxel_grid import VoxelGrid
 
 _NO_UNIT = 1
 """Of resolution."""

@@ -10,8 +10,8 @@ from vorotool.formats.images.ome_xml import ome_document, ome_type, shown_side
 from vorotool.formats.images.tiff_grid import NODATA
 from vorotool.formats.images.tiff_grid_tags import NO_UNIT, imagej_unit, ratio_of, resolution, resolution_tags
 from vorotool.formats.volumes.ome_stack import PIXEL
-from vorotool.geometry.pixel_grid import PixelGrid
-from vorotool.geometry.volumes.voxel_grid import VoxelGrid
+from vorotool.types.pixel_grid import PixelGrid
+from vorotool.types.volumes.voxel_grid import VoxelGrid
 
 _IMAGEJ_TYPES = (np.uint8, np.uint16, np.float32)
 _ASCII = 2

@@ -21,8 +21,8 @@ from vorotool.formats.images.tiff_segments import decode_band, is_decoded_here
 from vorotool.formats.io.limits import decoding
 from vorotool.formats.volumes.mapping import Spool, mapped
 from vorotool.formats.volumes.stack_axes import StackAxes, stack_axes
-from vorotool.geometry.parallel import in_order
-from vorotool.geometry.volumes.voxel_grid import VoxelGrid
+from vorotool.numeric.parallel import in_order
+from vorotool.types.volumes.voxel_grid import VoxelGrid
 
 _WORTH_THREADS = 2**20
 """Bytes of slices from which threads take less time than they cost."""

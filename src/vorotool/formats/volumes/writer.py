@@ -15,7 +15,7 @@ from vorotool.formats.images.tiff_writer import CLASSIC_LIMIT, encoded, is_compr
 from vorotool.formats.volumes.npy_volume import write_npy_volume
 from vorotool.formats.volumes.slabs import checked_slabs
 from vorotool.formats.volumes.stack_tags import stack_tags
-from vorotool.geometry.volumes.voxel_grid import VoxelGrid
+from vorotool.types.volumes.voxel_grid import VoxelGrid
 
 VolumeFormat = Literal["tiff", "npy"]
 

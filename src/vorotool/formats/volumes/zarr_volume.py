@@ -19,8 +19,8 @@ from vorotool.formats.zarr.metadata import read_metadata
 from vorotool.formats.zarr.multiscales import Described, label_images, largest_image
 from vorotool.formats.zarr.reader import StoredArray
 from vorotool.formats.zarr.store import is_array, is_group
-from vorotool.geometry.length_units import ratio, unit_name
-from vorotool.geometry.volumes.voxel_grid import VoxelGrid
+from vorotool.numeric.length_units import ratio, unit_name
+from vorotool.types.volumes.voxel_grid import VoxelGrid
 
 _SPACE = ("z", "y", "x")
 

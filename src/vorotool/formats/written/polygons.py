@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 from vorotool.formats.written.report import report_emptied
 from vorotool.formats.written.rings import written_rings
-from vorotool.geometry.coordinate_grid import current_decimals, on_grid
-from vorotool.geometry.polygons.polygon_set import HOLE, SHELL, PolygonSet
-from vorotool.geometry.ragged import Nesting, owners
-from vorotool.geometry.row_index import index_of_rows
+from vorotool.numeric.coordinate_grid import current_decimals, on_grid
+from vorotool.numeric.ragged import Nesting, owners
+from vorotool.numeric.row_index import index_of_rows
+from vorotool.types.polygons.polygon_set import HOLE, SHELL, PolygonSet
 
 
 def written_polygons(polygons: PolygonSet) -> PolygonSet:

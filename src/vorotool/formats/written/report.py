@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import RepairWarning, warn
-from vorotool.geometry.coordinate_grid import current_decimals
+from vorotool.numeric.coordinate_grid import current_decimals
 
 _NAMED = 10
 

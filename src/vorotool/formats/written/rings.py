@@ -11,8 +11,8 @@ from vorotool import _core
 from vorotool.errors import VerificationError
 from vorotool.formats.written.snapping import is_among, snapped
 from vorotool.formats.written.verify import verify_written
-from vorotool.geometry.coordinate_grid import Grid, is_verified, rounded
-from vorotool.geometry.ragged import Nesting, following, owners, ranges, starts_of
+from vorotool.numeric.coordinate_grid import Grid, is_verified, rounded
+from vorotool.numeric.ragged import Nesting, following, owners, ranges, starts_of
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.geometry.coordinate_grid import Grid
-from vorotool.geometry.ragged import Nesting, following, owners, starts_of
+from vorotool.numeric.coordinate_grid import Grid
+from vorotool.numeric.ragged import Nesting, following, owners, starts_of
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]

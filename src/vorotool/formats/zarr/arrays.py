@@ -14,8 +14,8 @@ from numpy.typing import DTypeLike, NDArray
 from vorotool.errors import UsageError
 from vorotool.formats.zarr.multiscales import array_folder
 from vorotool.formats.zarr.store import open_store
-from vorotool.geometry.parallel import in_order, start
-from vorotool.geometry.pixel_grid import PixelGrid
+from vorotool.numeric.parallel import in_order, start
+from vorotool.types.pixel_grid import PixelGrid
 
 Result = TypeVar("Result")
 

@@ -12,8 +12,8 @@ from typing import Any
 
 from vorotool.errors import InputError
 from vorotool.formats.zarr.metadata import read_json, read_metadata
-from vorotool.geometry.length_units import ratio
-from vorotool.geometry.pixel_grid import PixelGrid
+from vorotool.numeric.length_units import ratio
+from vorotool.types.pixel_grid import PixelGrid
 
 VERSION = "0.5"
 """Of the metadata that are written."""

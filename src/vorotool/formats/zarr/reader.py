@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError
 from vorotool.formats.zarr.codecs import overlap, places_within
 from vorotool.formats.zarr.metadata import ZarrMetadata, array_metadata, read_metadata
-from vorotool.geometry.parallel import in_order
+from vorotool.numeric.parallel import in_order
 
 _WORTH_THREADS = 2**20
 """Bytes from which threads take less time than they cost."""

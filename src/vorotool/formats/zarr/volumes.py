@@ -17,8 +17,8 @@ from vorotool.formats.zarr.arrays import BAND_BYTES, create_array, open_array, t
 from vorotool.formats.zarr.multiscales import OME_ENDING, add_scales, write_image
 from vorotool.formats.zarr.reader import StoredArray
 from vorotool.formats.zarr.store import open_store
-from vorotool.geometry.parallel import in_order
-from vorotool.geometry.volumes.voxel_grid import VoxelGrid
+from vorotool.numeric.parallel import in_order
+from vorotool.types.volumes.voxel_grid import VoxelGrid
 
 Shape = tuple[int, int, int]
 

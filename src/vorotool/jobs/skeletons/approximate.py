@@ -18,18 +18,18 @@ from vorotool.engines.sampled_skeleton.approximate import (
 )
 from vorotool.engines.sampled_skeleton.per_feature import FeatureApproximation, approximation, samples_of_graph
 from vorotool.errors import VorotoolWarning, warn
-from vorotool.geometry.polygons.planar_graph import PlanarGraph
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.skeleton.boundary_samples import sample_table
-from vorotool.geometry.skeleton.skeleton import Skeleton
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.options import ApproximateSkeletonOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.skeletons.products import SkeletonProducts
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import table_in_units
+from vorotool.numeric.progress import Progress
 from vorotool.products.registry import PRODUCTS
 from vorotool.products.writing import write_product
+from vorotool.types.polygons.planar_graph import PlanarGraph
+from vorotool.types.skeleton.boundary_samples import sample_table
+from vorotool.types.skeleton.skeleton import Skeleton
 
 ALL_TOGETHER = {"diagram", "elements"}
 """What is of all features together, however they are taken."""

@@ -7,11 +7,11 @@ from fractions import Fraction
 from functools import partial
 from typing import TYPE_CHECKING, Any, BinaryIO
 
-from vorotool.geometry.progress import Progress
 from vorotool.jobs.animations import check_size, layer_pixels, parts_of_whole, write_frames
 from vorotool.jobs.pictures import Drawing, drawing_of, write_layers
 from vorotool.jobs.skeletons.result import Origin, Result
 from vorotool.jobs.targets import Target
+from vorotool.numeric.progress import Progress
 from vorotool.products.formats import ANIMATIONS, picture_format, resolved
 from vorotool.products.registry import DERIVED
 

@@ -18,13 +18,13 @@ from vorotool.engines.skeleton.exact import ShapeDiagram
 from vorotool.engines.skeleton.parts import outside_of
 from vorotool.engines.skeleton.per_feature import FeatureSkeleton
 from vorotool.engines.skeleton.shortened_edges import ElementDiagram, exact_for, exact_inside, gap_deviation
-from vorotool.geometry.polygons.planar_graph import PlanarGraph
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.skeleton.skeleton import Skeleton
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.options import ExactSkeletonOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.skeletons.products import SkeletonProducts
+from vorotool.numeric.progress import Progress
+from vorotool.types.polygons.planar_graph import PlanarGraph
+from vorotool.types.skeleton.skeleton import Skeleton
 
 
 @dataclass(frozen=True)

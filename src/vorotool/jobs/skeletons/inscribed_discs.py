@@ -7,10 +7,10 @@ from typing import Any
 from vorotool.engines.from_skeleton.largest_discs import discs_of_skeleton
 from vorotool.engines.skeleton.diagrams import skeleton_in, skeleton_inside
 from vorotool.engines.skeleton.exact import ShapeDiagram
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.skeleton.discs import Discs
-from vorotool.geometry.skeleton.skeleton import Skeleton
 from vorotool.jobs.skeletons.result import Result
+from vorotool.numeric.progress import Progress
+from vorotool.types.skeleton.discs import Discs
+from vorotool.types.skeleton.skeleton import Skeleton
 
 
 class InscribedDiscs(Result):

@@ -9,12 +9,12 @@ from vorotool.jobs.options import SkeletonOptions
 from vorotool.jobs.run_log import Run
 
 if TYPE_CHECKING:
-    from vorotool.geometry.progress import Progress
-    from vorotool.geometry.skeleton.centerline import Centerlines
-    from vorotool.geometry.skeleton.extended import ExtendedSkeleton
-    from vorotool.geometry.skeleton.led_on import LedOn
-    from vorotool.geometry.skeleton.skeleton import Skeleton
-    from vorotool.geometry.skeleton.smooth_lines import SmoothLines
+    from vorotool.numeric.progress import Progress
+    from vorotool.types.skeleton.centerline import Centerlines
+    from vorotool.types.skeleton.extended import ExtendedSkeleton
+    from vorotool.types.skeleton.led_on import LedOn
+    from vorotool.types.skeleton.skeleton import Skeleton
+    from vorotool.types.skeleton.smooth_lines import SmoothLines
 
 LINES = ("skeleton", "centerline")
 """Results that are lines."""
@@ -64,8 +64,8 @@ class WrittenLines:
         """Check ends that skeletons are led on to, and smooth lines."""
         from vorotool.engines.centerlines.verify_extended import verify_extended
         from vorotool.engines.smoothing.verify_smooth import verify_smooth
-        from vorotool.geometry.skeleton.extended import ExtendedSkeleton
-        from vorotool.geometry.skeleton.smooth_lines import SmoothLines
+        from vorotool.types.skeleton.extended import ExtendedSkeleton
+        from vorotool.types.skeleton.smooth_lines import SmoothLines
 
         for value in self._wanted():
             lines: Any = value
@@ -77,7 +77,7 @@ class WrittenLines:
 
     def stats(self) -> dict[str, Any]:
         """Counts of smooth lines."""
-        from vorotool.geometry.skeleton.smooth_lines import SmoothLines
+        from vorotool.types.skeleton.smooth_lines import SmoothLines
 
         if self.options.smooth is None:
             return {}

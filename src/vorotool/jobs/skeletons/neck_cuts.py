@@ -6,10 +6,10 @@ from typing import Any
 
 from vorotool.engines.necks.necks import NARROW, necks
 from vorotool.engines.necks.parts import NARROWEST, parts
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.skeleton.necks import Necks
-from vorotool.geometry.skeleton.parts import Parts
 from vorotool.jobs.skeletons.result import Result
+from vorotool.numeric.progress import Progress
+from vorotool.types.skeleton.necks import Necks
+from vorotool.types.skeleton.parts import Parts
 
 
 class NeckCuts(Result):

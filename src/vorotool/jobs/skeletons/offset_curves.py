@@ -6,9 +6,9 @@ from typing import Any
 
 from vorotool.engines.offsets.offsets import offset
 from vorotool.errors import Kind, Message
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.skeleton.offsets import Offsets
 from vorotool.jobs.skeletons.result import Result
+from vorotool.numeric.progress import Progress
+from vorotool.types.skeleton.offsets import Offsets
 
 
 class OffsetCurves(Result):

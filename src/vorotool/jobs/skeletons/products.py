@@ -13,9 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError, Kind, Message, RepairWarning, VorotoolWarning
-from vorotool.geometry.polygons.planar_graph import PlanarGraph
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.skeleton.skeleton import EXTERIOR, Skeleton
 from vorotool.jobs.inputs import JobInput, refuse
 from vorotool.jobs.options import Place, SkeletonOptions
 from vorotool.jobs.picture_style import styled_page
@@ -30,15 +27,18 @@ from vorotool.jobs.skeletons.lines import LINES, WrittenLines
 from vorotool.jobs.skeletons.result import Origin
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import in_units, length_in_units, unit_text
+from vorotool.numeric.progress import Progress
 from vorotool.products.formats import PICTURES, picture_format
 from vorotool.products.registry import DERIVED, PRODUCTS
 from vorotool.products.writing import write_product
+from vorotool.types.polygons.planar_graph import PlanarGraph
+from vorotool.types.skeleton.skeleton import EXTERIOR, Skeleton
 
 if TYPE_CHECKING:
     from vorotool.engines.skeleton.exact import ShapeDiagram
-    from vorotool.geometry.polygons.polygon_set import PolygonSet
-    from vorotool.geometry.skeleton.centerline import Centerlines
     from vorotool.render.canvas.layers import Page
+    from vorotool.types.polygons.polygon_set import PolygonSet
+    from vorotool.types.skeleton.centerline import Centerlines
 
 Options = TypeVar("Options", bound=SkeletonOptions)
 
@@ -250,8 +250,8 @@ class SkeletonProducts(ABC, Generic[Options]):
         value = in_units(o.pixel_size, self._value(what))
         if what != "table":
             return value
-        from vorotool.geometry.skeleton.centerline import centerline_columns
-        from vorotool.geometry.skeleton.tables import polygon_table
+        from vorotool.types.skeleton.centerline import centerline_columns
+        from vorotool.types.skeleton.tables import polygon_table
 
         return polygon_table(
             value, columns=centerline_columns(in_units(o.pixel_size, self._longest)), threads=o.threads

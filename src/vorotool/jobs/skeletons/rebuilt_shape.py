@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from vorotool.engines.from_skeleton.reconstruction import rebuild
-from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.jobs.skeletons.result import Result
+from vorotool.types.polygons.polygon_set import PolygonSet
 
 
 class RebuiltShape(Result):

@@ -8,19 +8,19 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, BinaryIO
 
-from vorotool.geometry.progress import Progress
 from vorotool.jobs.options import ExactSkeletonOptions, SkeletonOptions
 from vorotool.jobs.run_log import Run
+from vorotool.numeric.progress import Progress
 
 if TYPE_CHECKING:
     from vorotool.engines.skeleton.exact import ShapeDiagram
-    from vorotool.geometry.pixel_frame import Frame
-    from vorotool.geometry.pixel_grid import PixelGrid
-    from vorotool.geometry.polygons.polygon_set import PolygonSet
-    from vorotool.geometry.skeleton.centerline import Centerlines
-    from vorotool.geometry.skeleton.skeleton import Skeleton
     from vorotool.jobs.targets import Target
     from vorotool.render.canvas.layers import Page
+    from vorotool.types.pixel_frame import Frame
+    from vorotool.types.pixel_grid import PixelGrid
+    from vorotool.types.polygons.polygon_set import PolygonSet
+    from vorotool.types.skeleton.centerline import Centerlines
+    from vorotool.types.skeleton.skeleton import Skeleton
 
 
 @dataclass(frozen=True)

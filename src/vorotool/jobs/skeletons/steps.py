@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from vorotool.engines.from_skeleton.points_along import points_along
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.skeleton.points_along import SkeletonPoints
 from vorotool.jobs.skeletons.result import Result
+from vorotool.numeric.progress import Progress
+from vorotool.types.skeleton.points_along import SkeletonPoints
 
 
 class Steps(Result):

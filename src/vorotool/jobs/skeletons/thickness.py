@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import numpy as np
 
 from vorotool.engines.from_skeleton.thickness import thickness_of_pixels
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.skeleton.thickness import ThicknessImage
 from vorotool.jobs.pixel_sizes import written_grid
 from vorotool.jobs.skeletons.result import Result
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import in_units, length_in_units, sides_of
+from vorotool.numeric.progress import Progress
+from vorotool.types.skeleton.thickness import ThicknessImage
 
 if TYPE_CHECKING:
     from vorotool.render.canvas.layers import Page

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from pathlib import Path
 
+from vorotool.convert.spacings import sides_of_voxels
 from vorotool.engines.tessellation.cleaned_masks import Cleaning
 from vorotool.engines.volumes.volume_frames import default_voxel_frame
 from vorotool.engines.volumes.volume_objects import SLAB_VOXELS, VolumeObjects
@@ -18,11 +19,6 @@ from vorotool.formats.volumes.opening import open_volume
 from vorotool.formats.volumes.points import read_xyz
 from vorotool.formats.volumes.source import VolumeSource
 from vorotool.formats.zarr.store import is_folder
-from vorotool.geometry.arguments.spacings import sides_of_voxels
-from vorotool.geometry.spacing import PixelSides
-from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
-from vorotool.geometry.volumes.voxel_frame import VoxelFrame
-from vorotool.geometry.volumes.voxel_grid import VoxelGrid
 from vorotool.jobs.contradictions import check_voxel_size
 from vorotool.jobs.given import changed
 from vorotool.jobs.input_lengths import lengths_of_voxels
@@ -32,6 +28,10 @@ from vorotool.jobs.options import TessellationOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.units import PixelSize, sides_of, unit_stats
 from vorotool.products.inputs import VOLUME_NAMES
+from vorotool.types.spacing import PixelSides
+from vorotool.types.volumes.volume_seeds import VolumeSeeds
+from vorotool.types.volumes.voxel_frame import VoxelFrame
+from vorotool.types.volumes.voxel_grid import VoxelGrid
 
 _TIFF_HEADS = (b"II*\x00", b"MM\x00*", b"II+\x00", b"MM\x00+")
 

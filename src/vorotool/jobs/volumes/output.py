@@ -13,12 +13,12 @@ from numpy.typing import NDArray
 
 from vorotool.engines.tessellation.bands import Band
 from vorotool.errors import LimitError
-from vorotool.geometry.volumes.voxel_frame import VoxelFrame
-from vorotool.geometry.volumes.voxel_grid import VoxelGrid
 from vorotool.jobs.options import AUTO_LEVELS, TessellationOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.streamed_output import expected_bytes, write_on_cluster
 from vorotool.jobs.targets import Target
+from vorotool.types.volumes.voxel_frame import VoxelFrame
+from vorotool.types.volumes.voxel_grid import VoxelGrid
 
 Limits = Sequence[tuple[int, int]]
 """First slice and number of slices of each slab."""

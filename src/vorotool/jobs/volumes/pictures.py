@@ -12,13 +12,13 @@ from numpy.typing import NDArray
 
 from vorotool.engines.volumes.inner_voxels import inner_runs
 from vorotool.errors import LimitError, UsageError
-from vorotool.geometry.pixel_frame import Frame
-from vorotool.geometry.points.label_image import LabelImage
-from vorotool.geometry.points.seed_set import SeedSet
-from vorotool.geometry.ragged import ranges
-from vorotool.geometry.volumes.label_volume import LabelVolume
-from vorotool.geometry.volumes.volume_seeds import VolumeSeeds
-from vorotool.geometry.volumes.voxel_frame import VoxelFrame
+from vorotool.numeric.ragged import ranges
+from vorotool.types.pixel_frame import Frame
+from vorotool.types.points.label_image import LabelImage
+from vorotool.types.points.seed_set import SeedSet
+from vorotool.types.volumes.label_volume import LabelVolume
+from vorotool.types.volumes.volume_seeds import VolumeSeeds
+from vorotool.types.volumes.voxel_frame import VoxelFrame
 
 if TYPE_CHECKING:
     from vorotool.render.canvas.styles import PictureStyle

@@ -20,10 +20,6 @@ from vorotool.engines.volumes.volume_regions import VolumeRegions, regions_of_sw
 from vorotool.engines.volumes.volume_tables import neighbors_of_regions, table_of_regions
 from vorotool.engines.volumes.volume_tessellator import VolumeSweep
 from vorotool.errors import LimitError
-from vorotool.geometry.length_units import unit_name
-from vorotool.geometry.progress import Progress
-from vorotool.geometry.table import Table
-from vorotool.geometry.volumes.label_volume import LabelVolume
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.options import TessellationOptions
 from vorotool.jobs.picture_world import check_columns, world_of
@@ -33,8 +29,12 @@ from vorotool.jobs.units import PixelSize, unit_columns
 from vorotool.jobs.volumes.inputs import ReadVolume, read_volume_seeds
 from vorotool.jobs.volumes.output import VolumeStream, check_volume_chunks, write_volume_file, write_volume_store
 from vorotool.jobs.volumes.pictures import SlicePicture, write_slices
+from vorotool.numeric.length_units import unit_name
+from vorotool.numeric.progress import Progress
 from vorotool.products.registry import VOLUME_PRODUCTS
 from vorotool.products.writing import write_product
+from vorotool.types.table import Table
+from vorotool.types.volumes.label_volume import LabelVolume
 
 if TYPE_CHECKING:
     from vorotool.render.canvas.styles import PictureStyle
@@ -214,7 +214,7 @@ class VolumeProducts:
         return table_of_regions(self.regions, threads=self.options.threads)
 
     def _neighbors(self) -> Table:
-        from vorotool.geometry.identity import ends_of_regions
+        from vorotool.types.identity import ends_of_regions
 
         return ends_of_regions(neighbors_of_regions(self.regions), self.read.seeds)
 
@@ -254,7 +254,7 @@ class VolumeProducts:
 
     @property
     def _style(self) -> PictureStyle:
-        from vorotool.geometry.pixel_frame import Frame
+        from vorotool.types.pixel_frame import Frame
 
         height, width = self._views.shape
         looks = self.options.looks

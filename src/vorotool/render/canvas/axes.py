@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from vorotool.geometry.curves.inverse_functions import PI, cosine_and_sine
-from vorotool.geometry.extras import needed
+from vorotool.convert.extras import needed
+from vorotool.numeric.curves.inverse_functions import PI, cosine_and_sine
 from vorotool.render.canvas.layers import Arcs, CurvedPolygons, Curves, Layer, Lines, Page, Points, Polygons, Texts
 
 if TYPE_CHECKING:

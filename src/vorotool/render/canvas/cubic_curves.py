@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.curves.cubics import cubic_polylines
+from vorotool.numeric.curves.cubics import cubic_polylines
 from vorotool.render.canvas.layers import Curves
 
 

@@ -9,14 +9,14 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.box import bounds
-from vorotool.geometry.curves.circular_arcs import chords_of
-from vorotool.geometry.curves.flatten import polylines
-from vorotool.geometry.curves.mixed_arcs import MixedArcs
-from vorotool.geometry.pixel_grid import PixelGrid
-from vorotool.geometry.ragged import following, owners, starts_of, within
+from vorotool.numeric.curves.circular_arcs import chords_of
+from vorotool.numeric.curves.flatten import polylines
+from vorotool.numeric.curves.mixed_arcs import MixedArcs
+from vorotool.numeric.ragged import following, owners, starts_of, within
 from vorotool.render.canvas.palettes import INK, SEED
 from vorotool.render.canvas.styles import PictureStyle
+from vorotool.types.box import bounds
+from vorotool.types.pixel_grid import PixelGrid
 
 MARGIN = 0.02
 """Of the larger side of the data, on each side of the page, where nothing else says."""

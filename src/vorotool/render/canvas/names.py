@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from vorotool.geometry.named_columns import column_of
 from vorotool.render.canvas.layers import Texts
+from vorotool.types.named_columns import column_of
 
 
 def column_texts(properties: Mapping[str, Sequence[Any]], column: str | None, ids: Iterable[Any]) -> list[str]:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import LimitError, option
-from vorotool.geometry.ragged import owners, ranges
+from vorotool.numeric.ragged import owners, ranges
 from vorotool.products.formats import AS_SVG
 from vorotool.render.canvas.glyphs import ADVANCE, HEIGHT, text_cells
 from vorotool.render.canvas.layers import Arcs, CurvedPolygons, Curves, Layer, Lines, Page, Points, Polygons, Texts

@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.geometry.curves.circular_arcs import middles_of
-from vorotool.geometry.curves.inverse_functions import hypotenuse
-from vorotool.geometry.xml_text import xml_characters
+from vorotool.numeric.curves.circular_arcs import middles_of
+from vorotool.numeric.curves.inverse_functions import hypotenuse
+from vorotool.numeric.xml_text import xml_characters
 from vorotool.render.canvas.circles import Circles
 from vorotool.render.canvas.cubic_curves import CubicCurves
 from vorotool.render.canvas.layers import (

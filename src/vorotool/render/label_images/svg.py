@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import LimitError
-from vorotool.geometry.points.label_image import LabelImage
 from vorotool.products.formats import AS_PNG
 from vorotool.render.canvas.halos import halo_width
 from vorotool.render.canvas.layers import Backdrop, Layer, Page
@@ -21,6 +20,7 @@ from vorotool.render.canvas.styles import PictureStyle
 from vorotool.render.canvas.svg import CAPITAL, edge_style, fill_style, halo_style, image_element, layer_parts
 from vorotool.render.label_images.crack_outline import Loop, crack_loops
 from vorotool.render.label_images.png import Names, checked_layers, disc_radius
+from vorotool.types.points.label_image import LabelImage
 
 LAYERS = ("cells", "labels", "objects", "seeds")
 MOST_PIXELS = 1_000_000

@@ -7,13 +7,13 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.alpha.complex import CLASSES
-from vorotool.geometry.alpha.hull import AlphaHull
-from vorotool.geometry.alpha.shape import AlphaShape
 from vorotool.render.canvas.layers import Arcs, Layer, Lines, Page, Points, Polygons
 from vorotool.render.canvas.palettes import BOUNDARY, CELLS, FAINT, INK, PALE, SINGULAR
 from vorotool.render.label_images.png import checked_layers
 from vorotool.render.layers.mesh import mesh_page, site_names
+from vorotool.types.alpha.complex import CLASSES
+from vorotool.types.alpha.hull import AlphaHull
+from vorotool.types.alpha.shape import AlphaShape
 
 LAYERS = ("polygons", "delaunay", "interior", "boundary", "singular", "hull", "points", "labels")
 """From below."""

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.mesh.cells import CellSet
-from vorotool.geometry.ragged import following, owners, within
+from vorotool.numeric.ragged import following, owners, within
 from vorotool.render.canvas.layers import Lines, Page, Polygons
 from vorotool.render.canvas.palettes import EDGE, INK, cell_color
 from vorotool.types.axis import is_up
+from vorotool.types.mesh.cells import CellSet
 
 LAYERS = ("cells", "diagram")
 """Filled cells, and their boundaries as lines."""

@@ -6,13 +6,13 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from vorotool.geometry.skeleton.discs import Discs
 from vorotool.render.canvas.circles import circles
 from vorotool.render.canvas.layers import Layer, Page, Points, bounds_of
 from vorotool.render.canvas.palettes import RESULT, SEED
 from vorotool.render.label_images.png import checked_layers
 from vorotool.render.layers.polygons import names_of_features, polygon_layers
 from vorotool.types.axis import is_up
+from vorotool.types.skeleton.discs import Discs
 
 LAYERS = ("polygons", "discs", "feet", "labels")
 """From below."""

@@ -7,13 +7,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from vorotool.geometry.distances.distances import Distances
-from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.render.canvas.layers import Layer, Lines, Page, Points, bounds_of
 from vorotool.render.canvas.palettes import FAINT, RESULT, SEED
 from vorotool.render.label_images.png import checked_layers
 from vorotool.render.layers.polygons import polygon_layers
 from vorotool.types.axis import is_up
+from vorotool.types.distances.distances import Distances
+from vorotool.types.polygons.polygon_set import PolygonSet
 
 LAYERS = ("first", "second", "distances")
 """From below."""

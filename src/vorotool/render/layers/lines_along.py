@@ -8,13 +8,13 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.skeleton.centerline import Centerlines
-from vorotool.geometry.skeleton.led_on import LedOn
-from vorotool.geometry.skeleton.skeleton import Skeleton
-from vorotool.geometry.skeleton.smooth_lines import SmoothLines
 from vorotool.render.canvas.cubic_curves import CubicCurves
 from vorotool.render.canvas.layers import Curves, Layer, Page
 from vorotool.render.layers.skeleton import skeleton_layers, skeleton_page
+from vorotool.types.skeleton.centerline import Centerlines
+from vorotool.types.skeleton.led_on import LedOn
+from vorotool.types.skeleton.skeleton import Skeleton
+from vorotool.types.skeleton.smooth_lines import SmoothLines
 
 
 def line_layers(

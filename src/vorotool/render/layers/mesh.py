@@ -6,14 +6,14 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from vorotool.geometry.mesh.cells import CellSet
-from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation
-from vorotool.geometry.mesh.proximity import ProximityGraph
 from vorotool.render.canvas.layers import Layer, Lines, Page, Points, Polygons, Texts, bounds_of
 from vorotool.render.canvas.names import column_texts, without_empty
 from vorotool.render.canvas.palettes import CELLS, INK, WHITE
 from vorotool.render.label_images.png import checked_layers
 from vorotool.types.axis import is_up
+from vorotool.types.mesh.cells import CellSet
+from vorotool.types.mesh.digital_triangulation import AnyTriangulation
+from vorotool.types.mesh.proximity import ProximityGraph
 
 LAYERS = ("triangles", "edges", "points", "labels")
 """From below."""

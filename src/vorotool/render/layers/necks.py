@@ -8,13 +8,13 @@ from dataclasses import replace
 import numpy as np
 
 from vorotool import _core
-from vorotool.geometry.skeleton.necks import Necks
-from vorotool.geometry.skeleton.parts import Parts
 from vorotool.render.canvas.layers import Layer, Lines, Page, Polygons
 from vorotool.render.canvas.palettes import EDGE, FAINT, INK, RESULT, cell_color
 from vorotool.render.label_images.png import checked_layers
 from vorotool.render.layers.polygons import names_of_features, polygon_layers, polygon_page
 from vorotool.render.layers.skeleton import skeleton_layers, skeleton_page
+from vorotool.types.skeleton.necks import Necks
+from vorotool.types.skeleton.parts import Parts
 
 LAYERS = ("polygons", "skeleton", "necks", "labels")
 """Of necks, from below."""

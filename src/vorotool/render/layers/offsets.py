@@ -6,12 +6,12 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from vorotool.geometry.skeleton.offsets import Offsets
 from vorotool.render.canvas.layers import Arcs, Layer, Page, Points, bounds_of
 from vorotool.render.canvas.palettes import RESULT
 from vorotool.render.label_images.png import checked_layers
 from vorotool.render.layers.polygons import names_of_features, polygon_layers
 from vorotool.types.axis import is_up
+from vorotool.types.skeleton.offsets import Offsets
 
 LAYERS = ("polygons", "offset", "labels")
 """From below."""

@@ -6,11 +6,11 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from vorotool.geometry.skeleton.points_along import SkeletonPoints
 from vorotool.render.canvas.layers import Layer, Lines, Page, Points
 from vorotool.render.canvas.palettes import FAINT, RESULT, SEED
 from vorotool.render.label_images.png import checked_layers
 from vorotool.render.layers.skeleton import skeleton_layers, skeleton_page
+from vorotool.types.skeleton.points_along import SkeletonPoints
 
 LAYERS = ("polygons", "skeleton", "transects", "points", "labels")
 """From below."""

@@ -8,13 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.geometry.polygons.polygon_set import PolygonSet
-from vorotool.geometry.ragged import starts_of
+from vorotool.numeric.ragged import starts_of
 from vorotool.render.canvas.layers import Layer, Lines, Page, Points, Polygons, Texts, bounds_of, name_size
 from vorotool.render.canvas.names import column_texts, without_empty
 from vorotool.render.canvas.palettes import FAINT, LIGHT, RESULT, WHITE
 from vorotool.render.label_images.png import checked_layers
 from vorotool.types.axis import is_up
+from vorotool.types.polygons.polygon_set import PolygonSet
 
 SHAPE_LAYERS = ("shape", "labels")
 
@@ -88,7 +88,7 @@ def names_of_features(polygons: PolygonSet, page: Page) -> Texts:
     """Names of features: inside the largest polygon, in the middle of the longest line, on the first point."""
     import shapely
 
-    from vorotool.geometry.polygons.conversion import to_shapely
+    from vorotool.types.polygons.conversion import to_shapely
 
     assert polygons.feature is not None  # PolygonSet has filled it in
     shapes = np.asarray(to_shapely(polygons), dtype=object)

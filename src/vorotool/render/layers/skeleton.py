@@ -8,14 +8,14 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.skeleton.skeleton import EDGE, INTERIOR, Skeleton
-from vorotool.geometry.skeleton.tables import site_labels
 from vorotool.render.canvas.layers import Curves, Layer, Lines, Page, Points, Texts, bounds_of, name_size
 from vorotool.render.canvas.names import without_empty
 from vorotool.render.canvas.palettes import INK, RESULT, SEED, WHITE
 from vorotool.render.label_images.png import checked_layers
 from vorotool.render.layers.polygons import feature_names, polygon_layers
 from vorotool.types.axis import is_up
+from vorotool.types.skeleton.skeleton import EDGE, INTERIOR, Skeleton
+from vorotool.types.skeleton.tables import site_labels
 
 LAYERS = ("polygons", "elements", "points", "skeleton", "exact", "nodes", "labels")
 """From below."""

@@ -9,17 +9,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.geometry.box import extent_sides
-from vorotool.geometry.ragged import within
-from vorotool.geometry.voronoi.site_shapes import site_shapes
-from vorotool.geometry.voronoi.tables import neighbor_pairs
-from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
+from vorotool.numeric.ragged import within
 from vorotool.render.canvas.layers import CurvedPolygons, Curves, Layer, Lines, Page, Points, Polygons, Texts, name_size
 from vorotool.render.canvas.names import column_texts, without_empty
 from vorotool.render.canvas.palettes import EDGE, INK, WHITE, cell_color
 from vorotool.render.label_images.png import checked_layers
 from vorotool.render.layers.polygons import polygon_layers
 from vorotool.types.axis import is_up
+from vorotool.types.box import extent_sides
+from vorotool.types.voronoi.site_shapes import site_shapes
+from vorotool.types.voronoi.tables import neighbor_pairs
+from vorotool.types.voronoi.voronoi_map import VoronoiMap
 
 LAYERS = ("cells", "edges", "objects", "labels")
 """From below: filled cells, all that bounds them as lines, the sites, and their names."""

@@ -13,12 +13,12 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from vorotool.errors import LimitError
-from vorotool.geometry.alpha.complex import AlphaComplex, Radius
-from vorotool.geometry.box import bounds
-from vorotool.geometry.numbers import nearest_double
-from vorotool.geometry.table import Table
+from vorotool.numeric.numbers import nearest_double
 from vorotool.products.formats import AS_PICTURE
+from vorotool.types.alpha.complex import AlphaComplex, Radius
 from vorotool.types.axis import is_up
+from vorotool.types.box import bounds
+from vorotool.types.table import Table
 
 MOST_POINTS = 100_000
 """Some 30 MB of data: browsers draw so many in about a second."""

@@ -9,9 +9,9 @@ from typing import BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.curves.inverse_functions import decimal_logarithm
-from vorotool.geometry.table import Table
+from vorotool.numeric.curves.inverse_functions import decimal_logarithm
 from vorotool.render.canvas.palettes import FAINT, INK, PALE, SEED, WHITE
+from vorotool.types.table import Table
 
 CURVES = ("area", "perimeter", "regions", "cavities", "edges")
 _PANEL, _GAP, _LEFT, _RIGHT, _TOP, _BOTTOM = 110, 26, 90, 20, 20, 44

@@ -13,15 +13,15 @@ import numpy as np
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from vorotool.errors import LimitError
-from vorotool.geometry.mesh.cells import CellSet
-from vorotool.geometry.ragged import starts_of
-from vorotool.geometry.spacing import SQUARE, PixelSides
-from vorotool.geometry.voronoi.shapes import cell_rings
-from vorotool.geometry.voronoi.voronoi_map import VoronoiMap
+from vorotool.numeric.ragged import starts_of
 from vorotool.products.formats import AS_SVG
 from vorotool.render.canvas.palettes import cell_color
 from vorotool.render.label_images.crack_outline import crack_loops
 from vorotool.types.axis import is_up
+from vorotool.types.mesh.cells import CellSet
+from vorotool.types.spacing import SQUARE, PixelSides
+from vorotool.types.voronoi.shapes import cell_rings
+from vorotool.types.voronoi.voronoi_map import VoronoiMap
 
 MOST_CELLS, MOST_VERTICES = 100_000, 3_000_000
 """Some 30 MB of data: browsers draw so many in about a second."""

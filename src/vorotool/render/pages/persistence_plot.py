@@ -8,9 +8,9 @@ from typing import BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.curves.inverse_functions import decimal_logarithm
-from vorotool.geometry.table import Table
+from vorotool.numeric.curves.inverse_functions import decimal_logarithm
 from vorotool.render.canvas.palettes import FAINT, INK, PALE, SEED, WHITE
+from vorotool.types.table import Table
 
 MOST = 40
 """Bars that are drawn: those of the regions that last longest."""

@@ -12,11 +12,11 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from vorotool.errors import LimitError
-from vorotool.geometry.box import bounds
-from vorotool.geometry.skeleton.critical_values import ArcProfiles, CriticalValues
-from vorotool.geometry.skeleton.skeleton import Skeleton
 from vorotool.products.formats import AS_PICTURE
 from vorotool.types.axis import is_up
+from vorotool.types.box import bounds
+from vorotool.types.skeleton.critical_values import ArcProfiles, CriticalValues
+from vorotool.types.skeleton.skeleton import Skeleton
 
 MOST_ARCS = 100_000
 """Some 20 MB of data: browsers draw so many in about a second."""

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from vorotool.errors import LimitError, option
-from vorotool.geometry.ragged import starts_of
+from vorotool.numeric.ragged import starts_of
 from vorotool.render.canvas.palettes import cell_color
 from vorotool.render.pages.cells_html import MOST_CELLS, json_value, packed
 

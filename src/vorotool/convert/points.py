@@ -1,0 +1,179 @@
+"""Points from whatever a caller holds: one conversion for all functions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.convert.features import HeldFeatures, held_features, is_shapely, joined_parts, report_missing
+from vorotool.convert.tables import is_table, points_of_table
+from vorotool.errors import InputError, warn
+from vorotool.numeric.coordinates import MOST_AXES, number_array
+from vorotool.numeric.degrees import note_degrees
+from vorotool.numeric.descriptions import described, items_of, naming, refuse_paths, unexpected
+from vorotool.numeric.numbers import pair_of_doubles
+from vorotool.numeric.row_index import index_of_rows
+from vorotool.types.points.conversion import part_numbers, single_points
+from vorotool.types.points.label_image import LabelImage
+from vorotool.types.points.point_set import LABEL, PointSet, labels_of
+from vorotool.types.points.raster import Raster
+from vorotool.types.points.seed_set import SeedSet
+from vorotool.types.polygons.polygon_set import PolygonSet
+
+EXPECTED = "an (n, 2) array of numbers, a data frame with columns x, y, or points of shapely, geopandas, GeoJSON or WKT"
+
+
+def as_points(source: Any, name: str = "points") -> PointSet:
+    """Give points from whatever holds them; the order is kept."""
+    if isinstance(source, PointSet):
+        return source
+    with naming(name):
+        return _points_of(source, name)
+
+
+def as_place(source: Any, name: str) -> tuple[float, float]:
+    """Give one place: of two numbers, or of a point in any form."""
+    if not (isinstance(source, str | Mapping | PointSet) or is_shapely(source) or hasattr(source, "crs")):
+        return pair_of_doubles(source, name)
+    points = as_points(source, name)
+    if len(points) != 1:
+        raise InputError(f"invalid {name}: expected one point, but got {len(points)}")
+    return float(points.xy[0, 0]), float(points.xy[0, 1])
+
+
+def _points_of(source: Any, name: str) -> PointSet:
+    if isinstance(source, SeedSet):
+        assert source.sites is not None  # SeedSet has filled them in
+        labels = None if source.site_labels is None else source.site_labels.astype(np.int64)
+        frame = None if source.frame is None else source.frame.box
+        return PointSet(source.sites, labels, source.properties, y_axis=source.y_axis, index=source.index, frame=frame)
+    if isinstance(source, PolygonSet):
+        raise InputError("these are polygons or lines: give points, for example their centroids or vertices")
+    if isinstance(source, Raster | LabelImage):
+        raise unexpected(source, f"points; of an image take vorotool.seeds_from_raster({name})")
+    refuse_paths(source)
+    if isinstance(source, Iterator):
+        source = items_of(source)
+    if isinstance(source, np.ndarray) and source.dtype.names is None and source.dtype.kind not in "OU":
+        return PointSet(_checked(source, name))
+    held = held_features(source)
+    if held is not None:
+        points = _points_of_features(held)
+        note_degrees(points, name, warn)
+        return points
+    if is_table(source):
+        return points_of_table(source, name)
+    return PointSet(_checked(source, name))
+
+
+# ---- arrays ----------------------------------------------------------------------------------------
+def _checked(source: Any, name: str) -> NDArray[Any]:
+    """Give an array of numbers whose shape is that of points, or say what to give."""
+    if isinstance(source, Mapping | str | bytes) or not (isinstance(source, Iterable) or hasattr(source, "__array__")):
+        raise unexpected(source, EXPECTED)
+    pairs = source if hasattr(source, "dtype") else _pairs(source)
+    array = number_array(pairs, "point", f"expected {EXPECTED}, but got {described(source)}")
+    shape = array.shape
+    if array.size == 0 or (array.ndim == 2 and shape[1] == 2):
+        return pairs if isinstance(pairs, np.ma.MaskedArray) else array
+    said = f"expected shape (n, 2), but got {described(source if hasattr(source, 'shape') else array)}"
+    if shape == (2,):
+        raise InputError(f"{said}: one point is [[x, y]]")
+    if array.ndim == 2 and shape[1] == 3:
+        raise InputError(f"{said}: points have two coordinates; {name}[:, :2] gives the plan")
+    if array.ndim == 2 and shape[0] == 2:
+        raise InputError(f"{said}: give {name}.T")
+    if array.ndim == 2 and min(shape) > MOST_AXES:
+        raise InputError(f"{said}: an image? vorotool.seeds_from_raster({name}) gives its seeds")
+    raise InputError(said)
+
+
+def _pairs(source: Any) -> Any:
+    """Give a list in which points of shapely are pairs of numbers, as the others are."""
+    items = list(source) if isinstance(source, Iterable) else np.asarray(source)
+    if isinstance(items, list) and any(map(is_shapely, items)):
+        return [_position(item, f"point {number}") for number, item in enumerate(items, 1)]
+    return items
+
+
+def _position(point: Any, place: str) -> Any:
+    if not is_shapely(point):
+        return point
+    if point.geom_type != "Point" or point.is_empty:
+        raise _no_point(f"{'an empty' if point.is_empty else 'a'} {point.geom_type}", place)
+    return point.x, point.y
+
+
+def _no_point(what: str, place: str) -> InputError:
+    return InputError(f"{place} is {what}: give points; of a polygon or line its centroid or its vertices")
+
+
+# ---- features --------------------------------------------------------------------------------------
+def _points_of_features(held: HeldFeatures) -> PointSet:
+    xy, owners = _positions(held)
+    if not held.is_map:  # what has an index says itself which are left out
+        report_missing(held, owners)
+    properties = {name: [values[k] for k in owners.tolist()] for name, values in held.properties.items()}
+    if held.ids is not None:
+        ids = {"id": [held.ids[k] for k in owners.tolist()]}
+        properties = {**ids, **{"property_id" if name == "id" else name: v for name, v in properties.items()}}
+    parts = part_numbers(owners)
+    if held.is_map and parts.max(initial=1) > 1:
+        properties["voro_part" if "part" in properties else "part"] = parts.tolist()
+    index = index_of_rows(held.index, owners)
+    labels = labels_of(properties[LABEL]) if LABEL in properties else None
+    if labels is not None:
+        del properties[LABEL]
+    return PointSet(xy, labels, properties, y_axis=held.y_axis, crs=held.crs, index=index)
+
+
+def _positions(held: HeldFeatures) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Coordinates of all points, and the feature of each."""
+    if held.is_all_shapely:
+        return _positions_of_geometry(held)
+    positions, owners = [], []
+    for number, item in enumerate(held.items):
+        place = f"point {number + 1}"
+        found = list(_positions_of(item, place))
+        positions.extend(found)
+        owners.extend([number] * len(found))
+    return number_array(positions, "point"), np.array(owners, dtype=np.int64)
+
+
+def _positions_of_geometry(held: HeldFeatures) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    import shapely
+
+    geometry = held.geometry
+    there = ~shapely.is_missing(geometry) & ~shapely.is_empty(geometry)
+    kept = np.flatnonzero(there)
+    parts, items = geometry[kept], kept
+    while len(parts):
+        wrong = np.flatnonzero(~np.isin(shapely.get_type_id(parts), (0, 4, 7)))
+        if wrong.size:
+            raise _no_point(f"a {parts[wrong[0]].geom_type}", f"point {items[wrong[0]] + 1}")
+        nested = shapely.get_type_id(parts) == 7
+        parts, index = shapely.get_parts(parts[nested], return_index=True)
+        items = items[nested][index]
+    points, owners = single_points(geometry[kept])
+    return shapely.get_coordinates(points), kept[owners]
+
+
+def _positions_of(item: Any, place: str) -> Iterator[Any]:
+    """Give the positions of one item: of shapely, of GeoJSON, or a pair of numbers among these."""
+    if item is None:
+        return
+    if is_shapely(item):
+        xy, _ = _positions_of_geometry(HeldFeatures([item], is_map=True))
+        yield from xy.tolist()
+    elif isinstance(item, Mapping):
+        for kind, coordinates in joined_parts(item):
+            if kind != "Point":
+                raise _no_point(f"a {kind}", place)
+            if not isinstance(coordinates, Sequence | np.ndarray) or len(coordinates) < 2:
+                raise InputError(f"{place} has the coordinates {coordinates!r}: give two numbers")
+            yield list(coordinates)[:2]  # a height is left out
+    else:
+        yield item

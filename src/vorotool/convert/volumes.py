@@ -1,0 +1,98 @@
+"""Volumes from whatever a caller holds, and whether it is a matter of three dimensions."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from vorotool.errors import InputError, LimitError
+from vorotool.numeric.descriptions import column_names, described, naming, refuse_paths, unexpected
+from vorotool.numeric.numbers import real_number
+from vorotool.types.pixel_frame import MAX_PIXELS
+from vorotool.types.points.label_image import LabelImage
+from vorotool.types.points.raster import Raster
+from vorotool.types.volumes.label_volume import LabelVolume
+from vorotool.types.volumes.volume import Volume
+from vorotool.types.volumes.volume_points import VolumePoints
+from vorotool.types.volumes.volume_seeds import VolumeSeeds
+
+AXES = 3
+
+EXPECTED = "a volume: a Volume, a LabelVolume, or a 3-D array of truth values or integers"
+
+
+def is_volume(values: Any) -> bool:
+    """Whether an array has three axes, of which the last one is not that of colors."""
+    try:
+        shape = np.shape(values) if isinstance(values, list | tuple) else getattr(values, "shape", ())
+    except ValueError:  # lists of several lengths
+        return False
+    is_color = getattr(values, "dtype", None) == np.uint8 and shape[-1:] in ((3,), (4,))
+    return len(shape) == AXES and not is_color
+
+
+def is_of_space(source: Any, shape: Any = None, window: Any = None) -> bool:
+    """Tell whether seeds are those of a volume: by their type, their shape, or what is asked for."""
+    if isinstance(source, Volume | LabelVolume | VolumePoints | VolumeSeeds):
+        return True
+    if _width(source) == 2:  # points of the plane, of which another shape is wrong
+        return False
+    for given, numbers in ((shape, AXES), (window, 2 * AXES)):
+        if given is not None and np.ndim(given) == 1:
+            return len(given) == numbers
+    return hasattr(source, "shape") and is_volume(source)
+
+
+def refuse_triples(source: Any, name: str, *, image: bool | None = None) -> None:
+    """Refuse an array or a list of triples where no volume is asked for: they may be points."""
+    if not image and _width(source) == AXES:
+        raise InputError(
+            f"invalid {name}: expected shape (n, 2), but got {described(source)}: for points of space give "
+            f"shape=(D, H, W) as well; {name}[:, :2] gives the plan"
+        )
+
+
+def _width(source: Any) -> int | None:
+    """How many numbers a row of a list of points has; None of what is none, as are tables and images by their type."""
+    if column_names(source) is not None or isinstance(source, Raster | LabelImage):
+        return None
+    if isinstance(source, list | tuple) and source and isinstance(source[0], list | tuple | np.ndarray):
+        return len(source[0]) if all(np.ndim(each) == 0 for each in source[0]) else None
+    shape, kind = getattr(source, "shape", ()), getattr(getattr(source, "dtype", None), "kind", "f")
+    return shape[1] if isinstance(shape, tuple) and len(shape) == AXES - 1 and kind in "iuf" else None
+
+
+def as_volume(source: Any, name: str, *, is_grey: bool = False, max_pixels: int = MAX_PIXELS) -> Volume:
+    """Give a volume from whatever holds it."""
+    if isinstance(source, Volume):
+        return source
+    if isinstance(source, LabelVolume):
+        return Volume(source.labels, source.grid)
+    with naming(name):
+        refuse_paths(source, texts=True)
+        shape = getattr(source, "shape", None)
+        if isinstance(shape, tuple) and len(shape) != AXES:
+            raise unexpected(source, EXPECTED)
+        if not isinstance(source, np.ndarray) and isinstance(shape, tuple):
+            _check_size(shape, max_pixels)
+        try:
+            array = source if isinstance(source, np.ma.MaskedArray) else np.asarray(source)
+        except (TypeError, ValueError):
+            raise unexpected(source, EXPECTED) from None
+        if array.ndim != AXES or array.dtype.kind not in "biuf":
+            raise unexpected(source, EXPECTED)
+        if array.dtype.kind == "f" and not is_grey:
+            how = f"vorotool.seeds_from_volume({name}, threshold=…) takes grey values"
+            raise InputError(f"expected truth values or integers, but got {described(array)}; {how}")
+        return Volume(array)
+
+
+def _check_size(shape: tuple[int, ...], max_pixels: int) -> None:
+    depth, height, width = shape
+    voxels = depth * height * width
+    if voxels > real_number(max_pixels, "max_pixels"):
+        raise LimitError(
+            f"it has {width} x {height} x {depth} = {voxels} voxels, more than max_pixels {max_pixels}: the "
+            "command line reads volumes of TIFF, NPY and Zarr slice by slice"
+        )

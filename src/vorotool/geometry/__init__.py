@@ -1,1 +1,0 @@
-"""Values: arrays and what follows from them by indexing. They know no files, no pictures, no engines."""

@@ -1,1 +1,0 @@
-"""Arguments of the library: whatever callers hold, as our values, or refused by the name of the parameter."""

@@ -1,0 +1,1 @@
+"""What all rooms share: ragged arrays, curves, exact functions, units, coordinate reference systems, threads."""

@@ -1,0 +1,140 @@
+"""Arcs of three kinds, straight lines, parabolas and circular arcs: lengths, areas beside them, polylines."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.numeric.curves import bezier
+from vorotool.numeric.curves.circular_arcs import chords_of
+from vorotool.numeric.curves.flatten import polylines
+from vorotool.numeric.curves.inverse_functions import PI, hypotenuse, inverse_sine
+from vorotool.numeric.ragged import ranges, starts_of
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+_SMALL = 0.25
+"""Sines of half angles up to which segments of circles are sums of series: beyond, four bits at most are lost."""
+
+_TERMS = 15
+"""Of the series: the next one is below 2^-60 of the first where the sine is small."""
+
+
+@dataclass(frozen=True, eq=False)
+class MixedArcs:
+    """Arcs with two ends each."""
+
+    source: Floats  # (n, 2) float64 array: the ends
+    target: Floats  # (n, 2) float64 array: the ends
+    # (n, 2) float64 array: the control point of a quadratic Bezier curve, which each parabola is; NaN of other arcs
+    control: Floats
+    center: Floats  # (n, 2) float64 array: of the circle of each circular arc; NaN of other arcs
+    is_left: NDArray[np.bool_]  # (n,) bool array: whether a circular arc goes counter-clockwise around its center
+
+    def __getitem__(self, chosen: NDArray[np.bool_] | Indices) -> MixedArcs:
+        """Some of the arcs."""
+        return MixedArcs(
+            self.source[chosen],
+            self.target[chosen],
+            self.control[chosen],
+            self.center[chosen],
+            self.is_left[chosen],
+        )
+
+    def reversed(self, chosen: NDArray[np.bool_]) -> MixedArcs:
+        """The same arcs, some the other way round."""
+        turned = chosen[:, None]
+        return MixedArcs(
+            np.where(turned, self.target, self.source),
+            np.where(turned, self.source, self.target),
+            self.control,
+            self.center,
+            self.is_left ^ chosen,
+        )
+
+    @property
+    def is_circle(self) -> NDArray[np.bool_]:
+        """(n,) whether each is a circular arc."""
+        is_circle: NDArray[np.bool_] = ~np.isnan(self.center[:, 0])
+        return is_circle
+
+    @cached_property
+    def lengths(self) -> Floats:
+        """(n,) lengths."""
+        lengths = bezier.lengths_of(self.source, self.control, self.target)
+        circles = np.flatnonzero(self.is_circle)
+        if circles.size:
+            radius, sine, is_over = self._half_angles(circles)
+            angle = 2 * inverse_sine(sine)
+            lengths[circles] = radius * np.where(is_over, 2 * PI - angle, angle)
+        return lengths
+
+    def areas_beside(self, place: Floats) -> Floats:
+        """(n,) signed areas between a place and arcs, as of `vorotool.numeric.curves.bezier.areas_beside`."""
+        areas = bezier.areas_beside(self.source, self.control, self.target, place)
+        circles = np.flatnonzero(self.is_circle)
+        if circles.size:
+            radius, sine, is_over = self._half_angles(circles)
+            square = radius * radius
+            segment = square * _segments_of(sine)
+            segment = np.where(is_over, PI * square - segment, segment)
+            areas[circles] += np.where(self.is_left[circles], segment, -segment)
+        return areas
+
+    @cached_property
+    def sagittas(self) -> Floats:
+        """(n,) how far circular arcs are from their chords; infinity of other arcs."""
+        sagittas = np.full(len(self.source), np.inf)
+        circles = np.flatnonzero(self.is_circle)
+        if circles.size:
+            radius, sine, is_over = self._half_angles(circles)
+            cosine = np.sqrt((1 - sine) * (1 + sine))
+            sagittas[circles] = radius * np.where(is_over, 1 + cosine, sine * sine / (1 + cosine))
+        return sagittas
+
+    def polylines(self, tolerance: float | Floats) -> tuple[Floats, Indices]:
+        """Give each arc as a polyline; circular arcs are at most half a circle."""
+        is_parabola = ~np.isnan(self.control[:, 0])
+        made, made_start = polylines(self.source, self.control, self.target, is_parabola, tolerance)
+        circles = np.flatnonzero(self.is_circle)
+        if not circles.size:
+            return made, made_start
+        of_circles = np.broadcast_to(tolerance, len(self.source))[circles]
+        arcs = self[circles]
+        inner, first = chords_of(arcs.source, arcs.target, arcs.center, arcs.is_left, of_circles)
+        sizes = np.diff(made_start)
+        sizes[circles] = np.diff(first) + 1
+        start = starts_of(sizes)
+        points = np.empty((int(start[-1]), 2))
+        points[start[1:] - 1] = self.target
+        others = np.flatnonzero(~self.is_circle)
+        points[ranges(start[others], sizes[others])] = made[ranges(made_start[others], sizes[others])]
+        points[ranges(start[circles], sizes[circles] - 1)] = inner
+        return points, start
+
+    def _half_angles(self, circles: Indices) -> tuple[Floats, Floats, NDArray[np.bool_]]:
+        """Radius, sine of half the angle, and whether that is over half a turn, of circular arcs."""
+        a, b = self.source[circles] - self.center[circles], self.target[circles] - self.center[circles]
+        radius, chord = hypotenuse(*a.T), hypotenuse(*(b - a).T)
+        cross = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
+        sine = np.minimum(np.divide(chord, 2 * radius, out=np.zeros_like(chord), where=radius > 0), 1)
+        return radius, sine, np.where(self.is_left[circles], cross < 0, cross > 0)
+
+
+def _segments_of(sine: Floats) -> Floats:
+    """Areas between chords of the unit circle and their arcs, from sines of half the angle, up to half a circle."""
+    area = inverse_sine(sine) - sine * np.sqrt((1 - sine) * (1 + sine))
+    small = np.flatnonzero(sine <= _SMALL)
+    s = sine[small]
+    square, total, coefficient = s * s, np.zeros(len(s)), 1.0
+    power = 2 * s * square
+    for k in range(_TERMS):
+        total += coefficient * power / (2 * k + 3)
+        power = power * square
+        coefficient *= (2 * k + 1) / (2 * k + 2)
+    area[small] = total
+    return area

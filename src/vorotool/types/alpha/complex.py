@@ -1,0 +1,219 @@
+"""The alpha complex of points: all alpha shapes at once."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+from functools import cached_property
+from math import floor, inf, isqrt
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import UsageError
+from vorotool.numeric.curves.inverse_functions import hypotenuse
+from vorotool.numeric.numbers import nearest_double, real_number, shown_number
+from vorotool.products.formats import resolved
+from vorotool.types import fields as f
+from vorotool.types.features import Corners, Rows
+from vorotool.types.fields import record
+from vorotool.types.mesh.triangulation import Triangulation
+from vorotool.types.table import Table
+from vorotool.types.values import Geometric, Pictured, Tabular, Value, counted, placed
+
+Radius = float | Fraction
+"""A radius: a double, or an exact fraction such as a decimal number."""
+
+CLASSES = ("outside", "singular", "boundary", "interior")
+"""Classes of edges by number: outside of a shape, alone in it, on one triangle of it, between two."""
+
+
+@record
+class AlphaComplex(Value, Tabular, Geometric, Pictured):
+    """Family of alpha shapes: the radii at which each Delaunay edge enters, bounds and leaves the shape.
+
+    The paper's α is -1/r. An edge is in the shape for r_min ≤ r < r_max. r_min is half its length, if it is a Gabriel
+    edge, else r_mid, the smaller circumradius of its triangles, from which on it bounds a triangle of the shape; r_max
+    is the larger one. Radii of missing triangles are infinite. A triangle is in the shape if its circumradius is at
+    most r. The paper has open intervals; the shapes differ only at radii of the spectrum.
+
+    Radii are correctly rounded. Comparisons use ranks, exact indices in the spectrum.
+
+    Parameters
+    ----------
+    mesh : Triangulation
+        Triangulation of the points.
+    edges : (e, 2) int32 array
+        Ends of each edge, the smaller index first, in the order of the triangles.
+    sides : (e, 2) int32 array
+        The triangles with this edge, or -1.
+    r_min, r_mid, r_max : (e,) float64 array
+        Radii in input units; infinite where there is none.
+    rank_min, rank_mid, rank_max : (e,) int32 array
+        Indices of these radii in the spectrum; its length for infinite radii.
+    triangle_rank : (t,) int32 array
+        Indices of the circumradii in the spectrum.
+    spectrum : (m,) float64 array
+        Radii at which the shape changes, each exact value once, increasing; two of them may round to one double.
+    witness : (m,) int32 array
+        A triangle with this circumradius, or the number of triangles plus an edge of twice this length.
+    rule : {"corrected", "printed"}
+        ``printed``: r_min is half the length of every edge with two triangles, and intervals are open, as in the text.
+
+    References
+    ----------
+    Melkemi and Vandorpe, "Voronoi Diagrams and Applications", section 2.3; Edelsbrunner, Kirkpatrick and Seidel 1983.
+
+    Examples
+    --------
+    >>> from vorotool import alpha_complex
+    >>> family = alpha_complex([[0, 0], [4, 0], [0, 3]])
+    >>> family.edges.tolist(), family.r_min.tolist(), family.spectrum.tolist()
+    ([[1, 2], [0, 2], [0, 1]], [2.5, 1.5, 2.0], [1.5, 2.0, 2.5])
+    >>> family.reached(2), family.reached(Fraction(5, 2))
+    (2, 3)
+    """
+
+    maker = "alpha_complex"
+
+    mesh: Triangulation = f.nested()
+    edges: NDArray[np.int32] = f.index("edges", 2)
+    sides: NDArray[np.int32] = f.index("edges", 2)
+    r_min: NDArray[np.float64] = f.length("edges")
+    r_mid: NDArray[np.float64] = f.length("edges")
+    r_max: NDArray[np.float64] = f.length("edges")
+    rank_min: NDArray[np.int32] = f.index("edges")
+    rank_mid: NDArray[np.int32] = f.index("edges")
+    rank_max: NDArray[np.int32] = f.index("edges")
+    triangle_rank: NDArray[np.int32] = f.index("triangles")
+    spectrum: NDArray[np.float64] = f.length("radii")
+    witness: NDArray[np.int32] = f.index("radii")
+    rule: str = "corrected"
+
+    def __len__(self) -> int:
+        return len(self.edges)
+
+    @property
+    def points(self) -> NDArray[np.float64]:
+        """(n, 2) coordinates, in the order of the input."""
+        return self.mesh.points
+
+    def reached(self, r: Radius) -> int:
+        """Return the exact number of critical radii that are at most r: lower ranks are reached."""
+        return self._count(r, or_equal=True)
+
+    def entered(self, r: Radius) -> int:
+        """Return the number of critical radii reached at r; with open intervals, of those below r."""
+        return self._count(r, or_equal=self.rule != "printed")
+
+    def _count(self, r: Radius, *, or_equal: bool) -> int:
+        """Doubles that differ compare as the exact values do; among equal ones the exact squares are compared."""
+        rounded = nearest_double(r)
+        low, high = (int(np.searchsorted(self.spectrum, rounded, side=side)) for side in ("left", "right"))
+        square = None if r == inf else Fraction(r) ** 2
+        while low < high:
+            middle = (low + high) // 2
+            exact = self.squared_radius(middle)
+            if square is None or exact < square or (or_equal and exact == square):
+                low = middle + 1
+            else:
+                high = middle
+        return low
+
+    def squared_radius(self, rank: int) -> Fraction:
+        """Return the exact square of a radius of the spectrum."""
+        item = int(self.witness[rank])
+        triangles = len(self.triangle_rank)
+        corners = self.mesh.triangles[item] if item < triangles else self.edges[item - triangles]
+        places = [(Fraction(x), Fraction(y)) for x, y in self.points[corners].tolist()]
+        (ax, ay), (bx, by) = places[:2]
+        ux, uy = bx - ax, by - ay
+        if len(places) == 2:
+            return (ux * ux + uy * uy) / 4
+        vx, vy = places[2][0] - ax, places[2][1] - ay
+        product = (ux * ux + uy * uy) * (vx * vx + vy * vy) * ((vx - ux) ** 2 + (vy - uy) ** 2)
+        return product / (4 * (ux * vy - uy * vx) ** 2)
+
+    def radius_from(self, rank: int) -> Radius:
+        """Return a radius for the shape of a rank: at least the critical radius, less than the next.
+
+        The radius is the least such double, or a decimal fraction if there is none.
+        """
+        square = self.squared_radius(rank)
+        rounded = float(self.spectrum[rank])
+        if rounded < inf and Fraction(rounded) ** 2 < square:
+            rounded = float(np.nextafter(rounded, inf))
+        if rounded < inf and self.reached(rounded) == rank + 1:
+            return rounded
+        return self._fraction_from(rank, square)
+
+    def _fraction_from(self, rank: int, square: Fraction) -> Fraction:
+        """Give a decimal at least as large as a radius that another one follows within the spacing of doubles."""
+        bits = square.numerator.bit_length() - square.denominator.bit_length()
+        digits = 17 - floor(bits / 2 * 0.30103)  # behind the point: at least 16 significant ones
+        while True:
+            step = Fraction(10) ** -digits
+            root = _ceiling_root(square / step**2) * step
+            if self.reached(root) == rank + 1:
+                return root
+            digits += 5
+
+    def classes(self, r: Radius) -> NDArray[np.uint8]:
+        """Return the (e,) indices of the classes of the edges in `CLASSES` for the shape of r.
+
+        Raises
+        ------
+        UsageError
+            If r is not positive.
+        """
+        reached, entered = self.reached(checked_radius(r)), self.entered(r)
+        return classes_of(self, reached, entered)
+
+    @cached_property
+    def lengths(self) -> NDArray[np.float64]:
+        """Return the (e,) lengths of the edges, to a relative error of 1e-15; infinite beyond the largest double."""
+        a, b = self.points[self.edges[:, 0]], self.points[self.edges[:, 1]]
+        with np.errstate(over="ignore"):
+            lengths: NDArray[np.float64] = hypotenuse(*(b - a).T)
+        return lengths
+
+    def _rows(self, what: str | None = None) -> Rows:
+        if what == "spectrum":
+            return Rows(Table({"r": self.spectrum}))
+        return Rows(resolved("types.alpha.tables:family_table")(self))
+
+    def _features(self, _what: str | None = None, _flatten: float | None = None) -> Rows:
+        return replace(self._rows(), source=self.mesh, geometry=Corners(self.points, self.edges))
+
+    def _matrix(self, _what: str) -> NDArray[np.float64]:
+        return self.spectrum
+
+    def _summary(self) -> str:
+        radii = counted(len(self.spectrum), "critical radius", "critical radii")
+        sizes = (counted(len(self.points), "point"), counted(len(self), "edge"), radii)
+        return placed(", ".join(sizes), self.mesh.crs)
+
+
+def classes_of(family: AlphaComplex, reached: int, entered: int) -> NDArray[np.uint8]:
+    """(e,) classes of the edges where ranks below ``reached`` have come, and edges entered below ``entered``."""
+    classes = np.where(family.rank_mid < reached, np.uint8(2), np.uint8(1))
+    classes[family.rank_min >= entered] = 0
+    classes[family.rank_max < reached] = 3
+    return classes
+
+
+def checked_radius(r: Any) -> Radius:
+    """Return a radius that is positive; infinity is one."""
+    value = real_number(r, "r")
+    if not value > 0:
+        raise UsageError(
+            f"r is {shown_number(value)}: a radius must be positive; "
+            "leave it out for the smallest that joins all points"
+        )
+    return value
+
+
+def _ceiling_root(value: Fraction) -> int:
+    """Give the least integer whose square is at least this positive number."""
+    return isqrt(-(-value.numerator // value.denominator) - 1) + 1

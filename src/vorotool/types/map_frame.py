@@ -1,0 +1,69 @@
+"""A frame of square cells over a part of a map."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from math import ceil, floor
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import InputError, LimitError, UsageError, option
+from vorotool.types.axis import DOWN, UP, YAxis
+from vorotool.types.pixel_frame import FARTHEST, Frame
+from vorotool.types.pixel_grid import PixelGrid, map_grid
+
+MapWindow = tuple[Fraction, Fraction, Fraction, Fraction]
+
+MOST_UNASKED = 2**28
+"""Cells that a frame may have which follows from the bounds alone."""
+
+
+def map_frame(
+    low: NDArray[np.float64],
+    high: NDArray[np.float64],
+    side: Fraction,
+    *,
+    window: MapWindow | None,
+    y_axis: YAxis = UP,
+    crs: Any = None,
+) -> tuple[Frame, PixelGrid]:
+    """Lay cells over what lies between two corners, or over a window; rows go southwards, or down as y does."""
+    if window is not None:
+        left, bottom = window[:2]
+        columns, rows = window[2] / side, window[3] / side
+        if columns.denominator != 1 or rows.denominator != 1:
+            nearest = ",".join(f"{float(max(1, round(number)) * side):.17g}" for number in (columns, rows))
+            raise UsageError(
+                f"{option('--window')} is {float(window[2]):.17g} x {float(window[3]):.17g}, no whole number of cells "
+                f"of {float(side):.17g}: the nearest W,H is {nearest}"
+            )
+        width, height = int(columns), int(rows)
+    else:
+        first = [floor(Fraction(float(value)) / side) for value in low]
+        last = [ceil(Fraction(float(value)) / side) for value in high]
+        if max(map(abs, [*first, *last])) > FARTHEST:
+            raise InputError(
+                f"coordinates are more than 2^44 cells of {float(side):.17g} from 0: use a larger "
+                f"{option('--cell-size', 'side')}"
+            )
+        width, height = (max(1, b - a) for a, b in zip(first, last, strict=True))
+        left, bottom = first[0] * side, first[1] * side
+        if width * height > MOST_UNASKED:
+            raise LimitError(
+                f"what is read needs {width} x {height} cells of {float(side):.17g}, more than {MOST_UNASKED}: use a "
+                f"larger {option('--cell-size', 'side')}, or choose a part with "
+                f"{option('--window X,Y,W,H', 'window=(x, y, w, h)')}"
+            )
+    top = bottom + height * side
+    step = float(side)
+    down = (step, float(bottom)) if y_axis == DOWN else (-step, float(top))
+    return Frame(0, 0, width, height), map_grid((step, 0.0, float(left), 0.0, *down), crs=crs)
+
+
+def in_cells(xy: NDArray[np.float64], grid: PixelGrid) -> NDArray[np.float64]:
+    """Coordinates in cells: (0, 0) is the center of the first one, y goes down."""
+    assert grid.transform is not None
+    a, _, c, _, e, f = grid.transform
+    return (xy - (c, f)) / (a, e) - 0.5

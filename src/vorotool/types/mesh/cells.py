@@ -1,0 +1,182 @@
+"""Voronoi cells of points."""
+
+from __future__ import annotations
+
+from dataclasses import field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import InputError
+from vorotool.numeric.curves.inverse_functions import hypotenuse
+from vorotool.numeric.ragged import Nesting, divides, following, starts_of
+from vorotool.numeric.row_index import check_index
+from vorotool.types import fields as f
+from vorotool.types.axis import UNSTATED, YAxis
+from vorotool.types.box import Box
+from vorotool.types.features import Areas, Rows
+from vorotool.types.fields import record
+from vorotool.types.values import Geometric, Pictured, Tabular, Value, counted, placed
+
+
+@record
+class CellSet(Value, Tabular, Geometric, Pictured):
+    """Clipped Voronoi cells, one per point, in the order of the points.
+
+    A cell that meets its frame nowhere, or in no area, is empty; so is that of a point which lies on an earlier one.
+
+    Parameters
+    ----------
+    sites : (n, 2) float64 array
+        The points.
+    coordinates : (k, 2) float64 array
+        Vertices, ring after ring; the first of a ring is not repeated. Shells are counter-clockwise (a positive
+        shoelace sum), holes clockwise.
+    starts : (r + 1,) int64 array
+        Where each ring begins in `coordinates`, and the end.
+    frame : Box
+        What the cells were clipped to.
+    polygon_starts : (p + 1,) int64 array, optional
+        The first ring, its shell, of each polygon. Without it ring i is cell i: cells are convex, r = n.
+    cell_starts : (n + 1,) int64 array, optional
+        The first polygon of each cell; along with `polygon_starts`.
+    labels : (n,) int64 array, optional
+        The input's own labels. Without them point i has label i + 1.
+    properties : dict of str to sequence, optional
+        Other columns of the input, one value per point.
+    y_axis : {"none", "up", "down"}
+        Direction of y where the coordinates come from; "none" where nothing states it.
+    crs : object, optional
+        The ``crs`` member of a GeoJSON input.
+    index : pandas Index, array or sequence, optional
+        Names of the points in the input, such as the row index of a data frame: one entry per point.
+
+    Raises
+    ------
+    InputError
+        If the arrays do not fit together.
+
+    Examples
+    --------
+    >>> cells = CellSet([[1, 1], [3, 1]], [[0, 0], [2, 0], [2, 2], [0, 2], [2, 0], [4, 0], [4, 2], [2, 2]], [0, 4, 8],
+    ...                 Box(0, 0, 4, 2))
+    >>> len(cells), cells.areas.tolist(), cells.perimeters.tolist()
+    (2, [4.0, 4.0], [8.0, 8.0])
+    >>> cells.to_shapely()[1].wkt
+    'POLYGON ((2 0, 4 0, 4 2, 2 2, 2 0))'
+    """
+
+    maker = "voronoi_cells"
+
+    sites: NDArray[np.float64] = f.position("sites", 2)
+    coordinates: NDArray[np.float64] = f.position("vertices", 2)
+    starts: NDArray[np.int64] = f.numbers(np.int64, "starts")
+    frame: Box = f.position()
+    polygon_starts: NDArray[np.int64] | None = f.numbers(np.int64, "shells", default=None)
+    cell_starts: NDArray[np.int64] | None = f.numbers(np.int64, "cells", default=None)
+    labels: NDArray[np.int64] | None = f.numbers(np.int64, "sites", default=None)
+    properties: dict[str, Any] = field(default_factory=dict)
+    y_axis: YAxis = f.y_axis(default=UNSTATED)
+    crs: Any = None
+    index: Any = None
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if (self.polygon_starts is None) != (self.cell_starts is None):
+            raise InputError("polygon_starts and cell_starts go together: give both or none")
+        count = len(self.coordinates)
+        for name in ("starts", "polygon_starts", "cell_starts"):
+            if getattr(self, name) is not None:
+                object.__setattr__(self, name, _checked_starts(getattr(self, name), count, name))
+                count = len(getattr(self, name)) - 1
+        if count != len(self.sites):
+            raise InputError(f"there are {count} cells, but {len(self.sites)} sites: give one cell a site")
+        check_index(self.index, count, "point")
+
+    def __len__(self) -> int:
+        return len(self.sites)
+
+    @property
+    def label_array(self) -> NDArray[np.int64]:
+        """(n,) labels: the input's own, else 1 to n."""
+        if self.labels is not None:
+            return self.labels
+        return np.arange(1, len(self) + 1, dtype=np.int64)
+
+    @property
+    def nesting(self) -> Nesting:
+        """Rings, polygons and cells by where each begins; no ring, and no polygon, is empty."""
+        if self.polygon_starts is not None and self.cell_starts is not None:
+            return Nesting(self.starts, self.polygon_starts, self.cell_starts)
+        kept = np.diff(self.starts) > 0
+        rings = np.concatenate([self.starts[:-1][kept], self.starts[-1:]])
+        cells = starts_of(kept)
+        return Nesting(rings, np.arange(len(rings), dtype=np.int64), cells)
+
+    @property
+    def is_empty(self) -> NDArray[np.bool_]:
+        """(n,) whether each cell is empty."""
+        empty: NDArray[np.bool_] = np.diff(self.starts if self.cell_starts is None else self.cell_starts) == 0
+        return empty
+
+    @cached_property
+    def areas(self) -> NDArray[np.float64]:
+        """(n,) areas of the cells, 0 of empty ones.
+
+        The error is about 1e-15 times the square of a ring's diameter.
+        """
+        rings = self.nesting.rings
+        left, bottom, right, top = self.frame.sides
+        exponent = int(np.frexp(max(right / 2 - left / 2, top / 2 - bottom / 2))[1])  # products do not overflow
+        start = np.repeat(self.coordinates[rings[:-1]], np.diff(rings), axis=0)
+        x, y = np.ldexp(self.coordinates - start, -exponent).T
+        after = following(rings)
+        with np.errstate(over="ignore"):
+            return np.ldexp(self._sum(x * y[after] - x[after] * y), 2 * exponent - 1)
+
+    @cached_property
+    def perimeters(self) -> NDArray[np.float64]:
+        """(n,) lengths of the boundaries, those of holes included; 0 of empty cells."""
+        with np.errstate(over="ignore"):  # beyond the largest double: infinite
+            step = self.coordinates[following(self.nesting.rings)] - self.coordinates
+            return self._sum(hypotenuse(step[:, 0], step[:, 1]))
+
+    @cached_property
+    def cell_of_vertices(self) -> NDArray[np.int64]:
+        """(n + 1,) where the vertices of each cell begin in `coordinates`, and the end."""
+        rings, polygons, cells = self.nesting
+        starts: NDArray[np.int64] = rings[polygons[cells]]
+        return starts
+
+    def _features(self, _what: str | None = None, _flatten: float | None = None) -> Rows:
+        x, y = np.ascontiguousarray(self.sites.T)
+        ours: dict[str, Any] = {"label": self.label_array}
+        if "id" in self.properties:
+            ours["id"] = self.properties["id"]
+        ours |= {"x": x, "y": y, "area": self.areas, "perimeter": self.perimeters}
+        further = {name: column for name, column in self.properties.items() if name != "id"}
+        areas = Areas(self.coordinates, self.nesting, in_box=self.polygon_starts is None)
+        return Rows(ours, further, self, np.arange(len(self)), areas, ids=self.label_array)
+
+    def _sum(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Sums over the vertices of each cell."""
+        starts = self.cell_of_vertices
+        sums = np.zeros(len(self))
+        kept = np.diff(starts) > 0
+        if kept.any():
+            sums[kept] = np.add.reduceat(values, starts[:-1][kept])
+        return sums
+
+    def _summary(self) -> str:
+        empty = int(np.count_nonzero(self.is_empty))
+        cells = counted(len(self), "cell") + (f" ({empty} empty)" if empty else "")
+        return placed(f"{cells}, {counted(len(self.coordinates), 'vertex', 'vertices')}", self.crs)
+
+
+def _checked_starts(values: Any, count: int, name: str) -> NDArray[np.int64]:
+    array = np.ascontiguousarray(values, dtype=np.int64)
+    if array.ndim != 1 or not divides(array, count):
+        raise InputError(f"{name} must increase from 0 to {count}, the number of what it divides")
+    return array

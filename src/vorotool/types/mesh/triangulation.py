@@ -1,0 +1,299 @@
+"""A Delaunay triangulation of points."""
+
+from __future__ import annotations
+
+from dataclasses import field
+from fractions import Fraction
+from functools import cached_property
+from math import sqrt
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from vorotool.numeric.curves.inverse_functions import hypotenuse
+from vorotool.numeric.numbers import nearest_double
+from vorotool.numeric.row_index import check_index
+from vorotool.products.formats import resolved
+from vorotool.types import fields as f
+from vorotool.types.axis import UNSTATED, YAxis
+from vorotool.types.box import Box
+from vorotool.types.fields import record
+from vorotool.types.values import Graph, Pictured, Tabular, Value, WithParts, counted, placed
+
+if TYPE_CHECKING:
+    from vorotool.types.features import Rows
+
+FLAT = 2.0**-20
+"""Triangles whose largest angle has a smaller sine are computed in rationals: floating point would lose half."""
+
+
+ALL = slice(None)
+
+CHUNK = 1 << 14
+"""Edges that are measured at a time, so that their ends stay in the cache."""
+
+
+@record
+class Triangulation(Value, Tabular, WithParts, Graph, Pictured):
+    """Triangles, edges and hull of points, as 0-based int32 indices.
+
+    Triangles and edges follow a Morton curve through the points: their order depends on the coordinates, not on the
+    numbering. They are grouped by their vertex that is earliest on the curve, counter-clockwise around it from its
+    earliest neighbor; a triangle begins with that vertex. Collinear points, and fewer than three, have no triangles:
+    their edges form a chain. Each cocircular polygon is a fan from its lexicographically smallest vertex.
+
+    Parameters
+    ----------
+    points : (n, 2) float64 array
+        Coordinates, in the order of the input; finite.
+    triangles : (t, 3) int32 array
+        Vertices of each triangle, counter-clockwise: a positive shoelace sum on the coordinates as stored.
+    neighbors : (t, 3) int32 array
+        The triangle across the edge opposite to each vertex, -1 on the hull.
+    edges : (e, 2) int32 array
+        Ends of each edge, the smaller index first.
+    hull : (h,) int32 array
+        Vertices on the hull, including those inside its sides, counter-clockwise from the lexicographically smallest;
+        the whole chain if there are no triangles.
+    first : (n,) int32 array
+        Index of the first point at the place of each point. Duplicates are in no triangle.
+    labels : (n,) int64 array, optional
+        The input's own labels. Without them point i has label i + 1.
+    properties : dict of str to sequence, optional
+        Other columns of the input, one value per point.
+    y_axis : {"none", "up", "down"}
+        Direction of y where the coordinates come from; "none" where nothing states it.
+    crs : object, optional
+        The ``crs`` member of a GeoJSON input.
+    first_number : {1, 0}
+        Number of the first point in files of Triangle, as in the ``.node`` file of the input.
+    index : pandas Index, array or sequence, optional
+        Names of the points in the input, such as the row index of a data frame: one entry per point.
+    frame : Box, optional
+        The rectangle covered by the pixels of the image that the points come from: the default frame of what is made
+        of them.
+
+    Raises
+    ------
+    InputError
+        If an array has another shape.
+
+    References
+    ----------
+    Melkemi and Vandorpe, "Voronoi Diagrams and Applications", section 2.1.
+
+    Examples
+    --------
+    >>> triangle = Triangulation([[0, 0], [4, 0], [0, 3]], [[0, 1, 2]], [[-1, -1, -1]], [[0, 1], [0, 2], [1, 2]],
+    ...                          [0, 1, 2], [0, 1, 2])
+    >>> triangle.circumcenters.tolist(), triangle.circumradii.tolist(), triangle.areas.tolist()
+    ([[2.0, 1.5]], [2.5], [6.0])
+    """
+
+    maker = "delaunay"
+
+    points: NDArray[np.float64] = f.position("points", 2)
+    triangles: NDArray[np.int32] = f.index("triangles", 3)
+    neighbors: NDArray[np.int32] = f.index("triangles", 3)
+    edges: NDArray[np.int32] = f.index("edges", 2)
+    hull: NDArray[np.int32] = f.index("hull")
+    first: NDArray[np.int32] = f.index("points")
+    labels: NDArray[np.int64] | None = f.numbers(np.int64, "points", default=None)
+    properties: dict[str, Any] = field(default_factory=dict)
+    y_axis: YAxis = f.y_axis(default=UNSTATED)
+    crs: Any = None
+    first_number: int = 1
+    index: Any = None
+    frame: Box | None = f.input_box()
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        check_index(self.index, len(self.points), "point")
+
+    def __len__(self) -> int:
+        return len(self.triangles)
+
+    @classmethod
+    def from_triangles(cls, points: Any, triangles: ArrayLike) -> Triangulation:
+        """Make a triangulation of points and triangles from elsewhere, such as scipy's or Triangle's.
+
+        Parameters
+        ----------
+        points : (n, 2) array, or points as `vorotool.delaunay` takes them
+            The points.
+        triangles : (t, 3) array of int
+            Indices from 0 of the corners of each triangle, in either direction.
+
+        Returns
+        -------
+        Triangulation
+            With the triangles in their order, all counter-clockwise. Whether it is Delaunay is for
+            `vorotool.verify_triangulation` to say.
+
+        Raises
+        ------
+        InputError
+            If an index is out of range, a triangle has no area, two overlap along an edge, or the triangles do not
+            fill one region without holes.
+
+        Examples
+        --------
+        >>> square = [[0, 0], [2, 0], [2, 1], [0, 1]]
+        >>> mesh = Triangulation.from_triangles(square, [[0, 1, 2], [3, 2, 0]])
+        >>> mesh.triangles.tolist(), mesh.neighbors.tolist(), mesh.hull.tolist()
+        ([[0, 1, 2], [3, 0, 2]], [[-1, 1, -1], [0, -1, -1]], [0, 1, 2, 3])
+        """
+        made: Triangulation = resolved("engines.delaunay.from_triangles:triangulation_of")(points, triangles)
+        return made
+
+    @property
+    def label_array(self) -> NDArray[np.int64]:
+        """(n,) labels: the input's own, else 1 to n."""
+        if self.labels is not None:
+            return self.labels
+        return np.arange(1, len(self.points) + 1, dtype=np.int64)
+
+    @property
+    def duplicates(self) -> int:
+        """Number of duplicate points."""
+        return int(np.count_nonzero(self.first != np.arange(len(self.first))))
+
+    def edge_lengths(self, rows: slice = ALL) -> NDArray[np.float64]:
+        """Return the (e,) lengths of all or some edges, to a relative error of 1e-15; infinite on overflow."""
+        return lengths_of(self.points, self.edges[rows])
+
+    @cached_property
+    def hull_edges(self) -> NDArray[np.bool_]:
+        """Return the (e,) mask of edges on the hull; without triangles all edges are."""
+        if not len(self.triangles):
+            return np.ones(len(self.edges), dtype=bool)
+        onward = np.full(len(self.points), -1, dtype=np.int32)  # next vertex on the hull
+        onward[self.hull] = np.roll(self.hull, -1)
+        a, b = self.edges.T
+        found: NDArray[np.bool_] = (onward[a] == b) | (onward[b] == a)
+        return found
+
+    @cached_property
+    def circumcenters(self) -> NDArray[np.float64]:
+        """Return the (t, 2) circumcenters of the triangles.
+
+        The error is at most about 1e-9 times the circumradius, nearly always about 1e-15 times, plus the rounding of
+        the result. A center beyond the largest double is infinite.
+        """
+        return self._circles()[0]
+
+    @cached_property
+    def circumradii(self) -> NDArray[np.float64]:
+        """Return the (t,) circumradii, to a relative error of at most about 1e-9, nearly always about 1e-15."""
+        return self._circles()[1]
+
+    @cached_property
+    def areas(self) -> NDArray[np.float64]:
+        """Return the (t,) positive areas of the triangles.
+
+        The error is about 1e-15 times the product of the two shorter sides; triangles flat beyond that are exact to
+        rounding.
+        """
+        _, b, c, _, exponent = self._corners()
+        cross, flat = _cross(b, c)
+        with np.errstate(over="ignore", under="ignore"):
+            areas = np.ldexp(0.5 * cross, 2 * exponent)
+        for t in np.flatnonzero(flat):
+            areas[t] = nearest_double(abs(_exact_cross(self.points[self.triangles[t]])) / 2)
+        return areas
+
+    def _circles(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        a, b, c, scale, exponent = self._corners()
+        cross, flat = _cross(b, c)
+        b2, c2 = (b * b).sum(axis=1), (c * c).sum(axis=1)
+        with np.errstate(all="ignore"):  # flat triangles divide by zero and are done again
+            x = (c[:, 1] * b2 - b[:, 1] * c2) / (2 * cross)
+            y = (b[:, 0] * c2 - c[:, 0] * b2) / (2 * cross)
+            centers = np.ldexp(np.ldexp(np.stack([x, y], axis=1), (exponent - scale)[:, None]) + a, scale)
+            radii = np.ldexp(hypotenuse(x, y), exponent)
+        for t in np.flatnonzero(flat):
+            centers[t], radii[t] = _exact_circle(self.points[self.triangles[t]])
+        return centers, radii
+
+    def _corners(self) -> tuple[NDArray[np.float64], ...]:
+        """The vertex opposite to the longest side (times 2^-scale), and the way to the others (times 2^-exponent)."""
+        scale = 4 if np.abs(self.points).max(initial=0.0) > 2.0**1000 else 0
+        corners = np.ldexp(self.points, -scale)[self.triangles]
+        sides = np.roll(corners, -2, axis=1) - np.roll(corners, -1, axis=1)  # opposite to each vertex
+        largest = np.abs(sides).max(axis=(1, 2), initial=0.0)
+        exponent = np.frexp(largest)[1]
+        sides = np.ldexp(np.ldexp(sides, -(exponent // 2)[:, None, None]), (exponent // 2 - exponent)[:, None, None])
+        apex = (sides * sides).sum(axis=2).argmax(axis=1)
+        rows = np.arange(len(corners))
+        b, c = sides[rows, (apex + 2) % 3], -sides[rows, (apex + 1) % 3]
+        return corners[rows, apex], b, c, np.asarray(scale), exponent + scale
+
+    def _rows(self, what: str | None = None) -> Rows:
+        rows: Rows = resolved("types.mesh.tables:mesh_rows")(self, what)
+        return rows
+
+    def _features(self, what: str | None = None, _flatten: float | None = None) -> Rows:
+        features: Rows = resolved("types.mesh.tables:mesh_features")(self, what)
+        return features
+
+    def _matrix(self, what: str) -> NDArray[np.int32]:
+        return self.edges if what == "edges" else self.triangles
+
+    def _summary(self) -> str:
+        sizes = (counted(len(self.points), "point"), counted(len(self), "triangle"), counted(len(self.edges), "edge"))
+        return placed(", ".join(sizes), self.crs)
+
+
+def lengths_of(points: NDArray[np.float64], edges: NDArray[np.int32]) -> NDArray[np.float64]:
+    """(e,) distances between the ends of edges; relative error below 1e-15, infinite beyond the largest double."""
+    lengths = np.empty(len(edges))
+    for start in range(0, len(lengths), CHUNK):
+        ends = edges[start : start + CHUNK]
+        a, b = points.take(ends[:, 0], axis=0), points.take(ends[:, 1], axis=0)
+        lengths[start : start + CHUNK] = _distances(a, b)
+    return lengths
+
+
+def _distances(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Distances of pairs of points: square roots of sums of squares, scaled by powers of two out of their range."""
+    with np.errstate(over="ignore", under="ignore", invalid="ignore"):
+        way = b - a
+        square = way[:, 0] * way[:, 0] + way[:, 1] * way[:, 1]
+        found: NDArray[np.float64] = np.sqrt(square)
+        far = np.flatnonzero(~((square >= 2.0**-900) & (square < np.inf)))
+        if far.size:
+            shift = np.where(np.isfinite(way[far]).all(axis=1), 0, 2)
+            way = np.ldexp(b[far], -shift[:, None]) - np.ldexp(a[far], -shift[:, None])
+            exponent = np.frexp(np.abs(way).max(axis=1))[1]
+            way = np.ldexp(way, -exponent[:, None])
+            found[far] = np.ldexp(np.sqrt((way * way).sum(axis=1)), exponent + shift)
+    return found
+
+
+def _cross(b: NDArray[np.float64], c: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    """Twice the area of each triangle, and where cancellation makes it useless."""
+    left, right = b[:, 0] * c[:, 1], b[:, 1] * c[:, 0]
+    cross = left - right
+    return cross, ~(np.abs(cross) >= FLAT * (np.abs(left) + np.abs(right)))
+
+
+def _exact_cross(triangle: NDArray[np.float64]) -> Fraction:
+    (ax, ay), (bx, by), (cx, cy) = ((Fraction(x), Fraction(y)) for x, y in triangle.tolist())
+    return (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
+
+
+def _exact_circle(triangle: NDArray[np.float64]) -> tuple[tuple[float, float], float]:
+    """Center and radius of one circle, from rationals."""
+    (ax, ay), (bx, by), (cx, cy) = ((Fraction(x), Fraction(y)) for x, y in triangle.tolist())
+    bx, by, cx, cy = bx - ax, by - ay, cx - ax, cy - ay
+    b2, c2, cross = bx * bx + by * by, cx * cx + cy * cy, bx * cy - by * cx
+    x, y = (cy * b2 - by * c2) / (2 * cross), (bx * c2 - cx * b2) / (2 * cross)
+    return (nearest_double(ax + x), nearest_double(ay + y)), _root(x * x + y * y)
+
+
+def _root(value: Fraction) -> float:
+    """The square root of a fraction of any size."""
+    shift = (value.numerator.bit_length() - value.denominator.bit_length()) // 2
+    reduced = sqrt(value / Fraction(4) ** shift)
+    return nearest_double(Fraction(reduced) * Fraction(2) ** shift)

@@ -1,0 +1,86 @@
+"""The rectangle of pixels that a digital diagram covers."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+from vorotool.errors import InputError, option
+
+if TYPE_CHECKING:
+    from vorotool.types.box import Box
+
+FARTHEST = 2**44
+"""No seed lies farther from the origin (in pixels)."""
+
+
+@dataclass(frozen=True)
+class Frame:
+    """A window of pixels: pixel (0, 0) of the image has its center at (``x``, ``y``).
+
+    Parameters
+    ----------
+    x, y : int
+        Coordinates of the center of the first pixel.
+    width, height : int
+        Size in pixels, each at least 1.
+
+    Raises
+    ------
+    InputError
+        If the frame is empty, or begins farther than 2^44 pixels from the origin.
+    UsageError
+        If a number is not an integer.
+
+    Examples
+    --------
+    >>> Frame(0, 0, 640, 480).shape
+    (480, 640)
+    """
+
+    maker: ClassVar[str] = "Frame"
+
+    x: int
+    y: int
+    width: int
+    height: int
+
+    def __post_init__(self) -> None:
+        from vorotool.numeric.numbers import shown_number, whole_number  # imports NumPy, which options need not
+
+        for name in ("x", "y", "width", "height"):  # NumPy's integers would wrap around in what follows
+            object.__setattr__(self, name, whole_number(getattr(self, name), f"{name} of the frame"))
+        if max(abs(self.x), abs(self.y)) > FARTHEST:
+            raise InputError(
+                f"the frame begins at {shown_number((self.x, self.y))}: its coordinates must be at most 2^44; "
+                f"use a nearer {option('--window')}"
+            )
+        if self.width < 1 or self.height < 1:
+            raise InputError(
+                f"the frame is {shown_number(self.width)} x {shown_number(self.height)} pixels: "
+                f"it needs at least 1 x 1, use {option('--size WxH', 'shape=(H, W)')}"
+            )
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows and columns, as NumPy orders them."""
+        return (self.height, self.width)
+
+    @property
+    def box(self) -> Box:
+        """The rectangle that the pixels cover, with their centers at integers."""
+        from vorotool.types.box import Box
+
+        return Box(self.x - 0.5, self.y - 0.5, self.x + self.width - 0.5, self.y + self.height - 0.5)
+
+    @property
+    def pixels(self) -> int:
+        """Number of pixels."""
+        return self.width * self.height
+
+
+MAX_PIXELS = 2**31
+"""Pixels held in memory at most, unless told otherwise (``--max-pixels``)."""
+
+MAX_SIDE = 2**30
+"""Pixels a side at most: rows and columns are counted in 32-bit integers."""

@@ -1,0 +1,126 @@
+"""A label image: the result of a digital tessellation."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import InputError
+from vorotool.products.formats import resolved
+from vorotool.types.axis import DOWN, YAxis
+from vorotool.types.pixel_frame import Frame
+from vorotool.types.pixel_grid import PixelGrid
+from vorotool.types.points.seed_set import SeedSet
+from vorotool.types.spacing import SQUARE, PixelSides
+from vorotool.types.values import Geometric, Graph, Pixels, Tabular, Value, counted, placed
+
+if TYPE_CHECKING:
+    from vorotool.types.features import Rows
+
+COUNTED = 1 << 24
+"""Labels of images of more pixels are not counted to describe one."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class LabelImage(Value, Tabular, Geometric, Graph, Pixels):
+    """Labels of the pixels of a frame.
+
+    Parameters
+    ----------
+    labels : (H, W) array of uint8, uint16, uint32 or int32
+        Label of each pixel; 0 where there is none.
+    frame : Frame, optional
+        Where the pixels lie; by default pixel (0, 0) is at the origin.
+    seeds : SeedSet, optional
+        The seeds that the labels come from.
+    grid : PixelGrid, optional
+        Sides and places of the pixels in units of the world; by default those of the image that the seeds come from.
+    sides : PixelSides
+        Sides of a pixel, in whose unit distances and tables are.
+
+    Examples
+    --------
+    >>> LabelImage(np.array([[1, 1, 2]], dtype=np.uint16)).frame.shape
+    (1, 3)
+    """
+
+    maker = "tessellate"
+
+    labels: NDArray[Any]
+    frame: Frame | None = None
+    seeds: SeedSet | None = None
+    grid: PixelGrid | None = None
+    sides: PixelSides = SQUARE
+
+    def __post_init__(self) -> None:
+        labels = self.labels
+        labels = labels.filled(0) if isinstance(labels, np.ma.MaskedArray) else np.asarray(labels)
+        if labels.ndim != 2 or labels.dtype.kind not in "ui":
+            raise InputError(f"labels must be a 2-D integer array, but are {labels.ndim}-D of type {labels.dtype}")
+        object.__setattr__(self, "labels", labels)
+        if self.frame is None:
+            object.__setattr__(self, "frame", Frame(0, 0, labels.shape[1], labels.shape[0]))
+        elif self.frame.shape != labels.shape:
+            raise InputError(f"labels have shape {labels.shape}, but the frame {self.frame.shape}")
+        if self.grid is None and self.seeds is not None and self.seeds.frame == self.frame:
+            object.__setattr__(self, "grid", self.seeds.grid)
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows and columns."""
+        return (self.labels.shape[0], self.labels.shape[1])
+
+    @property
+    def y_axis(self) -> YAxis:
+        """Direction of y: that of the seeds; without any rows go down."""
+        return DOWN if self.seeds is None else self.seeds.y_axis
+
+    def flipped(self) -> LabelImage:
+        """The image with its rows in reverse order, for pictures with y upwards; its seeds move along.
+
+        Examples
+        --------
+        >>> LabelImage(np.array([[1, 1], [2, 2]], dtype=np.uint16)).flipped().labels.tolist()
+        [[2, 2], [1, 1]]
+        """
+        seeds, frame = self.seeds, self.frame
+        if seeds is not None and frame is not None:
+            last = 2 * frame.y + frame.height - 1  # y of a seed becomes last - y
+            seeds = replace(seeds, y=last * seeds.scale - seeds.y)
+        return LabelImage(self.labels[::-1], frame, seeds, sides=self.sides)
+
+    @property
+    def crs(self) -> Any:
+        """The ``crs`` member of GeoJSON for the map that the image lies on; None without one."""
+        return None if self.grid is None else self.grid.crs
+
+    def _array(self) -> NDArray[Any]:
+        return self.labels
+
+    def _rows(self, _what: str | None = None) -> Rows:
+        rows: Rows = resolved("engines.label_images.features:region_rows")(self)
+        return rows
+
+    def _features(self, _what: str | None = None, _flatten: float | None = None) -> Rows:
+        features: Rows = resolved("engines.label_images.features:region_features")(self)
+        return features
+
+    def _summary(self) -> str:
+        height, width = self.shape
+        size = "" if self.grid is None else f", pixels of {self.grid.size_text()}"
+        if self.sides != SQUARE:
+            size = f", spacing {self.sides.text()}"
+        text = f"{width} x {height}, {self._label_count()}, {self.labels.dtype}{size}"
+        return placed(text, None if self.grid is None else self.grid.crs)
+
+    def _label_count(self) -> str:
+        """Words for the labels that occur, where they are counted soon."""
+        largest = int(self.labels.max(initial=0))
+        if max(self.labels.size, largest) > COUNTED:
+            return f"labels up to {largest}"
+        occurs = np.zeros(largest + 1, dtype=bool)
+        occurs[np.maximum(self.labels, 0)] = True
+        return counted(int(np.count_nonzero(occurs[1:])), "label")

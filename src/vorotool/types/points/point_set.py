@@ -1,0 +1,154 @@
+"""Points as they were read: coordinates and what the file said of each."""
+
+from __future__ import annotations
+
+from dataclasses import field, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import DTypeLike, NDArray
+
+from vorotool.errors import InputError
+from vorotool.numeric.checks import whole_numbers
+from vorotool.numeric.coordinates import coordinate_rows
+from vorotool.numeric.row_index import check_index
+from vorotool.types import fields as f
+from vorotool.types.axis import UNSTATED, YAxis
+from vorotool.types.box import Box
+from vorotool.types.fields import record
+from vorotool.types.values import Geometric, Pictured, Tabular, Value, counted, placed
+
+if TYPE_CHECKING:
+    from vorotool.types.features import Rows
+
+LABEL = "label"
+"""The column whose integers from 1 are the labels of points."""
+
+
+@record
+class PointSet(Value, Tabular, Geometric, Pictured):
+    """A list of points in the order of the input.
+
+    Parameters
+    ----------
+    xy : (n, 2) float64 array
+        Coordinates in the units of the input; finite. They are copied.
+    labels : (n,) int64 array, optional
+        The input's own labels (each at least 1). Without them point i has label i + 1.
+    properties : dict of str to sequence, optional
+        Other columns of the input, each of length n, copied to outputs that have one row or feature a point.
+    y_axis : {"none", "up", "down"}
+        Direction of y where the coordinates come from; "none" where nothing states it.
+    crs : object, optional
+        The ``crs`` member of a GeoJSON input, copied to GeoJSON outputs.
+    first_number : {1, 0}
+        Number of the first point in the input's own file: a ``.node`` file may count from 0.
+    index : pandas Index, array or sequence, optional
+        Names of the points in the input, such as the row index of a data frame: one entry per point.
+    frame : Box, optional
+        The rectangle covered by the pixels of the image that the points come from: the default frame of what is made
+        of them.
+    unit : str, optional
+        The unit of length of the coordinates, such as ``mm``, where the input says it.
+
+    Raises
+    ------
+    InputError
+        If the shape is not (n, 2), a coordinate is not finite, masked or an integer beyond 2^53, or a label is below 1;
+        the row is named.
+
+    Examples
+    --------
+    >>> PointSet([[2, 1], [7, 5]]).label_array
+    array([1, 2])
+    """
+
+    xy: NDArray[np.float64] = f.position("points", 2)
+    labels: NDArray[np.int64] | None = f.numbers(np.int64, "points", default=None)
+    properties: dict[str, Any] = field(default_factory=dict)
+    y_axis: YAxis = f.y_axis(default=UNSTATED)
+    crs: Any = None
+    first_number: int = 1
+    index: Any = None
+    frame: Box | None = f.input_box()
+    unit: str | None = None
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "xy", finite_rows(self.xy, 2))
+        if self.labels is not None:
+            object.__setattr__(self, "labels", checked_labels(self.labels, len(self.xy)))
+        super().__post_init__()
+        check_index(self.index, len(self.xy), "point")
+
+    def __len__(self) -> int:
+        return len(self.xy)
+
+    @property
+    def label_array(self) -> NDArray[np.int64]:
+        """(n,) labels: the input's own, else 1 to n."""
+        if self.labels is not None:
+            return self.labels
+        return np.arange(1, len(self.xy) + 1, dtype=np.int64)
+
+    def __array__(self, dtype: DTypeLike | None = None, copy: bool | None = None) -> NDArray[Any]:
+        return np.array(self.xy, dtype=dtype, copy=copy)
+
+    def _rows(self, _what: str | None = None) -> Rows:
+        x, y = np.ascontiguousarray(self.xy.T)
+        return replace(self._features(), columns={"label": self.label_array, "x": x, "y": y})
+
+    def _features(self, _what: str | None = None, _flatten: float | None = None) -> Rows:
+        from vorotool.types.features import point_rows  # it imports this module
+
+        return point_rows({"label": self.label_array}, self, self.xy)
+
+    def _summary(self) -> str:
+        return placed(counted(len(self), "point"), self.crs, self.unit)
+
+
+def known_of_points(points: Any) -> dict[str, Any]:
+    """Return what is known of points beside their places, as results have it, too.
+
+    Labels that repeat name groups of points, not points: they become a property.
+    """
+    known = {name: getattr(points, name) for name in ("labels", "properties", "y_axis", "crs", "index")}
+    labels = known["labels"]
+    if labels is not None and not (labels[1:] > labels[:-1]).all() and len(np.unique(labels)) < len(labels):
+        name = LABEL if LABEL not in known["properties"] else f"voro_{LABEL}"
+        known |= {"labels": None, "properties": {name: labels.tolist(), **known["properties"]}}
+    return known
+
+
+def labels_of(values: Any) -> NDArray[np.int64] | None:
+    """Return the values of a column as labels; None if one of them is not an integer from 1."""
+    try:
+        is_flag = np.asarray(values).dtype.kind == "b"
+        return None if is_flag else checked_labels(values, len(values))
+    except (InputError, ValueError):
+        return None
+
+
+def finite_rows(values: Any, axes: int) -> NDArray[np.float64]:
+    """Copy the coordinates of points, all of them finite."""
+    rows = coordinate_rows(values, "point", axes)
+    finite = np.isfinite(rows)
+    bad = np.flatnonzero(~np.logical_and.reduce(finite.T))  # an `all` along rows this short is slow
+    if bad.size:
+        row = int(bad[0])
+        raise InputError(
+            f"point {row + 1} is ({', '.join(map(str, rows[row].tolist()))}): coordinates must be finite; "
+            f"remove or repair it ({bad.size} such points)"
+        )
+    return rows
+
+
+def checked_labels(labels: Any, count: int) -> NDArray[np.int64]:
+    """Give the labels of so many points, each from 1 to 4294967295."""
+    array = whole_numbers(labels, "label of point", np.int64)
+    if array.shape != (count,):
+        raise InputError(f"labels must have shape ({count},), but have shape {array.shape}")
+    bad = np.flatnonzero((array < 1) | (array > 0xFFFFFFFF))
+    if bad.size:
+        row = int(bad[0])
+        raise InputError(f"point {row + 1} has label {array[row]}: labels must be from 1 to 4294967295")
+    return array

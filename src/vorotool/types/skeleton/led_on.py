@@ -1,0 +1,197 @@
+"""Lines along a skeleton whose ends are led on straight to the boundary."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cached_property
+from typing import Any, ClassVar, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import InputError
+from vorotool.numeric.collinearity import is_straight
+from vorotool.numeric.curves.flatten import chained
+from vorotool.numeric.ragged import owners
+from vorotool.types import fields as f
+from vorotool.types.features import Lines, Rows, of_polygons
+from vorotool.types.fields import record
+from vorotool.types.identity import names_of, part_table
+from vorotool.types.polygons.vertices_as_given import places_as_given
+from vorotool.types.skeleton.skeleton import KINDS, Skeleton
+from vorotool.types.table import Lookup, Table
+from vorotool.types.values import Curved, Pictured, Tabular, Value
+
+Floats = NDArray[np.float64]
+
+EXTENSION = "extension"
+"""Kind of the straight lines that lead on to the ends."""
+
+
+@record
+class LedOn(Value, Tabular, Curved, Pictured):
+    """Branches of a skeleton, and straight lines that lead on from their ends.
+
+    Parameters
+    ----------
+    path : Skeleton
+        The arcs without what leads on.
+    ends : (b, 2, 2) float64 array
+        The place on the boundary that the start and the end of each branch are led on to; NaN where they are not.
+
+    Raises
+    ------
+    InputError
+        If `ends` has another shape.
+    """
+
+    path: Skeleton = f.nested()
+    ends: Floats = f.position("lines", 2, 2)
+    has_branches: ClassVar[bool] = True
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        lines = len(self.arc_starts) - 1
+        if len(self.ends) != lines:
+            raise InputError(f"ends must have shape ({lines}, 2, 2), but have {self.ends.shape}")
+
+    def __len__(self) -> int:
+        """Give the number of lines."""
+        return len(self.arc_starts) - 1
+
+    @cached_property
+    def as_given(self) -> Self:
+        """The same with the corners where the input has them: those of `path` are on a lattice."""
+        path, polygons = self.path.as_given, self.path.polygons
+        if path is self.path:
+            return self
+        polygon, together = np.repeat(self.polygon, 2), self.path.features == "together"
+        ends = places_as_given(self.ends.reshape(-1, 2), polygon, polygons, together=together)
+        return replace(self, path=path, ends=ends.reshape(-1, 2, 2))
+
+    @cached_property
+    def arc_starts(self) -> NDArray[np.int64]:
+        """(k + 1,) the first arc of each path, and the number of arcs."""
+        return np.append(np.flatnonzero(np.diff(self.path.branch, prepend=-1)), len(self.path))
+
+    @cached_property
+    def polygon(self) -> NDArray[np.int32]:
+        """(k,) the polygon of each path."""
+        return self.path.polygon[self.arc_starts[:-1]]
+
+    @cached_property
+    def end_nodes(self) -> NDArray[np.int32]:
+        """(k, 2) the first and the last node of each path."""
+        start = self.arc_starts
+        nodes: NDArray[np.int32] = np.stack([self.path.arcs[start[:-1], 0], self.path.arcs[start[1:] - 1, 1]], axis=1)
+        return nodes
+
+    @cached_property
+    def extended(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """The paths whose start is extended, and those whose end is."""
+        has_start, has_end = ~np.isnan(self.ends[:, :, 0]).T
+        return np.flatnonzero(has_start), np.flatnonzero(has_end)
+
+    @cached_property
+    def extension_length(self) -> Floats:
+        """(k, 2) how far the start and the end are extended; 0 where they are not."""
+        way = self.ends - self.path.vertices[self.end_nodes]
+        lengths: Floats = np.nan_to_num(np.sqrt((way * way).sum(axis=2)), nan=0.0)
+        return lengths
+
+    @cached_property
+    def line_of_row(self) -> NDArray[np.intp]:
+        """(m,) the path of each row of the table, in which extensions are rows, too."""
+        first, last = self.extended
+        return np.sort(np.concatenate([first, owners(np.diff(self.arc_starts)), last]))
+
+    @cached_property
+    def length(self) -> Floats:
+        """(k,) lengths, with what leads on."""
+        lengths: Floats = self._summed(self.path.length) + self.extension_length.sum(axis=1)
+        return lengths
+
+    @cached_property
+    def width_mean(self) -> Floats:
+        """(k,) twice the mean of the radius along each path, or at a single place, without what leads on."""
+        length, radius = self._summed(self.path.length), self.path.radius[self.end_nodes[:, 0]]
+        mean = np.divide(self._summed(self.path.arc_radii[2]), length, out=radius, where=length > 0)
+        return np.asarray(2 * mean)
+
+    @cached_property
+    def width_range(self) -> tuple[Floats, Floats]:
+        """(k,) twice the smallest and twice the largest radius on each path."""
+        if not len(self):
+            return np.zeros(0), np.zeros(0)
+        least, most, _ = self.path.arc_radii
+        start = self.arc_starts[:-1]
+        return 2 * np.minimum.reduceat(least, start), 2 * np.maximum.reduceat(most, start)
+
+    def _summed(self, values: Floats) -> Floats:
+        return np.add.reduceat(values, self.arc_starts[:-1]) if len(self) else np.zeros(0)
+
+    def flattened(self, tolerance: float | None = None) -> tuple[Floats, NDArray[np.int64]]:
+        """Whole lines as polylines, as of `Skeleton.flattened`; no vertex is where one is led on exactly straight."""
+        points, start = chained(*self.path.flattened(tolerance), self.arc_starts[:-1])
+        first, last = self.extended
+        whole = np.concatenate([self.ends[first, 0], points, self.ends[last, 1]])
+        line = np.concatenate([first, owners(np.diff(start)), last])
+        whole, line = whole[np.argsort(line, kind="stable")], np.sort(line)
+        for extended, place in ((first, 1), (last, -2)):
+            start = np.searchsorted(line, np.arange(len(self) + 1))
+            joint = (start[:-1] if place > 0 else start[1:])[extended] + place
+            straight = joint[is_straight(whole[joint - 1], whole[joint], whole[joint + 1])]
+            whole, line = np.delete(whole, straight, axis=0), np.delete(line, straight)
+        return whole, np.searchsorted(line, np.arange(len(self) + 1))
+
+    def _rows(self, _what: str | None = None) -> Rows:
+        table = led_on_table(self, has_branches=self.has_branches)
+        return Rows(table, source=self.path.polygons, item=self.polygon[self.line_of_row])
+
+    def _features(self, _what: str | None = None, flatten: float | None = None) -> Rows:
+        least, most = self.width_range
+        columns: dict[str, Any] = {"branch": np.arange(len(self))} if self.has_branches else {}
+        columns |= {"length": self.length, "width_mean": self.width_mean, "width_min": least, "width_max": most}
+        geometry = Lines(*self.as_given.flattened(flatten))
+        return of_polygons(columns, self.path.polygons, self.polygon, geometry=geometry, is_part=self.has_branches)
+
+
+def led_on_table(lines: LedOn, *, has_branches: bool) -> Table:
+    """Give one row an arc, line by line, with the straight lines that lead on."""
+    given, nodes = lines.as_given, lines.end_nodes
+    path = given.path
+    first, last = lines.extended
+    line = np.concatenate([first, owners(np.diff(lines.arc_starts)), last])
+    # starts before the arcs of their line, ends behind them: the order is stable
+    order = np.argsort(line, kind="stable")
+    nothing = np.zeros(len(first)), np.zeros(len(last))
+    source, target = path.vertices[path.arcs].swapaxes(0, 1)
+    r0, r1 = path.radius[path.arcs].T
+    start_node, end_node = nodes[first, 0], nodes[last, 1]
+    begin = np.concatenate([given.ends[first, 0], source, path.vertices[end_node]])[order]
+    end = np.concatenate([path.vertices[start_node], target, given.ends[last, 1]])[order]
+    blank = [np.full((len(some), 2), np.nan) for some in nothing]
+    control = np.concatenate([blank[0], path.control, blank[1]])[order]
+    kind = np.concatenate([np.full(len(first), 2), path.is_parabola, np.full(len(last), 2)])[order]
+    polygon = lines.polygon[line[order]]
+    start = np.searchsorted(line[order], np.arange(len(lines)))
+    length = np.concatenate([lines.extension_length[first, 0], path.length, lines.extension_length[last, 1]])
+    return part_table(
+        {
+            **names_of(path.polygons, polygon),
+            **({"branch": line[order]} if has_branches else {}),
+            "arc": np.arange(len(line)) - start[line[order]],
+            "x0": begin[:, 0].copy(),
+            "y0": begin[:, 1].copy(),
+            "r0": np.concatenate([nothing[0], r0, path.radius[end_node]])[order],
+            "x1": end[:, 0].copy(),
+            "y1": end[:, 1].copy(),
+            "r1": np.concatenate([path.radius[start_node], r1, nothing[1]])[order],
+            "kind": Lookup([*KINDS, EXTENSION], kind.astype(np.int32)),
+            "cx": control[:, 0].copy(),
+            "cy": control[:, 1].copy(),
+            "length": length[order],
+        },
+        path.polygons,
+        polygon,
+    )

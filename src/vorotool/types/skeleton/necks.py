@@ -1,0 +1,134 @@
+"""Necks: where polygons are narrowest between wider places, and the cuts there."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.types import fields as f
+from vorotool.types.features import Rows, of_polygons, of_segments, without_places
+from vorotool.types.fields import record
+from vorotool.types.identity import names_of, part_table
+from vorotool.types.skeleton.skeleton import EDGE, Skeleton
+from vorotool.types.table import Lookup, Table
+from vorotool.types.values import Geometric, Pictured, Tabular, Value, counted, placed
+
+SITE_KINDS = ("vertex", "edge")
+
+
+@record
+class Necks(Value, Tabular, Geometric, Pictured):
+    """Places of a skeleton where the clearance is least in both directions, polygon by polygon, by x and then by y.
+
+    The boundary is touched at two opposite places there, the feet: the cut goes straight from one to the other.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+        What they are on.
+    arc : (n,) int32 array
+        Its arc that each is on, or one of the two where they meet.
+    xy : (n, 2) float64 array
+        Places: the middle of each cut.
+    width : (n,) float64 array
+        Lengths of the cuts: twice the clearance.
+    feet : (n, 2, 2) float64 array
+        Both ends of each cut, the one with less x first, or with less y.
+    sites : (n, 2) int32 array
+        The vertices or edges that these are on: rows of ``skeleton.site_table``.
+    beside : (n, 2) float64 array
+        The largest clearance that is reached from the neck on either side without passing a narrower one, the smaller
+        first. Of necks that are equally narrow the one that comes first counts as narrower.
+
+    Raises
+    ------
+    InputError
+        If an array has another shape.
+
+    Examples
+    --------
+    >>> from vorotool import necks
+    >>> rooms = [[0, 0], [4, 0], [4, 1.5], [6, 1.5], [6, 0], [12, 0], [12, 6], [6, 6], [6, 2.5], [4, 2.5]]
+    >>> rooms += [[4, 4], [0, 4]]
+    >>> found = necks(rooms)
+    >>> found.feet.tolist(), found.beside.tolist(), found.ratio.tolist()
+    ([[[5.0, 1.5], [5.0, 2.5]]], [[2.0, 3.0]], [0.25])
+    """
+
+    maker = "necks"
+
+    skeleton: Skeleton = f.nested()
+    arc: NDArray[np.int32] = f.index("necks")
+    xy: NDArray[np.float64] = f.position("necks", 2)
+    width: NDArray[np.float64] = f.length("necks")
+    feet: NDArray[np.float64] = f.position("necks", 2, 2)
+    sites: NDArray[np.int32] = f.index("necks", 2)
+    beside: NDArray[np.float64] = f.length("necks", 2)
+
+    def __len__(self) -> int:
+        return len(self.width)
+
+    @cached_property
+    def polygon(self) -> NDArray[np.int32]:
+        """(n,) the polygon that each is in."""
+        return self.skeleton.polygon[self.arc]
+
+    @cached_property
+    def ratio(self) -> NDArray[np.float64]:
+        """(n,) half of the width over the smaller clearance beside: near 0 at a narrow door between large rooms."""
+        return np.minimum(self.width / 2 / self.beside[:, 0], 1.0)
+
+    def taken(self, chosen: NDArray[np.bool_] | NDArray[np.integer]) -> Necks:
+        """Return a selection of the necks."""
+        return Necks(
+            self.skeleton,
+            *(getattr(self, name)[chosen] for name in ("arc", "xy", "width", "feet", "sites", "beside")),
+        )
+
+    def table(self) -> Table:
+        """Return a table with one row per neck.
+
+        Returns
+        -------
+        Table
+            ``label, id, x, y, width, ratio, r_smaller, r_larger``, and of both feet ``x_a, y_a, kind_a, ring_a,
+            index_a`` and the same with b: the site that the foot is on, a vertex or the edge that begins there.
+        """
+        return part_table(self._columns(), self.skeleton.polygons, self.polygon)
+
+    def _columns(self) -> dict[str, Any]:
+        table = self.skeleton.site_table
+        columns = {
+            **names_of(self.skeleton.polygons, self.polygon),
+            "x": self.xy[:, 0].copy(),
+            "y": self.xy[:, 1].copy(),
+            "width": self.width,
+            "ratio": self.ratio,
+            "r_smaller": self.beside[:, 0].copy(),
+            "r_larger": self.beside[:, 1].copy(),
+        }
+        for foot, name in enumerate("ab"):
+            site = self.sites[:, foot]
+            columns |= {
+                f"x_{name}": self.feet[:, foot, 0].copy(),
+                f"y_{name}": self.feet[:, foot, 1].copy(),
+                f"kind_{name}": Lookup(list(SITE_KINDS), (table.kind[site] == EDGE).astype(np.int32)),
+                f"ring_{name}": table.ring[site],
+                f"index_{name}": table.index[site],
+            }
+        return columns
+
+    def _rows(self, _what: str | None = None) -> Rows:
+        return Rows(self.table(), source=self.skeleton.polygons, item=self.polygon)
+
+    def _features(self, _what: str | None = None, _flatten: float | None = None) -> Rows:
+        columns = without_places(Table(self._columns()))
+        return of_polygons(columns, self.skeleton.polygons, self.polygon, geometry=of_segments(self.feet), is_part=True)
+
+    def _summary(self) -> str:
+        polygons = self.skeleton.polygons
+        text = f"{counted(len(self), 'neck')} of {counted(len(polygons), 'polygon')}"
+        return placed(text, polygons.crs, polygons.unit)

@@ -1,0 +1,90 @@
+"""A label volume: the result of a digital tessellation in three dimensions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import InputError
+from vorotool.products.formats import resolved
+from vorotool.types.spacing import PixelSides
+from vorotool.types.values import Elements, Graph, Tabular, Value
+from vorotool.types.volumes.volume_seeds import VolumeSeeds
+from vorotool.types.volumes.voxel_frame import VoxelFrame
+from vorotool.types.volumes.voxel_grid import VoxelGrid
+
+if TYPE_CHECKING:
+    from vorotool.types.features import Rows
+
+CUBE = PixelSides((1, 1, 1))
+"""Sides of 1."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class LabelVolume(Value, Tabular, Graph, Elements):
+    """Labels of the voxels of a frame.
+
+    Parameters
+    ----------
+    labels : (D, H, W) array of uint8, uint16, uint32 or int32
+        Label of each voxel; 0 where there is none.
+    frame : VoxelFrame, optional
+        Where the voxels lie; by default voxel (0, 0, 0) is at the origin.
+    seeds : VolumeSeeds, optional
+        The seeds that the labels come from.
+    sides : PixelSides
+        Sides of a voxel, in whose unit distances are.
+    grid : VoxelGrid, optional
+        Sides of the voxels as the file says them; by default those of the volume that the seeds come from.
+
+    Raises
+    ------
+    InputError
+        If the labels are no volume of integers, or the frame has another shape.
+
+    Examples
+    --------
+    >>> LabelVolume(np.array([[[1, 1, 2]]], dtype=np.uint16)).frame.shape
+    (1, 1, 3)
+    """
+
+    labels: NDArray[Any]
+    frame: VoxelFrame | None = None
+    seeds: VolumeSeeds | None = None
+    sides: PixelSides = CUBE
+    grid: VoxelGrid | None = None
+
+    def __post_init__(self) -> None:
+        labels = self.labels
+        labels = labels.filled(0) if isinstance(labels, np.ma.MaskedArray) else np.asarray(labels)
+        if labels.ndim != 3 or labels.dtype.kind not in "ui":
+            raise InputError(f"labels must be a 3-D integer array, but are {labels.ndim}-D of type {labels.dtype}")
+        object.__setattr__(self, "labels", labels)
+        if self.frame is None:
+            depth, height, width = labels.shape
+            object.__setattr__(self, "frame", VoxelFrame(0, 0, 0, width, height, depth))
+        elif self.frame.shape != labels.shape:
+            raise InputError(f"labels have shape {labels.shape}, but the frame {self.frame.shape}")
+        if self.grid is None and self.seeds is not None and self.seeds.frame == self.frame:
+            object.__setattr__(self, "grid", self.seeds.grid)
+
+    @property
+    def shape(self) -> tuple[int, int, int]:
+        """Slices, rows and columns."""
+        depth, height, width = self.labels.shape
+        return (depth, height, width)
+
+    def _array(self) -> NDArray[Any]:
+        return self.labels
+
+    def _rows(self, _what: str | None = None) -> Rows:
+        rows: Rows = resolved("engines.label_images.features:region_rows")(self)
+        return rows
+
+    def _summary(self) -> str:
+        depth, height, width = self.shape
+        size = "" if self.grid is None else f", voxels of {self.grid.size_text()}"
+        return f"{width} x {height} x {depth}, {self.labels.dtype}{size}"

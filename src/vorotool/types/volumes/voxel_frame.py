@@ -1,0 +1,72 @@
+"""The box of voxels that a digital diagram covers."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+from vorotool.errors import InputError, LimitError, option
+from vorotool.types.pixel_frame import FARTHEST, MAX_SIDE
+
+
+@dataclass(frozen=True)
+class VoxelFrame:
+    """A box of voxels: voxel (0, 0, 0) of the volume has its center at (``x``, ``y``, ``z``).
+
+    Parameters
+    ----------
+    x, y, z : int
+        Coordinates of the center of the first voxel.
+    width, height, depth : int
+        Size in voxels, each at least 1.
+
+    Raises
+    ------
+    InputError
+        If the frame is empty, or begins farther than 2^44 voxels from the origin.
+    LimitError
+        If a side has more than 2^30 voxels.
+    UsageError
+        If a number is not an integer.
+
+    Examples
+    --------
+    >>> VoxelFrame(0, 0, 0, 640, 480, 20).shape
+    (20, 480, 640)
+    """
+
+    x: int
+    y: int
+    z: int
+    width: int
+    height: int
+    depth: int
+
+    def __post_init__(self) -> None:
+        from vorotool.numeric.numbers import shown_number, whole_number  # imports NumPy, which options need not
+
+        for each in fields(self):  # NumPy's integers would wrap around in what follows
+            object.__setattr__(self, each.name, whole_number(getattr(self, each.name), f"{each.name} of the frame"))
+        origin, size = (self.x, self.y, self.z), (self.width, self.height, self.depth)
+        if max(map(abs, origin)) > FARTHEST:
+            raise InputError(
+                f"the frame begins at {shown_number(origin)}: its coordinates must be at most 2^44; "
+                f"use a nearer {option('--window')}"
+            )
+        text = " x ".join(map(shown_number, size))
+        if min(size) < 1:
+            raise InputError(
+                f"the frame is {text} voxels: it needs at least 1 x 1 x 1, use "
+                f"{option('--size WxHxD', 'shape=(D, H, W)')}"
+            )
+        if max(size) > MAX_SIDE:
+            raise LimitError(f"the frame is {text}: a side has at most 2^30 voxels")
+
+    @property
+    def shape(self) -> tuple[int, int, int]:
+        """Slices, rows and columns, as NumPy orders them."""
+        return (self.depth, self.height, self.width)
+
+    @property
+    def voxels(self) -> int:
+        """Number of voxels."""
+        return self.width * self.height * self.depth

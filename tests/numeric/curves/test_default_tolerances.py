@@ -1,0 +1,95 @@
+"""Each curve has its own tolerance, whatever else is in the file."""
+
+import json
+
+import numpy as np
+import pytest
+import shapely
+
+import vorotool
+from vorotool.numeric.coordinate_grid import coordinates_written
+
+HOUSES = [shapely.box(x, 0, x + 8, 6) for x in (0, 11, 24)]
+FAR = shapely.box(4e5, 3e5, 4e5 + 8, 3e5 + 6)
+
+
+def test_discs_look_the_same_whatever_their_size():
+    shapes = [shapely.box(0, 0, 2, 2), shapely.box(1e4, 0, 2.1e4, 1e4)]
+    flat = vorotool.largest_discs(shapes).to_shapely()
+    for disc, radius in zip(flat, (1, 5000), strict=True):
+        assert disc.area == pytest.approx(np.pi * radius**2, rel=1e-3)
+        assert shapely.get_num_coordinates(disc) == 129
+
+
+@pytest.mark.parametrize("make", [lambda shapes: vorotool.offset(shapes, 1), vorotool.largest_discs])
+def test_a_far_feature_changes_no_shape(make):
+    alone, together = make(HOUSES).to_shapely(), make([*HOUSES, FAR]).to_shapely()
+    counts = shapely.get_num_coordinates(together)[: len(alone)]
+    assert counts.tolist() == shapely.get_num_coordinates(alone).tolist()
+    assert shapely.hausdorff_distance(alone, together[: len(alone)]).max() < 1e-3
+
+
+def test_cells_of_a_town_beside_a_far_house():
+    frame = (-30, -30, 5e5, 5e5)
+    alone = vorotool.voronoi(HOUSES, max_distance=20, frame=frame).to_shapely()
+    together = vorotool.voronoi([*HOUSES, FAR], max_distance=20, frame=frame).to_shapely()[:-1]
+    assert shapely.hausdorff_distance(alone, together).max() < 2e-3
+    np.testing.assert_allclose(shapely.area(alone), shapely.area(together), rtol=1e-5)
+
+
+def test_borders_and_skeletons_keep_their_distance():
+    """Lines are within the larger of 1/2000 of the extent of a curve and 1/100 of its clearance."""
+    cells = vorotool.voronoi(["LINESTRING (0 0, 100 0)", "POINT (50 1)"], frame=(0, -10, 100, 60))
+    with coordinates_written(None) as curves:
+        cells.to_shapely()
+    assert 0 < curves.deviation <= 110 / 2000
+    skeleton = vorotool.skeleton_exact([[0, 0], [10, 0], [10, 10], [5, 4], [0, 10]])
+    with coordinates_written(None) as curves:
+        skeleton.to_shapely()
+    assert 0 < curves.deviation <= 0.05
+
+
+def test_a_tolerance_is_absolute():
+    disc = vorotool.largest_discs(HOUSES[0])
+    with coordinates_written(None) as curves:
+        fine = disc.to_shapely(flatten=1e-6)[0]
+    assert curves.deviation <= 1e-6
+    assert shapely.get_num_coordinates(fine) > 2000
+
+
+def test_lines_are_no_finer_than_the_grid(tmp_path):
+    disc = vorotool.largest_discs(HOUSES[0])
+    vorotool.write(disc, tmp_path / "a.geojson", decimals=1)
+    ring = json.loads((tmp_path / "a.geojson").read_text())["features"][0]["geometry"]["coordinates"][0]
+    assert len(ring) == 17
+
+
+def test_circles_of_drawings_keep_their_form(tmp_path):
+    """A hole of 10 mm in a sheet of 2.4 m."""
+    pytest.importorskip("svgelements")
+    (tmp_path / "sheet.svg").write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" width="2400mm" height="1200mm" viewBox="0 0 2400 1200">'
+        '<path d="M0 0H2400V1200H0Z"/><circle cx="60" cy="60" r="5"/></svg>'
+    )
+    shapes = vorotool.read(tmp_path / "sheet.svg", geometry="polygons")
+    area = min(shape.area for shape in shapes.to_shapely())
+    assert area == pytest.approx(np.pi * 25, rel=2e-3)
+
+
+def test_the_default_has_a_name(tmp_path):
+    (tmp_path / "arc.wkt").write_text("CURVEPOLYGON (CIRCULARSTRING (0 0, 4 4, 8 0, 4 -4, 0 0))")
+    curved = vorotool.read(tmp_path / "arc.wkt", geometry="polygons", flatten="auto")
+    np.testing.assert_array_equal(curved.xy, vorotool.read(tmp_path / "arc.wkt", geometry="polygons").xy)
+    for value in (vorotool.skeleton_exact(HOUSES), vorotool.offset(HOUSES, 1), vorotool.voronoi(HOUSES), curved):
+        if value is not curved:
+            np.testing.assert_array_equal(value.to_shapely(flatten="auto"), value.to_shapely())
+        assert vorotool.to_geojson(value, flatten="auto") == vorotool.to_geojson(value)
+        vorotool.write(value, tmp_path / "a.wkt", flatten="auto")
+        vorotool.write(value, tmp_path / "b.wkt")
+        assert (tmp_path / "a.wkt").read_bytes() == (tmp_path / "b.wkt").read_bytes()
+    np.testing.assert_array_equal(
+        vorotool.rebuild(vorotool.skeleton_exact(HOUSES), flatten="auto").xy,
+        vorotool.rebuild(vorotool.skeleton_exact(HOUSES)).xy,
+    )
+    with pytest.raises(vorotool.UsageError, match="give a number"):
+        vorotool.to_geojson(curved, flatten="fine")

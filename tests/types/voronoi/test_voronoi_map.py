@@ -1,0 +1,137 @@
+"""Voronoi maps as values: polygons, tables, data frames, shapes of arrays."""
+
+from dataclasses import replace
+
+import geopandas
+import numpy as np
+import pandas
+import pytest
+import shapely
+from tests.support.families.site_families import mixed_sites
+from vorotool.types.voronoi.shapes import PART_OF_RADIUS, flattened_arcs
+
+from vorotool import to_geojson, voronoi
+from vorotool.errors import InputError, UsageError
+
+WALL_AND_TREE = [shapely.LineString([(0, 0), (8, 0)]), shapely.Point(4, 2)]
+
+
+@pytest.fixture(scope="module")
+def cells():
+    return voronoi(WALL_AND_TREE, frame=(0, -2, 8, 10))
+
+
+def test_a_parabola_between_a_wall_and_a_tree(cells):
+    parabola = cells.is_parabola
+    assert np.count_nonzero(parabola) == 1
+    source, target = cells.vertices[cells.arcs[parabola][0]]
+    # y = 1 + (x - 4)^2 / 4
+    assert sorted([source.tolist(), target.tolist()]) == [[0, 5], [8, 5]]
+    assert cells.control[parabola].tolist() == [[4, -3]]
+    assert cells.areas.tolist() == pytest.approx([8 * 1 + 32 / 3 + 16, 80 - 24 - 32 / 3])
+    assert cells.radius[cells.arcs[parabola][0]].tolist() == [5, 5]
+
+
+@pytest.mark.parametrize("flatten", [1e-4, 0.1, 100])
+def test_polylines_stay_away_from_sites(flatten):
+    for seed in range(8):
+        sites = mixed_sites(np.random.default_rng(seed), 6)
+        made = voronoi(sites)
+        points, start = flattened_arcs(made, flatten)
+        for arc in np.flatnonzero(made.is_parabola).tolist():
+            line = shapely.LineString(points[start[arc] : start[arc + 1]])
+            t = np.linspace(0, 1, 200)[:, None]
+            a, c, b = made.vertices[made.arcs[arc, 0]], made.control[arc], made.vertices[made.arcs[arc, 1]]
+            along = (1 - t) ** 2 * a + 2 * t * (1 - t) * c + t * t * b
+            off = shapely.distance(line, shapely.points(along)).max()
+            least = min(shapely.distance(sites[k], line) for k in made.sites[arc])
+            assert off <= flatten * (1 + 1e-9) + 1e-9
+            near = min(shapely.distance(sites[k], shapely.points(along)).min() for k in made.sites[arc])
+            assert least >= (1 - PART_OF_RADIUS) * near - 1e-6
+
+
+def test_digons_hold_something():
+    made = voronoi([shapely.LineString([(-20, 0), (20, 0)]), shapely.Point(0, 4)], frame=(-20, 1, 40, 3))
+    assert (shapely.area(made.to_shapely(flatten=1e9)) > 0).all()
+
+
+def test_tables(cells):
+    borders, rows = cells.edges, cells.table()
+    names = ["label", "area", "perimeter", "neighbors", "own_area", "max_distance", "components"]
+    assert list(rows) == names
+    assert rows["neighbors"].tolist() == [1, 1]
+    assert cells.neighbors.rows == 1
+    assert cells.neighbors["border_length"][0] == pytest.approx(borders["length"].sum())
+    assert borders["label_a"].tolist() == [1]
+    assert list(borders["kind"]) == ["parabola"]
+    assert rows["perimeter"].sum() == pytest.approx(36 + 2 * borders["length"].sum())
+
+
+def test_data_frames():
+    frame = geopandas.GeoDataFrame(
+        {"kind": ["wall", "tree", "none"]}, geometry=[*WALL_AND_TREE, None], index=["a", "b", "c"], crs="EPSG:2056"
+    )
+    made = voronoi(frame).to_geopandas()
+    assert made.index.tolist() == ["a", "b", "c"]
+    assert made.crs.to_epsg() == 2056
+    assert made["kind"].tolist() == ["wall", "tree", "none"]
+    assert made.geometry.is_empty.tolist() == [False, False, True]
+    np.testing.assert_allclose(made.geometry.area, made["area"], rtol=1e-2)
+    joined = voronoi(frame, by="kind").to_pandas()
+    assert joined["id"].tolist() == ["wall", "tree", "none"]
+    assert voronoi(frame).__geo_interface__["features"][2]["geometry"] is None
+
+
+def test_as_a_value(cells):
+    assert cells == voronoi(WALL_AND_TREE, frame=(0, -2, 8, 10)) != voronoi(WALL_AND_TREE)
+    assert repr(cells) == f"VoronoiMap: 2 cells, {len(cells.arcs)} arcs, {len(cells.vertices)} vertices"
+    assert [len(polygons) for polygons in (cells.rings_of(0), cells.rings_of(1))] == [1, 1]
+    with pytest.raises(UsageError, match="tolerance"):
+        cells.to_shapely(flatten=0)
+
+
+@pytest.mark.parametrize("name", ["sites", "control", "radius", "polygon_site", "ring_starts", "cell_starts"])
+def test_arrays_of_another_shape(cells, name):
+    with pytest.raises(InputError, match=name):
+        replace(cells, **{name: getattr(cells, name)[:-1]})
+
+
+# ---- graphs ----------------------------------------------------------------------------------------
+def apart(**columns):
+    """Two houses that touch, one apart, one that has no cell, in a frame with an index."""
+    boxes = [shapely.box(0, 0, 2, 2), shapely.box(2, 0, 4, 2), shapely.box(9, 0, 11, 2), shapely.box(1, 1, 2, 2)]
+    return geopandas.GeoDataFrame(columns, geometry=boxes, index=pandas.Index(["a", "b", "c", "d"], name="house"))
+
+
+def test_a_graph_of_networkx():
+    cells = voronoi(apart(name=["A", None, "C", "D"]), max_distance=1)
+    graph = cells.to_networkx()
+    assert list(graph.nodes) == [0, 1, 2, 3]
+    assert sorted(graph.edges) == [(0, 1)]
+    assert graph.edges[0, 1] == {"border_length": 4.0, "distance": 0.0}
+    assert graph.nodes[2]["area"] == pytest.approx(12 + np.pi)
+    assert graph.nodes[2]["max_distance"] == 1
+    assert (graph.nodes[0]["name"], graph.nodes[0]["own_area"]) == ("A", 4)
+    assert "name" not in graph.nodes[1]
+    assert "max_distance" not in graph.nodes[3]
+
+
+def test_pairs_as_libpysal_takes_them():
+    pairs = voronoi(apart(), max_distance=1).to_adjacency()
+    assert pairs.values.tolist() == [["a", "b", 4], ["b", "a", 4], ["c", "c", 0], ["d", "d", 0]]
+    assert list(pairs) == ["focal", "neighbor", "weight"]
+    graphs = pytest.importorskip("libpysal.graph")
+    graph = graphs.Graph.from_adjacency(pairs)
+    assert graph.isolates.tolist() == ["c", "d"]
+    assert graph.adjacency.loc["a"].to_dict() == {"b": 4}
+    everything = voronoi(apart())
+    graph = graphs.Graph.from_adjacency(everything.to_adjacency())
+    assert graph.unique_ids.tolist() == everything.to_geopandas().index.tolist()
+    assert graph.adjacency.loc["b"].to_dict() == pytest.approx({"a": 4.2, "c": 4.2})
+    assert graph.n_edges == 2 * everything.neighbors.rows
+
+
+def test_geojson_has_a_feature_a_cell():
+    made = to_geojson(voronoi(apart()))
+    assert [each["properties"]["label"] for each in made["features"]] == [1, 2, 3, 4]
+    assert [each["geometry"] is None for each in made["features"]] == [False, False, False, True]
