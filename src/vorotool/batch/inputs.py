@@ -9,12 +9,14 @@ from collections.abc import Callable, Collection, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-from vorotool.batch.manifest import RECORD_ENDING
 from vorotool.batch.pages import PageName
 from vorotool.batch.search import LeftOut, Search
 from vorotool.errors import InputError, UsageError
 from vorotool.formats.io.descriptors import stream_kind
 from vorotool.formats.zarr.store import is_folder, is_store
+
+RECORD_ENDING = ".manifest.jsonl"
+"""Of the names of manifests, which begin with that of the command."""
 
 STANDARD_INPUT = "-"
 HEAD = 2**16

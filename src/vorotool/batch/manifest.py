@@ -23,9 +23,6 @@ LEVELS = 8
 LONGEST_LINE = 2**24
 """Bytes of a line that is read; ours have hundreds, and thousands where much was said."""
 
-RECORD_ENDING = ".manifest.jsonl"
-"""Of the names of manifests, which begin with that of the command."""
-
 
 def digest_of_values(values: Any) -> str:
     """SHA-256 of what JSON can say; other values count by their text."""

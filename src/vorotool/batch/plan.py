@@ -8,8 +8,7 @@ import sys
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path, PurePath
 
-from vorotool.batch.inputs import Input
-from vorotool.batch.manifest import RECORD_ENDING
+from vorotool.batch.inputs import RECORD_ENDING, Input
 from vorotool.batch.pages import path_of
 from vorotool.batch.tasks import Task
 from vorotool.errors import OutputError, UsageError

@@ -12,10 +12,12 @@ from numpy.typing import NDArray
 from vorotool.convert.tables import index_of, listed
 from vorotool.errors import InputError, warn
 from vorotool.numeric.crs import crs_member, member_of_text, without_number
-from vorotool.numeric.curves.well_known import flattened_note, geometry_of_texts, without_curves
 from vorotool.numeric.descriptions import LONGEST
 from vorotool.numeric.row_index import index_of_rows
+from vorotool.products.formats import resolved
 from vorotool.types.axis import UP, YAxis, y_axis_member
+
+_WELL_KNOWN = "numeric.curves.well_known"
 
 SIMPLE_TYPES = ("Point", "LineString", "Polygon")
 GEOMETRY_TYPES = frozenset({*SIMPLE_TYPES, *(f"Multi{kind}" for kind in SIMPLE_TYPES), "GeometryCollection"})
@@ -162,7 +164,7 @@ def _of_texts(texts: Sequence[Any], *, is_alone: bool = False) -> HeldFeatures:
         if _is_deep(text):  # shapely would take each level apart in a call of its own
             place = "the text" if is_alone else f"item {number}"
             raise InputError(f"brackets of {place} are nested more than {MOST_LEVELS} deep; check the brackets")
-    geometry, curves = geometry_of_texts([text for text, _ in plain])
+    geometry, curves = resolved(f"{_WELL_KNOWN}:geometry_of_texts")([text for text, _ in plain])
     wrong = [k for k, text in enumerate(texts) if text is not None and geometry[k] is None]
     if wrong:
         text = texts[wrong[0]]
@@ -182,9 +184,9 @@ def _without_curves(held: HeldFeatures) -> HeldFeatures:
     items = np.empty(len(held.items), dtype=object)
     for k, item in enumerate(held.items):  # one by one: some may be sequences
         items[k] = item
-    flat = without_curves(items)
+    flat = resolved(f"{_WELL_KNOWN}:without_curves")(items)
     if flat.curves + held.curves:
-        warn(flattened_note(flat.curves + held.curves))
+        warn(resolved(f"{_WELL_KNOWN}:flattened_note")(flat.curves + held.curves))
     return replace(held, items=flat.geometry) if flat.curves else held
 
 

@@ -13,6 +13,7 @@ from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.numeric.checks import is_choice
 from vorotool.numeric.coordinates import MOST_AXES
 from vorotool.numeric.descriptions import column_names, described, naming, refuse_paths, unexpected
+from vorotool.numeric.masked import is_masked_array
 from vorotool.numeric.numbers import real_number
 from vorotool.types.pixel_frame import MAX_PIXELS
 from vorotool.types.points.label_image import LabelImage
@@ -102,7 +103,7 @@ def _has_axes(source: Any) -> bool:
 
 
 def _array(source: Any) -> NDArray[Any]:
-    if isinstance(source, np.ma.MaskedArray):
+    if is_masked_array(source):
         return source
     if column_names(source) is None and not isinstance(source, str | bytes):
         try:

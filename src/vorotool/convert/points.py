@@ -14,14 +14,12 @@ from vorotool.errors import InputError, warn
 from vorotool.numeric.coordinates import MOST_AXES, number_array
 from vorotool.numeric.degrees import note_degrees
 from vorotool.numeric.descriptions import described, items_of, naming, refuse_paths, unexpected
+from vorotool.numeric.masked import is_masked_array
 from vorotool.numeric.numbers import pair_of_doubles
 from vorotool.numeric.row_index import index_of_rows
+from vorotool.products.registry import is_of
 from vorotool.types.points.conversion import part_numbers, single_points
-from vorotool.types.points.label_image import LabelImage
 from vorotool.types.points.point_set import LABEL, PointSet, labels_of
-from vorotool.types.points.raster import Raster
-from vorotool.types.points.seed_set import SeedSet
-from vorotool.types.polygons.polygon_set import PolygonSet
 
 EXPECTED = "an (n, 2) array of numbers, a data frame with columns x, y, or points of shapely, geopandas, GeoJSON or WKT"
 
@@ -45,14 +43,14 @@ def as_place(source: Any, name: str) -> tuple[float, float]:
 
 
 def _points_of(source: Any, name: str) -> PointSet:
-    if isinstance(source, SeedSet):
+    if is_of(source, "SeedSet"):
         assert source.sites is not None  # SeedSet has filled them in
         labels = None if source.site_labels is None else source.site_labels.astype(np.int64)
         frame = None if source.frame is None else source.frame.box
         return PointSet(source.sites, labels, source.properties, y_axis=source.y_axis, index=source.index, frame=frame)
-    if isinstance(source, PolygonSet):
+    if is_of(source, "PolygonSet"):
         raise InputError("these are polygons or lines: give points, for example their centroids or vertices")
-    if isinstance(source, Raster | LabelImage):
+    if is_of(source, "Raster", "LabelImage"):
         raise unexpected(source, f"points; of an image take vorotool.seeds_from_raster({name})")
     refuse_paths(source)
     if isinstance(source, Iterator):
@@ -78,7 +76,7 @@ def _checked(source: Any, name: str) -> NDArray[Any]:
     array = number_array(pairs, "point", f"expected {EXPECTED}, but got {described(source)}")
     shape = array.shape
     if array.size == 0 or (array.ndim == 2 and shape[1] == 2):
-        return pairs if isinstance(pairs, np.ma.MaskedArray) else array
+        return pairs if is_masked_array(pairs) else array
     said = f"expected shape (n, 2), but got {described(source if hasattr(source, 'shape') else array)}"
     if shape == (2,):
         raise InputError(f"{said}: one point is [[x, y]]")

@@ -19,6 +19,7 @@ from vorotool.errors import InputError
 from vorotool.numeric.coordinates import INEXACT, first_inexact, number_array
 from vorotool.numeric.crs import LONGITUDE_LATITUDE, crs_member
 from vorotool.numeric.descriptions import column_names, described
+from vorotool.numeric.masked import is_masked_array
 from vorotool.numeric.numbers import shown_number
 from vorotool.types.axis import UNSTATED, UP
 from vorotool.types.points.point_set import PointSet, labels_of
@@ -135,8 +136,8 @@ def _numbers(column: Any, name: str) -> NDArray[Any]:
 
 
 def _plain_array(column: Any) -> NDArray[Any]:
-    array = np.ma.asanyarray(column) if isinstance(column, np.ma.MaskedArray) else np.asarray(column)
-    if isinstance(array, np.ma.MaskedArray):
+    array = np.ma.asanyarray(column) if is_masked_array(column) else np.asarray(column)
+    if is_masked_array(array):
         return np.where(np.ma.getmaskarray(array), np.nan, array.data) if np.ma.is_masked(array) else array.data
     if array.dtype.kind == "O":
         values = [np.nan if each is None or type(each).__name__ in MISSING_TYPES else each for each in array.tolist()]

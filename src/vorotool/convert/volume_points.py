@@ -12,6 +12,7 @@ from vorotool.convert.tables import is_table, volume_points_of_table
 from vorotool.errors import InputError
 from vorotool.numeric.coordinates import number_array
 from vorotool.numeric.descriptions import described, items_of, naming, refuse_paths
+from vorotool.numeric.masked import is_masked_array
 from vorotool.types.volumes.volume_points import VolumePoints
 from vorotool.types.volumes.volume_seeds import VolumeSeeds
 
@@ -46,7 +47,7 @@ def _points_of(source: Any) -> VolumePoints:
     array = number_array(source, "point", said, axes=3)
     if array.size and (array.ndim != 2 or array.shape[1] != 3):
         raise InputError(said if hasattr(source, "shape") else f"{said} of shape {array.shape}")
-    return VolumePoints(source if isinstance(source, np.ma.MaskedArray) else array)
+    return VolumePoints(source if is_masked_array(source) else array)
 
 
 def _of_features(held: HeldFeatures, source: Any) -> VolumePoints:

@@ -8,6 +8,7 @@ import numpy as np
 
 from vorotool.errors import InputError, LimitError
 from vorotool.numeric.descriptions import column_names, described, naming, refuse_paths, unexpected
+from vorotool.numeric.masked import is_masked_array
 from vorotool.numeric.numbers import real_number
 from vorotool.types.pixel_frame import MAX_PIXELS
 from vorotool.types.points.label_image import LabelImage
@@ -77,7 +78,7 @@ def as_volume(source: Any, name: str, *, is_grey: bool = False, max_pixels: int 
         if not isinstance(source, np.ndarray) and isinstance(shape, tuple):
             _check_size(shape, max_pixels)
         try:
-            array = source if isinstance(source, np.ma.MaskedArray) else np.asarray(source)
+            array = source if is_masked_array(source) else np.asarray(source)
         except (TypeError, ValueError):
             raise unexpected(source, EXPECTED) from None
         if array.ndim != AXES or array.dtype.kind not in "biuf":

@@ -9,7 +9,7 @@ from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any
 
 from vorotool.errors import InputError, UsageError
-from vorotool.formats.images.band_reader import TiffRows, ZarrRows, open_tiff, open_zarr, read_rows
+from vorotool.formats.images.banded import open_tiff, open_zarr
 from vorotool.formats.io.sources import Source, read_source, reading
 from vorotool.formats.parsing.reader_options import ReadOptions, no_note
 from vorotool.formats.recognition import read_recognised, recognised, refuse_for_images
@@ -20,6 +20,7 @@ from vorotool.types.axis import y_axis_of
 
 if TYPE_CHECKING:
     from vorotool.convert.sites import Sites
+    from vorotool.formats.images.band_reader import TiffRows, ZarrRows
     from vorotool.types.points.point_set import PointSet
     from vorotool.types.points.raster import Raster
     from vorotool.types.polygons.polygon_set import PolygonSet
@@ -96,6 +97,8 @@ class Opened:
             **options,
         )
         if self.array is not None:
+            from vorotool.formats.images.band_reader import read_rows
+
             refuse_for_images(given, self.layer)
             told("zarr")
             return self._turned(read_rows(self.array, max_pixels=given.max_pixels, note=given.note), given)

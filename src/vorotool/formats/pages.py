@@ -5,7 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from vorotool.errors import VorotoolError
-from vorotool.formats.images.picture_reader import picture_format, picture_pages
+from vorotool.formats.images.magic import picture_format
+from vorotool.formats.images.picture_reader import picture_pages
 from vorotool.formats.images.tiff_reader import opened_tiff
 from vorotool.formats.io.limits import decoding
 from vorotool.formats.io.sources import Source

@@ -7,13 +7,13 @@ from dataclasses import replace
 from typing import Any
 
 from vorotool.errors import INPUT_FORMAT, InputError, UsageError, option
-from vorotool.formats.images.picture_reader import PICTURES, picture_format
-from vorotool.formats.images.pnm_reader import looks_like_pnm
+from vorotool.formats.images.magic import PICTURES, looks_like_pnm, picture_format
 from vorotool.formats.io.npy_arrays import MAGIC, npy_header
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.products.formats import resolved
 from vorotool.products.inputs import IMAGE_NAMES, INPUTS, Holds
+from vorotool.products.registry import is_of
 
 _CRS, _TO_CRS = option("--input-crs", "crs"), option("--crs", "to_crs")
 _LAYER = option("--input-layer", "layer")
@@ -62,10 +62,9 @@ def read_recognised(holds: Holds, source: Source, options: ReadOptions) -> Any:
         return value
     if source.layer is not None and "layers" not in INPUTS[source.format].has:
         raise UsageError(f"{_LAYER} is for files of several layers, but {source.name} has none: leave it out")
-    from vorotool.convert.sites import Sites
     from vorotool.formats.parsing.reference_systems import with_crs
 
-    if isinstance(value, Sites):
+    if is_of(value, "Sites"):
         return replace(value, polygons=with_crs(value.polygons, source.name, options))
     return with_crs(value, source.name, options)
 

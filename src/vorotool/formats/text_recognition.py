@@ -7,20 +7,14 @@ from dataclasses import replace
 
 from vorotool.errors import INPUT_FORMAT, InputError, UsageError, option
 from vorotool.formats.drawing.recognition import drawing_format, refuse_drawing
-from vorotool.formats.features.delimited_geometry import geometry_column
-from vorotool.formats.features.feature_table import Features
-from vorotool.formats.features.reading import features_of
-from vorotool.formats.features.shapefile_parts import holds_shapefile
 from vorotool.formats.io.npy_arrays import MAGIC
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.convertible import refuse_convertible
 from vorotool.formats.parsing.geojson import holds_shapes, parse_json
 from vorotool.formats.parsing.json_lines import RECORD_MARK, is_json_lines
 from vorotool.formats.parsing.npz_columns import NPZ_MAGIC, npz_holds
-from vorotool.formats.points.delimited import has_coordinates, header_fields
-from vorotool.formats.points.tables import is_table
-from vorotool.formats.polygons.json import is_list_of_shells
-from vorotool.formats.polygons.wkt import holds_shapes as wkt_holds_shapes
+from vorotool.formats.points.delimited import geometry_column, has_coordinates, header_fields
+from vorotool.products.formats import resolved
 from vorotool.products.inputs import INPUTS, Holds
 
 _ALPHA = option("alphashape", "alpha_shape")
@@ -64,7 +58,7 @@ def recognised_geometry(
 
 def point_format(source: Source) -> str:
     """Tell the format of points, if it is one, by the extension, else by the content."""
-    if source.suffix == ".zip" and holds_shapefile(source.data):
+    if source.suffix == ".zip" and _holds_shapefile(source.data):
         return "shp"
     refuse_drawing(source)
     refuse_convertible(source)
@@ -80,10 +74,15 @@ def _by_header(source: Source, chosen: str, columns: str | None = None) -> str:
     return "csv-wkt" if geometry_column(fields) is not None and not has_coordinates(fields) else chosen
 
 
+def _holds_shapefile(data: bytes) -> bool:
+    holds: bool = resolved("formats.features.shapefile_parts:holds_shapefile")(data)
+    return holds
+
+
 def _by_content(data: bytes) -> str:
     head = data[:4096].removeprefix(_UTF8_MARK).lstrip()
     found = next((name for start, name in _HEADS if head.startswith(start)), None)
-    if found == "npz" and holds_shapefile(data):
+    if found == "npz" and _holds_shapefile(data):
         return "shp"
     if found is not None:
         return found
@@ -132,18 +131,19 @@ def _either(source: Source, said: str | None) -> tuple[Holds, Source]:
         return "points", _points(source, chosen, None)
     source = _with_format(source, chosen)
     if INPUTS[chosen].features:
-        source = replace(source, document=features_of(source))
+        source = replace(source, document=resolved("formats.features.reading:features_of")(source))
         return ("polygons" if source.document.holds_shapes else "points"), source
     if chosen == "npz":
         return npz_holds(source.data), source
     if "curves" in INPUTS[chosen].has or chosen == "wkt":
-        return ("polygons" if chosen != "wkt" or wkt_holds_shapes(source.data) else "points"), source
+        has_shapes = chosen != "wkt" or resolved("formats.polygons.wkt:holds_shapes")(source.data)
+        return ("polygons" if has_shapes else "points"), source
     return _in_json(source, said)
 
 
 def _sites(holds: Holds, source: Source) -> tuple[Holds, Source]:
     """Take features for sites, whatever they are of; lists and tables of points stay points."""
-    if isinstance(source.document, Features):
+    if source.document is not None and INPUTS[source.format].features:
         return ("points" if source.document.is_table else "sites"), source
     is_object = isinstance(source.document, dict) or source.format == "wkt"
     return ("sites" if is_object or holds != "points" else "points"), source
@@ -155,7 +155,8 @@ def _in_json(source: Source, said: str | None) -> tuple[Holds, Source]:
         return "points", source
     document = parse_json(source)
     if isinstance(document, list):
-        has_shapes = not is_table(document) and is_list_of_shells(document)
+        is_table = resolved("formats.points.tables:is_table")(document)
+        has_shapes = not is_table and resolved("formats.polygons.json:is_list_of_shells")(document)
     else:
         has_shapes = isinstance(document, dict) and ("polygons" in document or holds_shapes(document))
     source = replace(source, document=document)

@@ -21,11 +21,12 @@ from vorotool.engines.alpha.few_points import unjoined
 from vorotool.engines.alpha.persistence import persistence
 from vorotool.errors import warn
 from vorotool.jobs.animations import check_size, layer_pixels, parts_of_whole, write_frames
+from vorotool.jobs.checked_columns import check_columns
 from vorotool.jobs.inputs import JobInput, frame_of, note_repeated_labels, read_sites, window_of
 from vorotool.jobs.names import OF_ONE_SHAPE, PLOTS
 from vorotool.jobs.options import AlphaShapeOptions
 from vorotool.jobs.picture_style import styled_page
-from vorotool.jobs.picture_world import check_columns, world_of_sites
+from vorotool.jobs.picture_world import world_of_sites
 from vorotool.jobs.pictures import write_layers
 from vorotool.jobs.pixel_sizes import placed_backdrop, placed_mesh, placed_sites
 from vorotool.jobs.run_log import Run

@@ -9,7 +9,8 @@ from typing import Any, BinaryIO
 
 from vorotool.errors import InputError, Kind, Message, UsageError
 from vorotool.formats.features.feature_table import Features
-from vorotool.formats.images.band_reader import open_zarr, read_rows
+from vorotool.formats.images.band_reader import read_rows
+from vorotool.formats.images.banded import open_zarr
 from vorotool.formats.images.label_images import label_image_of
 from vorotool.formats.io.atomic_output import open_output
 from vorotool.formats.io.npy_arrays import MAGIC
@@ -19,11 +20,12 @@ from vorotool.formats.parsing.reference_systems import with_stated_axis
 from vorotool.formats.points.tables import is_table
 from vorotool.formats.recognition import image_format, image_source, read_recognised, recognised
 from vorotool.formats.text_recognition import has_no_rows
+from vorotool.jobs.checked_columns import check_column
 from vorotool.jobs.inputs import JobInput, note_other_size, refuse
 from vorotool.jobs.label_pictures import LabelPicture, default_layers, write_label_page
 from vorotool.jobs.options import DrawingOptions
 from vorotool.jobs.picture_style import styled_page
-from vorotool.jobs.picture_world import check_column, world_of, world_of_polygons
+from vorotool.jobs.picture_world import world_of, world_of_polygons
 from vorotool.jobs.pictures import drawing_of, write_layers
 from vorotool.jobs.pixel_sizes import size_of_file
 from vorotool.jobs.run_log import Run

@@ -20,6 +20,7 @@ from vorotool.jobs.options import (
 )
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.units import Measured, known_length, measured, unit_stats
+from vorotool.products.registry import is_of
 
 if TYPE_CHECKING:
     from vorotool.engines.tessellation.seeding import SeedMode
@@ -70,14 +71,10 @@ def read_opened(
 
     The options that come back have lengths in its coordinates.
     """
-    from vorotool.convert.sites import Sites
     from vorotool.jobs.contradictions import check_image_size, check_unit
     from vorotool.jobs.input_lengths import lengths_of_image, lengths_of_vectors, side_of_pixel
     from vorotool.jobs.second_files import coordinates_of
     from vorotool.numeric.input_unit import unit_of
-    from vorotool.types.points.point_set import PointSet
-    from vorotool.types.points.raster import Raster
-    from vorotool.types.polygons.polygon_set import PolygonSet
 
     wants_unit = (
         wants_unit or bool(measured(o)) or (o.pixel_size is not None and o.pixel_size.is_auto)
@@ -100,11 +97,11 @@ def read_opened(
     if isinstance(o, ShapeOptions):
         source, tolerances = _tolerances(o, source, read)
     value = read(source, run.note, to_crs=o.crs, y_up=o.y_up, **tolerances)
-    if not isinstance(value, PointSet | PolygonSet | Sites | Raster):  # which is read where no geometry is asked for
+    if not is_of(value, "PointSet", "PolygonSet", "Sites", "Raster"):  # which is read where no geometry is asked for
         raise InputError(
             f"{given.name} is a result of vorotool, of {type(value).__name__}: points or polygons were due"
         )
-    if isinstance(value, Raster):
+    if is_of(value, "Raster"):
         run.reads_image = True
         note_other_size(run, o, given, value.values.shape)
         run.pixel, run.grid = side_of_pixel(value.grid), value.grid
@@ -118,7 +115,7 @@ def read_opened(
     run.coordinates = coordinates_of(o, value)
     if run.coordinates is not None and o.pixel_size is None:
         run.stats["unit"] = run.coordinates.unit
-    run.has_crs = (value.polygons if isinstance(value, Sites) else value).crs is not None
+    run.has_crs = (value.polygons if is_of(value, "Sites") else value).crs is not None
     if o.pixel_size is not None:
         run.stats |= unit_stats(o.pixel_size)
     return o, value if wants_properties or not wants_unit else replace(value, properties={})
@@ -182,16 +179,12 @@ def read_sites(
     run: Run, o: OfSites, given: JobInput, *, properties: bool, is_digital: bool
 ) -> tuple[OfSites, PointSet | SeedSet]:
     """Read points to triangulate, or find those of an image, as the options say."""
-    from vorotool.types.points.point_set import PointSet
-    from vorotool.types.points.raster import Raster
-
     with opened_input(o, given, "points") as source:
         o, value = read_opened(run, o, given, source, columns=o.columns, properties=properties)
-    if isinstance(value, PointSet):
+    if is_of(value, "PointSet"):
         if not len(value):
             report_no_geometry(run, o)
         return o, value
-    assert isinstance(value, Raster)  # what is asked for is points, or an image
     refuse({"columns": o.columns}, "is for lists of points, but the input is an image")
     refuse(o.of_frame(), "is for lists of points, but the input is an image, which brings its own frame")
     # The sites of objects are their centroids, but their regions are not those of the centroids.

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from vorotool.jobs.options import ComputingOptions
+from vorotool.jobs.checked_columns import check_column
 from vorotool.jobs.picture_style import Looks, World
 from vorotool.numeric.crs import is_geographic
 from vorotool.numeric.input_unit import InputUnit, unit_of_crs
 from vorotool.numeric.length_units import ratio, unit_name
-from vorotool.types.named_columns import check_plain, chosen_column
 from vorotool.types.values import input_of
 
 if TYPE_CHECKING:
@@ -173,16 +171,3 @@ def _millimetres(
         known = run.pixel
     ratio_of = None if known is None else ratio(known.unit, "mm")
     return None if known is None or ratio_of is None else known.side * ratio_of
-
-
-def check_column(label_by: str | None, columns: Mapping[str, Any], option: str = "--label-by") -> None:
-    """Refuse a column that the input does not have, or that holds objects."""
-    if label_by is not None:
-        check_plain(chosen_column(columns, label_by, option), option)
-
-
-def check_columns(o: JobOptions, columns: Mapping[str, Any]) -> None:
-    """Refuse columns that options name and the input does not have."""
-    check_column(o.label_by, columns)
-    for name in (o.with_columns or ()) if isinstance(o, ComputingOptions) else ():
-        chosen_column(columns, name, "--with")

@@ -29,6 +29,7 @@ from vorotool.engines.tessellation.tessellate import labelled_rows, verify_rows
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import LimitError
 from vorotool.jobs import animations
+from vorotool.jobs.checked_columns import check_columns
 from vorotool.jobs.contradictions import check_image_size
 from vorotool.jobs.input_lengths import lengths_of_image
 from vorotool.jobs.inputs import (
@@ -43,7 +44,7 @@ from vorotool.jobs.inputs import (
 )
 from vorotool.jobs.map_cells import seeds_on_map
 from vorotool.jobs.options import TessellationOptions
-from vorotool.jobs.picture_world import check_columns, world_of
+from vorotool.jobs.picture_world import world_of
 from vorotool.jobs.pixel_sizes import with_pixel_size, written_grid
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.streamed_output import RowsOf, Stream, check_chunks, scale_of_squares, write_file, write_store

@@ -4,22 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple, cast
 
-from vorotool.engines.delaunay.cell_statistics import statistics_of
-from vorotool.engines.delaunay.cells import cell_colors, verify_cells, voronoi_cells
 from vorotool.engines.delaunay.delaunay import delaunay, verify_triangulation
-from vorotool.engines.delaunay.proximity import proximity_graph
-from vorotool.engines.delaunay.site_table import site_table
-from vorotool.engines.delaunay.verify_proximity import verify_proximity_graph
 from vorotool.errors import Kind, Message
 from vorotool.formats.io.sources import reading
-from vorotool.jobs.cuts import read_clip
+from vorotool.jobs.checked_columns import check_columns
 from vorotool.jobs.inputs import JobInput, note_repeated_labels, read_sites
 from vorotool.jobs.options import TriangulationOptions
 from vorotool.jobs.picture_style import styled_page
-from vorotool.jobs.picture_world import check_columns, world_of_sites
-from vorotool.jobs.pictures import write_layers
 from vorotool.jobs.pixel_sizes import clip_in_pixels, in_steps, placed_backdrop, placed_mesh, placed_sites
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
@@ -28,16 +22,16 @@ from vorotool.numeric.progress import Progress
 from vorotool.products.formats import PICTURES
 from vorotool.products.registry import PRODUCTS
 from vorotool.products.writing import write_product
-from vorotool.types.mesh.digital_triangulation import AnyTriangulation
-from vorotool.types.mesh.proximity import ProximityGraph
-from vorotool.types.points.point_set import PointSet
-from vorotool.types.points.seed_set import SeedSet
 
 if TYPE_CHECKING:
+    from vorotool.jobs.picture_style import World
     from vorotool.render.canvas.layers import Layer, Page, Polygons
     from vorotool.types.box import Box, Extent
     from vorotool.types.mesh.cells import CellSet
+    from vorotool.types.mesh.digital_triangulation import AnyTriangulation
     from vorotool.types.mesh.statistics import CellStatistics
+    from vorotool.types.points.point_set import PointSet
+    from vorotool.types.points.seed_set import SeedSet
 
 
 class ReadPoints(NamedTuple):
@@ -56,6 +50,8 @@ def products(run: Run, o: TriangulationOptions, given: JobInput) -> MeshProducts
         o, points = placed_sites(run, o, given, points)
         read = ReadPoints(points, None)
     if o.clip is not None:
+        from vorotool.jobs.cuts import read_clip
+
         with reading(o.clip), run.phase("read polygons"):
             points, clip = read_clip(run, o, o.clip, points, given)
             read = ReadPoints(points, clip_in_pixels(o, clip))
@@ -78,7 +74,7 @@ class MeshProducts:
             with run.phase("triangulate") as progress:
                 self.mesh: Any = placed_mesh(options.pixel_size, self._triangulate(points, progress))
             check_columns(options, self.mesh.properties)
-            self._world = world_of_sites(run, options, self.mesh, points)
+            self._points = points
         self.edged: Any = self._with_graph() if self.wants_mesh else None
 
     def _with_graph(self) -> Any:
@@ -86,6 +82,8 @@ class MeshProducts:
         o = self.options
         if o.graph == "delaunay":
             return self.mesh
+        from vorotool.engines.delaunay.proximity import proximity_graph
+
         with self.run.phase("graph") as progress:
             return proximity_graph(self.mesh, o.graph, threads=o.threads, progress=progress)
 
@@ -139,6 +137,8 @@ class MeshProducts:
     def _value(self, what: str, fmt: str) -> Any:
         """What a result is written from, in the units of files: the table tells of cells, too."""
         if what == "table" and fmt != "node":
+            from vorotool.engines.delaunay.site_table import site_table
+
             table = site_table(self.mesh, self.cells, threads=self.options.threads)
             return table_in_units(self.options.pixel_size, table, properties=self.mesh.properties)
         if what in ("statistics", "measures"):
@@ -149,6 +149,8 @@ class MeshProducts:
 
     def _statistics_in_units(self) -> CellStatistics:
         """Measures of cells, decided in the units of the input, in those of files."""
+        from vorotool.engines.delaunay.cell_statistics import statistics_of
+
         o, has_region = self.options, self.options.frame is not None or self.options.clip is not None
         with self.run.phase("statistics") as progress:
             found = statistics_of(self.mesh, self.cells, has_region=has_region, threads=o.threads, progress=progress)
@@ -169,6 +171,8 @@ class MeshProducts:
     def _cells_in(
         self, frame: Box | Extent | None, progress: Progress, *, clip: Sequence[Any] | None = None
     ) -> CellSet:
+        from vorotool.engines.delaunay.cells import voronoi_cells
+
         return voronoi_cells(
             self.mesh,
             frame=frame,
@@ -176,6 +180,13 @@ class MeshProducts:
             threads=self.options.threads,
             progress=progress,
         )
+
+    @cached_property
+    def _world(self) -> World:
+        """Where what is drawn lies."""
+        from vorotool.jobs.picture_world import world_of_sites
+
+        return world_of_sites(self.run, self.options, self.mesh, self._points)
 
     def _layers(self, what: str) -> Sequence[str]:
         return self.options.drawn(PRODUCTS["delaunay"][what].usual_layers)
@@ -196,6 +207,8 @@ class MeshProducts:
         return styled_page(page, looks, world)
 
     def _write_picture(self, out: BinaryIO, fmt: str, what: str) -> None:
+        from vorotool.engines.delaunay.cells import cell_colors
+        from vorotool.jobs.pictures import write_layers
         from vorotool.render.layers import mesh as mesh_layers
         from vorotool.render.layers.cells import cell_lines, cell_polygons
 
@@ -212,6 +225,7 @@ class MeshProducts:
         write_layers(out, layers, page, fmt=fmt, threads=self.options.threads)
 
     def _write_html(self, out: BinaryIO) -> None:
+        from vorotool.engines.delaunay.cells import cell_colors
         from vorotool.render.pages.cells_html import shapes_of_cells, write_cells_html
 
         cells = in_units(self.options.pixel_size, self.cells)
@@ -224,8 +238,11 @@ class MeshProducts:
 
     def verify(self, progress: Progress) -> None:
         """Check the triangulation exactly, from its arrays alone; and cells before they are clipped to polygons."""
+        from vorotool.engines.delaunay.cells import verify_cells
+        from vorotool.engines.delaunay.verify_proximity import verify_proximity_graph
+
         verify_triangulation(self.mesh, threads=self.options.threads, progress=progress)
-        if isinstance(self.edged, ProximityGraph):
+        if self.edged is not self.mesh:
             verify_proximity_graph(self.edged)
         if {"cells", "table", "statistics", "measures"} & set(self.options.what):
             cells = self.cells if self.clip is None else self._cells_in(self.cells.frame, progress)

@@ -14,10 +14,11 @@ from vorotool.engines.voronoi.verify_voronoi import verify_voronoi
 from vorotool.engines.voronoi.voronoi import voronoi
 from vorotool.errors import STRICT, InputError, Kind, Message, RepairWarning
 from vorotool.formats.io.atomic_output import open_output
+from vorotool.jobs.checked_columns import check_columns
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.options import VoronoiOptions
 from vorotool.jobs.picture_style import styled_page
-from vorotool.jobs.picture_world import check_columns, world_of_polygons
+from vorotool.jobs.picture_world import world_of_polygons
 from vorotool.jobs.pictures import Drawing, drawing_of, write_layers
 from vorotool.jobs.pixel_sizes import placed_backdrop
 from vorotool.jobs.run_log import Run

@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from vorotool.errors import UsageError
 from vorotool.formats.io.descriptors import stream_kind
+from vorotool.jobs.checked_columns import check_column
 from vorotool.jobs.picture_style import Looks, check_layers, looks_of, styled_page
-from vorotool.jobs.picture_world import check_column, world_of, world_of_value
+from vorotool.jobs.picture_world import world_of, world_of_value
 from vorotool.jobs.units import PixelSize
 from vorotool.numeric.numbers import Flatten, checked_flatten, shown_number, whole_number
 from vorotool.products.formats import FORMATS, PICTURES, format_named

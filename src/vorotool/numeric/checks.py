@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from vorotool.errors import InputError, UsageError
+from vorotool.numeric.masked import is_masked_array
 from vorotool.numeric.numbers import shown_number
 
 MOST_THREADS = 1024
@@ -71,7 +72,7 @@ def whole_numbers(values: Any, name: str, dtype: DTypeLike, least: int | None = 
     kind = np.dtype(dtype)
     limits = np.iinfo(kind)
     low = limits.min if least is None else least
-    if np.ma.is_masked(values):
+    if is_masked_array(values) and np.ma.is_masked(values):
         raise InputError(f"each {name} must be an integer, but some are masked: leave them out")
     try:
         array = np.asarray(values)

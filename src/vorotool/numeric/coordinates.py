@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
+from vorotool.numeric.masked import is_masked_array
 from vorotool.numeric.numbers import nearest_double, shown_number
 
 LARGEST_INTEGER = 2**53
@@ -50,7 +51,7 @@ INEXACT = "a double would round it; subtract an offset from all coordinates, or 
 def number_array(values: Any, noun: str, expected: str | None = None, axes: int = 2) -> NDArray[Any]:
     """Give values as an array of integers or floating-point numbers, or of objects that are numbers; not a copy."""
     said = expected or f"{plural(noun)} must be an (n, {axes}) array of numbers"
-    if isinstance(values, np.ma.MaskedArray):
+    if is_masked_array(values):
         if np.ma.is_masked(values):
             if values.ndim != 2 or values.shape[1] != axes:
                 raise InputError(_wrong_shape(noun, values.shape, axes))

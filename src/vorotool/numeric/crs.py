@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import json
 import re
 from typing import Any
-
-from vorotool.numeric.geographic_codes import GEOGRAPHIC_CODES
 
 _FORMS = (
     re.compile(r"urn:(?:x-)?ogc:def:crs:(\w+):[^:]*:(\w+)", re.IGNORECASE),
@@ -66,6 +63,8 @@ def _text_of(crs: Any) -> str:
             return str(properties["name"]).strip()
         if isinstance(properties.get("code"), int):  # {"type": "EPSG", …}: older than the form with a name
             return f"{crs.get('type')}:{properties['code']}"
+    import json
+
     return json.dumps(crs, default=str, sort_keys=True)
 
 
@@ -89,6 +88,8 @@ def is_geographic(crs: Any) -> bool:
     if spelled is not None:
         return spelled["kind"] in _GEOGRAPHIC_KINDS
     authority, _, code = _one_name(crs).partition(":")
+    from vorotool.numeric.geographic_codes import GEOGRAPHIC_CODES
+
     is_listed = authority == "EPSG" and code.isdecimal() and int(code) in GEOGRAPHIC_CODES
     return is_listed or f"{authority}:{code}" in _LONGITUDE_LATITUDE
 

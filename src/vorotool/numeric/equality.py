@@ -10,6 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.numeric.masked import is_masked_array
+
 
 def is_equal(a: Any, b: Any) -> bool:
     """Tell whether two parts of values are equal."""
@@ -49,7 +51,7 @@ def _equal_numbers(a: NDArray[Any], b: NDArray[Any]) -> bool:
     same = np.equal(np.ma.getdata(a), np.ma.getdata(b))
     if a.dtype.kind == b.dtype.kind == "f":
         same |= np.isnan(np.ma.getdata(a)) & np.isnan(np.ma.getdata(b))
-    if isinstance(a, np.ma.MaskedArray) or isinstance(b, np.ma.MaskedArray):
+    if is_masked_array(a) or is_masked_array(b):
         first, second = np.ma.getmaskarray(a), np.ma.getmaskarray(b)
         same = (first == second) & (same | first)
     return bool(same.all())

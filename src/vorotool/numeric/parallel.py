@@ -5,11 +5,13 @@ from __future__ import annotations
 import threading
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor, wait
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from vorotool.numeric.checks import available_threads, checked_threads
 from vorotool.numeric.progress import Progress
+
+if TYPE_CHECKING:
+    from concurrent.futures import Future
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
@@ -26,6 +28,8 @@ def in_order(function: Callable[[Item], Result], items: Iterable[Item], threads:
     if count == 1:
         yield from map(function, items)
         return
+    from concurrent.futures import ThreadPoolExecutor  # it imports logging and more, which short jobs need not wait for
+
     pending: deque[Future[Result]] = deque()
     with ThreadPoolExecutor(count) as pool:
         try:
@@ -52,6 +56,8 @@ def in_threads(tasks: Sequence[Callable[[Progress], Result]], threads: int, prog
     """Do tasks, and give their results in order."""
     if len(tasks) == 1:
         return [tasks[0](progress)]
+    from concurrent.futures import ThreadPoolExecutor, wait
+
     stop = threading.Event()
     done = [0.0] * len(tasks)
 

@@ -142,7 +142,7 @@ _DELAUNAY = (
 
 # ---- alphashape ----------------------------------------------------------------------------------
 _POLYGON_FILES = dict.fromkeys(
-    ("json", "poly"), Writer("formats.results.writer:write_shapes", ("fmt", "what", "flatten"))
+    ("json", "poly"), Writer("formats.results.features:write_shapes", ("fmt", "what", "flatten"))
 )
 """Of features that are polygons."""
 _SHAPE_LAYERS = _pictures(

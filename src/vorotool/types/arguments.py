@@ -2,24 +2,20 @@
 
 from __future__ import annotations
 
-from typing import Any, ClassVar, Protocol
+from importlib import import_module
+from typing import Any
 
 from vorotool.errors import InputError
 from vorotool.numeric.descriptions import described
+from vorotool.products.registry import is_of
 
 
-class Made(Protocol):
-    """A type of the library."""
-
-    maker: ClassVar[str]
-    """The function that makes a value of it."""
-
-
-def check_value(value: Any, name: str, *types: type[Made]) -> None:
-    """Refuse what is not of a type of the library."""
-    if isinstance(value, types):
+def check_value(value: Any, name: str, *types: str) -> None:
+    """Refuse what is not of a public type."""
+    if is_of(value, *types):
         return
-    expected = " or ".join(f"{_article(each.__name__)} of vorotool.{each.maker}" for each in types)
+    makers = {each: getattr(import_module("vorotool"), each).maker for each in types}
+    expected = " or ".join(f"{_article(each)} of vorotool.{maker}" for each, maker in makers.items())
     raise InputError(f"invalid {name}: expected {expected}, but got {described(value)}")
 
 

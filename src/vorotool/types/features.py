@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,9 +12,12 @@ from numpy.typing import NDArray
 from vorotool.errors import UsageError
 from vorotool.numeric.numbers import Flatten, checked_flatten
 from vorotool.numeric.ragged import Nesting
+from vorotool.products.registry import is_of
 from vorotool.types.identity import names_of, with_columns_of
-from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.table import Table
+
+if TYPE_CHECKING:
+    from vorotool.types.polygons.polygon_set import PolygonSet
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.integer]
@@ -42,7 +45,7 @@ class Areas(NamedTuple):
     in_box: bool = False  # each is convex, and they fill a box
 
 
-Geometry = Corners | Lines | Areas | PolygonSet
+Geometry = Union[Corners, Lines, Areas, "PolygonSet"]
 """Of rows. Of polygons each is a row; in files all polygons of a feature are, with its id and its properties."""
 
 
@@ -61,7 +64,7 @@ class Rows:
     def table(self, *, is_file: bool = False, has_ids: bool = True) -> Table:
         """Return all columns."""
         ours = {name: column for name, column in self._stored().items() if has_ids or name != "id"}
-        if self.further is None and self.item is not None and isinstance(self.source, PolygonSet):
+        if self.further is None and self.item is not None and is_of(self.source, "PolygonSet"):
             return with_columns_of(ours, self.source, self.item, is_part=is_file and self.is_part)
         return Table(ours).with_properties(self.further or {})
 

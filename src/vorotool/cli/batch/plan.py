@@ -14,8 +14,8 @@ from typing import Any, Generic
 import click
 from click.core import ParameterSource
 
-from vorotool.batch.inputs import Input, expand_inputs, is_several, pages_of, read_names
-from vorotool.batch.manifest import RECORD_ENDING, History, Manifest, digest_of_values, read_history
+from vorotool.batch.inputs import RECORD_ENDING, Input, expand_inputs, is_several, pages_of, read_names
+from vorotool.batch.manifest import History, Manifest, digest_of_values, read_history
 from vorotool.batch.name_fields import NameFields
 from vorotool.batch.plan import check_outputs, output_paths, share
 from vorotool.batch.tables import TABLE_FORMATS

@@ -70,7 +70,7 @@ def alpha_hull(shape: AlphaShape) -> AlphaHull:
     >>> len(hull), hull.points.tolist()
     (3, [0, 1, 2])
     """
-    check_value(shape, "shape", AlphaShape)
+    check_value(shape, "shape", "AlphaShape")
     if not len(shape.points):  # of an image without foreground
         return _no_hull(shape)
     if shape.r == np.inf:

@@ -160,7 +160,7 @@ def alpha_edges(
     >>> family.edges[index].tolist(), kind.tolist()
     ([[0, 2], [0, 1]], [1, 1])
     """
-    check_value(family, "family", AlphaComplex)
+    check_value(family, "family", "AlphaComplex")
     r = checked_radius(r)
     return _scan(family, family.reached(r), family.entered(r), checked_threads(threads), progress)
 
@@ -382,7 +382,7 @@ def alpha_curves(family: AlphaComplex, *, progress: Progress = None) -> Table:
     >>> curves["r"].tolist(), curves["area"].tolist(), curves["edges"].tolist()
     ([1.5, 2.0, 2.5], [0.0, 0.0, 6.0], [1, 2, 3])
     """
-    check_value(family, "family", AlphaComplex)
+    check_value(family, "family", "AlphaComplex")
     if family.rule != "corrected":
         raise UsageError("curves and the automatic radius are those of the corrected rule: leave out rule=printed")
     curves = _core.alpha.alpha_curves(

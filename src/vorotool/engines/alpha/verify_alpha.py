@@ -57,7 +57,7 @@ def verify_alpha_shape(shape: AlphaShape, *, threads: int = 0, progress: Progres
         ...
     vorotool.errors.VerificationError: triangle 0 is in the shape, but its circumradius is greater than r
     """
-    check_value(shape, "shape", AlphaShape)
+    check_value(shape, "shape", "AlphaShape")
     family = shape.family
     verify_triangulation(family.mesh, threads=threads, progress=progress)
     _check_sides(family)

@@ -205,7 +205,7 @@ def verify_planar_graph(graph: PlanarGraph, *, progress: Progress = None) -> Non
         ...
     vorotool.errors.VerificationError: segments 0 and 1 cross near (536870912, -536870912)
     """
-    check_value(graph, "graph", PlanarGraph)
+    check_value(graph, "graph", "PlanarGraph")
     fault = _core.arrangement.find_fault(graph.points, graph.segments, graph.segment_faces, progress)
     fault = fault or _face_fault(graph) or (_source_fault(graph) if graph.polygons is not None else None)
     if fault is not None:

@@ -111,7 +111,7 @@ def centerline(
     >>> centerline(skeleton, start=(2, 2), end=(3, 0)).flattened(0.1)[0].tolist()
     [[2.0, 1.0], [3.0, 1.0]]
     """
-    check_value(skeleton, "skeleton", Skeleton)
+    check_value(skeleton, "skeleton", "Skeleton")
     if not is_choice(ends, get_args(Ends)):
         raise UsageError(f"ends is {ends!r}: use {', '.join(get_args(Ends))}")
     is_whole = ends == "corner"

@@ -49,7 +49,7 @@ def extend_ends(skeleton: Skeleton, *, threads: int = 0, progress: Progress = No
     >>> extend_ends(skeleton).flattened(0.1)[0].tolist()
     [[0.0, 1.0], [6.0, 1.0]]
     """
-    check_value(skeleton, "skeleton", Skeleton)
+    check_value(skeleton, "skeleton", "Skeleton")
     inside = with_arcs(skeleton, skeleton.side == INTERIOR)
     stems = without_end_pieces(inside, threads=threads, progress=progress)
     count = int(stems.branch[-1]) + 1 if len(stems) else 0

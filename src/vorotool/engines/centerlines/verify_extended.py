@@ -48,10 +48,10 @@ def verify_extended(extended: ExtendedSkeleton, skeleton: Skeleton | None = None
         ...
     vorotool.errors.VerificationError: end 1 of branch 0 is led on to (3, 0.5), which is not on the boundary
     """
-    check_value(extended, "extended", ExtendedSkeleton)
+    check_value(extended, "extended", "ExtendedSkeleton")
     path = extended.path
     if skeleton is not None:
-        check_value(skeleton, "skeleton", Skeleton)
+        check_value(skeleton, "skeleton", "Skeleton")
         _check_branches(path, with_arcs(skeleton, skeleton.side == INTERIOR))
     branch, end = np.nonzero(~np.isnan(extended.ends[:, :, 0]))
     places, nodes = extended.ends[branch, end], extended.end_nodes[branch, end]

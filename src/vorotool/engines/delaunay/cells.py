@@ -123,7 +123,7 @@ def cell_colors(mesh: Triangulation, *, progress: Progress = None) -> NDArray[np
     >>> cell_colors(delaunay([[0, 0], [4, 0], [0, 3]])).tolist()
     [3, 2, 1]
     """
-    check_value(mesh, "mesh", Triangulation)
+    check_value(mesh, "mesh", "Triangulation")
     a, b = (np.ascontiguousarray(mesh.edges[:, side].astype(np.uint32)) for side in (0, 1))
     return _core.graphs.color_graph(len(mesh.points), a, b, progress)
 
@@ -245,7 +245,7 @@ def verify_cells(cells: CellSet, *, threads: int = 0, progress: Progress = None)
         ...
     vorotool.errors.VerificationError: vertex (2, 2) of cell 1 is nearer to site 0 by more than rounding explains
     """
-    check_value(cells, "cells", CellSet)
+    check_value(cells, "cells", "CellSet")
     if cells.polygon_starts is not None:
         raise InputError("cells clipped to polygons cannot be checked: check them before they are clipped")
     if not (np.isfinite(cells.sites).all() and np.isfinite(cells.coordinates).all()):

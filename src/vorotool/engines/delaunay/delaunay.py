@@ -118,7 +118,7 @@ def verify_triangulation(mesh: Triangulation, *, threads: int = 0, progress: Pro
         ...
     vorotool.errors.VerificationError: triangle 0 is not counter-clockwise
     """
-    check_value(mesh, "mesh", Triangulation)
+    check_value(mesh, "mesh", "Triangulation")
     if not np.isfinite(mesh.points).all():
         raise VerificationError("a coordinate is not finite")
     fault = triangulation_fault(mesh, checked_threads(threads), progress)

@@ -93,7 +93,7 @@ def insert_points(
     >>> insert_points(mesh, [[1, 1]]).triangles.tolist()
     [[0, 3, 2], [0, 1, 3], [3, 1, 2]]
     """
-    check_value(mesh, "mesh", Triangulation)
+    check_value(mesh, "mesh", "Triangulation")
     given = as_points(points)
     total = len(mesh.points) + len(given)
     if total > MOST_POINTS:

@@ -69,10 +69,10 @@ def site_table(
     >>> table["area"].tolist(), table["nearest_label"].tolist(), table["max_distance"].tolist() == [2**0.5] * 2
     ([4.0, 4.0], [2, 1], True)
     """
-    check_value(mesh, "mesh", Triangulation)
+    check_value(mesh, "mesh", "Triangulation")
     if cells is None:
         cells = voronoi_cells(mesh, frame=frame, threads=threads, progress=progress)
-    check_value(cells, "cells", CellSet)
+    check_value(cells, "cells", "CellSet")
     if not np.array_equal(cells.sites, mesh.points):
         raise InputError("the cells are not those of the triangulation's points: give cells made from it")
     threads = checked_threads(threads)

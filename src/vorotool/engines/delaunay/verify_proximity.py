@@ -53,7 +53,7 @@ def verify_proximity_graph(graph: ProximityGraph) -> None:
         ...
     vorotool.errors.VerificationError: the edge from point 1 to point 4 is missing in the Gabriel graph
     """
-    check_value(graph, "graph", ProximityGraph)
+    check_value(graph, "graph", "ProximityGraph")
     names = dict(zip(KINDS, ("Gabriel graph", "graph of relative neighbors", "minimum spanning tree"), strict=True))
     count, index = len(graph.mesh.edges), graph.edge_index
     if graph.kind not in names:

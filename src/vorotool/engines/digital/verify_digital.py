@@ -61,7 +61,7 @@ def verify_digital_triangulation(
     >>> seeds = [[1, 1], [6, 1], [2, 6]]
     >>> verify_digital_triangulation(digital_triangulation(seeds), seeds)
     """
-    check_value(found, "found", DigitalTriangulation)
+    check_value(found, "found", "DigitalTriangulation")
     frame = asked_frame(shape, window)
     sides = asked_sides(source, spacing)
     seeds = as_seeds(source, "source", image=image, frame=frame, sides=sides)

@@ -46,7 +46,7 @@ def verify_distances(found: Distances) -> None:
     >>> from vorotool import hausdorff
     >>> verify_distances(hausdorff([[0, 0], [4, 0]], ["LINESTRING (0 1, 4 1)"]))
     """
-    check_value(found, "found", Distances)
+    check_value(found, "found", "Distances")
     a, b = (_Checked(polygons, found.is_boundary) for polygons in found.shapes)
     places = np.concatenate([a.ends, b.ends]).reshape(-1, 2)
     extent = float(np.ptp(places, axis=0).max()) or 1.0

@@ -13,8 +13,6 @@ from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.numbers import finite_double
 from vorotool.numeric.progress import Progress
 from vorotool.types.arguments import check_value
-from vorotool.types.skeleton.centerline import Centerlines
-from vorotool.types.skeleton.extended import ExtendedSkeleton
 from vorotool.types.skeleton.led_on import LedOn
 from vorotool.types.skeleton.points_along import SkeletonPoints
 from vorotool.types.skeleton.skeleton import Skeleton
@@ -59,7 +57,7 @@ def points_along(
     >>> points.xy[points.radius == 1].tolist(), points.along[points.radius == 1].tolist()
     ([[1.0, 1.0], [3.0, 1.0], [5.0, 1.0], [7.0, 1.0]], [0.0, 2.0, 4.0, 6.0])
     """
-    check_value(skeleton, "skeleton", Skeleton, Centerlines, ExtendedSkeleton)
+    check_value(skeleton, "skeleton", "Skeleton", "Centerlines", "ExtendedSkeleton")
     every = finite_double(every, "the step")
     check_step(every)
     threads = checked_threads(threads)

@@ -69,7 +69,7 @@ def rebuild(skeleton: Skeleton, *, flatten: Flatten = None) -> PolygonSet:
     >>> rebuild(skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]])).xy.tolist()
     [[4.0, 0.0], [4.0, 2.0], [0.0, 2.0], [0.0, 0.0]]
     """
-    check_value(skeleton, "skeleton", Skeleton)
+    check_value(skeleton, "skeleton", "Skeleton")
     if skeleton.gap:
         raise UsageError(f"a skeleton with a gap of {skeleton.gap:g} leaves the corners out: use one without a gap")
     tolerance = checked_flatten(flatten)

@@ -30,7 +30,7 @@ def thickness_of_pixels(
     progress: Progress = None,
 ) -> NDArray[np.float64]:
     """Give for each pixel the diameter of the largest disc inside the polygons that covers its center."""
-    check_value(skeleton, "skeleton", Skeleton)
+    check_value(skeleton, "skeleton", "Skeleton")
     if skeleton.gap:
         raise InputError("the skeleton has a gap, so that discs do not touch the outline: compute it without")
     inside = with_arcs(skeleton, skeleton.side == INTERIOR)

@@ -53,7 +53,7 @@ def verify_discs(discs: Discs, *, progress: Progress = None) -> None:
     >>> from vorotool import largest_discs
     >>> verify_discs(largest_discs([[0, 0], [4, 0], [0, 3]]))
     """
-    check_value(discs, "discs", Discs)
+    check_value(discs, "discs", "Discs")
     tolerance = _tolerance(discs)
     _check_feet(discs, tolerance)
     if discs.within is not None:

@@ -75,7 +75,7 @@ def verify_thickness(
         ...
     vorotool.errors.VerificationError: the thickness in row 0, column 0 is 2.0, but discs of 3.0 to 3.0 cover it
     """
-    check_value(skeleton, "skeleton", Skeleton)
+    check_value(skeleton, "skeleton", "Skeleton")
     thickness, sides = _values(thickness), pair_of_doubles(sides, "sides")
     if not all(0 < side < inf for side in sides):
         raise UsageError(f"sides is {shown_number(sides)}: give numbers above 0, (height, width)")

@@ -57,7 +57,7 @@ def join_junctions(skeleton: Skeleton) -> Skeleton:
     >>> joined.vertices[joined.degree == 4].tolist()
     [[2.0, 2.0]]
     """
-    check_value(skeleton, "skeleton", Skeleton)
+    check_value(skeleton, "skeleton", "Skeleton")
     branches = Branches.of(skeleton)
     place, vanishes = merged_junctions(skeleton, branches)
     if not vanishes.any():

@@ -41,8 +41,8 @@ def verify_joining(joined: Skeleton, skeleton: Skeleton) -> None:
         ...
     vorotool.errors.VerificationError: branch 4 is 1.0 long, but the junctions that it joins are not one
     """
-    check_value(joined, "joined", Skeleton)
-    check_value(skeleton, "skeleton", Skeleton)
+    check_value(joined, "joined", "Skeleton")
+    check_value(skeleton, "skeleton", "Skeleton")
     check_counts(joined, skeleton, "joined")
     ends, expected = (int(np.count_nonzero(value.degree == 1)) for value in (joined, skeleton))
     if ends != expected:

@@ -62,7 +62,7 @@ def verify_necks(necks: Necks, *, threads: int = 0, progress: Progress = None) -
         ...
     vorotool.errors.VerificationError: neck 0: its feet are 2.0 from each other, but its width is 3.0
     """
-    check_value(necks, "necks", Necks)
+    check_value(necks, "necks", "Necks")
     threads, necks = checked_threads(threads), _placed(necks)
     places = SitePlaces(necks.skeleton)
     for foot in (0, 1):
@@ -115,7 +115,7 @@ def verify_parts(parts: Parts, *, threads: int = 0, progress: Progress = None) -
         ...
     vorotool.errors.VerificationError: piece 0: nothing touches its largest disc, of radius 0.8377223398316207
     """
-    check_value(parts, "parts", Parts)
+    check_value(parts, "parts", "Parts")
     threads = checked_threads(threads)
     verify_necks(parts.necks, threads=threads, progress=progress)
     parts = _placed_parts(parts)

@@ -70,7 +70,7 @@ def verify_offsets(
     >>> from vorotool import offset
     >>> verify_offsets(offset([[0, 0], [4, 0], [4, 2], [0, 2]], [-0.5, 1]))
     """
-    check_value(offsets, "offsets", Offsets)
+    check_value(offsets, "offsets", "Offsets")
     threads, more = checked_threads(threads), listed_distances(distances)
     tolerance = _tolerance(offsets)
     _check_chains(offsets)

@@ -111,7 +111,7 @@ def prune(
     >>> len(prune(skeleton, scale=1.4)), len(prune(skeleton, scale=1.5))
     (5, 1)
     """
-    check_value(skeleton, "skeleton", Skeleton)
+    check_value(skeleton, "skeleton", "Skeleton")
     given = {"angle": angle, "chord": chord, "scale": scale, "length": length, "ratio": ratio}
     thresholds = {name: value for name, value in given.items() if value is not None}
     if len(thresholds) != 1:
@@ -202,7 +202,7 @@ def critical_values(skeleton: Skeleton, criterion: Criterion, *, progress: Progr
     >>> critical_values(skeleton, "ratio").most.round(9).tolist()
     [1.414213562, 1.414213562, 1.414213562, 1.414213562, inf]
     """
-    check_value(skeleton, "skeleton", Skeleton)
+    check_value(skeleton, "skeleton", "Skeleton")
     if not is_choice(criterion, CRITERIA):
         raise UsageError(f"unknown criterion {criterion!r}: choose one of {', '.join(CRITERIA)}")
     ends, most, kept_arc, kept_place = _core.pruning.critical_values(
@@ -232,7 +232,7 @@ def arc_profiles(skeleton: Skeleton) -> ArcProfiles:
     >>> arc_profiles(skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]])).kind.tolist()
     [0, 0, 0, 0, 0]
     """
-    check_value(skeleton, "skeleton", Skeleton)
+    check_value(skeleton, "skeleton", "Skeleton")
     return ArcProfiles(*_core.pruning.arc_profiles(core_skeleton(skeleton)))
 
 

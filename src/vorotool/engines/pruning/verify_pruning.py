@@ -53,8 +53,8 @@ def verify_pruning(pruned: Skeleton, skeleton: Skeleton) -> None:
         ...
     vorotool.errors.VerificationError: arc 0 of the pruned skeleton is no part of an arc between sites 4 and 7
     """
-    check_value(pruned, "pruned", Skeleton)
-    check_value(skeleton, "skeleton", Skeleton)
+    check_value(pruned, "pruned", "Skeleton")
+    check_value(skeleton, "skeleton", "Skeleton")
     check_counts(pruned, skeleton, "pruned")
     at = first_wrong(~are_parts(pruned, skeleton))
     if at is not None:

@@ -82,7 +82,7 @@ def verify_skeleton(skeleton: Skeleton, *, threads: int = 0, progress: Progress 
     >>> from vorotool import skeleton_approx
     >>> verify_skeleton(skeleton_approx([[0, 0], [4, 0], [4, 2], [0, 2]], tolerance=0.1))
     """
-    check_value(skeleton, "skeleton", Skeleton)
+    check_value(skeleton, "skeleton", "Skeleton")
     threads = checked_threads(threads)
     if not len(skeleton):
         return

@@ -12,8 +12,6 @@ from vorotool.errors import InputError
 from vorotool.numeric.numbers import checked_tolerance
 from vorotool.numeric.progress import Progress
 from vorotool.types.arguments import check_value
-from vorotool.types.skeleton.centerline import Centerlines
-from vorotool.types.skeleton.extended import ExtendedSkeleton
 from vorotool.types.skeleton.led_on import LedOn
 from vorotool.types.skeleton.skeleton import Skeleton
 from vorotool.types.skeleton.smooth_lines import SmoothLines
@@ -66,7 +64,7 @@ def smooth(lines: Skeleton | LedOn, tolerance: float, *, progress: Progress = No
     >>> len(line.control), bool(line.error[0] <= 0.5)
     (2, True)
     """
-    check_value(lines, "lines", Skeleton, Centerlines, ExtendedSkeleton)
+    check_value(lines, "lines", "Skeleton", "Centerlines", "ExtendedSkeleton")
     tolerance = checked_tolerance(tolerance)
     path = lines if isinstance(lines, Skeleton) else lines.path
     size = float(np.ptp(path.vertices, axis=0).max()) if len(path.vertices) else 0.0

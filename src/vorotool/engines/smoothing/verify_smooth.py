@@ -52,7 +52,7 @@ def verify_smooth(smoothed: SmoothLines) -> None:
     >>> from vorotool import skeleton_exact, smooth
     >>> verify_smooth(smooth(skeleton_exact([[0, 0], [6, 0], [6, 2], [0, 2]]), 0.1))
     """
-    check_value(smoothed, "smoothed", SmoothLines)
+    check_value(smoothed, "smoothed", "SmoothLines")
     lines, path = smoothed.lines, smoothed.path
     first = np.flatnonzero(np.diff(path.branch, prepend=-1))
     if len(first) != len(smoothed):

@@ -85,7 +85,7 @@ def seeds_from_points(points: PointsLike, *, frame: Frame | None = None, strict:
     (2, [1, 14])
     """
     if frame is not None:
-        check_value(frame, "frame", Frame)
+        check_value(frame, "frame", "Frame")
     return seeds_in_frame(as_points(points), frame, strict=strict)
 
 

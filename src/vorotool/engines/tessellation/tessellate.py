@@ -297,7 +297,7 @@ def verify_tessellation(
     if isinstance(image, LabelVolume):
         resolved("engines.volumes.verify_volume:verify_volume")(image, max_distance=max_distance, threads=threads)
         return
-    check_value(image, "image", LabelImage)
+    check_value(image, "image", "LabelImage")
     if not isinstance(image, LabelImage) or image.seeds is None or image.frame is None:
         raise UsageError("the label image carries no seeds: make it with vorotool.tessellate")
     sides = image.sides

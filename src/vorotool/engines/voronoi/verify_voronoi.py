@@ -74,7 +74,7 @@ def verify_voronoi(cells: VoronoiMap, *, places: int = 1000) -> None:
     Traceback (most recent call last):
     vorotool.errors.VerificationError: the cells have an area of 64.0, but the frame one of 1
     """
-    check_value(cells, "cells", VoronoiMap)
+    check_value(cells, "cells", "VoronoiMap")
     places = whole_number(places, "places")
     if not 0 < places < 2**31:
         raise UsageError(f"places is {shown_number(places)}: give an integer from 1 to {2**31 - 1}")

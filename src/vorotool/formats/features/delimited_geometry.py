@@ -15,18 +15,11 @@ from vorotool.formats.features.wkb import crs_of_geometry
 from vorotool.formats.io.sources import Source, check_nesting
 from vorotool.formats.parsing.reader_options import shortened
 from vorotool.formats.parsing.reference_systems import crs_of_numbers
-from vorotool.formats.points.delimited import DelimitedText, delimited_text
+from vorotool.formats.points.delimited import GEOMETRY_COLUMNS, DelimitedText, delimited_text, geometry_column
 from vorotool.numeric.crs import without_number
 from vorotool.numeric.curves.well_known import geometry_of_binary, geometry_of_texts
 
-_GEOMETRY_COLUMNS = ("wkt", "geometry", "geom", "the_geom", "wkb", "wkb_geometry", "wkt_geom")
 _BINARY = re.compile(r"(00|01)([0-9A-Fa-f]{2}){8,}")
-
-
-def geometry_column(fields: Sequence[str]) -> int | None:
-    """Which column holds geometry, by its usual names; None if there is none."""
-    lower = [field.strip().lower() for field in fields]
-    return next((lower.index(name) for name in _GEOMETRY_COLUMNS if name in lower), None)
 
 
 def features_of(source: Source) -> Features:
@@ -35,7 +28,7 @@ def features_of(source: Source) -> Features:
     column = geometry_column(text.fields)
     if column is None:
         raise InputError(
-            f"{source.name}: no column is called as one of geometry ({', '.join(_GEOMETRY_COLUMNS)}); rename it so"
+            f"{source.name}: no column is called as one of geometry ({', '.join(GEOMETRY_COLUMNS)}); rename it so"
         )
     columns = text.columns()
     written = columns.pop(list(columns)[column])

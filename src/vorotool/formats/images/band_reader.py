@@ -12,23 +12,20 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import AS_VOLUME, InputError, option
+from vorotool.errors import AS_VOLUME, InputError
 from vorotool.formats.images.nodata import missing_values, placed_grid
 from vorotool.formats.images.tiff_grid import PageGrid, grid_of
 from vorotool.formats.images.tiff_layout import TiffLayout
 from vorotool.formats.images.tiff_reader import opened_tiff, page_layout, page_of
 from vorotool.formats.images.tiff_segments import decode_band, is_decoded_here
-from vorotool.formats.io.descriptors import stream_kind
 from vorotool.formats.io.limits import check_pixels, decoding
 from vorotool.formats.zarr.metadata import read_metadata
 from vorotool.formats.zarr.multiscales import Level, full_size, label_images
 from vorotool.formats.zarr.reader import StoredArray
-from vorotool.formats.zarr.store import is_array, is_folder, is_group, is_store
+from vorotool.formats.zarr.store import is_array, is_group
 from vorotool.types.pixel_frame import MAX_PIXELS
 from vorotool.types.pixel_grid import PixelGrid
 from vorotool.types.points.raster import Raster
-
-_TIFF_MAGIC = (b"II*\x00", b"MM\x00*", b"II+\x00", b"MM\x00+")
 
 
 @dataclass(frozen=True)
@@ -174,25 +171,6 @@ class TiffRows:
         return {"name": self.name, "path": self.path, "page": self.page}
 
 
-def open_tiff(name: str, input_format: str | None = None, page: int | None = None) -> TiffRows | None:
-    """Open a page of a TIFF file that can be read band by band; None if it is none, or comes through a stream."""
-    if input_format not in (None, "tiff") or not _begins_as_tiff(name):
-        return None
-    rows = TiffRows(name, str(Path(name).absolute()), page)
-    return rows if rows.is_plain else None
-
-
-def open_zarr(name: str, input_format: str | None = None, page: int | None = None) -> ZarrRows | None:
-    """Open what is, or should be, a Zarr array: a folder that holds one, or is named or said to; None if it is none."""
-    if input_format not in (None, "zarr") or not is_folder(name):
-        return None
-    if input_format is None and not is_store(name) and not name.rstrip(os.sep).lower().endswith(".zarr"):
-        return None
-    if page not in (None, 0):
-        raise InputError(f"{name} has a single page, so there is no {option(f'--page {page}')}")
-    return ZarrRows(name, str(Path(name).absolute()))
-
-
 def read_rows(
     rows: ZarrRows | TiffRows, *, max_pixels: int = MAX_PIXELS, note: Callable[[str], None] | None = None
 ) -> Raster:
@@ -209,14 +187,3 @@ def plain_values(values: NDArray[Any]) -> NDArray[Any]:
     if values.dtype == np.bool_:
         return values.astype(np.uint8)
     return values.astype(values.dtype.newbyteorder("="), copy=False)
-
-
-def _begins_as_tiff(name: str) -> bool:
-    """Whether a file begins as a TIFF does; streams, which have one beginning only, are read whole elsewhere."""
-    try:
-        if stream_kind(name) is not None:
-            return False
-        with Path(name).open("rb") as file:
-            return file.read(4) in _TIFF_MAGIC
-    except (OSError, ValueError):  # who reads it says why
-        return False

@@ -12,33 +12,15 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError, Message, option
 from vorotool.formats.images.jpeg_sizes import jpeg_frame
+from vorotool.formats.images.magic import PICTURES, picture_format
 from vorotool.formats.io.limits import check_pixels, decoding, interruptible
 from vorotool.formats.io.sources import Source
-
-PICTURES = {"jpeg": "JPEG", "bmp": "BMP", "gif": "GIF", "webp": "WebP", "avif": "AVIF"}
-"""Formats and what they are called."""
 
 _ANIMATED = ("gif", "webp", "avif")
 _HUFFMAN = (0xC0, 0xC1, 0xC2)
 _MOST_EXPANSION = 512  # of Huffman codes: a bit a block of 8 x 8 pixels at the least
-_BMP_HEADERS = (12, 16, 40, 52, 56, 64, 108, 124)
 _PLAIN = {"CMYK": "RGB", "YCbCr": "RGB", "LAB": "RGB", "HSV": "RGB", "RGBX": "RGB", "La": "LA", "RGBa": "RGBA"}
 _LIMITS = threading.Lock()
-
-
-def picture_format(data: bytes) -> str | None:
-    """Which of `PICTURES` data begins as."""
-    if data.startswith(b"\xff\xd8\xff"):
-        return "jpeg"
-    if data.startswith((b"GIF87a", b"GIF89a")):
-        return "gif"
-    if data.startswith(b"RIFF") and data[8:12] == b"WEBP":
-        return "webp"
-    if data[4:12] in (b"ftypavif", b"ftypavis"):
-        return "avif"
-    if data.startswith(b"BM") and int.from_bytes(data[14:18], "little") in _BMP_HEADERS:
-        return "bmp"
-    return None
 
 
 def is_lossy(data: bytes, kind: str) -> bool:

@@ -13,15 +13,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
+from vorotool.formats.images.magic import GAP
 from vorotool.formats.io.limits import check_pixels
 from vorotool.formats.io.sources import Source
 
 _LARGEST_MAXIMUM = 65_535
-_GAP = rb"(?:\s|#[^\n\r]*[\n\r])+"
-_START = re.compile(rb"P([1-6])" + _GAP + rb"(?=[0-9])")
 _HEADERS = {
-    True: re.compile(rb"P[14]" + _GAP + rb"(\d{1,18})" + _GAP + rb"(\d{1,18})()(?:\s|(?=#)|$)"),
-    False: re.compile(rb"P[2356]" + (_GAP + rb"(\d{1,18})") * 3 + rb"(?:\s|(?=#)|$)"),
+    True: re.compile(rb"P[14]" + GAP + rb"(\d{1,18})" + GAP + rb"(\d{1,18})()(?:\s|(?=#)|$)"),
+    False: re.compile(rb"P[2356]" + (GAP + rb"(\d{1,18})") * 3 + rb"(?:\s|(?=#)|$)"),
 }
 _COMMENT = re.compile(rb"#[^\n\r]*")
 
@@ -34,11 +33,6 @@ class PnmHeader(NamedTuple):
     height: int
     maximum: int
     offset: int
-
-
-def looks_like_pnm(data: bytes) -> bool:
-    """Tell whether data begins as a PBM, PGM or PPM file: P1 to P6, space or comments, a number."""
-    return _START.match(data[:65_536]) is not None
 
 
 def pnm_header(source: Source) -> PnmHeader:

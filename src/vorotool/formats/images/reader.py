@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 
 from vorotool.errors import AS_VOLUME, InputError, option
 from vorotool.formats.images import npy, png_reader, pnm_reader, tiff_reader
+from vorotool.formats.images.magic import PICTURES
 from vorotool.formats.images.nodata import tiff_raster
-from vorotool.formats.images.picture_reader import PICTURES, is_lossy, read_picture_file
+from vorotool.formats.images.picture_reader import is_lossy, read_picture_file
 from vorotool.formats.images.world_file import world_grid
 from vorotool.formats.io.limits import check_pixels
 from vorotool.formats.io.npy_arrays import npy_header

@@ -21,10 +21,8 @@ are tagged with removes them; so it is with names of version 0.1.0.
 from __future__ import annotations
 
 import errno
-import hashlib
 import os
 import re
-import secrets
 import shutil
 import stat
 import sys
@@ -196,7 +194,7 @@ def _make_ours(folder: Path, make: Callable[[Path], int], ending: str, names: li
     if fcntl is None or host == f"{_UNKNOWN}{_UNKNOWN}-":
         host = ""
     while True:
-        names.append(folder / f".vorotool-{host}{_TAG.get()}{secrets.token_hex(8)}{ending}")
+        names.append(folder / f".vorotool-{host}{_TAG.get()}{os.urandom(8).hex()}{ending}")
         descriptor = make(names[-1])
         if not host:
             return descriptor
@@ -276,6 +274,8 @@ def _host() -> tuple[str, str]:
 
 
 def _digest(text: str) -> str:
+    import hashlib
+
     return hashlib.sha256(text.encode()).hexdigest()[:12] if text else _UNKNOWN
 
 

@@ -34,6 +34,9 @@ from vorotool.numeric.number_text import typed_texts
 from vorotool.types.axis import UNSTATED, UP
 from vorotool.types.points.point_set import PointSet
 
+GEOMETRY_COLUMNS = ("wkt", "geometry", "geom", "the_geom", "wkb", "wkb_geometry", "wkt_geom")
+"""Names of columns with geometry."""
+
 _QUOTED = re.compile(r'"[^"]*"')
 
 
@@ -92,6 +95,12 @@ def header_fields(data: bytes) -> list[str]:
     data = _plain_lines(data)
     first = _core.text.first_record(data, _guess_delimiter(data))
     return [] if first is None else first[2]
+
+
+def geometry_column(fields: Sequence[str]) -> int | None:
+    """Which column holds geometry, by its usual names; None if there is none."""
+    lower = [field.strip().lower() for field in fields]
+    return next((lower.index(name) for name in GEOMETRY_COLUMNS if name in lower), None)
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.formats.results.writer import written_areas
+from vorotool.formats.results.geometry_text import written_areas
 from vorotool.formats.text.row_writer import Column, RowShape, write_list_rows
 from vorotool.formats.text.tables import json_column, object_shape, placed_column, write_npz
 from vorotool.numeric.ragged import owners, within

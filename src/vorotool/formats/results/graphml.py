@@ -11,7 +11,7 @@ from xml.sax.saxutils import escape, quoteattr
 import numpy as np
 
 from vorotool.convert.tables import listed
-from vorotool.formats.results.writer import line_column
+from vorotool.formats.results.geometry_text import line_column
 from vorotool.formats.text.row_writer import Column, RowShape, check_precision, write_rows
 from vorotool.formats.text.tables import json_text
 from vorotool.numeric.xml_text import xml_characters

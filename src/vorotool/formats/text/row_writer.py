@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.errors import UsageError, option
 from vorotool.numeric.coordinate_grid import on_grid
+from vorotool.numeric.masked import is_masked_array
 from vorotool.numeric.numbers import shown_number, whole_number
 from vorotool.numeric.parallel import in_order
 from vorotool.types.table import Computed, Lookup
@@ -56,7 +57,7 @@ class Column:
             return Column(name, Lookup(_widened(values), column.index) if isinstance(values, np.ndarray) else column)
         if isinstance(column, Computed):
             return Column(name, column)
-        mask = np.ma.getmaskarray(column) if isinstance(column, np.ma.MaskedArray) else None
+        mask = np.ma.getmaskarray(column) if is_masked_array(column) else None
         array = _as_array(np.ma.getdata(column) if mask is not None else column)
         if array is None or array.dtype.kind not in "biuf":
             values = column.tolist() if isinstance(column, np.ndarray) else list(column)

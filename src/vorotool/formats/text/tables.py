@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import re
-import zipfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import replace
 from datetime import date
-from typing import Any, BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +20,9 @@ from vorotool.numeric.number_text import NumberText
 from vorotool.numeric.parallel import in_order
 from vorotool.types.summaries import MEASURE, unit_of_measure
 from vorotool.types.table import Computed, Lookup, Table
+
+if TYPE_CHECKING:
+    import zipfile
 
 _SLICE_VALUES = 1 << 16  # numbers of an array that are gathered and written at a time
 
@@ -203,9 +205,15 @@ class _Stream:
         self._out.flush()
 
 
+def _archive(out: BinaryIO) -> zipfile.ZipFile:
+    import zipfile
+
+    return zipfile.ZipFile(_Stream(out), "w", zipfile.ZIP_STORED)  # type: ignore[call-overload,no-any-return]
+
+
 def write_npz(out: BinaryIO, columns: list[Column], threads: int) -> None:
     """Write one array a column, of any lengths."""
-    with zipfile.ZipFile(_Stream(out), "w", zipfile.ZIP_STORED) as archive:  # type: ignore[call-overload]
+    with _archive(out) as archive:
         for column in columns:
             _write_array(archive, column.name, _npz_values(column), threads)
             if column.missing is not None:
@@ -214,7 +222,7 @@ def write_npz(out: BinaryIO, columns: list[Column], threads: int) -> None:
 
 def write_arrays(out: BinaryIO, arrays: Mapping[str, NDArray[Any]], *, threads: int = 0) -> None:
     """Write 1-D arrays of any lengths as NPZ: the same bytes for the same arrays."""
-    with zipfile.ZipFile(_Stream(out), "w", zipfile.ZIP_STORED) as archive:  # type: ignore[call-overload]
+    with _archive(out) as archive:
         for name, values in arrays.items():
             _write_array(archive, name, values, threads)
 
@@ -250,6 +258,8 @@ def _numbers(values: Sequence[Any]) -> NDArray[Any] | None:
 
 def _write_array(archive: zipfile.ZipFile, name: str, values: NDArray[Any] | Lookup | Computed, threads: int) -> None:
     """Write an array part by part: the next ones are gathered while one is summed and written."""
+    import zipfile
+
     entry = zipfile.ZipInfo(f"{name}.npy", date_time=(1980, 1, 1, 0, 0, 0))
     entry.create_system = 3  # what the file says of the machine that wrote it: always the same
     entry.external_attr = 0o644 << 16

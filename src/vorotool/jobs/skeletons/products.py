@@ -13,10 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError, Kind, Message, RepairWarning, VorotoolWarning
+from vorotool.jobs.checked_columns import check_columns
 from vorotool.jobs.inputs import JobInput, refuse
 from vorotool.jobs.options import Place, SkeletonOptions
 from vorotool.jobs.picture_style import styled_page
-from vorotool.jobs.picture_world import check_columns, world_of_polygons
+from vorotool.jobs.picture_world import world_of_polygons
 from vorotool.jobs.pictures import write_layers
 from vorotool.jobs.pixel_sizes import placed_backdrop
 from vorotool.jobs.pruning_choice import CRITERIA, LENGTHS, Pruning, chosen_pruning

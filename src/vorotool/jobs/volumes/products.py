@@ -20,9 +20,10 @@ from vorotool.engines.volumes.volume_regions import VolumeRegions, regions_of_sw
 from vorotool.engines.volumes.volume_tables import neighbors_of_regions, table_of_regions
 from vorotool.engines.volumes.volume_tessellator import VolumeSweep
 from vorotool.errors import LimitError
+from vorotool.jobs.checked_columns import check_columns
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.options import TessellationOptions
-from vorotool.jobs.picture_world import check_columns, world_of
+from vorotool.jobs.picture_world import world_of
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import PixelSize, unit_columns

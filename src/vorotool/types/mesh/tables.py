@@ -38,7 +38,7 @@ def edge_table(mesh: AnyTriangulation | ProximityGraph) -> Table:
     >>> table["label_a"].tolist(), table["label_b"].tolist(), table["length"].tolist()
     ([1, 1, 2], [3, 2, 3], [3.0, 4.0, 5.0])
     """
-    check_value(mesh, "mesh", Triangulation, DigitalTriangulation, ProximityGraph)
+    check_value(mesh, "mesh", "Triangulation", "DigitalTriangulation", "ProximityGraph")
     columns = {**end_columns(mesh, mesh.edges), "length": Computed(mesh.edge_lengths, len(mesh.edges))}
     return with_ends(columns, mesh.properties, dict(zip("ab", mesh.edges.T, strict=True)))
 
@@ -69,7 +69,7 @@ def triangle_table(mesh: AnyTriangulation) -> Table:
     >>> {name: column.tolist() for name, column in triangle_table(delaunay([[0, 0], [4, 0], [0, 3]])).items()}
     {'label_a': [1], 'label_b': [2], 'label_c': [3]}
     """
-    check_value(mesh, "mesh", Triangulation, DigitalTriangulation)
+    check_value(mesh, "mesh", "Triangulation", "DigitalTriangulation")
     labels = mesh.label_array
     corners = dict(zip("abc", mesh.triangles.T, strict=True))
     columns = {f"label_{name}": Lookup(labels, corner) for name, corner in corners.items()}
@@ -97,7 +97,7 @@ def point_table(mesh: Triangulation) -> Table:
     >>> point_table(delaunay([[0, 0], [4, 0], [0, 3], [1, 1]]))["neighbors"].tolist()
     [3, 3, 3, 3]
     """
-    check_value(mesh, "mesh", Triangulation)
+    check_value(mesh, "mesh", "Triangulation")
     return Table(_point_columns(mesh)).with_properties(mesh.properties)
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
+from vorotool.numeric.masked import is_masked_array
 from vorotool.products.formats import resolved
 from vorotool.types.axis import DOWN, YAxis
 from vorotool.types.pixel_frame import Frame
@@ -57,7 +58,7 @@ class LabelImage(Value, Tabular, Geometric, Graph, Pixels):
 
     def __post_init__(self) -> None:
         labels = self.labels
-        labels = labels.filled(0) if isinstance(labels, np.ma.MaskedArray) else np.asarray(labels)
+        labels = labels.filled(0) if is_masked_array(labels) else np.asarray(labels)
         if labels.ndim != 2 or labels.dtype.kind not in "ui":
             raise InputError(f"labels must be a 2-D integer array, but are {labels.ndim}-D of type {labels.dtype}")
         object.__setattr__(self, "labels", labels)

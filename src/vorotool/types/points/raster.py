@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
+from vorotool.numeric.masked import is_masked_array
 from vorotool.types import fields as f
 from vorotool.types.axis import DOWN, YAxis
 from vorotool.types.fields import record
@@ -50,7 +51,7 @@ class Raster(Value, Pixels):
     y_axis: YAxis = f.y_axis(default=DOWN)
 
     def __post_init__(self) -> None:
-        if isinstance(self.values, np.ma.MaskedArray):
+        if is_masked_array(self.values):
             mask = np.ma.getmaskarray(self.values)
             object.__setattr__(self, "mask", mask.any(axis=2) if mask.ndim == 3 else mask)
             object.__setattr__(self, "values", self.values.filled(0))

@@ -50,7 +50,7 @@ def arc_table(skeleton: Skeleton) -> Table:
     >>> arc_table(skeleton_exact([[0, 0], [4, 0], [0, 3]]))["r1"].tolist()
     [1.0, 1.0, 1.0]
     """
-    check_value(skeleton, "skeleton", Skeleton)
+    check_value(skeleton, "skeleton", "Skeleton")
     source, target = np.ascontiguousarray(skeleton.arcs.T)
     x, y = np.ascontiguousarray(skeleton.as_given.vertices.T)
     cx, cy = np.ascontiguousarray(skeleton.control.T)
@@ -116,7 +116,7 @@ def element_table(skeleton: Skeleton) -> Table:
     >>> table["label_a"].tolist(), table["label_b"].tolist()
     ([1, 1, 2, 1, 2, 3], [3, 2, 3, None, None, None])
     """
-    check_value(skeleton, "skeleton", Skeleton)
+    check_value(skeleton, "skeleton", "Skeleton")
     sites = skeleton.site_table
     is_edge = sites.kind == EDGE
     ends = skeleton.as_given.site_ends
@@ -188,7 +188,7 @@ def branch_table(skeleton: Skeleton, *, threads: int = 0) -> Table:
     >>> table["kind"].tolist().count("inner"), table["type"].tolist().count("junction-end")
     (1, 4)
     """
-    check_value(skeleton, "skeleton", Skeleton)
+    check_value(skeleton, "skeleton", "Skeleton")
     polygon = skeleton.polygon[_branch_starts(skeleton)]
     columns = {**names_of(skeleton.polygons, polygon), **branch_columns(skeleton, threads=threads)}
     return part_table(columns, skeleton.polygons, polygon)
@@ -274,7 +274,7 @@ def polygon_table(skeleton: Skeleton, *, columns: Mapping[str, Any] | None = Non
     >>> [table[name].tolist() for name in ("area", "ends", "junctions", "cycles", "width_max")]
     [[8.0], [4], [2], [0], [2.0]]
     """
-    check_value(skeleton, "skeleton", Skeleton)
+    check_value(skeleton, "skeleton", "Skeleton")
     further = _mapping(columns)
     polygons, count = skeleton.polygons, len(skeleton.polygons)
     is_inside = skeleton.side == INTERIOR

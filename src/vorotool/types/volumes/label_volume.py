@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
+from vorotool.numeric.masked import is_masked_array
 from vorotool.products.formats import resolved
 from vorotool.types.spacing import PixelSides
 from vorotool.types.values import Elements, Graph, Tabular, Value
@@ -59,7 +60,7 @@ class LabelVolume(Value, Tabular, Graph, Elements):
 
     def __post_init__(self) -> None:
         labels = self.labels
-        labels = labels.filled(0) if isinstance(labels, np.ma.MaskedArray) else np.asarray(labels)
+        labels = labels.filled(0) if is_masked_array(labels) else np.asarray(labels)
         if labels.ndim != 3 or labels.dtype.kind not in "ui":
             raise InputError(f"labels must be a 3-D integer array, but are {labels.ndim}-D of type {labels.dtype}")
         object.__setattr__(self, "labels", labels)
