@@ -6,7 +6,6 @@ import glob
 import os
 import re
 from collections.abc import Callable, Collection, Iterable
-from dataclasses import dataclass
 from pathlib import Path
 
 from vorotool.batch.pages import PageName
@@ -14,6 +13,7 @@ from vorotool.batch.search import LeftOut, Search
 from vorotool.errors import InputError, UsageError
 from vorotool.formats.io.descriptors import stream_kind
 from vorotool.formats.zarr.store import is_folder, is_store
+from vorotool.plain import plain
 
 RECORD_ENDING = ".manifest.jsonl"
 """Of the names of manifests, which begin with that of the command."""
@@ -24,7 +24,7 @@ HEAD = 2**16
 _NUMBER = re.compile(rb"(?<![\w.])[-+]?(?:\d++(?:\.\d*+)?|\.\d++)(?:[eE][-+]?\d+)?(?![\w.])")
 
 
-@dataclass(frozen=True)
+@plain
 class Input:
     """One input of a batch."""
 

@@ -7,7 +7,7 @@ import hashlib
 import json
 import os
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path, PurePath
 from types import TracebackType
 from typing import Any, BinaryIO
@@ -16,6 +16,7 @@ from vorotool import __version__
 from vorotool.batch.tasks import INPUT, Outcome, Task
 from vorotool.errors import InputError, OutputError
 from vorotool.formats.io.atomic_output import make_folder
+from vorotool.plain import plain
 
 LEVELS = 8
 """Of brackets in a line; ours have three."""
@@ -29,7 +30,7 @@ def digest_of_values(values: Any) -> str:
     return hashlib.sha256(json.dumps(values, sort_keys=True, default=str).encode()).hexdigest()
 
 
-@dataclass(frozen=True)
+@plain
 class Done:
     """A manifest's line of an input that was done: all of it is text that anybody may have written."""
 
@@ -38,7 +39,7 @@ class Done:
     outputs: dict[str, str]  # digests of the outputs by their paths in the folder
 
 
-@dataclass(frozen=True)
+@plain
 class History:
     """Contents of manifests."""
 

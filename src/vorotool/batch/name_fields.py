@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from vorotool.errors import UsageError
+from vorotool.plain import plain
 
 EXAMPLE = "(?P<well>[A-H]\\d+)_(?P<field>\\d+)"
 
 
-@dataclass(frozen=True)
+@plain
 class NameFields:
     """Named groups that are looked for in the names of inputs."""
 

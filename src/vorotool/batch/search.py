@@ -13,6 +13,7 @@ from pathlib import Path
 from vorotool.errors import InputError
 from vorotool.formats.io.descriptors import stream_kind
 from vorotool.formats.zarr.store import is_folder, is_store
+from vorotool.plain import plain
 
 MOST_NAMED = 10
 """Names that a note lists."""
@@ -59,7 +60,7 @@ def _listed(names: Collection[str]) -> str:
     return ", ".join(sorted(names)[:MOST_NAMED]) + more
 
 
-@dataclass(frozen=True)
+@plain
 class Search:
     """A search of folders."""
 

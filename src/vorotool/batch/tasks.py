@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from pathlib import Path
 from typing import Any
 
@@ -12,12 +12,13 @@ from vorotool import __version__
 from vorotool.batch.pages import path_of
 from vorotool.formats.io.descriptors import stream_kind
 from vorotool.formats.io.temporaries import tagged_temporaries
+from vorotool.plain import plain
 
 INPUT = ""
 """Stands for the input where digests are by the paths of outputs."""
 
 
-@dataclass(frozen=True)
+@plain
 class Task:
     """The work for one input."""
 
@@ -28,7 +29,7 @@ class Task:
     done: Mapping[str, str] | None = None
 
 
-@dataclass(frozen=True)
+@plain
 class Outcome:
     """The outcome of one input."""
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import Any
 
 import numpy as np
@@ -14,6 +14,7 @@ from vorotool.errors import InputError, warn
 from vorotool.numeric.crs import crs_member, member_of_text, without_number
 from vorotool.numeric.descriptions import LONGEST
 from vorotool.numeric.row_index import index_of_rows
+from vorotool.plain import plain
 from vorotool.products.formats import resolved
 from vorotool.types.axis import UP, YAxis, y_axis_member
 
@@ -27,7 +28,7 @@ MOST_LEVELS = 100
 """Of brackets in well-known text, as in files."""
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class HeldFeatures:
     """Features, one geometry each, and what is known of them."""
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from math import isnan
 from typing import Any
 
@@ -20,6 +20,7 @@ from vorotool.numeric.degrees import note_degrees
 from vorotool.numeric.descriptions import items_of, naming, unexpected
 from vorotool.numeric.numbers import shown_number
 from vorotool.numeric.row_index import index_of_rows
+from vorotool.plain import plain
 from vorotool.products.formats import resolved
 from vorotool.types.axis import UP
 from vorotool.types.box import Box, bounds
@@ -38,7 +39,7 @@ EXPECTED = (
 )
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class Sites:
     """Sites of a Voronoi diagram, and what the input says of them."""
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +15,7 @@ from vorotool.formats.parsing.reader_options import ReadOptions, no_note
 from vorotool.formats.recognition import read_recognised, recognised, refuse_for_images
 from vorotool.numeric.checks import checked_flag, checked_threads
 from vorotool.numeric.numbers import Flatten, checked_flatten, checked_tolerance
+from vorotool.plain import plain
 from vorotool.products.inputs import NAMES_WITH, known_input_format
 from vorotool.types.axis import y_axis_of
 
@@ -47,7 +48,7 @@ def opened(
         yield Opened(name, geometry, said, page, layer, open_zarr(name, said, page))
 
 
-@dataclass(frozen=True)
+@plain
 class Opened:
     """An input that is read once, whole or by its rows."""
 

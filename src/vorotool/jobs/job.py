@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Generic, Protocol, TypeVar
 
@@ -14,6 +13,7 @@ from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target, check_targets, check_with
 from vorotool.jobs.units import shows_units, unit_stats
 from vorotool.numeric.progress import Progress
+from vorotool.plain import plain
 from vorotool.products.formats import FORMATS
 from vorotool.signals import end_by_exceptions
 
@@ -36,7 +36,7 @@ class Products(Protocol):
         """Counts and sizes."""
 
 
-@dataclass(frozen=True)
+@plain
 class Recipe(Generic[Options]):
     """A command, as far as it is about one input."""
 

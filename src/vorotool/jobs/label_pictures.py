@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.plain import plain
 from vorotool.types.points.label_image import LabelImage
 
 if TYPE_CHECKING:
@@ -29,7 +30,7 @@ LEAST_SPACING = 6.0
 """Pixels between the middles of cells, below which borders in PNG would hide them."""
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class LabelPicture:
     """A label image, and how it is drawn."""
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -18,6 +17,7 @@ from vorotool.errors import LimitError
 from vorotool.jobs.options import TessellationOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
+from vorotool.plain import plain
 from vorotool.types.pixel_frame import Frame
 
 RowsOf = Callable[[int, int], NDArray[Any]]
@@ -27,7 +27,7 @@ SAMPLES = 3
 """Bands that are encoded to learn how much room all need, where it may not be there."""
 
 
-@dataclass(frozen=True)
+@plain
 class Stream:
     """An image that need not be in memory."""
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from itertools import combinations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,6 +12,7 @@ from vorotool.formats.io.atomic_output import is_same_file, spoken
 from vorotool.formats.io.descriptors import STANDARD, descriptor_of, is_same_output, stream_kind
 from vorotool.formats.io.sources import without_gz
 from vorotool.jobs.picture_style import check_style
+from vorotool.plain import plain
 from vorotool.products.formats import EXTENSIONS, FORMATS, TABLES, format_named, with_digits
 from vorotool.products.registry import NAMING_FEATURES
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from vorotool.jobs.options import ComputingOptions, JobOptions
 
 
-@dataclass(frozen=True)
+@plain
 class Target:
     """One output: ``path`` is a file's name, or ``-`` for standard output."""
 

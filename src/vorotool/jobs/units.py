@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
 from functools import partial
 from math import prod
@@ -15,6 +15,7 @@ from vorotool.jobs.given import changed
 from vorotool.jobs.names import PLOTS
 from vorotool.jobs.pruning_choice import LENGTHS as PRUNED_LENGTHS
 from vorotool.jobs.pruning_choice import Pruning
+from vorotool.plain import plain
 from vorotool.products.formats import FORMATS
 
 if TYPE_CHECKING:
@@ -121,7 +122,7 @@ def shows_units(targets: Sequence[Target]) -> bool:
     return any(_has_units(target) for target in targets)
 
 
-@dataclass(frozen=True, slots=True)
+@plain
 class Measured:
     """A length, an area or a volume with a unit, as an option has it until the size of a pixel is known."""
 

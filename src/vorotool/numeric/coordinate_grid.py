@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import UsageError, option
 from vorotool.numeric.numbers import shown_number, whole_number
+from vorotool.plain import plain
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -81,7 +82,7 @@ def current_decimals() -> int | None:
     return _DECIMALS.get()
 
 
-@dataclass(frozen=True)
+@plain
 class Grid:
     """Multiples of a step: of 10 to the power -decimals, or of 2 to the power of the exponent."""
 

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from importlib import import_module
 from typing import Any, NamedTuple
 
 from vorotool.errors import option
+from vorotool.plain import plain
 
 
 class Writer(NamedTuple):
@@ -19,7 +20,7 @@ class Writer(NamedTuple):
     """Options that it has, of these and ``flatten``."""
 
 
-@dataclass(frozen=True, slots=True)
+@plain
 class Format:
     """A format of outputs."""
 

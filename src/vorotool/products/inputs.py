@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Literal
 
 from vorotool.errors import UsageError, option
+from vorotool.plain import plain
 
 Holds = Literal["points", "polygons", "sites", "image", "skeleton", "offsets", "voronoi"]
 """What an input may hold: polygons stand for lines, too, and sites for all three; they are polygons by default."""
 
 
-@dataclass(frozen=True, slots=True)
+@plain
 class InputFormat:
     """A format of inputs."""
 

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import Any, NamedTuple
 
+from vorotool.plain import plain
 from vorotool.products.formats import ANIMATIONS, FORMATS, PICTURES, TABLES, Format, Writer
 
 
-@dataclass(frozen=True, slots=True)
+@plain
 class Product:
     """A result that can be written, as ``what`` has it."""
 

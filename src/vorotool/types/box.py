@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,6 +10,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.numeric.numbers import finite_double, nearest_double, real_number
+from vorotool.plain import plain
 
 if TYPE_CHECKING:
     from vorotool.types.polygons.polygon_set import PolygonSet
@@ -33,7 +33,7 @@ def bounds(points: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
     return np.array([column.min() for column in columns]), np.array([column.max() for column in columns])
 
 
-@dataclass(frozen=True)
+@plain
 class Box:
     """A closed rectangle in the units of the input.
 

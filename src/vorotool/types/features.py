@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import TYPE_CHECKING, Any, NamedTuple, Union
 
 import numpy as np
@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from vorotool.errors import UsageError
 from vorotool.numeric.numbers import Flatten, checked_flatten
 from vorotool.numeric.ragged import Nesting
+from vorotool.plain import plain
 from vorotool.products.registry import is_of
 from vorotool.types.identity import names_of, with_columns_of
 from vorotool.types.table import Table
@@ -49,7 +50,7 @@ Geometry = Union[Corners, Lines, Areas, "PolygonSet"]
 """Of rows. Of polygons each is a row; in files all polygons of a feature are, with its id and its properties."""
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class Rows:
     """Rows of a value, with columns and maybe with geometry."""
 

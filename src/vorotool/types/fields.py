@@ -6,8 +6,7 @@ that nobody changes, and what becomes of the field in another unit of length.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import MISSING, dataclass, field, fields, replace
+from dataclasses import MISSING, field, fields, replace
 from enum import Enum
 from typing import Any, TypeVar, dataclass_transform
 
@@ -15,6 +14,7 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from vorotool.errors import InputError
+from vorotool.plain import plain
 from vorotool.types.axis import YAxis, checked_y_axis
 
 _KEY = "declared"
@@ -34,7 +34,7 @@ class Meaning(Enum):
     VALUE = "value"
 
 
-@dataclass(frozen=True)
+@plain
 class Declared:
     """What a field holds."""
 
@@ -190,8 +190,7 @@ def with_y_axis(value: T, axis: YAxis) -> T:
 )
 def record(kind: type[T]) -> type[T]:
     """Make a frozen data class of one with declared fields."""
-    decorate: Callable[[type[T]], type[T]] = dataclass(frozen=True, eq=False, repr=False)
-    return decorate(kind)
+    return plain(eq=False, repr=False)(kind)
 
 
 class Record:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from vorotool.errors import InputError, option
+from vorotool.plain import plain
 
 if TYPE_CHECKING:
     from vorotool.types.box import Box
@@ -14,7 +14,7 @@ FARTHEST = 2**44
 """No seed lies farther from the origin (in pixels)."""
 
 
-@dataclass(frozen=True)
+@plain
 class Frame:
     """A window of pixels: pixel (0, 0) of the image has its center at (``x``, ``y``).
 

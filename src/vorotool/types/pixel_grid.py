@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fractions import Fraction
 from math import sqrt
 from typing import Any, Literal
 
 from vorotool.errors import UsageError
 from vorotool.numeric.length_units import unit_name
+from vorotool.plain import plain
 from vorotool.types.spacing import PixelSides, pixel_sides
 
 Form = Literal["tiff", "imagej", "ome", "map"]
@@ -18,7 +18,7 @@ ALIKE = Fraction(1, 10**7)
 """Sides that differ by no more of their length are one: files round them, each by itself."""
 
 
-@dataclass(frozen=True)
+@plain
 class GeoKeys:
     """The keys of a GeoTIFF, as they are stored: they go from an input to what is made of it."""
 
@@ -27,7 +27,7 @@ class GeoKeys:
     text: str = ""  # `GeoAsciiParams`
 
 
-@dataclass(frozen=True)
+@plain
 class PixelGrid:
     """The grid of the pixels of an image, in units of the world.
 

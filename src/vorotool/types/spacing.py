@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fractions import Fraction
 from math import gcd, isfinite, lcm
 from typing import Any
@@ -11,6 +10,7 @@ import numpy as np
 
 from vorotool.errors import UsageError
 from vorotool.numeric.numbers import real_number, shown_number
+from vorotool.plain import plain
 
 MOST_STEPS = 2**21
 """Steps that a side has at most: those of a seed between pixels are a multiple."""
@@ -21,7 +21,7 @@ LARGEST_STEP = 10**140
 _ORDER = {2: "(height, width)", 3: "(depth, height, width)"}
 
 
-@dataclass(frozen=True)
+@plain
 class PixelSides:
     """The sides of a pixel or a voxel."""
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, ItemsView, Iterator, Mapping, Sequence, ValuesView
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -11,11 +10,12 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.numeric.equality import is_equal
+from vorotool.plain import plain
 from vorotool.products.formats import resolved
 from vorotool.types.values import Tabular, counted
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class Lookup:
     """A column that shows the values of other objects: row i holds ``values[index[i]]``."""
 
@@ -39,7 +39,7 @@ def object_column(values: Sequence[Any]) -> NDArray[Any]:
     return array
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class Computed:
     """A column of numbers that are computed when its rows are asked for."""
 

@@ -2,13 +2,13 @@
 
 import json
 import shutil
-from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
 import pytest
 
 from vorotool.cli.options.lengths import Distances, ExactLength, Length, Radius, measured
+from vorotool.jobs.given import changed, names_of
 from vorotool.jobs.options import TessellationOptions
 from vorotool.jobs.units import Measured, PixelSize, lengths_in_pixels
 from vorotool.numeric.length_units import METRES, is_known, ratio
@@ -157,8 +157,8 @@ def test_plain_numbers_are_what_they_were():
 
 
 def test_options_without_units_are_the_same_value():
-    options = TessellationOptions(**dict.fromkeys(TessellationOptions.__dataclass_fields__))
+    options = TessellationOptions(**dict.fromkeys(names_of(TessellationOptions)))
     assert lengths_in_pixels(options, None) is options
     size = PixelSize(Fraction("0.325"), "um")
-    given = replace(options, max_distance=ExactLength().convert("1.3um", None, None))
+    given = changed(options, max_distance=ExactLength().convert("1.3um", None, None))
     assert lengths_in_pixels(given, size).max_distance == 4

@@ -7,7 +7,7 @@ import re
 import tempfile
 from collections.abc import Callable
 from contextlib import ExitStack
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, Generic
 
@@ -30,6 +30,7 @@ from vorotool.jobs.job import Options, Recipe
 from vorotool.jobs.options import ALL_PAGES, ComputingOptions, JobOptions
 from vorotool.jobs.targets import Target, plan_targets
 from vorotool.jobs.units import check_units, lengths_in_pixels
+from vorotool.plain import plain
 from vorotool.products.formats import EXTENSIONS
 
 WITHOUT_EFFECT = frozenset(
@@ -38,7 +39,7 @@ WITHOUT_EFFECT = frozenset(
 """Options that change no byte of an output."""
 
 
-@dataclass(frozen=True)
+@plain
 class JointTable:
     """The table of all inputs."""
 
@@ -61,7 +62,7 @@ class JointTable:
         return Target(self.what, path, self.fmt)
 
 
-@dataclass(frozen=True)
+@plain
 class Plan(Generic[Options]):
     """What is to be done."""
 

@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.numeric.curves.inverse_functions import angle_of
 from vorotool.numeric.ragged import following
+from vorotool.plain import plain
 from vorotool.types.polygons.planar_graph import PlanarGraph
 
 Indices = NDArray[np.int64]
 
 
-@dataclass(frozen=True)
+@plain
 class CornerSectors:
     """Corners under 180 degrees: counter-clockwise from one segment of the graph to the next."""
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from vorotool.engines.arrangement.polygon_regions import PolygonRegions
 from vorotool.engines.arrangement.repaired_polygons import inner_faces, parts_of_edges, repaired_polygons
 from vorotool.numeric.ragged import owners
+from vorotool.plain import plain
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.polygons.repaired_polygons import RepairedPolygons
@@ -17,7 +18,7 @@ from vorotool.types.polygons.ring_arrays import RingArrays
 from vorotool.types.skeleton.skeleton import EDGE, VERTEX, SiteTable
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class PlacedShapes:
     """Polygons as they are used."""
 

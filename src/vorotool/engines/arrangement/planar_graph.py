@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,6 +17,7 @@ from vorotool.errors import LimitError, VerificationError
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.progress import Progress
 from vorotool.numeric.ragged import divides, owners, ranges
+from vorotool.plain import plain
 from vorotool.types.arguments import check_value
 from vorotool.types.magnitude import check_magnitude
 from vorotool.types.polygons.planar_graph import REPAIRS, PlanarGraph
@@ -102,7 +103,7 @@ def graph_for_skeletons(
     return planar_graph(given, strict=strict, threads=threads, progress=progress)
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class Placement:
     """Vertices of polygons on the lattice."""
 
@@ -127,7 +128,7 @@ def placed_vertices(
     return replace(made, vertices=made.vertices[: len(polygons.xy)])
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class Arrangement:
     """The planar graph of polygons, and what was repaired for it, before anybody is told."""
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -13,12 +12,13 @@ from vorotool.engines.arrangement.flat_rings import flat_holes
 from vorotool.engines.arrangement.polygon_regions import PolygonRegions
 from vorotool.numeric.ragged import owners, ranges, starts_of
 from vorotool.numeric.row_index import index_of_rows
+from vorotool.plain import plain
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet
 from vorotool.types.polygons.repaired_polygons import RepairedPolygons
 
 
-@dataclass(frozen=True)
+@plain
 class _Rings:
     """Points and segments along rings, one after the other; the kind and the input polygon of each ring."""
 

@@ -9,20 +9,20 @@ the nodes, and those between that two neighbors bound are the arcs.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from heapq import heapify, heappop, heappush
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.numeric.ragged import owners
+from vorotool.plain import plain
 
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.intp]
 Line = tuple[float, float, float]
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class Chains:
     """Chains of edges, counterclockwise around what is inside."""
 
@@ -33,7 +33,7 @@ class Chains:
     target: Floats
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class Trees:
     """Nodes and arcs inside chains."""
 

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.centerlines.edge_comparisons import is_blunt
 from vorotool.numeric.ragged import owners, ranges
+from vorotool.plain import plain
 from vorotool.types.skeleton.skeleton import EDGE, INTERIOR, Skeleton, ends_of_sites
 
 Floats = NDArray[np.float64]
@@ -16,7 +15,7 @@ Numbers = NDArray[np.intp]
 Booleans = NDArray[np.bool_]
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class Branches:
     """Branches inside polygons."""
 
@@ -42,7 +41,7 @@ def branches_inside(skeleton: Skeleton) -> Branches:
     return Branches(first, last, ends, length, degree)
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class Twigs:
     """Branches from a leaf between two edges with a corner in common to a junction, along one of these or both."""
 
@@ -104,7 +103,7 @@ def _cosine(ends: Floats, meets: Booleans) -> Floats:
     return cosine
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class Pairs:
     """Twigs at both corners of an edge."""
 

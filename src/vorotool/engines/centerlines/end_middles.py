@@ -14,14 +14,13 @@ from half-way between the axis and the normal of the line from shoulder to shoul
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.centerlines.walks import Walks
 from vorotool.engines.from_skeleton.boundary_rays import first_crossings
 from vorotool.numeric.ragged import owners, starts_of, within
+from vorotool.plain import plain
 from vorotool.types.skeleton.skeleton import EDGE, Skeleton
 
 Floats = NDArray[np.float64]
@@ -39,7 +38,7 @@ TIMES = 3
 """How often directions are taken."""
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class EndMiddles:
     """Middles of ends."""
 
@@ -47,7 +46,7 @@ class EndMiddles:
     vertices: Numbers  # (k,) integer array: where the edges begin that they are on; -1 for none
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class _Outlines:
     """The outline of each end: a place on a side, vertices of the polygon, a place on the other side."""
 

@@ -13,7 +13,7 @@ linear time. A tree is rooted at its largest disc.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import sqrt
 
 import numpy as np
@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 from vorotool.engines.pruning.pruning import prune
 from vorotool.engines.skeleton.parts import with_arcs
 from vorotool.numeric.progress import Progress
+from vorotool.plain import plain
 from vorotool.types.skeleton.skeleton import EDGE, INTERIOR, Skeleton
 from vorotool.types.skeleton.tables import connected_roots
 
@@ -51,7 +52,7 @@ def without_end_pieces(skeleton: Skeleton, *, threads: int = 0, progress: Progre
     return prune(with_arcs(made, kept), length=0, threads=threads, progress=progress)
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class EndPieces:
     """Which arcs belong to ends, and the trees of which nothing else is left."""
 

@@ -11,8 +11,6 @@ other, at a junction between cycles, is no end if its corner is much like both b
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -22,6 +20,7 @@ from vorotool.engines.centerlines.passed_corners import are_passed
 from vorotool.engines.centerlines.pruned_twigs import with_pruned_twigs
 from vorotool.engines.centerlines.round_ends import MOST_WITH_ENDS, grown_runs
 from vorotool.engines.skeleton.parts import with_straight_arcs
+from vorotool.plain import plain
 from vorotool.types.skeleton.skeleton import INTERIOR, Skeleton, ends_of_sites
 from vorotool.types.skeleton.tables import connected_roots
 
@@ -29,7 +28,7 @@ Floats = NDArray[np.float64]
 Numbers = NDArray[np.intp]
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class Unforked:
     """A skeleton whose forks are led to the middles of their edges."""
 

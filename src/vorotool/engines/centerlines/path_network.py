@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -14,6 +12,7 @@ from vorotool.engines.from_skeleton.nearest_point import nearest_place
 from vorotool.engines.skeleton.core_skeleton import core_skeleton
 from vorotool.numeric.progress import Progress
 from vorotool.numeric.ragged import owners, starts_of
+from vorotool.plain import plain
 from vorotool.types.skeleton.skeleton import Skeleton
 
 Floats = NDArray[np.float64]
@@ -27,7 +26,7 @@ def geometry_of(skeleton: Skeleton, arc: Indices, first: Floats, last: Floats) -
     return _core.pruning.part_geometry(core_skeleton(skeleton), arc, first, last)
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class Paths:
     """Arcs of paths that follow one another, and the nodes that each leads from and to."""
 
@@ -57,7 +56,7 @@ class Paths:
         return np.stack([self.sources[self.start[:-1]], self.targets[self.start[1:] - 1]], axis=1)
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class Pieces:
     """Parts of arcs along lines, each in the direction of its line."""
 

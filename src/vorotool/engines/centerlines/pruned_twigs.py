@@ -13,7 +13,7 @@ root of its tree, or ends there already.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +22,7 @@ from vorotool.engines.centerlines.convex_trees import Chains, convex_trees
 from vorotool.engines.skeleton.parts import with_straight_arcs
 from vorotool.numeric.ragged import owners, starts_of, within
 from vorotool.numeric.sorted_sets import is_among
+from vorotool.plain import plain
 from vorotool.types.skeleton.skeleton import EDGE, INTERIOR, Skeleton
 
 Floats = NDArray[np.float64]
@@ -29,7 +30,7 @@ Numbers = NDArray[np.intp]
 Booleans = NDArray[np.bool_]
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class _Sides:
     """Edges on one side of arcs around nodes that are on the other side of no arc there."""
 
@@ -42,7 +43,7 @@ class _Sides:
         return _Sides(*(values[chosen] for values in self.__dict__.values()))
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class _Order:
     """Edges around rings, by the vertices where they begin: one way round or the other."""
 
@@ -54,7 +55,7 @@ class _Order:
     bends: Numbers
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class _Gaps:
     """Where twigs were pruned."""
 

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from vorotool.engines.centerlines.corner_twigs import Branches, Pairs, Twigs
 from vorotool.numeric.ragged import starts_of
+from vorotool.plain import plain
 from vorotool.types.skeleton.tables import connected_roots
 
 Numbers = NDArray[np.intp]
@@ -43,7 +44,7 @@ class _End:
     """Whether it goes all around its polygon."""
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class RoundEnds:
     """Twigs in runs: those beside each other; and the branches between the twigs of one run."""
 

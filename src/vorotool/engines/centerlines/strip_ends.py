@@ -12,7 +12,7 @@ Where lines lead into round ends (`vorotool.engines.centerlines.ends`), that lea
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from itertools import pairwise
 from math import inf
 
@@ -23,6 +23,7 @@ from vorotool.engines.centerlines.end_pieces import TIP, Reaches
 from vorotool.engines.centerlines.ends import Unforked
 from vorotool.engines.centerlines.path_network import Pieces
 from vorotool.numeric.ragged import owners, starts_of
+from vorotool.plain import plain
 from vorotool.types.skeleton.skeleton import INTERIOR
 
 BUMP = 0.25
@@ -60,7 +61,7 @@ def at_strip_ends(
     return replace(made, line=owners(np.array(sizes, dtype=np.int64), dtype=np.int32)), is_made
 
 
-@dataclass(frozen=True)
+@plain
 class _Walk:
     """Nodes and arcs from an end of a line inwards: what the line loses, and what is there instead, is left out."""
 
@@ -72,7 +73,7 @@ class _Walk:
     is_lead: bool = False  # whether a lead was at the end
 
 
-@dataclass(frozen=True)
+@plain
 class _End:
     """What a line loses, from the outside, and what it gets instead: arcs and their outer nodes."""
 

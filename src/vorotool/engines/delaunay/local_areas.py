@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.numeric.ragged import owners, starts_of
+from vorotool.plain import plain
 
 Floats = NDArray[np.float64]
 
@@ -54,7 +54,7 @@ def _cut_out_of(shapes: NDArray[Any], near: Any, whole: Any) -> NDArray[Any]:
     return np.asarray(made)
 
 
-@dataclass(frozen=True)
+@plain
 class Rings:
     """The rings of an area."""
 

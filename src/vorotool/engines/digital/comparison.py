@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable
-from dataclasses import dataclass
 from math import ceil
 from typing import TYPE_CHECKING
 
@@ -21,6 +20,7 @@ from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import Message, option
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.progress import Progress
+from vorotool.plain import plain
 from vorotool.types.mesh.digital_comparison import DigitalComparison
 from vorotool.types.pixel_frame import MAX_PIXELS, Frame
 from vorotool.types.points.label_image import LabelImage
@@ -119,7 +119,7 @@ def compare_digital(
     )
 
 
-@dataclass(frozen=True)
+@plain
 class Difference:
     """An edge or a triangle that one triangulation has and the other has not."""
 
@@ -130,7 +130,7 @@ class Difference:
     voronoi_length: float | None
 
 
-@dataclass(frozen=True)
+@plain
 class Comparison:
     """Of all edges, or of all triangles."""
 

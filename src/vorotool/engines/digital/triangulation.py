@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
@@ -25,6 +24,7 @@ from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import InputError, LimitError, UsageError, option, warn
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.progress import Progress
+from vorotool.plain import plain
 from vorotool.types.mesh.digital_triangulation import DigitalTriangulation
 from vorotool.types.mesh.triangulation import Triangulation
 from vorotool.types.pixel_frame import MAX_PIXELS
@@ -200,7 +200,7 @@ def _counter_clockwise(points: NDArray[np.float64], triangles: NDArray[np.int32]
 # ---- the repair -----------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
+@plain
 class DigitalRepair:
     """Counts of the steps of `repair_digital`."""
 

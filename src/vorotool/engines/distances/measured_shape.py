@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -14,12 +13,13 @@ from vorotool.errors import InputError
 from vorotool.numeric.checks import checked_flag
 from vorotool.numeric.crs import crs_name, same_crs
 from vorotool.numeric.progress import Progress
+from vorotool.plain import plain
 from vorotool.types.magnitude import check_magnitude
 from vorotool.types.polygons.polygon_set import HOLE, LINE, PolygonSet
 from vorotool.types.polygons.used_shapes import with_used_rings
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class MeasuredShape:
     """A shape, and the same in the core."""
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from math import ceil, ldexp
 from typing import Any, TypeVar
@@ -29,6 +29,7 @@ from vorotool.numeric.parallel import in_threads
 from vorotool.numeric.progress import Progress
 from vorotool.numeric.ragged import owners, starts_of
 from vorotool.numeric.sorted_sets import distinct
+from vorotool.plain import plain
 from vorotool.types.box import bounds
 from vorotool.types.magnitude import check_magnitude
 from vorotool.types.polygons.planar_graph import REPAIRS, PlanarGraph
@@ -39,7 +40,7 @@ Indices = NDArray[np.int64]
 Result = TypeVar("Result")
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class FeatureBatch:
     """Some features of a set that is placed, as if there were no others."""
 
@@ -55,7 +56,7 @@ class FeatureBatch:
     share: float  # of all vertices
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class BatchShapes:
     """A batch as a planar graph."""
 
@@ -77,7 +78,7 @@ class BatchShapes:
         return feature
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class FeatureShapes:
     """Totals of features, each by itself, when all batches are done."""
 

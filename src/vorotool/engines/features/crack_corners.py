@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.numeric.ragged import starts_of
+from vorotool.plain import plain
 from vorotool.types.polygons.polygon_set import LINE, PolygonSet
 
 Indices = NDArray[np.int64]
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class OwnCorners:
     """Polygons without vertices in which they go straight on."""
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from vorotool.engines.features.batches import BatchShapes, FeatureShapes
 from vorotool.numeric.ragged import owners, starts_of, within
+from vorotool.plain import plain
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.polygons.ring_arrays import RingArrays
 from vorotool.types.skeleton.skeleton import SiteTable
@@ -18,7 +19,7 @@ from vorotool.types.skeleton.skeleton import SiteTable
 Indices = NDArray[np.int64]
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class Places:
     """Where the items of all batches, one batch after the other, come in the end."""
 
@@ -50,7 +51,7 @@ class Places:
         return numbers
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class InputOrder:
     """How what batches have comes in the order of the input."""
 

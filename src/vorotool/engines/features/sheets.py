@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -11,6 +9,7 @@ from vorotool import _core
 from vorotool.numeric.progress import Progress
 from vorotool.numeric.ragged import owners, ranges, starts_of
 from vorotool.numeric.sorted_sets import distinct
+from vorotool.plain import plain
 from vorotool.types.polygons.polygon_set import PolygonSet
 
 Indices = NDArray[np.int64]
@@ -21,7 +20,7 @@ APART = 1
 """Lattice steps around each feature: what snap rounding may move is nearer than one to it."""
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class Features:
     """The features of polygons, numbered without gaps."""
 

@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.skeleton.site_distances import SitePlaces
 from vorotool.numeric.curves.inverse_functions import angle_of
 from vorotool.numeric.ragged import following
+from vorotool.plain import plain
 from vorotool.types.skeleton.skeleton import EDGE, Skeleton
 from vorotool.types.skeleton.tables import connected_roots
 
 Indices = NDArray[np.int64]
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class Contours:
     """Closed walks with the arcs on their left, as runs: arcs in a row that have one site on the right."""
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import fields, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.plain import plain
 from vorotool.types.skeleton.skeleton import Skeleton
 
 Floats = NDArray[np.float64]
@@ -16,7 +17,7 @@ TIE = 2.0**-48
 """Of a radius: those that differ by less are the same, as they are right to 10 roundings."""
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class Candidates:
     """Places with the discs around them."""
 
@@ -60,7 +61,7 @@ def _least(order: Numbers, feature: Numbers, values: Floats, slack: Floats) -> N
     return order[values[order] <= least[own] + slack[order]]
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class Plateaus:
     """Segments on which the clearance is the same everywhere, and nodes, which are segments without length."""
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from itertools import combinations, pairwise
 from typing import Any
 
@@ -20,6 +19,7 @@ from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.numeric.numbers import Flatten, checked_flatten
 from vorotool.numeric.ragged import owners, starts_of
 from vorotool.numeric.row_index import index_of_rows
+from vorotool.plain import plain
 from vorotool.types.arguments import check_value
 from vorotool.types.polygons.polygon_set import HOLE, SHELL, PolygonSet
 from vorotool.types.skeleton.skeleton import EDGE, INTERIOR, Skeleton, ends_of_sites
@@ -94,7 +94,7 @@ def _norm(way: Floats) -> Floats:
     return length
 
 
-@dataclass(frozen=True)
+@plain
 class _Feet:
     """Where the discs at the ends of each run touch its site, and by how much that magnifies errors of the discs."""
 
@@ -190,7 +190,7 @@ def _outline(skeleton: Skeleton, contours: Contours, tolerance: float | None) ->
     return _in_order(pieces, contours, skeleton)
 
 
-@dataclass(frozen=True)
+@plain
 class _Places:
     """Places at runs: at the beginning (rank 0) or after the end (1 and more) of each, and how errors are magnified."""
 

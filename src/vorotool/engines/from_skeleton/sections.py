@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 import shapely
 from numpy.typing import NDArray
@@ -11,6 +9,7 @@ from numpy.typing import NDArray
 from vorotool.engines.from_skeleton.cross_sections import section_ends
 from vorotool.numeric.curves.inverse_functions import hypotenuse
 from vorotool.numeric.ragged import owners, within
+from vorotool.plain import plain
 from vorotool.types.polygons.conversion import to_shapely
 from vorotool.types.skeleton.led_on import LedOn
 from vorotool.types.skeleton.points_along import SkeletonPoints
@@ -44,7 +43,7 @@ def sections_along(lines: LedOn, counts: Indices, every: float) -> SkeletonPoint
     return SkeletonPoints(lines.path, arc, along, xy, radius, feet, rings)
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class _Pieces:
     """Arcs of lines and the straight lines that lead on, line by line."""
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import heapq
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.engines.skeleton.core_skeleton import core_skeleton
 from vorotool.numeric.ragged import ranges
+from vorotool.plain import plain
 from vorotool.types.arguments import check_value
 from vorotool.types.skeleton.skeleton import EDGE, SiteTable, Skeleton
 
@@ -65,7 +66,7 @@ def join_junctions(skeleton: Skeleton) -> Skeleton:
     return _led(skeleton, branches, place, vanishes)
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class Branches:
     """Where branches begin and end."""
 
@@ -132,7 +133,7 @@ def _taken(center: int, radius: float, beside: list[list[tuple[float, int, int]]
 
 
 # ---- how branches are led to their new ends -------------------------------------------------------
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class _Cuts:
     """Where branches that are moved at one end are left for a straight arc."""
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from vorotool.engines.label_images.outlines import outlines
 from vorotool.engines.label_images.regions import region_table
+from vorotool.plain import plain
 from vorotool.types.features import Rows
 from vorotool.types.points.label_image import LabelImage
 from vorotool.types.polygons.conversion import to_shapely
@@ -21,7 +22,7 @@ from vorotool.types.table import Table
 from vorotool.types.volumes.label_volume import LabelVolume
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class _Map:
     """What the regions of a label image come from: its seeds, in the coordinate reference system of its grid."""
 

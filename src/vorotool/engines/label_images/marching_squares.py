@@ -6,7 +6,6 @@ each by itself, and does not tell which contour is a hole in which.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -14,6 +13,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError, option
 from vorotool.numeric.ragged import following, starts_of, within
+from vorotool.plain import plain
 
 _CRACKS = option("--outline crack", 'outline="crack"')
 
@@ -22,7 +22,7 @@ Rings = tuple[NDArray[np.float64], NDArray[np.int64]]
 """Vertices, and where each ring begins among them."""
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class GreyLevel:
     """Grey values, of which those above a level are inside; none is at the level."""
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
@@ -18,6 +17,7 @@ from vorotool.errors import InputError, LimitError
 from vorotool.numeric.checks import as_array, checked_flag, checked_threads
 from vorotool.numeric.numbers import finite_double
 from vorotool.numeric.progress import Progress
+from vorotool.plain import plain
 from vorotool.products.formats import resolved
 from vorotool.types.points.label_image import LabelImage
 from vorotool.types.table import Table
@@ -44,7 +44,7 @@ class Bordered(Protocol):
         """(b, 2) indices of neighbors."""
 
 
-@dataclass(frozen=True)
+@plain
 class RegionMeasures:
     """Measures of the regions of a label image; what `measure_regions` gives."""
 

@@ -6,7 +6,7 @@ twice as many vertices (`tests/benchmarks/libraries.py simplify`). It takes no l
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +15,7 @@ from vorotool.errors import UsageError
 from vorotool.numeric.numbers import finite_double, shown_number
 from vorotool.numeric.ragged import owners, ranges, starts_of, within
 from vorotool.numeric.sorted_sets import distinct
+from vorotool.plain import plain
 from vorotool.types.polygons.polygon_set import LINE, PolygonSet
 
 Indices = NDArray[np.int64]
@@ -37,7 +38,7 @@ def simplified_polygons(polygons: PolygonSet, tolerance: float) -> PolygonSet:
     return _turned_as(replace(polygons, xy=xy, ring_starts=starts_of(sizes)), polygons)
 
 
-@dataclass(frozen=True)
+@plain
 class _Chains:
     """Chains of edges, and the stretches of rings along them."""
 

@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.skeleton.clearance import clearance_course, plateaus
 from vorotool.numeric.progress import Progress
+from vorotool.plain import plain
 from vorotool.types.skeleton.clearance import ClearanceCourse
 from vorotool.types.skeleton.skeleton import Skeleton
 
 Indices = NDArray[np.int64]
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class Ways:
     """The two ways that lead on from each neck."""
 
@@ -41,7 +40,7 @@ class Ways:
         return Ways(self.arc[chosen], self.end[chosen], self.middle[chosen], self.top[chosen])
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class Flow:
     """How the clearance grows from plateau to plateau, most of which are single nodes."""
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +11,7 @@ from vorotool.engines.from_skeleton.contour_walk import contours_of, site_points
 from vorotool.engines.necks.axis import Ways
 from vorotool.engines.necks.feet import Feet
 from vorotool.numeric.ragged import following, owners
+from vorotool.plain import plain
 from vorotool.types.skeleton.skeleton import EDGE, Skeleton
 from vorotool.types.skeleton.tables import connected_roots
 
@@ -18,7 +19,7 @@ Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class CutAxis:
     """A skeleton in which each cut has two nodes of its own, one for each way."""
 
@@ -61,7 +62,7 @@ def _parts(skeleton: Skeleton) -> Indices:
     return connected_roots(np.where(is_corner, apart, ends), len(skeleton.vertices) + ends.size)[: len(skeleton.radius)]
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class Outlines:
     """Vertices around the parts of a cut skeleton, contour after contour."""
 

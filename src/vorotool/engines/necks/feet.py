@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.necks.axis import Ways
+from vorotool.plain import plain
 from vorotool.types.skeleton.given_feet import projected
 from vorotool.types.skeleton.skeleton import EDGE, Skeleton
 
@@ -22,7 +22,7 @@ _SNAP = 4
 """Ulp of the largest coordinate by which the projection of a place half-way along a plateau is rounded at most."""
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class Feet:
     """Feet of necks: left and right of the way from the first of their ways to the second."""
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,6 +13,7 @@ from vorotool.engines.skeleton_api import skeleton_exact
 from vorotool.errors import UsageError, option
 from vorotool.numeric.numbers import finite_double, shown_number
 from vorotool.numeric.progress import Progress
+from vorotool.plain import plain
 from vorotool.types.skeleton.given_feet import moved_feet
 from vorotool.types.skeleton.necks import Necks
 from vorotool.types.skeleton.skeleton import INTERIOR, Skeleton
@@ -116,7 +116,7 @@ def whole_skeleton(
     return polygons
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class FoundNecks:
     """Necks, and where the skeleton is to be cut for each."""
 

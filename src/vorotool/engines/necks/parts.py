@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
@@ -15,6 +15,7 @@ from vorotool.engines.necks.feet import Feet
 from vorotool.engines.necks.necks import FoundNecks, check_neck, found_necks, whole_skeleton
 from vorotool.numeric.progress import Progress
 from vorotool.numeric.ragged import ranges
+from vorotool.plain import plain
 from vorotool.types.polygons.polygon_set import HOLE, SHELL, PolygonSet
 from vorotool.types.polygons.ring_arrays import RingArrays
 from vorotool.types.polygons.vertices_as_given import places_as_given
@@ -114,7 +115,7 @@ def _cut(found: FoundNecks, chosen: Indices) -> CutAxis:
 
 
 # ---- pieces --------------------------------------------------------------------------------------
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class _Rings:
     """Rings, the part that each is around, and its polygon."""
 

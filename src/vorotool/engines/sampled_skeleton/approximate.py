@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import Any
 
 import numpy as np
@@ -24,6 +24,7 @@ from vorotool.errors import LimitError, UsageError
 from vorotool.numeric.checks import checked_threads, is_choice
 from vorotool.numeric.numbers import finite_double, shown_number
 from vorotool.numeric.progress import Progress
+from vorotool.plain import plain
 from vorotool.types.box import Extent, default_frame
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.skeleton.boundary_samples import BoundarySamples
@@ -37,7 +38,7 @@ ROUNDING_ULPS = 2
 """Of the largest coordinate: by how much nodes move when they are rounded to input units."""
 
 
-@dataclass(frozen=True)
+@plain
 class SamplingOptions:
     """A step or a tolerance, and how edges are sampled."""
 
@@ -66,7 +67,7 @@ class SamplingOptions:
         return self.tolerance is not None or self.sampling == "symmetric"
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class SampleGroups:
     """Which seeds have a diagram together, and in which bounds its parts are put into order."""
 
@@ -83,7 +84,7 @@ class SampleGroups:
         return np.concatenate([self.of_point, self.of_point[samples.graph.segments[samples.segment[points:], 0]]])
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class SampledShapes:
     """Polygons made a planar graph, seeds on it, and their Voronoi diagram."""
 
@@ -94,7 +95,7 @@ class SampledShapes:
     groups: SampleGroups  # which of them have a diagram together
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class ApproximateSkeleton:
     """A skeleton and what it was made of."""
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, replace
 from typing import Any
 
 import numpy as np
@@ -17,6 +17,7 @@ from vorotool.engines.skeleton.distances_to_arcs import distances_to, places_on_
 from vorotool.engines.skeleton.exact import ShapeDiagram, skeleton_of
 from vorotool.errors import VorotoolWarning
 from vorotool.numeric.ragged import starts_of
+from vorotool.plain import plain
 from vorotool.types.box import Extent, widened
 from vorotool.types.skeleton.skeleton import Skeleton
 
@@ -28,7 +29,7 @@ PER_ARC = 16
 """Places on an arc beside its ends, evenly in its parameter."""
 
 
-@dataclass(frozen=True)
+@plain
 class Deviation:
     """The largest distance of places on one skeleton from another one, and where it is."""
 

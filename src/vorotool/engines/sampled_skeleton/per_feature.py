@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 import warnings
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -35,6 +35,7 @@ from vorotool.engines.skeleton.per_feature import joined_with_places
 from vorotool.errors import LimitError, VorotoolWarning
 from vorotool.numeric.progress import Progress
 from vorotool.numeric.ragged import starts_of
+from vorotool.plain import plain
 from vorotool.types.box import Extent, bounds
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import PolygonSet
@@ -43,7 +44,7 @@ from vorotool.types.skeleton.skeleton import Skeleton
 Indices = NDArray[np.int64]
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class FeatureApproximation:
     """An approximate skeleton of features, and what it was made of."""
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -10,13 +10,14 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.skeleton.core_skeleton import core_skeleton
+from vorotool.plain import plain
 from vorotool.types.skeleton.skeleton import Skeleton
 from vorotool.types.skeleton.tables import connected_roots
 
 Indices = NDArray[np.int64]
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class Contraction:
     """A skeleton after arcs between equal nodes were contracted."""
 

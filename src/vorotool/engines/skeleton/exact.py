@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -17,6 +17,7 @@ from vorotool.errors import Kind, Message, UsageError, VorotoolWarning, option, 
 from vorotool.numeric.checks import checked_threads, is_choice
 from vorotool.numeric.numbers import finite_double, shown_number
 from vorotool.numeric.progress import Progress
+from vorotool.plain import plain
 from vorotool.types.box import Extent, default_frame, is_extent
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import PolygonSet
@@ -45,7 +46,7 @@ def check_features(features: str) -> None:
         raise UsageError(f"features is {features!r}: use {' or '.join(FEATURES)}")
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class ShapeDiagram:
     """Polygons made a planar graph, and the Voronoi diagram of its points and open segments."""
 

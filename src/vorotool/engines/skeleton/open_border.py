@@ -8,12 +8,13 @@ the others are cut there.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError, UsageError
+from vorotool.plain import plain
 from vorotool.types.box import Extent, is_extent
 from vorotool.types.magnitude import check_lengths
 from vorotool.types.polygons.planar_graph import PlanarGraph
@@ -34,7 +35,7 @@ OUTWARDS = np.array([[-1, 0], [1, 0], [0, -1], [0, 1]], dtype=np.int64)
 """From the sides of least and most x, then y."""
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class Opening:
     """A planar graph whose segments on the border of a rectangle are far away."""
 

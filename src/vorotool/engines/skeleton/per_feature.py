@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, Generic, TypeVar
 
 import numpy as np
@@ -22,6 +22,7 @@ from vorotool.engines.skeleton.exact import (
 from vorotool.engines.skeleton.open_border import around, opened
 from vorotool.numeric.progress import Progress
 from vorotool.numeric.ragged import starts_of
+from vorotool.plain import plain
 from vorotool.types.box import Extent
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.skeleton.skeleton import Skeleton
@@ -29,7 +30,7 @@ from vorotool.types.skeleton.skeleton import Skeleton
 Seen = TypeVar("Seen")
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class FeatureSkeleton(Generic[Seen]):
     """The skeleton inside features."""
 

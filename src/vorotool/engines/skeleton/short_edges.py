@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.numeric.curves.inverse_functions import hypotenuse
+from vorotool.plain import plain
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.skeleton.skeleton import SiteTable
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class ShortEdges:
     """Segments that are not longer than twice a gap."""
 

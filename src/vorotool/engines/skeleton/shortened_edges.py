@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -28,6 +28,7 @@ from vorotool.numeric.curves.inverse_functions import angle_of, hypotenuse
 from vorotool.numeric.progress import Progress
 from vorotool.numeric.ragged import owners
 from vorotool.numeric.sorted_sets import is_among
+from vorotool.plain import plain
 from vorotool.types.box import Extent, bounds
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import LINE, PolygonSet
@@ -38,7 +39,7 @@ DEVIATION_STEPS = 2.0**-14
 """Of the extent: how finely arcs are flattened to measure how far two skeletons are apart."""
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class ElementDiagram:
     """Elements of shapes, and their Voronoi diagram."""
 

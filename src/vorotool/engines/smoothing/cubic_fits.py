@@ -13,13 +13,12 @@ of both.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.smoothing.line_samples import LineSamples
 from vorotool.numeric.ragged import owners, ranges, starts_of
+from vorotool.plain import plain
 
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.int64]
@@ -37,7 +36,7 @@ HANDLE = 0.25
 """In tolerances: handles this short turn a curve within the tolerance wherever its tangents lead."""
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class Stretches:
     """Parts of lines that are fitted by one curve each."""
 
@@ -50,7 +49,7 @@ class Stretches:
         return Stretches(self.first[chosen], self.last[chosen], self.leaving[:, chosen], self.entering[:, chosen])
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class Fits:
     """Curves, one a stretch."""
 

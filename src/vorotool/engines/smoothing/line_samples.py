@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.numeric.curves.flatten import chained, polylines
 from vorotool.numeric.ragged import owners, starts_of, within
+from vorotool.plain import plain
 from vorotool.types.skeleton.led_on import LedOn
 from vorotool.types.skeleton.skeleton import Skeleton
 
@@ -22,7 +21,7 @@ LEAST_PIECES = 8
 """Of each line with more than one, so that there are places enough to fit by."""
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class LineSamples:
     """Places along lines, line by line, from the start to the end of each."""
 

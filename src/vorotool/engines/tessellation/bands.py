@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, Literal, Protocol
 
@@ -11,6 +10,7 @@ from numpy.typing import NDArray
 
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.numeric.progress import Progress
+from vorotool.plain import plain
 from vorotool.types.pixel_frame import Frame
 from vorotool.types.points.seed_set import SeedSet
 from vorotool.types.spacing import SQUARE, PixelSides
@@ -25,7 +25,7 @@ class Band(Protocol):
         """Compute the rows."""
 
 
-@dataclass(frozen=True)
+@plain
 class SeedBand:
     """Rows of a tessellation, with the seeds that they need."""
 

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import zlib
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.plain import plain
 
-@dataclass(frozen=True)
+
+@plain
 class ColumnEnvelope:
     """At most one seed a column."""
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import warnings
 import zlib
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any, Literal, Protocol
 
@@ -31,6 +31,7 @@ from vorotool.engines.tessellation.raster_objects import (
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import LimitError, option
 from vorotool.numeric.progress import Progress
+from vorotool.plain import plain
 from vorotool.types.pixel_frame import Frame
 from vorotool.types.points.raster import Raster
 from vorotool.types.points.seed_set import SeedSet
@@ -56,7 +57,7 @@ class ImageRows(Protocol):
         """Read some rows."""
 
 
-@dataclass(frozen=True)
+@plain
 class ObjectRows:
     """The rows of an image, of which the objects are seeds."""
 
@@ -101,7 +102,7 @@ class ObjectRows:
         return replace(self, mode="labels")
 
 
-@dataclass(frozen=True)
+@plain
 class ObjectBand:
     """Some rows of objects, and all that their tessellation needs of the other rows."""
 
@@ -129,7 +130,7 @@ class ObjectBand:
         return numbers
 
 
-@dataclass(frozen=True)
+@plain
 class ImageBand:
     """Some rows of the tessellation of an image, computed where they are asked for: it can be pickled."""
 

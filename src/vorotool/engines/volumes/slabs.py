@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, Literal
 
@@ -12,6 +11,7 @@ from numpy.typing import NDArray
 from vorotool.engines.volumes.volume_measures import volume_diagram
 from vorotool.engines.volumes.volume_tessellator import VolumeSweep
 from vorotool.numeric.progress import Progress
+from vorotool.plain import plain
 from vorotool.types.spacing import PixelSides
 from vorotool.types.volumes.label_volume import CUBE
 from vorotool.types.volumes.volume_seeds import VolumeSeeds
@@ -26,7 +26,7 @@ def with_neighbors(frame: VoxelFrame, first: int, slices: int) -> tuple[int, int
     return begin, end - begin
 
 
-@dataclass(frozen=True)
+@plain
 class SeedSlab:
     """Slices of a tessellation, with the seeds that they need: it can be pickled."""
 

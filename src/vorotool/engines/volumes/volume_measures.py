@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,6 +15,7 @@ from vorotool.errors import InputError
 from vorotool.numeric.checks import checked_threads
 from vorotool.numeric.descriptions import naming
 from vorotool.numeric.progress import Progress
+from vorotool.plain import plain
 from vorotool.types.volumes.label_volume import LabelVolume
 from vorotool.types.volumes.volume import Volume
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from vorotool.typing import VolumeLike
 
 
-@dataclass(frozen=True)
+@plain
 class VolumeMeasures:
     """Measures of the regions of a label volume; what `measure_volume` gives. All are counts, along x, y and z."""
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import floor
 from typing import Any, Literal, Protocol
 
@@ -23,6 +23,7 @@ from vorotool.engines.tessellation.raster_objects import (
 from vorotool.errors import InputError, option
 from vorotool.numeric.checks import checked_flag
 from vorotool.numeric.numbers import finite_double
+from vorotool.plain import plain
 from vorotool.types.volumes.volume import Volume
 from vorotool.types.volumes.voxel_grid import VoxelGrid
 
@@ -51,7 +52,7 @@ class SlicesSource(Protocol):
         """Read some slices."""
 
 
-@dataclass(frozen=True)
+@plain
 class HeldSlices:
     """A volume in memory, as one that is read."""
 
@@ -72,7 +73,7 @@ class HeldSlices:
         return self.volume.values[first : first + count]
 
 
-@dataclass(frozen=True)
+@plain
 class VolumeObjects:
     """The slices of a volume, of which the objects are seeds."""
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -14,12 +13,13 @@ from vorotool.engines.common.label_arrays import label_array
 from vorotool.engines.common.site_rows import largest_by_label, rows_of
 from vorotool.engines.volumes.volume_measures import VolumeMeasures, measure_slabs
 from vorotool.engines.volumes.volume_tessellator import VolumeSweep
+from vorotool.plain import plain
 from vorotool.types.spacing import PixelSides
 from vorotool.types.volumes.volume_seeds import VolumeSeeds
 from vorotool.types.volumes.voxel_frame import VoxelFrame
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class VolumeRegions:
     """Measures of regions, and their sites."""
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -14,6 +12,7 @@ from vorotool.engines.voronoi.moves import Moves
 from vorotool.errors import VerificationError
 from vorotool.numeric.curves.mixed_arcs import MixedArcs
 from vorotool.numeric.ragged import ranges, starts_of
+from vorotool.plain import plain
 from vorotool.types.voronoi.voronoi_map import OUTSIDE
 
 Indices = NDArray[np.int64]
@@ -23,7 +22,7 @@ _AT_ONCE = 2**18
 """Arcs that are measured together, so that this takes little memory."""
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class Arcs:
     """Arcs of a planar map, from the vertex with the smaller number each."""
 
@@ -105,7 +104,7 @@ def by_ends(ends: Indices, control: Floats, center: Floats) -> Indices:
     return sorting
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class Rings:
     """Rings of a planar map without double points."""
 
@@ -153,7 +152,7 @@ def _bulges(arcs: Arcs) -> Floats:
     return bulges
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class Cells:
     """Cells as rings in rows."""
 

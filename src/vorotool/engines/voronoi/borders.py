@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -13,13 +12,14 @@ from vorotool.engines.segment_voronoi.segment_voronoi import core_diagram
 from vorotool.engines.voronoi.elements import OwnedGraph
 from vorotool.engines.voronoi.limits import STEP, Limit
 from vorotool.errors import VerificationError
+from vorotool.plain import plain
 from vorotool.types.skeleton.segment_voronoi import SegmentVoronoiDiagram
 from vorotool.types.voronoi.voronoi_map import OUTSIDE
 
 Indices = NDArray[np.int64]
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class Borders:
     """Pieces of borders in the plane, before a frame cuts them."""
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -12,6 +11,7 @@ from vorotool.engines.voronoi.cut_curves import FAR, CutCurves, cut_curves
 from vorotool.engines.voronoi.joint_graph import packed
 from vorotool.engines.voronoi.local_diagrams import LocalDiagrams
 from vorotool.engines.voronoi.regions import CutEdges
+from vorotool.plain import plain
 from vorotool.types.voronoi.voronoi_map import OUTSIDE
 
 Floats = NDArray[np.float64]
@@ -22,7 +22,7 @@ SLACK = 2.0**-12
 there, below 2^30, are rounded by, and what is drawn to an edge so moves by 2^-43 of the extent."""
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class Crossings:
     """The places of a map that is cut: those of borders, then the ends of cut edges, then where both meet inside."""
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.voronoi.borders import Borders
+from vorotool.plain import plain
 from vorotool.types.polygons.planar_graph import PlanarGraph
 
 Floats = NDArray[np.float64]
@@ -18,7 +19,7 @@ Place = tuple[float, float]
 INFINITY = float("inf")
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class Parabolas:
     """Parabolas, each about a focus, in units of its own: t along the directrix from below the focus."""
 
@@ -55,7 +56,7 @@ def parabolas_of(graph: PlanarGraph, elements: Indices) -> tuple[NDArray[np.bool
     return is_parabola, Parabolas(focus[above].astype(np.float64), along / length[:, None], high)
 
 
-@dataclass(frozen=True)
+@plain
 class CircularArc:
     """An arc of at most half a circle, counter-clockwise, by t: the tangent of half the angle from its middle."""
 

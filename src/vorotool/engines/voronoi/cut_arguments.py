@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -11,6 +11,7 @@ from vorotool.convert.polygons import as_polygons
 from vorotool.engines.voronoi.regions import CutEdges
 from vorotool.errors import InputError
 from vorotool.numeric.crs import crs_name, same_crs
+from vorotool.plain import plain
 from vorotool.types.box import Extent, bounds, default_frame
 from vorotool.types.polygons.polygon_set import LINE, PolygonSet, set_of_rings
 
@@ -18,7 +19,7 @@ FARTHEST = 8.0
 """Margin of the frame at most, in extents of what is in it: the frame is on the lattice, whose step grows with it."""
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class GivenCuts:
     """What cells are cut by, beside a frame."""
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -10,6 +9,7 @@ from numpy.typing import NDArray
 
 from vorotool.engines.voronoi.borders import Borders
 from vorotool.engines.voronoi.curves import parabolas_of
+from vorotool.plain import plain
 from vorotool.types.polygons.planar_graph import PlanarGraph
 
 Floats = NDArray[np.float64]
@@ -19,7 +19,7 @@ FAR = 2.0**34
 """Beyond all that is on the lattice: ends that are farther away tell less of a line than its two elements do."""
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class CutCurves:
     """Curves on the lattice, from one parameter to another."""
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -18,6 +16,7 @@ from vorotool.engines.voronoi.overlay import UNKNOWN, Overlay
 from vorotool.engines.voronoi.regions import CutEdges
 from vorotool.errors import VerificationError
 from vorotool.numeric.ragged import owners
+from vorotool.plain import plain
 from vorotool.types.box import Extent
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.voronoi.voronoi_map import OUTSIDE
@@ -30,7 +29,7 @@ _ALONG = (0.5, 0.3125, 0.71875)
 """Of parts of cuts: where a limit only touches one of them, the others tell."""
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class CutMap:
     """Cells between borders and cuts."""
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +19,7 @@ from vorotool.engines.arrangement.reports import report_repairs, report_small
 from vorotool.errors import LimitError
 from vorotool.numeric.progress import Progress
 from vorotool.numeric.ragged import owners, ranges, starts_of
+from vorotool.plain import plain
 from vorotool.types.magnitude import check_magnitude
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import LINE, PolygonSet
@@ -31,7 +32,7 @@ _FAULTS = ("repeated_vertices", "idle_segments", "empty_polygons")
 Sites = NDArray[np.int32]
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class OwnedGraph:
     """A planar graph, and the site that has each of its elements."""
 

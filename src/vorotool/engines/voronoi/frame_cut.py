@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
@@ -12,6 +11,7 @@ from numpy.typing import NDArray
 from vorotool.engines.voronoi.borders import Borders
 from vorotool.engines.voronoi.curves import INFINITY, CircularArc, controls_of, parabolas_of
 from vorotool.engines.voronoi.moves import Moves
+from vorotool.plain import plain
 from vorotool.types.box import Extent
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.voronoi.voronoi_map import OUTSIDE
@@ -32,7 +32,7 @@ TOUCH = 2.0**-48
 """Of the coordinates, by which a parabola may miss a side of the frame and still be taken to touch it."""
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class CutBorders:
     """Pieces of borders in a frame."""
 
@@ -177,7 +177,7 @@ def _all_of(pairs: NDArray[np.bool_]) -> NDArray[np.bool_]:
     return both
 
 
-@dataclass(frozen=True)
+@plain
 class _Part:
     """A part of a piece: its ends, and the control point on the lattice, if it is a parabola."""
 
@@ -187,7 +187,7 @@ class _Part:
     control: Place | None
 
 
-@dataclass(frozen=True)
+@plain
 class _Curve:
     """A straight line, base + t way, or a parabola by its parameter, from one t to another."""
 

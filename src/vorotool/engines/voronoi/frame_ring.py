@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import groupby, pairwise, permutations
 
 import numpy as np
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from vorotool.engines.voronoi.frame_cut import SIDES, CutBorders
 from vorotool.errors import VerificationError
+from vorotool.plain import plain
 
 Indices = NDArray[np.int64]
 Floats = NDArray[np.float64]
@@ -29,7 +30,7 @@ _MOST_TIES = 6
 """Borders that end at one place of a frame as far as doubles tell, all orders of which are tried."""
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class FrameRing:
     """The arcs of a frame, counter-clockwise."""
 
@@ -48,7 +49,7 @@ class FrameRing:
     places: Floats
 
 
-@dataclass(frozen=True)
+@plain
 class _Node:
     """A place on the frame: where it is, and (site, part) along the frame before it and after it."""
 

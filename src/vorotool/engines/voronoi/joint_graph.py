@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -13,6 +11,7 @@ from vorotool.engines.voronoi.elements import graph_of_sites
 from vorotool.errors import LimitError
 from vorotool.numeric.progress import Progress
 from vorotool.numeric.ragged import owners, ranges, starts_of
+from vorotool.plain import plain
 from vorotool.types.box import Extent, corners_of
 from vorotool.types.magnitude import check_magnitude
 from vorotool.types.polygons.planar_graph import PlanarGraph
@@ -22,7 +21,7 @@ Indices = NDArray[np.int64]
 Floats = NDArray[np.float64]
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class JointGraph:
     """The planar graph of sites, a frame, clips and enclosures together."""
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +10,7 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.engines.segment_voronoi.segment_voronoi import core_diagram
 from vorotool.numeric.sorted_sets import distinct
+from vorotool.plain import plain
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.skeleton.segment_voronoi import SegmentVoronoiDiagram
 
@@ -30,7 +30,7 @@ STEP = 4
 """By which orders around places are apart, so that arcs of the limit come in between."""
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class LimitArcs:
     """Arcs of a limit, each in the cell of an element of the graph, which is on its left."""
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +15,7 @@ from vorotool.engines.voronoi.elements import OwnedGraph, owners_of
 from vorotool.engines.voronoi.regions import Regions
 from vorotool.numeric.progress import Progress
 from vorotool.numeric.ragged import ranges, starts_of
+from vorotool.plain import plain
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import PolygonSet
 
@@ -23,7 +23,7 @@ Indices = NDArray[np.int64]
 Sites = NDArray[np.int32]
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class LocalDiagrams:
     """What belongs to whom in each of several regions, and the borders there."""
 

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.numeric.ragged import ranges
+from vorotool.plain import plain
 
 if TYPE_CHECKING:
     from vorotool.engines.voronoi.assembly import Arcs, Rings
@@ -17,7 +17,7 @@ Indices = NDArray[np.int64]
 Floats = NDArray[np.float64]
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class Moves:
     """Where some of many places are in the input."""
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -15,6 +13,7 @@ from vorotool.engines.voronoi.joint_graph import packed
 from vorotool.engines.voronoi.local_diagrams import LocalDiagrams
 from vorotool.engines.voronoi.regions import NOBODY, CutEdges, faces_of_sides
 from vorotool.numeric.ragged import owners, starts_of
+from vorotool.plain import plain
 from vorotool.types.voronoi.voronoi_map import OUTSIDE
 
 Floats = NDArray[np.float64]
@@ -24,7 +23,7 @@ UNKNOWN = -2
 """The site of what is not known yet."""
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class Pieces:
     """Parts of borders between places."""
 
@@ -38,7 +37,7 @@ class Pieces:
         return Pieces(self.piece[chosen], self.ends[chosen], self.t[chosen], self.row[chosen])
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class CutPieces:
     """Parts of cut edges between places."""
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -13,6 +12,7 @@ from vorotool.engines.voronoi.joint_graph import JointGraph, packed
 from vorotool.errors import Kind, Message, VorotoolWarning, warn
 from vorotool.numeric.ragged import owners, starts_of
 from vorotool.numeric.sorted_sets import distinct, is_among
+from vorotool.plain import plain
 from vorotool.types.polygons.planar_graph import PlanarGraph
 
 Indices = NDArray[np.int64]
@@ -22,7 +22,7 @@ NOBODY = -1
 """The region of what no cell may have."""
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class CutEdges:
     """Segments between regions, on the lattice."""
 
@@ -34,7 +34,7 @@ class CutEdges:
     is_enclosure: NDArray[np.bool_]  # (m,) bool array: whether an enclosure runs along it
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class Regions:
     """Regions, and which sites each is shared among."""
 

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import NamedTuple
 
 from vorotool.formats.drawing.xml_tree import Element
+from vorotool.plain import plain
 
 _COMMENT = re.compile(r"/\*.*?(?:\*/|\Z)", re.DOTALL)  # one without an end goes on to that of the text
 _SELECTOR = re.compile(r"(\*|[A-Za-z][\w-]*)?(?:([.#])([\w-]+))?")
@@ -47,7 +48,7 @@ def referred(value: str) -> str | None:
     return name.strip(" \t\r\n'\"") if sign and end else None
 
 
-@dataclass(frozen=True)
+@plain
 class StyleSheet:
     """The rules of the style elements of a drawing."""
 

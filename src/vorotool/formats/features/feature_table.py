@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any
 
 import numpy as np
@@ -15,6 +15,7 @@ from vorotool.formats.parsing.geojson import MOST_CELLS
 from vorotool.formats.parsing.geometry_advice import OF_SITES, not_a_point_advice, not_a_shape_advice
 from vorotool.formats.parsing.reader_options import ReadOptions, no_points
 from vorotool.formats.points.rows import PointRows
+from vorotool.plain import plain
 from vorotool.types.axis import UP
 from vorotool.types.points.conversion import part_numbers, single_points
 from vorotool.types.polygons.conversion import polygons_of_geometry
@@ -23,7 +24,7 @@ from vorotool.types.polygons.polygon_set import PolygonSet
 _POINTS, _SHAPES, _COLLECTION = (0, 4), (1, 2, 3, 5, 6), 7  # type numbers of GEOS
 
 
-@dataclass(frozen=True)
+@plain
 class Features:
     """The features of one layer."""
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -23,12 +22,13 @@ from vorotool.formats.zarr.metadata import read_metadata
 from vorotool.formats.zarr.multiscales import Level, full_size, label_images
 from vorotool.formats.zarr.reader import StoredArray
 from vorotool.formats.zarr.store import is_array, is_group
+from vorotool.plain import plain
 from vorotool.types.pixel_frame import MAX_PIXELS
 from vorotool.types.pixel_grid import PixelGrid
 from vorotool.types.points.raster import Raster
 
 
-@dataclass(frozen=True)
+@plain
 class ZarrRows:
     """The rows of a Zarr array."""
 
@@ -111,7 +111,7 @@ class ZarrRows:
         return {"name": self.name, "path": self.path}
 
 
-@dataclass(frozen=True)
+@plain
 class TiffRows:
     """The rows of a page of a TIFF file with one value a pixel."""
 

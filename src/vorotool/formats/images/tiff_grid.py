@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from fractions import Fraction
 from math import isfinite
 from typing import Any
@@ -11,6 +10,7 @@ from typing import Any
 from vorotool.errors import InputError
 from vorotool.formats.images.ome_xml import ome_sizes, states_one_side
 from vorotool.numeric.crs import crs_member
+from vorotool.plain import plain
 from vorotool.types.pixel_grid import GeoKeys, PixelGrid, Transform, map_grid
 
 PIXEL_SCALE, TIEPOINT, TRANSFORMATION = 33550, 33922, 34264
@@ -29,7 +29,7 @@ _IMAGEJ_STEPS = 10**6
 """ImageJ states pixels a unit in millionths."""
 
 
-@dataclass(frozen=True)
+@plain
 class PageGrid:
     """What a page says of its pixels."""
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
+from vorotool.plain import plain
 
 LARGEST_TILE = 2**26
 """Bytes of a tile; only a larger image may have larger ones."""
@@ -33,7 +34,7 @@ JPEGS = {6, 7, 33007, 34892}
 """Compressions that are JPEG."""
 
 
-@dataclass(frozen=True)
+@plain
 class TiffLayout:
     """Strips or tiles of a page, all of which are in the file."""
 

@@ -16,9 +16,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from vorotool.formats.io.temporaries import ASIDE, Temporaries, Temporary, new_folder, remove
+from vorotool.plain import plain
 
 
-@dataclass(frozen=True)
+@plain
 class Placement:
     """An output that is complete, and the place where it goes."""
 

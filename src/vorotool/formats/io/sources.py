@@ -8,12 +8,12 @@ import sys
 import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, BinaryIO
 
 from vorotool.errors import InputError, LimitError, UsageError, VorotoolError
 from vorotool.formats.io.descriptors import STANDARD, descriptor_of, open_input, stream_kind
+from vorotool.plain import plain
 
 STANDARD_INPUT = "standard input"
 GZIP = b"\x1f\x8b\x08"
@@ -26,7 +26,7 @@ NESTING_LIMIT = 100
 """Levels of brackets; no file of points or polygons has ten."""
 
 
-@dataclass(frozen=True)
+@plain
 class Source:
     """The content of one input."""
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from itertools import chain
 from typing import Any
 
@@ -12,6 +11,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError, LimitError, option
 from vorotool.numeric.curves.well_known import flattened_note
+from vorotool.plain import plain
 from vorotool.types.axis import YAxis
 from vorotool.types.pixel_frame import MAX_PIXELS
 
@@ -26,7 +26,7 @@ def no_note(message: str) -> None:
     """Drop a note that nobody asked for."""
 
 
-@dataclass(frozen=True)
+@plain
 class ReadOptions:
     """What a reader is told beside its source; each format takes what is about it."""
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -31,6 +31,7 @@ from vorotool.formats.points.columns import COLUMNS, DECIMAL_COMMA, Chosen, choo
 from vorotool.formats.points.rows import PointRows, point_set
 from vorotool.numeric.crs import LONGITUDE_LATITUDE, crs_member
 from vorotool.numeric.number_text import typed_texts
+from vorotool.plain import plain
 from vorotool.types.axis import UNSTATED, UP
 from vorotool.types.points.point_set import PointSet
 
@@ -40,7 +41,7 @@ GEOMETRY_COLUMNS = ("wkt", "geometry", "geom", "the_geom", "wkb", "wkb_geometry"
 _QUOTED = re.compile(r'"[^"]*"')
 
 
-@dataclass(frozen=True)
+@plain
 class _Layout:
     """How the text of one file is read: columns are 0-based; without a header there are no names."""
 
@@ -103,7 +104,7 @@ def geometry_column(fields: Sequence[str]) -> int | None:
     return next((lower.index(name) for name in GEOMETRY_COLUMNS if name in lower), None)
 
 
-@dataclass(frozen=True)
+@plain
 class DelimitedText:
     """Delimited text with a header, of which no column is known to hold coordinates."""
 

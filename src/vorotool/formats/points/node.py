@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -14,13 +13,14 @@ from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.formats.points.delimited import explain
 from vorotool.formats.points.rows import PointRows
+from vorotool.plain import plain
 from vorotool.types.points.point_set import PointSet
 
 _FORM = "<vertices> {} <attributes> <0 or 1 boundary markers>"
 _SPACE = option("tessellate --size WxHxD", 'geometry="space"')
 
 
-@dataclass(frozen=True)
+@plain
 class _Header:
     line: int
     vertices: int

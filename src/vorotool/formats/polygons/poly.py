@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, BinaryIO
 
 import numpy as np
@@ -13,6 +13,7 @@ from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions, shortened
 from vorotool.formats.text.coordinate_text import coordinate_text
 from vorotool.numeric.sorted_sets import distinct
+from vorotool.plain import plain
 from vorotool.types.box import bounds
 from vorotool.types.polygons.conversion import to_shapely
 from vorotool.types.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet, set_of_rings
@@ -177,7 +178,7 @@ def _chains(segments: NDArray[np.int64], vertices: int) -> list[list[int]]:
     return chains
 
 
-@dataclass(frozen=True)
+@plain
 class _Frame:
     """A frame in which coordinates are at most about 1, so that areas neither overflow nor vanish."""
 

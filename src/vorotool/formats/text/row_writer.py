@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, BinaryIO, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
@@ -15,6 +15,7 @@ from vorotool.numeric.coordinate_grid import on_grid
 from vorotool.numeric.masked import is_masked_array
 from vorotool.numeric.numbers import shown_number, whole_number
 from vorotool.numeric.parallel import in_order
+from vorotool.plain import plain
 from vorotool.types.table import Computed, Lookup
 
 SLICE_ROWS = 1 << 14
@@ -33,7 +34,7 @@ class RowShape(NamedTuple):
     missing: str = ""
 
 
-@dataclass(frozen=True)
+@plain
 class Column:
     """Values (an array of bool, int64, uint64 or float64, or a list; or lazy), and which of them are missing."""
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, BinaryIO
 
@@ -17,10 +16,11 @@ from vorotool.formats.io.npy_arrays import NpyHeader, npy_header, npy_values
 from vorotool.formats.io.sources import Source
 from vorotool.formats.volumes.mapping import Spool, mapped
 from vorotool.formats.volumes.slabs import checked_slabs
+from vorotool.plain import plain
 from vorotool.types.volumes.voxel_grid import VoxelGrid
 
 
-@dataclass(frozen=True)
+@plain
 class NpyVolume:
     """The slices of an array of three axes; in Fortran order each slice is scattered over the whole file."""
 

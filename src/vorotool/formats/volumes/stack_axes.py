@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass
 from fractions import Fraction
 from math import prod
 from typing import Any
@@ -14,6 +13,7 @@ from vorotool.formats.images.ome_xml import decimal_side
 from vorotool.formats.images.tiff_grid import side_of_imagej, unescaped
 from vorotool.formats.volumes.ome_stack import ome_stack
 from vorotool.formats.volumes.source import refuse_axes
+from vorotool.plain import plain
 from vorotool.types.volumes.voxel_grid import VoxelGrid
 
 _NO_UNIT = 1
@@ -23,7 +23,7 @@ _NAMES = {"T": "time steps", "C": "channels", "S": "samples"}
 _MOST_IMAGES = 2**31
 
 
-@dataclass(frozen=True)
+@plain
 class StackAxes:
     """A stack as a file describes it."""
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from itertools import pairwise
 from typing import Any
@@ -22,13 +22,14 @@ from vorotool.formats.io.limits import decoding
 from vorotool.formats.volumes.mapping import Spool, mapped
 from vorotool.formats.volumes.stack_axes import StackAxes, stack_axes
 from vorotool.numeric.parallel import in_order
+from vorotool.plain import plain
 from vorotool.types.volumes.voxel_grid import VoxelGrid
 
 _WORTH_THREADS = 2**20
 """Bytes of slices from which threads take less time than they cost."""
 
 
-@dataclass(frozen=True)
+@plain
 class _Stack:
     """Where the voxels are."""
 
@@ -38,7 +39,7 @@ class _Stack:
     step: int | None  # bytes from slice to slice where each is one array and they are equally far apart
 
 
-@dataclass(frozen=True)
+@plain
 class TiffStack:
     """The slices of a TIFF file with one value a pixel."""
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from pathlib import Path
@@ -20,12 +19,13 @@ from vorotool.formats.zarr.multiscales import Described, label_images, largest_i
 from vorotool.formats.zarr.reader import StoredArray
 from vorotool.formats.zarr.store import is_array, is_group
 from vorotool.numeric.length_units import ratio, unit_name
+from vorotool.plain import plain
 from vorotool.types.volumes.voxel_grid import VoxelGrid
 
 _SPACE = ("z", "y", "x")
 
 
-@dataclass(frozen=True)
+@plain
 class ZarrVolume:
     """The slices of a Zarr array."""
 

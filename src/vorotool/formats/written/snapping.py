@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -11,13 +10,14 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.numeric.coordinate_grid import Grid
 from vorotool.numeric.ragged import Nesting, following, owners, starts_of
+from vorotool.plain import plain
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
 Rings = tuple[Floats, Nesting]
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class Snapped:
     """Features after snap rounding, and what that means for others with the same vertices and edges."""
 
@@ -70,7 +70,7 @@ def _hashes(points: Floats) -> NDArray[np.uint64]:
     return made
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class _Names:
     """Numbers of distinct points: the points in order, and one index of each."""
 
@@ -143,7 +143,7 @@ def _graph(
     return graph | {"vertex_count": len(vertices) + len(line_ends)}
 
 
-@dataclass(frozen=True)
+@plain
 class _Lattice:
     """Multiples of the grid by a power of two, from an origin on."""
 
@@ -171,7 +171,7 @@ class _Lattice:
         return self.grid.values(self.origin + (places.astype(np.int64) << self.shift))
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class _Places:
     """Coordinates of places of a lattice."""
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import product
 from typing import Any
 
@@ -13,6 +12,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError, UsageError
 from vorotool.formats.compression import unpacking
+from vorotool.plain import plain
 
 SPARE = 2**12
 """Bytes that a chunk may have beyond its values before it is undone: headers, and what did not compress."""
@@ -32,7 +32,7 @@ _MISSING = 2**64 - 1
 _CHECKSUM_BYTES = 4
 
 
-@dataclass(frozen=True)
+@plain
 class Compression:
     """One of `BYTES_CODECS`."""
 
@@ -46,7 +46,7 @@ class Compression:
         return unpacked
 
 
-@dataclass(frozen=True)
+@plain
 class Checksum:
     """CRC-32C in the last four bytes."""
 
@@ -62,7 +62,7 @@ class Checksum:
         return body
 
 
-@dataclass(frozen=True)
+@plain
 class Shuffle:
     """Bytes of values apart: all first ones, all second ones, and so on."""
 
@@ -75,7 +75,7 @@ class Shuffle:
         return mixed.tobytes() + bytes(data[whole:])
 
 
-@dataclass(frozen=True)
+@plain
 class Delta:
     """Differences of values."""
 
@@ -90,7 +90,7 @@ class Delta:
 Codec = Compression | Checksum | Shuffle | Delta
 
 
-@dataclass(frozen=True)
+@plain
 class Pipeline:
     """How values become the bytes of a chunk."""
 
@@ -129,7 +129,7 @@ class Pipeline:
         return values[region]
 
 
-@dataclass(frozen=True)
+@plain
 class Shard:
     """A chunk that is made of smaller ones, with an index of where they are."""
 

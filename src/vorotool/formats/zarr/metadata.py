@@ -10,7 +10,6 @@ import math
 import os
 import re
 import struct
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +18,7 @@ import numpy as np
 from vorotool.errors import InputError
 from vorotool.formats.io.sources import check_nesting
 from vorotool.formats.zarr.codecs import BYTES_CODECS, Checksum, Codec, Pipeline, Shard, checked_bytes_codec
+from vorotool.plain import plain
 
 LARGEST_METADATA = 2**20
 """Bytes; of an array they are some hundred."""
@@ -50,7 +50,7 @@ _SPECIAL = {"NaN": math.nan, "Infinity": math.inf, "-Infinity": -math.inf}
 _ACCEPTED = "bytes, transpose, sharding_indexed, shuffle, delta, crc32c, " + ", ".join(BYTES_CODECS)
 
 
-@dataclass(frozen=True)
+@plain
 class ZarrMetadata:
     """An array in a store."""
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path, PurePosixPath
 from typing import Any
@@ -13,6 +12,7 @@ from typing import Any
 from vorotool.errors import InputError
 from vorotool.formats.zarr.metadata import read_json, read_metadata
 from vorotool.numeric.length_units import ratio
+from vorotool.plain import plain
 from vorotool.types.pixel_grid import PixelGrid
 
 VERSION = "0.5"
@@ -32,7 +32,7 @@ _LONG_UNITS = {"pm": "picometer", "nm": "nanometer", "µm": "micrometer", "mm": 
 _LONG_UNITS |= {"m": "meter", "km": "kilometer", "Å": "angstrom", "inch": "inch", "ft": "foot"}
 
 
-@dataclass(frozen=True)
+@plain
 class Level:
     """The largest image of a pyramid."""
 
@@ -41,7 +41,7 @@ class Level:
     grid: PixelGrid | None
 
 
-@dataclass(frozen=True)
+@plain
 class Described:
     """What the metadata of a group say of the largest image in it."""
 

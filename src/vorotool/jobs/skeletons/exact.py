@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -23,11 +22,12 @@ from vorotool.jobs.options import ExactSkeletonOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.skeletons.products import SkeletonProducts
 from vorotool.numeric.progress import Progress
+from vorotool.plain import plain
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.skeleton.skeleton import Skeleton
 
 
-@dataclass(frozen=True)
+@plain
 class Seen:
     """Counts of the diagram of some features."""
 

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 from vorotool.jobs.options import ExactSkeletonOptions, SkeletonOptions
 from vorotool.jobs.run_log import Run
 from vorotool.numeric.progress import Progress
+from vorotool.plain import plain
 
 if TYPE_CHECKING:
     from vorotool.engines.skeleton.exact import ShapeDiagram
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from vorotool.types.skeleton.skeleton import Skeleton
 
 
-@dataclass(frozen=True)
+@plain
 class Origin:
     """What results follow from."""
 

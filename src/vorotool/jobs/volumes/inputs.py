@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
@@ -27,6 +27,7 @@ from vorotool.jobs.masks import report_cleaning
 from vorotool.jobs.options import TessellationOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.units import PixelSize, sides_of, unit_stats
+from vorotool.plain import plain
 from vorotool.products.inputs import VOLUME_NAMES
 from vorotool.types.spacing import PixelSides
 from vorotool.types.volumes.volume_seeds import VolumeSeeds
@@ -36,7 +37,7 @@ from vorotool.types.volumes.voxel_grid import VoxelGrid
 _TIFF_HEADS = (b"II*\x00", b"MM\x00*", b"II+\x00", b"MM\x00+")
 
 
-@dataclass(frozen=True)
+@plain
 class ReadVolume:
     """Seeds, and what else an input says."""
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
@@ -17,6 +16,7 @@ from vorotool.jobs.options import AUTO_LEVELS, TessellationOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.streamed_output import expected_bytes, write_on_cluster
 from vorotool.jobs.targets import Target
+from vorotool.plain import plain
 from vorotool.types.volumes.voxel_frame import VoxelFrame
 from vorotool.types.volumes.voxel_grid import VoxelGrid
 
@@ -24,7 +24,7 @@ Limits = Sequence[tuple[int, int]]
 """First slice and number of slices of each slab."""
 
 
-@dataclass(frozen=True)
+@plain
 class VolumeStream:
     """A volume that need not be in memory."""
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
 
@@ -13,6 +12,7 @@ from numpy.typing import NDArray
 from vorotool.engines.volumes.inner_voxels import inner_runs
 from vorotool.errors import LimitError, UsageError
 from vorotool.numeric.ragged import ranges
+from vorotool.plain import plain
 from vorotool.types.pixel_frame import Frame
 from vorotool.types.points.label_image import LabelImage
 from vorotool.types.points.seed_set import SeedSet
@@ -49,7 +49,7 @@ class View(NamedTuple):
         return 3 - sum(self.axes)
 
 
-@dataclass(frozen=True)
+@plain
 class SlicePicture:
     """Where slices lie in a picture, whose pixels are squares with the shortest side of a voxel."""
 

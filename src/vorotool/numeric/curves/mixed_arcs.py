@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -13,6 +12,7 @@ from vorotool.numeric.curves.circular_arcs import chords_of
 from vorotool.numeric.curves.flatten import polylines
 from vorotool.numeric.curves.inverse_functions import PI, hypotenuse, inverse_sine
 from vorotool.numeric.ragged import ranges, starts_of
+from vorotool.plain import plain
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -24,7 +24,7 @@ _TERMS = 15
 """Of the series: the next one is below 2^-60 of the first where the sine is small."""
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class MixedArcs:
     """Arcs with two ends each."""
 

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.plain import plain
 from vorotool.render.canvas.layers import Arcs
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class Circles(Arcs):
     """Circles, each of two arcs of half of it; see `circles`."""
 

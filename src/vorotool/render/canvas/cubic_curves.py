@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.numeric.curves.cubics import cubic_polylines
+from vorotool.plain import plain
 from vorotool.render.canvas.layers import Curves
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class CubicCurves(Curves):
     """Cubic Bézier curves."""
 

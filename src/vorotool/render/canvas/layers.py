@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +13,7 @@ from vorotool.numeric.curves.circular_arcs import chords_of
 from vorotool.numeric.curves.flatten import polylines
 from vorotool.numeric.curves.mixed_arcs import MixedArcs
 from vorotool.numeric.ragged import following, owners, starts_of, within
+from vorotool.plain import plain
 from vorotool.render.canvas.palettes import INK, SEED
 from vorotool.render.canvas.styles import PictureStyle
 from vorotool.types.box import bounds
@@ -25,7 +26,7 @@ TALLEST = 4
 """A page is at most so many times as high as wide: narrower data are drawn smaller."""
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class Lines:
     """Straight lines."""
 
@@ -36,7 +37,7 @@ class Lines:
     width: float = 1.5  # in px, whatever the scale
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class Curves:
     """Straight lines, quadratic Bezier curves and circular arcs."""
 
@@ -77,7 +78,7 @@ class Curves:
         return points, np.stack([first, first + 1], axis=1).astype(np.int32)
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class Polygons:
     """Polygons of one or more rings each, filled by the even-odd rule."""
 
@@ -119,7 +120,7 @@ class Polygons:
         return np.stack([self.corners, self.corners[after]], axis=1)
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class CurvedPolygons(Polygons):
     """Polygons whose sides may be curves, which two of them share."""
 
@@ -140,7 +141,7 @@ class CurvedPolygons(Polygons):
         return Polygons(self.name, points, taken.astype(np.int32), rings, *fills, *looks)
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class Points:
     """Discs of one radius, in px; those with a halo, a color, have an edge around them."""
 
@@ -156,7 +157,7 @@ class Points:
         return min(1.0, self.radius)
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class Texts:
     """Short texts beside points."""
 
@@ -178,7 +179,7 @@ class Texts:
         return y + self.size * np.where(below, 1.1, -0.5)
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class Arcs:
     """Closed curves of circular arcs and straight lines, filled by the even-odd rule or not at all."""
 
@@ -295,7 +296,7 @@ class Page:
         return math.sqrt(self.width * self.height / max(count, 1))
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class Backdrop:
     """An image to draw over."""
 

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import NamedTuple
 
+from vorotool.plain import plain
 from vorotool.render.canvas.palettes import WHITE
 
 DRAWN_AS = {"lines": "polygons", "centerline": "skeleton", "diagram": "skeleton", "object-points": "objects"}
@@ -19,7 +20,7 @@ class ScaleBar(NamedTuple):
     unit: str | None
 
 
-@dataclass(frozen=True)
+@plain
 class PictureStyle:
     """What of a picture is not left to what draws it."""
 

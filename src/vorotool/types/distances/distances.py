@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.plain import plain
 from vorotool.types.features import Rows, of_segments, without_places
 from vorotool.types.polygons.polygon_set import PolygonSet
 from vorotool.types.table import Lookup, Table
@@ -17,7 +18,7 @@ HAUSDORFF, FROM_A, FROM_B, SMALLEST = "hausdorff", "a to b", "b to a", "smallest
 """Names of distances in tables: the larger of both directions, each of them, and the smallest one."""
 
 
-@dataclass(frozen=True)
+@plain
 class PlacePair:
     """A place of a shape, the nearest place of another shape, and their distance.
 
@@ -37,7 +38,7 @@ class PlacePair:
         return self.distance
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@plain(eq=False, repr=False)
 class Distances(Value, Tabular, Geometric, Pictured):
     """Distances between two shapes a and b: the Hausdorff distance, the smallest distance, or both.
 

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from vorotool.plain import plain
 from vorotool.types.features import Rows
 from vorotool.types.table import Table
 from vorotool.types.values import Tabular, Value
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@plain(eq=False, repr=False)
 class DigitalComparison(Value, Tabular):
     """Precision and recall of a digital triangulation, and every difference with its cause.
 

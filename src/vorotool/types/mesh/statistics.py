@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from math import sqrt
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.plain import plain
 from vorotool.types.features import Rows
 from vorotool.types.summaries import summary_table
 from vorotool.types.table import Table
@@ -18,7 +19,7 @@ MEASURES = ("area", "perimeter", "roundness", "neighbors", "nearest_distance")
 """Columns of cells that are summarised."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@plain(eq=False, repr=False)
 class CellStatistics(Value, Tabular):
     """Measures of cells, and their summary.
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.numeric.masked import is_masked_array
+from vorotool.plain import plain
 from vorotool.products.formats import resolved
 from vorotool.types.axis import DOWN, YAxis
 from vorotool.types.pixel_frame import Frame
@@ -25,7 +26,7 @@ COUNTED = 1 << 24
 """Labels of images of more pixels are not counted to describe one."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@plain(eq=False, repr=False)
 class LabelImage(Value, Tabular, Geometric, Graph, Pixels):
     """Labels of the pixels of a frame.
 

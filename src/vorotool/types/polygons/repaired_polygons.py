@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.plain import plain
 from vorotool.types.polygons.polygon_set import PolygonSet
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class RepairedPolygons:
     """The rings of a planar graph, and where each vertex and edge is in it."""
 

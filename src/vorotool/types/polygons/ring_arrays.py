@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -11,12 +11,13 @@ from numpy.typing import NDArray
 
 from vorotool.numeric.ragged import owners, ranges, starts_of
 from vorotool.numeric.row_index import index_of_rows
+from vorotool.plain import plain
 from vorotool.types.polygons.polygon_set import PolygonSet
 
 Indices = NDArray[np.int64]
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class RingArrays:
     """Rings of polygons, in any order."""
 

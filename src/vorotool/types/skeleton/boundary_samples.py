@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.numeric.ragged import owners
+from vorotool.plain import plain
 from vorotool.types.identity import names_of, part_table
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import PolygonSet
@@ -15,7 +14,7 @@ from vorotool.types.skeleton.skeleton import SiteTable
 from vorotool.types.table import Lookup, Table
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class BoundarySamples:
     """Seeds: the points of a planar graph, then those inside each of its segments, along it."""
 

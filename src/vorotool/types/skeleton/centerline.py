@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.plain import plain
 from vorotool.types.skeleton.led_on import LedOn
 from vorotool.types.values import counted, placed
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@plain(eq=False, repr=False)
 class Centerlines(LedOn):
     """Paths along a skeleton, at most one per polygon, with straight lines that extend them.
 

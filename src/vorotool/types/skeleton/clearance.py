@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.plain import plain
 
-@dataclass(frozen=True, eq=False)
+
+@plain(eq=False)
 class ClearanceCourse:
     """Signs that decide where the clearance has its extremes; along an arc it is convex, or the same everywhere."""
 

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from vorotool.plain import plain
 from vorotool.types.skeleton.led_on import LedOn
 from vorotool.types.values import counted, placed
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@plain(eq=False, repr=False)
 class ExtendedSkeleton(LedOn):
     """Skeleton with straight lines that extend its ends to the boundary; see `vorotool.extend_ends`.
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -13,6 +12,7 @@ from vorotool.numeric.checks import is_choice
 from vorotool.numeric.curves.flatten import chained
 from vorotool.numeric.numbers import shown_number
 from vorotool.numeric.sorted_sets import distinct
+from vorotool.plain import plain
 from vorotool.types.features import Lines, Rows, of_polygons
 from vorotool.types.identity import names_of, part_table
 from vorotool.types.skeleton.skeleton import KINDS, SIDES, Skeleton
@@ -22,7 +22,7 @@ from vorotool.types.table import Lookup, Table
 BY = ("branch", "arc")
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class SkeletonGraph:
     """Nodes and edges of a skeleton; several edges may join the same nodes, and one may join a node with itself."""
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any
 
 import numpy as np
@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.numeric.checks import set_rows
+from vorotool.plain import plain
 
 LATTICE_LIMIT = 2**30 - 1
 """Largest magnitude of a coordinate: products of differences fit in 64 bits."""
@@ -26,7 +27,7 @@ _SHAPES = {
 }
 
 
-@dataclass(frozen=True, eq=False)
+@plain(eq=False)
 class SegmentVoronoiDiagram:
     """The Voronoi diagram of n points and m open segments, in lattice units."""
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,6 +9,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.numeric.masked import is_masked_array
+from vorotool.plain import plain
 from vorotool.products.formats import resolved
 from vorotool.types.spacing import PixelSides
 from vorotool.types.values import Elements, Graph, Tabular, Value
@@ -24,7 +24,7 @@ CUBE = PixelSides((1, 1, 1))
 """Sides of 1."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@plain(eq=False, repr=False)
 class LabelVolume(Value, Tabular, Graph, Elements):
     """Labels of the voxels of a frame.
 

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
+from vorotool.plain import plain
 from vorotool.types.values import Value
 from vorotool.types.volumes.voxel_grid import VoxelGrid
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@plain(eq=False, repr=False)
 class Volume(Value):
     """A volume of one channel.
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import fields
 
 from vorotool.errors import InputError, LimitError, option
+from vorotool.plain import plain
 from vorotool.types.pixel_frame import FARTHEST, MAX_SIDE
 
 
-@dataclass(frozen=True)
+@plain
 class VoxelFrame:
     """A box of voxels: voxel (0, 0, 0) of the volume has its center at (``x``, ``y``, ``z``).
 

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import Literal
 
 from vorotool.numeric.length_units import unit_name
+from vorotool.plain import plain
 from vorotool.types.pixel_grid import ALIKE
 
 VolumeForm = Literal["tiff", "imagej", "ome", "zarr"]
 
 
-@dataclass(frozen=True)
+@plain
 class VoxelGrid:
     """The grid of the voxels of a volume, in units of the world.
 
