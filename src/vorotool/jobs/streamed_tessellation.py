@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 from functools import cached_property, partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +14,6 @@ from vorotool.engines.tessellation.bands import Quantity
 from vorotool.engines.tessellation.frames import label_dtype
 from vorotool.engines.tessellation.streamed_image import ObjectRows, StreamedImage
 from vorotool.errors import LimitError, UsageError
-from vorotool.formats.images.band_reader import TiffRows, ZarrRows
 from vorotool.formats.opening import Opened
 from vorotool.jobs.inputs import refuse
 from vorotool.jobs.options import TessellationOptions
@@ -24,6 +23,9 @@ from vorotool.jobs.streamed_output import Stream, check_chunks, scale_of_squares
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import sides_of, unit_text
 from vorotool.numeric.progress import Progress
+
+if TYPE_CHECKING:
+    from vorotool.formats.images.band_reader import TiffRows, ZarrRows
 
 LARGE = 2**24
 """Pixels from which an image that can be read in bands is not held: a seed in memory takes some 40 bytes."""

@@ -13,14 +13,6 @@ from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.label_images.regions import (
-    RegionMeasures,
-    measure_regions,
-    neighbor_table,
-    region_colors,
-    region_table,
-    voronoi_diagram,
-)
 from vorotool.engines.tessellation.bands import Band, Quantity, SeedBand, SeedBands
 from vorotool.engines.tessellation.frames import label_dtype, require_memory, squared_limit
 from vorotool.engines.tessellation.propagation import PropagatedRows
@@ -44,7 +36,6 @@ from vorotool.jobs.inputs import (
 )
 from vorotool.jobs.map_cells import seeds_on_map
 from vorotool.jobs.options import TessellationOptions
-from vorotool.jobs.picture_world import world_of
 from vorotool.jobs.pixel_sizes import with_pixel_size, written_grid
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.streamed_output import RowsOf, Stream, check_chunks, scale_of_squares, write_file, write_store
@@ -67,6 +58,7 @@ from vorotool.types.spacing import SQUARE
 from vorotool.types.table import Table
 
 if TYPE_CHECKING:
+    from vorotool.engines.label_images.regions import RegionMeasures
     from vorotool.jobs.label_pictures import LabelPicture
     from vorotool.render.canvas.styles import ScaleBar
 
@@ -167,25 +159,30 @@ class Products:
     @cached_property
     def measures(self) -> RegionMeasures:
         """Areas, borders and boxes of the regions: one pass that tables and colors share."""
+        from vorotool.engines.label_images.regions import measure_regions
+
         return measure_regions(self.image, threads=self.options.threads)
 
     @cached_property
     def colors(self) -> tuple[NDArray[np.uint32], NDArray[np.uint32]]:
         """Labels, and the color class of each."""
+        from vorotool.engines.label_images.regions import region_colors
+
         return region_colors(self.image, measures=self.measures)
 
     def check(self, target: Target) -> None:
         """Refuse what cannot be written in the format of a target, before anything is."""
-        from vorotool.formats.images.label_images import check_png
-        from vorotool.render.label_images.svg import check_size
-
         what, fmt = target.what, target.fmt
         if fmt in ("svg", "html"):
+            from vorotool.render.label_images.svg import check_size
+
             check_size(self.rows.frame.shape, fmt.upper())
         elif fmt in ANIMATIONS:
             animations.check_size(self.options, self.rows.frame.shape)
             self._exact_rows().check_distances()
         elif what == "labels" and fmt == "png":
+            from vorotool.formats.images.label_images import check_png
+
             check_png(self.dtype, self.rows.seeds.largest_label)
         elif what == "distance2":
             _ = self._exact_rows().square_dtype
@@ -270,11 +267,15 @@ class Products:
         return SeedBands(self.rows.seeds, self.rows.frame)
 
     def _diagram(self, first: int, rows: int) -> NDArray[Any]:
+        from vorotool.engines.label_images.regions import voronoi_diagram
+
         above, below = min(1, first), min(1, self.rows.frame.height - first - rows)
         labels = self._labels(first - above, rows + above + below)
         return voronoi_diagram(labels, threads=self.options.threads)[above : above + rows]
 
     def _table(self) -> Table:
+        from vorotool.engines.label_images.regions import region_table
+
         image, measures = self.image, self.measures  # refuses a frame that is too large, before distances are taken
         has_distances = isinstance(self.rows, Tessellator) and len(self.rows.seeds)
         rows = self._exact_rows() if has_distances else None
@@ -284,6 +285,7 @@ class Products:
         return table_in_units(self.options.pixel_size, table, properties=properties, has_rows=True)
 
     def _neighbors(self) -> Table:
+        from vorotool.engines.label_images.regions import neighbor_table
         from vorotool.types.identity import ends_of_regions
 
         table = neighbor_table(self.image, measures=self.measures)
@@ -337,6 +339,8 @@ class Products:
     @cached_property
     def _scale_bar(self) -> ScaleBar | None:
         o, seeds = self.options, self.rows.seeds
+        from vorotool.jobs.picture_world import world_of
+
         bar = world_of(self.run, o.looks, frame=(seeds.frame or self.rows.frame).box, size=o.pixel_size).scale_bar
         if bar is None or self.sides == SQUARE:
             return bar

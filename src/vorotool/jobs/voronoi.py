@@ -5,12 +5,10 @@ from __future__ import annotations
 import warnings
 from collections.abc import Sequence
 from functools import cached_property, partial
-from typing import Any, BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 
-from vorotool.engines.voronoi.measures import ties
-from vorotool.engines.voronoi.verify_voronoi import verify_voronoi
 from vorotool.engines.voronoi.voronoi import voronoi
 from vorotool.errors import STRICT, InputError, Kind, Message, RepairWarning
 from vorotool.formats.io.atomic_output import open_output
@@ -26,12 +24,14 @@ from vorotool.jobs.targets import Target
 from vorotool.jobs.units import in_units, length_in_units, unit_columns
 from vorotool.jobs.voronoi_input import read_cuts, read_sites
 from vorotool.numeric.progress import Progress
-from vorotool.products.formats import PICTURES
+from vorotool.products.formats import PICTURES, resolved
 from vorotool.products.registry import PRODUCTS
 from vorotool.products.writing import write_product
 from vorotool.types.polygons.polygon_set import PolygonSet
-from vorotool.types.skeleton.discs import Discs
 from vorotool.types.voronoi.voronoi_map import VoronoiMap
+
+if TYPE_CHECKING:
+    from vorotool.types.skeleton.discs import Discs
 
 
 class VoronoiProducts:
@@ -108,6 +108,8 @@ class VoronoiProducts:
 
     def verify(self, progress: Progress) -> None:
         """Check the map, with nothing that it was made by."""
+        from vorotool.engines.voronoi.verify_voronoi import verify_voronoi
+
         verify_voronoi(self.cells)
         if "discs" in self.options.what:
             from vorotool.engines.from_skeleton.verify_discs import verify_discs
@@ -175,7 +177,7 @@ class VoronoiProducts:
             "borders": int(cells.is_border.sum()),
             "parabolas": int(cells.is_parabola.sum()),
             "circles": int(cells.is_circle.sum()),
-            **ties(cells),
+            **resolved("engines.voronoi.measures:ties")(cells),
             "frame": list(cells.frame),
             "threads": o.threads,
         }

@@ -9,10 +9,7 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from vorotool.errors import InputError, LimitError, UsageError, option
-from vorotool.formats.images.label_text import write_label_text
-from vorotool.formats.images.npy import write_npy
-from vorotool.formats.images.png_writer import write_png
-from vorotool.formats.images.tiff_writer import write_tiff
+from vorotool.products.formats import resolved
 from vorotool.types.pixel_grid import PixelGrid
 from vorotool.types.points.label_image import LabelImage
 from vorotool.types.points.raster import Raster
@@ -47,14 +44,18 @@ def write_label_image(
     if fmt == "png":
         depth = bit_depth or (16 if palette is None else 8)
         check_png(kind, largest_label, depth)
-        write_png(out, bands, shape, bit_depth=depth, palette=palette, threads=threads)
+        resolved("formats.images.png_writer:write_png")(
+            out, bands, shape, bit_depth=depth, palette=palette, threads=threads
+        )
     elif fmt == "tiff":
         of_pixels: dict[str, Any] = {"grid": grid, "nodata": nodata, "scale": scale, "tiled": tiled}
-        write_tiff(out, bands, shape, dtype=kind, palette=palette, **of_pixels, threads=threads)
+        resolved("formats.images.tiff_writer:write_tiff")(
+            out, bands, shape, dtype=kind, palette=palette, **of_pixels, threads=threads
+        )
     elif fmt == "npy":
-        write_npy(out, bands, shape, dtype=kind)
+        resolved("formats.images.npy:write_npy")(out, bands, shape, dtype=kind)
     elif fmt == "text":
-        write_label_text(out, bands, shape, largest_label=largest_label)
+        resolved("formats.images.label_text:write_label_text")(out, bands, shape, largest_label=largest_label)
     else:
         raise UsageError(f"invalid fmt {fmt!r}: expected png, tiff, npy or text")
 

@@ -1,0 +1,84 @@
+"""How long the smallest job of each command takes, beside what it cannot do without: `tools/start_up.py [ROUNDS]`.
+
+Prints a row a command: the least time of some rounds that take turns, times as long as its imports (numpy and click, or
+click alone for `--help`), and the functions and files of ours that it runs.
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+PACKAGE = Path(__file__).parents[1] / "src/vorotool"
+SAMPLES = PACKAGE / "samples"
+JOBS = {
+    "delaunay": ("six-seeds.csv", "-f", "csv"),
+    "alphashape": ("dots.csv", "-f", "geojson"),
+    "tessellate": ("six-seeds.csv", "-f", "npy"),
+    "voronoi": ("shape.json", "-f", "csv"),
+    "skeleton-exact": ("shape.json", "-f", "csv"),
+    "skeleton-approx": ("shape.json", "-f", "csv", "--step", "20"),
+}
+NEEDED = {"--help": "import click", "": "import numpy, click"}
+COUNTED = """
+import sys
+found = set()
+def look(frame, event, _):
+    code = frame.f_code
+    if event == "call" and PACKAGE in code.co_filename and code.co_name[0] != "<":
+        found.add((code.co_filename, code.co_qualname))
+from vorotool.cli.main import main
+sys.setprofile(look)
+try:
+    main(ARGUMENTS)
+except SystemExit:
+    pass
+sys.setprofile(None)
+print(len(found), len({name for name, _ in found}))
+"""
+
+
+def seconds(*command: str) -> float:
+    """Run a command that succeeds."""
+    begin = time.perf_counter()
+    subprocess.run(command, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    return time.perf_counter() - begin
+
+
+def counted(arguments: list[str]) -> tuple[int, int]:
+    """Count the functions of ours that a job runs, without those of modules, and their files."""
+    text = f"PACKAGE, ARGUMENTS = {str(PACKAGE)!r}, {arguments!r}\n{COUNTED}"
+    done = subprocess.run([sys.executable, "-c", text], check=True, capture_output=True, text=True)
+    functions, files = done.stdout.split()
+    return int(functions), int(files)
+
+
+def main() -> None:
+    """Measure all commands in turns."""
+    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+    rounds = int(sys.argv[1]) if len(sys.argv) > 1 else 7
+    with tempfile.TemporaryDirectory() as folder:
+        jobs = {
+            command: [command, str(SAMPLES / name), *options, "-q", "-o", f"{folder}/out"]
+            for command, (name, *options) in JOBS.items()
+        }
+        jobs["--help"] = ["delaunay", "--help"]
+        timed = {f"needed {name}": ["-c", code] for name, code in NEEDED.items()}
+        timed |= {name: ["-m", "vorotool", *arguments] for name, arguments in jobs.items()}
+        times: dict[str, list[float]] = {name: [] for name in timed}
+        for _ in range(rounds):
+            for name, arguments in timed.items():
+                times[name].append(seconds(sys.executable, *arguments))
+        sys.stdout.write(f"{'job':16} {'ms':>5} {'times':>6} {'functions':>10} {'files':>6}\n")
+        for name, arguments in jobs.items():
+            least, needed = min(times[name]), min(times["needed --help" if name == "--help" else "needed "])
+            functions, files = counted(arguments)
+            sys.stdout.write(f"{name:16} {1000 * least:5.0f} {least / needed:6.2f} {functions:10} {files:6}\n")
+
+
+if __name__ == "__main__":
+    main()
