@@ -53,7 +53,7 @@ def counted(arguments: list[str]) -> tuple[int, int]:
     """Count the functions of ours that a job runs, without those of modules, and their files."""
     text = f"PACKAGE, ARGUMENTS = {str(PACKAGE)!r}, {arguments!r}\n{COUNTED}"
     done = subprocess.run([sys.executable, "-c", text], check=True, capture_output=True, text=True)
-    functions, files = done.stdout.split()
+    functions, files = done.stdout.split()[-2:]
     return int(functions), int(files)
 
 
