@@ -135,12 +135,8 @@ _HOME = {
     "alpha_hull": "vorotool.engines.alpha.alpha_hull",
     "alpha_shape": "vorotool.engines.alpha.alpha_shape",
     "verify_alpha_shape": "vorotool.engines.alpha.verify_alpha",
-    "distance_transform": "vorotool.engines.peers.distance_transform",
-    "expand_labels": "vorotool.engines.peers.expand_labels",
     "local_thickness": "vorotool.engines.peers.local_thickness",
-    "medial_axis": "vorotool.engines.peers.medial_axis",
     "verify_thickness": "vorotool.engines.from_skeleton.verify_thickness",
-    "voronoi_polygons": "vorotool.engines.peers.voronoi_polygons",
 }
 
 __all__ = ["__version__", *_HOME]  # noqa: PLE0604 - the keys are strings

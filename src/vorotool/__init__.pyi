@@ -149,20 +149,8 @@ from vorotool.engines.offsets.offsets import (
 from vorotool.engines.offsets.verify_offsets import (
     verify_offsets as verify_offsets,
 )
-from vorotool.engines.peers.distance_transform import (
-    distance_transform as distance_transform,
-)
-from vorotool.engines.peers.expand_labels import (
-    expand_labels as expand_labels,
-)
 from vorotool.engines.peers.local_thickness import (
     local_thickness as local_thickness,
-)
-from vorotool.engines.peers.medial_axis import (
-    medial_axis as medial_axis,
-)
-from vorotool.engines.peers.voronoi_polygons import (
-    voronoi_polygons as voronoi_polygons,
 )
 from vorotool.engines.pruning.pruning import (
     arc_profiles as arc_profiles,

@@ -1,4 +1,4 @@
-"""Functions with the names, parameters, order and defaults of SciPy, scikit-image and momepy, over our engines.
+"""Functions with the names, parameters, order and defaults of other libraries, over our engines.
 
 What differs from the originals is one table in the documents: ties are decided by a rule, and limits exactly.
 """
@@ -12,17 +12,16 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from vorotool.convert.polygons import as_polygons
-from vorotool.engines.peers import distance_transform as _distances
-from vorotool.engines.peers import expand_labels as _labels
-from vorotool.engines.peers import medial_axis as _axis
+from vorotool.engines import peers
 from vorotool.engines.voronoi.voronoi import voronoi
 from vorotool.errors import InputError, UsageError
 from vorotool.numeric.numbers import shown_number
 
 if TYPE_CHECKING:
     import geopandas
+    import shapely
 
-__all__ = ["distance_transform_edt", "expand_labels", "medial_axis", "morphological_tessellation"]
+__all__ = ["distance_transform_edt", "expand_labels", "medial_axis", "morphological_tessellation", "voronoi_polygons"]
 
 Sides = float | Sequence[float]
 MOST_AXES = 3
@@ -78,7 +77,7 @@ def distance_transform_edt(
     _check_output(distances, "distances", np.float64, values.shape)
     _check_output(indices, "indices", np.int32, (values.ndim, *values.shape))
     found: dict[str, Any] = {}
-    made = _distances.distance_transform(
+    made = peers.distance_transform(
         _of_two_axes(values),
         spacing=_spacing(sampling, values.ndim, "sampling"),
         return_distances=bool(return_distances),  # type: ignore[call-overload]
@@ -126,7 +125,7 @@ def expand_labels(label_image: ArrayLike, distance: float = 1, spacing: Sides = 
     """
     values = _elements(label_image, "label_image")
     sides = None if np.ndim(spacing) == 0 and spacing == 1 else _spacing(spacing, values.ndim, "spacing")
-    return _labels.expand_labels(_of_two_axes(values), distance, spacing=sides).reshape(values.shape)
+    return peers.expand_labels(_of_two_axes(values), distance, spacing=sides).reshape(values.shape)
 
 
 def medial_axis(
@@ -173,7 +172,7 @@ def medial_axis(
         if chosen.shape != foreground.shape:
             raise InputError(f"invalid mask: expected the shape {foreground.shape}, but got {chosen.shape}")
         used = foreground & chosen
-    axis = _axis.medial_axis(used)
+    axis = peers.medial_axis(used)
     if mask is not None:
         axis = np.where(chosen, axis, foreground)
     return (axis, distance_transform_edt(used)) if return_distance else axis
@@ -232,6 +231,53 @@ def morphological_tessellation(
         limits["clip"] = clip
     cells = voronoi(shapes, **limits).to_shapely()
     return geopandas.GeoDataFrame(geometry=geopandas.GeoSeries(cells, index=shapes.index, crs=shapes.crs))
+
+
+def voronoi_polygons(
+    geometry: Any,
+    tolerance: float = 0.0,
+    extend_to: Any = None,
+    only_edges: bool = False,
+    ordered: bool = False,
+) -> shapely.GeometryCollection:
+    """Return the Voronoi cells of the vertices of a geometry, as `shapely` has them, always in their order.
+
+    Parameters
+    ----------
+    geometry : geometry of shapely
+        Whose vertices are the sites.
+    tolerance : float
+        Not used: each vertex is a site.
+    extend_to : geometry of shapely, optional
+        The cells fill its bounds, too.
+    only_edges : bool
+        Not known here: it must be false.
+    ordered : bool
+        Not used: cells are in the order of the vertices.
+
+    Returns
+    -------
+    shapely.GeometryCollection
+        One polygon a vertex; that of a vertex which lies on an earlier one is empty.
+
+    Raises
+    ------
+    InputError
+        If it has no vertices that are finite.
+    UsageError
+        If edges alone are asked for.
+
+    Examples
+    --------
+    >>> import shapely
+    >>> [cell.wkt for cell in voronoi_polygons(shapely.MultiPoint([[0, 0], [2, 0]])).geoms]
+    ['POLYGON ((-2 -2, 1 -2, 1 2, -2 2, -2 -2))', 'POLYGON ((1 -2, 4 -2, 4 2, 1 2, 1 -2))']
+    """
+    import shapely
+
+    if only_edges:
+        raise UsageError("only_edges is not known: vorotool.voronoi(points).edges has the borders of cells")
+    return peers.voronoi_polygons(shapely.get_coordinates(geometry), extend_to=extend_to)
 
 
 def _elements(values: Any, name: str) -> NDArray[Any]:

@@ -14,6 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 import vorotool
+from vorotool.engines import peers
 from vorotool.typing import ImageLike, PointsLike, PolygonsLike
 
 POINTS = [[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]]
@@ -87,17 +88,17 @@ def values() -> None:
 
 def results_by_arguments() -> None:
     """Some results depend on an argument."""
-    assert_type(vorotool.distance_transform(MASK), npt.NDArray[np.float64])
-    assert_type(vorotool.distance_transform(MASK, return_distances=False, return_indices=True), npt.NDArray[np.int32])
-    distances, indices = vorotool.distance_transform(MASK, spacing=(2, 0.5), return_indices=True)
+    assert_type(peers.distance_transform(MASK), npt.NDArray[np.float64])
+    assert_type(peers.distance_transform(MASK, return_distances=False, return_indices=True), npt.NDArray[np.int32])
+    distances, indices = peers.distance_transform(MASK, spacing=(2, 0.5), return_indices=True)
     assert_type(distances, npt.NDArray[np.float64])
     assert_type(indices, npt.NDArray[np.int32])
     assert_type(vorotool.tessellate([[1, 1]], shape=(3, 3)), vorotool.LabelImage)
     assert_type(vorotool.tessellate([[1, 1, 1]], shape=(3, 3, 3)), vorotool.LabelVolume)
     assert_type(vorotool.tessellate([[1, 1, 1]], window=(0, 0, 0, 3, 3, 3)), vorotool.LabelVolume)
     assert_type(vorotool.tessellate(vorotool.VolumePoints(np.ones((1, 3)))), vorotool.LabelVolume)
-    assert_type(vorotool.medial_axis(MASK), npt.NDArray[np.bool_])
-    assert_type(vorotool.medial_axis(MASK, return_distance=True), tuple[npt.NDArray[np.bool_], npt.NDArray[np.float64]])
+    assert_type(peers.medial_axis(MASK), npt.NDArray[np.bool_])
+    assert_type(peers.medial_axis(MASK, return_distance=True), tuple[npt.NDArray[np.bool_], npt.NDArray[np.float64]])
 
 
 def misuses() -> None:
@@ -128,6 +129,6 @@ def misuses() -> None:
     vorotool.read("a.csv", geometry="lines")  # type: ignore[call-overload]
     vorotool.read(3)  # type: ignore[call-overload]
     vorotool.write(mesh)  # type: ignore[call-arg]
-    vorotool.voronoi_polygons(POINTS, extend_to=4)  # type: ignore[arg-type]
-    vorotool.expand_labels(MASK, "far")  # type: ignore[arg-type]
-    vorotool.distance_transform(MASK, return_indices=1)  # type: ignore[call-overload]
+    peers.voronoi_polygons(POINTS, extend_to=4)  # type: ignore[arg-type]
+    peers.expand_labels(MASK, "far")  # type: ignore[arg-type]
+    peers.distance_transform(MASK, return_indices=1)  # type: ignore[call-overload]

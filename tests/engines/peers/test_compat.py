@@ -12,6 +12,7 @@ from skimage.data import binary_blobs
 
 import vorotool
 from vorotool import compat
+from vorotool.engines import peers
 
 SHAPES = [(40,), (12, 15), (6, 7, 8)]
 
@@ -109,7 +110,7 @@ def test_medial_axis_of_a_part():
     assert np.array_equal(axis[:, 15:], image[:, 15:] != 0)
     assert np.array_equal(distance, ndimage.distance_transform_edt(image.astype(bool) & mask))
     assert axis[:, :15].any()
-    assert np.array_equal(compat.medial_axis(image), vorotool.medial_axis(image))
+    assert np.array_equal(compat.medial_axis(image), peers.medial_axis(image))
     with pytest.raises(vorotool.InputError, match="mask"):
         compat.medial_axis(image, mask[1:])
 
@@ -133,3 +134,17 @@ def test_cells_of_buildings():
     assert compat.morphological_tessellation(houses.geometry, clip=None).area.sum() > 80
     with pytest.raises(vorotool.UsageError, match="'box'"):
         compat.morphological_tessellation(houses, clip="box")
+
+
+def test_cells_as_shapely_has_them():
+    rng = np.random.default_rng(3)
+    points = shapely.MultiPoint(rng.random((30, 2)))
+    ours = compat.voronoi_polygons(points, extend_to=shapely.box(-1, -1, 3, 2))
+    theirs = shapely.voronoi_polygons(points, extend_to=shapely.box(-1, -1, 3, 2), ordered=True)
+    assert len(ours.geoms) == len(theirs.geoms) == 30
+    for one, other in zip(ours.geoms, theirs.geoms, strict=True):
+        assert one.symmetric_difference(other).area < 1e-9
+    with pytest.raises(vorotool.UsageError, match="only_edges"):
+        compat.voronoi_polygons(points, only_edges=True)
+    with pytest.raises(AttributeError):
+        vorotool.voronoi_polygons  # noqa: B018

@@ -10,6 +10,7 @@ import xarray
 
 import vorotool
 from vorotool import UsageError, VorotoolWarning
+from vorotool.engines import peers
 
 LABELS = np.zeros((6, 8), np.uint8)
 LABELS[1, 2], LABELS[4, 6] = 1, 2
@@ -42,8 +43,8 @@ def solid(_=None):
 SIDES = {raster: (0.5, 0.25), plane: (0.5, 0.25), solid: (2, 0.5, 0.25)}
 FUNCTIONS = {
     "tessellate": lambda value, **more: vorotool.tessellate(value, **more).labels,
-    "expand_labels": lambda value, **more: vorotool.expand_labels(value, 1.1, **more),
-    "distance_transform": lambda value, **more: vorotool.distance_transform(value == 0, **more),
+    "expand_labels": lambda value, **more: peers.expand_labels(value, 1.1, **more),
+    "distance_transform": lambda value, **more: peers.distance_transform(value == 0, **more),
     "local_thickness": vorotool.local_thickness,
 }
 
@@ -72,7 +73,7 @@ def test_auto_is_what_would_be_typed(tmp_path, name, make):
 
 def test_distances_against_fractions():
     """Each voxel's distance to the nearest background, in um."""
-    found = vorotool.distance_transform(solid() == 0, spacing="auto")
+    found = peers.distance_transform(solid() == 0, spacing="auto")
     seeds = np.argwhere(SOLID != 0)
     sides = (Fraction(2), Fraction(1, 2), Fraction(1, 4))
     for place in np.ndindex(SOLID.shape):
@@ -91,7 +92,7 @@ def test_nothing_to_warn_of():
         vorotool.tessellate(xarray.DataArray(LABELS, dims=("y", "x"), coords=even))
         made = vorotool.tessellate(plane(), spacing="auto")
         vorotool.tessellate(made)
-        vorotool.expand_labels(made.labels, 1)
+        peers.expand_labels(made.labels, 1)
 
 
 @pytest.mark.parametrize("value", [LABELS, SOLID])

@@ -10,6 +10,7 @@ from skimage import segmentation
 import vorotool
 from support.few import few
 from vorotool import _core
+from vorotool.engines import peers
 from vorotool.engines.peers.arguments import bare_seeds
 from vorotool.engines.volumes.inner_voxels import outer_voxels
 from vorotool.engines.volumes.volume_tessellator import VolumeSweep
@@ -223,7 +224,7 @@ def test_distances_are_those_of_scipy(spacing, part):
     random = np.random.default_rng(3)
     mask = random.random((20, 31, 27)) > part
     mask[0, 0, 0] = False
-    ours, indices = vorotool.distance_transform(mask, spacing=spacing, return_indices=True)
+    ours, indices = peers.distance_transform(mask, spacing=spacing, return_indices=True)
     sampling = [float(side) for side in np.broadcast_to(1 if spacing is None else spacing, 3)]
     theirs = ndimage.distance_transform_edt(mask, sampling=sampling)
     np.testing.assert_allclose(ours, theirs, rtol=0, atol=1e-12)
@@ -240,7 +241,7 @@ def test_of_several_nearest_voxels_the_first_is_named():
         place = [1, 1, 1]
         place[axis] = 2
         mask[tuple(place)] = False
-    indices = vorotool.distance_transform(mask, return_distances=False, return_indices=True)
+    indices = peers.distance_transform(mask, return_distances=False, return_indices=True)
     assert indices[:, 1, 1, 1].tolist() == [1, 1, 2]
 
 
@@ -252,7 +253,7 @@ def test_labels_grow_as_those_of_scikit_image(distance, spacing):
     for label in (9, 2, 31, 7):
         z, y, x = (random.integers(0, side - 5) for side in labels.shape)
         labels[z : z + 4, y : y + 5, x : x + 5] = label
-    ours = vorotool.expand_labels(labels, distance, spacing=spacing)
+    ours = peers.expand_labels(labels, distance, spacing=spacing)
     assert ours.dtype == labels.dtype
     assert np.array_equal(ours[labels > 0], labels[labels > 0])
     theirs = segmentation.expand_labels(labels, distance, spacing=1 if spacing is None else spacing)
@@ -271,7 +272,7 @@ def test_only_outer_voxels_are_needed():
     assert outer_voxels(np.ones((2, 1, 9))).all()
 
 
-@pytest.mark.parametrize("function", [vorotool.distance_transform, vorotool.expand_labels])
+@pytest.mark.parametrize("function", [peers.distance_transform, peers.expand_labels])
 def test_what_is_no_volume_is_refused(function):
     with pytest.raises(UsageError, match=r"or 3 of them, \(depth, height, width\)"):
         function(np.eye(3, dtype=int)[None] * 0, spacing=(1, 2))
@@ -284,19 +285,19 @@ def test_what_is_no_volume_is_refused(function):
 
 
 def test_volumes_that_say_nothing():
-    assert vorotool.distance_transform(np.zeros((0, 2, 3))).shape == (0, 2, 3)
-    assert not vorotool.expand_labels(np.zeros((3, 4, 5), np.uint8)).any()
+    assert peers.distance_transform(np.zeros((0, 2, 3))).shape == (0, 2, 3)
+    assert not peers.expand_labels(np.zeros((3, 4, 5), np.uint8)).any()
     with pytest.raises(InputError, match="expected a zero pixel"):
-        vorotool.distance_transform(np.ones((3, 4, 5)))
+        peers.distance_transform(np.ones((3, 4, 5)))
     with pytest.raises(InputError, match="expected 0 to 4294967295, but they are -2 to 0"):
-        vorotool.expand_labels(np.full((1, 1, 2), [0, -2]))
+        peers.expand_labels(np.full((1, 1, 2), [0, -2]))
     with pytest.raises(InputError, match="round them first"):
-        vorotool.expand_labels(np.ones((2, 2, 2)))
+        peers.expand_labels(np.ones((2, 2, 2)))
 
 
 def test_masks_of_truth_values_grow_too():
     mask = np.zeros((3, 3, 3), bool)
     mask[1, 1, 1] = True
-    grown = vorotool.expand_labels(mask)
+    grown = peers.expand_labels(mask)
     assert grown.dtype == bool
     assert grown.sum() == 7

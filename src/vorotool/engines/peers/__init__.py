@@ -1,1 +1,8 @@
-"""Functions by the names that users of SciPy, scikit-image and shapely know, over the engines of this package."""
+"""What other libraries have by other names; `vorotool.compat` gives it theirs."""
+
+from vorotool.engines.peers.distance_transform import distance_transform
+from vorotool.engines.peers.expand_labels import expand_labels
+from vorotool.engines.peers.medial_axis import medial_axis
+from vorotool.engines.peers.voronoi_polygons import voronoi_polygons
+
+__all__ = ["distance_transform", "expand_labels", "medial_axis", "voronoi_polygons"]
