@@ -4,6 +4,7 @@ import json
 import shutil
 from fractions import Fraction
 
+import click
 import numpy as np
 import pytest
 
@@ -154,6 +155,36 @@ def test_plain_numbers_are_what_they_were():
     assert ExactLength().convert("0.1", None, None) == Fraction(1, 10)
     assert Radius().convert("inf", None, None) == float("inf")
     assert Distances().convert("-2,5", None, None) == (-2.0, 5.0)
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("1:3:1", [1, 2, 3]),
+        ("1:3.9:1", [1, 2, 3]),
+        ("-3:-1:0.5", [-3, -2.5, -2, -1.5, -1]),
+        ("3:1:-1", [3, 2, 1]),
+        ("0.1:0.5:0.1", [0.1, 0.2, 0.3, 0.4, 0.5]),  # each is the decimal number that it looks like
+        ("2:2:1", [2]),
+        ("-1, 2:4:2 ,9", [-1, 2, 4, 9]),
+    ],
+)
+def test_ranges_of_distances(text, expected):
+    assert list(Distances().convert(text, None, None)) == expected
+
+
+@pytest.mark.parametrize("text", ["1mm:3mm:1mm", "1:3:1mm", "1 : 3 : 1 mm"])
+def test_ranges_have_units(text):
+    found = Distances().convert(text, None, None)
+    assert [(each.number, each.unit) for each in found] == [(1, "mm"), (2, "mm"), (3, "mm")]
+
+
+@pytest.mark.parametrize(
+    "text", ["1:2", "1:2:3:4", "1:3:0", "1:3:-1", "a:b:c", "1:3:", "1um:3mm:1mm", "-1:1:1", "1:1e9:1", "1:inf:1"]
+)
+def test_ranges_that_are_none(text):
+    with pytest.raises(click.BadParameter):
+        Distances().convert(text, None, None)
 
 
 def test_options_without_units_are_the_same_value():

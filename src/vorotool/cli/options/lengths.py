@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from fractions import Fraction
 from math import inf, isfinite
 from typing import Any
@@ -13,6 +14,9 @@ from vorotool.cli.options.parameter_types import ParameterType
 from vorotool.cli.options.shared import Decimal
 from vorotool.jobs.units import Measured
 
+_UNIT = re.compile(r"[^\W\d_]{1,16}\Z")
+MOST_OF_RANGE = 10_000
+"""Distances."""
 _WITH_UNIT = re.compile(r"([-+]?(?:[0-9]++(?:\.[0-9]*+)?|\.[0-9]++)(?:[eE][-+]?[0-9]+)?)\s*([^\W\d_]{1,16})")
 
 
@@ -79,19 +83,18 @@ class FlatteningTolerance(Length):
 
 
 class Distances(ParameterType[tuple[float, ...]]):
-    """Different finite numbers other than 0, separated by commas, each with a unit or none."""
+    """Different finite numbers other than 0, separated by commas, each with a unit or none, or ranges of them."""
 
-    name = "D[,D...]"
+    name = "D[,D...]|START:STOP:STEP"
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[Any, ...]:
         """Parse the numbers and their units."""
         if isinstance(value, tuple):
             return value
         try:
-            parts = [(part, measured(part.strip())) for part in value.split(",")]
-            lengths = tuple(float(part) if length is None else length for part, length in parts)
+            lengths = [length for part in value.split(",") for length in self._parsed(part.strip(), param, ctx)]
         except ValueError:
-            self.fail(f"{value!r}: expected numbers such as -2,5", param, ctx)
+            self.fail(f"{value!r}: expected numbers such as -2,5, or ranges such as 1:5:0.5", param, ctx)
         from vorotool.engines.offsets.offsets import checked_distances
         from vorotool.errors import UsageError
 
@@ -102,3 +105,28 @@ class Distances(ParameterType[tuple[float, ...]]):
         if any(isinstance(length, Measured) and not length.number for length in lengths):
             self.fail("a distance is 0: use finite ones, above 0 outwards, below 0 inwards", param, ctx)
         return tuple(length if isinstance(length, Measured) else next(plain) for length in lengths)
+
+    def _parsed(
+        self, part: str, param: click.Parameter | None, ctx: click.Context | None
+    ) -> Sequence[float | Measured]:
+        """Give a number, or those of a range, its end included if it is reached."""
+        if ":" not in part:
+            length = measured(part)
+            return [float(part) if length is None else length]
+        unit = _UNIT.search(part)
+        texts = part.split(":")
+        numbers = [text.strip().removesuffix(unit[0]) if unit else text for text in texts]
+        if len(texts) != 3:
+            self.fail(f"{part!r}: expected a range START:STOP:STEP, such as 1:5:0.5", param, ctx)
+        start, stop, step = (Fraction(Decimal().convert(number.strip(), param, ctx)) for number in numbers)
+        if step == 0 or (stop - start) / step < 0:
+            self.fail(f"{part!r}: the step {numbers[2]} does not lead from {numbers[0]} to {numbers[1]}", param, ctx)
+        count = (stop - start) // step + 1
+        if count > MOST_OF_RANGE:
+            self.fail(
+                f"{part!r}: these are {count} distances, more than {MOST_OF_RANGE}: use a larger step", param, ctx
+            )
+        found = [start + k * step for k in range(int(count))]
+        if unit is None:
+            return [float(number) for number in found]
+        return [Measured(f"{float(number):g}{unit[0]}", number, unit[0], is_exact=False) for number in found]

@@ -93,7 +93,8 @@ _OF_EXACT: tuple[Decorator, ...] = (
         type=Distances(),
         multiple=True,
         callback=accumulated,
-        help="Distances of --what offset, separated by commas: positive outwards, negative inwards.",
+        help="Distances of --what offset, separated by commas: positive outwards, negative inwards; START:STOP:STEP is "
+        "a range of them, such as 1:5:0.5 or -10:-1:1mm.",
     ),
     click.option(
         "--count",
