@@ -14,11 +14,10 @@ import numpy as np
 import shapely
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from vorotool.types.polygons.polygon_set import LINE, PolygonSet
-
 import vorotool
 from benchmarks.timing import options, timed
 from support.oracles.distance_oracle import directed_bounds
+from vorotool.types.polygons.polygon_set import LINE, PolygonSet
 
 MOST_CHECKED, MOST_OF_PEERS = 300, 3000
 """Edges."""

@@ -24,7 +24,6 @@ import shapely
 from PIL import Image
 from skimage.measure import find_contours
 from timing import timed
-from vorotool.types.polygons.conversion import to_shapely
 
 import vorotool
 from vorotool.batch.process_pool import local_results
@@ -35,6 +34,7 @@ from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.formats.points.delimited import read_text
 from vorotool.formats.results.graphml import write_graphml
+from vorotool.types.polygons.conversion import to_shapely
 
 RNG = np.random.default_rng(1)
 

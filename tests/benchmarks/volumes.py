@@ -20,12 +20,11 @@ from scipy.ndimage import distance_transform_edt
 from skimage.segmentation import expand_labels
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from vorotool.types.volumes.volume_seeds import VolumeSeeds
-from vorotool.types.volumes.voxel_frame import VoxelFrame
-
 from benchmarks.timing import best, in_own_process, options
 from vorotool import _core_testing
 from vorotool.engines.volumes.volume_tessellator import VolumeSweep
+from vorotool.types.volumes.volume_seeds import VolumeSeeds
+from vorotool.types.volumes.voxel_frame import VoxelFrame
 
 PEERS: dict[str, Callable[[np.ndarray], object]] = {
     "scipy": lambda volume: volume[

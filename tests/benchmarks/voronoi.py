@@ -21,12 +21,11 @@ import numpy as np
 import shapely
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from vorotool.types.polygons.polygon_set import SHELL, PolygonSet, set_of_rings
-
 import vorotool
 from benchmarks.segment_voronoi import peak, reset_peak
 from benchmarks.timing import best, in_own_process, options, timed
 from support.families.town import polygons_of, town
+from vorotool.types.polygons.polygon_set import SHELL, PolygonSet, set_of_rings
 
 PLACES = 10**5
 MOST_OF_PEERS = 10**5

@@ -8,12 +8,12 @@ import orjson
 import pandas as pd
 import pytest
 import shapely
-from vorotool.types.polygons.conversion import to_shapely
-from vorotool.types.polygons.polygon_set import HOLE, LINE, SHELL
 
 import vorotool
 from vorotool import InputError, PointSet, PolygonSet
 from vorotool.convert.polygons import as_geometry, as_polygons
+from vorotool.types.polygons.conversion import to_shapely
+from vorotool.types.polygons.polygon_set import HOLE, LINE, SHELL
 
 TRIANGLE = [[0, 0], [9, 0], [0, 9]]
 HOLED = shapely.Polygon(TRIANGLE, [[[1, 1], [2, 1], [1, 2]]])

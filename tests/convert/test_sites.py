@@ -5,7 +5,6 @@ import numpy as np
 import pandas
 import pytest
 import shapely
-from vorotool.types.polygons.conversion import to_shapely
 
 from vorotool import LabelImage, PointSet, PolygonSet, Raster
 from vorotool.convert.sites import as_sites
@@ -13,6 +12,7 @@ from vorotool.errors import InputError, UsageError, VorotoolWarning
 from vorotool.numeric.crs import crs_name, member_of_text
 from vorotool.types.pixel_frame import Frame
 from vorotool.types.pixel_grid import map_grid
+from vorotool.types.polygons.conversion import to_shapely
 
 MIXED = [
     shapely.Point(0, 0),

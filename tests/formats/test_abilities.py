@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 import shapely
 from PIL import Image
-from vorotool.types.polygons.polygon_set import PolygonSet
 
 import vorotool
 from vorotool.errors import UsageError
@@ -19,6 +18,7 @@ from vorotool.numeric.number_text import NumberText
 from vorotool.products.formats import FORMATS
 from vorotool.products.inputs import INPUTS, NAMES_WITH, VOLUME_NAMES
 from vorotool.types.pixel_grid import PixelGrid, map_grid
+from vorotool.types.polygons.polygon_set import PolygonSet
 
 ROOT = Path(__file__).parents[2]
 VERTICES = np.array([[0.1, 0], [4, 1 / 3], [0, 3], [10, 0], [14, 0], [10, 3.5]])

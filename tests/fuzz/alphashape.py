@@ -14,12 +14,11 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from vorotool.types.alpha.complex import CLASSES, classes_of
-
 from fuzz.runner import Cases, options
 from support.families.point_families import FAMILIES, draw
 from support.oracles.alpha_oracle import alpha_edges
 from vorotool import VorotoolError, alpha_complex, alpha_shape, verify_alpha_shape
+from vorotool.types.alpha.complex import CLASSES, classes_of
 
 SMALL = 9
 SLOW = frozenset({"any_double", "extreme"})

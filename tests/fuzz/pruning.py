@@ -8,12 +8,11 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from vorotool.types.skeleton.critical_values import CRITERIA
-
 from fuzz.runner import run_families
 from support.families.skeleton_shapes import FAMILIES
 from support.oracles.pruning_oracle import disagreement, thresholds
 from vorotool import VorotoolError, critical_values, prune, skeleton_exact, verify_pruning
+from vorotool.types.skeleton.critical_values import CRITERIA
 
 MOST_ARCS = 150
 """Brute force is quadratic."""

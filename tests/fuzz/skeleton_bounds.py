@@ -17,7 +17,6 @@ from typing import Any
 import numpy as np
 import shapely
 from PIL import Image
-from vorotool.types.polygons.conversion import to_shapely
 
 import vorotool
 from vorotool.engines.arrangement.corner_sectors import corner_sectors
@@ -32,6 +31,7 @@ from vorotool.engines.sampled_skeleton.approximate import (
 from vorotool.engines.sampled_skeleton.hausdorff import deviation, exact_skeleton
 from vorotool.engines.sampled_skeleton.refinement import skeleton_within
 from vorotool.engines.skeleton.distances_to_arcs import distances_to, places_on_arcs
+from vorotool.types.polygons.conversion import to_shapely
 
 DATA = Path(__file__).parents[2] / "data"
 STEPS = (25, 50, 100, 200, 400)

@@ -19,14 +19,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from vorotool.types.points.seed_set import SeedSet
-
 from fuzz.runner import Cases, options
 from support.families.families import random_case
 from vorotool import _core
 from vorotool.engines.tessellation.frames import SIMD_LEVELS
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.types.pixel_frame import Frame
+from vorotool.types.points.seed_set import SeedSet
 from vorotool.types.spacing import PixelSides
 
 FARTHEST = 2**39

@@ -14,8 +14,6 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from vorotool.types.points.seed_set import SeedSet
-
 from fuzz.runner import Cases, options
 from support.families.families import fine_case, random_case
 from support.oracles.oracles import nearest_labels, nearest_labels_of_fine_seeds
@@ -24,6 +22,7 @@ from vorotool.engines.tessellation.bands import SeedBand, SeedBands
 from vorotool.engines.tessellation.frames import SIMD_LEVELS
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.types.pixel_frame import Frame
+from vorotool.types.points.seed_set import SeedSet
 from vorotool.types.spacing import SQUARE
 
 

@@ -5,10 +5,10 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from vorotool.types.points.point_set import PointSet
 
 import vorotool
 from vorotool.errors import InputError
+from vorotool.types.points.point_set import PointSet
 
 PAIRS = [[0, 0], [4, 0], [0, 3], [1, 1]]
 

@@ -7,11 +7,11 @@ import pandas as pd
 import pytest
 import shapely
 from numpy.random import default_rng
-from vorotool.types.polygons.polygon_set import set_of_rings
 
 import vorotool as v
 from vorotool.errors import InputError
 from vorotool.numeric.row_index import index_of_rows, joined_index
+from vorotool.types.polygons.polygon_set import set_of_rings
 
 NAMES = pd.Index(["d", "a", "c", "b"], name="place")
 SITES = [[0, 0], [9, 1], [4, 7], [5, 2]]

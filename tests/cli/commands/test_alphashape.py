@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 import shapely
 from PIL import Image
-from vorotool.types.alpha.complex import CLASSES
 
 import vorotool
 from vorotool.products.registry import all_layers
+from vorotool.types.alpha.complex import CLASSES
 
 DATA = Path(__file__).parents[3] / "data"
 DOTS = DATA / "dots.csv"

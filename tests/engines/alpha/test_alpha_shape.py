@@ -8,7 +8,6 @@ from fractions import Fraction
 import numpy as np
 import pytest
 import shapely
-from vorotool.types.alpha.complex import classes_of
 
 from support.families.alpha_cases import quietly
 from support.families.point_families import FAMILIES, draw
@@ -24,6 +23,7 @@ from vorotool import (
     verify_alpha_shape,
 )
 from vorotool.engines.tessellation.seeding import seeds_from_raster
+from vorotool.types.alpha.complex import classes_of
 
 
 def shape_triangles(shape):

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from vorotool.types.alpha.complex import CLASSES, classes_of
 
 import vorotool
 from support.families.alpha_cases import quietly
@@ -17,6 +16,7 @@ from support.oracles.alpha_oracle import alpha_edges, rounded_root
 from support.processes.heard_signals import stop
 from support.readers.written import assert_same
 from vorotool import alpha_complex
+from vorotool.types.alpha.complex import CLASSES, classes_of
 
 families = pytest.mark.parametrize("name", FAMILIES)
 ARRAYS = ("edges", "sides", "r_min", "r_mid", "r_max", "rank_min", "rank_mid", "rank_max", "triangle_rank", "spectrum")

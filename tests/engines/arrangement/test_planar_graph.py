@@ -7,7 +7,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shapely
-from vorotool.types.polygons.conversion import to_shapely
 
 from support.few import few
 from support.processes.heard_signals import stop
@@ -25,6 +24,7 @@ from vorotool import (
 )
 from vorotool.convert.polygons import as_polygons
 from vorotool.engines.arrangement import planar_graph as engine
+from vorotool.types.polygons.conversion import to_shapely
 
 DATA = Path(__file__).parents[3] / "data"
 SQUARE = [[0, 0], [8, 0], [8, 8], [0, 8]]

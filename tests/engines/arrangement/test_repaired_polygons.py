@@ -6,13 +6,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shapely
-from vorotool.types.polygons.conversion import to_shapely
-from vorotool.types.polygons.polygon_set import HOLE, LINE, SHELL
 
 from support.families.polygon_families import FAMILIES, draw
 from vorotool import PolygonSet, planar_graph, read
 from vorotool.convert.polygons import as_polygons
 from vorotool.engines.arrangement.repaired_polygons import repaired_polygons
+from vorotool.types.polygons.conversion import to_shapely
+from vorotool.types.polygons.polygon_set import HOLE, LINE, SHELL
 
 DATA = Path(__file__).parents[3] / "data"
 SQUARE = [[0, 0], [8, 0], [8, 8], [0, 8]]

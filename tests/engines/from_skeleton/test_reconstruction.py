@@ -5,11 +5,11 @@ import warnings
 import numpy as np
 import pytest
 import shapely
-from vorotool.types.polygons.conversion import to_shapely
 
 import vorotool
 from support.families.skeleton_shapes import FAMILIES, TOUCHING, small
 from support.oracles.offset_oracle import check_rebuilt
+from vorotool.types.polygons.conversion import to_shapely
 
 
 def skeleton_of(shape):

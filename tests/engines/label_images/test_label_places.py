@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 from scipy import ndimage
-from vorotool.types.points.label_image import LabelImage
-from vorotool.types.points.seed_set import SeedSet
 
 from vorotool import tessellate
 from vorotool.engines.label_images.label_places import label_places, name_places
 from vorotool.engines.tessellation.seeding import seeds_from_raster
 from vorotool.types.pixel_frame import Frame
+from vorotool.types.points.label_image import LabelImage
+from vorotool.types.points.seed_set import SeedSet
 
 
 def random_labels(seed):

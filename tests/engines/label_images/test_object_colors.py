@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
-from vorotool.types.points.label_image import LabelImage
 
 import vorotool
 from vorotool.engines.label_images.object_colors import object_colors
 from vorotool.engines.label_images.regions import measure_regions, region_colors
+from vorotool.types.points.label_image import LabelImage
 
 
 def scattered(seed, largest=2**32 - 1):

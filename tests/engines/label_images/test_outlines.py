@@ -4,10 +4,6 @@ import numpy as np
 import pytest
 import shapely
 from skimage.measure import find_contours
-from vorotool.types.points.label_image import LabelImage
-from vorotool.types.points.raster import Raster
-from vorotool.types.polygons.conversion import to_shapely
-from vorotool.types.polygons.polygon_set import HOLE, SHELL
 
 import vorotool
 from support.few import few
@@ -23,6 +19,10 @@ from support.oracles.outline_oracle import (
 from vorotool.engines.label_images.marching_squares import grey_level
 from vorotool.engines.label_images.outlines import outlines
 from vorotool.errors import InputError, LimitError, UsageError, VorotoolWarning
+from vorotool.types.points.label_image import LabelImage
+from vorotool.types.points.raster import Raster
+from vorotool.types.polygons.conversion import to_shapely
+from vorotool.types.polygons.polygon_set import HOLE, SHELL
 
 RANDOM = [random_labels(np.random.default_rng(seed)) for seed in range(24)]
 IMAGES = [all_masks(3, 4), all_masks(4, 3), *(image for image in RANDOM if image.any())]

@@ -8,12 +8,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 from scipy import ndimage
-from vorotool.types.points.label_image import LabelImage
-from vorotool.types.points.seed_set import SeedSet
 
 from vorotool.engines.label_images import regions
 from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.types.pixel_frame import Frame
+from vorotool.types.points.label_image import LabelImage
+from vorotool.types.points.seed_set import SeedSet
 
 DTYPES = (np.uint8, np.uint16, np.uint32, np.int32)
 COLUMNS = [

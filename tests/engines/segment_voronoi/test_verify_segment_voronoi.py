@@ -5,12 +5,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from vorotool.types.skeleton.segment_voronoi import SegmentVoronoiDiagram
 
 from support.families import segment_cases, segment_families
 from support.oracles.segment_oracle import voronoi_diagram
 from vorotool.engines.segment_voronoi.verify_segment_voronoi import verify_segment_voronoi
 from vorotool.errors import VerificationError
+from vorotool.types.skeleton.segment_voronoi import SegmentVoronoiDiagram
 
 SQUARE = ([(0, 0), (8, 0), (8, 4), (0, 4)], [(0, 1), (1, 2), (2, 3), (3, 0)])
 TEE = ([(0, 0), (4, 0), (8, 0), (4, 4), (-20, 7)], [(0, 1), (1, 2), (1, 3)])

@@ -9,12 +9,12 @@ from PIL import Image, ImageDraw, ImageFont
 from scipy.ndimage import gaussian_filter
 from skimage.measure import label
 from skimage.morphology import medial_axis, skeletonize
-from vorotool.types.skeleton.tables import connected_roots
 
 import vorotool
 from support.oracles.outline_oracle import random_labels
 from vorotool.engines.pruning.pruning import default_pruning_for_masks
 from vorotool.errors import VerificationError
+from vorotool.types.skeleton.tables import connected_roots
 
 SIDE, ACROSS = 64, 20
 COUNT = 80

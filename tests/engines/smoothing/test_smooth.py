@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import shapely
-from vorotool.numeric.curves.cubics import cubic_polylines, parts_between, places_at
-from vorotool.types.skeleton.led_on import LedOn
 
 import vorotool
 from support.few import few
+from vorotool.numeric.curves.cubics import cubic_polylines, parts_between, places_at
+from vorotool.types.skeleton.led_on import LedOn
 
 ELL = [[0, 0], [60, 0], [60, 40], [50, 40], [50, 10], [0, 10]]
 

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 from scipy import ndimage
 from skimage.morphology import remove_small_holes
-from vorotool.types.points.raster import Raster
 
 from vorotool import InputError, outlines, seeds_from_raster
 from vorotool.engines.tessellation.cleaned_masks import Cleaning, cleaned_mask
 from vorotool.errors import UsageError
+from vorotool.types.points.raster import Raster
 
 RNG = np.random.default_rng(3)
 CORNERS = {4: ndimage.generate_binary_structure(2, 1), 8: ndimage.generate_binary_structure(2, 2)}

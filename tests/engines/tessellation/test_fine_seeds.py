@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from vorotool.types.points.seed_set import SeedSet
 
 import vorotool
 from support.families.families import fine_case
@@ -15,6 +14,7 @@ from vorotool.engines.tessellation.seed_lattice import finest_scale
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.engines.tessellation.verify_tessellation import verify_label_image
 from vorotool.types.pixel_frame import Frame
+from vorotool.types.points.seed_set import SeedSet
 from vorotool.types.spacing import pixel_sides
 
 pytestmark = pytest.mark.filterwarnings("ignore:.*seeds (moved|lie)")

@@ -2,8 +2,6 @@
 
 import numpy as np
 import pytest
-from vorotool.types.points.raster import Raster
-from vorotool.types.points.seed_set import SeedSet
 
 from support.few import few
 from support.oracles.oracles import nearest_labels, nearest_squares
@@ -14,6 +12,8 @@ from vorotool.engines.tessellation.tessellate import verify_rows
 from vorotool.engines.tessellation.tessellator import Tessellator, simd_level
 from vorotool.errors import InputError
 from vorotool.types.pixel_frame import Frame
+from vorotool.types.points.raster import Raster
+from vorotool.types.points.seed_set import SeedSet
 
 
 def objects(kind, rng):

@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from skimage.filters import threshold_otsu
-from vorotool.types.points.raster import Raster
 
 from vorotool.engines.tessellation.otsu import best_split, otsu_threshold
 from vorotool.engines.tessellation.raster_objects import foreground_values
+from vorotool.types.points.raster import Raster
 
 
 def by_fractions(values):

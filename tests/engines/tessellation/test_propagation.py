@@ -2,13 +2,13 @@
 
 import numpy as np
 import pytest
-from vorotool.types.points.seed_set import SeedSet
 
 import vorotool
 from support.oracles.oracles import nearest_labels, paper_passes
 from vorotool.engines.tessellation.propagation import PropagatedRows, propagate
 from vorotool.errors import InputError, LimitError, UsageError, VorotoolWarning
 from vorotool.types.pixel_frame import Frame
+from vorotool.types.points.seed_set import SeedSet
 
 COUNTEREXAMPLES = [
     # seeds (row, column), frame (width, height), the only wrong pixel (row, column)

@@ -5,13 +5,13 @@ from fractions import Fraction
 import numpy as np
 import pytest
 import shapely
-from vorotool.types.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet
 
 from support.few import few
 from vorotool.engines.tessellation import rasterized as module
 from vorotool.engines.tessellation.rasterized import rasterized
 from vorotool.errors import InputError
 from vorotool.types.pixel_frame import Frame
+from vorotool.types.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet
 
 RNG = np.random.default_rng(11)
 FRAME = Frame(0, 0, 12, 9)

@@ -4,12 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from vorotool.types.points.raster import Raster
 
 from vorotool.engines.tessellation.raster_objects import _fragments
 from vorotool.engines.tessellation.seeding import seeds_from_raster
 from vorotool.engines.tessellation.tessellate import tessellate, verify_tessellation
 from vorotool.errors import InputError, LimitError, UsageError, VerificationError, VorotoolWarning
+from vorotool.types.points.raster import Raster
 
 INK = np.array([[200, 0, 200], [0, 0, 0]], dtype=np.uint8)
 

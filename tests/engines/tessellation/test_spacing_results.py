@@ -5,7 +5,6 @@ from fractions import Fraction
 import numpy as np
 import pytest
 import shapely
-from vorotool.types.points.label_image import LabelImage
 
 import vorotool
 from support.few import few
@@ -14,6 +13,7 @@ from vorotool.engines.tessellation.propagation import propagate
 from vorotool.engines.tessellation.seeding import seeds_from_raster
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import InputError, UsageError, VerificationError
+from vorotool.types.points.label_image import LabelImage
 from vorotool.types.spacing import SQUARE, PixelSides, pixel_sides
 
 SPACINGS = [(1.5, 0.325), (Fraction(1, 3), 1), (2, 3), 0.1]

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from vorotool.types.points.seed_set import SeedSet
 
 import vorotool
 from support.families.families import FAMILIES, random_case
@@ -19,6 +18,7 @@ from vorotool.engines.tessellation.tessellate import verify_rows
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import InputError, LimitError, UsageError, VerificationError, VorotoolWarning
 from vorotool.types.pixel_frame import Frame
+from vorotool.types.points.seed_set import SeedSet
 
 LEVELS = SIMD_LEVELS[: SIMD_LEVELS.index(_core.tessellation.widest_simd()) + 1]
 

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from vorotool.types.points.seed_set import SeedSet
 
 from vorotool.engines.tessellation.verify_tessellation import verify_label_image
 from vorotool.errors import InputError, UsageError, VerificationError
 from vorotool.types.pixel_frame import Frame
+from vorotool.types.points.seed_set import SeedSet
 
 
 def brute_force(seeds, frame, limit=None):

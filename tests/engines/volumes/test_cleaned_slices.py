@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 from scipy import ndimage
-from vorotool.types.volumes.volume import Volume
 
 from vorotool import InputError, seeds_from_volume, tessellate
 from vorotool.engines.tessellation.cleaned_masks import Cleaning
 from vorotool.engines.volumes.cleaned_slices import CleanedSlices
 from vorotool.engines.volumes.volume_objects import HeldSlices, VolumeObjects
 from vorotool.engines.volumes.volume_seeding import seeds_of_slabs
+from vorotool.types.volumes.volume import Volume
 
 RNG = np.random.default_rng(8)
 CORNERS = {6: ndimage.generate_binary_structure(3, 1), 26: ndimage.generate_binary_structure(3, 3)}

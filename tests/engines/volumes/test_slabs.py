@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from vorotool.types.volumes.volume_seeds import VolumeSeeds
-from vorotool.types.volumes.voxel_frame import VoxelFrame
 
 from vorotool.engines.volumes.slabs import SeedSlab
+from vorotool.types.volumes.volume_seeds import VolumeSeeds
+from vorotool.types.volumes.voxel_frame import VoxelFrame
 
 SEEDS = VolumeSeeds(np.array([[0, 0, 0], [4, 0, 9]]), np.array([1, 2]))
 FRAME = VoxelFrame(0, 0, 0, 5, 1, 10)

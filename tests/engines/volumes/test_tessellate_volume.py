@@ -4,11 +4,6 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from vorotool.types.volumes.label_volume import LabelVolume
-from vorotool.types.volumes.volume import Volume
-from vorotool.types.volumes.volume_points import VolumePoints
-from vorotool.types.volumes.volume_seeds import VolumeSeeds
-from vorotool.types.volumes.voxel_frame import VoxelFrame
 
 import vorotool
 from vorotool.engines.volumes.volume_frames import asked_voxel_frame, default_voxel_frame, slab_limits
@@ -16,6 +11,11 @@ from vorotool.engines.volumes.volume_seeding import seeds_from_volume, seeds_fro
 from vorotool.engines.volumes.volume_tessellator import VolumeSweep
 from vorotool.errors import InputError, LimitError, UsageError, VorotoolWarning
 from vorotool.types.spacing import PixelSides, pixel_sides
+from vorotool.types.volumes.label_volume import LabelVolume
+from vorotool.types.volumes.volume import Volume
+from vorotool.types.volumes.volume_points import VolumePoints
+from vorotool.types.volumes.volume_seeds import VolumeSeeds
+from vorotool.types.volumes.voxel_frame import VoxelFrame
 
 
 def brute(seeds, frame, units=(1, 1, 1)):

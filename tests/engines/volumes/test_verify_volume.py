@@ -4,15 +4,15 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from vorotool.types.volumes.label_volume import CUBE, LabelVolume
-from vorotool.types.volumes.volume_seeds import VolumeSeeds
-from vorotool.types.volumes.voxel_frame import VoxelFrame
 
 import vorotool
 from support.few import few
 from vorotool.engines.volumes.verify_volume import verify_label_volume
 from vorotool.errors import InputError, UsageError, VerificationError
 from vorotool.types.spacing import PixelSides, pixel_sides
+from vorotool.types.volumes.label_volume import CUBE, LabelVolume
+from vorotool.types.volumes.volume_seeds import VolumeSeeds
+from vorotool.types.volumes.voxel_frame import VoxelFrame
 
 
 def brute_force(seeds, frame, sides=CUBE, limit=None):

@@ -8,10 +8,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 from scipy import ndimage
-from vorotool.types.volumes.label_volume import LabelVolume
-from vorotool.types.volumes.volume import Volume
-from vorotool.types.volumes.volume_seeds import VolumeSeeds
-from vorotool.types.volumes.voxel_frame import VoxelFrame
 
 import vorotool
 from vorotool.engines.label_images.regions import measure_regions, region_colors
@@ -19,6 +15,10 @@ from vorotool.engines.volumes.volume_measures import measure_slabs, measure_volu
 from vorotool.engines.volumes.volume_tables import volume_neighbors, volume_table
 from vorotool.errors import InputError, UsageError
 from vorotool.types.spacing import PixelSides, pixel_sides
+from vorotool.types.volumes.label_volume import LabelVolume
+from vorotool.types.volumes.volume import Volume
+from vorotool.types.volumes.volume_seeds import VolumeSeeds
+from vorotool.types.volumes.voxel_frame import VoxelFrame
 
 DTYPES = (np.uint8, np.uint16, np.uint32, np.int32)
 COLUMNS = [

@@ -4,9 +4,6 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from vorotool.types.volumes.label_volume import LabelVolume
-from vorotool.types.volumes.volume_seeds import VolumeSeeds
-from vorotool.types.volumes.voxel_frame import VoxelFrame
 
 from vorotool.engines.volumes.volume_regions import regions_of_sweep
 from vorotool.engines.volumes.volume_tables import (
@@ -17,6 +14,9 @@ from vorotool.engines.volumes.volume_tables import (
 )
 from vorotool.engines.volumes.volume_tessellator import VolumeSweep
 from vorotool.types.spacing import pixel_sides
+from vorotool.types.volumes.label_volume import LabelVolume
+from vorotool.types.volumes.volume_seeds import VolumeSeeds
+from vorotool.types.volumes.voxel_frame import VoxelFrame
 
 FRAME = VoxelFrame(-4, 2, 7, 13, 9, 16)
 

@@ -6,12 +6,6 @@ import numpy as np
 import pytest
 from scipy import ndimage
 from skimage.filters import threshold_otsu
-from vorotool.types.volumes.label_volume import LabelVolume
-from vorotool.types.volumes.volume import Volume
-from vorotool.types.volumes.volume_points import VolumePoints
-from vorotool.types.volumes.volume_seeds import VolumeSeeds
-from vorotool.types.volumes.voxel_frame import VoxelFrame
-from vorotool.types.volumes.voxel_grid import VoxelGrid
 
 import vorotool
 from support.few import few
@@ -20,6 +14,12 @@ from vorotool.engines.volumes.volume_objects import HeldSlices, VolumeObjects
 from vorotool.engines.volumes.volume_seeding import seeds_from_volume, seeds_from_xyz, seeds_of_slabs
 from vorotool.engines.volumes.volume_tessellator import VolumeSweep
 from vorotool.errors import InputError, LimitError, UsageError, VorotoolWarning
+from vorotool.types.volumes.label_volume import LabelVolume
+from vorotool.types.volumes.volume import Volume
+from vorotool.types.volumes.volume_points import VolumePoints
+from vorotool.types.volumes.volume_seeds import VolumeSeeds
+from vorotool.types.volumes.voxel_frame import VoxelFrame
+from vorotool.types.volumes.voxel_grid import VoxelGrid
 
 FORMS = {26: np.ones((3, 3, 3)), 6: ndimage.generate_binary_structure(3, 1)}
 

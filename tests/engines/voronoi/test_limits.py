@@ -7,12 +7,12 @@ import pytest
 import shapely
 from tests.support.families.site_families import mixed_sites, row_houses, squares
 from tests.support.oracles.voronoi_oracle import assert_is_within, quietly
-from vorotool.types.voronoi.shapes import PART_OF_RADIUS, flattened_arcs
-from vorotool.types.voronoi.tables import KINDS, kinds_of
 
 from support.few import few
 from vorotool import verify_voronoi, voronoi
 from vorotool.errors import InputError, UsageError, VerificationError
+from vorotool.types.voronoi.shapes import PART_OF_RADIUS, flattened_arcs
+from vorotool.types.voronoi.tables import KINDS, kinds_of
 
 FRAME = (-10, -10, 30, 30)
 ROUND = np.pi

@@ -10,13 +10,13 @@ import ezdxf
 import numpy as np
 import pytest
 import shapely
-from vorotool.types.polygons.conversion import to_shapely
 
 import vorotool
 from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.formats.drawing import dxf_reader
 from vorotool.formats.drawing.curves import Curve, Line
 from vorotool.formats.drawing.joining import joined
+from vorotool.types.polygons.conversion import to_shapely
 
 
 @pytest.fixture

@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 import shapely
 import svgelements
-from vorotool.types.polygons.conversion import to_shapely
 
 from support.few import few
 from support.readers.svg_reading import read, shape_of, svg
 from vorotool.errors import InputError
 from vorotool.formats.drawing.fill_rules import filled_polygons
+from vorotool.types.polygons.conversion import to_shapely
 
 
 # ---- shapes --------------------------------------------------------------------------------------

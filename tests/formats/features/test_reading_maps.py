@@ -10,13 +10,13 @@ import pandas
 import pyogrio
 import pytest
 import shapely
-from vorotool.types.polygons.conversion import to_shapely
-from vorotool.types.polygons.polygon_set import PolygonSet
 
 import vorotool
 from support.families.vector_files import ATTRIBUTES, DRIVERS, SHAPES, frame, load, save
 from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.numeric.crs import crs_name
+from vorotool.types.polygons.conversion import to_shapely
+from vorotool.types.polygons.polygon_set import PolygonSet
 
 FORMATS = list(DRIVERS)
 

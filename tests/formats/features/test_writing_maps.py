@@ -9,13 +9,13 @@ import pandas
 import pytest
 import shapely
 from geopandas.testing import assert_geodataframe_equal
-from vorotool.types.polygons.polygon_set import PolygonSet
 
 import vorotool
 from support.families.vector_files import DRIVERS, frame, load, save
 from vorotool.convert.polygons import as_polygons
 from vorotool.errors import OutputError, UsageError
 from vorotool.formats.features.feature_rows import FeatureRows
+from vorotool.types.polygons.polygon_set import PolygonSet
 
 FORMATS = list(DRIVERS)
 SWISS = {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::2056"}}

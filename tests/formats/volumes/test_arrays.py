@@ -8,7 +8,6 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from vorotool.types.volumes.voxel_grid import VoxelGrid
 
 import vorotool
 from vorotool.errors import InputError, LimitError, OutputError, UsageError
@@ -22,6 +21,7 @@ from vorotool.formats.zarr.volumes import (
     write_slices,
     write_zarr_volume,
 )
+from vorotool.types.volumes.voxel_grid import VoxelGrid
 
 zarr = pytest.importorskip("zarr")
 VALUES = np.random.default_rng(4).integers(0, 200, (11, 40, 33))

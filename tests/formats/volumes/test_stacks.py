@@ -9,7 +9,6 @@ from fractions import Fraction
 import numpy as np
 import pytest
 import tifffile
-from vorotool.types.volumes.voxel_grid import VoxelGrid
 
 import vorotool
 from support.families.tiff_files import grey, tiff_file
@@ -18,6 +17,7 @@ from vorotool.formats.volumes import writer
 from vorotool.formats.volumes.ome_stack import ome_stack
 from vorotool.formats.volumes.opening import open_volume, read_volume
 from vorotool.formats.volumes.writer import write_volume
+from vorotool.types.volumes.voxel_grid import VoxelGrid
 
 VALUES = np.random.default_rng(3).integers(0, 200, (5, 40, 30))
 SIDES = (Fraction(13, 40), Fraction(1, 4), Fraction(3, 2))

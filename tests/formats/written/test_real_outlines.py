@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shapely
-from vorotool.types.skeleton.tables import polygon_table
 
 import vorotool
+from vorotool.types.skeleton.tables import polygon_table
 
 DATA = Path(__file__).parents[3] / "data"
 NAMES = [

@@ -2,14 +2,14 @@
 
 import numpy as np
 import pytest
-from vorotool.types.volumes.label_volume import LabelVolume
-from vorotool.types.volumes.volume_seeds import VolumeSeeds
-from vorotool.types.volumes.voxel_frame import VoxelFrame
 
 import vorotool
 from vorotool import LimitError, UsageError
 from vorotool.jobs.volumes.pictures import SlicePicture
 from vorotool.types.spacing import PixelSides
+from vorotool.types.volumes.label_volume import LabelVolume
+from vorotool.types.volumes.volume_seeds import VolumeSeeds
+from vorotool.types.volumes.voxel_frame import VoxelFrame
 
 FRAME = VoxelFrame(-3, 5, 2, 7, 6, 5)
 

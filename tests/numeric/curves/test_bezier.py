@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+
 from vorotool.numeric.curves.bezier import areas_beside, lengths_of
 
 CHORDS = 4000

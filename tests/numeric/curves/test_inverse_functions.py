@@ -6,6 +6,7 @@ from math import isqrt
 
 import numpy as np
 import pytest
+
 from vorotool.numeric.curves.inverse_functions import (
     angle_of,
     cosine_and_sine,

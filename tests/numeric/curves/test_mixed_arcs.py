@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+
 from vorotool.numeric.curves.mixed_arcs import MixedArcs
 
 

@@ -5,11 +5,11 @@ import struct
 import numpy as np
 import pytest
 import shapely
-from vorotool.numeric.curves.circular_strings import flattened_arcs
-from vorotool.numeric.curves.well_known import geometry_of_binary, geometry_of_texts, without_curves
 
 import vorotool
 from vorotool.errors import InputError, VorotoolWarning
+from vorotool.numeric.curves.circular_strings import flattened_arcs
+from vorotool.numeric.curves.well_known import geometry_of_binary, geometry_of_texts, without_curves
 
 RING = "CIRCULARSTRING (0 0, 4 0, 4 4, 0 4, 0 0)"
 SQUARE = "((0 0, 1 0, 1 1, 0 1, 0 0))"

@@ -4,7 +4,6 @@ import io
 
 import numpy as np
 import pytest
-from vorotool.types.polygons.conversion import to_shapely
 
 from vorotool.errors import UsageError
 from vorotool.formats.drawing.svg_reader import read_svg
@@ -15,6 +14,7 @@ from vorotool.render.canvas.palettes import WHITE
 from vorotool.render.canvas.scaled_page import ScaledPage, styled_layers
 from vorotool.render.canvas.styles import PictureStyle
 from vorotool.render.canvas.svg import write_layers_svg
+from vorotool.types.polygons.conversion import to_shapely
 
 SQUARE = np.array([[0.0, 0.0], [3.0, 0.0], [3.0, 2.0], [0.0, 2.0]])
 

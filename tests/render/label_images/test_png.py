@@ -2,12 +2,12 @@ import itertools
 
 import numpy as np
 import pytest
-from vorotool.types.points.seed_set import SeedSet
 
 from vorotool.errors import UsageError
 from vorotool.render.canvas.palettes import picture_palette
 from vorotool.render.label_images.png import disc_radius, picture_bands
 from vorotool.types.pixel_frame import Frame
+from vorotool.types.points.seed_set import SeedSet
 
 PALETTE = picture_palette(4)
 RNG = np.random.default_rng(1)

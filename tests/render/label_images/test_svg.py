@@ -4,13 +4,13 @@ import xml.etree.ElementTree as ET
 
 import numpy as np
 import pytest
-from vorotool.types.points.label_image import LabelImage
-from vorotool.types.points.seed_set import SeedSet
 
 from vorotool.errors import LimitError, UsageError
 from vorotool.render.canvas.palettes import CELLS
 from vorotool.render.label_images.svg import write_label_svg
 from vorotool.types.pixel_frame import Frame
+from vorotool.types.points.label_image import LabelImage
+from vorotool.types.points.seed_set import SeedSet
 
 NS = "{http://www.w3.org/2000/svg}"
 LABELS = np.array([[1, 1, 2, 2], [1, 3, 3, 2], [0, 3, 3, 12]])

@@ -1,9 +1,9 @@
 """Rings and lines on the lattice, from harmless to hopeless: each family draws vertices and rings."""
 
 import numpy as np
-from vorotool.types.polygons.planar_graph import REPAIRS
 
 from vorotool import PlanarGraph, PolygonSet, _core
+from vorotool.types.polygons.planar_graph import REPAIRS
 
 SHELL, HOLE, LINE = 0, 1, 2
 LIMIT = 2**30 - 1

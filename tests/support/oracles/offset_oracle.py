@@ -4,6 +4,7 @@ import re
 
 import numpy as np
 import shapely
+
 from vorotool.types.polygons.conversion import to_shapely
 from vorotool.types.polygons.polygon_set import LINE
 from vorotool.types.polygons.ring_arrays import RingArrays

@@ -7,9 +7,9 @@ from typing import NamedTuple
 import numpy as np
 import shapely
 from numpy.typing import NDArray
-from vorotool.types.polygons.conversion import to_shapely
 
 from vorotool import PolygonSet
+from vorotool.types.polygons.conversion import to_shapely
 
 Floats = NDArray[np.float64]
 NEAR = 1e-9

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from vorotool.types.polygons.polygon_set import HOLE, LINE, SHELL, set_of_rings
 
 from vorotool import InputError, PolygonSet
+from vorotool.types.polygons.polygon_set import HOLE, LINE, SHELL, set_of_rings
 
 XY = [[0, 0], [9, 0], [0, 9], [1, 1], [2, 1], [1, 2], [5, 5], [6, 6]]
 STARTS, KINDS, POLYGONS = [0, 3, 6, 8], [SHELL, HOLE, LINE], [0, 0, 1]

@@ -5,9 +5,9 @@ from fractions import Fraction
 import numpy as np
 import pytest
 import shapely
-from vorotool.types.skeleton.tables import polygon_table
 
 from vorotool import read, skeleton_exact, verify_skeleton, voronoi, write
+from vorotool.types.skeleton.tables import polygon_table
 
 HOUSE = [[7.1489466, 50.9653194], [7.1489765, 50.9652408], [7.1491593, 50.9652698], [7.1491291, 50.9653486]]
 FAR = [[-170, -10], [-169, -10], [-169, -9]]

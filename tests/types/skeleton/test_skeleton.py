@@ -6,11 +6,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from vorotool.types.skeleton.tables import connected_roots
 
 import vorotool
 from vorotool.errors import UsageError
 from vorotool.numeric import parallel
+from vorotool.types.skeleton.tables import connected_roots
 
 SHAPES = vorotool.read(Path(__file__).parents[3] / "data" / "two-shapes.json")
 MADE = vorotool.skeleton_exact(SHAPES, side="both")
@@ -75,6 +75,7 @@ def test_closed_branches():
 def test_polygons():
     table = vorotool.polygon_table(MADE)
     import shapely
+
     from vorotool.types.polygons.conversion import to_shapely
 
     shapes = to_shapely(SHAPES)

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 import shapely
 from tests.support.families.site_families import mixed_sites
-from vorotool.types.voronoi.site_shapes import site_distances
 
 from vorotool import voronoi
 from vorotool.types.voronoi import site_shapes
+from vorotool.types.voronoi.site_shapes import site_distances
 
 
 @pytest.mark.parametrize("most", [1, 1 << 20])

@@ -8,10 +8,10 @@ import pandas
 import pytest
 import shapely
 from tests.support.families.site_families import mixed_sites
-from vorotool.types.voronoi.shapes import PART_OF_RADIUS, flattened_arcs
 
 from vorotool import to_geojson, voronoi
 from vorotool.errors import InputError, UsageError
+from vorotool.types.voronoi.shapes import PART_OF_RADIUS, flattened_arcs
 
 WALL_AND_TREE = [shapely.LineString([(0, 0), (8, 0)]), shapely.Point(4, 2)]
 
