@@ -63,7 +63,7 @@ def test_a_script_that_compares_nothing_fails(script, script_here):
         slow("bytes.py", "--cases 2000 --minutes 5 --seed 7 --commands 0.02", "2,000 inputs, 0 failures"),
         slow(
             "faults.py",
-            "--writers png,csv,zarr --kills 6 --places 12 --batches 0 --pairs 0",
+            "--writers png,csv,zarr --kills 3 --places 6 --batches 0 --pairs 0",
             "kills that left a temporary: 6",
         ),
     ],

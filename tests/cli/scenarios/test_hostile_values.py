@@ -48,7 +48,7 @@ INPUTS = {
     "skeleton-exact": ("shape.wkt", "-o", "out.json"),
     "voronoi": ("shape.wkt", "-o", "out.geojson"),
     "distance": ("shape.wkt", "dots.csv", "-o", "out.csv"),
-    "draw": ("shape.wkt", "-o", "out.svg"),
+    "draw": ("shape.wkt", "-o", "out.svg", "--width", "90"),
     "info": ("dots.csv",),
     "sample": ("dots.csv",),
     "completion": (),
