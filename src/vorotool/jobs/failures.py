@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import traceback
-
 from vorotool.errors import LimitError, Message, VorotoolError
 
 
@@ -14,6 +12,8 @@ def explained(error: Exception) -> tuple[Message, int]:
     if isinstance(error, MemoryError):
         text = "there is not enough memory: use a smaller frame, or an output that is streamed"
         return Message(text), LimitError.exit_code
+    import traceback
+
     traceback.print_exception(error)
     text = f"a defect of vorotool, please report it with the lines above: {error}"
     return Message(text), VorotoolError.exit_code

@@ -5,7 +5,6 @@ from __future__ import annotations
 import threading
 import warnings
 from collections.abc import Callable, Iterator
-from concurrent.futures import Future, wait
 from contextlib import contextmanager
 from typing import TypeVar
 
@@ -47,6 +46,8 @@ def interruptible(work: Callable[[], Result]) -> Result:
     """Call what takes long in a library that does not look for signals: in a thread, so that this one sees them."""
     if threading.current_thread() is not threading.main_thread():
         return work()
+    from concurrent.futures import Future, wait
+
     future: Future[Result] = Future()
     start(work, future)
     while not future.done():  # a signal may reach another thread, which does not wake this one

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import io
 import math
-import zipfile
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +13,9 @@ from vorotool.errors import InputError
 from vorotool.formats.io.limits import decoding
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions
+
+if TYPE_CHECKING:
+    import zipfile
 
 NPZ_MAGIC = b"PK\x03\x04"
 _SKELETON = frozenset({"arc_source", "vertex_r", "ring_starts"})
@@ -25,6 +27,8 @@ _CELLS = frozenset({"cell_starts", "polygon_starts", "ring_starts", "vertex_x", 
 def npz_holds(data: bytes) -> Literal["points", "polygons", "skeleton", "offsets", "voronoi"]:
     """Tell what an archive holds by the names of its arrays: all else is taken for points."""
     try:
+        import zipfile
+
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             names = {name.removesuffix(".npy") for name in archive.namelist()}
     except Exception:  # who reads it says what is wrong: zipfile raises nearly everything on damaged bytes
@@ -39,6 +43,8 @@ def npz_holds(data: bytes) -> Literal["points", "polygons", "skeleton", "offsets
 def npz_columns(source: Source, options: ReadOptions) -> dict[str, NDArray[Any]]:
     """Read all arrays, by their names."""
     columns: dict[str, NDArray[Any]] = {}
+    import zipfile
+
     with decoding(source.name, "NPZ"), zipfile.ZipFile(io.BytesIO(source.data)) as archive:
         for entry in archive.infolist():
             columns[entry.filename.removesuffix(".npy")] = _column(source.name, archive, entry, options)
@@ -47,7 +53,7 @@ def npz_columns(source: Source, options: ReadOptions) -> dict[str, NDArray[Any]]
 
 def _column(name: str, archive: zipfile.ZipFile, entry: zipfile.ZipInfo, options: ReadOptions) -> NDArray[Any]:
     """One array, of which no more is read than its header announces and the file holds."""
-    if entry.compress_type != zipfile.ZIP_STORED:
+    if entry.compress_type:  # it is not stored as it is
         raise InputError(f"{name}: {entry.filename} is compressed; save it with numpy.savez, which does not compress")
     with archive.open(entry) as member:
         version = np.lib.format.read_magic(member)

@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError, LimitError, option
-from vorotool.numeric.curves.well_known import flattened_note
 from vorotool.plain import plain
 from vorotool.types.axis import YAxis
 from vorotool.types.pixel_frame import MAX_PIXELS
@@ -76,6 +75,8 @@ class ReadOptions:
     def note_curves(self, name: str, curves: int) -> None:
         """Say how many curves were flattened, if any."""
         if curves:
+            from vorotool.numeric.curves.well_known import flattened_note
+
             self.note(f"{name}: {flattened_note(curves)}")
 
     def note_heights(self, name: str) -> None:
