@@ -12,6 +12,7 @@ from vorotool.batch.pages import PageName
 from vorotool.batch.search import LeftOut, Search
 from vorotool.errors import InputError, UsageError
 from vorotool.formats.io.descriptors import stream_kind
+from vorotool.formats.io.layer_names import file_of, output_name
 from vorotool.formats.zarr.store import is_folder, is_store
 from vorotool.plain import plain
 
@@ -74,7 +75,7 @@ def expand_inputs(
             found += _inside(name, frozenset(extensions), search)
         else:
             _check_file(name)
-            found.append(Input(name, Path(name).name))
+            found.append(Input(name, output_name(name)))
     if note is not None:
         for text in search.left_out.notes():
             note(text)
@@ -84,7 +85,7 @@ def expand_inputs(
 def _check_file(name: str) -> None:
     if name == STANDARD_INPUT:
         raise UsageError("- is standard input, which is one input: name files, or give their list to --files-from")
-    if (kind := stream_kind(name)) is not None:
+    if (kind := stream_kind(file_of(name))) is not None:
         raise UsageError(
             f"{name} is {kind}, which this process alone can read: give it as the only input with -o, or write what "
             "comes through it to a file first"
@@ -111,7 +112,7 @@ def read_names(path: str, *, null: bool = False) -> list[str]:
 
 
 def _is_pattern(name: str) -> bool:
-    return glob.has_magic(name) and not os.path.lexists(name)
+    return glob.has_magic(name) and not os.path.lexists(file_of(name))
 
 
 def _is_folder(path: Path) -> bool:

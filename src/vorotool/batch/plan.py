@@ -13,6 +13,7 @@ from vorotool.batch.pages import path_of
 from vorotool.batch.tasks import Task
 from vorotool.errors import OutputError, UsageError
 from vorotool.formats.io.descriptors import STANDARD, descriptor_of
+from vorotool.formats.io.layer_names import file_of
 from vorotool.formats.io.sources import without_gz
 
 _NOWHERE = (-1, -1)
@@ -92,7 +93,7 @@ def _check_records(folder: str | os.PathLike[str], others: Mapping[str, str]) ->
 def _identity(path: str) -> tuple[int, int]:
     """The identity of a file in the file system; nothing for one that is not there, or that is a stream."""
     try:
-        found = Path(path).stat()
+        found = Path(file_of(path)).stat()
     except (OSError, ValueError):
         return _NOWHERE
     is_held = stat.S_ISREG(found.st_mode) or stat.S_ISDIR(found.st_mode)

@@ -11,6 +11,7 @@ from typing import Any
 from vorotool import __version__
 from vorotool.batch.pages import path_of
 from vorotool.formats.io.descriptors import stream_kind
+from vorotool.formats.io.layer_names import file_of
 from vorotool.formats.io.temporaries import tagged_temporaries
 from vorotool.plain import plain
 
@@ -71,6 +72,7 @@ def is_done(task: Task, digest: str) -> bool:
 
 def digest_of(path: str) -> str:
     """SHA-256 of a file, or of the names and digests of those in a folder, as text; empty where nothing can be read."""
+    path = file_of(path)
     try:
         if Path(path).is_dir():
             return _digest_of_folder(Path(path))

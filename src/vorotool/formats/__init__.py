@@ -90,7 +90,7 @@ def read(
     Parameters
     ----------
     path : str or path
-        The file; ``-`` is standard input.
+        The file, or FILE:LAYER for a layer of it; ``-`` is standard input.
     geometry : {"points", "polygons", "volume", "space"}, optional
         Expected content of a file that is not an image; by default it is detected. A volume is all pages of a TIFF as
         slices (with the sides of the voxels from ImageJ and OME), or an NPY, Zarr or OME-Zarr array with axes z, y and

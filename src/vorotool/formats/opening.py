@@ -70,7 +70,7 @@ class Opened:
 
     def fetched(self) -> Opened:
         """Give the same with its content, so that it can be read again as something else."""
-        return self if self.array is not None else replace(self, content=read_source(self.name))
+        return self if self.array is not None else replace(self, content=read_source(self.name, self.layer))
 
     def read(
         self,
@@ -103,8 +103,8 @@ class Opened:
             refuse_for_images(given, self.layer)
             told("zarr")
             return self._turned(read_rows(self.array, max_pixels=given.max_pixels, note=given.note), given)
-        content = read_source(self.name) if self.content is None else self.content
-        content = replace(content, layer=self.layer, max_sites=given.max_sites, flatten=given.flatten)
+        content = read_source(self.name, self.layer) if self.content is None else self.content
+        content = replace(content, max_sites=given.max_sites, flatten=given.flatten)
         holds, source = recognised(content, self.geometry, self.said, given.columns)
         told(source.format)
         return self._turned(read_recognised(holds, source, given), given)

@@ -16,7 +16,7 @@ from vorotool.products.inputs import IMAGE_NAMES, INPUTS, Holds
 from vorotool.products.registry import is_of
 
 _CRS, _TO_CRS = option("--input-crs", "crs"), option("--crs", "to_crs")
-_LAYER = option("--input-layer", "layer")
+_LAYER = option("--input-layer or FILE:LAYER", "layer or FILE:LAYER")
 
 _IMAGE_SUFFIXES = {f".{name}": kind for name, kind in IMAGE_NAMES.items() if kind != "zarr"}
 _IMAGE_HEADS = (
@@ -54,14 +54,14 @@ def read_recognised(holds: Holds, source: Source, options: ReadOptions) -> Any:
     """Read what a source was recognised as: points, polygons, an image, a skeleton or offset curves."""
     if holds == "image":
         refuse_for_images(options, source.layer)
+    elif source.layer is not None and "layers" not in INPUTS[source.format].has:
+        raise UsageError(f"{_LAYER} is for files of several layers, but {source.name} has none: leave it out")
     readers = INPUTS[source.format].readers
     name = readers["polygons"] if holds == "sites" and "sites" not in readers else readers[holds]
     reader: Callable[[Source, ReadOptions], Any] = resolved(name)
     value = reader(source, options)
     if holds not in ("points", "polygons", "sites"):
         return value
-    if source.layer is not None and "layers" not in INPUTS[source.format].has:
-        raise UsageError(f"{_LAYER} is for files of several layers, but {source.name} has none: leave it out")
     from vorotool.formats.parsing.reference_systems import with_crs
 
     if is_of(value, "Sites"):
@@ -85,6 +85,7 @@ def image_source(source: Source, said: str | None = None) -> Source:
             f"{source.name} is no image that is read (PNG, TIFF, PGM, PBM, NPY, {', '.join(PICTURES.values())}): "
             f"name it with {INPUT_FORMAT}, or convert it to PNG"
         )
+    refuse_for_images(ReadOptions(), source.layer)
     return replace(source, format=found)
 
 

@@ -93,7 +93,7 @@ def _read(run: Run, o: DrawingOptions, given: JobInput) -> LabelImage | Lined:
     array = open_zarr(given.path, said, o.page)
     if array is not None:
         return label_image_of(read_rows(array, max_pixels=o.max_pixels), given.path)
-    source = replace(read_source(given.path), layer=o.input_layer)
+    source = read_source(given.path, o.input_layer)
     holds: Holds
     if source.data.startswith(MAGIC):  # of two columns, too: points are not drawn
         holds, source = "image", image_source(source, said)

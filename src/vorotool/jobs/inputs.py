@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from vorotool.errors import InputError, Kind, Message, UsageError
 from vorotool.formats.io.descriptors import input_identity
+from vorotool.formats.io.layer_names import file_of
 from vorotool.jobs.given import changed
 from vorotool.jobs.masks import settled_foreground
 from vorotool.jobs.options import (
@@ -147,7 +148,7 @@ def check_streams(named: Iterable[tuple[str, str]]) -> None:
     """Refuse two names of one stream: whoever reads it first leaves nothing for the other."""
     readers: dict[Hashable, str] = {}
     for reader, name in named:
-        identity = input_identity(name)
+        identity = input_identity(file_of(name))
         if identity is None:
             continue
         if identity in readers:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from vorotool.errors import UsageError
 from vorotool.formats.io.atomic_output import is_same_file, spoken
 from vorotool.formats.io.descriptors import STANDARD, descriptor_of, is_same_output, stream_kind
+from vorotool.formats.io.layer_names import output_name
 from vorotool.formats.io.sources import without_gz
 from vorotool.jobs.picture_style import check_style
 from vorotool.plain import plain
@@ -49,7 +50,7 @@ def plan_targets(
     fmt = _known_format(fmt, formats)
     several = len(what) > 1
     if out_dir is not None:
-        stem = Path(out_dir) / ("stdin" if source == "-" else Path(without_gz(source)).stem)
+        stem = Path(out_dir) / ("stdin" if source == "-" else Path(without_gz(output_name(source))).stem)
         choose = _several_format if several else _chosen
         chosen = {name: choose(formats, name, fmt, None) for name in what}
         return [Target(name, _named(stem, name if several else None, chosen[name]), chosen[name]) for name in what]

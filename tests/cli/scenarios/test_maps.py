@@ -47,7 +47,7 @@ def test_degrees_are_a_warning_that_names_a_system(run, lakes):
 def test_layers_are_named_where_one_must_be_chosen(run, lakes):
     frame(LAKES[:1], crs="EPSG:4326", name=["x"]).to_file(lakes / "lakes.gpkg", layer="ponds", driver="GPKG")
     done = run("skeleton-exact", "lakes.gpkg")
-    assert (done.code, "--input-layer" in done.err) == (3, True)
+    assert (done.code, "lakes, ponds, as lakes.gpkg:lakes" in done.err) == (3, True)
     done = run("skeleton-exact", "lakes.gpkg", "--input-layer", "ponds", "-q", "--what", "table")
     assert (done.code, len(done.rows)) == (0, 1)
     assert run("draw", "lakes.gpkg", "--input-layer", "lakes", "-o", "lakes.svg").code == 0

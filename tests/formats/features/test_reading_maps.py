@@ -143,10 +143,10 @@ def test_layers(tmp_path):
 
 def test_layers_where_there_are_none(tmp_path):
     (tmp_path / "a.csv").write_text("x,y\n1,2\n")
-    with pytest.raises(UsageError, match=r"layer is for files of several layers, but .*a.csv has none"):
+    with pytest.raises(UsageError, match=r"layer or FILE:LAYER is for files of several layers, but .*a.csv has none"):
         vorotool.read(tmp_path / "a.csv", layer="a")
     vorotool.write(vorotool.tessellate([[1, 1], [5, 3]], shape=(4, 6)), tmp_path / "a.png")
-    with pytest.raises(UsageError, match="layer is for points, polygons and lines, but the input is an image"):
+    with pytest.raises(UsageError, match="layer or FILE:LAYER is for points, polygons and lines, but the input is"):
         vorotool.read(tmp_path / "a.png", layer="a")
 
 

@@ -23,8 +23,9 @@ def command(**options: Any) -> None:
       vorotool sample cells.png -o cells.png
       vorotool info cells.png
 
-    INPUT is any file that a command reads, or a folder of them; - is standard input. Of several inputs each is told,
-    and exit code 6 says that some cannot be read. Nothing is computed, and nothing is written but what is printed.
+    INPUT is any file that a command reads, FILE:LAYER for a layer of one that has several, or a folder of files; - is
+    standard input. Of several inputs each is told, and exit code 6 says that some cannot be read. Nothing is computed,
+    and nothing is written but what is printed.
     """
     from vorotool.jobs.description import describe_inputs
 

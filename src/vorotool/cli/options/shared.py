@@ -236,7 +236,9 @@ OPTIONS: dict[str, Decorator] = {
         help="Coordinate reference system of an input that names none, such as EPSG:3857; nothing is reprojected.",
     ),
     "input-layer": click.option(
-        "--input-layer", metavar="NAME", help="Layer of an input that has several, such as a GeoPackage."
+        "--input-layer",
+        metavar="NAME",
+        help="Layer of an input that has several; FILE:LAYER, such as map.gpkg:roads, names that of any file.",
     ),
     "crs": click.option(
         "--crs",

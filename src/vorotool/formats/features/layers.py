@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from vorotool.errors import InputError, option
-from vorotool.formats.io.sources import Source
+from vorotool.formats.io.sources import STANDARD_INPUT, Source
 
 
 def chosen_layer(source: Source, layers: Sequence[tuple[str, str | None]]) -> int:
@@ -19,7 +19,8 @@ def chosen_layer(source: Source, layers: Sequence[tuple[str, str | None]]) -> in
     if not named:
         raise InputError(f"{source.name} holds no layer with geometry: nothing can be read of it")
     if len(named) > 1:
-        raise InputError(
-            f"{source.name} holds {len(named)} layers: choose one of {held} by {option('--input-layer', 'layer=...')}"
-        )
+        how = f"as {source.name}:{next(iter(named))}"
+        if source.name == STANDARD_INPUT:
+            how = f"by {option('--input-layer', 'layer=...')}"
+        raise InputError(f"{source.name} holds {len(named)} layers: choose one of {held}, {how}")
     return next(iter(named.values()))

@@ -23,6 +23,7 @@ from vorotool.formats.io.descriptors import (
     open_onward,
     open_output_descriptor,
 )
+from vorotool.formats.io.layer_names import file_of
 from vorotool.formats.io.temporaries import new_file
 
 STANDARD_OUTPUT = "standard output"
@@ -222,7 +223,7 @@ def is_same_file(target: Path, source: str) -> bool:
     try:
         if source == STANDARD:
             return os.path.samestat(target.stat(), os.fstat(sys.stdin.fileno()))
-        return target.samefile(source)
+        return target.samefile(file_of(source))
     except (OSError, ValueError, AttributeError):  # an input that is not there, or no file, is no output
         return False
 

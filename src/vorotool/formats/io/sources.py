@@ -13,6 +13,7 @@ from typing import Any, BinaryIO
 
 from vorotool.errors import InputError, LimitError, UsageError, VorotoolError
 from vorotool.formats.io.descriptors import STANDARD, descriptor_of, open_input, stream_kind
+from vorotool.formats.io.layer_names import file_and_layer
 from vorotool.plain import plain
 
 STANDARD_INPUT = "standard input"
@@ -54,17 +55,17 @@ class Source:
         return self.data.count(b"\n", 0, offset) + 1
 
 
-def read_source(path: str | os.PathLike[str]) -> Source:
-    """Read a whole file, or standard input for ``-``; what gzip has packed is unpacked."""
-    name = os.fspath(path)
+def read_source(path: str | os.PathLike[str], layer: str | None = None) -> Source:
+    """Read a whole file, which FILE:LAYER may name, or standard input for ``-``; what gzip has packed is unpacked."""
+    name, layer = file_and_layer(os.fspath(path), layer)
     with explained_reading(name):
         data = read_bytes(name)
     spoken = STANDARD_INPUT if name == STANDARD else name
     if (name == STANDARD or descriptor_of(name) == 0) and (not data or (len(data) < MOST_BLANKS and data.isspace())):
         raise InputError(f"{spoken} is empty: check the program that writes it, or name a file instead of {name}")
     if data.startswith(GZIP) and not name.lower().endswith(".svgz"):
-        return Source(spoken, _unpacked(data, spoken), is_unpacked=True)
-    return Source(spoken, data)
+        return Source(spoken, _unpacked(data, spoken), layer=layer, is_unpacked=True)
+    return Source(spoken, data, layer=layer)
 
 
 def without_gz(name: str) -> str:

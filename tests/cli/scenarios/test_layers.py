@@ -1,0 +1,117 @@
+"""Layers of files of maps on the command line: FILE:LAYER wherever a file is read, several results in one file."""
+
+import json
+
+import geopandas
+import pytest
+import shapely
+
+from vorotool import UsageError, read
+
+LAYERS = {
+    "lakes": [shapely.box(0, 0, 10, 4), shapely.box(20, 0, 24, 10)],
+    "area": [shapely.box(-5, -5, 30, 20)],
+    "odd/dots": list(shapely.points([[0, 0], [5, 8], [11, 3], [20, 9]])),
+}
+
+
+def frame(shapes):
+    return geopandas.GeoDataFrame(geometry=shapes, crs="EPSG:2056")
+
+
+@pytest.fixture
+def towns(folder):
+    for name, shapes in LAYERS.items():
+        frame(shapes).to_file(folder / "m.gpkg", layer=name, driver="GPKG")
+        frame(shapes).to_file(folder / f"{name.replace('/', '')}.geojson")
+    return folder
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["voronoi", "{lakes}", "--clip", "{area}", "--enclosures", "{area}", "-f", "wkt"],
+        ["delaunay", "{odd/dots}", "--clip", "{area}", "--what", "cells", "-f", "wkt"],
+        ["distance", "{lakes}", "{odd/dots}"],
+        ["draw", "{lakes}", "-o", "{out}.svg"],
+    ],
+)
+def test_a_layer_reads_as_a_file_of_its_own_does(run, towns, arguments):
+    made = []
+    for named in ("m.gpkg:{}", "{}.geojson"):
+        files = {name: named.format(name if ":" in named else name.replace("/", "")) for name in LAYERS}
+        typed = [word.format_map(files | {"out": "drawn"}) for word in arguments]
+        done = run(*typed)
+        assert done.code == 0, done.err
+        made.append((done.out, *(path.read_bytes() for path in towns.glob("drawn.svg"))))
+    assert made[0] == made[1]
+
+
+def test_info_and_the_library_read_a_layer(run, towns):
+    done = run("info", "m.gpkg:lakes", "m.gpkg:odd/dots", "--json")
+    assert [json.loads(line)["kind"] for line in done.out.splitlines()] == ["polygons", "points"]
+    done = run("info", "m.gpkg")
+    assert done.err == "error: m.gpkg holds 3 layers: choose one of lakes, area, odd/dots, as m.gpkg:lakes\n"
+    assert len(read(towns / "m.gpkg:lakes")) == 2
+    with pytest.raises(UsageError, match="leave out one of them"):
+        read(towns / "m.gpkg:lakes", layer="area")
+
+
+def test_a_colon_that_names_no_layer(run, towns):
+    (towns / "m").write_bytes((towns / "m.gpkg").read_bytes())
+    (towns / "folder").mkdir()
+    for name in ("m:lakes", "folder:lakes", "none.gpkg:lakes", "m.gpkg:"):  # a drive, a folder, nothing, no layer
+        done = run("skeleton-exact", name)
+        assert (done.code, f"{name}: there is no such file" in done.err) == (3, True)
+    (towns / "m.gpkg:lakes").write_text("POLYGON ((0 0, 9 0, 0 9, 0 0))")
+    assert json.loads(run("info", "m.gpkg:lakes", "--json").out)["format"] == "wkt"
+
+
+def test_layers_of_files_that_have_none_and_of_two_options_are_refused(run, towns):
+    assert run("skeleton-exact", "lakes.geojson", "-o", "s.json").code == 0
+    run("sample", "cells.png", "-o", "c.png")
+    for arguments in (
+        ["skeleton-exact", "lakes.geojson:a"],
+        ["draw", "s.json:a", "-o", "s.svg"],
+        ["tessellate", "c.png:a", "-o", "t.png"],
+        ["draw", "lakes.geojson", "--overlay", "c.png:a", "-o", "s.svg"],
+        ["skeleton-exact", "m.gpkg:lakes", "--input-layer", "lakes"],
+    ):
+        done = run(*arguments)
+        assert (done.code, "--input-layer" in done.err) == (2, True), arguments
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["voronoi", "m.gpkg:lakes", "-o", "m.gpkg"],
+        ["voronoi", "lakes.geojson", "--clip", "m.gpkg:area", "-o", "m.gpkg"],
+        ["voronoi", "m.gpkg:lakes", "-o", "v.csv", "--what", "table", "--stats", "m.gpkg"],
+        ["distance", "lakes.geojson", "m.gpkg:area", "-o", "m.gpkg"],
+        ["voronoi", "m.gpkg:lakes", "m.gpkg:area", "--out-dir", "out", "--stats", "m.gpkg"],
+    ],
+)
+def test_the_file_of_a_layer_is_never_replaced(run, towns, arguments):
+    before = (towns / "m.gpkg").read_bytes()
+    done = run(*arguments, "--overwrite")
+    assert (done.code, "never replaced" in done.err) == (2, True)
+    assert (towns / "m.gpkg").read_bytes() == before
+
+
+def test_outputs_of_a_batch_are_named_after_layers(run, towns):
+    typed = ("voronoi", "m.gpkg:lakes", "m.gpkg:odd/dots", "lakes.geojson", "--out-dir", "out", "-q", "--resume")
+    assert run(*typed).code == 0
+    names = {path.name for path in (towns / "out").iterdir()} - {"voronoi.manifest.jsonl"}
+    assert names == {"m.lakes.geojson", "m.odd_dots.geojson", "lakes.geojson"}
+    assert (towns / "out" / "m.lakes.geojson").read_bytes() == (towns / "out" / "lakes.geojson").read_bytes()
+
+    def status():
+        return [json.loads(line)["status"] for line in run(*typed, "--dry-run").out.splitlines()]
+
+    assert status() == ["kept"] * 3
+    frame(LAYERS["area"]).to_file(towns / "m.gpkg", layer="lakes", driver="GPKG")
+    assert status() == ["planned", "planned", "kept"]
+    assert run("voronoi", "m.gpkg:lakes", "--out-dir", "one", "-q").code == 0
+    assert [path.name for path in (towns / "one").iterdir()] == ["m.lakes.geojson"]
+    done = run("voronoi", "m.gpkg:lakes", "m.gpkg:lakes", "--out-dir", "out")
+    assert (done.code, done.err) == (2, "error: m.gpkg:lakes is given twice: leave one out\n")
