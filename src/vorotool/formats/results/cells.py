@@ -14,7 +14,7 @@ from vorotool.numeric.ragged import owners, within
 from vorotool.types.axis import MEMBER as Y_AXIS
 from vorotool.types.features import Areas, rows_of
 from vorotool.types.mesh.cells import CellSet
-from vorotool.types.table import Lookup
+from vorotool.types.table import Computed, Lookup
 
 
 def write_json(out: BinaryIO, cells: CellSet, *, precision: int | None = None, threads: int = 0) -> None:
@@ -53,7 +53,8 @@ def _looked_up(name: str, values: Any, cell: NDArray[np.int32], precision: int |
     if isinstance(column.values, list):
         missing = None if column.missing is None else column.missing[cell]
         return Column(name, [column.values[i] for i in cell.tolist()], missing)
-    return Column(name, Lookup(np.asarray(column.values), cell), column.missing, column.is_place)
+    whole = column.values[:] if isinstance(column.values, Computed) else column.values
+    return Column(name, Lookup(np.asarray(whole), cell), column.missing, column.is_place)
 
 
 def write_arrays(out: BinaryIO, cells: CellSet, *, threads: int = 0) -> None:

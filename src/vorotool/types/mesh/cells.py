@@ -18,6 +18,7 @@ from vorotool.types.axis import UNSTATED, YAxis
 from vorotool.types.box import Box
 from vorotool.types.features import Areas, Rows
 from vorotool.types.fields import record
+from vorotool.types.table import Computed
 from vorotool.types.values import Geometric, Pictured, Tabular, Value, counted, placed
 
 
@@ -105,7 +106,7 @@ class CellSet(Value, Tabular, Geometric, Pictured):
             return self.labels
         return np.arange(1, len(self) + 1, dtype=np.int64)
 
-    @property
+    @cached_property
     def nesting(self) -> Nesting:
         """Rings, polygons and cells by where each begins; no ring, and no polygon, is empty."""
         if self.polygon_starts is not None and self.cell_starts is not None:
@@ -127,21 +128,35 @@ class CellSet(Value, Tabular, Geometric, Pictured):
 
         The error is about 1e-15 times the square of a ring's diameter.
         """
-        rings = self.nesting.rings
+        return self._areas_of(slice(None))
+
+    def _areas_of(self, rows: slice) -> NDArray[np.float64]:
+        xy, rings, cells = self._part(rows)
         left, bottom, right, top = self.frame.sides
         exponent = int(np.frexp(max(right / 2 - left / 2, top / 2 - bottom / 2))[1])  # products do not overflow
-        start = np.repeat(self.coordinates[rings[:-1]], np.diff(rings), axis=0)
-        x, y = np.ldexp(self.coordinates - start, -exponent).T
+        start = np.repeat(xy[rings[:-1]], np.diff(rings), axis=0)
+        x, y = np.ldexp(xy - start, -exponent).T
         after = following(rings)
         with np.errstate(over="ignore"):
-            return np.ldexp(self._sum(x * y[after] - x[after] * y), 2 * exponent - 1)
+            return np.ldexp(_sums(x * y[after] - x[after] * y, cells), 2 * exponent - 1)
 
     @cached_property
     def perimeters(self) -> NDArray[np.float64]:
         """(n,) lengths of the boundaries, those of holes included; 0 of empty cells."""
+        return self._perimeters_of(slice(None))
+
+    def _perimeters_of(self, rows: slice) -> NDArray[np.float64]:
+        xy, rings, cells = self._part(rows)
         with np.errstate(over="ignore"):  # beyond the largest double: infinite
-            step = self.coordinates[following(self.nesting.rings)] - self.coordinates
-            return self._sum(hypotenuse(step[:, 0], step[:, 1]))
+            step = xy[following(rings)] - xy
+            return _sums(hypotenuse(step[:, 0], step[:, 1]), cells)
+
+    def _part(self, rows: slice) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]:
+        """The vertices of some cells, and where each ring and each cell begins among them."""
+        begin, end, _ = rows.indices(len(self))
+        rings, polygons, cells = self.nesting
+        own = rings[polygons[cells[begin]] : polygons[cells[end]] + 1]
+        return self.coordinates[own[0] : own[-1]], own - own[0], self.cell_of_vertices[begin : end + 1] - own[0]
 
     @cached_property
     def cell_of_vertices(self) -> NDArray[np.int64]:
@@ -155,19 +170,11 @@ class CellSet(Value, Tabular, Geometric, Pictured):
         ours: dict[str, Any] = {"label": self.label_array}
         if "id" in self.properties:
             ours["id"] = self.properties["id"]
-        ours |= {"x": x, "y": y, "area": self.areas, "perimeter": self.perimeters}
+        measures = {"area": self._areas_of, "perimeter": self._perimeters_of}
+        ours |= {"x": x, "y": y, **{name: Computed(function, len(self)) for name, function in measures.items()}}
         further = {name: column for name, column in self.properties.items() if name != "id"}
         areas = Areas(self.coordinates, self.nesting, in_box=self.polygon_starts is None)
         return Rows(ours, further, self, np.arange(len(self)), areas, ids=self.label_array)
-
-    def _sum(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Sums over the vertices of each cell."""
-        starts = self.cell_of_vertices
-        sums = np.zeros(len(self))
-        kept = np.diff(starts) > 0
-        if kept.any():
-            sums[kept] = np.add.reduceat(values, starts[:-1][kept])
-        return sums
 
     def _summary(self) -> str:
         empty = int(np.count_nonzero(self.is_empty))
@@ -180,3 +187,12 @@ def _checked_starts(values: Any, count: int, name: str) -> NDArray[np.int64]:
     if array.ndim != 1 or not divides(array, count):
         raise InputError(f"{name} must increase from 0 to {count}, the number of what it divides")
     return array
+
+
+def _sums(values: NDArray[np.float64], starts: NDArray[np.int64]) -> NDArray[np.float64]:
+    """Sum over the vertices of each cell."""
+    sums = np.zeros(len(starts) - 1)
+    kept = np.diff(starts) > 0
+    if kept.any():
+        sums[kept] = np.add.reduceat(values, starts[:-1][kept])
+    return sums
