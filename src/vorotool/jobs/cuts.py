@@ -87,8 +87,8 @@ def check_image_crs(cut: tuple[str, PolygonSet], source: str, crs: Any) -> None:
         _require_same(path, polygons.crs, source, crs, warp)
 
 
-def in_one_crs(run: Run, cut: tuple[str, PolygonSet], data: tuple[str, Data]) -> Data:
-    """Check that polygons and data are in one coordinate reference system, as far as they name any."""
+def in_one_crs(run: Run, cut: tuple[str, PointSet | PolygonSet], data: tuple[str, Data]) -> Data:
+    """Check that a second file and data are in one coordinate reference system, as far as they name any."""
     from vorotool.formats.parsing.reference_systems import declared_in
     from vorotool.numeric.crs import crs_name
     from vorotool.numeric.degrees import note_degrees
@@ -104,7 +104,7 @@ def in_one_crs(run: Run, cut: tuple[str, PolygonSet], data: tuple[str, Data]) ->
             value = declared_in(value, source, crs)
             note_degrees(value, source, run.note)
         return value
-    advice = "bring them into one coordinate reference system: --crs {} does"
+    advice = "bring them into one coordinate reference system: --crs {0}, or ogr2ogr -t_srs {0}, does"
     _require_same(path, polygons.crs, source, value.crs, advice)
     return value
 
@@ -118,18 +118,18 @@ def _require_same(path: str, crs: Any, source: str, wanted: Any, advice: str) ->
         raise InputError(f"{path} is in {crs_name(crs)}, but {source} in {name}: {advice.format(name, path)}")
 
 
-def _check_they_meet(data: PointSet | PolygonSet, polygons: PolygonSet, unnamed: str, named: str, crs: Any) -> None:
+def _check_they_meet(
+    data: PointSet | PolygonSet, polygons: PointSet | PolygonSet, unnamed: str, named: str, crs: Any
+) -> None:
     """Refuse to take what lies elsewhere to be in the same system."""
     from vorotool.numeric.crs import crs_name
     from vorotool.types.box import bounds
-    from vorotool.types.points.point_set import PointSet
 
     if not len(data.xy) or not len(polygons.xy):
         return
     (low_a, high_a), (low_b, high_b) = bounds(data.xy), bounds(polygons.xy)
     if (low_a > high_b).any() or (low_b > high_a).any():
-        noun = "points" if isinstance(data, PointSet) else "sites"
         raise InputError(
-            f"{unnamed}, {named} {crs_name(crs)}, and the {noun} lie outside the polygons: bring them into one system "
-            f"that both name, for example with ogr2ogr -t_srs, or with --input-crs for the {noun}"
+            f"{unnamed}, {named} {crs_name(crs)}, and they do not meet: bring them into one system that both name, "
+            "for example with ogr2ogr -t_srs, or with --input-crs for the input"
         )

@@ -1,19 +1,21 @@
-"""``--cell-size``: points, lines and polygons of a map as seeds in a frame of square cells."""
+"""``--cell-size``, ``--like``: points, lines and polygons as seeds in square cells, or in the pixels of a raster."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from vorotool.errors import InputError, Kind, Message, UsageError, VorotoolWarning, warn
 from vorotool.jobs.given import changed
-from vorotool.jobs.inputs import no_seeds
+from vorotool.jobs.inputs import JobInput, no_seeds
 from vorotool.jobs.options import TessellationOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.units import PixelSize, unit_stats
+from vorotool.types.axis import DOWN, UNSTATED
 
 if TYPE_CHECKING:
+    from vorotool.numeric.input_unit import InputUnit
     from vorotool.types.pixel_frame import Frame
     from vorotool.types.pixel_grid import PixelGrid
     from vorotool.types.points.point_set import PointSet
@@ -24,38 +26,109 @@ MOST_NAMED = 5
 """Features without a cell that a warning names."""
 
 
-def seeds_on_map(run: Run, o: TessellationOptions, value: PointSet | PolygonSet) -> tuple[TessellationOptions, SeedSet]:
+def seeds_on_map(
+    run: Run, o: TessellationOptions, given: JobInput, value: PointSet | PolygonSet
+) -> tuple[TessellationOptions, SeedSet]:
     """Lay cells over a map, and find the seeds in them: points, or the cells of lines and polygons."""
-    import numpy as np
-
     from vorotool.engines.tessellation.seeding import seeds_in_frame
-    from vorotool.types.box import bounds
-    from vorotool.types.map_frame import in_cells, map_frame
+    from vorotool.types.map_frame import in_cells
     from vorotool.types.points.point_set import PointSet
 
     is_empty = not len(value.xy)
-    if is_empty and o.window is None:
+    if is_empty and o.window is None and o.like is None:
         return o, no_seeds(run, o)
-    assert o.cell_size is not None
-    if not 1e-100 < o.cell_size < 1e100:
-        raise UsageError("--cell-size must be more than 0, and at most 1e100")
-    low, high = (np.zeros(2), np.zeros(2)) if is_empty else bounds(value.xy)
-    frame, grid = map_frame(low, high, o.cell_size, window=o.window, y_axis=value.y_axis, crs=value.crs)
-    size = _size_of_cells(o, o.cell_size, grid)
-    run.stats |= unit_stats(size)
+    frame, grid = _cells(o, value) if o.like is None else _cells_of_raster(run, o, o.like, given, value)
     run.grid = grid
-    if o.max_distance is not None:
-        o = changed(o, max_distance=o.max_distance * (1 if o.pixel_size is None else o.pixel_size.factor))
-    o = changed(o, window=(frame.x, frame.y, frame.width, frame.height), size=None, pixel_size=size)
+    o = changed(o, window=(frame.x, frame.y, frame.width, frame.height), size=None)
+    if grid is not None and grid.transform is not None:
+        if o.max_distance is not None:
+            o = changed(o, max_distance=o.max_distance * (1 if o.pixel_size is None else o.pixel_size.factor))
+        side = Fraction(repr(float(grid.width))) if o.cell_size is None else o.cell_size
+        o = changed(o, pixel_size=_size_of_cells(o, side, grid))
+        value = replace(value, xy=in_cells(value.xy, grid))
+    run.stats |= unit_stats(o.pixel_size)
     if is_empty:
         return o, replace(no_seeds(run, o), grid=grid)
-    placed = replace(value, xy=in_cells(value.xy, grid))
+    placed = replace(value, y_axis=UNSTATED)  # pictures show the first row on top, as the image has it
     if isinstance(placed, PointSet):
         seeds = seeds_in_frame(placed, frame, strict=o.strict)
     else:
         with run.phase("rasterize"):
             seeds = _seeds_of_features(o, placed, frame)
     return o, replace(seeds, grid=grid)
+
+
+def _cells(o: TessellationOptions, value: PointSet | PolygonSet) -> tuple[Frame, PixelGrid]:
+    """Lay cells of ``--cell-size`` over what there is, or over a window."""
+    import numpy as np
+
+    from vorotool.types.box import bounds
+    from vorotool.types.map_frame import map_frame
+
+    assert o.cell_size is not None
+    if not 1e-100 < o.cell_size < 1e100:
+        raise UsageError("--cell-size must be more than 0, and at most 1e100")
+    low, high = bounds(value.xy) if len(value.xy) else (np.zeros(2), np.zeros(2))
+    return map_frame(low, high, o.cell_size, window=o.window, y_axis=value.y_axis, crs=value.crs)
+
+
+def _cells_of_raster(
+    run: Run, o: TessellationOptions, path: str, given: JobInput, value: PointSet | PolygonSet
+) -> tuple[Frame, PixelGrid | None]:
+    """Give the pixels of a raster, which lies on a map, or whose pixels are the coordinates."""
+    import numpy as np
+
+    from vorotool.formats.images.image_header import image_header
+    from vorotool.formats.io.sources import reading
+    from vorotool.jobs.cuts import in_one_crs
+    from vorotool.types.pixel_frame import Frame
+    from vorotool.types.points.point_set import PointSet
+
+    with reading(path):
+        header = image_header(path)
+        if header.note:
+            run.note(header.note)
+        frame, grid = Frame(0, 0, header.width, header.height), header.grid
+        is_told = o.pixel_size is not None and o.pixel_size.unit is not None
+        _check_units(path, given, value.crs, None if is_told else run.coordinates, grid)
+        if grid is None or grid.transform is None:
+            return frame, grid
+        _check_upright(path, given, value, grid)
+        a, _, c, _, e, f = grid.transform
+        corners = PointSet(np.array([(c, f), (c + a * frame.width, f + e * frame.height)]), crs=grid.crs)
+        return frame, replace(grid, crs=in_one_crs(run, (given.name, value), (path, corners)).crs)
+
+
+def _check_units(path: str, given: JobInput, crs: Any, unit: InputUnit | None, grid: PixelGrid | None) -> None:
+    """Refuse coordinates that state another unit than those of a raster, which may be its pixels."""
+    from vorotool.jobs.input_lengths import unit_of_grid
+    from vorotool.numeric.crs import crs_name
+    from vorotool.numeric.length_units import ratio
+
+    if grid is None or grid.transform is None:
+        stated = crs_name(crs) if crs is not None else None if unit is None else unit.text
+        if stated is not None:
+            raise InputError(
+                f"{given.name} is in {stated}, but {path} lies on no map, so that --like takes coordinates in its "
+                "pixels: place it with gdal_translate -a_srs CRS -a_ullr LEFT TOP RIGHT BOTTOM, or use --cell-size"
+            )
+        return
+    own = unit_of_grid(grid)
+    if unit is not None and own is not None and ratio(unit.unit, own.unit) != 1:
+        raise InputError(f"{given.name} is in {unit.text}, but {path} in {own.text}: bring them into one unit")
+
+
+def _check_upright(path: str, given: JobInput, value: PointSet | PolygonSet, grid: PixelGrid) -> None:
+    """Refuse a raster that is turned, mirrored, has pixels that are no squares, or y the other way."""
+    if not grid.is_upright:
+        raise InputError(f"{path} is turned or mirrored on the map: gdalwarp {path} upright.tif makes one that is not")
+    if not grid.is_square:
+        raise InputError(
+            f"{path} has pixels of {grid.size_text()}, which are no squares, but cells are: "
+            f"gdalwarp -tr SIDE SIDE {path} square.tif makes one with squares"
+        )
+    if value.y_axis == DOWN and grid.is_north_up:
+        raise InputError(f"y goes down in {given.name}, but up in {path}: --y-up takes the numbers as they are")
 
 
 def _size_of_cells(o: TessellationOptions, side: Fraction, grid: PixelGrid) -> PixelSize:
@@ -83,7 +156,7 @@ def _seeds_of_features(o: TessellationOptions, polygons: PolygonSet, frame: Fram
     require_memory(frame, o.max_pixels)
     labels = rasterized(polygons, frame)
     if not labels.any():
-        raise InputError("no feature has a cell in the frame: use a smaller --cell-size, or another --window")
+        raise InputError("no feature has a cell in the frame: use a smaller --cell-size, or another --window or --like")
     seeds = seeds_from_raster(Raster(labels), mode="labels", max_sites=o.max_sites)
     assert seeds.site_labels is not None
     assert polygons.feature is not None

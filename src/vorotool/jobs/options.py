@@ -258,6 +258,7 @@ class TessellationOptions(SiteOptions):
     slice: int | None
     levels: int | None
     cell_size: Fraction | None
+    like: str | None
     tiled: bool
     animate: bool
     frames: int | None
@@ -267,6 +268,19 @@ class TessellationOptions(SiteOptions):
     def cell_side(self) -> Fraction | None:
         """The side of the cells of a map, where the frame is in its units."""
         return self.cell_size
+
+    @property
+    def is_laid_out(self) -> bool:
+        """Whether pixels are laid over points, lines and polygons: cells, or the pixels of a raster."""
+        return self.cell_size is not None or self.like is not None
+
+    def of_frame(self) -> dict[str, Any]:
+        """Give the options of the frame, and of its pixels."""
+        return {"cell-size": self.cell_size, "like": self.like} | SiteOptions.of_frame(self)
+
+    def files_of_inputs(self) -> dict[str, str]:
+        """Give the files that are read beside each input, by the names of the options."""
+        return ({"like": self.like} if self.like else {}) | SiteOptions.files_of_inputs(self)
 
     @property
     def is_of_volumes(self) -> bool:

@@ -61,7 +61,7 @@ class StreamedProducts:
 
     def __init__(self, run: Run, options: TessellationOptions, image: ZarrRows | TiffRows) -> None:
         refuse(
-            {"cell-size": options.cell_size, **options.of_frame()},
+            options.of_frame(),
             "is for lists of points, but the input is an image, which brings its own",
         )
         self.run, self.options, self.grid = run, options, written_grid(options.pixel_size, image.grid)

@@ -76,18 +76,21 @@ class ReadSeeds(NamedTuple):
 def products(run: Run, o: TessellationOptions, given: JobInput) -> Products | StreamedProducts:
     """Read points or an image, and prepare what labels any rows."""
     with run.phase("read"):
-        with opened_input(o, given, "points" if o.cell_size is None else None) as source:
+        with opened_input(o, given, None if o.is_laid_out else "points") as source:
             large = rows_of_large(o, source)
             with_columns = "table" in o.what or o.names_columns or given.has_page
             if large is None:
-                o, value = read_opened(run, o, given, source, columns=o.columns, properties=with_columns)
+                with_unit = o.like is not None
+                o, value = read_opened(
+                    run, o, given, source, columns=o.columns, properties=with_columns, wants_unit=with_unit
+                )
         if large is not None:
             run.grid = large.grid
             check_image_size(run, o, given.name, large.grid)
             o = with_pixel_size(run, lengths_of_image(o, large.grid), given, large.grid)
             return StreamedProducts(run, o, large)
-        if o.cell_size is not None and not isinstance(value, Raster):
-            o, seeds = seeds_on_map(run, o, value)
+        if o.is_laid_out and not isinstance(value, Raster):
+            o, seeds = seeds_on_map(run, o, given, value)
             read = ReadSeeds(seeds, grid=seeds.grid)
         else:
             read = _seeds_of(run, o, value)
@@ -105,7 +108,7 @@ def _seeds_of(run: Run, o: TessellationOptions, value: PointSet | PolygonSet | R
         seeds = seeds_in_frame(value, frame, sides=sides_of(o), strict=o.strict)
         return ReadSeeds(seeds)
     assert isinstance(value, Raster)  # what is asked for is points, or an image
-    alone = {"columns": o.columns, "cell-size": o.cell_size, **o.of_frame()}
+    alone = {"columns": o.columns, **o.of_frame()}
     refuse(alone, "is for lists of points, but the input is an image, which brings its own")
     return ReadSeeds(seeds_of_image(run, o, value, o.seeds), grid=value.grid)
 

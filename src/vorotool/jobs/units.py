@@ -264,7 +264,7 @@ def check_units(o: JobOptions, targets: Sequence[Target]) -> None:
     """Refuse a size of pixels that nothing shows, and no length is measured by."""
     if o.unit is None or o.unit.is_spacing or measured(o):
         return
-    of_map = getattr(o, "cell_size", None) is not None and any(each.what.startswith("distance") for each in targets)
+    of_map = getattr(o, "is_laid_out", False) and any(each.what.startswith("distance") for each in targets)
     if not shows_units(targets) and not o.scale_bar and not of_map:
         raise UsageError("--pixel-size is for tables and vectors: use --what table, or leave it out")
 

@@ -236,7 +236,7 @@ def _record(recipe: Recipe[Options], o: Options, targets: list[Target]) -> tuple
     digest = digest_of_values(
         {
             "options": {name: value for name, value in vars(o).items() if name not in WITHOUT_EFFECT},
-            "files": {name: digest_of(path) for name, path in o.files_of_inputs().items()},
+            "files": {name: _digest(name, path) for name, path in o.files_of_inputs().items()},
             "outputs": [(target.what, target.fmt) for target in targets],
         }
     )
@@ -245,6 +245,15 @@ def _record(recipe: Recipe[Options], o: Options, targets: list[Target]) -> tuple
     manifest = Manifest(folder / f"{recipe.name}{shard}{RECORD_ENDING}", digest, folder)
     history = read_history(sorted(folder.glob(f"{recipe.name}*{RECORD_ENDING}"))) if o.resume else History()
     return manifest, history
+
+
+def _digest(name: str, path: str) -> str:
+    """Return the digest of a file that is read with all inputs; of that of ``--like`` its header."""
+    if name != "like":
+        return digest_of(path)
+    from vorotool.formats.images.image_header import image_header
+
+    return repr(image_header(path))
 
 
 def _tasks(recipe: Recipe[Options], o: Options, targets: list[Target], note: Callable[[str], None]) -> list[Task]:

@@ -14,13 +14,15 @@ from vorotool.cli.options.picture_style import animation_options
 from vorotool.cli.options.pixel_size import spacing_option
 from vorotool.cli.options.shared import (
     inputs_argument,
+    named_image,
     output_options,
     what_option,
 )
+from vorotool.cli.options.suggestions import files
 from vorotool.cli.options.volumes import VolumeSize, volume_options
 from vorotool.errors import UsageError
 from vorotool.jobs.animations import animated, check_animation
-from vorotool.jobs.inputs import JobInput, check_components, check_frame_options
+from vorotool.jobs.inputs import JobInput, check_components, check_frame_options, refuse
 from vorotool.jobs.job import Recipe
 from vorotool.jobs.options import TessellationOptions
 from vorotool.jobs.run_log import Run
@@ -28,7 +30,7 @@ from vorotool.jobs.targets import Target, check_picture_options, check_precision
 from vorotool.jobs.units import known_length
 from vorotool.jobs.volumes.checks import check_image_options, check_volume_options, check_volume_units
 from vorotool.products.formats import ANIMATIONS, picture_format
-from vorotool.products.inputs import NAMES_WITH
+from vorotool.products.inputs import IMAGE_NAMES, NAMES_WITH
 from vorotool.products.registry import PRODUCTS, VOLUME_PRODUCTS, all_layers, formats_of, layers_of
 
 if TYPE_CHECKING:
@@ -75,6 +77,14 @@ _PICTURES = {(what, fmt) for what, each in PRODUCTS["tessellate"].items() for fm
     help="Side of a pixel in the units of points, lines or polygons on a map, or with a unit; --window, "
     "--max-distance and distances are in the units of the map, too.",
 )
+@click.option(
+    "--like",
+    metavar="RASTER",
+    callback=named_image,
+    help="Frame and pixels of this image, of which only the header is read: results overlay it pixel by "
+    "pixel, on its map, if it has one.",
+    shell_complete=files(IMAGE_NAMES),
+)
 @spacing_option()
 @volume_options()
 @site_options(all_layers("tessellate"), has_scale=False, has_volumes=True)
@@ -120,6 +130,9 @@ def _check_options(o: TessellationOptions, targets: list[Target]) -> None:
 
 
 def _check_cells(o: TessellationOptions) -> None:
+    if o.like is not None:
+        others = {"size": o.size, "window": o.window, "cell-size": o.cell_size, "spacing": o.spacing}
+        refuse(others, "contradicts --like, which takes the frame and its pixels from a raster: leave one of them out")
     if o.cell_size is None:
         return
     side = known_length(o.cell_size)

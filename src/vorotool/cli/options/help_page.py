@@ -20,7 +20,7 @@ _GROUPS = {
     "distance every along count local neck",
     "Input": "columns input_format input_layer input_crs crs y_up page volume pixel_size spacing seeds connectivity "
     "threshold invert min_area fill_holes outline border simplify join_tolerance",
-    "Frame": "size window cell_size frame clip enclosures",
+    "Frame": "size window cell_size like frame clip enclosures",
     "Pictures": "layers slice overlay width scale drawing_unit aspect extent background colors "
     "line_widths label_by legend scale_bar animate frames fps",
     "Many inputs": "out_dir files_from null jobs keep_going dry_run resume shard follow table table_inputs fields "

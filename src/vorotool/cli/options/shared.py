@@ -211,7 +211,7 @@ def _named_folder(ctx: click.Context, param: click.Parameter, value: str | None)
     return value
 
 
-def _named_image(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
+def named_image(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
     """Refuse what is an option more likely: whoever forgot the image would be told of its value, which is left over."""
     if value is not None and value.startswith("-") and value != "-":
         raise click.BadParameter(f"{value!r} is no image: name one, or write ./{value}", ctx, param)
@@ -378,7 +378,7 @@ OPTIONS: dict[str, Decorator] = {
     "overlay": click.option(
         "--overlay",
         metavar="IMAGE",
-        callback=_named_image,
+        callback=named_image,
         help="Draw pictures over this image, at its size: coordinates are its pixels.",
         shell_complete=files(IMAGE_NAMES),
     ),

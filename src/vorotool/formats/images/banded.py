@@ -13,7 +13,7 @@ from vorotool.formats.zarr.store import is_folder, is_store
 if TYPE_CHECKING:
     from vorotool.formats.images.band_reader import TiffRows, ZarrRows
 
-_TIFF_MAGIC = (b"II*\x00", b"MM\x00*", b"II+\x00", b"MM\x00+")
+TIFF_MAGIC = (b"II*\x00", b"MM\x00*", b"II+\x00", b"MM\x00+")
 
 
 def open_tiff(name: str, input_format: str | None = None, page: int | None = None) -> TiffRows | None:
@@ -32,7 +32,7 @@ def _begins_as_tiff(name: str) -> bool:
         if stream_kind(name) is not None:
             return False
         with Path(name).open("rb") as file:
-            return file.read(4) in _TIFF_MAGIC
+            return file.read(4) in TIFF_MAGIC
     except (OSError, ValueError):  # who reads it says why
         return False
 

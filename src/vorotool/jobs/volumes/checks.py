@@ -74,6 +74,7 @@ def _check_other_options(o: TessellationOptions) -> None:
     of_images = {
         "passes": o.passes,
         "tiled": o.tiled,
+        "like": o.like,
         "overlay": o.overlay,
         "y-down" if o.y_up is False else "y-up": o.y_up is not None,
         "animate": o.animate,

@@ -1,0 +1,84 @@
+"""Size and grid of an image, from its header alone."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from vorotool.errors import InputError, UsageError
+from vorotool.formats.images.banded import TIFF_MAGIC, open_zarr
+from vorotool.formats.io.descriptors import stream_kind
+from vorotool.formats.io.sources import Source, explained_reading
+from vorotool.plain import plain
+from vorotool.types.pixel_grid import PixelGrid
+
+_BYTES = 65_536
+"""Within which the header of a PNG, PNM or NPY file ends."""
+
+
+@plain
+class ImageHeader:
+    """What the header of an image says."""
+
+    width: int
+    height: int
+    grid: PixelGrid | None = None  # sides and places of the pixels
+    note: str = ""  # what of the grid is not used
+
+
+def image_header(name: str) -> ImageHeader:
+    """Read the header of an image, of a TIFF that of its first page: the others are smaller copies of it, or masks."""
+    from vorotool.formats.images.world_file import world_grid
+    from vorotool.formats.io.limits import check_pixels
+
+    if stream_kind(name) is not None:
+        raise UsageError(f"{name} is a stream, of which the header alone cannot be read: name a file")
+    array = open_zarr(name)
+    if array is not None:
+        height, width = array.shape
+        return ImageHeader(width, height, array.grid)
+    with explained_reading(name), Path(name).open("rb") as file:
+        begin = file.read(_BYTES)
+    if begin.startswith(TIFF_MAGIC):
+        header = _of_tiff(name)
+    else:
+        width, height = _plain_size(Source(name, begin))
+        header = ImageHeader(width, height, world_grid(name))
+    check_pixels(name, header.width, header.height, header.width * header.height)
+    return header
+
+
+def _of_tiff(name: str) -> ImageHeader:
+    from vorotool.formats.images.nodata import placed_grid
+    from vorotool.formats.images.tiff_grid import grid_of
+    from vorotool.formats.images.tiff_reader import opened_tiff, page_of
+    from vorotool.formats.io.limits import decoding
+
+    with opened_tiff(name, str(Path(name).absolute())) as file:
+        page = page_of(file, name, 0)
+        with decoding(name, "TIFF"):
+            about = grid_of(name, file, page)
+            return ImageHeader(int(page.imagewidth), int(page.imagelength), placed_grid(name, about.grid), about.note)
+
+
+def _plain_size(source: Source) -> tuple[int, int]:
+    """Give width and height of an image whose header is a few bytes."""
+    from vorotool.formats.images.magic import looks_like_pnm
+    from vorotool.formats.images.png_reader import png_header
+    from vorotool.formats.images.png_writer import SIGNATURE
+    from vorotool.formats.images.pnm_reader import pnm_header
+    from vorotool.formats.io.npy_arrays import MAGIC, npy_header
+
+    if source.data.startswith(SIGNATURE):
+        png = png_header(source)
+        return png.width, png.height
+    if looks_like_pnm(source.data):
+        pnm = pnm_header(source)
+        return pnm.width, pnm.height
+    if source.data.startswith(MAGIC):
+        shape = npy_header(source).shape
+        if len(shape) >= 2:
+            return shape[1], shape[0]
+    raise InputError(
+        f"{source.name} is no TIFF, PNG, PNM, NPY or Zarr image, whose header can be read: convert it with "
+        f"gdal_translate {source.name} raster.tif"
+    )
