@@ -76,10 +76,12 @@ class Run:
             self._write_stats(self._target)
 
     def note(self, message: str) -> None:
-        """Say something useful on standard error; that lengths are in degrees is about the result: a warning."""
+        """Say something useful on standard error, once; that lengths are in degrees is about the result: a warning."""
         said = Message.of(message).typed
         if said.kind is Kind.DEGREES:
             self.warn(message)
+            return
+        if said in self.notes:
             return
         self.notes.append(said)
         if not self._quiet:

@@ -56,11 +56,17 @@ def plan_targets(
         return [Target(name, _named(stem, name if several else None, chosen[name]), chosen[name]) for name in what]
     if several:
         if output is None or stream_kind(output) is not None:
-            raise UsageError("several results need -o STEM (files STEM.<what>.<ext>) or --out-dir DIR")
+            raise UsageError(
+                "several results need -o STEM (files STEM.<what>.<ext>, or layers of STEM.gpkg) or --out-dir DIR"
+            )
         given = EXTENSIONS.get(Path(output).suffix.lower())
         stem = Path(output).with_suffix("") if given else Path(output)
         chosen = {name: _several_format(formats, name, fmt, given) for name in what}
-        return [Target(name, _named(stem, name, chosen[name]), chosen[name]) for name in what]
+        # one GeoPackage holds all results that it can, as layers
+        held = {name for name in what if given == chosen[name] == "gpkg"}
+        return [
+            Target(name, output if name in held else _named(stem, name, chosen[name]), chosen[name]) for name in what
+        ]
     name = what[0]
     path = "-" if output is None else output
     chosen_format = _chosen(formats, name, fmt, None if path == "-" else Path(path).suffix.lower())
@@ -157,7 +163,8 @@ def check_targets(options: JobOptions, targets: Sequence[Target], source: str) -
         "makes_folder": options.out_dir is not None,
     }
     for one, other in combinations(targets, 2):
-        if is_same_output(one.path, other.path):
+        is_of_layers = one.fmt == other.fmt == "gpkg" and one.path == other.path
+        if not is_of_layers and is_same_output(one.path, other.path):
             raise UsageError(f"{one.path} and {other.path} are links to one file: {one.what} and {other.what} need two")
     for target in targets:
         if target.fmt == "zarr":
@@ -167,7 +174,8 @@ def check_targets(options: JobOptions, targets: Sequence[Target], source: str) -
             if target.fmt == "gpkg" and stream_kind(target.path) is None:
                 from vorotool.formats.features.geopackage import check_layers
 
-                check_layers(target.path, target.what, overwrite=options.overwrite)
+                layers = [each.what for each in targets if each.path == target.path]
+                check_layers(target.path, layers, overwrite=options.overwrite)
             if FORMATS[target.fmt].parts:
                 from vorotool.formats.features.shapefile_parts import check_parts
 

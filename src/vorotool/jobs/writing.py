@@ -154,7 +154,7 @@ def write(
         if chosen == "gpkg" and stream_kind(fspath(path)) is None:
             from vorotool.formats.features.geopackage import check_layers
 
-            check_layers(fspath(path), product.what, overwrite=overwrite)
+            check_layers(fspath(path), (product.what,), overwrite=overwrite)
         with coordinates_written(decimals), columns_wanted(with_columns), unit_member(own_unit(value)):
             _write_data(value, fspath(path), chosen, product, flatten, precision, threads)
         return

@@ -3,10 +3,12 @@
 import json
 
 import geopandas
+import pyogrio
 import pytest
 import shapely
 
 from vorotool import UsageError, read
+from vorotool.formats.features import feature_writers
 
 LAYERS = {
     "lakes": [shapely.box(0, 0, 10, 4), shapely.box(20, 0, 24, 10)],
@@ -115,3 +117,79 @@ def test_outputs_of_a_batch_are_named_after_layers(run, towns):
     assert [path.name for path in (towns / "one").iterdir()] == ["m.lakes.geojson"]
     done = run("voronoi", "m.gpkg:lakes", "m.gpkg:lakes", "--out-dir", "out")
     assert (done.code, done.err) == (2, "error: m.gpkg:lakes is given twice: leave one out\n")
+
+
+def test_several_results_are_layers_of_one_geopackage(run, towns):
+    typed = ("delaunay", "m.gpkg:odd/dots", "--what", "edges,cells,table")
+    assert run(*typed, "-o", "x.gpkg").code == 0
+    assert pyogrio.list_layers(towns / "x.gpkg").tolist() == [
+        ["edges", "LineString"],
+        ["cells", "Polygon"],
+        ["table", None],
+    ]
+    for what in ("edges", "cells", "table"):
+        assert run("delaunay", "m.gpkg:odd/dots", "--what", what, "-o", f"{what}.gpkg").code == 0
+        layer, alone = (pyogrio.read_dataframe(towns / name, layer=what) for name in ("x.gpkg", f"{what}.gpkg"))
+        assert layer.equals(alone)
+        assert getattr(layer, "crs", None) == (None if what == "table" else "EPSG:2056")
+        assert what == "table" or pyogrio.read_info(towns / "x.gpkg", layer=what)["capabilities"]["fast_spatial_filter"]
+    before = (towns / "x.gpkg").read_bytes()
+    assert run(*typed, "-o", "x.gpkg").code == 0  # of its own layers
+    assert (towns / "x.gpkg").read_bytes() == before
+    assert len(list(towns.glob("x*"))) == 1
+    assert not list(towns.glob(".*"))
+    assert run("voronoi", "x.gpkg:cells", "--what", "table", "-o", "v.csv").code == 0
+
+
+def test_layers_of_nothing(run, folder):
+    (folder / "none.geojson").write_text('{"type": "FeatureCollection", "features": []}')
+    done = run("skeleton-exact", "none.geojson", "--what", "branches,centerline,table", "-o", "x.gpkg")
+    assert done.code == 0, done.err
+    assert len(pyogrio.list_layers(folder / "x.gpkg")) == 3
+
+
+def test_layers_that_a_run_does_not_write_are_kept(run, towns):
+    before = (towns / "m.gpkg").read_bytes()
+    typed = ("delaunay", "odddots.geojson", "--what", "edges,cells", "-o", "m.gpkg")
+    done = run(*typed)
+    assert (done.code, "lakes, area, odd/dots" in done.err) == (4, True)
+    assert run(*typed, "--overwrite", "--no-clobber").code == 4
+    assert (towns / "m.gpkg").read_bytes() == before
+    assert run(*typed, "--overwrite").code == 0
+    assert [name for name, _ in pyogrio.list_layers(towns / "m.gpkg")] == ["edges", "cells"]
+
+
+@pytest.mark.parametrize("fault", ["error", "index"])
+def test_all_layers_are_written_or_none(run, towns, monkeypatch, fault):
+    (towns / "x.gpkg").write_text("older")
+    if fault == "index":
+        monkeypatch.setattr(feature_writers, "has_index", lambda *_: False)
+    else:
+        write = feature_writers.GeoPackage._write
+
+        def failing(self, out, *args, **options):
+            if self._what == "cells":
+                raise OSError(28, "No space left on device")
+            write(self, out, *args, **options)
+
+        monkeypatch.setattr(feature_writers.GeoPackage, "_write", failing)
+    done = run("delaunay", "odddots.geojson", "--what", "edges,cells,table", "-o", "x.gpkg")
+    assert (done.code, "x.gpkg cannot be written: No space left" in done.err) == (4, True)
+    assert (towns / "x.gpkg").read_text() == "older"
+    assert not list(towns.glob(".*"))
+
+
+def test_results_that_a_geopackage_cannot_hold_are_files(run, folder):
+    run("sample", "cells.png", "-o", "c.png")
+    assert run("tessellate", "c.png", "--what", "labels,table,neighbors", "-o", "x.gpkg").code == 0
+    assert run("tessellate", "c.png", "--what", "labels,table", "-o", "x.tif").code == 0
+    assert {path.name for path in folder.glob("x*")} == {"x.gpkg", "x.labels.png", "x.labels.tif", "x.table.csv"}
+    assert [name for name, _ in pyogrio.list_layers(folder / "x.gpkg")] == ["table", "neighbors"]
+
+
+def test_what_is_said_of_a_file_is_said_once(run, folder):
+    run("sample", "cells.png", "-o", "c.png")
+    done = run("skeleton-exact", "c.png", "--what", "skeleton,branches", "-o", "x.gpkg")
+    assert done.err.count("y goes down in x.gpkg") == 1
+    done = run("skeleton-exact", "c.png", "--what", "skeleton,branches", "-o", "x.gpkg", "--dry-run")
+    assert json.loads(done.out)["outputs"] == ["x.gpkg"]

@@ -49,7 +49,7 @@ def run_one(recipe: Recipe[Options], o: Options) -> None:
         _process(recipe, o, source, targets, table, notes)
         return
     else:
-        outputs = [target.path for target in targets]
+        outputs = list(dict.fromkeys(target.path for target in targets))
         print_text(json.dumps({"input": source, "status": "planned", "outputs": outputs}) + "\n")
     for text in () if o.quiet else notes:
         tell(f"note: {text}")

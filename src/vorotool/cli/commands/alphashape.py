@@ -15,6 +15,7 @@ from vorotool.cli.options.help_page import GroupedCommand
 from vorotool.cli.options.lengths import Radius
 from vorotool.cli.options.picture_style import animation_options, page_option
 from vorotool.cli.options.shared import (
+    SEVERAL,
     Decimal,
     Names,
     inputs_argument,
@@ -54,8 +55,7 @@ OF_DIGITAL_RULE = frozenset({"edges", "complex", "family", "spectrum"})
     type=Names(tuple(FORMATS)),
     multiple=True,
     callback=accumulated,
-    help=f"What to write: {', '.join(FORMATS)}; several separated by commas. By default edges; polygons for "
-    f"{_OF_POLYGONS}.",
+    help=f"What to write: {', '.join(FORMATS)}; by default edges, polygons for {_OF_POLYGONS}; {SEVERAL}.",
 )
 @click.option(
     "--rule",

@@ -446,6 +446,13 @@ def batch_options(*, table: bool = True) -> Decorator:
     return shared(*(name.replace("_", "-") for name in BATCH_OPTIONS if table or name not in _OF_TABLES))
 
 
+SEVERAL = (
+    "several separated by commas: -o x.gpkg writes them as layers of one file, any other name a file for each, such as "
+    "x.labels.tif and x.table.csv for -o x.tif"
+)
+"""How several results are written, as help says it."""
+
+
 def what_option(choices: tuple[str, ...]) -> Decorator:
     """Add ``--what``; the first choice is the default."""
     return click.option(
@@ -455,7 +462,7 @@ def what_option(choices: tuple[str, ...]) -> Decorator:
         callback=accumulated,
         default=(choices[0],),
         show_default=True,
-        help=f"What to write: {', '.join(choices)}; several separated by commas.",
+        help=f"What to write: {', '.join(choices)}; {SEVERAL}.",
     )
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import io
 import os
+import shutil
 import warnings
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -17,6 +18,7 @@ from numpy.typing import NDArray
 from vorotool.convert.extras import needed
 from vorotool.errors import OutputError
 from vorotool.formats.features.feature_rows import FeatureRows, TypedColumn
+from vorotool.formats.features.geopackage import has_index
 from vorotool.formats.features.shapefile_parts import PARTS, check_parts, is_whole, older_parts, removal
 from vorotool.formats.io.atomic_output import current_rules, failure, open_output
 from vorotool.formats.io.commit import committed_together
@@ -29,7 +31,7 @@ _UTC = 100  # GDAL's number of the zone
 
 
 class GeoPackage(FeatureRows):
-    """A GeoPackage of one layer, which is called as the result is."""
+    """A layer of a GeoPackage, which is called as the result is."""
 
     def __init__(self, out: BinaryIO, what: str, path: str) -> None:
         super().__init__()
@@ -37,13 +39,24 @@ class GeoPackage(FeatureRows):
         self._gdal = needed("pyogrio", "gis", "GeoPackage, FlatGeobuf and Shapefile")
 
     def finish(self) -> None:
-        """Write the file."""
+        """Write the file, with the layers of results that were written to the same place."""
         columns = self.columns()
         taken = {name.lower() for name in columns}
         options = {
             "FID": next(name for name in ("fid", "ogc_fid", "voro_fid") if name not in taken),
             "GEOMETRY_NAME": next(name for name in ("geom", "geometry", "voro_geom") if name not in taken),
         }
+        whole = Path(os.path.realpath(self._path))
+        with committed_together() as commit:
+            earlier = commit.pending(whole)
+            if earlier is not None:
+                place = commit.temporaries.make(whole, new_folder).path / "layers.gpkg"
+                shutil.copyfile(earlier, place)
+                self._write(place, columns, driver="GPKG", layer_options=options)
+                if self.is_of_features and not has_index(place, self._what):  # GDAL says nothing of a full disk
+                    raise failure(self._path, OSError(errno.ENOSPC, os.strerror(errno.ENOSPC)), current_rules().option)
+                _move(place, self._out)
+                return
         out = io.BytesIO()
         self._write(out, columns, driver="GPKG", layer_options=options)
         self._out.write(out.getbuffer())

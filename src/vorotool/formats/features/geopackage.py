@@ -8,7 +8,7 @@ from __future__ import annotations
 import shutil
 import sqlite3
 import tempfile
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from contextlib import closing, contextmanager, suppress
 from datetime import date, datetime
 from pathlib import Path
@@ -76,8 +76,15 @@ def layers_of(source: Source) -> list[str]:
         return [name for (name,) in database.execute("SELECT table_name FROM gpkg_contents ORDER BY rowid")]
 
 
-def check_layers(path: str, layer: str, *, overwrite: bool = False) -> None:
-    """Refuse to replace a GeoPackage that holds more than the layer that is written, or that is being written to."""
+def has_index(path: Path, layer: str) -> bool:
+    """Return whether a layer of a GeoPackage that was just written has a spatial index, which is written last."""
+    with closing(sqlite3.connect(path)) as database:
+        found = database.execute("SELECT count(*) FROM gpkg_extensions WHERE table_name = ?", (layer,)).fetchone()
+        return bool(found[0])
+
+
+def check_layers(path: str, written: Collection[str], *, overwrite: bool = False) -> None:
+    """Refuse to replace a GeoPackage that holds more than the layers written, or that is being written to."""
     journal = next((path + ending for ending in JOURNALS if Path(path + ending).exists()), None)
     if journal is not None:
         raise OutputError(
@@ -87,7 +94,7 @@ def check_layers(path: str, layer: str, *, overwrite: bool = False) -> None:
     if overwrite or not Path(path).is_file():
         return
     with suppress(InputError):  # what is no GeoPackage has no layers
-        others = [name for name in layers_of(read_source(path)) if name != layer]
+        others = [name for name in layers_of(read_source(path)) if name not in written]
         if others:
             raise OutputError(
                 f"{path} holds the layers {', '.join(others)}, which would be lost: choose another name with {OUTPUT}, "

@@ -39,8 +39,14 @@ class Commit:
     _asides: dict[Path, Path] = field(default_factory=dict)
 
     def add(self, placement: Placement) -> None:
-        """Put an output in its place when all others are complete, too."""
+        """Put an output in its place when all others are complete, too; a later one goes there instead."""
+        self._placements = [each for each in self._placements if each.target != placement.target]
         self._placements.append(placement)
+
+    def pending(self, target: Path) -> Path | None:
+        """Return the file that will take a place, if one is complete."""
+        found = (each.temporary for each in self._placements if each.target == target)
+        return next((each.path for each in found if each is not None), None)
 
     def run(self) -> None:
         """Put all outputs in their places; on any exception put back what was there."""

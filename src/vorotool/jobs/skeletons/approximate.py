@@ -109,7 +109,7 @@ class ApproximateProducts(SkeletonProducts[ApproximateSkeletonOptions]):
             return
         o, product = self.options, PRODUCTS["skeleton-approx"]["elements"]
         table = table_in_units(o.pixel_size, sample_table(self.shapes.samples))
-        write_product(out, table, product, target.fmt, precision=o.precision, threads=o.threads)
+        write_product(out, table, product, target.fmt, precision=o.precision, threads=o.threads, path=target.path)
 
     def _verify_whole(self, progress: Progress) -> None:
         """Check the samples and the skeleton, from their arrays alone."""
