@@ -38,6 +38,7 @@ from vorotool.jobs.map_cells import seeds_on_map
 from vorotool.jobs.options import TessellationOptions
 from vorotool.jobs.pixel_sizes import with_pixel_size, written_grid
 from vorotool.jobs.run_log import Run
+from vorotool.jobs.silent_losses import tell_outside
 from vorotool.jobs.streamed_output import RowsOf, Stream, check_chunks, scale_of_squares, write_file, write_store
 from vorotool.jobs.streamed_tessellation import StreamedProducts, rows_of_large
 from vorotool.jobs.targets import Target
@@ -97,7 +98,17 @@ def products(run: Run, o: TessellationOptions, given: JobInput) -> Products | St
         if isinstance(value, Raster):
             o = with_pixel_size(run, o, given, read.grid)
     with run.phase("prepare" if o.method == "exact" else "tessellate"):
-        return Products(run, o, given, read, _rows_of(run, o, read.seeds))
+        rows = _rows_of(run, o, read.seeds)
+    if isinstance(value, PointSet):
+        _tell_outside(run, rows)
+    return Products(run, o, given, read, rows)
+
+
+def _tell_outside(run: Run, rows: Tessellator | PropagatedRows) -> None:
+    seeds, (left, top, right, bottom) = rows.seeds, rows.frame.box.sides
+    if seeds.sites is not None and seeds.site_labels is not None:
+        x, y = seeds.sites.T
+        tell_outside(run, seeds.site_labels, (x < left) | (x > right) | (y < top) | (y > bottom))
 
 
 def _seeds_of(run: Run, o: TessellationOptions, value: PointSet | PolygonSet | Raster) -> ReadSeeds:

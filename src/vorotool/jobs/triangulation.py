@@ -16,6 +16,7 @@ from vorotool.jobs.options import TriangulationOptions
 from vorotool.jobs.picture_style import styled_page
 from vorotool.jobs.pixel_sizes import clip_in_pixels, in_steps, placed_backdrop, placed_mesh, placed_sites
 from vorotool.jobs.run_log import Run
+from vorotool.jobs.silent_losses import tell_empty_cells
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import in_units, table_in_units, unit_columns
 from vorotool.numeric.progress import Progress
@@ -166,6 +167,7 @@ class MeshProducts:
         if self._cells is None:
             with self.run.phase("cells") as progress:
                 self._cells = self._cells_in(self.options.frame, progress, clip=self.clip)
+            tell_empty_cells(self.run, self._cells.label_array, self._cells.is_empty)
         return self._cells
 
     def _cells_in(

@@ -20,6 +20,7 @@ from vorotool.jobs.picture_world import world_of_polygons
 from vorotool.jobs.pictures import Drawing, drawing_of, write_layers
 from vorotool.jobs.pixel_sizes import placed_backdrop
 from vorotool.jobs.run_log import Run
+from vorotool.jobs.silent_losses import tell_empty_cells
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import in_units, length_in_units, unit_columns
 from vorotool.jobs.voronoi_input import read_cuts, read_sites
@@ -50,6 +51,9 @@ class VoronoiProducts:
         self.features = read.sites.count
         self._sites, self._clip = read.sites, cuts.get("clip")
         self.cells = self._made(read.sites, cuts)
+        has_place = np.zeros(len(self.cells), dtype=bool)
+        has_place[self.cells.polygon_site] = True  # of the others it was told when they were read
+        tell_empty_cells(run, self.cells.labels, (self.cells.components == 0) & has_place)
         check_columns(self.options, self.cells.properties)
         o = self.options
         world = world_of_polygons(run, o, self.cells.polygons, size=o.pixel_size)

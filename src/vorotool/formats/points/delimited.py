@@ -19,6 +19,7 @@ from vorotool.convert.coordinate_names import (
     coordinate_columns,
     is_longitude_latitude,
     is_map,
+    plain_name,
 )
 from vorotool.errors import NO_PROPERTIES, InputError
 from vorotool.formats.io.sources import Source
@@ -170,6 +171,8 @@ def _read_rows(layout: _Layout, options: ReadOptions) -> PointRows:
         raise explain(layout.name, error, layout.described, _counted_by(layout), advice) from None
     options.check_sites(layout.name, len(values))
     axes = len(chosen.coordinates)
+    if axes == 2 and options.columns is None and layout.header and "z" in map(plain_name, layout.first_record):
+        options.note(f"{layout.name}: the column z is no coordinate here: only x and y are used")
     labels = None if chosen.label is None else _labels(layout, values[:, axes])
     rest = [i for i in range(fields) if i not in chosen.used] if options.properties else []
     x, y = (layout.first_record[column] if layout.header else "" for column in (chosen.x, chosen.y))
