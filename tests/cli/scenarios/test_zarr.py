@@ -108,7 +108,7 @@ def test_memory_is_that_of_a_row_of_chunks(tmp_path):
 
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
 def test_an_interrupt_leaves_nothing(process, tmp_path, seeds, number, code):
-    child = process("tessellate", "seeds.csv", "--size", "20000x400000", "-o", "a.zarr", "--chunk", "2048x64")
+    child = process("tessellate", "seeds.csv", "--size", "20000x400000", "-o", "a.zarr", "--chunk", "2048x64", "-q")
     wait_until(lambda: len(list(tmp_path.glob(".vorotool-*.tmp/c/*"))) >= 3, child)
     child.send_signal(number)
     out, err = child.communicate(timeout=600)
