@@ -7,7 +7,7 @@ from pathlib import Path
 from vorotool.errors import VorotoolError
 from vorotool.formats.images.magic import picture_format
 from vorotool.formats.images.picture_reader import picture_pages
-from vorotool.formats.images.tiff_reader import opened_tiff
+from vorotool.formats.images.tiff_reader import count_pages, opened_tiff
 from vorotool.formats.io.limits import decoding
 from vorotool.formats.io.sources import Source
 from vorotool.formats.recognition import image_format
@@ -26,7 +26,7 @@ def page_count(path: str) -> int | None:
         kind = image_format(Source(path, head))
         if kind == "tiff":
             with opened_tiff(path, path) as tiff, decoding(path, "TIFF"):
-                return max(1, len(tiff.pages))
+                return max(1, count_pages(tiff))
         if kind is not None and picture_format(head) == kind:
             return picture_pages(Source(path, Path(path).read_bytes()), kind)
         return None if kind is None else 1

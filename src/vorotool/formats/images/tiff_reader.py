@@ -25,7 +25,21 @@ _PILLOW_MODES = {"1", "L", "P", "LA", "RGB", "RGBA", "I;16", "I;16B"}
 def tiff_pages(source: Source) -> int:
     """Count the pages."""
     with opened_tiff(source.name, io.BytesIO(source.data)) as file, decoding(source.name, "TIFF"):
-        return len(file.pages)
+        return count_pages(file)
+
+
+def count_pages(file: Any) -> int:
+    """Count the pages of a file; if all others are smaller copies or masks of the first, it has one."""
+    count = len(file.pages)
+    return 1 if count > 1 and all(_is_of_first(file.pages[number]) for number in range(1, count)) else count
+
+
+_COPY, _MASK = 1, 4
+"""Bits of the tag NewSubfileType."""
+
+
+def _is_of_first(page: Any) -> bool:
+    return bool(int(page.subfiletype) & (_COPY | _MASK))
 
 
 def read_tiff(source: Source, *, page: int | None, max_pixels: int) -> tuple[NDArray[Any], PageGrid]:
@@ -82,7 +96,7 @@ def page_of(file: Any, name: str, page: int | None) -> Any:
     """Choose a page of a file; without a number there must be one only."""
     with decoding(name, "TIFF"):
         count = len(file.pages)
-        if 0 <= (page or 0) < count and (page is not None or count == 1):
+        if 0 <= (page or 0) < count and (page is not None or count_pages(file) == 1):
             return file.pages[page or 0]
     if page is None and count > 1:
         one = option(f"--page 0 to --page {count - 1}, or --page all", f"page=0 to page={count - 1}")
