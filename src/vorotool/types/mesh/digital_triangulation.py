@@ -4,25 +4,21 @@ from __future__ import annotations
 
 from dataclasses import field
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.numeric.row_index import check_index
-from vorotool.products.formats import resolved
 from vorotool.types import fields as f
 from vorotool.types.axis import UNSTATED, YAxis
 from vorotool.types.fields import record
-from vorotool.types.mesh.triangulation import ALL, Triangulation, lengths_of
+from vorotool.types.mesh.triangulation import ALL, Mesh, Triangulation, lengths_of
 from vorotool.types.values import Graph, Pictured, Tabular, Value, WithParts, counted, placed
-
-if TYPE_CHECKING:
-    from vorotool.types.features import Rows
 
 
 @record
-class DigitalTriangulation(Value, Tabular, WithParts, Graph, Pictured):
+class DigitalTriangulation(Mesh, Value, Tabular, WithParts, Graph, Pictured):
     """Edges and triangles of a label image by the rule of section 2.1, as 0-based int32 indices.
 
     It is not a `Triangulation`: triangles may overlap or be flat, and a side of a triangle need not be an edge.
@@ -104,17 +100,6 @@ class DigitalTriangulation(Value, Tabular, WithParts, Graph, Pictured):
         pairs = self.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
         sides: NDArray[np.int32] = np.unique(np.sort(pairs, axis=1), axis=0)
         return sides
-
-    def _rows(self, what: str | None = None) -> Rows:
-        rows: Rows = resolved("types.mesh.tables:mesh_rows")(self, what)
-        return rows
-
-    def _features(self, what: str | None = None, _flatten: float | None = None) -> Rows:
-        features: Rows = resolved("types.mesh.tables:mesh_features")(self, what)
-        return features
-
-    def _matrix(self, what: str) -> NDArray[np.int32]:
-        return self.edges if what == "edges" else self.triangles
 
     def _summary(self) -> str:
         sizes = (counted(len(self.points), "site"), counted(len(self), "triangle"), counted(len(self.edges), "edge"))

@@ -3,26 +3,22 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.products.formats import resolved
 from vorotool.types import fields as f
 from vorotool.types.fields import record
-from vorotool.types.mesh.triangulation import ALL, Triangulation, lengths_of
+from vorotool.types.mesh.triangulation import ALL, Mesh, Triangulation, lengths_of
 from vorotool.types.values import Geometric, Graph, Pictured, Tabular, Value, counted, placed
-
-if TYPE_CHECKING:
-    from vorotool.types.features import Rows
 
 KINDS = ("gabriel", "relative", "mst")
 """Gabriel graph, relative neighborhood graph, minimum spanning tree: each is part of the one before."""
 
 
 @record
-class ProximityGraph(Value, Tabular, Geometric, Graph, Pictured):
+class ProximityGraph(Mesh, Value, Tabular, Geometric, Graph, Pictured):
     """Edges of a Delaunay triangulation whose ends are near to each other by some rule.
 
     Parameters
@@ -94,17 +90,6 @@ class ProximityGraph(Value, Tabular, Geometric, Graph, Pictured):
     def degrees(self) -> NDArray[np.int64]:
         """(n,) how many edges end at each point."""
         return np.bincount(self.edges.reshape(-1), minlength=len(self.points))
-
-    def _rows(self, _what: str | None = None) -> Rows:
-        rows: Rows = resolved("types.mesh.tables:mesh_rows")(self, "edges")
-        return rows
-
-    def _features(self, _what: str | None = None, _flatten: float | None = None) -> Rows:
-        features: Rows = resolved("types.mesh.tables:mesh_features")(self, "edges")
-        return features
-
-    def _matrix(self, _what: str) -> NDArray[np.int32]:
-        return self.edges
 
     def _summary(self) -> str:
         sizes = (self.kind, counted(len(self.points), "point"), counted(len(self), "edge"))

@@ -127,15 +127,14 @@ def mesh_rows(mesh: AnyTriangulation | ProximityGraph, what: str | None) -> Rows
 
 def mesh_features(mesh: AnyTriangulation | ProximityGraph, what: str | None) -> Rows:
     """Give the rows of a part with their geometry, by default of the triangles."""
-    return chosen(
-        mesh,
-        what,
-        {
-            "triangles": lambda: _of_corners(mesh, triangle_table(mesh), mesh.triangles),  # type: ignore[arg-type]
-            "edges": lambda: _of_corners(mesh, edge_table(mesh), mesh.edges),
+    parts: dict[str, Callable[[], Rows]] = {"edges": lambda: _of_corners(mesh, edge_table(mesh), mesh.edges)}
+    if not isinstance(mesh, ProximityGraph):
+        parts = {
+            "triangles": lambda: _of_corners(mesh, triangle_table(mesh), mesh.triangles),
+            **parts,
             "points": lambda: _of_points(mesh),
-        },
-    )
+        }
+    return chosen(mesh, what, parts)
 
 
 def _of_corners(mesh: AnyTriangulation | ProximityGraph, table: Table, index: NDArray[np.int32]) -> Rows:

@@ -34,8 +34,24 @@ CHUNK = 1 << 14
 """Edges that are measured at a time, so that their ends stay in the cache."""
 
 
+class Mesh:
+    """What has edges and maybe triangles, in files and frames."""
+
+    def _rows(self, what: str | None = None) -> Rows:
+        rows: Rows = resolved("types.mesh.tables:mesh_rows")(self, what)
+        return rows
+
+    def _features(self, what: str | None = None, _flatten: float | None = None) -> Rows:
+        features: Rows = resolved("types.mesh.tables:mesh_features")(self, what)
+        return features
+
+    def _matrix(self: Any, what: str) -> NDArray[np.int32]:
+        matrix: NDArray[np.int32] = self.edges if what == "edges" else self.triangles
+        return matrix
+
+
 @record
-class Triangulation(Value, Tabular, WithParts, Graph, Pictured):
+class Triangulation(Mesh, Value, Tabular, WithParts, Graph, Pictured):
     """Triangles, edges and hull of points, as 0-based int32 indices.
 
     Triangles and edges follow a Morton curve through the points: their order depends on the coordinates, not on the
@@ -228,17 +244,6 @@ class Triangulation(Value, Tabular, WithParts, Graph, Pictured):
         rows = np.arange(len(corners))
         b, c = sides[rows, (apex + 2) % 3], -sides[rows, (apex + 1) % 3]
         return corners[rows, apex], b, c, np.asarray(scale), exponent + scale
-
-    def _rows(self, what: str | None = None) -> Rows:
-        rows: Rows = resolved("types.mesh.tables:mesh_rows")(self, what)
-        return rows
-
-    def _features(self, what: str | None = None, _flatten: float | None = None) -> Rows:
-        features: Rows = resolved("types.mesh.tables:mesh_features")(self, what)
-        return features
-
-    def _matrix(self, what: str) -> NDArray[np.int32]:
-        return self.edges if what == "edges" else self.triangles
 
     def _summary(self) -> str:
         sizes = (counted(len(self.points), "point"), counted(len(self), "triangle"), counted(len(self.edges), "edge"))
