@@ -47,12 +47,12 @@ def plan_targets(
     """Lay out the outputs of one input."""
     if output is not None and out_dir is not None:
         raise UsageError("give -o or --out-dir, not both")
-    fmt = _known_format(fmt, formats)
     several = len(what) > 1
+    wanted = _formats_of_results(formats, what, fmt)
     if out_dir is not None:
         stem = Path(out_dir) / ("stdin" if source == "-" else Path(without_gz(output_name(source))).stem)
         choose = _several_format if several else _chosen
-        chosen = {name: choose(formats, name, fmt, None) for name in what}
+        chosen = {name: choose(formats, name, wanted[name], None) for name in what}
         return [Target(name, _named(stem, name if several else None, chosen[name]), chosen[name]) for name in what]
     if several:
         if output is None or stream_kind(output) is not None:
@@ -61,7 +61,7 @@ def plan_targets(
             )
         given = EXTENSIONS.get(Path(output).suffix.lower())
         stem = Path(output).with_suffix("") if given else Path(output)
-        chosen = {name: _several_format(formats, name, fmt, given) for name in what}
+        chosen = {name: _several_format(formats, name, wanted[name], given) for name in what}
         # one GeoPackage holds all results that it can, as layers
         held = {name for name in what if given == chosen[name] == "gpkg"}
         return [
@@ -69,7 +69,7 @@ def plan_targets(
         ]
     name = what[0]
     path = "-" if output is None else output
-    chosen_format = _chosen(formats, name, fmt, None if path == "-" else Path(path).suffix.lower())
+    chosen_format = _chosen(formats, name, wanted[name], None if path == "-" else Path(path).suffix.lower())
     target = Target(name, path, chosen_format)
     if output is None and fmt is None and target.is_binary:
         raise UsageError(
@@ -185,10 +185,27 @@ def check_targets(options: JobOptions, targets: Sequence[Target], source: str) -
         check_output(options.stats, no_clobber=options.no_clobber, makes_folder=in_out_dir, option="--stats")
 
 
-def _known_format(fmt: str | None, formats: Mapping[str, Sequence[str]]) -> str | None:
+def _formats_of_results(
+    formats: Mapping[str, Sequence[str]], what: Sequence[str], listed: str | None
+) -> dict[str, str | None]:
+    """Give each result the format of a list, as of ``-f tiff,csv``, that is the most usual one for it."""
+    wanted = [] if listed is None else [_known_format(name.strip(), formats) for name in listed.split(",")]
+    fitting = {name: _most_usual(formats[name], wanted) for name in what}
+    unused = [fmt for fmt in wanted if fmt not in fitting.values()]
+    if len(wanted) > 1 and unused:
+        raise UsageError(f"-f {listed}: there is no result for {unused[0]} beside {', '.join(what)}; leave it out")
+    return {name: fmt or next(iter(wanted), None) for name, fmt in fitting.items()}
+
+
+def _most_usual(possible: Sequence[str], wanted: Sequence[str]) -> str | None:
+    """Choose among the formats that are wanted; one of the same family stands for another."""
+    own = next((fmt for fmt in possible if fmt in wanted), None)
+    families = {FORMATS[fmt].family for fmt in possible} - {""}
+    return own or next((fmt for fmt in wanted if FORMATS[fmt].family in families), None)
+
+
+def _known_format(fmt: str, formats: Mapping[str, Sequence[str]]) -> str:
     """Return the format that a name stands for; one of another command is refused where its result is known."""
-    if fmt is None:
-        return None
     found = format_named(fmt)
     if found is None:
         possible = dict.fromkeys(each for those in formats.values() for each in those)

@@ -193,3 +193,38 @@ def test_what_is_said_of_a_file_is_said_once(run, folder):
     assert done.err.count("y goes down in x.gpkg") == 1
     done = run("skeleton-exact", "c.png", "--what", "skeleton,branches", "-o", "x.gpkg", "--dry-run")
     assert json.loads(done.out)["outputs"] == ["x.gpkg"]
+
+
+@pytest.mark.parametrize(
+    ("command", "formats", "names"),
+    [
+        ("tessellate dots.csv --what labels,table,neighbors", "tiff,csv", "x.labels.tif x.neighbors.csv x.table.csv"),
+        ("tessellate dots.csv --what labels,table", "json,npy", "x.labels.npy x.table.json"),
+        ("delaunay dots.csv --what edges,cells", "csv,geojson", "x.cells.geojson x.edges.csv"),
+        ("delaunay dots.csv --what edges,triangles,table", "edge", "x.edges.edge x.table.node x.triangles.ele"),
+        ("delaunay dots.csv --what edges,cells", "CSV, .geojson", "x.cells.geojson x.edges.csv"),
+    ],
+)
+def test_each_result_has_the_format_that_is_usual_for_it(run, folder, command, formats, names):
+    run("sample", "dots.csv", "-o", "dots.csv")
+    assert run(*command.split(), "-f", formats, "-o", "x").code == 0
+    assert sorted(path.name for path in folder.glob("x.*")) == names.split()
+    assert run(*command.split(), "-f", formats, "--out-dir", "all").code == 0
+    assert sorted(path.name for path in (folder / "all").iterdir()) == names.replace("x.", "dots.").split()
+
+
+@pytest.mark.parametrize(
+    ("what", "formats", "word"),
+    [
+        ("labels,table", "png,tiff,csv", "tiff"),
+        ("labels", "tiff,csv", "csv"),
+        ("labels,table", "tiff", "table"),
+        ("labels,table", "tiff,,csv", "''"),
+        ("labels,table", "tiff,banana", "banana"),
+    ],
+)
+def test_formats_that_no_result_has_are_refused(run, folder, what, formats, word):
+    run("sample", "dots.csv", "-o", "dots.csv")
+    done = run("tessellate", "dots.csv", "--what", what, "-f", formats, "-o", "x")
+    assert (done.code, word in done.err) == (2, True)
+    assert not list(folder.glob("x*"))

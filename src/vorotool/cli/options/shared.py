@@ -435,7 +435,8 @@ def output_options(formats: Mapping[str, Sequence[str]]) -> Decorator:
             "-f",
             "--format",
             metavar="FORMAT",
-            help=f"Format of the output: {', '.join(all_formats)}; by default its extension.",
+            help=f"Format of the output: {', '.join(all_formats)}; by default its extension. With several results "
+            "a list, such as tiff,csv: each has the one that is usual for it.",
             shell_complete=formats_of(formats),
         ),
     )
