@@ -193,7 +193,8 @@ def _formats_of_results(
     fitting = {name: _most_usual(formats[name], wanted) for name in what}
     unused = [fmt for fmt in wanted if fmt not in fitting.values()]
     if len(wanted) > 1 and unused:
-        raise UsageError(f"-f {listed}: there is no result for {unused[0]} beside {', '.join(what)}; leave it out")
+        taken = ", ".join(f"{fmt or 'nothing'} to {name}" for name, fmt in fitting.items())
+        raise UsageError(f"-f {listed} gives {taken}, and {unused[0]} to none of them: leave {unused[0]} out")
     return {name: fmt or next(iter(wanted), None) for name, fmt in fitting.items()}
 
 
