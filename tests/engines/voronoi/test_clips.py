@@ -82,6 +82,21 @@ def test_the_frame_as_a_clip(seed):
     np.testing.assert_allclose(both.areas, framed.areas, atol=1e-5)
 
 
+@pytest.mark.parametrize("far", [30.03, 3003.3, 3.1e8])
+@pytest.mark.parametrize("others", [{}, {"enclosures": shapely.box(-1.3, -1, 5.1, 17.7)}, {"max_distance": 2.5}])
+def test_a_frame_far_around_the_clip_changes_nothing(far, others):
+    sites = np.random.default_rng(7).random((20, 2)) * 10
+    clip = shapely.box(-2.7, -2.9, 12.3, 11.1)
+    around = voronoi(sites, clip=clip, frame=(-far, -far, 2 * far, 2 * far), **others)
+    assert around == voronoi(sites, clip=clip, **others)
+    beside = voronoi(sites, clip=clip, frame=(4.25, -far, far, 2 * far), **others)
+    verify_voronoi(around)
+    verify_voronoi(beside)
+    assert beside.vertices[:, 0].min() == 4.25
+    right = voronoi(sites, clip=shapely.box(4.25, -2.9, 12.3, 11.1), **others)
+    np.testing.assert_allclose(beside.areas, right.areas, atol=1e-5)
+
+
 @pytest.mark.parametrize(
     ("clip", "areas"),
     [

@@ -55,6 +55,13 @@ def test_another_frame(cells):
         verify_voronoi(replace(cells, frame=(x, y, w, h + 1)))
 
 
+@pytest.mark.parametrize("far", [300.3, 30033.7])
+def test_what_a_far_frame_moves_between_enclosures_is_no_fault(far):
+    random = np.random.default_rng(0)
+    sites, walls = random.random((20, 2)) * 10, shapely.Polygon(random.random((3, 2)) * 14 - 2)
+    verify_voronoi(voronoi(sites, enclosures=walls, frame=(-far, -far, 2 * far, 2 * far)))
+
+
 def test_another_order_of_ties():
     made = voronoi([shapely.box(0, 0, 6, 6), shapely.box(0, 0, 6, 9)])
     with pytest.raises(VerificationError, match="comes first"):

@@ -12,7 +12,7 @@ from vorotool.engines.voronoi.regions import CutEdges
 from vorotool.errors import InputError
 from vorotool.numeric.crs import crs_name, same_crs
 from vorotool.plain import plain
-from vorotool.types.box import Extent, bounds, default_frame
+from vorotool.types.box import Extent, Sides, bounds, default_frame, extent_sides
 from vorotool.types.polygons.polygon_set import LINE, PolygonSet, set_of_rings
 
 FARTHEST = 8.0
@@ -44,6 +44,20 @@ class GivenCuts:
             low, high = bounds(xy)
             limit = min(limit, FARTHEST * float((high - low).max()))
         return default_frame(set_of_rings(xy, [len(xy)], [LINE], [0]), limit)
+
+    def sides_near(self, frame: Extent | None) -> Sides | None:
+        """Draw far sides of a frame near the clip, or leave out all: the step of the lattice grows with them."""
+        if frame is None or self.clip is None or not len(self.clip.xy):
+            return None if frame is None else extent_sides(frame)
+        sides = np.array(extent_sides(frame)).reshape(2, 2)
+        low, high = bounds(self.clip.xy)
+        if (sides[0] <= low).all() and (high <= sides[1]).all():
+            return None
+        if (sides[0] < high).all() and (low < sides[1]).all():
+            margin = (high - low).max()
+            sides = np.array([np.maximum(sides[0], low - margin), np.minimum(sides[1], high + margin)])
+        left, bottom, right, top = sides.ravel().tolist()
+        return left, bottom, right, top
 
 
 def given_cuts(clip: Any, enclosures: Any, crs: Any) -> GivenCuts:

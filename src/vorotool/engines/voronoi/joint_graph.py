@@ -12,7 +12,7 @@ from vorotool.errors import LimitError
 from vorotool.numeric.progress import Progress
 from vorotool.numeric.ragged import owners, ranges, starts_of
 from vorotool.plain import plain
-from vorotool.types.box import Extent, corners_of
+from vorotool.types.box import Sides
 from vorotool.types.magnitude import check_magnitude
 from vorotool.types.polygons.planar_graph import PlanarGraph
 from vorotool.types.polygons.polygon_set import LINE, SHELL, PolygonSet
@@ -41,18 +41,18 @@ class JointGraph:
 
 def joint_graph(
     polygons: PolygonSet,
-    frame: Extent | None,
+    sides: Sides | None,
     clip: PolygonSet | None,
     enclosures: PolygonSet | None,
     *,
     threads: int = 0,
     progress: Progress = None,
 ) -> JointGraph:
-    """Put sites and cuts on one lattice, and cut all where they meet."""
+    """Put sites, the sides of a frame and cuts on one lattice, and cut all where they meet."""
     given = with_flat_shells_as_lines(polygons)
     parts = [given]
-    if frame is not None:
-        parts.append(_box(frame))
+    if sides is not None:
+        parts.append(_box(sides))
     if clip is not None:
         parts.append(_without_lines(clip))
     if enclosures is not None:
@@ -65,19 +65,21 @@ def joint_graph(
     graph = arranged(joined, placement, progress=progress).graph
     noded, vertices = _noded(given, graph)
     of_sites = Placement(vertices, placement.origin, placement.exponent, placement.largest_move)
-    first = len(given) + (frame is not None)
-    second = first + (len(parts[1 + (frame is not None)]) if clip is not None else 0)
+    first = len(given) + (sides is not None)
+    second = first + (len(parts[1 + (sides is not None)]) if clip is not None else 0)
     return JointGraph(
         graph,
         range(first, second),
         range(second, len(joined)),
-        len(given) if frame is not None else -1,
+        len(given) if sides is not None else -1,
         graph_of_sites(noded, of_sites, progress=progress),
     )
 
 
-def _box(frame: Extent) -> PolygonSet:
-    return _rings(corners_of(frame), np.array([4]), np.array([SHELL]), np.array([0]))
+def _box(sides: Sides) -> PolygonSet:
+    left, bottom, right, top = sides
+    corners = np.array([[left, bottom], [right, bottom], [right, top], [left, top]])
+    return _rings(corners, np.array([4]), np.array([SHELL]), np.array([0]))
 
 
 def _rings(xy: Floats, sizes: Indices, kinds: NDArray[np.integer], polygons: NDArray[np.integer]) -> PolygonSet:

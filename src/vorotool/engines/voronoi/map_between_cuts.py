@@ -24,7 +24,9 @@ def map_between_cuts(
 ) -> CutMap:
     """Make the diagrams of all regions that a frame, a clip and enclosures leave, in one map."""
     frame = cuts.frame_for(given.polygons, frame, limit)
-    joint = joint_graph(given.polygons, frame, cuts.clip, cuts.enclosures, threads=threads, progress=progress)
+    joint = joint_graph(
+        given.polygons, cuts.sides_near(frame), cuts.clip, cuts.enclosures, threads=threads, progress=progress
+    )
     if cuts.clip is not None and not joint.clips:
         raise InputError("the clip has no area: give polygons that have one")
     regions = regions_of(joint, given.site, given.count)

@@ -78,7 +78,7 @@ def _take_ridges_between_cuts(reach: Floats, cells: VoronoiMap) -> None:
 
     with warnings.catch_warnings(action="ignore", category=RepairWarning):
         cuts = given_cuts(cells.clip, cells.enclosures, cells.crs)
-        joint = joint_graph(cells.polygons, cells.frame, cuts.clip, cuts.enclosures)
+        joint = joint_graph(cells.polygons, cuts.sides_near(cells.frame), cuts.clip, cuts.enclosures)
     regions = regions_of(joint, cells.polygon_site, len(cells))
     local = local_diagrams(joint.sites, cells.polygon_site, len(cells), regions, pieces_of=ridges_of)
     ridges, scale = local.borders, joint.sites.scale

@@ -14,6 +14,7 @@ from vorotool.numeric.curves.inverse_functions import PI, angle_of
 from vorotool.numeric.numbers import shown_number, whole_number
 from vorotool.numeric.ragged import owners
 from vorotool.types.arguments import check_value
+from vorotool.types.box import corners_of
 from vorotool.types.polygons.used_shapes import used_shapes
 from vorotool.types.voronoi.shapes import flattened_arcs
 from vorotool.types.voronoi.voronoi_map import OUTSIDE, VoronoiMap
@@ -184,7 +185,9 @@ class _SitePlaces:
         self.row = np.full(len(cells), -1)
         self.row[self.numbers] = np.arange(len(self.numbers))
         self.tree = shapely.STRtree(self.geometry)
-        placed = np.concatenate([each.xy for each in (given, cells.clip, cells.enclosures) if each is not None])
+        others = [each.xy for each in (cells.clip, cells.enclosures) if each is not None]
+        # with others the lattice holds the frame, too
+        placed = np.concatenate([given.xy, *others, *([corners_of(cells.frame)] if others else [])])
         extent = float(np.ptp(placed, axis=0).max())
         largest = float(max(np.abs(placed).max(), np.abs(cells.vertices).max(initial=0)))
         self.tolerance = MOVE * extent + ROUNDING * largest
