@@ -9,13 +9,13 @@ from __future__ import annotations
 from dataclasses import fields
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
-import numpy as np
-from numpy.typing import DTypeLike, NDArray
+from numpy.typing import NDArray
 
 from vorotool.numeric.crs import crs_name
 from vorotool.numeric.equality import is_equal
 from vorotool.products.formats import resolved
 from vorotool.types.axis import UNSTATED, YAxis
+from vorotool.types.elements import Elements
 from vorotool.types.fields import Record
 
 if TYPE_CHECKING:
@@ -481,29 +481,6 @@ class Pictured:
         """A picture as pixels with one line below, where there is none as SVG."""
         made: str | None = resolved(f"{_SHOWING}:html_of")(self)
         return made
-
-
-class Elements:
-    """A value that is an image or a volume: what takes an array takes it."""
-
-    def _array(self) -> NDArray[Any]:
-        raise NotImplementedError
-
-    def __array__(self, dtype: DTypeLike | None = None, copy: bool | None = None) -> NDArray[Any]:
-        return np.array(self._array(), dtype=dtype, copy=copy)
-
-    def __getitem__(self, place: Any) -> Any:
-        return self._array()[place]
-
-    @property
-    def dtype(self) -> np.dtype[Any]:
-        """Type of the pixels or voxels."""
-        return self._array().dtype
-
-    @property
-    def ndim(self) -> int:
-        """Number of axes."""
-        return self._array().ndim
 
 
 class Pixels(Pictured, Elements):

@@ -73,7 +73,12 @@ def features_of(source: Source) -> Features:
 def layers_of(source: Source) -> list[str]:
     """Give the names of all tables of a GeoPackage that are registered, those without geometry too."""
     with decoding(source.name, "GeoPackage"), _connected(source) as database:
-        return [name for (name,) in database.execute("SELECT table_name FROM gpkg_contents ORDER BY rowid")]
+        return _registered(database)
+
+
+def _registered(database: sqlite3.Connection) -> list[str]:
+    """Give the names of all tables that are registered."""
+    return [name for (name,) in database.execute("SELECT table_name FROM gpkg_contents ORDER BY rowid")]
 
 
 def has_index(path: Path, layer: str) -> bool:
@@ -105,7 +110,9 @@ def check_layers(path: str, written: Collection[str], *, overwrite: bool = False
 def _read(source: Source) -> Features:
     with _connected(source) as database:
         layers = _layers(source, database)
-        chosen = chosen_layer(source, [(layer.table, "geometry") for layer in layers])
+        tables = [layer.table for layer in layers]
+        others = [(name, None) for name in _registered(database) if name not in tables]
+        chosen = chosen_layer(source, [*((table, "geometry") for table in tables), *others])
         return _features(source, database, layers[chosen])
 
 

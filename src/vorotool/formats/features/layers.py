@@ -11,10 +11,11 @@ from vorotool.formats.io.sources import STANDARD_INPUT, Source
 def chosen_layer(source: Source, layers: Sequence[tuple[str, str | None]]) -> int:
     """Give the number of the layer that is wanted, or of the only one that has geometry."""
     named = {name: number for number, (name, kind) in enumerate(layers) if kind is not None}
-    held = ", ".join(named) or "none with geometry"
+    held = ", ".join(named) or "none"
     if source.layer is not None:
         if source.layer not in named:
-            raise InputError(f"{source.name} has no layer {source.layer!r}: its layers are {held}")
+            fault = "has no geometry" if source.layer in dict(layers) else "is not there"
+            raise InputError(f"the layer {source.layer!r} of {source.name} {fault}: those with geometry are {held}")
         return named[source.layer]
     if not named:
         raise InputError(f"{source.name} holds no layer with geometry: nothing can be read of it")
