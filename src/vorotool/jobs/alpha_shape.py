@@ -24,7 +24,7 @@ from vorotool.jobs.animations import check_size, layer_pixels, parts_of_whole, w
 from vorotool.jobs.checked_columns import check_columns
 from vorotool.jobs.inputs import JobInput, frame_of, note_repeated_labels, read_sites, window_of
 from vorotool.jobs.names import OF_ONE_SHAPE, PLOTS
-from vorotool.jobs.options import AlphaShapeOptions
+from vorotool.jobs.options import Options
 from vorotool.jobs.picture_style import styled_page
 from vorotool.jobs.picture_world import world_of_sites
 from vorotool.jobs.pictures import write_layers
@@ -54,7 +54,7 @@ if TYPE_CHECKING:
     from vorotool.types.mesh.digital_triangulation import AnyTriangulation
 
 
-def products(run: Run, o: AlphaShapeOptions, given: JobInput) -> ShapeProducts:
+def products(run: Run, o: Options, given: JobInput) -> ShapeProducts:
     """Read points, or find those of an image, and what their shapes of all radii are made of."""
     if not measured(o):  # what is wrong with it is said before a long file is read
         chosen_radius(o.r, o.alpha, o.auto)
@@ -72,7 +72,7 @@ class ShapeProducts:
     def __init__(
         self,
         run: Run,
-        options: AlphaShapeOptions,
+        options: Options,
         given: JobInput,
         points: PointSet | SeedSet,
         radius: Radius | None,

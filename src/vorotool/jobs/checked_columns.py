@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from vorotool.jobs.options import ComputingOptions
+from vorotool.jobs.options import Options
 from vorotool.types.named_columns import check_plain, chosen_column
 
 if TYPE_CHECKING:
-    from vorotool.jobs.options import JobOptions
+    from vorotool.jobs.options import Options
 
 
 def check_column(label_by: str | None, columns: Mapping[str, Any], option: str = "--label-by") -> None:
@@ -18,8 +18,8 @@ def check_column(label_by: str | None, columns: Mapping[str, Any], option: str =
         check_plain(chosen_column(columns, label_by, option), option)
 
 
-def check_columns(o: JobOptions, columns: Mapping[str, Any]) -> None:
+def check_columns(o: Options, columns: Mapping[str, Any]) -> None:
     """Refuse columns that options name and the input does not have."""
     check_column(o.label_by, columns)
-    for name in (o.with_columns or ()) if isinstance(o, ComputingOptions) else ():
+    for name in o.with_columns or ():
         chosen_column(columns, name, "--with")

@@ -9,7 +9,7 @@ from vorotool.errors import InputError
 from vorotool.jobs.input_lengths import unit_of_grid
 
 if TYPE_CHECKING:
-    from vorotool.jobs.options import ComputingOptions
+    from vorotool.jobs.options import Options
     from vorotool.jobs.run_log import Run
     from vorotool.jobs.units import PixelSize
     from vorotool.numeric.input_unit import InputUnit
@@ -20,7 +20,7 @@ ALIKE = Fraction(1, 100)
 """Sides that differ by no more of their length are one: users round them."""
 
 
-def check_image_size(run: Run, o: ComputingOptions, name: str, grid: PixelGrid | None) -> None:
+def check_image_size(run: Run, o: Options, name: str, grid: PixelGrid | None) -> None:
     """Warn of a size that contradicts that of an image, or has its sides in another order."""
     unit = None if grid is None or o.pixel_size is None else unit_of_grid(grid)
     if grid is not None and unit is not None:
@@ -28,19 +28,19 @@ def check_image_size(run: Run, o: ComputingOptions, name: str, grid: PixelGrid |
         _check(run, o, name, f"pixels of {grid.size_text()}", (unit.unit, own))
 
 
-def check_voxel_size(run: Run, o: ComputingOptions, name: str, grid: VoxelGrid | None) -> None:
+def check_voxel_size(run: Run, o: Options, name: str, grid: VoxelGrid | None) -> None:
     """Warn of sides that contradict those of a volume, or are in another order."""
     if grid is not None and grid.unit is not None:
         _check(run, o, name, f"voxels of {grid.size_text()}", (grid.unit, grid.sides))
 
 
-def check_unit(run: Run, o: ComputingOptions, name: str, unit: InputUnit | None) -> None:
+def check_unit(run: Run, o: Options, name: str, unit: InputUnit | None) -> None:
     """Warn of a size that contradicts the unit of the coordinates of points, lines or polygons."""
     if unit is not None:
         _check(run, o, name, f"coordinates in {unit.text}", (unit.unit, (unit.side,) * 2))
 
 
-def _check(run: Run, o: ComputingOptions, name: str, has: str, stated: tuple[str, tuple[Fraction, ...]]) -> None:
+def _check(run: Run, o: Options, name: str, has: str, stated: tuple[str, tuple[Fraction, ...]]) -> None:
     from vorotool.numeric.length_units import ratio
 
     size, (unit, own) = o.pixel_size, stated

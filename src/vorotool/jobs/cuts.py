@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from vorotool.errors import InputError, Kind, Message
 from vorotool.jobs.inputs import JobInput
-from vorotool.jobs.options import ComputingOptions, TriangulationOptions
+from vorotool.jobs.options import Options
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.second_files import in_first_unit, unit_of_image, unit_of_vectors
 
@@ -22,7 +22,7 @@ Data = TypeVar("Data", "PointSet", "PolygonSet")
 
 
 def read_clip(
-    run: Run, o: TriangulationOptions, path: str, points: PointSet | SeedSet, given: JobInput
+    run: Run, o: Options, path: str, points: PointSet | SeedSet, given: JobInput
 ) -> tuple[PointSet | SeedSet, Sequence[Any]]:
     """Read the polygons of ``--clip``, as shapely geometry; lines are left out with a note."""
     from vorotool.types.points.point_set import PointSet
@@ -39,7 +39,7 @@ def read_clip(
 
 
 def in_unit_of_image(
-    run: Run, o: ComputingOptions, cut: tuple[str, PolygonSet], given: JobInput, grid: PixelGrid | None
+    run: Run, o: Options, cut: tuple[str, PolygonSet], given: JobInput, grid: PixelGrid | None
 ) -> PolygonSet:
     """Give polygons in pixels, or on the map where results are."""
     size = o.pixel_size
@@ -47,7 +47,7 @@ def in_unit_of_image(
     return in_first_unit(run, o, cut, (given.name, unit_of_image(o, grid)), pixels=not is_of_map)
 
 
-def read_cut(run: Run, o: ComputingOptions, option: str, path: str) -> PolygonSet:
+def read_cut(run: Run, o: Options, option: str, path: str) -> PolygonSet:
     """Read the polygons and lines of an option, brought into the system of ``--crs`` if they are in another."""
     from vorotool.formats import read
     from vorotool.formats.parsing.reader_options import ReadOptions

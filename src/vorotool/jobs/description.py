@@ -24,7 +24,7 @@ from vorotool.formats.volumes.opening import open_volume
 from vorotool.formats.volumes.tiff_stack import TiffStack
 from vorotool.formats.volumes.zarr_volume import ZarrVolume
 from vorotool.jobs.inputs import check_streams, refuse
-from vorotool.jobs.options import ReadingOptions
+from vorotool.jobs.options import Options
 from vorotool.jobs.terminal import escaped, tell
 from vorotool.numeric.crs import crs_name
 from vorotool.numeric.input_unit import unit_of
@@ -51,7 +51,7 @@ Description = dict[str, Any]
 _TYPES = {bool: "truth", int: "integer", float: "number", str: "text"}
 
 
-def describe_inputs(options: ReadingOptions) -> None:
+def describe_inputs(options: Options) -> None:
     """Print how each input is read; of several, one that cannot be read ends nothing."""
     names = _named_by(options)
     if not names:
@@ -73,7 +73,7 @@ def describe_inputs(options: ReadingOptions) -> None:
         raise BatchError(f"{failed} of {len(names)} inputs cannot be read")
 
 
-def _named_by(options: ReadingOptions) -> list[str]:
+def _named_by(options: Options) -> list[str]:
     """Return names of files: those given, and those that folders and patterns stand for."""
     names: list[str] = []
     for name in options.inputs:
@@ -87,7 +87,7 @@ def _named_by(options: ReadingOptions) -> list[str]:
     return names
 
 
-def described(path: str, options: ReadingOptions) -> Description:
+def described(path: str, options: Options) -> Description:
     """Read an input, and tell how."""
     volume = _of_volume(path, options)
     if volume is not None:
@@ -100,7 +100,7 @@ def described(path: str, options: ReadingOptions) -> Description:
     return {"input": path, **told, "notes": notes}
 
 
-def _of_volume(path: str, options: ReadingOptions) -> Description | None:
+def _of_volume(path: str, options: Options) -> Description | None:
     """Tell of a stack of images or an array of three axes by its header; None of all else."""
     said = options.input_format
     if options.page is not None or options.columns is not None or stream_kind(path) is not None:
@@ -147,7 +147,7 @@ def _of_header(source: Opened) -> Description | None:
     }
 
 
-def _of_content(source: Opened, options: ReadingOptions, note: Callable[[str], None]) -> Description:
+def _of_content(source: Opened, options: Options, note: Callable[[str], None]) -> Description:
     formats: list[str] = []
     read: Callable[[Opened], Any] = partial(
         Opened.read,

@@ -12,7 +12,7 @@ from vorotool.engines.digital.verify_digital import verify_digital_triangulation
 from vorotool.engines.tessellation.seeding import seeds_in_frame
 from vorotool.errors import Message
 from vorotool.jobs.inputs import JobInput, frame_of, window_of
-from vorotool.jobs.options import TriangulationOptions
+from vorotool.jobs.options import Options
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.triangulation import MeshProducts, ReadPoints
 from vorotool.jobs.units import sides_of, table_in_units
@@ -26,7 +26,7 @@ from vorotool.types.points.seed_set import SeedSet
 class DigitalProducts(MeshProducts):
     """Results of the paper's rule (``--method digital``), and of its comparison with the exact triangulation."""
 
-    def __init__(self, run: Run, options: TriangulationOptions, given: JobInput, read: ReadPoints) -> None:
+    def __init__(self, run: Run, options: Options, given: JobInput, read: ReadPoints) -> None:
         points = read.points
         if isinstance(points, SeedSet):
             self.seeds = points

@@ -16,7 +16,7 @@ from vorotool.engines.distances.verify_distances import verify_distances
 from vorotool.errors import InputError, UsageError
 from vorotool.formats.io.atomic_output import open_output
 from vorotool.jobs.inputs import JobInput, naming, opened_input, read_opened, report_no_geometry
-from vorotool.jobs.options import DistanceOptions
+from vorotool.jobs.options import Options
 from vorotool.jobs.picture_style import styled_page
 from vorotool.jobs.picture_world import world_of_polygons
 from vorotool.jobs.pictures import Drawing, drawing_of, write_layers
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from vorotool.types.polygons.polygon_set import PolygonSet
 
 
-def check_options(o: DistanceOptions, targets: list[Target]) -> None:
+def check_options(o: Options, targets: list[Target]) -> None:
     """Refuse what no output would show."""
     check_precision(o, formats_of("distance"), targets)
     pictures = sorted({target.fmt for target in targets} & set(PICTURES))
@@ -50,7 +50,7 @@ def check_options(o: DistanceOptions, targets: list[Target]) -> None:
 class DistanceProducts:
     """Results of one comparison."""
 
-    def __init__(self, run: Run, options: DistanceOptions, given: JobInput) -> None:
+    def __init__(self, run: Run, options: Options, given: JobInput) -> None:
         self.run, self.options = run, options
         other = JobInput(options.other)
         with run.phase("read"):

@@ -23,7 +23,7 @@ from vorotool.formats.text_recognition import has_no_rows
 from vorotool.jobs.checked_columns import check_column
 from vorotool.jobs.inputs import JobInput, note_other_size, refuse
 from vorotool.jobs.label_pictures import LabelPicture, default_layers, write_label_page
-from vorotool.jobs.options import DrawingOptions
+from vorotool.jobs.options import Options
 from vorotool.jobs.picture_style import styled_page
 from vorotool.jobs.picture_world import world_of, world_of_polygons
 from vorotool.jobs.pictures import drawing_of, write_layers
@@ -61,7 +61,7 @@ Drawing = tuple[Callable[[BinaryIO], None], dict[str, Any]]
 class Picture:
     """The picture of one input."""
 
-    def __init__(self, run: Run, options: DrawingOptions, given: JobInput) -> None:
+    def __init__(self, run: Run, options: Options, given: JobInput) -> None:
         self._run, self._options, self._given = run, options, given
         with reading(given.path), run.phase("read"):
             self._value = _read(run, options, given)
@@ -87,7 +87,7 @@ class Picture:
         return self._counts
 
 
-def _read(run: Run, o: DrawingOptions, given: JobInput) -> LabelImage | Lined:
+def _read(run: Run, o: Options, given: JobInput) -> LabelImage | Lined:
     """Read whatever is drawn: its content tells what it is, where the options do not."""
     said = known_input_format(o.input_format, DRAWN_NAMES)
     array = open_zarr(given.path, said, o.page)
@@ -141,7 +141,7 @@ def _note(run: Run, message: str) -> None:
         run.note(message)
 
 
-def _of_labels(run: Run, o: DrawingOptions, given: JobInput, image: LabelImage, fmt: str) -> Drawing:
+def _of_labels(run: Run, o: Options, given: JobInput, image: LabelImage, fmt: str) -> Drawing:
     from vorotool.engines.label_images.object_colors import object_colors
     from vorotool.engines.label_images.regions import region_table
     from vorotool.render.label_images.svg import check_size
@@ -189,7 +189,7 @@ def _objects(run: Run, image: LabelImage) -> LabelImage:
     return LabelImage(objects, image.frame, grid=image.grid)
 
 
-def _size(o: DrawingOptions) -> PixelSize | None:
+def _size(o: Options) -> PixelSize | None:
     """Return what lengths are measured by, or refuse it where no picture has any."""
     scale = o.looks.scale
     if o.pixel_size is not None and not o.looks.has_scale_bar and not (scale is not None and scale.is_ratio):
@@ -197,7 +197,7 @@ def _size(o: DrawingOptions) -> PixelSize | None:
     return o.pixel_size
 
 
-def _placed(run: Run, o: DrawingOptions, given: JobInput, value: Lined) -> Backdrop | None:
+def _placed(run: Run, o: Options, given: JobInput, value: Lined) -> Backdrop | None:
     """Give the image of ``--overlay`` in the coordinates of what is drawn."""
     backdrop = given.backdrop
     if backdrop is None:
@@ -208,7 +208,7 @@ def _placed(run: Run, o: DrawingOptions, given: JobInput, value: Lined) -> Backd
     return replace(backdrop, side=side_of_backdrop(run, o, backdrop.grid))
 
 
-def _of_layers(run: Run, o: DrawingOptions, given: JobInput, value: Lined, fmt: str) -> Drawing:
+def _of_layers(run: Run, o: Options, given: JobInput, value: Lined, fmt: str) -> Drawing:
     from vorotool.render.canvas.png import check_picture_size
 
     kind, product, counts = _described(value)

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
 from vorotool.errors import InputError, UsageError
-from vorotool.jobs.given import changed
-from vorotool.jobs.options import ComputingOptions, DrawingOptions
+from vorotool.jobs.options import Options, changed
 from vorotool.jobs.units import PixelSize, Sides, in_coordinates, measured, refuse_lengths
 
 if TYPE_CHECKING:
@@ -17,8 +16,6 @@ if TYPE_CHECKING:
     from vorotool.types.points.point_set import PointSet
     from vorotool.types.polygons.polygon_set import PolygonSet
     from vorotool.types.volumes.voxel_grid import VoxelGrid
-
-Options = TypeVar("Options", bound=ComputingOptions)
 
 
 def lengths_of_vectors(o: Options, value: PointSet | PolygonSet | Sites) -> Options:
@@ -56,7 +53,7 @@ def lengths_of_image(o: Options, grid: PixelGrid | None) -> Options:
     return in_coordinates(o, Sides(unit.unit, sides, _step(o)))
 
 
-def sized(grid: PixelGrid | None, o: ComputingOptions | DrawingOptions) -> PixelGrid:
+def sized(grid: PixelGrid | None, o: Options) -> PixelGrid:
     """Return the grid of an image whose file has to state the size of its pixels."""
     is_spacing = o.pixel_size is not None and o.pixel_size.is_spacing
     instead = "give a number and its unit, such as --pixel-size 0.325um"
@@ -79,7 +76,7 @@ def lengths_of_voxels(o: Options, grid: VoxelGrid | None) -> Options:
     return in_coordinates(o, Sides(grid.unit, grid.sides, _step(o)))
 
 
-def _step(o: ComputingOptions) -> Fraction | None:
+def _step(o: Options) -> Fraction | None:
     """What lengths are counted in at first where distances are in the sides of pixels: their unit."""
     return Fraction(1) if o.pixel_size is not None and o.pixel_size.is_spacing else None
 

@@ -5,20 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from vorotool.errors import InputError, Kind, Message, UsageError
 from vorotool.formats.io.descriptors import input_identity
 from vorotool.formats.io.layer_names import file_of
-from vorotool.jobs.given import changed
 from vorotool.jobs.masks import settled_foreground
-from vorotool.jobs.options import (
-    ComputingOptions,
-    JobOptions,
-    ShapeOptions,
-    SiteOptions,
-    TessellationOptions,
-)
+from vorotool.jobs.options import Options, changed
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.units import Measured, known_length, measured, unit_stats
 from vorotool.products.registry import is_of
@@ -32,9 +25,6 @@ if TYPE_CHECKING:
     from vorotool.types.points.point_set import PointSet
     from vorotool.types.points.raster import Raster
     from vorotool.types.points.seed_set import SeedSet
-
-Computing = TypeVar("Computing", bound=ComputingOptions)
-OfSites = TypeVar("OfSites", bound=SiteOptions)
 
 
 class JobInput(NamedTuple):
@@ -51,7 +41,7 @@ class JobInput(NamedTuple):
         return "standard input" if self.path == "-" else self.path
 
 
-def opened_input(o: ComputingOptions, given: JobInput, geometry: str | None) -> AbstractContextManager[Opened]:
+def opened_input(o: Options, given: JobInput, geometry: str | None) -> AbstractContextManager[Opened]:
     """Open points or polygons, or an image, as the options say; without a geometry any of these."""
     from vorotool.formats.opening import opened
 
@@ -60,14 +50,14 @@ def opened_input(o: ComputingOptions, given: JobInput, geometry: str | None) -> 
 
 def read_opened(
     run: Run,
-    o: Computing,
+    o: Options,
     given: JobInput,
     source: Opened,
     *,
     columns: str | None = None,
     properties: bool = True,
     wants_unit: bool = False,
-) -> tuple[Computing, Any]:
+) -> tuple[Options, Any]:
     """Read what is open, whole, as the options say: points, polygons or sites, as it was opened, or an image.
 
     The options that come back have lengths in its coordinates.
@@ -95,7 +85,7 @@ def read_opened(
         )
 
     tolerances: dict[str, Any] = {}
-    if isinstance(o, ShapeOptions):
+    if o.is_of_shapes:
         source, tolerances = _tolerances(o, source, read)
     value = read(source, run.note, to_crs=o.crs, y_up=o.y_up, **tolerances)
     if not is_of(value, "PointSet", "PolygonSet", "Sites", "Raster"):  # which is read where no geometry is asked for
@@ -108,8 +98,8 @@ def read_opened(
         run.pixel, run.grid = side_of_pixel(value.grid), value.grid
         check_image_size(run, o, given.name, value.grid)
         return lengths_of_image(o, value.grid), value
-    if isinstance(o, SiteOptions):
-        refuse(o.for_images(), "is for images, but the input is a list of points")
+    if o.is_of_sites:
+        refuse(o.for_images, "is for images, but the input is a list of points")
     o = lengths_of_vectors(o, value)
     if o.pixel_size is not None and o.pixel_size.unit is not None:
         check_unit(run, o, given.name, unit_of(value))
@@ -122,7 +112,7 @@ def read_opened(
     return o, value if wants_properties or not wants_unit else replace(value, properties={})
 
 
-def _tolerances(o: ShapeOptions, source: Opened, read: Callable[..., Any]) -> tuple[Opened, dict[str, Any]]:
+def _tolerances(o: Options, source: Opened, read: Callable[..., Any]) -> tuple[Opened, dict[str, Any]]:
     """Give the tolerances of reading as numbers; where these have a unit, a first reading tells that of the input."""
     names = ("flatten", "join_tolerance")
     if any(isinstance(getattr(o, name), Measured) for name in names):
@@ -137,7 +127,7 @@ def _tolerances(o: ShapeOptions, source: Opened, read: Callable[..., Any]) -> tu
     return source, {name: known_length(getattr(o, name)) for name in names}
 
 
-def report_no_geometry(run: Run, o: ComputingOptions, what: str = "the input") -> None:
+def report_no_geometry(run: Run, o: Options, what: str = "the input") -> None:
     """Warn of an input without geometry, or refuse it where `--strict` is given."""
     if o.strict:  # messages of errors begin with the name of the input
         raise InputError("the input holds no geometry: leave out --strict for an empty result")
@@ -159,13 +149,13 @@ def check_streams(named: Iterable[tuple[str, str]]) -> None:
         readers[identity] = f"{reader} {name}"
 
 
-def check_components(o: SiteOptions) -> None:
+def check_components(o: Options) -> None:
     """Refuse ``--connectivity`` where no components are made."""
     if o.connectivity is not None and o.seeds in ("pixels", "labels"):
         raise UsageError(f"--connectivity is for components: leave it out with --seeds {o.seeds}")
 
 
-def check_frame_options(o: SiteOptions, *, is_digital: bool) -> None:
+def check_frame_options(o: Options, *, is_digital: bool) -> None:
     """Refuse two frames, and any where nothing is tessellated."""
     if o.size is not None and o.window is not None:
         raise UsageError("give --size or --window, not both")
@@ -173,12 +163,12 @@ def check_frame_options(o: SiteOptions, *, is_digital: bool) -> None:
         shown = ",".join(f"{float(number):g}" for number in o.window)
         raise UsageError(f"invalid --window '{shown}': expected four integers X,Y,W,H, such as -10,-10,640,480")
     if not is_digital:
-        refuse(o.of_frame(), "is the frame of a tessellation: use --method digital or digital-valid")
+        refuse(o.of_frame, "is the frame of a tessellation: use --method digital or digital-valid")
 
 
 def read_sites(
-    run: Run, o: OfSites, given: JobInput, *, properties: bool, is_digital: bool
-) -> tuple[OfSites, PointSet | SeedSet]:
+    run: Run, o: Options, given: JobInput, *, properties: bool, is_digital: bool
+) -> tuple[Options, PointSet | SeedSet]:
     """Read points to triangulate, or find those of an image, as the options say."""
     with opened_input(o, given, "points") as source:
         o, value = read_opened(run, o, given, source, columns=o.columns, properties=properties)
@@ -187,12 +177,12 @@ def read_sites(
             report_no_geometry(run, o)
         return o, value
     refuse({"columns": o.columns}, "is for lists of points, but the input is an image")
-    refuse(o.of_frame(), "is for lists of points, but the input is an image, which brings its own frame")
+    refuse(o.of_frame, "is for lists of points, but the input is an image, which brings its own frame")
     # The sites of objects are their centroids, but their regions are not those of the centroids.
     return o, seeds_of_image(run, o, value, None if o.seeds == "centroids" and not is_digital else o.seeds)
 
 
-def seeds_of_image(run: Run, o: SiteOptions, image: Raster, mode: SeedMode | None) -> SeedSet:
+def seeds_of_image(run: Run, o: Options, image: Raster, mode: SeedMode | None) -> SeedSet:
     """Find the seeds of an image, as the options say."""
     from vorotool.engines.tessellation.seeding import seeds_from_raster
 
@@ -209,7 +199,7 @@ def seeds_of_image(run: Run, o: SiteOptions, image: Raster, mode: SeedMode | Non
     )
 
 
-def frame_of(o: SiteOptions, seeds: SeedSet) -> Frame | None:
+def frame_of(o: Options, seeds: SeedSet) -> Frame | None:
     """Give the frame that is asked for, else the one that the seeds bring or need; None where there are no seeds."""
     from vorotool.engines.tessellation.frames import default_frame
 
@@ -219,12 +209,12 @@ def frame_of(o: SiteOptions, seeds: SeedSet) -> Frame | None:
     if not len(seeds) and not seeds.is_empty_image:
         return None
     instead = "delaunay --what cells"
-    if isinstance(o, TessellationOptions):
+    if o.command == "tessellate":
         instead = f"--cell-size C, or {instead}"
     return default_frame(seeds, how="give one with --size WxH or --window X,Y,W,H", instead=instead)
 
 
-def asked_frame(o: SiteOptions) -> Frame | None:
+def asked_frame(o: Options) -> Frame | None:
     """Give the frame of --window or --size, if there is one."""
     from vorotool.types.pixel_frame import Frame
 
@@ -233,7 +223,7 @@ def asked_frame(o: SiteOptions) -> Frame | None:
     return None if o.size is None else Frame(0, 0, *o.size)
 
 
-def report_no_seeds(run: Run, o: TessellationOptions, frame: object) -> None:
+def report_no_seeds(run: Run, o: Options, frame: object) -> None:
     """Report an input without seeds: the frame is all 0, and has to be given."""
     if frame is None:
         raise InputError("there are no seeds, and no frame: give at least one point, or --size or --window")
@@ -242,7 +232,7 @@ def report_no_seeds(run: Run, o: TessellationOptions, frame: object) -> None:
     report_no_geometry(run, o)
 
 
-def no_seeds(run: Run, o: TessellationOptions) -> SeedSet:
+def no_seeds(run: Run, o: Options) -> SeedSet:
     """Return the seeds of an input without any, with the frame that is asked for."""
     import numpy as np
 
@@ -254,13 +244,13 @@ def no_seeds(run: Run, o: TessellationOptions) -> SeedSet:
     return SeedSet(nothing, nothing, nothing.astype(np.uint32), frame=frame)
 
 
-def window_of(o: SiteOptions, seeds: SeedSet) -> tuple[int, int, int, int] | None:
+def window_of(o: Options, seeds: SeedSet) -> tuple[int, int, int, int] | None:
     """Give the same as the engines take it."""
     frame = frame_of(o, seeds)
     return None if frame is None else (frame.x, frame.y, frame.width, frame.height)
 
 
-def read_backdrop(o: JobOptions) -> Backdrop | None:
+def read_backdrop(o: Options) -> Backdrop | None:
     """Read the image of ``--overlay``, if there is one."""
     if o.overlay is None:
         return None
@@ -286,7 +276,7 @@ def read_backdrop(o: JobOptions) -> Backdrop | None:
     return Backdrop(pixels, encode, grid=grid)
 
 
-def note_other_size(run: Run, o: JobOptions, given: JobInput, shape: Sequence[int]) -> None:
+def note_other_size(run: Run, o: Options, given: JobInput, shape: Sequence[int]) -> None:
     """Say that the image of ``--overlay`` is not of the size of the input, whose pixels are those of the picture."""
     if given.backdrop is None or given.backdrop.pixels.shape[:2] == tuple(shape[:2]):
         return

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, Generic, Protocol, TypeVar
+from typing import Any, Protocol
 
 from vorotool.formats.io.atomic_output import spoken
 from vorotool.jobs.inputs import JobInput, naming, read_backdrop
-from vorotool.jobs.options import ComputingOptions, JobOptions
+from vorotool.jobs.options import Options
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target, check_targets, check_with
 from vorotool.jobs.units import shows_units, unit_stats
@@ -16,8 +16,6 @@ from vorotool.numeric.progress import Progress
 from vorotool.plain import plain
 from vorotool.products.formats import FORMATS
 from vorotool.signals import end_by_exceptions
-
-Options = TypeVar("Options", bound=JobOptions)
 
 
 class Products(Protocol):
@@ -37,7 +35,7 @@ class Products(Protocol):
 
 
 @plain
-class Recipe(Generic[Options]):
+class Recipe:
     """A command, as far as it is about one input."""
 
     name: str  # of the command
@@ -50,12 +48,12 @@ class Recipe(Generic[Options]):
 
     def check(self, options: Options, targets: list[Target]) -> None:
         """Refuse options that do not go together, or that no output would show."""
-        if isinstance(options, ComputingOptions) and options.with_columns is not None:
+        if options.with_columns is not None:
             check_with(targets)
         self.check_options(options, targets)
 
 
-def process_input(recipe: Recipe[Options], run: Run, options: Options, path: str, targets: Sequence[Target]) -> None:
+def process_input(recipe: Recipe, run: Run, options: Options, path: str, targets: Sequence[Target]) -> None:
     """Read one input, compute, check and write its results, which take their places together."""
     from vorotool.formats.io.atomic_output import make_folder
     from vorotool.formats.io.commit import committed_together
@@ -65,7 +63,7 @@ def process_input(recipe: Recipe[Options], run: Run, options: Options, path: str
     from vorotool.numeric.coordinate_grid import coordinates_written
     from vorotool.types.identity import columns_wanted
 
-    computing = options if isinstance(options, ComputingOptions) else None
+    computing = options if isinstance(options, Options) else None
     check_targets(options, targets, path)
     with run.phase("read"):
         has_units, has_page = shows_units(targets) or options.scale_bar, any(each.fmt == "html" for each in targets)

@@ -7,9 +7,8 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from vorotool.errors import InputError, Kind, Message, UsageError, VorotoolWarning, warn
-from vorotool.jobs.given import changed
 from vorotool.jobs.inputs import JobInput, no_seeds
-from vorotool.jobs.options import TessellationOptions
+from vorotool.jobs.options import Options, changed
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.units import PixelSize, unit_stats
 from vorotool.types.axis import DOWN, UNSTATED
@@ -26,9 +25,7 @@ MOST_NAMED = 5
 """Features without a cell that a warning names."""
 
 
-def seeds_on_map(
-    run: Run, o: TessellationOptions, given: JobInput, value: PointSet | PolygonSet
-) -> tuple[TessellationOptions, SeedSet]:
+def seeds_on_map(run: Run, o: Options, given: JobInput, value: PointSet | PolygonSet) -> tuple[Options, SeedSet]:
     """Lay cells over a map, and find the seeds in them: points, or the cells of lines and polygons."""
     from vorotool.engines.tessellation.seeding import seeds_in_frame
     from vorotool.types.map_frame import in_cells
@@ -58,7 +55,7 @@ def seeds_on_map(
     return o, replace(seeds, grid=grid)
 
 
-def _cells(o: TessellationOptions, value: PointSet | PolygonSet) -> tuple[Frame, PixelGrid]:
+def _cells(o: Options, value: PointSet | PolygonSet) -> tuple[Frame, PixelGrid]:
     """Lay cells of ``--cell-size`` over what there is, or over a window."""
     import numpy as np
 
@@ -73,7 +70,7 @@ def _cells(o: TessellationOptions, value: PointSet | PolygonSet) -> tuple[Frame,
 
 
 def _cells_of_raster(
-    run: Run, o: TessellationOptions, path: str, given: JobInput, value: PointSet | PolygonSet
+    run: Run, o: Options, path: str, given: JobInput, value: PointSet | PolygonSet
 ) -> tuple[Frame, PixelGrid | None]:
     """Give the pixels of a raster, which lies on a map, or whose pixels are the coordinates."""
     import numpy as np
@@ -131,7 +128,7 @@ def _check_upright(path: str, given: JobInput, value: PointSet | PolygonSet, gri
         raise InputError(f"y goes down in {given.name}, but up in {path}: --y-up takes the numbers as they are")
 
 
-def _size_of_cells(o: TessellationOptions, side: Fraction, grid: PixelGrid) -> PixelSize:
+def _size_of_cells(o: Options, side: Fraction, grid: PixelGrid) -> PixelSize:
     """Return the size by which results are in the unit of the map, times ``--pixel-size``."""
     from vorotool.types.spacing import PixelSides
 
@@ -144,7 +141,7 @@ def _size_of_cells(o: TessellationOptions, side: Fraction, grid: PixelGrid) -> P
     )
 
 
-def _seeds_of_features(o: TessellationOptions, polygons: PolygonSet, frame: Frame) -> SeedSet:
+def _seeds_of_features(o: Options, polygons: PolygonSet, frame: Frame) -> SeedSet:
     """The cells of each feature are the seeds of its label; its properties are those of its first part."""
     import numpy as np
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 from math import ceil
 from typing import TYPE_CHECKING, NamedTuple
 
-from vorotool.jobs.options import ComputingOptions, ShapeOptions, SiteOptions
+from vorotool.jobs.options import Options
 from vorotool.jobs.run_log import Run
 
 if TYPE_CHECKING:
@@ -23,13 +23,13 @@ class Foreground(NamedTuple):
     cleaning: Cleaning | None = None  # what is yet to be filled and left out
 
 
-def settled_foreground(run: Run, o: SiteOptions | ShapeOptions, image: Raster) -> Foreground:
+def settled_foreground(run: Run, o: Options, image: Raster) -> Foreground:
     """Find the threshold, which is in the statistics, and clean the mask if that is asked for."""
     found = _by_threshold(run, o, image)
     return found if not o.cleans_masks else _cleaned(run, o, found)
 
 
-def _by_threshold(run: Run, o: ComputingOptions, image: Raster) -> Foreground:
+def _by_threshold(run: Run, o: Options, image: Raster) -> Foreground:
     """Find the threshold of Otsu's method if it is asked for: as a number it is said."""
     if o.threshold != "otsu":
         if o.threshold is not None:
@@ -59,7 +59,7 @@ def _by_threshold(run: Run, o: ComputingOptions, image: Raster) -> Foreground:
     return found
 
 
-def _cleaned(run: Run, o: SiteOptions | ShapeOptions, found: Foreground) -> Foreground:
+def _cleaned(run: Run, o: Options, found: Foreground) -> Foreground:
     """Fill holes and leave out small objects, as the options say."""
     import numpy as np
 
@@ -70,13 +70,13 @@ def _cleaned(run: Run, o: SiteOptions | ShapeOptions, found: Foreground) -> Fore
     values = foreground_values(found.image, found.threshold, invert=found.invert)
     cleaned = cleaned_values(values, cleaning, o.seeds, connectivity=int(o.connectivity or 8), missing=found.image.mask)
     report_cleaning(run, o, cleaned.filled, (cleaned.removed, cleaned.objects), "pixels")
-    if isinstance(o, ShapeOptions) and o.outline == "contour" and found.threshold is not None:
+    if o.outline == "contour" and found.threshold is not None:
         return found._replace(cleaning=cleaning)  # contours follow the grey values
     mask = cleaned.mask.view(np.uint8)
     return Foreground(replace(found.image, values=mask, mask=None, is_lossy=False), None, invert=False)
 
 
-def report_cleaning(run: Run, o: ComputingOptions, filled: int, removed: tuple[int, int], what: str) -> None:
+def report_cleaning(run: Run, o: Options, filled: int, removed: tuple[int, int], what: str) -> None:
     """Put what was filled and left out into the statistics, and into a note."""
     from vorotool.numeric.numbers import shown_number
 

@@ -10,7 +10,7 @@ from vorotool.errors import UsageError
 from vorotool.numeric.length_units import METRES
 
 if TYPE_CHECKING:
-    from vorotool.jobs.options import JobOptions
+    from vorotool.jobs.options import Options
     from vorotool.render.canvas.layers import Page
     from vorotool.render.canvas.styles import PictureStyle, ScaleBar
     from vorotool.types.box import Sides
@@ -80,9 +80,7 @@ class Looks(NamedTuple):
         return [name for name, value in zip(OPTIONS, self, strict=True) if value not in (None, (), False)]
 
 
-def check_style(
-    o: JobOptions, pictures: Sequence[str], layers: Mapping[str, Sequence[str]], *, is_of_lines: bool
-) -> None:
+def check_style(o: Options, pictures: Sequence[str], layers: Mapping[str, Sequence[str]], *, is_of_lines: bool) -> None:
     """Refuse what no picture would show."""
     looks = o.looks
     given = looks.given()

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from vorotool.jobs.options import JobOptions, SiteOptions
+    from vorotool.jobs.options import Options
     from vorotool.jobs.run_log import Run
     from vorotool.jobs.units import PixelSize
     from vorotool.render.canvas.styles import ScaleBar
@@ -58,7 +58,7 @@ def world_of(
     return World(bar, millimetres, aspect, None if frame is None else frame.sides, is_paper=is_paper)
 
 
-def world_of_sites(run: Run, o: SiteOptions, mesh: AnyTriangulation, sites: PointSet | SeedSet) -> World:
+def world_of_sites(run: Run, o: Options, mesh: AnyTriangulation, sites: PointSet | SeedSet) -> World:
     """Tell where sites lie that are points, or objects of an image."""
     from vorotool.types.points.seed_set import SeedSet
 
@@ -72,7 +72,7 @@ def world_of_sites(run: Run, o: SiteOptions, mesh: AnyTriangulation, sites: Poin
 
 
 def world_of_polygons(
-    run: Run, o: JobOptions, polygons: PolygonSet, *, size: PixelSize | None = None, is_cut: bool = True
+    run: Run, o: Options, polygons: PolygonSet, *, size: PixelSize | None = None, is_cut: bool = True
 ) -> World:
     """Tell where polygons and lines lie, or outlines of an image; `is_cut` if ``--frame`` cuts what is drawn."""
     made = _world_of_set(run, o.looks, polygons, size=size, is_paper=o.width is None)
@@ -102,7 +102,7 @@ def _world_of_set(
     return made if polygons.page is None else made._replace(page=polygons.page.sides)
 
 
-def _asked(o: JobOptions) -> Sides | None:
+def _asked(o: Options) -> Sides | None:
     """Return the sides of ``--frame``, if the command has it."""
     frame: Extent | None = getattr(o, "frame", None)
     if frame is None:

@@ -8,17 +8,9 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from vorotool.errors import InputError, Kind, Message, UsageError
-from vorotool.jobs.given import changed
 from vorotool.jobs.input_lengths import sized
 from vorotool.jobs.inputs import JobInput
-from vorotool.jobs.options import (
-    AlphaShapeOptions,
-    ComputingOptions,
-    DrawingOptions,
-    ShapeOptions,
-    SkeletonOptions,
-    TriangulationOptions,
-)
+from vorotool.jobs.options import Options, changed
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.units import (
     PixelSize,
@@ -36,7 +28,6 @@ if TYPE_CHECKING:
     from vorotool.types.points.seed_set import SeedSet
     from vorotool.types.polygons.polygon_set import PolygonSet
 
-Options = TypeVar("Options", bound=ComputingOptions)
 Placed = TypeVar("Placed")
 
 
@@ -63,7 +54,7 @@ def with_pixel_size(run: Run, o: Options, given: JobInput, grid: PixelGrid | Non
     return _mirrored_places(changed(o, pixel_size=size))
 
 
-def size_of_file(grid: PixelGrid | None, o: ComputingOptions | DrawingOptions) -> PixelSize:
+def size_of_file(grid: PixelGrid | None, o: Options) -> PixelSize:
     """Return the size of pixels that an image states, or refuse one that states none."""
     grid = sized(grid, o)
     if o.pixel_size is not None and o.pixel_size.is_spacing:
@@ -88,14 +79,14 @@ def _spacing_of(grid: PixelGrid) -> PixelSize:
     return PixelSize(Fraction(1), grid.unit, is_spacing=True, sides=sides)
 
 
-def _note_of_size(given: JobInput, grid: PixelGrid, o: ComputingOptions, what: str = "results") -> str:
+def _note_of_size(given: JobInput, grid: PixelGrid, o: Options, what: str = "results") -> str:
     if grid.is_square:
         return f"{given.name} carries a pixel size of {grid.size_text()}: --pixel-size auto uses it"
     measure = "; --spacing auto measures in their sides" if takes_spacing(o) else ""
     return f"{given.name} has pixels of {grid.size_text()}, which are no squares: {what} are in pixels{measure}"
 
 
-def _on_map(run: Run, given: JobInput, grid: PixelGrid, o: ComputingOptions) -> PixelSize | None:
+def _on_map(run: Run, given: JobInput, grid: PixelGrid, o: Options) -> PixelSize | None:
     """Size and place of the pixels of a map; None where they are no squares, and nobody asked for them."""
     asked, in_pixels = o.pixel_size, "--pixel-size 1 gives results in pixels"
     is_spacing = asked is not None and asked.is_spacing
@@ -129,10 +120,10 @@ def _mirrored_places(o: Options) -> Options:
     """Options of places and frames, which are given in pixels with y downwards."""
     if o.pixel_size is None or not o.pixel_size.y_up:
         return o
-    if isinstance(o, ShapeOptions | TriangulationOptions | AlphaShapeOptions) and o.frame is not None:
+    if o.frame is not None:
         x, y, width, height = o.frame
         o = changed(o, frame=(x, -(y + height), width, height))
-    if isinstance(o, SkeletonOptions):
+    if o.start is not None or o.end is not None:
         start, end = (None if place is None else (place[0], -place[1]) for place in (o.start, o.end))
         o = changed(o, start=start, end=end)
     return o
@@ -167,7 +158,7 @@ def placed_sites(
     return o, mirrored_seeds(points)
 
 
-def clip_in_pixels(o: ComputingOptions, clip: Sequence[Any]) -> Sequence[Any]:
+def clip_in_pixels(o: Options, clip: Sequence[Any]) -> Sequence[Any]:
     """Give the polygons of ``--clip``, which are on the map where results are, in pixels, or in steps."""
     size = o.pixel_size
     if size is None or (size.origin is None and size.sides is None):
@@ -181,7 +172,7 @@ def clip_in_pixels(o: ComputingOptions, clip: Sequence[Any]) -> Sequence[Any]:
     return placed
 
 
-def in_steps(o: ComputingOptions, points: PointSet | SeedSet) -> PointSet:
+def in_steps(o: Options, points: PointSet | SeedSet) -> PointSet:
     """Give points in pixels, or the sites of an image, in steps of ``--spacing``."""
     from vorotool.convert.points import as_points
 
@@ -210,7 +201,7 @@ def placed_mesh(size: PixelSize | None, mesh: Placed) -> Placed:
     return made
 
 
-def placed_backdrop(run: Run, o: ComputingOptions, backdrop: Backdrop | None) -> Backdrop | None:
+def placed_backdrop(run: Run, o: Options, backdrop: Backdrop | None) -> Backdrop | None:
     """Give the image of ``--overlay`` as what is drawn over it lies."""
     from vorotool.jobs.second_files import side_of_backdrop
 

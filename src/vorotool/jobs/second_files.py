@@ -13,14 +13,14 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from vorotool.jobs.options import ComputingOptions, JobOptions
+    from vorotool.jobs.options import Options
     from vorotool.jobs.run_log import Run
     from vorotool.numeric.input_unit import InputUnit
     from vorotool.types.pixel_grid import PixelGrid
     from vorotool.types.polygons.polygon_set import PolygonSet
 
 
-def unit_of_vectors(o: ComputingOptions, value: Any) -> InputUnit | None:
+def unit_of_vectors(o: Options, value: Any) -> InputUnit | None:
     """Return the unit of the coordinates of an input: of ``--pixel-size``, else as it states."""
     from vorotool.numeric.input_unit import InputUnit, unit_of
 
@@ -30,14 +30,14 @@ def unit_of_vectors(o: ComputingOptions, value: Any) -> InputUnit | None:
     return unit_of(value)
 
 
-def coordinates_of(o: ComputingOptions, value: Any) -> InputUnit | None:
+def coordinates_of(o: Options, value: Any) -> InputUnit | None:
     """Return the same, but where only a coordinate reference system states it."""
     has_system = getattr(value, "polygons", value).crs is not None
     states = not has_system or (o.pixel_size is not None and o.pixel_size.unit is not None)
     return unit_of_vectors(o, value) if states else None
 
 
-def side_of_backdrop(run: Run, o: JobOptions, grid: PixelGrid | None) -> float:
+def side_of_backdrop(run: Run, o: Options, grid: PixelGrid | None) -> float:
     """Return the side of a pixel of ``--overlay`` in the coordinates of points, lines and polygons drawn over it."""
     from vorotool.numeric.length_units import ratio
 
@@ -52,7 +52,7 @@ def side_of_backdrop(run: Run, o: JobOptions, grid: PixelGrid | None) -> float:
     return float(pixel.side * found / unit.side)
 
 
-def unit_of_image(o: ComputingOptions, grid: PixelGrid | None) -> InputUnit | None:
+def unit_of_image(o: Options, grid: PixelGrid | None) -> InputUnit | None:
     """Return what 1 is in the coordinates that files beside an image are in: those of its map, else pixels."""
     from vorotool.numeric.input_unit import InputUnit
 
@@ -67,7 +67,7 @@ def unit_of_image(o: ComputingOptions, grid: PixelGrid | None) -> InputUnit | No
 
 def in_first_unit(
     run: Run,
-    o: ComputingOptions,
+    o: Options,
     second: tuple[str, PolygonSet],
     first: tuple[str, InputUnit | None],
     *,

@@ -7,13 +7,7 @@ from pathlib import Path
 
 from vorotool.errors import UsageError
 from vorotool.jobs.animations import check_animation
-from vorotool.jobs.options import (
-    ApproximateSkeletonOptions,
-    ExactSkeletonOptions,
-    JobOptions,
-    ShapeOptions,
-    SkeletonOptions,
-)
+from vorotool.jobs.options import Options
 from vorotool.jobs.targets import Target, check_picture_options, check_precision
 from vorotool.products.formats import FORMATS, PICTURES, picture_format
 from vorotool.products.inputs import DRAWINGS
@@ -23,11 +17,11 @@ OF_OPEN_BORDERS = ("skeleton", "branches", "table", "centerline", "points", "tra
 """Results that need no closed outlines."""
 
 
-def check_options(o: SkeletonOptions, targets: list[Target]) -> None:
+def check_options(o: Options, targets: list[Target]) -> None:
     """Refuse what does not go together, or what no output would show."""
     formats = {target.fmt for target in targets}
-    products = PRODUCTS[_command(o)]
-    check_precision(o, formats_of(_command(o)), targets)
+    products = PRODUCTS[o.command]
+    check_precision(o, formats_of(o.command), targets)
     curved = any(products[target.what].is_curved and FORMATS[target.fmt].flattens for target in targets)
     if o.flatten is not None and not curved and "shape" not in o.what and not may_be_drawn(o):
         raise UsageError(
@@ -40,7 +34,7 @@ def check_options(o: SkeletonOptions, targets: list[Target]) -> None:
         raise UsageError("--along is for points and transects: use --what points or transects, or leave it out")
     if "shape" in o.what and o.side == "exterior":
         raise UsageError("shapes are rebuilt from inside: use --side interior or both")
-    if isinstance(o, ExactSkeletonOptions):
+    if o.command == "skeleton-exact":
         _check_exact(o, targets)
     if o.frame is not None and o.side == "interior" and "diagram" not in o.what:
         _check_page(o, formats)
@@ -56,12 +50,12 @@ def check_options(o: SkeletonOptions, targets: list[Target]) -> None:
     check_picture_options(
         o,
         pictures,
-        layers_of(_command(o)),
+        layers_of(o.command),
         png_has_width=True,
     )
 
 
-def _check_page(o: SkeletonOptions, formats: set[str]) -> None:
+def _check_page(o: Options, formats: set[str]) -> None:
     """Refuse a frame that neither cuts anything nor is the page of a picture."""
     if o.overlay is not None or not formats & set(PICTURES):
         raise UsageError(
@@ -70,7 +64,7 @@ def _check_page(o: SkeletonOptions, formats: set[str]) -> None:
         )
 
 
-def _check_exact(o: ExactSkeletonOptions, targets: list[Target]) -> None:
+def _check_exact(o: Options, targets: list[Target]) -> None:
     """Refuse what does not go together with results that only exact skeletons have."""
     _check_measure(o, "-d", o.distance, {"offset"})
     _check_shapes(o)
@@ -81,13 +75,13 @@ def _check_exact(o: ExactSkeletonOptions, targets: list[Target]) -> None:
     check_animation(o, targets)
 
 
-def check_join_tolerance(o: ShapeOptions) -> None:
+def check_join_tolerance(o: Options) -> None:
     """Refuse ``--join-tolerance`` where no input may be a drawing."""
     if o.join_tolerance is not None and not may_be_drawn(o):
         raise UsageError("--join-tolerance is for DXF drawings: leave it out")
 
 
-def may_be_drawn(o: ShapeOptions) -> bool:
+def may_be_drawn(o: Options) -> bool:
     """Whether an input may be a drawing with curves, as far as its name tells."""
     said = o.input_format and o.input_format.lower()
     endings = {Path(path).suffix.lower().removeprefix(".") for path in o.inputs}
@@ -102,11 +96,7 @@ def check_frame(frame: tuple[float, ...]) -> None:
         raise UsageError(f"--frame goes too far to compute with: use numbers of at most {LARGEST:g}")
 
 
-def _command(o: SkeletonOptions) -> str:
-    return "skeleton-approx" if isinstance(o, ApproximateSkeletonOptions) else "skeleton-exact"
-
-
-def check_layers(o: JobOptions, products: Mapping[str, Product], targets: list[Target]) -> None:
+def check_layers(o: Options, products: Mapping[str, Product], targets: list[Target]) -> None:
     """Refuse a layer that one of the pictures has not."""
     for target in (target for target in targets if picture_format(target.fmt) in PICTURES):
         own = products[target.what].layers[picture_format(target.fmt)]
@@ -117,7 +107,7 @@ def check_layers(o: JobOptions, products: Mapping[str, Product], targets: list[T
             )
 
 
-def _check_centerline(o: SkeletonOptions) -> None:
+def _check_centerline(o: Options) -> None:
     has_centerline = "centerline" in o.what or o.along == "centerline"
     if has_centerline and o.side == "exterior":
         raise UsageError("centerlines are inside polygons: use --side interior or both")
@@ -129,7 +119,7 @@ def _check_centerline(o: SkeletonOptions) -> None:
         raise UsageError("--from and --to are ends of centerlines: use --what centerline, or leave them out")
 
 
-def _check_joining(o: SkeletonOptions, formats: set[str]) -> None:
+def _check_joining(o: Options, formats: set[str]) -> None:
     """Junctions are those of skeletons, branches and tables; what is measured along an axis stays on it."""
     if not o.join_junctions:
         return
@@ -142,7 +132,7 @@ def _check_joining(o: SkeletonOptions, formats: set[str]) -> None:
         raise UsageError("--join-junctions does not show in a page of all prunings: use -f svg, or leave it out")
 
 
-def _check_border(o: ExactSkeletonOptions) -> None:
+def _check_border(o: Options) -> None:
     """With an open border there is what follows from the axis inside each object, and no closed outline."""
     if not o.has_open_border:
         return
@@ -161,7 +151,7 @@ def _check_border(o: ExactSkeletonOptions) -> None:
         )
 
 
-def _check_lines(o: SkeletonOptions, targets: list[Target]) -> None:
+def _check_lines(o: Options, targets: list[Target]) -> None:
     """Skeletons are led on inside polygons, and what is no graph of arcs is smooth or led on."""
     if o.ends == "middle" and "skeleton" in o.what and o.side != "interior":
         raise UsageError(
@@ -175,7 +165,7 @@ def _check_lines(o: SkeletonOptions, targets: list[Target]) -> None:
         raise UsageError(f"{changed[0]} is for lines, and {graphs[0]} shows arcs: use -f svg, or leave it out")
 
 
-def _check_measure(o: SkeletonOptions, name: str, value: object, users: set[str]) -> None:
+def _check_measure(o: Options, name: str, value: object, users: set[str]) -> None:
     """Refuse results that lack their length, and a length that no result uses."""
     wanted = users & set(o.what)
     if wanted and value is None:
@@ -185,7 +175,7 @@ def _check_measure(o: SkeletonOptions, name: str, value: object, users: set[str]
         raise UsageError(f"{name} is for other results: use {what}, or leave it out")
 
 
-def _check_discs(o: ExactSkeletonOptions) -> None:
+def _check_discs(o: Options) -> None:
     """How many discs are wanted matters to these alone; they are inside."""
     for name, is_given in (("--count", o.count is not None), ("--local", o.local)):
         if is_given and "discs" not in o.what:
@@ -197,7 +187,7 @@ def _check_discs(o: ExactSkeletonOptions) -> None:
             raise UsageError(f"{name} is for skeletons, but discs are of the shapes: leave it out")
 
 
-def _check_necks(o: ExactSkeletonOptions) -> None:
+def _check_necks(o: Options) -> None:
     """Necks are of the whole skeleton inside polygons."""
     wanted = [what for what in ("necks", "parts") if what in o.what]
     if o.neck is not None and not wanted:
@@ -210,7 +200,7 @@ def _check_necks(o: ExactSkeletonOptions) -> None:
         raise UsageError("--prune is for skeletons, but necks are of the shapes: leave it out")
 
 
-def _check_shapes(o: ExactSkeletonOptions) -> None:
+def _check_shapes(o: Options) -> None:
     """A skeleton with a gap rebuilds no shape; offset curves are of the shapes, whatever the skeleton is."""
     if "shape" in o.what and o.gap:
         raise UsageError("a skeleton with a gap leaves the corners out: use --what shape without --gap")
@@ -219,7 +209,7 @@ def _check_shapes(o: ExactSkeletonOptions) -> None:
         raise UsageError(f"{name} is for skeletons, but offset curves are of the shapes: leave it out")
 
 
-def _check_thickness(o: ExactSkeletonOptions, targets: list[Target]) -> None:
+def _check_thickness(o: Options, targets: list[Target]) -> None:
     """Thickness is of what is inside, of the whole exact skeleton, and its picture has the pixels of the image."""
     if "thickness" not in o.what:
         return

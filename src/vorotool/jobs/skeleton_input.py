@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, NamedTuple
 
-from vorotool.jobs.given import changed
 from vorotool.jobs.inputs import JobInput, opened_input, read_opened, refuse, report_no_geometry
 from vorotool.jobs.masks import settled_foreground
-from vorotool.jobs.options import ExactSkeletonOptions, ShapeOptions
+from vorotool.jobs.options import Options, changed
 from vorotool.jobs.pixel_sizes import placed_polygons, with_pixel_size
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.units import lengths_in_steps, sides_of
@@ -18,10 +17,8 @@ if TYPE_CHECKING:
     from vorotool.types.points.raster import Raster
     from vorotool.types.polygons.polygon_set import PolygonSet
 
-Options = TypeVar("Options", bound=ShapeOptions)
 
-
-class ReadPolygons(NamedTuple, Generic[Options]):
+class ReadPolygons(NamedTuple):
     """What skeletons are made of."""
 
     polygons: PolygonSet  # those of the input, or outlines
@@ -31,7 +28,7 @@ class ReadPolygons(NamedTuple, Generic[Options]):
     grid: PixelGrid | None = None  # what the image says of its pixels
 
 
-def read_polygons(run: Run, o: Options, given: JobInput) -> ReadPolygons[Options]:
+def read_polygons(run: Run, o: Options, given: JobInput) -> ReadPolygons:
     """Read polygons, or the outlines of an image."""
     from vorotool.types.points.raster import Raster
     from vorotool.types.polygons.polygon_set import PolygonSet
@@ -41,7 +38,7 @@ def read_polygons(run: Run, o: Options, given: JobInput) -> ReadPolygons[Options
     if isinstance(value, Raster):
         return outlined(run, o, given, value)
     assert isinstance(value, PolygonSet)  # what is asked for is polygons, or an image
-    refuse(o.for_images(), "is for images, but the input is polygons or lines")
+    refuse(o.for_images, "is for images, but the input is polygons or lines")
     if not len(value):
         report_no_geometry(run, o)
     return ReadPolygons(
@@ -49,7 +46,7 @@ def read_polygons(run: Run, o: Options, given: JobInput) -> ReadPolygons[Options
     )
 
 
-def outlined(run: Run, o: Options, given: JobInput, image: Raster) -> ReadPolygons[Options]:
+def outlined(run: Run, o: Options, given: JobInput, image: Raster) -> ReadPolygons:
     """Give the outlines of an image."""
     from vorotool.types.pixel_frame import Frame
 
@@ -68,7 +65,7 @@ def outlined(run: Run, o: Options, given: JobInput, image: Raster) -> ReadPolygo
     return ReadPolygons(polygons, is_mask=True, options=o, frame=frame, grid=image.grid)
 
 
-def _outlines(run: Run, o: ShapeOptions, image: Raster) -> PolygonSet:
+def _outlines(run: Run, o: Options, image: Raster) -> PolygonSet:
     from vorotool.engines.label_images.outlines import outlines
 
     image, threshold, invert, cleaning = settled_foreground(run, o, image)
@@ -76,7 +73,7 @@ def _outlines(run: Run, o: ShapeOptions, image: Raster) -> PolygonSet:
         return outlines(
             image,
             outline=o.outline or "crack",
-            border="open" if isinstance(o, ExactSkeletonOptions) and o.has_open_border else "closed",
+            border="open" if o.has_open_border else "closed",
             mode=o.seeds,
             connectivity=int(o.connectivity or 8),
             threshold=threshold,
@@ -92,7 +89,7 @@ def _outlines(run: Run, o: ShapeOptions, image: Raster) -> PolygonSet:
         )
 
 
-def _simplified(run: Run, o: ShapeOptions, polygons: PolygonSet, tolerance: float) -> PolygonSet:
+def _simplified(run: Run, o: Options, polygons: PolygonSet, tolerance: float) -> PolygonSet:
     """Simplify polygons once they are cut where they meet."""
     from vorotool.engines.arrangement.lattice_rings import placed_shapes
     from vorotool.engines.arrangement.planar_graph import graph_for_skeletons

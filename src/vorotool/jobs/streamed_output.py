@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from vorotool.engines.tessellation.bands import Band
 from vorotool.engines.tessellation.frames import band_limits
 from vorotool.errors import LimitError
-from vorotool.jobs.options import TessellationOptions
+from vorotool.jobs.options import Options
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
 from vorotool.plain import plain
@@ -63,7 +63,7 @@ def scale_of_squares(step: Fraction) -> float | None:
     return None if step == 1 else float(step * step)
 
 
-def check_chunks(o: TessellationOptions, frame: Frame, dtype: np.dtype[Any]) -> tuple[int, int]:
+def check_chunks(o: Options, frame: Frame, dtype: np.dtype[Any]) -> tuple[int, int]:
     """Choose rows and columns of the chunks of a store."""
     from vorotool.formats.zarr.arrays import chunks_of, zarr_module
 
@@ -77,7 +77,7 @@ def check_chunks(o: TessellationOptions, frame: Frame, dtype: np.dtype[Any]) -> 
     return chunks
 
 
-def write_file(out: Any, o: TessellationOptions, target: Target, stream: Stream) -> None:
+def write_file(out: Any, o: Options, target: Target, stream: Stream) -> None:
     """Write an image to a file that is open, if there is room for it."""
     from vorotool.formats.io.disk_space import check_space
 
@@ -93,7 +93,7 @@ def write_file(out: Any, o: TessellationOptions, target: Target, stream: Stream)
     stream.write(out, fmt, stream.bands(), frame.height, threads=o.threads)
 
 
-def write_store(run: Run, o: TessellationOptions, target: Target, stream: Stream, inputs: Sequence[str]) -> None:
+def write_store(run: Run, o: Options, target: Target, stream: Stream, inputs: Sequence[str]) -> None:
     """Write an image to a Zarr store, if there is room for it: here, or on a cluster."""
     from vorotool.formats.io.disk_space import check_space
     from vorotool.formats.zarr.arrays import create_array, write_rows

@@ -16,7 +16,7 @@ from vorotool.engines.tessellation.streamed_image import ObjectRows, StreamedIma
 from vorotool.errors import LimitError, UsageError
 from vorotool.formats.opening import Opened
 from vorotool.jobs.inputs import refuse
-from vorotool.jobs.options import TessellationOptions
+from vorotool.jobs.options import Options
 from vorotool.jobs.pixel_sizes import written_grid
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.streamed_output import Stream, check_chunks, scale_of_squares, write_file, write_store
@@ -37,7 +37,7 @@ STREAMED = frozenset({"labels", "distance", "distance2"})
 """What can be written of an image that is not held."""
 
 
-def rows_of_large(o: TessellationOptions, source: Opened) -> ZarrRows | TiffRows | None:
+def rows_of_large(o: Options, source: Opened) -> ZarrRows | TiffRows | None:
     """Give an image band by band, if it is large or its bands go to a cluster, and the options allow that."""
     held = o.verify or o.seeds == "centroids" or o.threshold == "otsu" or o.method != "exact" or o.columns is not None
     rows = None if held or not set(o.what) <= STREAMED else source.rows()
@@ -59,9 +59,9 @@ def rows_of_large(o: TessellationOptions, source: Opened) -> ZarrRows | TiffRows
 class StreamedProducts:
     """Results of one image that is not held."""
 
-    def __init__(self, run: Run, options: TessellationOptions, image: ZarrRows | TiffRows) -> None:
+    def __init__(self, run: Run, options: Options, image: ZarrRows | TiffRows) -> None:
         refuse(
-            options.of_frame(),
+            options.of_frame,
             "is for lists of points, but the input is an image, which brings its own",
         )
         self.run, self.options, self.grid = run, options, written_grid(options.pixel_size, image.grid)

@@ -18,7 +18,7 @@ from vorotool.products.formats import EXTENSIONS, FORMATS, TABLES, format_named,
 from vorotool.products.registry import NAMING_FEATURES
 
 if TYPE_CHECKING:
-    from vorotool.jobs.options import ComputingOptions, JobOptions
+    from vorotool.jobs.options import Options
 
 
 @plain
@@ -78,7 +78,7 @@ def plan_targets(
     return [target]
 
 
-def check_stats(options: JobOptions, targets: Sequence[Target], source: str) -> None:
+def check_stats(options: Options, targets: Sequence[Target], source: str) -> None:
     """Refuse statistics that would go where the input, another file that is read, or a result is."""
     stats = options.stats
     if stats is None:
@@ -96,7 +96,7 @@ def check_stats(options: JobOptions, targets: Sequence[Target], source: str) -> 
 
 
 def check_picture_options(
-    options: JobOptions,
+    options: Options,
     pictures: Sequence[str],
     layers: Mapping[str, Sequence[str]],
     *,
@@ -118,7 +118,7 @@ def check_picture_options(
                 )
 
 
-def check_precision(options: ComputingOptions, formats: Mapping[str, Sequence[str]], targets: Sequence[Target]) -> None:
+def check_precision(options: Options, formats: Mapping[str, Sequence[str]], targets: Sequence[Target]) -> None:
     """Refuse numbers of digits or decimals that no output would show."""
     written = [FORMATS[target.fmt] for target in targets if target.fmt in FORMATS]
     if options.decimals is not None and not any(each.has_digits or each.made_from for each in written):
@@ -143,7 +143,7 @@ def check_with(targets: Sequence[Target]) -> None:
         )
 
 
-def _check_overlay(options: JobOptions, pictures: Sequence[str]) -> None:
+def _check_overlay(options: Options, pictures: Sequence[str]) -> None:
     if not pictures:
         raise UsageError("--overlay is for pictures: use -f svg or -f png, or leave it out")
     if options.width is not None:
@@ -152,7 +152,7 @@ def _check_overlay(options: JobOptions, pictures: Sequence[str]) -> None:
         raise UsageError("a picture over an image has y downwards: leave out --y-up, --y-down or --overlay")
 
 
-def check_targets(options: JobOptions, targets: Sequence[Target], source: str) -> None:
+def check_targets(options: Options, targets: Sequence[Target], source: str) -> None:
     """Find out before any work whether the outputs and the statistics can be written."""
     from vorotool.formats.io.atomic_output import Rules, check_output
     from vorotool.formats.zarr.store import check_store

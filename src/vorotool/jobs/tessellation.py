@@ -35,7 +35,7 @@ from vorotool.jobs.inputs import (
     seeds_of_image,
 )
 from vorotool.jobs.map_cells import seeds_on_map
-from vorotool.jobs.options import TessellationOptions
+from vorotool.jobs.options import Options
 from vorotool.jobs.pixel_sizes import with_pixel_size, written_grid
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.silent_losses import tell_outside
@@ -74,7 +74,7 @@ class ReadSeeds(NamedTuple):
     grid: PixelGrid | None = None  # sides and places of the pixels of the image
 
 
-def products(run: Run, o: TessellationOptions, given: JobInput) -> Products | StreamedProducts:
+def products(run: Run, o: Options, given: JobInput) -> Products | StreamedProducts:
     """Read points or an image, and prepare what labels any rows."""
     with run.phase("read"):
         with opened_input(o, given, None if o.is_laid_out else "points") as source:
@@ -111,7 +111,7 @@ def _tell_outside(run: Run, rows: Tessellator | PropagatedRows) -> None:
         tell_outside(run, seeds.site_labels, (x < left) | (x > right) | (y < top) | (y > bottom))
 
 
-def _seeds_of(run: Run, o: TessellationOptions, value: PointSet | PolygonSet | Raster) -> ReadSeeds:
+def _seeds_of(run: Run, o: Options, value: PointSet | PolygonSet | Raster) -> ReadSeeds:
     if isinstance(value, PointSet) and not len(value):
         return ReadSeeds(replace(no_seeds(run, o), y_axis=value.y_axis))
     if isinstance(value, PointSet):
@@ -119,12 +119,12 @@ def _seeds_of(run: Run, o: TessellationOptions, value: PointSet | PolygonSet | R
         seeds = seeds_in_frame(value, frame, sides=sides_of(o), strict=o.strict)
         return ReadSeeds(seeds)
     assert isinstance(value, Raster)  # what is asked for is points, or an image
-    alone = {"columns": o.columns, **o.of_frame()}
+    alone = {"columns": o.columns, **o.of_frame}
     refuse(alone, "is for lists of points, but the input is an image, which brings its own")
     return ReadSeeds(seeds_of_image(run, o, value, o.seeds), grid=value.grid)
 
 
-def _rows_of(run: Run, o: TessellationOptions, seeds: SeedSet) -> Tessellator | PropagatedRows:
+def _rows_of(run: Run, o: Options, seeds: SeedSet) -> Tessellator | PropagatedRows:
     if len(seeds) > o.max_sites:
         raise LimitError(f"there are {len(seeds)} seeds, more than --max-sites {o.max_sites}")
     rows = labelled_rows(
@@ -150,7 +150,7 @@ class Products:
     def __init__(
         self,
         run: Run,
-        options: TessellationOptions,
+        options: Options,
         given: JobInput,
         read: ReadSeeds,
         rows: Tessellator | PropagatedRows,

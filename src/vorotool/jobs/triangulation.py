@@ -12,7 +12,7 @@ from vorotool.errors import Kind, Message
 from vorotool.formats.io.sources import reading
 from vorotool.jobs.checked_columns import check_columns
 from vorotool.jobs.inputs import JobInput, note_repeated_labels, read_sites
-from vorotool.jobs.options import TriangulationOptions
+from vorotool.jobs.options import Options
 from vorotool.jobs.picture_style import styled_page
 from vorotool.jobs.pixel_sizes import clip_in_pixels, in_steps, placed_backdrop, placed_mesh, placed_sites
 from vorotool.jobs.run_log import Run
@@ -42,7 +42,7 @@ class ReadPoints(NamedTuple):
     clip: Sequence[Any] | None  # the polygons of `--clip`
 
 
-def products(run: Run, o: TriangulationOptions, given: JobInput) -> MeshProducts:
+def products(run: Run, o: Options, given: JobInput) -> MeshProducts:
     """Read points, or find those of an image, and triangulate them."""
     is_digital = o.triangulated_by != "exact"
     with run.phase("read"):
@@ -66,7 +66,7 @@ def products(run: Run, o: TriangulationOptions, given: JobInput) -> MeshProducts
 class MeshProducts:
     """Results of one triangulation."""
 
-    def __init__(self, run: Run, options: TriangulationOptions, given: JobInput, read: ReadPoints) -> None:
+    def __init__(self, run: Run, options: Options, given: JobInput, read: ReadPoints) -> None:
         self.run, self.options = run, options
         self.backdrop, self.clip = placed_backdrop(run, options, given.backdrop), read.clip
         self._cells: CellSet | None = None

@@ -11,15 +11,15 @@ from math import prod
 from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn, TypeVar
 
 from vorotool.errors import UsageError, VorotoolError
-from vorotool.jobs.given import changed
 from vorotool.jobs.names import PLOTS
+from vorotool.jobs.options import changed
 from vorotool.jobs.pruning_choice import LENGTHS as PRUNED_LENGTHS
 from vorotool.jobs.pruning_choice import Pruning
 from vorotool.plain import plain
 from vorotool.products.formats import FORMATS
 
 if TYPE_CHECKING:
-    from vorotool.jobs.options import ComputingOptions, JobOptions
+    from vorotool.jobs.options import Options
     from vorotool.jobs.targets import Target
     from vorotool.types.spacing import PixelSides
     from vorotool.types.table import Table
@@ -74,12 +74,12 @@ def with_spacing(o: Options) -> Options:
     return changed(o, pixel_size=spacing)
 
 
-def takes_spacing(o: JobOptions) -> bool:
+def takes_spacing(o: Options) -> bool:
     """Whether a command has ``--spacing``."""
     return "spacing" in vars(o)
 
 
-def sides_of(o: ComputingOptions, axes: int = 2) -> PixelSides:
+def sides_of(o: Options, axes: int = 2) -> PixelSides:
     """Give the sides of a pixel, or of a voxel, in whose unit distances are: 1 without ``--spacing``."""
     from vorotool.types.spacing import pixel_sides
 
@@ -92,7 +92,7 @@ def sides_of(o: ComputingOptions, axes: int = 2) -> PixelSides:
     return sides
 
 
-def lengths_in_steps(o: Computing) -> Computing:
+def lengths_in_steps(o: Options) -> Options:
     """Give options for shapes whose coordinates are counted in steps of ``--spacing``: lengths are in steps as well."""
     size = o.pixel_size
     if size is None or size.sides is None:
@@ -142,10 +142,6 @@ def known_length(length: Number | None) -> Number | None:
     return None if isinstance(length, Measured) else length
 
 
-Options = TypeVar("Options", bound="JobOptions")
-Computing = TypeVar("Computing", bound="ComputingOptions")
-
-
 class Sides(NamedTuple):
     """How long 1 is in the coordinates along each axis of pixels or voxels, as arrays are ordered."""
 
@@ -177,7 +173,7 @@ def in_coordinates(o: Options, sides: Sides) -> Options:
     return changed(o, **lengths) if lengths else o
 
 
-def refuse_lengths(o: JobOptions, reason: str, kind: type[VorotoolError] = UsageError) -> None:
+def refuse_lengths(o: Options, reason: str, kind: type[VorotoolError] = UsageError) -> None:
     """Refuse the first length that has a unit, if there is one."""
 
     def refuse(option: str, length: Measured) -> NoReturn:
@@ -187,7 +183,7 @@ def refuse_lengths(o: JobOptions, reason: str, kind: type[VorotoolError] = Usage
         _in_pixels(name, getattr(o, name), refuse)
 
 
-def measured(o: JobOptions) -> list[str]:
+def measured(o: Options) -> list[str]:
     """Names of the options that have a unit."""
     return [name for name, value in vars(o).items() if _has_unit(value)]
 
@@ -260,7 +256,7 @@ _OPTIONS = {"r": "-r", "distance": "-d"}
 """Options that are not called as their fields are."""
 
 
-def check_units(o: JobOptions, targets: Sequence[Target]) -> None:
+def check_units(o: Options, targets: Sequence[Target]) -> None:
     """Refuse a size of pixels that nothing shows, and no length is measured by."""
     if o.unit is None or o.unit.is_spacing or measured(o):
         return

@@ -14,7 +14,7 @@ from vorotool.errors import STRICT, InputError, Kind, Message, RepairWarning
 from vorotool.formats.io.atomic_output import open_output
 from vorotool.jobs.checked_columns import check_columns
 from vorotool.jobs.inputs import JobInput
-from vorotool.jobs.options import VoronoiOptions
+from vorotool.jobs.options import Options
 from vorotool.jobs.picture_style import styled_page
 from vorotool.jobs.picture_world import world_of_polygons
 from vorotool.jobs.pictures import Drawing, drawing_of, write_layers
@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 class VoronoiProducts:
     """Results of one Voronoi map."""
 
-    def __init__(self, run: Run, options: VoronoiOptions, given: JobInput) -> None:
+    def __init__(self, run: Run, options: Options, given: JobInput) -> None:
         self.run = run
         with run.phase("read"):
             read = read_sites(run, options, given)

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from vorotool.errors import UsageError
-from vorotool.jobs.options import VoronoiOptions
+from vorotool.jobs.options import Options
 from vorotool.jobs.skeleton_checks import check_frame, check_join_tolerance, check_layers, may_be_drawn
 from vorotool.jobs.targets import Target, check_picture_options, check_precision
 from vorotool.products.formats import FORMATS, PICTURES
 from vorotool.products.registry import PRODUCTS, formats_of, layers_of
 
 
-def check_options(o: VoronoiOptions, targets: list[Target]) -> None:
+def check_options(o: Options, targets: list[Target]) -> None:
     """Refuse what does not go together, or what no output would show."""
     formats = {target.fmt for target in targets}
     check_precision(o, formats_of("voronoi"), targets)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from vorotool.formats.io.sources import reading
 from vorotool.jobs.cuts import check_image_crs, in_one_crs, in_unit_of_image, polygons_among, read_cut
 from vorotool.jobs.inputs import JobInput, opened_input, read_opened, refuse, report_no_geometry
-from vorotool.jobs.options import VoronoiOptions
+from vorotool.jobs.options import Options
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.second_files import in_first_unit, unit_of_vectors
 from vorotool.jobs.skeleton_input import outlined
@@ -28,11 +28,11 @@ class ReadSites(NamedTuple):
 
     sites: Sites  # of the input; not yet joined
     is_image: bool  # whether they are the objects of an image
-    options: VoronoiOptions  # with the size of pixels, and lengths and places, as the image has them
+    options: Options  # with the size of pixels, and lengths and places, as the image has them
     grid: PixelGrid | None = None  # what the image says of its pixels
 
 
-def read_sites(run: Run, o: VoronoiOptions, given: JobInput) -> ReadSites:
+def read_sites(run: Run, o: Options, given: JobInput) -> ReadSites:
     """Read points, lines and polygons, each feature a site, or the objects of an image."""
     from vorotool.convert.sites import as_sites
     from vorotool.types.points.raster import Raster
@@ -40,9 +40,7 @@ def read_sites(run: Run, o: VoronoiOptions, given: JobInput) -> ReadSites:
     with opened_input(o, given, "sites") as source:
         o, value = read_opened(run, o, given, source, columns=o.columns)
     if not isinstance(value, Raster):
-        refuse(
-            {**o.for_images(), "simplify": o.simplify}, "is for images, but the input holds points, lines or polygons"
-        )
+        refuse({**o.for_images, "simplify": o.simplify}, "is for images, but the input holds points, lines or polygons")
         sites = as_sites(value)
         if not len(sites.polygons):
             report_no_geometry(run, o)
@@ -79,7 +77,7 @@ def _chosen(polygons: PolygonSet, chosen: NDArray[np.int64]) -> PolygonSet:
     return RingArrays.of(polygons).taken(chosen)[0].polygons(polygons, chosen)
 
 
-def _in_pixels(o: VoronoiOptions, cut: PolygonSet) -> PolygonSet:
+def _in_pixels(o: Options, cut: PolygonSet) -> PolygonSet:
     """What is on the map where results are, in pixels, or in steps."""
     size = o.pixel_size
     if size is None or (size.origin is None and size.sides is None):

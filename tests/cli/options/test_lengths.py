@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 
 from vorotool.cli.options.lengths import Distances, ExactLength, Length, Radius, measured
-from vorotool.jobs.given import changed, names_of
-from vorotool.jobs.options import TessellationOptions
+from vorotool.jobs.options import Options, changed
 from vorotool.jobs.units import Measured, PixelSize, lengths_in_pixels
 from vorotool.numeric.length_units import METRES, is_known, ratio
 
@@ -188,7 +187,7 @@ def test_ranges_that_are_none(text):
 
 
 def test_options_without_units_are_the_same_value():
-    options = TessellationOptions(**dict.fromkeys(names_of(TessellationOptions)))
+    options = Options("tessellate")
     assert lengths_in_pixels(options, None) is options
     size = PixelSize(Fraction("0.325"), "um")
     given = changed(options, max_distance=ExactLength().convert("1.3um", None, None))

@@ -303,11 +303,11 @@ def test_edges_of_shapes(tmp_path):
 
 def test_what_info_tells(tmp_path, capsysbinary):
     from vorotool.jobs.description import describe_inputs
-    from vorotool.jobs.options import ReadingOptions
+    from vorotool.jobs.options import Options
 
     grid = VoxelGrid(*SIDES, "um")
     vorotool.write(vorotool.Volume(VALUES.astype(np.uint16), grid), tmp_path / "a.tif")
-    describe_inputs(ReadingOptions(inputs=(str(tmp_path / "a.tif"),), json=True))
+    describe_inputs(Options("info", inputs=(str(tmp_path / "a.tif"),), json=True))
     told = json.loads(capsysbinary.readouterr().out)
     assert {name: told[name] for name in ("kind", "slices", "width", "height", "voxel_size", "unit")} == {
         "kind": "volume",

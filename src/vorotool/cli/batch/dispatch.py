@@ -12,16 +12,15 @@ from vorotool.cli.batch.progress_bar import progress_bar
 from vorotool.errors import UsageError
 from vorotool.formats.io.commit import committed_together
 from vorotool.formats.io.descriptors import stream_kind
-from vorotool.jobs.given import changed
 from vorotool.jobs.inputs import check_streams
-from vorotool.jobs.job import Options, Recipe, process_input
-from vorotool.jobs.options import ALL_PAGES, JobOptions
+from vorotool.jobs.job import Recipe, process_input
+from vorotool.jobs.options import ALL_PAGES, Options, changed
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import check_stats, plan_targets
 from vorotool.jobs.units import check_units, lengths_in_pixels, with_spacing
 
 
-def run_command(recipe: Recipe[Options], o: Options) -> None:
+def run_command(recipe: Recipe, o: Options) -> None:
     """Do what a command line asks for."""
     check_streams([*(("the input", name) for name in o.inputs), *o.files_read().items()])
     o = with_spacing(_without_environment(o))
@@ -75,7 +74,7 @@ def refuse_several(named: Mapping[str, str]) -> None:
             raise UsageError(f"{name} {path} stands for several files, but two are compared: name one file each")
 
 
-def _is_batch(o: JobOptions) -> bool:
+def _is_batch(o: Options) -> bool:
     """Whether there are several inputs, or one whose outputs and record are in a folder."""
     if len(o.inputs) > 1 or any(map(is_several, o.inputs)) or o.files_from is not None or o.page == ALL_PAGES:
         return True

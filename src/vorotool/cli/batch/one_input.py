@@ -15,16 +15,15 @@ from vorotool.cli.batch.progress_bar import progress_bar
 from vorotool.errors import UsageError
 from vorotool.formats.io.atomic_output import check_output, is_same_file, spoken
 from vorotool.formats.io.descriptors import STANDARD, descriptor_of, is_same_output
-from vorotool.jobs.given import changed
-from vorotool.jobs.job import Options, Recipe, process_input
-from vorotool.jobs.options import JobOptions
+from vorotool.jobs.job import Recipe, process_input
+from vorotool.jobs.options import Options, changed
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target, check_stats, plan_targets
 from vorotool.jobs.terminal import print_text, tell
 from vorotool.jobs.units import check_units, lengths_in_pixels
 
 
-def run_one(recipe: Recipe[Options], o: Options) -> None:
+def run_one(recipe: Recipe, o: Options) -> None:
     """Process one input as a batch would, in this process; its outputs may be files that `-o` names."""
     (source,) = o.inputs
     if o.null:
@@ -55,14 +54,14 @@ def run_one(recipe: Recipe[Options], o: Options) -> None:
         tell(f"note: {text}")
 
 
-def _targets(recipe: Recipe[Options], o: Options, source: str, *, has_table: bool) -> list[Target]:
+def _targets(recipe: Recipe, o: Options, source: str, *, has_table: bool) -> list[Target]:
     """Lay out the outputs; without -o or --out-dir a table of its own is the only one."""
     if has_table and o.output is None and o.out_dir is None:
         return []
     return plan_targets(recipe.formats, o.what, output=o.output, fmt=o.format, out_dir=o.out_dir, source=source)
 
 
-def _check_table(o: JobOptions, table: JointTable, targets: Sequence[Target], source: str) -> None:
+def _check_table(o: Options, table: JointTable, targets: Sequence[Target], source: str) -> None:
     """Refuse a table that would replace the input or another output."""
     inputs = None if table.inputs is None else table.inputs[0]
     named = {option: path for option, path in (("--table", table.path), ("--table-inputs", inputs)) if path is not None}
@@ -80,7 +79,7 @@ def _check_table(o: JobOptions, table: JointTable, targets: Sequence[Target], so
 
 
 def _process(
-    recipe: Recipe[Options],
+    recipe: Recipe,
     o: Options,
     source: str,
     targets: Sequence[Target],

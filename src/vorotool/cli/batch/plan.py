@@ -9,7 +9,7 @@ from collections.abc import Callable
 from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, Generic
+from typing import Any
 
 import click
 from click.core import ParameterSource
@@ -25,9 +25,8 @@ from vorotool.errors import OutputError, UsageError
 from vorotool.formats.io.atomic_output import spoken
 from vorotool.formats.io.descriptors import STANDARD, descriptor_of, is_same_output, stream_kind
 from vorotool.formats.io.temporaries import new_folder, temporary_beside
-from vorotool.jobs.given import changed
-from vorotool.jobs.job import Options, Recipe
-from vorotool.jobs.options import ALL_PAGES, ComputingOptions, JobOptions
+from vorotool.jobs.job import Recipe
+from vorotool.jobs.options import ALL_PAGES, Options, changed
 from vorotool.jobs.targets import Target, plan_targets
 from vorotool.jobs.units import check_units, lengths_in_pixels
 from vorotool.plain import plain
@@ -63,7 +62,7 @@ class JointTable:
 
 
 @plain
-class Plan(Generic[Options]):
+class Plan:
     """What is to be done."""
 
     # of the command line, but `what` tells what is computed, and files of one part of the inputs have its name
@@ -75,7 +74,7 @@ class Plan(Generic[Options]):
     notes: list[str]  # what is said before the work begins
 
 
-def plan_batch(recipe: Recipe[Options], o: Options) -> Plan[Options]:
+def plan_batch(recipe: Recipe, o: Options) -> Plan:
     """Lay out a batch; nothing is written."""
     _check_options(o)
     o, notes = named_for_shard(o)
@@ -99,12 +98,12 @@ def plan_batch(recipe: Recipe[Options], o: Options) -> Plan[Options]:
     return Plan(o, tasks, targets, table, manifest, notes)
 
 
-def _check_options(o: JobOptions) -> None:
-    table = o.table_of_all
+def _check_options(o: Options) -> None:
+    table = o.table
     inputs = _several(o)
     if o.output is not None:
         raise UsageError(f"{inputs}, but -o names one output: name a folder for all with --out-dir")
-    if o.out_dir is None and table is None and o.table_of_inputs is None:
+    if o.out_dir is None and table is None and o.table_inputs is None:
         raise UsageError(f"{inputs}: name a folder for their outputs with --out-dir")
     if o.out_dir is None and o.resume:
         raise UsageError("--resume needs --out-dir DIR, where it is recorded what was done")
@@ -122,7 +121,7 @@ def _check_options(o: JobOptions) -> None:
         raise UsageError("-j is for this machine: a cluster has the workers that it has")
 
 
-def _several(o: JobOptions) -> str:
+def _several(o: Options) -> str:
     """Return why this is a batch, by what the user typed."""
     if len(o.inputs) > 1:
         return f"{len(o.inputs)} inputs are given"
@@ -138,7 +137,7 @@ def named_for_shard(o: Options) -> tuple[Options, list[str]]:
     if o.shard is None:
         return o, []
     own: dict[str, Any] = {}
-    for option, path in (("table", o.table_of_all), ("table_inputs", o.table_of_inputs), ("stats", o.stats)):
+    for option, path in (("table", o.table), ("table_inputs", o.table_inputs), ("stats", o.stats)):
         if path is not None and name_of_part(path, *o.shard) != path:
             own[option] = name_of_part(path, *o.shard)
     named = {option.replace("_", "-"): name for option, name in own.items()}
@@ -154,7 +153,7 @@ def name_of_part(path: str, part: int, parts: int) -> str:
     return str(name.with_name(f"{name.stem}.{mark}{name.suffix}"))
 
 
-def _collected(recipe: Recipe[Options], o: JobOptions, fmt: str) -> str:
+def _collected(recipe: Recipe, o: Options, fmt: str) -> str:
     """Return the result whose rows are collected: one of --what, if that is a table, else `table`."""
     is_given = click.get_current_context().get_parameter_source("what") != ParameterSource.DEFAULT
     has_outputs = o.out_dir is not None or o.output is not None
@@ -181,10 +180,8 @@ _NO_ROWS = frozenset(["skeleton", "diagram", "offset", "parts", "cells"])
 """Results whose JSON is not a list of rows."""
 
 
-def joint_table(recipe: Recipe[Options], o: JobOptions) -> JointTable | None:
+def joint_table(recipe: Recipe, o: Options) -> JointTable | None:
     """Return the table of all inputs; its format is what its name says, unless there is no other output for -f."""
-    if not isinstance(o, ComputingOptions):
-        return None
     fields = NameFields.of(o.fields)
     path, inputs = o.table, o.table_inputs
     if path is None and inputs is None:
@@ -217,7 +214,7 @@ def _no_table(option: str, path: str) -> UsageError:
     return UsageError(f"{option} {path} is written as CSV, TSV or JSON: name it .csv, .tsv or .json")
 
 
-def folder_of_parts(command: str, o: JobOptions, table: JointTable, stack: ExitStack) -> str:
+def folder_of_parts(command: str, o: Options, table: JointTable, stack: ExitStack) -> str:
     """Return the folder for the tables of inputs: beside the record of what was done, else one until the end."""
     if o.out_dir is not None:
         return str(Path(o.out_dir) / f".{command}.tables")
@@ -229,7 +226,7 @@ def folder_of_parts(command: str, o: JobOptions, table: JointTable, stack: ExitS
         raise OutputError(f"tables cannot be written in {folder}: {error.strerror}; choose another name") from error
 
 
-def _record(recipe: Recipe[Options], o: Options, targets: list[Target]) -> tuple[Manifest | None, History]:
+def _record(recipe: Recipe, o: Options, targets: list[Target]) -> tuple[Manifest | None, History]:
     """Give where it is recorded what is done, and what was done before by the same options."""
     if o.out_dir is None:
         return None, History()
@@ -256,12 +253,12 @@ def _digest(name: str, path: str) -> str:
     return repr(image_header(path))
 
 
-def _tasks(recipe: Recipe[Options], o: Options, targets: list[Target], note: Callable[[str], None]) -> list[Task]:
+def _tasks(recipe: Recipe, o: Options, targets: list[Target], note: Callable[[str], None]) -> list[Task]:
     inputs = _inputs(recipe, o, note)
     folder = o.out_dir or ""  # without one there are no targets
     endings = [target.path.removeprefix(str(Path(folder) / "input")) for target in targets]
     tasks = [Task(each.source, output_paths(each.name, endings, folder)) for each in inputs]
-    written = {"--stats": o.stats, "--table": o.table_of_all, "--table-inputs": o.table_of_inputs}
+    written = {"--stats": o.stats, "--table": o.table, "--table-inputs": o.table_inputs}
     check_outputs(tasks, folder, others=written, read=o.files_read())
     if o.shard is None:
         return tasks
@@ -269,7 +266,7 @@ def _tasks(recipe: Recipe[Options], o: Options, targets: list[Target], note: Cal
     return [task for task in tasks if task.source in chosen]
 
 
-def _inputs(recipe: Recipe[Options], o: Options, note: Callable[[str], None]) -> list[Input]:
+def _inputs(recipe: Recipe, o: Options, note: Callable[[str], None]) -> list[Input]:
     from vorotool.products.inputs import NAMES_WITH, TABLE_NAMES
 
     geometry = recipe.geometry or "polygons"

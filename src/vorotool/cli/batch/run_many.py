@@ -23,9 +23,8 @@ from vorotool.errors import InputError, Message
 from vorotool.formats.io.atomic_output import check_output, open_output
 from vorotool.formats.io.commit import committed_together
 from vorotool.jobs.failures import explained
-from vorotool.jobs.given import changed
-from vorotool.jobs.job import Options, Recipe, process_input
-from vorotool.jobs.options import ALL_PAGES, JobOptions
+from vorotool.jobs.job import Recipe, process_input
+from vorotool.jobs.options import ALL_PAGES, Options, changed
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
 from vorotool.jobs.terminal import print_text, tell
@@ -35,7 +34,7 @@ from vorotool.signals import end_by_exceptions
 
 
 def process_one(
-    recipe: Recipe[Options], options: Options, kinds: Sequence[tuple[str, str]], source: str, outputs: Sequence[str]
+    recipe: Recipe, options: Options, kinds: Sequence[tuple[str, str]], source: str, outputs: Sequence[str]
 ) -> Outcome:
     """Process one input, and say nothing but in the outcome."""
     targets = [Target(what, path, fmt) for (what, fmt), path in zip(kinds, outputs, strict=True)]
@@ -51,7 +50,7 @@ def process_one(
     return Outcome(code, message, tuple(run.warnings), tuple(run.notes), run.stats, run.seconds)
 
 
-def run_many(recipe: Recipe[Options], o: Options) -> None:
+def run_many(recipe: Recipe, o: Options) -> None:
     """Process many inputs."""
     plan = plan_batch(recipe, o)
     o = plan.options
@@ -91,16 +90,16 @@ def run_many(recipe: Recipe[Options], o: Options) -> None:
         raise failure
 
 
-def _print_plan(plan: Plan[Options]) -> None:
+def _print_plan(plan: Plan) -> None:
     for task in plan.tasks:
         kept = task.done is not None and is_done(task, digest_of(path_of(task.source)))
         record = {"input": task.source, "status": "kept" if kept else "planned", "outputs": task.outputs}
         print_text(json.dumps(record) + "\n")
 
 
-def _check_files(o: JobOptions) -> None:
+def _check_files(o: Options) -> None:
     """Find out before any work whether the files of all inputs can be written."""
-    for option, path in (("stats", o.stats), ("table", o.table_of_all), ("table-inputs", o.table_of_inputs)):
+    for option, path in (("stats", o.stats), ("table", o.table), ("table-inputs", o.table_inputs)):
         if path is not None:
             is_inside = o.out_dir is not None and Path(path).parent == Path(o.out_dir)
             may_replace = not o.no_clobber or o.resume
@@ -111,14 +110,14 @@ def _with_part(task: Task, folder: str, fmt: str) -> Task:
     return replace(task, outputs=(*task.outputs, part_path(folder, task.source, fmt)))
 
 
-def _check_records(plan: Plan[Options], tasks: Sequence[Task]) -> None:
+def _check_records(plan: Plan, tasks: Sequence[Task]) -> None:
     """Refuse a record, and tables of inputs, that links would lead out of the folder that they are in."""
     if plan.manifest is not None:
         parts = [task.outputs[-1] for task in tasks] if plan.table else []
         check_inside([plan.manifest.path, *parts], plan.manifest.folder)
 
 
-def _results(recipe: Recipe[Options], plan: Plan[Options], count: int) -> Results:
+def _results(recipe: Recipe, plan: Plan, count: int) -> Results:
     """Who does the work."""
     o = plan.options
     jobs = (os.cpu_count() or 1) if o.jobs == 0 else o.jobs

@@ -26,7 +26,7 @@ from vorotool.jobs.animations import animated, check_animation
 from vorotool.jobs.inputs import JobInput, check_components, check_frame_options
 from vorotool.jobs.job import Recipe
 from vorotool.jobs.names import METHODS, OF_ONE_SHAPE, PLOTS
-from vorotool.jobs.options import AlphaShapeOptions
+from vorotool.jobs.options import Options
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target, check_picture_options, check_precision
 from vorotool.products.formats import ANIMATIONS, PICTURES, format_named, picture_format
@@ -93,10 +93,10 @@ def command(**options: Any) -> None:
     """
     if options["what"] is None:
         options["what"] = (_default_what(options["format"], options["output"]),)
-    run_command(RECIPE, AlphaShapeOptions(**animated(options)))
+    run_command(RECIPE, Options("alphashape", **animated(options)))
 
 
-def _products(run: Run, o: AlphaShapeOptions, given: JobInput) -> ShapeProducts:
+def _products(run: Run, o: Options, given: JobInput) -> ShapeProducts:
     from vorotool.jobs.alpha_shape import products
 
     return products(run, o, given)
@@ -107,7 +107,7 @@ def _default_what(fmt: str | None, output: str | None) -> str:
     return next((what for what, each in PRODUCTS["alphashape"].items() if name in each.usual_for), next(iter(FORMATS)))
 
 
-def _check_options(o: AlphaShapeOptions, targets: list[Target]) -> None:
+def _check_options(o: Options, targets: list[Target]) -> None:
     check_components(o)
     if o.regions is not None and (o.r is not None or o.alpha is not None):
         raise UsageError("--regions is for the automatic choice of r: leave out -r and --alpha")
@@ -133,7 +133,7 @@ def _check_options(o: AlphaShapeOptions, targets: list[Target]) -> None:
     check_picture_options(o, pictures or plots, layers_of("alphashape"), png_has_width=True)
 
 
-def _check_method(o: AlphaShapeOptions, formats: set[str]) -> None:
+def _check_method(o: Options, formats: set[str]) -> None:
     """Refuse what the way of triangulating or the rule cannot give, or would not look at."""
     check_frame_options(o, is_digital=o.method != "exact")
     is_automatic = o.r is None and o.alpha is None
@@ -148,7 +148,7 @@ def _check_method(o: AlphaShapeOptions, formats: set[str]) -> None:
         _check_digital_rule(o, formats)
 
 
-def _check_digital_rule(o: AlphaShapeOptions, formats: set[str]) -> None:
+def _check_digital_rule(o: Options, formats: set[str]) -> None:
     if "html" in formats:
         raise UsageError("--method digital has no curves for a page: use --method exact or digital-valid")
     for name in o.what:

@@ -21,7 +21,7 @@ from vorotool.errors import UsageError
 from vorotool.jobs.inputs import JobInput, check_components, check_frame_options
 from vorotool.jobs.job import Recipe
 from vorotool.jobs.names import GRAPHS, METHODS
-from vorotool.jobs.options import TriangulationOptions
+from vorotool.jobs.options import Options
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target, check_picture_options, check_precision
 from vorotool.products.formats import PICTURES
@@ -87,16 +87,16 @@ def command(**options: Any) -> None:
 
     --what compare lists where the digital rule differs from the exact triangulation, each with its cause.
     """
-    run_command(RECIPE, TriangulationOptions(**options))
+    run_command(RECIPE, Options("delaunay", **options))
 
 
-def _products(run: Run, o: TriangulationOptions, given: JobInput) -> MeshProducts:
+def _products(run: Run, o: Options, given: JobInput) -> MeshProducts:
     from vorotool.jobs.triangulation import products
 
     return products(run, o, given)
 
 
-def _check_options(o: TriangulationOptions, targets: list[Target]) -> None:
+def _check_options(o: Options, targets: list[Target]) -> None:
     _check_method(o, targets)
     _check_graph(o)
     check_components(o)
@@ -113,7 +113,7 @@ def _check_options(o: TriangulationOptions, targets: list[Target]) -> None:
     check_picture_options(o, pictures, layers_of("delaunay"), png_has_width=True)
 
 
-def _check_method(o: TriangulationOptions, targets: list[Target]) -> None:
+def _check_method(o: Options, targets: list[Target]) -> None:
     """Refuse what the way of triangulating cannot give, or would not look at."""
     check_frame_options(o, is_digital=o.triangulated_by != "exact")
     if "compare" in o.what and (o.method == "digital-valid" or (o.method == "exact" and len(o.what) > 1)):
@@ -130,7 +130,7 @@ def _check_method(o: TriangulationOptions, targets: list[Target]) -> None:
             )
 
 
-def _check_graph(o: TriangulationOptions) -> None:
+def _check_graph(o: Options) -> None:
     """Refuse a graph that no result shows, or that the way of triangulating does not hold."""
     if o.graph == "delaunay":
         return

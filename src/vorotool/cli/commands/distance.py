@@ -13,7 +13,7 @@ from vorotool.cli.options.shared import layers_option, output_options, shared, w
 from vorotool.cli.options.suggestions import files
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.job import Recipe
-from vorotool.jobs.options import DistanceOptions
+from vorotool.jobs.options import Options
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
 from vorotool.products.inputs import NAMES_WITH
@@ -56,16 +56,16 @@ def command(a: str, b: str, **options: Any) -> None:
     which GeoJSON and WKT have lines between, and pictures show.
     """
     refuse_several({"A": a, "B": b})
-    run_command(RECIPE, DistanceOptions(inputs=(a,), other=b, **options))
+    run_command(RECIPE, Options("distance", inputs=(a,), other=b, **options))
 
 
-def _check_options(o: DistanceOptions, targets: list[Target]) -> None:
+def _check_options(o: Options, targets: list[Target]) -> None:
     from vorotool.jobs.distances import check_options
 
     check_options(o, targets)
 
 
-def _products(run: Run, o: DistanceOptions, given: JobInput) -> DistanceProducts:
+def _products(run: Run, o: Options, given: JobInput) -> DistanceProducts:
     from vorotool.jobs.distances import DistanceProducts
 
     return DistanceProducts(run, o, given)

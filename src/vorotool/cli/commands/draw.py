@@ -13,7 +13,7 @@ from vorotool.cli.options.pixel_size import drawn_pixel_size_option
 from vorotool.cli.options.shared import batch_options, inputs_argument, layers_option, output_options, shared
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.job import Recipe
-from vorotool.jobs.options import DrawingOptions
+from vorotool.jobs.options import Options
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
 from vorotool.products.inputs import DRAWN_NAMES
@@ -49,16 +49,16 @@ def command(**options: Any) -> None:
     (JSON, NPZ), the JSON of offset curves, or shapes: polygons and lines (GeoJSON, WKT, JSON, Triangle .poly, SVG,
     DXF), such as centerlines and alpha shapes; - is standard input.
     """
-    run_command(RECIPE, DrawingOptions(**options))
+    run_command(RECIPE, Options("draw", what=("picture",), **options))
 
 
-def _products(run: Run, o: DrawingOptions, given: JobInput) -> Picture:
+def _products(run: Run, o: Options, given: JobInput) -> Picture:
     from vorotool.jobs.drawing import Picture
 
     return Picture(run, o, given)
 
 
-def _check_options(o: DrawingOptions, targets: list[Target]) -> None:
+def _check_options(o: Options, targets: list[Target]) -> None:
     """What there can be in a picture depends on the input."""
 
 

@@ -7,7 +7,7 @@ from typing import Any
 import click
 
 from vorotool.cli.options.shared import inputs_argument, shared
-from vorotool.jobs.options import ReadingOptions
+from vorotool.jobs.options import Options
 from vorotool.products.inputs import NAMES_WITH
 
 
@@ -29,4 +29,4 @@ def command(**options: Any) -> None:
     """
     from vorotool.jobs.description import describe_inputs
 
-    describe_inputs(ReadingOptions(**options))
+    describe_inputs(Options("info", **options))

@@ -13,7 +13,7 @@ from vorotool.cli.options.skeleton import skeleton_options
 from vorotool.errors import UsageError
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.job import Recipe
-from vorotool.jobs.options import ApproximateSkeletonOptions
+from vorotool.jobs.options import Options
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.skeleton_checks import check_options
 from vorotool.products.registry import formats_of
@@ -56,7 +56,7 @@ def command(**options: Any) -> None:
     left out, and those that the shapes cross. No point of an arc is farther from the exact skeleton than its
     error_bound.
     """
-    o = ApproximateSkeletonOptions(**options)
+    o = Options("skeleton-approx", **options)
     if (o.step is None) == (o.tolerance is None):
         raise UsageError("use either --step H or --tolerance E")
     if o.tolerance is not None and o.sampling == "paper":
@@ -64,7 +64,7 @@ def command(**options: Any) -> None:
     run_command(RECIPE, o)
 
 
-def _products(run: Run, o: ApproximateSkeletonOptions, given: JobInput) -> ApproximateProducts:
+def _products(run: Run, o: Options, given: JobInput) -> ApproximateProducts:
     from vorotool.jobs.skeletons.approximate import ApproximateProducts
 
     return ApproximateProducts(run, o, given)

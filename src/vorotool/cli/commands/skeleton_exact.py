@@ -14,7 +14,7 @@ from vorotool.errors import UsageError
 from vorotool.jobs.animations import animated
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.job import Recipe
-from vorotool.jobs.options import ExactSkeletonOptions
+from vorotool.jobs.options import Options
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.skeleton_checks import check_options
 from vorotool.products.registry import formats_of
@@ -65,13 +65,13 @@ def command(**options: Any) -> None:
     Voronoi diagram of vertices and open edges, the edges between an edge and its own end are left out. What is
     drawn inside polygons comes first, polygon by polygon; arcs of a branch follow each other.
     """
-    o = ExactSkeletonOptions(**animated(options))
+    o = Options("skeleton-exact", **animated(options))
     if o.complete is not None and not o.gap:
         raise UsageError("nothing is missing without a gap: use --gap STEP, or leave --complete out")
     run_command(RECIPE, o)
 
 
-def _products(run: Run, o: ExactSkeletonOptions, given: JobInput) -> ExactProducts:
+def _products(run: Run, o: Options, given: JobInput) -> ExactProducts:
     from vorotool.jobs.skeletons.exact import ExactProducts
 
     return ExactProducts(run, o, given)

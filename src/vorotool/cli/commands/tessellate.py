@@ -24,7 +24,7 @@ from vorotool.errors import UsageError
 from vorotool.jobs.animations import animated, check_animation
 from vorotool.jobs.inputs import JobInput, check_components, check_frame_options, refuse
 from vorotool.jobs.job import Recipe
-from vorotool.jobs.options import TessellationOptions
+from vorotool.jobs.options import Options
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target, check_picture_options, check_precision
 from vorotool.jobs.units import known_length
@@ -101,13 +101,13 @@ def command(**options: Any) -> None:
     NPY, Zarr); - is standard input. Label i is the i-th point; an image's own labels are kept. With --volume it is a
     volume: a stack (TIFF, NPY, Zarr), or points with a z.
     """
-    o = TessellationOptions(**animated(options))
+    o = Options("tessellate", **animated(options))
     if o.is_of_volumes:
         check_volume_units(o)
     run_command(VOLUME_RECIPE if o.is_of_volumes else RECIPE, o)
 
 
-def _check_options(o: TessellationOptions, targets: list[Target]) -> None:
+def _check_options(o: Options, targets: list[Target]) -> None:
     check_image_options(o)
     check_frame_options(o, is_digital=True)
     if o.method == "propagation" and o.max_distance is not None:
@@ -129,7 +129,7 @@ def _check_options(o: TessellationOptions, targets: list[Target]) -> None:
     _check_output_options(o, {(target.what, picture_format(target.fmt)) for target in targets})
 
 
-def _check_cells(o: TessellationOptions) -> None:
+def _check_cells(o: Options) -> None:
     if o.like is not None:
         others = {"size": o.size, "window": o.window, "cell-size": o.cell_size, "spacing": o.spacing}
         refuse(others, "contradicts --like, which takes the frame and its pixels from a raster: leave one of them out")
@@ -144,7 +144,7 @@ def _check_cells(o: TessellationOptions) -> None:
         raise UsageError("--size is in pixels: with --cell-size give --window X,Y,W,H in the units of the map")
 
 
-def _check_output_options(o: TessellationOptions, outputs: set[tuple[str, str]]) -> None:
+def _check_output_options(o: Options, outputs: set[tuple[str, str]]) -> None:
     """Refuse options that no output would show."""
     if o.dtype is not None and not outputs & {("labels", fmt) for fmt in ("tiff", "npy", "zarr")}:
         raise UsageError("--dtype is for labels in TIFF, NPY and Zarr: use -f tiff or -f npy, or leave it out")
@@ -158,13 +158,13 @@ def _check_output_options(o: TessellationOptions, outputs: set[tuple[str, str]])
     check_picture_options(o, [fmt for _, fmt in pictures], layers_of("tessellate"))
 
 
-def _products(run: Run, o: TessellationOptions, given: JobInput) -> Products | StreamedProducts:
+def _products(run: Run, o: Options, given: JobInput) -> Products | StreamedProducts:
     from vorotool.jobs.tessellation import products
 
     return products(run, o, given)
 
 
-def _volume_products(run: Run, o: TessellationOptions, given: JobInput) -> VolumeProducts:
+def _volume_products(run: Run, o: Options, given: JobInput) -> VolumeProducts:
     from vorotool.jobs.volumes.products import products
 
     return products(run, o, given)

@@ -16,7 +16,7 @@ from vorotool.cli.options.shared import inputs_argument, output_options, what_op
 from vorotool.cli.options.suggestions import files
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.job import Recipe
-from vorotool.jobs.options import VoronoiOptions
+from vorotool.jobs.options import Options
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.voronoi_checks import check_options
 from vorotool.products.inputs import NAMES_WITH, names_of
@@ -78,10 +78,10 @@ def command(**options: Any) -> None:
     --what edges lists the borders, neighbors the pairs of cells that share one, table a row for each cell, discs the
     largest empty disc between the sites, with its center in the frame or the clip.
     """
-    run_command(RECIPE, VoronoiOptions(**options))
+    run_command(RECIPE, Options("voronoi", **options))
 
 
-def _products(run: Run, o: VoronoiOptions, given: JobInput) -> VoronoiProducts:
+def _products(run: Run, o: Options, given: JobInput) -> VoronoiProducts:
     from vorotool.jobs.voronoi import VoronoiProducts
 
     return VoronoiProducts(run, o, given)

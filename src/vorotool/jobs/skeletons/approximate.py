@@ -19,7 +19,7 @@ from vorotool.engines.sampled_skeleton.approximate import (
 from vorotool.engines.sampled_skeleton.per_feature import FeatureApproximation, approximation, samples_of_graph
 from vorotool.errors import VorotoolWarning, warn
 from vorotool.jobs.inputs import JobInput
-from vorotool.jobs.options import ApproximateSkeletonOptions
+from vorotool.jobs.options import Options
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.skeletons.products import SkeletonProducts
 from vorotool.jobs.targets import Target
@@ -35,10 +35,10 @@ ALL_TOGETHER = {"diagram", "elements"}
 """What is of all features together, however they are taken."""
 
 
-class ApproximateProducts(SkeletonProducts[ApproximateSkeletonOptions]):
+class ApproximateProducts(SkeletonProducts):
     """Results of one approximate skeleton: see `SkeletonProducts`."""
 
-    def __init__(self, run: Run, options: ApproximateSkeletonOptions, given: JobInput) -> None:
+    def __init__(self, run: Run, options: Options, given: JobInput) -> None:
         super().__init__(run, options, given)
         options = self.options  # lengths are in pixels, or in steps
         self._sampling = SamplingOptions(options.step, options.tolerance, options.sampling)

@@ -18,7 +18,7 @@ from vorotool.engines.skeleton.parts import outside_of
 from vorotool.engines.skeleton.per_feature import FeatureSkeleton
 from vorotool.engines.skeleton.shortened_edges import ElementDiagram, exact_for, exact_inside, gap_deviation
 from vorotool.jobs.inputs import JobInput
-from vorotool.jobs.options import ExactSkeletonOptions
+from vorotool.jobs.options import Options
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.skeletons.products import SkeletonProducts
 from vorotool.numeric.progress import Progress
@@ -36,10 +36,10 @@ class Seen:
     deviation: float = 0.0  # with a gap, how far the skeleton is from the exact one, if that is asked for
 
 
-class ExactProducts(SkeletonProducts[ExactSkeletonOptions]):
+class ExactProducts(SkeletonProducts):
     """Results of one exact skeleton, or of one with a gap: see `SkeletonProducts`."""
 
-    def __init__(self, run: Run, options: ExactSkeletonOptions, given: JobInput) -> None:
+    def __init__(self, run: Run, options: Options, given: JobInput) -> None:
         super().__init__(run, options, given)
         # what is refused is refused here, where the input has its name
         if not self._is_inside_only:

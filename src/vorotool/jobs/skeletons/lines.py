@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from vorotool.jobs.options import SkeletonOptions
+from vorotool.jobs.options import Options
 from vorotool.jobs.run_log import Run
 
 if TYPE_CHECKING:
@@ -26,7 +26,7 @@ class WrittenLines:
     def __init__(
         self,
         run: Run,
-        options: SkeletonOptions,
+        options: Options,
         skeleton: Callable[[], Skeleton],
         centerlines: Callable[[], Centerlines],
     ) -> None:

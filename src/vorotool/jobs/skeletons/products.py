@@ -7,7 +7,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from functools import cached_property, partial
-from typing import TYPE_CHECKING, Any, BinaryIO, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError, Kind, Message, RepairWarning, VorotoolWarning
 from vorotool.jobs.checked_columns import check_columns
 from vorotool.jobs.inputs import JobInput, refuse
-from vorotool.jobs.options import Place, SkeletonOptions
+from vorotool.jobs.options import Options, Place
 from vorotool.jobs.picture_style import styled_page
 from vorotool.jobs.picture_world import world_of_polygons
 from vorotool.jobs.pictures import write_layers
@@ -41,10 +41,8 @@ if TYPE_CHECKING:
     from vorotool.types.polygons.polygon_set import PolygonSet
     from vorotool.types.skeleton.centerline import Centerlines
 
-Options = TypeVar("Options", bound=SkeletonOptions)
 
-
-class SkeletonProducts(ABC, Generic[Options]):
+class SkeletonProducts(ABC):
     """Results of one skeleton, however it is made."""
 
     def __init__(self, run: Run, options: Options, given: JobInput) -> None:

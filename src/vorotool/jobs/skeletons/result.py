@@ -7,7 +7,7 @@ from collections.abc import Callable
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, BinaryIO
 
-from vorotool.jobs.options import ExactSkeletonOptions, SkeletonOptions
+from vorotool.jobs.options import Options
 from vorotool.jobs.run_log import Run
 from vorotool.numeric.progress import Progress
 from vorotool.plain import plain
@@ -28,7 +28,7 @@ class Origin:
     """What results follow from."""
 
     run: Run  # takes seconds and what is to be said
-    options: SkeletonOptions  # of the command line
+    options: Options  # of the command line
     skeleton: Callable[[], Skeleton]  # gives the skeleton, pruned as the options say
     whole: Callable[[], Skeleton]  # gives it before it is pruned
     # gives the longest path in each polygon, or that between the places that are given
@@ -38,9 +38,9 @@ class Origin:
     grid: PixelGrid | None = None  # what that image says of them
 
     @property
-    def exact_options(self) -> ExactSkeletonOptions:
+    def exact_options(self) -> Options:
         """Those of a result that only `skeleton-exact` has."""
-        assert isinstance(self.options, ExactSkeletonOptions)
+        assert isinstance(self.options, Options)
         return self.options
 
 

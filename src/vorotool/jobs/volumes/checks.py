@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from vorotool.errors import UsageError
 from vorotool.jobs.inputs import check_components, refuse
-from vorotool.jobs.options import TessellationOptions
+from vorotool.jobs.options import Options
 from vorotool.jobs.targets import Target, check_picture_options, check_precision
 from vorotool.products.registry import VOLUME_PRODUCTS
 
@@ -16,7 +16,7 @@ _CONNECTIVITY = {False: ("8", "4"), True: ("26", "6")}
 _PICTURES = ("png", "svg")
 
 
-def check_image_options(o: TessellationOptions) -> None:
+def check_image_options(o: Options) -> None:
     """Refuse what means something for volumes only."""
     check_connectivity(o, is_volume=False)
     if o.slice is not None:
@@ -27,7 +27,7 @@ def check_image_options(o: TessellationOptions) -> None:
         raise UsageError(f"--chunk {_size(o.chunk)} has a depth, but chunks of images have columns x rows: 2048x512")
 
 
-def check_volume_options(o: TessellationOptions, targets: list[Target]) -> None:
+def check_volume_options(o: Options, targets: list[Target]) -> None:
     """Refuse what means nothing for volumes, and what no output would show."""
     _check_frame(o)
     check_connectivity(o, is_volume=True)
@@ -37,13 +37,13 @@ def check_volume_options(o: TessellationOptions, targets: list[Target]) -> None:
     _check_outputs(o, targets)
 
 
-def check_volume_units(o: TessellationOptions) -> None:
+def check_volume_units(o: Options) -> None:
     """Refuse the size of a pixel."""
     if o.pixel_size is not None:
         raise UsageError("--pixel-size is for images: use --spacing SX,SY,SZ for a volume, such as 0.325,0.325,1.5um")
 
 
-def check_connectivity(o: TessellationOptions, *, is_volume: bool) -> None:
+def check_connectivity(o: Options, *, is_volume: bool) -> None:
     """Refuse the connectivity of images for volumes, and the other way round."""
     allowed = _CONNECTIVITY[is_volume]
     if o.connectivity is None or o.connectivity in allowed:
@@ -54,7 +54,7 @@ def check_connectivity(o: TessellationOptions, *, is_volume: bool) -> None:
     raise UsageError(f"--connectivity {o.connectivity} is for volumes: pixels have {both}, and --volume reads a volume")
 
 
-def _check_frame(o: TessellationOptions) -> None:
+def _check_frame(o: Options) -> None:
     if o.size is not None and o.window is not None:
         raise UsageError("give --size or --window, not both")
     if o.size is not None and len(o.size) == 2:
@@ -65,7 +65,7 @@ def _check_frame(o: TessellationOptions) -> None:
         raise UsageError(f"--chunk {_size(o.chunk)} has no depth: give --chunk WxHxD for a volume, such as 256x256x64")
 
 
-def _check_other_options(o: TessellationOptions) -> None:
+def _check_other_options(o: Options) -> None:
     """Refuse options of images and of maps."""
     if o.method != "exact":
         raise UsageError("--method propagation is for images: volumes are tessellated exactly, leave it out")
@@ -86,7 +86,7 @@ def _check_other_options(o: TessellationOptions) -> None:
     refuse(of_maps, "is for maps: leave it out with a volume")
 
 
-def _check_outputs(o: TessellationOptions, targets: Sequence[Target]) -> None:
+def _check_outputs(o: Options, targets: Sequence[Target]) -> None:
     """Refuse options that no output would show."""
     outputs = {(target.what, target.fmt) for target in targets}
     formats = {fmt for _, fmt in outputs}

@@ -20,11 +20,10 @@ from vorotool.formats.volumes.points import read_xyz
 from vorotool.formats.volumes.source import VolumeSource
 from vorotool.formats.zarr.store import is_folder
 from vorotool.jobs.contradictions import check_voxel_size
-from vorotool.jobs.given import changed
 from vorotool.jobs.input_lengths import lengths_of_voxels
 from vorotool.jobs.inputs import JobInput, refuse, report_no_seeds
 from vorotool.jobs.masks import report_cleaning
-from vorotool.jobs.options import TessellationOptions
+from vorotool.jobs.options import Options, changed
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.units import PixelSize, sides_of, unit_stats
 from vorotool.plain import plain
@@ -47,11 +46,11 @@ class ReadVolume:
     grid: VoxelGrid | None  # sides of the voxels, for files that are written
 
 
-def read_volume_seeds(run: Run, o: TessellationOptions, given: JobInput) -> tuple[TessellationOptions, ReadVolume]:
+def read_volume_seeds(run: Run, o: Options, given: JobInput) -> tuple[Options, ReadVolume]:
     """Read a volume, or points of space; options with a unit are in that of the voxels then."""
     if not _is_volume(o, given.path):
         return _read_points(run, o, given)
-    refuse({"columns": o.columns, **o.of_frame()}, "is for lists of points, but the input is a volume, with its own")
+    refuse({"columns": o.columns, **o.of_frame}, "is for lists of points, but the input is a volume, with its own")
     with reading(given.path):
         source = open_volume(given.path, input_format=o.input_format)
         if source.note:
@@ -77,14 +76,14 @@ def read_volume_seeds(run: Run, o: TessellationOptions, given: JobInput) -> tupl
     return o, ReadVolume(seeds, seeds.frame, sides, _written_grid(o.pixel_size, sides, source.grid))
 
 
-def _read_points(run: Run, o: TessellationOptions, given: JobInput) -> tuple[TessellationOptions, ReadVolume]:
+def _read_points(run: Run, o: Options, given: JobInput) -> tuple[Options, ReadVolume]:
     if o.pixel_size is not None and o.pixel_size.is_auto:
         raise UsageError(
             "--spacing auto is for volumes, whose files may say it: give numbers and their unit, such as "
             "0.325,0.325,1.5um"
         )
     o = lengths_of_voxels(o, None)
-    of_volumes = {key: value for key, value in o.for_images().items() if key in _OF_VOLUMES}
+    of_volumes = {key: value for key, value in o.for_images.items() if key in _OF_VOLUMES}
     refuse(of_volumes, "is for volumes, but the input is a list of points")
     run.stats |= unit_stats(o.pixel_size)
     with reading(given.path):
@@ -108,7 +107,7 @@ _OF_VOLUMES = frozenset({"seeds", "connectivity", "threshold", "invert", "min-ar
 """Options that images and volumes have, and points have not."""
 
 
-def _frame_of(o: TessellationOptions, seeds: VolumeSeeds) -> VoxelFrame | None:
+def _frame_of(o: Options, seeds: VolumeSeeds) -> VoxelFrame | None:
     if o.window is not None:
         return VoxelFrame(*o.window)
     if o.size is not None:
@@ -118,7 +117,7 @@ def _frame_of(o: TessellationOptions, seeds: VolumeSeeds) -> VoxelFrame | None:
     return default_voxel_frame(seeds, how="give one with --size WxHxD or --window X,Y,Z,W,H,D")
 
 
-def _is_volume(o: TessellationOptions, path: str) -> bool:
+def _is_volume(o: Options, path: str) -> bool:
     """Whether an input is a stack, not points: by what is said, else by how it begins, of streams by other options."""
     if o.input_format is not None:
         kind = VOLUME_NAMES.get(o.input_format.lower())
@@ -135,7 +134,7 @@ def _is_volume(o: TessellationOptions, path: str) -> bool:
     return head.startswith(_TIFF_HEADS) or (head == MAGIC and o.columns is None)
 
 
-def _foreground(run: Run, o: TessellationOptions, source: VolumeSource) -> tuple[float | None, bool]:
+def _foreground(run: Run, o: Options, source: VolumeSource) -> tuple[float | None, bool]:
     """Give the threshold, which is in the statistics, and whether foreground is what is not above it."""
     threshold, invert = o.threshold, o.invert
     if threshold == "otsu":
@@ -155,7 +154,7 @@ def _slices_at_a_time(source: VolumeSource) -> int:
 
 
 # ---- sides of voxels
-def with_voxel_sides(run: Run, o: TessellationOptions, given: JobInput, grid: VoxelGrid | None) -> TessellationOptions:
+def with_voxel_sides(run: Run, o: Options, given: JobInput, grid: VoxelGrid | None) -> Options:
     """Give options with the sides of voxels: as the user says, or what the file says where that is asked for."""
     asked = o.pixel_size
     if asked is None:

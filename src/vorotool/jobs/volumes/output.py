@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from vorotool.engines.tessellation.bands import Band
 from vorotool.errors import LimitError
-from vorotool.jobs.options import AUTO_LEVELS, TessellationOptions
+from vorotool.jobs.options import AUTO_LEVELS, Options
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.streamed_output import expected_bytes, write_on_cluster
 from vorotool.jobs.targets import Target
@@ -46,7 +46,7 @@ class VolumeStream:
         )
 
 
-def check_volume_chunks(o: TessellationOptions, frame: VoxelFrame, dtype: np.dtype[Any]) -> tuple[int, int, int]:
+def check_volume_chunks(o: Options, frame: VoxelFrame, dtype: np.dtype[Any]) -> tuple[int, int, int]:
     """Choose slices, rows and columns of the chunks of a store."""
     from vorotool.formats.zarr.arrays import zarr_module
     from vorotool.formats.zarr.volumes import volume_chunks
@@ -61,7 +61,7 @@ def check_volume_chunks(o: TessellationOptions, frame: VoxelFrame, dtype: np.dty
     return chunks
 
 
-def write_volume_file(out: Any, o: TessellationOptions, target: Target, stream: VolumeStream) -> None:
+def write_volume_file(out: Any, o: Options, target: Target, stream: VolumeStream) -> None:
     """Write a volume to a file that is open, if there is room for it."""
     from vorotool.formats.io.disk_space import check_space
 
@@ -80,9 +80,7 @@ def write_volume_file(out: Any, o: TessellationOptions, target: Target, stream: 
     stream.write(out, fmt, slabs, frame.depth, threads=o.threads)
 
 
-def write_volume_store(
-    run: Run, o: TessellationOptions, target: Target, stream: VolumeStream, inputs: Sequence[str]
-) -> None:
+def write_volume_store(run: Run, o: Options, target: Target, stream: VolumeStream, inputs: Sequence[str]) -> None:
     """Write a volume to a Zarr store, if there is room for it: here, or on a cluster."""
     from vorotool.formats.io.disk_space import check_space
     from vorotool.formats.zarr.store import open_store

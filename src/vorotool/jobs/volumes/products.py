@@ -22,7 +22,7 @@ from vorotool.engines.volumes.volume_tessellator import VolumeSweep
 from vorotool.errors import LimitError
 from vorotool.jobs.checked_columns import check_columns
 from vorotool.jobs.inputs import JobInput
-from vorotool.jobs.options import TessellationOptions
+from vorotool.jobs.options import Options
 from vorotool.jobs.picture_world import world_of
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
@@ -43,7 +43,7 @@ if TYPE_CHECKING:
 _TABLES = ("table", "neighbors")
 
 
-def products(run: Run, o: TessellationOptions, given: JobInput) -> VolumeProducts:
+def products(run: Run, o: Options, given: JobInput) -> VolumeProducts:
     """Read points or a volume, and prepare what labels any slices."""
     with run.phase("read"):
         o, read = read_volume_seeds(run, o, given)
@@ -68,7 +68,7 @@ class VolumeProducts:
     """Results of one tessellation."""
 
     def __init__(
-        self, run: Run, options: TessellationOptions, read: ReadVolume, sweep: VolumeSweep, *, has_page: bool = False
+        self, run: Run, options: Options, read: ReadVolume, sweep: VolumeSweep, *, has_page: bool = False
     ) -> None:
         self.run, self.options, self.read, self.sweep = run, options, read, sweep
         self._is_held = has_page or "color" in options.what
