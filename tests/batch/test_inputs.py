@@ -8,7 +8,8 @@ import sys
 import pytest
 
 from vorotool import InputError, UsageError
-from vorotool.batch.inputs import Input, expand_inputs, is_several, read_names
+from vorotool.batch.inputs import Input, expand_inputs, read_names
+from vorotool.jobs.inputs import is_several
 
 
 @pytest.fixture

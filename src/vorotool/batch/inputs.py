@@ -13,7 +13,7 @@ from vorotool.batch.search import LeftOut, Search
 from vorotool.errors import InputError, UsageError
 from vorotool.formats.io.descriptors import stream_kind
 from vorotool.formats.io.layer_names import file_of, output_name
-from vorotool.formats.zarr.store import is_folder, is_store
+from vorotool.jobs.inputs import is_pattern, is_searched
 from vorotool.plain import plain
 
 RECORD_ENDING = ".manifest.jsonl"
@@ -51,11 +51,6 @@ def pages_of(inputs: Iterable[Input]) -> list[Input]:
     return found
 
 
-def is_several(name: str) -> bool:
-    """Whether a name given as an input stands for several: a folder, or a pattern that no file has for a name."""
-    return name not in ("", STANDARD_INPUT) and (_is_pattern(name) or _is_folder(Path(name)))
-
-
 def expand_inputs(
     names: Iterable[str],
     *,
@@ -69,9 +64,9 @@ def expand_inputs(
     excluded = None if without is None else os.path.realpath(without)
     search = Search(LeftOut(), follow, excluded)
     for name in names:
-        if _is_pattern(name):
+        if is_pattern(name):
             found += _matching(name, search)
-        elif name and _is_folder(Path(name)):
+        elif name and is_searched(name):
             found += _inside(name, frozenset(extensions), search)
         else:
             _check_file(name)
@@ -111,19 +106,11 @@ def read_names(path: str, *, null: bool = False) -> list[str]:
     return [os.fsdecode(name) for name in names if name]
 
 
-def _is_pattern(name: str) -> bool:
-    return glob.has_magic(name) and not os.path.lexists(file_of(name))
-
-
-def _is_folder(path: Path) -> bool:
-    return is_folder(path) and not is_store(path) and path.suffix.lower() != ".zarr"
-
-
 def _matching(pattern: str, search: Search) -> list[Input]:
     """Files that match, named below the folder that the pattern begins with."""
     parts = Path(pattern).parts
     fixed = Path(*parts[: next(i for i, part in enumerate(parts) if glob.has_magic(part))])
-    files = search.left_out.files(path for path in search.matches(pattern) if not _is_folder(path))
+    files = search.left_out.files(path for path in search.matches(pattern) if not is_searched(path))
     if not files:
         raise InputError(
             f"no file matches {pattern}{search.left_out.reasons()}; check the pattern, or name a folder for what is in "

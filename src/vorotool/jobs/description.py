@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.batch.inputs import expand_inputs, is_several
+from vorotool.batch.inputs import expand_inputs
 from vorotool.convert.sites import Sites
 from vorotool.engines.tessellation.raster_objects import default_objects, foreground_values, numbered_components
 from vorotool.errors import BatchError, InputError, Message, UsageError, VorotoolError
@@ -23,7 +23,7 @@ from vorotool.formats.volumes.npy_volume import NpyVolume
 from vorotool.formats.volumes.opening import open_volume
 from vorotool.formats.volumes.tiff_stack import TiffStack
 from vorotool.formats.volumes.zarr_volume import ZarrVolume
-from vorotool.jobs.inputs import check_streams, refuse
+from vorotool.jobs.inputs import check_streams, is_several, refuse
 from vorotool.jobs.options import Options
 from vorotool.jobs.terminal import escaped, tell
 from vorotool.numeric.crs import crs_name
@@ -55,7 +55,7 @@ def describe_inputs(options: Options) -> None:
     """Print how each input is read; of several, one that cannot be read ends nothing."""
     names = _named_by(options)
     if not names:
-        raise UsageError("0 inputs are given: name files, a folder, or - for standard input")
+        raise UsageError("no input given: name a file, a folder, or - for standard input")
     check_streams(("the input", name) for name in names)
     failed = 0
     for name in names:

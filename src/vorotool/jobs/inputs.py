@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import glob
+import os
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from vorotool.errors import InputError, Kind, Message, UsageError
-from vorotool.formats.io.descriptors import input_identity
+from vorotool.formats.io.descriptors import STANDARD, input_identity
 from vorotool.formats.io.layer_names import file_of
+from vorotool.formats.zarr.store import is_folder, is_store
 from vorotool.jobs.masks import settled_foreground
 from vorotool.jobs.options import Options, changed
 from vorotool.jobs.run_log import Run
@@ -147,6 +150,28 @@ def check_streams(named: Iterable[tuple[str, str]]) -> None:
                 "the two"
             )
         readers[identity] = f"{reader} {name}"
+
+
+def is_several(name: str) -> bool:
+    """Return whether a name stands for several inputs: a folder, or a pattern that no file has for a name."""
+    return name not in ("", STANDARD) and (is_pattern(name) or is_searched(name))
+
+
+def is_pattern(name: str) -> bool:
+    """Return whether a name is a pattern, and no file has it."""
+    return glob.has_magic(name) and not os.path.lexists(file_of(name))
+
+
+def is_searched(path: str | os.PathLike[str]) -> bool:
+    """Return whether a path is a folder of inputs: a Zarr store is one input."""
+    return is_folder(path) and not is_store(path) and not os.fspath(path).lower().rstrip("/").endswith(".zarr")
+
+
+def refuse_several(named: Mapping[str, str]) -> None:
+    """Refuse folders and patterns where two files are compared."""
+    for name, path in named.items():
+        if is_several(path):
+            raise UsageError(f"{name} {path} stands for several files, but two are compared: name one file each")
 
 
 def check_components(o: Options) -> None:

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import vorotool
-from vorotool.cli.batch.progress_bar import progress_bar
+from vorotool.cli.run import progress_bar
 from vorotool.jobs.run_log import Run
 
 PACKAGE = Path(vorotool.__file__).parent

@@ -244,7 +244,7 @@ def test_one_that_cannot_be_read_ends_nothing(run, folder):
 @pytest.mark.parametrize(
     ("arguments", "code", "words"),
     [
-        ("", 2, "0 inputs are given: name files, a folder, or - for standard input"),
+        ("", 2, "no input given: name a file, a folder, or - for standard input"),
         ("none.csv", 3, "none.csv"),
         ("empty.png", 3, "empty.png"),
         ("text.png", 3, "text.png"),

@@ -11,19 +11,18 @@ from vorotool.batch.inputs import Input
 from vorotool.batch.plan import share
 from vorotool.batch.tables import part_path
 from vorotool.cli.batch.plan import JointTable, folder_of_parts, joint_table, named_for_shard
-from vorotool.cli.batch.progress_bar import progress_bar
 from vorotool.errors import UsageError
 from vorotool.formats.io.atomic_output import check_output, is_same_file, spoken
 from vorotool.formats.io.descriptors import STANDARD, descriptor_of, is_same_output
 from vorotool.jobs.job import Recipe, process_input
 from vorotool.jobs.options import Options, changed
-from vorotool.jobs.run_log import Run
+from vorotool.jobs.run_log import MakeBar, Run
 from vorotool.jobs.targets import Target, check_stats, plan_targets
 from vorotool.jobs.terminal import print_text, tell
 from vorotool.jobs.units import check_units, lengths_in_pixels
 
 
-def run_one(recipe: Recipe, o: Options) -> None:
+def run_one(recipe: Recipe, o: Options, *, has_what: bool, bar: MakeBar) -> None:
     """Process one input as a batch would, in this process; its outputs may be files that `-o` names."""
     (source,) = o.inputs
     if o.null:
@@ -31,7 +30,7 @@ def run_one(recipe: Recipe, o: Options) -> None:
     if o.resume:
         raise UsageError("--resume needs --out-dir DIR, where it is recorded what was done, and a file as its input")
     o, notes = named_for_shard(o)
-    table = joint_table(recipe, o)
+    table = joint_table(recipe, o, has_what=has_what)
     targets = _targets(recipe, o, source, has_table=table is not None)
     check_stats(o, targets, source)
     if table is not None:
@@ -45,7 +44,7 @@ def run_one(recipe: Recipe, o: Options) -> None:
     if o.shard is not None and not share([Input(source, Path(source).name)], *o.shard):
         notes = [f"{source} is in part 1 of {o.shard[1]}: nothing is done for part {o.shard[0]}"]
     elif not o.dry_run:
-        _process(recipe, o, source, targets, table, notes)
+        _process(recipe, o, source, targets, table, notes, bar)
         return
     else:
         outputs = list(dict.fromkeys(target.path for target in targets))
@@ -85,6 +84,7 @@ def _process(
     targets: Sequence[Target],
     table: JointTable | None,
     notes: Sequence[str],
+    bar: MakeBar,
 ) -> None:
     with ExitStack() as stack:
         planned = list(targets)
@@ -92,7 +92,7 @@ def _process(
             folder = folder_of_parts(recipe.name, changed(o, out_dir=None), table, stack)
             planned.append(table.target(part_path(folder, source, table.fmt)))
         run = stack.enter_context(
-            Run(recipe.name, quiet=o.quiet, verbose=o.verbose, stats=o.stats, no_clobber=o.no_clobber, bar=progress_bar)
+            Run(recipe.name, quiet=o.quiet, verbose=o.verbose, stats=o.stats, no_clobber=o.no_clobber, bar=bar)
         )
         for text in notes:
             run.note(text)

@@ -11,20 +11,17 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-import click
-from click.core import ParameterSource
-
-from vorotool.batch.inputs import RECORD_ENDING, Input, expand_inputs, is_several, pages_of, read_names
+from vorotool.batch.inputs import RECORD_ENDING, Input, expand_inputs, pages_of, read_names
 from vorotool.batch.manifest import History, Manifest, digest_of_values, read_history
 from vorotool.batch.name_fields import NameFields
 from vorotool.batch.plan import check_outputs, output_paths, share
 from vorotool.batch.tables import TABLE_FORMATS
 from vorotool.batch.tasks import Task, digest_of
-from vorotool.cli.options.shared import BATCH_OPTIONS
 from vorotool.errors import OutputError, UsageError
 from vorotool.formats.io.atomic_output import spoken
 from vorotool.formats.io.descriptors import STANDARD, descriptor_of, is_same_output, stream_kind
 from vorotool.formats.io.temporaries import new_folder, temporary_beside
+from vorotool.jobs.inputs import is_several
 from vorotool.jobs.job import Recipe
 from vorotool.jobs.options import ALL_PAGES, Options, changed
 from vorotool.jobs.targets import Target, plan_targets
@@ -33,7 +30,8 @@ from vorotool.plain import plain
 from vorotool.products.formats import EXTENSIONS
 
 WITHOUT_EFFECT = frozenset(
-    {"inputs", "output", "out_dir", "threads", "quiet", "verbose", "stats", "no_clobber", "overwrite", *BATCH_OPTIONS}
+    "inputs output out_dir threads quiet verbose stats no_clobber overwrite files_from null jobs keep_going dry_run "
+    "resume shard follow table table_inputs fields cluster".split()
 )
 """Options that change no byte of an output."""
 
@@ -74,11 +72,11 @@ class Plan:
     notes: list[str]  # what is said before the work begins
 
 
-def plan_batch(recipe: Recipe, o: Options) -> Plan:
+def plan_batch(recipe: Recipe, o: Options, *, has_what: bool) -> Plan:
     """Lay out a batch; nothing is written."""
     _check_options(o)
     o, notes = named_for_shard(o)
-    table = joint_table(recipe, o)
+    table = joint_table(recipe, o, has_what=has_what)
     if o.out_dir is None:
         o = changed(o, what=())
     targets = [] if o.out_dir is None else plan_targets(
@@ -153,18 +151,17 @@ def name_of_part(path: str, part: int, parts: int) -> str:
     return str(name.with_name(f"{name.stem}.{mark}{name.suffix}"))
 
 
-def _collected(recipe: Recipe, o: Options, fmt: str) -> str:
+def _collected(recipe: Recipe, o: Options, fmt: str, *, has_what: bool) -> str:
     """Return the result whose rows are collected: one of --what, if that is a table, else `table`."""
-    is_given = click.get_current_context().get_parameter_source("what") != ParameterSource.DEFAULT
     has_outputs = o.out_dir is not None or o.output is not None
-    if not is_given or "table" in o.what:
+    if not has_what or "table" in o.what:
         chosen = ["table"]
     elif has_outputs:  # what has geometry is written by itself
         tables = [what for what in o.what if "csv" in recipe.formats[what] and "geojson" not in recipe.formats[what]]
         chosen = tables or ["table"]
     else:
         chosen = list(o.what)
-    if (is_given and not has_outputs and len(o.what) > 1) or len(chosen) > 1:
+    if (has_what and not has_outputs and len(o.what) > 1) or len(chosen) > 1:
         raise UsageError(
             f"--what {','.join(o.what)}: --table collects the rows of one result; other results need -o FILE or "
             "--out-dir DIR"
@@ -180,7 +177,7 @@ _NO_ROWS = frozenset(["skeleton", "diagram", "offset", "parts", "cells"])
 """Results whose JSON is not a list of rows."""
 
 
-def joint_table(recipe: Recipe, o: Options) -> JointTable | None:
+def joint_table(recipe: Recipe, o: Options, *, has_what: bool) -> JointTable | None:
     """Return the table of all inputs; its format is what its name says, unless there is no other output for -f."""
     fields = NameFields.of(o.fields)
     path, inputs = o.table, o.table_inputs
@@ -199,7 +196,9 @@ def joint_table(recipe: Recipe, o: Options) -> JointTable | None:
         fmt = _table_format("--table", path)
     if fmt not in TABLE_FORMATS:
         raise _no_table("--table", path or "")
-    return JointTable(path, fmt, _collected(recipe, o, fmt), fields, rows_of_inputs, o.safe_csv, o.unit is not None)
+    return JointTable(
+        path, fmt, _collected(recipe, o, fmt, has_what=has_what), fields, rows_of_inputs, o.safe_csv, o.unit is not None
+    )
 
 
 def _table_format(option: str, path: str) -> str:
@@ -276,6 +275,6 @@ def _inputs(recipe: Recipe, o: Options, note: Callable[[str], None]) -> list[Inp
         advice = "name files, folders, or a list of them with --files-from"
         if o.files_from is not None:
             advice = f"--files-from {o.files_from} holds no names; write one on each line"
-        raise UsageError(f"0 inputs are given: {advice}")
+        raise UsageError(f"no input given: {advice}")
     found = expand_inputs(names, extensions=known, without=o.out_dir, follow=o.follow, note=note)
     return pages_of(found) if o.page == ALL_PAGES else found

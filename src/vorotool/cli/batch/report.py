@@ -10,9 +10,8 @@ from types import TracebackType
 from typing import Any
 
 from vorotool.batch.tasks import Outcome, Task
-from vorotool.cli.batch.progress_bar import progress_bar
 from vorotool.errors import BatchError, Message
-from vorotool.jobs.run_log import Run
+from vorotool.jobs.run_log import MakeBar, Run
 from vorotool.jobs.terminal import print_text, tell
 from vorotool.numeric.progress import Progress
 
@@ -23,8 +22,8 @@ NO_COUNTS = frozenset({"threads", "passes", "steps_per_pixel", "largest_label"})
 class Report:
     """Tells what becomes of each input: a bar on a terminal, else a line an input, unless the run is quiet."""
 
-    def __init__(self, run: Run, total: int, *, quiet: bool) -> None:
-        self._run, self._total, self._quiet = run, total, quiet
+    def __init__(self, run: Run, total: int, bar: MakeBar | None) -> None:
+        self._run, self._total, self._bar = run, total, bar
         self._stack = ExitStack()
         self._progress: Progress = None
         self._counts: Counter[str] = Counter()
@@ -33,8 +32,8 @@ class Report:
 
     def __enter__(self) -> Report:
         """Show the bar."""
-        if not self._quiet and sys.stderr.isatty():
-            self._progress = self._stack.enter_context(progress_bar())
+        if self._bar is not None and sys.stderr.isatty():
+            self._progress = self._stack.enter_context(self._bar(""))
         return self
 
     def __exit__(
@@ -56,7 +55,7 @@ class Report:
             tell(f"error: {_named(task.source, Message.of(outcome.message))}")
         if self._progress is not None:
             self._progress(self._counts.total() / self._total)
-        elif not self._quiet:
+        elif self._bar is not None:
             tell(f"{self._counts.total()}/{self._total} {task.source}: {status}")
         for name, seconds in outcome.seconds.items():
             self._run.seconds[name] = self._run.seconds.get(name, 0.0) + seconds

@@ -17,7 +17,6 @@ from vorotool.batch.run import Results, run_batch
 from vorotool.batch.tables import join_tables, part_path, row_count, write_inputs
 from vorotool.batch.tasks import Outcome, Process, Task, digest_of, is_done
 from vorotool.cli.batch.plan import JointTable, Plan, folder_of_parts, plan_batch
-from vorotool.cli.batch.progress_bar import progress_bar
 from vorotool.cli.batch.report import Report
 from vorotool.errors import InputError, Message
 from vorotool.formats.io.atomic_output import check_output, open_output
@@ -25,7 +24,7 @@ from vorotool.formats.io.commit import committed_together
 from vorotool.jobs.failures import explained
 from vorotool.jobs.job import Recipe, process_input
 from vorotool.jobs.options import ALL_PAGES, Options, changed
-from vorotool.jobs.run_log import Run
+from vorotool.jobs.run_log import MakeBar, Run
 from vorotool.jobs.targets import Target
 from vorotool.jobs.terminal import print_text, tell
 from vorotool.jobs.units import unit_stats
@@ -50,9 +49,9 @@ def process_one(
     return Outcome(code, message, tuple(run.warnings), tuple(run.notes), run.stats, run.seconds)
 
 
-def run_many(recipe: Recipe, o: Options) -> None:
+def run_many(recipe: Recipe, o: Options, *, has_what: bool, bar: MakeBar) -> None:
     """Process many inputs."""
-    plan = plan_batch(recipe, o)
+    plan = plan_batch(recipe, o, has_what=has_what)
     o = plan.options
     if o.dry_run:
         _print_plan(plan)
@@ -68,11 +67,11 @@ def run_many(recipe: Recipe, o: Options) -> None:
             tasks = [_with_part(task, folder, plan.table.fmt) for task in tasks]
         _check_records(plan, tasks)
         run = stack.enter_context(
-            Run(recipe.name, quiet=o.quiet, verbose=o.verbose, stats=o.stats, no_clobber=o.no_clobber, bar=progress_bar)
+            Run(recipe.name, quiet=o.quiet, verbose=o.verbose, stats=o.stats, no_clobber=o.no_clobber, bar=bar)
         )
         for text in plan.notes:
             run.note(text)
-        with Report(run, len(tasks), quiet=o.quiet) as report:
+        with Report(run, len(tasks), None if o.quiet else bar) as report:
             outcomes = run_batch(
                 recipe.name,
                 tasks,

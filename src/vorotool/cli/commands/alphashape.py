@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vorotool.cli.batch.dispatch import run_command
 from vorotool.cli.options.areas import Area
 from vorotool.cli.options.columns import accumulated
 from vorotool.cli.options.groups import site_options
@@ -21,6 +20,7 @@ from vorotool.cli.options.shared import (
     inputs_argument,
     output_options,
 )
+from vorotool.cli.run import run_command
 from vorotool.errors import UsageError
 from vorotool.jobs.animations import animated, check_animation
 from vorotool.jobs.inputs import JobInput, check_components, check_frame_options

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vorotool.cli.batch.dispatch import run_command
 from vorotool.cli.options.groups import site_options
 from vorotool.cli.options.help_page import GroupedCommand
 from vorotool.cli.options.pixel_size import spacing_option
@@ -17,6 +16,7 @@ from vorotool.cli.options.shared import (
     what_option,
 )
 from vorotool.cli.options.suggestions import files
+from vorotool.cli.run import run_command
 from vorotool.errors import UsageError
 from vorotool.jobs.inputs import JobInput, check_components, check_frame_options
 from vorotool.jobs.job import Recipe

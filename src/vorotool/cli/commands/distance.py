@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vorotool.cli.batch.dispatch import refuse_several, run_command
 from vorotool.cli.options.help_page import GroupedCommand
 from vorotool.cli.options.picture_style import page_option, picture_style_options
 from vorotool.cli.options.shared import layers_option, output_options, shared, what_option
 from vorotool.cli.options.suggestions import files
-from vorotool.jobs.inputs import JobInput
+from vorotool.cli.run import run_command
+from vorotool.jobs.inputs import JobInput, refuse_several
 from vorotool.jobs.job import Recipe
 from vorotool.jobs.options import Options
 from vorotool.jobs.run_log import Run

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vorotool.cli.batch.dispatch import run_command
 from vorotool.cli.options.help_page import GroupedCommand
 from vorotool.cli.options.picture_style import page_option, picture_style_options
 from vorotool.cli.options.pixel_size import drawn_pixel_size_option
 from vorotool.cli.options.shared import batch_options, inputs_argument, layers_option, output_options, shared
+from vorotool.cli.run import run_command
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.job import Recipe
 from vorotool.jobs.options import Options

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vorotool.cli.batch.dispatch import run_command
 from vorotool.cli.options.help_page import GroupedCommand
 from vorotool.cli.options.lengths import Length
 from vorotool.cli.options.skeleton import skeleton_options
+from vorotool.cli.run import run_command
 from vorotool.errors import UsageError
 from vorotool.jobs.animations import animated
 from vorotool.jobs.inputs import JobInput

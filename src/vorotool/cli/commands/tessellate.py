@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vorotool.cli.batch.dispatch import run_command
 from vorotool.cli.options.groups import site_options
 from vorotool.cli.options.help_page import GroupedCommand
 from vorotool.cli.options.lengths import ExactLength
@@ -20,6 +19,7 @@ from vorotool.cli.options.shared import (
 )
 from vorotool.cli.options.suggestions import files
 from vorotool.cli.options.volumes import VolumeSize, volume_options
+from vorotool.cli.run import run_command
 from vorotool.errors import UsageError
 from vorotool.jobs.animations import animated, check_animation
 from vorotool.jobs.inputs import JobInput, check_components, check_frame_options, refuse

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vorotool.cli.batch.dispatch import run_command
 from vorotool.cli.options.groups import result_options
 from vorotool.cli.options.help_page import GroupedCommand
 from vorotool.cli.options.lengths import Length
@@ -14,6 +13,7 @@ from vorotool.cli.options.pixel_size import spacing_option
 from vorotool.cli.options.shapes import frame_option, shape_options
 from vorotool.cli.options.shared import inputs_argument, output_options, what_option
 from vorotool.cli.options.suggestions import files
+from vorotool.cli.run import run_command
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.job import Recipe
 from vorotool.jobs.options import Options

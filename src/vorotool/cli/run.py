@@ -1,0 +1,90 @@
+"""Run a command: one input in this process, several as a batch."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Collection, Iterator
+from contextlib import contextmanager
+
+import click
+from click.core import ParameterSource
+
+from vorotool.errors import UsageError
+from vorotool.formats.io.commit import committed_together
+from vorotool.formats.io.descriptors import stream_kind
+from vorotool.jobs.inputs import check_streams, is_several
+from vorotool.jobs.job import Recipe, process_input
+from vorotool.jobs.options import ALL_PAGES, Options, changed
+from vorotool.jobs.run_log import Run
+from vorotool.jobs.targets import check_stats, plan_targets
+from vorotool.jobs.units import check_units, lengths_in_pixels, with_spacing
+from vorotool.numeric.progress import Report
+
+STEPS = 1000
+"""Steps of a progress bar."""
+
+
+def run_command(recipe: Recipe, o: Options) -> None:
+    """Do what a command line asks for."""
+    source = click.get_current_context().get_parameter_source
+    from_environment = [name for name in ("jobs", "cluster") if source(name) == ParameterSource.ENVIRONMENT]
+    check_streams([*(("the input", name) for name in o.inputs), *o.files_read().items()])
+    o = with_spacing(_workers_chosen(o, from_environment))
+    is_many = _is_batch(o)
+    if is_many or (o.inputs and o.is_shared):
+        has_what = source("what") != ParameterSource.DEFAULT
+        if is_many:
+            from vorotool.cli.batch.run_many import run_many
+
+            run_many(recipe, o, has_what=has_what, bar=progress_bar)
+        else:
+            from vorotool.cli.batch.one_input import run_one
+
+            run_one(recipe, o, has_what=has_what, bar=progress_bar)
+        return
+    if not o.inputs:
+        raise UsageError("no input given: name a file, a folder, or - for standard input")
+    (path,) = o.inputs
+    targets = plan_targets(recipe.formats, o.what, output=o.output, fmt=o.format, out_dir=o.out_dir, source=path)
+    check_stats(o, targets, path)
+    if o.cluster is not None and any(target.fmt != "zarr" for target in targets):
+        raise UsageError("--cluster with -o writes a Zarr store: name it .zarr, or a folder with --out-dir")
+    check_units(o, targets)
+    o = lengths_in_pixels(o, o.unit)
+    recipe.check(o, targets)
+    with (
+        committed_together(),  # the statistics, too
+        Run(
+            recipe.name, quiet=o.quiet, verbose=o.verbose, stats=o.stats, no_clobber=o.no_clobber, bar=progress_bar
+        ) as run,
+    ):
+        process_input(recipe, run, o, path, targets)
+
+
+@contextmanager
+def progress_bar(label: str = "") -> Iterator[Report]:
+    """Show a bar on standard error; yield the function that sets the fraction done."""
+    with click.progressbar(length=STEPS, label=label, file=sys.stderr) as bar:
+        yield lambda fraction: bar.update(int(STEPS * fraction) - bar.pos)
+
+
+def _workers_chosen(o: Options, from_environment: Collection[str]) -> Options:
+    """Drop workers of the environment where one input needs none, or the command line names others."""
+    typed = changed(o, **dict.fromkeys(from_environment))
+    if not _is_batch(typed):
+        return typed
+    if typed.jobs is not None and "cluster" in from_environment:
+        return changed(o, cluster=None)
+    if o.cluster is not None and "jobs" in from_environment:
+        return changed(o, jobs=None)
+    return o
+
+
+def _is_batch(o: Options) -> bool:
+    """Return whether there are several inputs, or one whose outputs and record are in a folder."""
+    if len(o.inputs) > 1 or any(map(is_several, o.inputs)) or o.files_from is not None or o.page == ALL_PAGES:
+        return True
+    if o.output is not None or not o.inputs or stream_kind(o.inputs[0]) is not None:
+        return False
+    has_folder = o.out_dir is not None and (o.is_shared or o.keep_going or o.jobs is not None)
+    return has_folder or o.cluster is not None
