@@ -30,8 +30,11 @@ from vorotool.plain import plain
 from vorotool.products.formats import EXTENSIONS
 
 WITHOUT_EFFECT = frozenset(
-    "inputs output out_dir threads quiet verbose stats no_clobber overwrite files_from null jobs keep_going dry_run "
-    "resume shard follow table table_inputs fields cluster".split()
+    (
+        *("inputs", "output", "out_dir", "threads", "quiet", "verbose", "stats", "no_clobber", "overwrite"),
+        *("files_from", "null", "jobs", "keep_going", "dry_run", "resume", "shard", "follow", "cluster"),
+        *("table", "table_inputs", "fields"),
+    )
 )
 """Options that change no byte of an output."""
 
