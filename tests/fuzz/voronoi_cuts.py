@@ -19,7 +19,7 @@ import shapely
 sys.path.insert(0, str(Path(__file__).parents[1]))
 from fuzz.runner import Cases, options
 from support.families.cut_scenes import lattice_clip, lattice_lines, lattice_sites
-from support.oracles.cut_oracle import assert_nearest_in_regions, regions_of_lines
+from support.oracles.cut_oracle import assert_nearest_in_regions, meets_itself, regions_of_lines
 from vorotool import VoronoiMap, VorotoolError, verify_voronoi, voronoi
 
 LATTICES = (4, 8, 1000)
@@ -39,16 +39,6 @@ def check_shared(cells: VoronoiMap) -> None:
         total = shapely.area(shapes).sum()
         assert abs(shapely.union_all(shapes).area - total) <= 1e-9 * total
         assert shapely.coverage_is_valid(shapes) or meets_itself(shapes)
-
-
-def meets_itself(shapes: np.ndarray) -> bool:
-    """Whether a hole meets its shell: GEOS looks at rings one by one, and takes what is beside both for overlapping."""
-    parts = shapely.get_parts(shapes)
-    return any(
-        set(map(tuple, part.exterior.coords)) & set(map(tuple, hole.coords))
-        for part in parts
-        for hole in part.interiors
-    )
 
 
 def check(kind: str, side: int, limit: float | None, random: np.random.Generator, seed: list[int]) -> int:

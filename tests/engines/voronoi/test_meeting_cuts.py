@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import shapely
 from tests.support.families.meeting_cuts import meeting_scene
-from tests.support.oracles.cut_oracle import assert_nearest_in_regions
+from tests.support.oracles.cut_oracle import assert_nearest_in_regions, faces_between, meets_itself
 from tests.support.oracles.meeting_regions import areas_of_points, regions_of_cuts
 
 from support.few import few
@@ -66,4 +66,72 @@ def test_a_site_where_parts_of_a_clip_touch_is_in_both():
     lines = [shapely.LineString([(0, 1), (2, 1)])]
     cells = voronoi([shapely.Point(2, 2), shapely.Point(1, 0)], clip=clip, enclosures=lines)
     assert cells.areas.tolist() == [6, 2]
+    verify_voronoi(cells)
+
+
+# ---- limits that touch each other on a cut --------------------------------------------------------------
+def blocks(mask):
+    """Unit squares, those of one number as one site."""
+    squares = {}
+    for y, x in np.argwhere(mask).tolist():
+        squares.setdefault(mask[y, x], []).append(shapely.box(x, y, x + 1, y + 1))
+    return [shapely.union_all(own) for own in squares.values()]
+
+
+def assert_within_faces(sites, lines, frame, limit):
+    """Cells cover the buffers of the sites that have an area in each face, overlap nowhere, and are right."""
+    cells = voronoi(sites, enclosures=lines, frame=frame, max_distance=limit)
+    verify_voronoi(cells, places=50)
+    x, y, w, h = frame
+    near = shapely.buffer(sites, limit, quad_segs=1024)
+    area = 0
+    for face in faces_between(lines, shapely.box(x, y, x + w, y + h)):
+        own = shapely.area(shapely.intersection(sites, face)) > 1e-9
+        area += shapely.intersection(face, shapely.union_all(near[own])).area
+    assert cells.areas.sum() == pytest.approx(area, rel=1e-5, abs=1e-6)
+    shapes = cells.to_shapely(flatten=1e-3)
+    assert shapely.coverage_is_valid(shapes) or meets_itself(shapes)
+    assert shapely.union_all(shapes).area == pytest.approx(shapely.area(shapes).sum(), rel=1e-9)
+
+
+TOUCHING = [
+    ([[0, 1], [0, 0], [1, 0]], 0.5, []),  # corners above each other, the touch on the frame's left side
+    ([[1], [0], [1]], 0.5, [[(0, 2.5), (1, 0.5)]]),  # sides, across the touch
+    ([[1], [0], [1]], 0.5, [[(1, 0), (1, 3)]]),  # sides, at the end of the touch
+    ([[0, 1], [0, 0], [1, 0]], 0.5, [[(0, 3), (2, 0)]]),
+    ([[1, 0, 2]], 0.5, [[(1, 1), (3, 0)]]),
+    ([[0, 1], [0, 0], [0, 0], [1, 0]], 1, [[(0, 0.5), (2, 3.5)]]),
+]
+"""Blocks, the limit at which they touch, and lines across the touch."""
+
+
+@pytest.mark.parametrize(("rows", "limit", "lines"), TOUCHING)
+def test_limits_that_touch_each_other_on_a_cut(rows, limit, lines):
+    sites = np.array(blocks(np.array(rows)))
+    lines = [shapely.LineString(line) for line in lines]
+    assert_within_faces(sites, lines, (-1, -1, 6, 6), limit)
+    verify_voronoi(voronoi(sites, enclosures=lines, frame=(1, 0, 1, 3), max_distance=limit))
+
+
+@pytest.mark.parametrize("seed", few(range(100), 8))
+def test_random_blocks_with_lines_across_where_their_limits_touch(seed):
+    random = np.random.default_rng(seed)
+    mask = random.choice([0, 0, 0, 1, 1 + (seed % 3 > 1)], random.integers(3, 7, 2))
+    mask[tuple(random.integers(0, 3, 2))] = 1
+    height, width = mask.shape
+    sites = np.array(blocks(mask))
+    corners = np.unique(shapely.get_coordinates(sites), axis=0)
+    a, b = corners[random.choice(len(corners), 2, replace=False)]
+    middle, limit = (a + b) / 2, float(np.hypot(*(b - a))) / 2
+    ways = random.choice([[1, 0], [0, 1], [1, 1], [1, -1], [1, 2], [3, -2]], 1 + seed % 2)
+    lines = [shapely.LineString([middle - 99 * way, middle + 99 * way]) for way in ways]
+    assert_within_faces(sites, lines, (-5, -5, width + 10, height + 10), limit)
+
+
+def test_a_site_that_only_touches_the_frame_may_have_a_face():
+    """The checker takes no other site for the nearest along the line, whose other side this one has."""
+    sites = [shapely.box(0.5, 0, 1.5, 1), shapely.box(2.5, -1, 3.5, 0)]
+    line = shapely.LineString([(1.5, 1.5), (3.5, -6.5)])
+    cells = voronoi(sites, enclosures=[line], frame=(1, 0, 2.5, 1), max_distance=1)
+    assert (cells.areas > 0).all()
     verify_voronoi(cells)

@@ -29,6 +29,16 @@ def assert_cut_coverage(cells, area):
         assert abs(shapely.area(shapes).sum() - area) <= slack
 
 
+def meets_itself(shapes):
+    """Whether a hole meets its shell: GEOS looks at rings one by one, and takes what is beside both for overlapping."""
+    parts = shapely.get_parts(shapes)
+    return any(
+        set(map(tuple, part.exterior.coords)) & set(map(tuple, hole.coords))
+        for part in parts
+        for hole in part.interiors
+    )
+
+
 def assert_nearest_in_regions(cells, sites, regions, *, seed=0, count=40):
     """At random places in each region the cell is of the first of the nearest of its sites; gives how many told."""
     random = np.random.default_rng(seed)

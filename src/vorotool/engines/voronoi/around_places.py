@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import VerificationError
+from vorotool.types.voronoi.voronoi_map import OUTSIDE
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -37,15 +38,27 @@ def order_around(tail: Indices, angle: Floats, left: Indices, right: Indices) ->
     starts = np.flatnonzero(np.diff(tail[sorting], prepend=-1))
     sizes = np.diff(starts, append=len(tail))
     order = np.empty(len(tail), dtype=np.int64)
-    order[sorting] = np.arange(len(tail))
     after = np.arange(1, len(tail) + 1)
     if len(starts):
         after[starts + sizes - 1] = starts
+    thin = _is_thin_inside(angle[sorting], left[sorting], right[sorting], after)
+    sorting[thin], sorting[after[thin]] = sorting[after[thin]], sorting[thin]
+    order[sorting] = np.arange(len(tail))
     agree = _agree(left[sorting], right[sorting][after])
     for k in np.unique(np.repeat(np.arange(len(starts)), sizes)[~agree]).tolist():
         own = sorting[starts[k] : starts[k] + sizes[k]]
         order[own] = starts[k] + _tried(own, angle, left, right)
     return order
+
+
+def _is_thin_inside(angle: Floats, left: Indices, right: Indices, after: Indices) -> Indices:
+    """List ends of limits with less than a right angle of their cell up to the next end: they come after that one."""
+    # A disc around a site touches each limit from inside, so that a cell has at least half a turn between two of them;
+    # where discs touch each other, limits leave in one direction, with what is beyond both between them.
+    turn = (angle[after] - angle) % 4
+    is_border = (left[:, 0] == right[:, 0]) & (left[:, 0] == left[after, 0]) & (left[after, 0] == right[after, 0])
+    is_inside = (right[:, 1] == OUTSIDE) & (left[:, 1] >= 0) & (right[after, 1] >= 0) & (left[after, 1] == OUTSIDE)
+    return np.flatnonzero(is_border & is_inside & (turn < 1))
 
 
 def _agree(left: Indices, right: Indices) -> NDArray[np.bool_]:
@@ -63,7 +76,9 @@ def _tried(own: Indices, angle: Floats, left: Indices, right: Indices) -> Indice
             turns = np.diff(angle[own[order]], append=angle[own[0]] + 4)
             turns = (turns + _NEAR) % 4 - _NEAR
             one = own[order]
-            if abs(turns.sum() - 4) < 1 and _agree(left[one], right[np.roll(one, -1)]).all():
+            after = np.roll(np.arange(count), -1)
+            is_thin = _is_thin_inside(angle[one], left[one], right[one], after).size > 0
+            if abs(turns.sum() - 4) < 1 and not is_thin and _agree(left[one], right[one][after]).all():
                 rank = np.empty(count, dtype=np.int64)
                 rank[order] = np.arange(count)
                 return rank

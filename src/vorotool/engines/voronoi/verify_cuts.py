@@ -90,20 +90,20 @@ class EnclosedFaces:
         return [site[row == k] for k in range(len(shapes))]
 
     def least(self, places: Floats) -> Floats:
-        """Of each place from the nearest of the sites that surely meet its face; infinity where there are none."""
+        """Of each place from the nearest of the sites that surely meet its face; infinity where none surely does."""
         import shapely
 
         points = shapely.points(places)
-        least = np.full(len(points), np.inf)
+        least = np.full(len(points), np.nan)
         place, face = self.tree.query(points, predicate="dwithin", distance=self.near)
         for each in np.unique(face).tolist():
             own = place[face == each]
             sites = self.sure[self.sure_of[each]]
-            if sites.size:
-                distance = shapely.distance(self.geometry[sites][:, None], points[own][None, :]).min(axis=0)
+            if sites.size or self.possible[self.possible_of[each]].size:
+                distance = shapely.distance(self.geometry[sites][:, None], points[own][None, :])
                 # a place on a line is in both faces: the farther one tells less
-                least[own] = np.where(np.isinf(least[own]), distance, np.maximum(least[own], distance))
-        return least
+                least[own] = np.fmax(least[own], distance.min(axis=0, initial=np.inf))
+        return np.where(np.isnan(least), np.inf, least)
 
     def may_have(self, places: Floats, rows: NDArray[np.int64]) -> NDArray[np.bool_]:
         """(k,) whether a site may meet the face of each place."""
