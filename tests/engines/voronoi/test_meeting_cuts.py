@@ -86,7 +86,7 @@ def assert_within_faces(sites, lines, frame, limit):
     near = shapely.buffer(sites, limit, quad_segs=1024)
     area = 0
     for face in faces_between(lines, shapely.box(x, y, x + w, y + h)):
-        own = shapely.area(shapely.intersection(sites, face)) > 1e-9
+        own = (shapely.area(shapely.intersection(sites, face)) > 1e-9) | (not lines)
         area += shapely.intersection(face, shapely.union_all(near[own])).area
     assert cells.areas.sum() == pytest.approx(area, rel=1e-5, abs=1e-6)
     shapes = cells.to_shapely(flatten=1e-3)
@@ -134,4 +134,31 @@ def test_a_site_that_only_touches_the_frame_may_have_a_face():
     line = shapely.LineString([(1.5, 1.5), (3.5, -6.5)])
     cells = voronoi(sites, enclosures=[line], frame=(1, 0, 2.5, 1), max_distance=1)
     assert (cells.areas > 0).all()
+    verify_voronoi(cells)
+
+
+@pytest.mark.parametrize("limit", [np.nextafter(0.5, 0), 0.5, np.nextafter(0.5, 1)])
+@pytest.mark.parametrize("frame", [(0.5, 0, 0.5, 3), (0, 0, 1, 4), (1, 0, 0.5, 3), (0.5, 0, 1, 3)])
+def test_limits_a_rounding_apart_along_the_frame(frame, limit):
+    sites = np.array([shapely.union_all([shapely.box(-0.5, 2.5, 0.5, 3.5), shapely.box(1.5, 2.5, 2.5, 3.5)])])
+    assert_within_faces(sites, [], frame, limit)
+
+
+def test_an_arc_that_the_frame_s_own_corner_turns_over_is_a_line():
+    """The lattice has the frame 10^-10 below where the input has it, beyond the end of an arc on it."""
+    x, y = 143.20714285714286, 0.15
+    sites = np.array([shapely.box(143.10714285714286, 0.05, x, y), shapely.box(x, 0.25, 143.30714285714285, 0.35)])
+    frame = (143.15714285714287, 0.15000000000000002, 0.19999999999998863, 0.09999999999999998)
+    cells = voronoi(sites, enclosures=[], frame=frame, max_distance=0.1)
+    verify_voronoi(cells)
+    np.testing.assert_allclose(cells.areas, shapely.area(cells.to_shapely(flatten=1e-6)), atol=1e-7)
+    assert cells.areas.sum() < 0.02
+
+
+def test_cells_may_go_beyond_a_frame_by_what_the_lattice_moves():
+    boxes = [(-0.2, 1.5, 1.8, 2.5), (4.8, 2.5, 5.8, 3.5), (2.8, 3.5, 3.8, 4.5), (-0.2, 5.5, 2.8, 6.5)]
+    scene = [shapely.union_all([shapely.box(*each) for each in boxes]), shapely.box(5.8, 5.5, 6.8, 6.5)]
+    line = "LINESTRING (0.3 7, 10.3 12)"
+    cells = voronoi(scene, enclosures=[line], frame=(0.3, 3.0, 5.5, 3.0), max_distance=1.4999999999999998)
+    assert cells.areas.sum() == pytest.approx(16.5, rel=1e-8)
     verify_voronoi(cells)

@@ -200,7 +200,8 @@ class Overlay:
         for hand in (0, 1):
             own = (self.edges.regions[edge[row], hand] == region[row]) & (cuts.sites[part, hand] == UNKNOWN)
             told = np.where(turned, sites[row, 1 - hand], sites[row, hand])
-            cuts.sites[part[own], hand] = told[own]
+            # of two limits with a strip beyond both between them that with a cell on this side is nearer to the region
+            np.maximum.at(cuts.sites, (part[own], hand), told[own])
 
     def places_along(self, part: Indices, shares: tuple[float, ...]) -> tuple[Floats, Floats]:
         """Give places along parts of cuts, on the lattice, and the lengths of the parts."""

@@ -146,11 +146,12 @@ def _check_areas(cells: VoronoiMap) -> None:
     total = float(area.sum())
     if not (len(cells.cell_starts) > 1 and len(cells.polygons)):
         return
-    whole, name = w * h, "frame"
-    if cells.clip is not None:
+    whole, name = w * h, "frame" if cells.clip is None else "clip"
+    cuts = [each.xy for each in (cells.clip, cells.enclosures) if each is not None]
+    if cuts:  # the frame is on the lattice, too
         shared = shared_out(cells)
-        whole, name = float(shared.area), "clip"
-        extent = float(np.ptp(np.concatenate([cells.polygons.xy, cells.clip.xy]), axis=0).max())
+        whole = float(shared.area)
+        extent = float(np.ptp(np.concatenate([cells.polygons.xy, *cuts]), axis=0).max())
         slack += MOVE * (w + h + extent + largest * 2.0**-20) * float(shared.length)
     is_whole = cells.max_distance is None and cells.enclosures is None
     if total - whole > slack or (is_whole and whole - total > slack):

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from vorotool.convert.boxes import as_extent
 from vorotool.convert.sites import as_sites
-from vorotool.engines.voronoi.assembly import Arcs, Rings, arcs_of, cells_of, rings_of
+from vorotool.engines.voronoi.assembly import Arcs, Rings, arcs_of, cells_of, rings_of, without_lost
 from vorotool.engines.voronoi.borders import Borders, borders_of
 from vorotool.engines.voronoi.cut_arguments import given_cuts
 from vorotool.engines.voronoi.diagram import diagram_of
@@ -141,13 +141,14 @@ def voronoi(
         arcs, rings = _map(owned, extent, limit, threads, progress)
         is_cut = (arcs.sites == OUTSIDE).any(axis=1)
     cells = cells_of(rings, shells_of(rings, arcs), given.count)
+    vertices = moved_vertices(arcs, rings)
     return VoronoiMap(
-        moved_vertices(arcs, rings),
+        vertices,
         arcs.radius,
         arcs.ends.astype(np.int32),
         arcs.sites.astype(np.int32),
         arcs.control,
-        arcs.center,
+        without_lost(arcs.center, vertices, arcs.ends, arcs.sites[:, 0] != OUTSIDE),
         is_cut,
         cells.ring_arcs,
         cells.ring_starts,
