@@ -11,8 +11,8 @@ from collections.abc import Iterator
 
 import click
 
+from vorotool.cli.help_page import GroupedCommand
 from vorotool.cli.main import COMMANDS, vorotool
-from vorotool.cli.options.help_page import GroupedCommand
 from vorotool.products.formats import FORMATS
 from vorotool.products.registry import PRODUCTS
 

@@ -13,8 +13,8 @@ from pathlib import Path
 import click
 
 from vorotool import __version__
+from vorotool.cli.help_page import GroupedCommand
 from vorotool.cli.main import COMMANDS, vorotool
-from vorotool.cli.options.help_page import GroupedCommand
 
 FOLDER = Path(__file__).parents[1] / "man/man1"
 

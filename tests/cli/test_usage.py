@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+PROPAGATION = ("tessellate", "dots.csv", "-o", "a.tif", "--method", "propagation")
+
 
 @pytest.mark.parametrize(
     ("arguments", "words"),
@@ -19,11 +21,17 @@ import pytest
         (["tessellate", "dots.csv", "-o", "a.png", "--size", "0x5"], ["'0x5'", "640x480"]),
         (["tessellate", "dots.csv", "-o", "a.png", "--window", "1,2,3"], ["'1,2,3'"]),
         (["tessellate", "dots.csv", "-o", "a.png", "--window", "1,2,3,0"], ["at least 1"]),
-        (["tessellate", "dots.csv", "-o", "a.png", "--size", "5x5", "--window", "0,0,5,5"], ["not both"]),
+        (["tessellate", "dots.csv", "-o", "a.png", "--size", "5x5", "--window", "0,0,5,5"], ["--size", "--window"]),
         (["tessellate", "dots.csv", "-o", "a.png", "--max-distance", "-1"], ["max_distance is -1"]),
         (["tessellate", "dots.csv", "-o", "a.png", "--passes", "1"], ["--method propagation"]),
-        (["tessellate", "dots.csv", "-o", "a.png", "--method", "propagation", "--max-distance", "3"], ["exact"]),
-        (["tessellate", "dots.csv", "--method", "propagation", "--what", "distance", "-o", "a.tif"], ["exact"]),
+        (
+            ["tessellate", "dots.csv", "-o", "a.png", "--method", "propagation", "--max-distance", "3"],
+            ["--max-distance", "--method propagation"],
+        ),
+        (
+            ["tessellate", "dots.csv", "--method", "propagation", "--what", "distance", "-o", "a.tif"],
+            ["--what distance", "--method propagation"],
+        ),
         (["tessellate", "dots.csv", "-o", "a.png", "--seeds", "pixels"], ["--seeds"]),
         (["tessellate", "mask.pbm", "-o", "a.png", "--threshold", "nan"], ["'nan'"]),
         (["tessellate", "mask.pbm", "-o", "a.png", "--columns", "1,2"], ["--columns"]),

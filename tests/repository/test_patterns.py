@@ -8,9 +8,9 @@ import pytest
 DIGITS = "9" * 300_000
 """Quadratic time would be minutes."""
 PATTERNS = {
-    "cli.options.areas:_AREA": f"{DIGITS}!",
-    "cli.options.areas:_LIKE_AREA": f"-{DIGITS}!",
-    "cli.options.lengths:_WITH_UNIT": f"{DIGITS}!",
+    "cli.values.lengths:_AREA": f"{DIGITS}!",
+    "cli.values.lengths:_LIKE_AREA": f"-{DIGITS}!",
+    "cli.values.lengths:_WITH_UNIT": f"{DIGITS}!",
     "formats.points.columns:_NUMBER": f"{DIGITS}!",
     "formats.points.columns:DECIMAL_COMMA": f"{DIGITS},{DIGITS}!",
     "formats.text.tables:_NUMBER": f"{DIGITS}!",

@@ -16,25 +16,14 @@ from vorotool import __version__
 from vorotool.errors import VorotoolError
 from vorotool.jobs.failures import explained
 from vorotool.jobs.terminal import escaped, print_text, tell
+from vorotool.products import commands
 from vorotool.signals import handle_termination, insist_on_the_end, received, settled
 
 if TYPE_CHECKING:
     from click.shell_completion import CompletionItem
 
-COMMANDS = {
-    "tessellate": "Digital Voronoi tessellation of points or of an image.",
-    "delaunay": "Exact Delaunay triangulation of points or of an image.",
-    "alphashape": "Alpha shapes of points, of one radius or of all.",
-    "voronoi": "Exact Voronoi diagram of points, lines and polygons.",
-    "skeleton-approx": "Skeleton of polygons and lines from samples, with certified errors.",
-    "skeleton-exact": "Exact skeleton (medial axis) of polygons and lines.",
-    "distance": "How far two shapes are apart: Hausdorff and smallest distance.",
-    "draw": "Draw label images, skeletons, Voronoi maps and shapes again.",
-    "info": "Tell how a file is read: its format, what it holds, and which commands take it.",
-    "sample": "Write a small file to try commands on.",
-    "completion": "Print the script by which bash, zsh or fish complete arguments.",
-}
-"""Commands and what they do; the module of a command is imported when it is called."""
+COMMANDS = {**{name: each.summary for name, each in commands.COMMANDS.items()}, **commands.OTHERS}
+"""Commands and what they do; a command is made when it is called."""
 
 EXIT_OUTPUT, EXIT_INTERRUPTED, EXIT_BROKEN_PIPE = 4, 130, 141
 
@@ -84,10 +73,16 @@ class LazyGroup(click.Group):
         return list(COMMANDS)
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
-        """Import a command."""
+        """Make or import a command."""
         if cmd_name not in COMMANDS:
             return None
-        command: click.Command = import_module(f"vorotool.cli.commands.{cmd_name.replace('-', '_')}").command
+        command: click.Command
+        if cmd_name in commands.OTHERS:
+            command = import_module(f"vorotool.cli.commands.{cmd_name}").command
+        else:
+            from vorotool.cli.command import computing_command
+
+            command = computing_command(cmd_name)
         command.epilog = f"Manual page: man vorotool-{cmd_name}. Documents: vorotool --help says where they are."
         return command
 
@@ -95,8 +90,8 @@ class LazyGroup(click.Group):
         """Offer commands without importing them."""
         from click.shell_completion import CompletionItem
 
-        commands = [CompletionItem(name, help=text) for name, text in COMMANDS.items() if name.startswith(incomplete)]
-        return commands or click.Command.shell_complete(self, ctx, incomplete)
+        found = [CompletionItem(name, help=text) for name, text in COMMANDS.items() if name.startswith(incomplete)]
+        return found or click.Command.shell_complete(self, ctx, incomplete)
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """List the commands without importing them."""

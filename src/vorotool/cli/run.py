@@ -7,7 +7,6 @@ from collections.abc import Collection, Iterator
 from contextlib import contextmanager
 
 import click
-from click.core import ParameterSource
 
 from vorotool.errors import UsageError
 from vorotool.formats.io.commit import committed_together
@@ -26,13 +25,12 @@ STEPS = 1000
 
 def run_command(recipe: Recipe, o: Options) -> None:
     """Do what a command line asks for."""
-    source = click.get_current_context().get_parameter_source
-    from_environment = [name for name in ("jobs", "cluster") if source(name) == ParameterSource.ENVIRONMENT]
+    from_environment = [name for name in ("jobs", "cluster") if o.sources.get(name) == "environment"]
     check_streams([*(("the input", name) for name in o.inputs), *o.files_read().items()])
     o = with_spacing(_workers_chosen(o, from_environment))
     is_many = _is_batch(o)
     if is_many or (o.inputs and o.is_shared):
-        has_what = source("what") != ParameterSource.DEFAULT
+        has_what = "what" in o.sources
         if is_many:
             from vorotool.cli.batch.run_many import run_many
 

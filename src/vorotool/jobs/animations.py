@@ -4,18 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
-from pathlib import PurePath
-from typing import TYPE_CHECKING, Any, BinaryIO, Protocol
+from typing import TYPE_CHECKING, BinaryIO, Protocol
 
-from vorotool.errors import LimitError, UsageError
-from vorotool.products.formats import ANIMATIONS
+from vorotool.errors import LimitError
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
     from vorotool.jobs.run_log import Run
-    from vorotool.jobs.targets import Target
     from vorotool.render.canvas.layers import Layer, Page
 
 FRAMES, FPS = 40, 10.0
@@ -39,25 +36,6 @@ class Animated(Protocol):
     @property
     def fps(self) -> float | None:
         """How many of them are shown a second."""
-
-
-def animated(options: dict[str, Any]) -> dict[str, Any]:
-    """Give the options of a command with the format that ``--animate`` stands for, where no other is chosen."""
-    if not options["animate"] or options["format"] is not None:
-        return options
-    ending = PurePath(options["output"] or "").suffix.lower()
-    chosen = {"": "gif", ".png": "apng"}.get(ending)
-    return options if chosen is None else {**options, "format": chosen}
-
-
-def check_animation(o: Animated, targets: Sequence[Target]) -> None:
-    """Refuse what no animation would show."""
-    moving = [target for target in targets if target.fmt in ANIMATIONS]
-    if o.animate and len(moving) < len(targets):
-        raise UsageError("--animate is for GIF, APNG and WebP: use -f gif, -f apng or -f webp, or leave it out")
-    for name, value in (("frames", o.frames), ("fps", o.fps)):
-        if value is not None and not moving:
-            raise UsageError(f"--{name} is for animations: use -f gif, -f apng or -f webp, or leave it out")
 
 
 def parts_of_whole(o: Animated, *, has_nothing: bool = False) -> list[Fraction]:

@@ -23,8 +23,9 @@ from vorotool.formats.volumes.npy_volume import NpyVolume
 from vorotool.formats.volumes.opening import open_volume
 from vorotool.formats.volumes.tiff_stack import TiffStack
 from vorotool.formats.volumes.zarr_volume import ZarrVolume
-from vorotool.jobs.inputs import check_streams, is_several, refuse
+from vorotool.jobs.inputs import check_streams, is_several
 from vorotool.jobs.options import Options
+from vorotool.jobs.refusals import refuse
 from vorotool.jobs.terminal import escaped, tell
 from vorotool.numeric.crs import crs_name
 from vorotool.numeric.input_unit import unit_of

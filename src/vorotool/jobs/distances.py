@@ -13,7 +13,7 @@ from vorotool.convert.sites import as_sites
 from vorotool.engines.distances.hausdorff import hausdorff
 from vorotool.engines.distances.smallest import distance
 from vorotool.engines.distances.verify_distances import verify_distances
-from vorotool.errors import InputError, UsageError
+from vorotool.errors import InputError
 from vorotool.formats.io.atomic_output import open_output
 from vorotool.jobs.inputs import JobInput, naming, opened_input, read_opened, report_no_geometry
 from vorotool.jobs.options import Options
@@ -22,29 +22,16 @@ from vorotool.jobs.picture_world import world_of_polygons
 from vorotool.jobs.pictures import Drawing, drawing_of, write_layers
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.second_files import coordinates_of, in_first_unit, unit_of_vectors
-from vorotool.jobs.skeleton_checks import check_layers
-from vorotool.jobs.targets import Target, check_picture_options, check_precision
+from vorotool.jobs.targets import Target
 from vorotool.numeric.crs import crs_name, same_crs
 from vorotool.numeric.progress import Progress
 from vorotool.products.formats import PICTURES
-from vorotool.products.registry import PRODUCTS, formats_of, layers_of
+from vorotool.products.registry import PRODUCTS
 from vorotool.products.writing import write_product
 from vorotool.types.distances.distances import SMALLEST, Distances
 
 if TYPE_CHECKING:
     from vorotool.types.polygons.polygon_set import PolygonSet
-
-
-def check_options(o: Options, targets: list[Target]) -> None:
-    """Refuse what no output would show."""
-    check_precision(o, formats_of("distance"), targets)
-    pictures = sorted({target.fmt for target in targets} & set(PICTURES))
-    if o.layers is not None and not pictures:
-        raise UsageError("--layers is for pictures: use -f svg or -f png, or leave it out")
-    if o.frame is not None and not pictures:
-        raise UsageError("--frame is what pictures show: use -f svg or -f png, or leave it out")
-    check_layers(o, PRODUCTS["distance"], targets)
-    check_picture_options(o, pictures, layers_of("distance"), png_has_width=True)
 
 
 class DistanceProducts:

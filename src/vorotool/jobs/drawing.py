@@ -21,15 +21,16 @@ from vorotool.formats.points.tables import is_table
 from vorotool.formats.recognition import image_format, image_source, read_recognised, recognised
 from vorotool.formats.text_recognition import has_no_rows
 from vorotool.jobs.checked_columns import check_column
-from vorotool.jobs.inputs import JobInput, note_other_size, refuse
+from vorotool.jobs.inputs import JobInput, note_other_size
 from vorotool.jobs.label_pictures import LabelPicture, default_layers, write_label_page
 from vorotool.jobs.options import Options
 from vorotool.jobs.picture_style import styled_page
 from vorotool.jobs.picture_world import world_of, world_of_polygons
 from vorotool.jobs.pictures import drawing_of, write_layers
 from vorotool.jobs.pixel_sizes import size_of_file
+from vorotool.jobs.refusals import check_drawn_layers, refuse
 from vorotool.jobs.run_log import Run
-from vorotool.jobs.targets import Target, check_picture_options
+from vorotool.jobs.targets import Target
 from vorotool.jobs.units import PixelSize
 from vorotool.numeric.input_unit import unit_of
 from vorotool.numeric.progress import Progress
@@ -146,9 +147,12 @@ def _of_labels(run: Run, o: Options, given: JobInput, image: LabelImage, fmt: st
     from vorotool.engines.label_images.regions import region_table
     from vorotool.render.label_images.svg import check_size
 
-    refuse({"frame": o.frame}, "is for shapes, but the input is a label image")
     is_page = fmt == "html"
-    check_picture_options(o, [] if is_page else [fmt], LABEL_LAYERS)
+    of_lines = {"frame": o.frame, "scale": o.scale, "unit": o.drawing_unit, "aspect": o.aspect, "extent": o.extent}
+    refuse(of_lines, "is for shapes, but the input is a label image")
+    if fmt == "png":
+        refuse({"width": o.width}, "is for SVG: the PNG of a label image has the size of the image")
+    check_drawn_layers(o, fmt, "a label image", LABEL_LAYERS.get(fmt, ()))
     check_column(o.label_by, {})
     note_other_size(run, o, given, image.shape)
     image, size = _objects(run, image), _size(o)
@@ -214,7 +218,7 @@ def _of_layers(run: Run, o: Options, given: JobInput, value: Lined, fmt: str) ->
     kind, product, counts = _described(value)
     if fmt == "html":
         raise UsageError(f"a page is of cells or labels, but the input is {kind}: use -f svg or -f png")
-    check_picture_options(o, [fmt], product.layers, png_has_width=True)
+    check_drawn_layers(o, fmt, kind, product.layers[fmt])
     refuse({"page": o.page}, f"is for images, but the input is {kind}")
     if not len(value):
         run.warn(f"the picture is empty: the input is {kind}, but there are none in it")

@@ -15,6 +15,7 @@ from vorotool.formats.io.layer_names import file_of
 from vorotool.formats.zarr.store import is_folder, is_store
 from vorotool.jobs.masks import settled_foreground
 from vorotool.jobs.options import Options, changed
+from vorotool.jobs.refusals import refuse
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.units import Measured, known_length, measured, unit_stats
 from vorotool.products.registry import is_of
@@ -174,23 +175,6 @@ def refuse_several(named: Mapping[str, str]) -> None:
             raise UsageError(f"{name} {path} stands for several files, but two are compared: name one file each")
 
 
-def check_components(o: Options) -> None:
-    """Refuse ``--connectivity`` where no components are made."""
-    if o.connectivity is not None and o.seeds in ("pixels", "labels"):
-        raise UsageError(f"--connectivity is for components: leave it out with --seeds {o.seeds}")
-
-
-def check_frame_options(o: Options, *, is_digital: bool) -> None:
-    """Refuse two frames, and any where nothing is tessellated."""
-    if o.size is not None and o.window is not None:
-        raise UsageError("give --size or --window, not both")
-    if o.window is not None and o.cell_side is None and not all(isinstance(number, int) for number in o.window):
-        shown = ",".join(f"{float(number):g}" for number in o.window)
-        raise UsageError(f"invalid --window '{shown}': expected four integers X,Y,W,H, such as -10,-10,640,480")
-    if not is_digital:
-        refuse(o.of_frame, "is the frame of a tessellation: use --method digital or digital-valid")
-
-
 def read_sites(
     run: Run, o: Options, given: JobInput, *, properties: bool, is_digital: bool
 ) -> tuple[Options, PointSet | SeedSet]:
@@ -316,13 +300,6 @@ def note_repeated_labels(run: Run, points: PointSet | SeedSet, mesh: Triangulati
     """Say that labels name groups of points, where they repeat."""
     if getattr(points, "labels", None) is not None and mesh.labels is None and len(mesh.points):
         run.note("labels repeat: points are numbered from 1, and label is a column of its own")
-
-
-def refuse(options: Mapping[str, Any], reason: str) -> None:
-    """Refuse options that are given although they mean nothing here."""
-    for name, value in options.items():
-        if value is not None and value is not False:  # 0 is given, too
-            raise UsageError(f"--{name} {reason}")
 
 
 @contextmanager

@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Protocol
 
 from vorotool.formats.io.atomic_output import spoken
-from vorotool.jobs.inputs import JobInput, naming, read_backdrop
+from vorotool.jobs.inputs import JobInput, naming, read_backdrop, refuse_several
 from vorotool.jobs.options import Options
+from vorotool.jobs.refusals import check_options
 from vorotool.jobs.run_log import Run
-from vorotool.jobs.targets import Target, check_targets, check_with
+from vorotool.jobs.targets import Target, check_targets
 from vorotool.jobs.units import shows_units, unit_stats
 from vorotool.numeric.progress import Progress
 from vorotool.plain import plain
-from vorotool.products.formats import FORMATS
+from vorotool.products.commands import COMMANDS
+from vorotool.products.formats import FORMATS, format_named, resolved
+from vorotool.products.registry import PRODUCTS, VOLUME_PRODUCTS, Product
 from vorotool.signals import end_by_exceptions
 
 
@@ -36,21 +39,54 @@ class Products(Protocol):
 
 @plain
 class Recipe:
-    """A command, as far as it is about one input."""
+    """A command, as far as it is about one input: its rows in the tables of commands and of results."""
 
     name: str  # of the command
-    formats: Mapping[str, Sequence[str]]  # formats of each result; the first is its default
-    # `check_options(options, targets)` refuses options that do not go together, or that no output would show
-    check_options: Callable[[Options, list[Target]], None]
-    # `make(run, options, given)` reads an input and gives its products
-    make: Callable[[Run, Options, JobInput], Products]
-    geometry: str | None = None  # what it reads beside images
+    is_of_volumes: bool = False
 
-    def check(self, options: Options, targets: list[Target]) -> None:
+    @property
+    def products(self) -> Mapping[str, Product]:
+        """Results by name."""
+        return VOLUME_PRODUCTS if self.is_of_volumes else PRODUCTS[self.name]
+
+    @property
+    def formats(self) -> dict[str, tuple[str, ...]]:
+        """Formats of each result; the first is its default."""
+        return {what: each.formats for what, each in self.products.items()}
+
+    @property
+    def geometry(self) -> str | None:
+        """What it reads beside images."""
+        return COMMANDS[self.name].reads
+
+    def make(self, run: Run, o: Options, given: JobInput) -> Products:
+        """Read an input, and return what makes its results."""
+        place = "jobs.volumes.products:products" if self.is_of_volumes else COMMANDS[self.name].job
+        made: Products = resolved(place)(run, o, given)
+        return made
+
+    def check(self, o: Options, targets: Sequence[Target]) -> None:
         """Refuse options that do not go together, or that no output would show."""
-        if options.with_columns is not None:
-            check_with(targets)
-        self.check_options(options, targets)
+        check_options(o, targets, self.products)
+        if COMMANDS[self.name].check:
+            resolved(COMMANDS[self.name].check)(o, targets)
+
+
+def prepared(command: str, given: Mapping[str, Any], sources: Mapping[str, str]) -> tuple[Recipe, Options]:
+    """Return what a command line asks for, with what follows where options are left out."""
+    values = dict(given)
+    if command == "distance":
+        a, b = values.pop("a"), values.pop("b")
+        refuse_several({"A": a, "B": b})
+        values |= {"inputs": (a,), "other": b}
+    ending = Path(values["output"] or "").suffix
+    if values.get("animate") and values["format"] is None:
+        values["format"] = {"": "gif", ".png": "apng"}.get(ending.lower())
+    if values.get("what") is None:
+        fmt, own = format_named(values["format"] or ending), PRODUCTS[command]
+        values["what"] = (next((what for what, each in own.items() if fmt in each.usual_for), next(iter(own))),)
+    o = Options(command, sources=sources, **values)
+    return Recipe(command, command == "tessellate" and o.is_of_volumes), o
 
 
 def process_input(recipe: Recipe, run: Run, options: Options, path: str, targets: Sequence[Target]) -> None:

@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-METHODS = ("exact", "digital", "digital-valid")
-"""Ways of triangulating."""
-GRAPHS = ("delaunay", "gabriel", "relative", "mst")
-"""Edges of a triangulation that `delaunay` writes."""
 OF_ONE_SHAPE = frozenset({"edges", "polygons", "complex", "general", "hull", "points", "table"})
 """Results of `alphashape` that are of one radius; the others are of all."""
 PLOTS = ("curves", "persistence")

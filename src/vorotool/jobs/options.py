@@ -6,10 +6,14 @@ each option means.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
+from vorotool.jobs.names import OF_ONE_SHAPE
 from vorotool.jobs.picture_style import Looks
+from vorotool.products.inputs import DRAWINGS
+from vorotool.products.options import DEFAULTS, options_of
 
 if TYPE_CHECKING:
     from fractions import Fraction
@@ -37,9 +41,12 @@ class Options:
     pixel_size: PixelSize | None
     max_pixels: int
     threads: int
+    other: str = ""  # the second of two inputs
+    json: bool = False
+    sources: Mapping[str, str] = {}  # `typed` or `environment`, by the names of options that are given
 
     def __init__(self, command: str, **given: Any) -> None:
-        self.__dict__.update(DEFAULTS, command=command)
+        self.__dict__.update(DEFAULTS, command=command, inputs=())
         self.__dict__.update(given)
 
     def __getattr__(self, name: str) -> Any:  # what is there is found without this
@@ -107,7 +114,7 @@ class Options:
 
     def files_read(self) -> dict[str, str]:
         """Give the files that are read beside the inputs, and so are never replaced, as the user names them."""
-        if self.other is not None:
+        if self.other:
             return {"B": self.other}
         files = {f"--{name}": path for name, path in self.files_of_inputs().items()}
         return {"--files-from": self.files_from, **files} if self.files_from else files
@@ -125,6 +132,43 @@ class Options:
         return "digital" if "compare" in self.what else str(self.method)
 
     @property
+    def is_digital(self) -> bool:
+        """Whether points are triangulated by the paper's digital rule."""
+        return self.triangulated_by == "digital"
+
+    @property
+    def is_automatic(self) -> bool:
+        """Whether the radius of one shape is to be found."""
+        return self.r is None and self.alpha is None and bool(OF_ONE_SHAPE & set(self.what))
+
+    @property
+    def has_several_results(self) -> bool:
+        """Whether more than one result is asked for."""
+        return len(self.what) > 1
+
+    @property
+    def has_bands_on_cluster(self) -> bool:
+        """Whether a cluster computes the bands of one image."""
+        return self.cluster is not None and self.out_dir is None
+
+    @property
+    def has_pixel_size(self) -> bool:
+        """Whether ``--pixel-size`` is given."""
+        return self.pixel_size is not None and not self.pixel_size.is_spacing
+
+    @property
+    def takes_spacing(self) -> bool:
+        """Whether the command has ``--spacing``."""
+        return "spacing" in options_of(self.command)
+
+    @property
+    def may_be_drawn(self) -> bool:
+        """Whether an input may be a drawing with curves, as far as its name tells."""
+        said = self.input_format and self.input_format.lower()
+        endings = {Path(path).suffix.lower().removeprefix(".") for path in self.inputs}
+        return said in DRAWINGS if said else self.files_from is not None or bool(endings & {*DRAWINGS, ""})
+
+    @property
     def wants_skeleton(self) -> bool:
         """Whether a result shows anything of the skeleton: offset curves are of the whole diagram."""
         return set(self.what) != {"offset"}
@@ -135,6 +179,11 @@ class Options:
         return None if self.command == "draw" else self.pixel_size
 
     # ---- pictures
+    @property
+    def scale_in_millimetres(self) -> bool:
+        """Whether a scale is given that is no ratio."""
+        return self.scale is not None and not self.scale.is_ratio
+
     @property
     def looks(self) -> Looks:
         """The looks of pictures."""
@@ -171,30 +220,3 @@ class Options:
 def changed(o: Options, **values: Any) -> Options:
     """Return options with some of them changed."""
     return Options(**{**vars(o), **values})
-
-
-_NONE = (
-    "input_format input_layer input_crs crs columns page volume output format out_dir stats layers overlay width y_up "
-    "background label_by files_from jobs shard cluster connectivity threshold min_area decimals precision pixel_size "
-    "table table_inputs fields with_columns seeds size window spacing method passes max_distance dtype chunk slice "
-    "levels cell_size like frames fps scale drawing_unit aspect extent frame clip r alpha regions hole_threshold "
-    "region_threshold flatten join_tolerance simplify outline by enclosures count other complete prune start end ends "
-    "every along smooth distance neck border step tolerance sampling graph rule side features"
-)
-_FLAGS = (
-    "no_clobber overwrite legend scale_bar quiet verbose null keep_going dry_run resume follow invert fill_holes "
-    "strict verify no_properties safe_csv tiled animate auto boundary join_junctions local compare json"
-)
-DEFAULTS: dict[str, Any] = {
-    **dict.fromkeys(_NONE.split()),
-    **dict.fromkeys(_FLAGS.split(), False),
-    "threads": 0,
-    "max_pixels": 2**31,
-    "max_sites": 2**31 - 1,
-    "colors": (),
-    "line_widths": (),
-    "inputs": (),
-    "what": (),
-    "gap": 0.0,
-}
-"""Of options that a command lacks."""

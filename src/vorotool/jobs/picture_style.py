@@ -10,7 +10,6 @@ from vorotool.errors import UsageError
 from vorotool.numeric.length_units import METRES
 
 if TYPE_CHECKING:
-    from vorotool.jobs.options import Options
     from vorotool.render.canvas.layers import Page
     from vorotool.render.canvas.styles import PictureStyle, ScaleBar
     from vorotool.types.box import Sides
@@ -78,41 +77,6 @@ class Looks(NamedTuple):
     def given(self) -> list[str]:
         """Names of the options that are given."""
         return [name for name, value in zip(OPTIONS, self, strict=True) if value not in (None, (), False)]
-
-
-def check_style(o: Options, pictures: Sequence[str], layers: Mapping[str, Sequence[str]], *, is_of_lines: bool) -> None:
-    """Refuse what no picture would show."""
-    looks = o.looks
-    given = looks.given()
-    if given and not pictures:
-        raise UsageError(f"--{given[0]} is for pictures: use -f svg or -f png, or leave it out")
-    for name in [each for each in given if each in ("scale", "unit", "aspect", "extent")]:
-        if not is_of_lines:
-            of = "of lines and areas, not for those of label images"
-            raise UsageError(f"--{name} is for pictures {of}: leave it out")
-        if name in ("aspect", "extent"):
-            if o.overlay is not None:
-                raise UsageError(f"a picture over an image has its size: leave out --overlay or --{name}")
-            continue
-        if "png" in pictures:
-            raise UsageError(f"--{name} is for SVG, a PNG has pixels: use -f svg, or leave it out")
-        if o.width is not None or o.overlay is not None or looks.aspect is not None:
-            other = "--width" if o.width is not None else "--overlay" if o.overlay is not None else "--aspect"
-            raise UsageError(f"a picture to scale has its size: leave out {other} or --{name}")
-    if looks.scale is not None and not looks.scale.is_ratio and looks.drawing_unit is not None:
-        raise UsageError("--scale S is millimetres a unit: leave out --unit, or use --scale 1:N")
-    if looks.background is not None and o.overlay is not None:
-        raise UsageError("--overlay is the ground: leave out --background")
-    _check_colors(looks, pictures, layers)
-
-
-def _check_colors(looks: Looks, pictures: Sequence[str], layers: Mapping[str, Sequence[str]]) -> None:
-    """Refuse colors and widths of layers that no picture has; the scale bar has a color, too."""
-    bar = [SCALE_BAR] if looks.has_scale_bar else []
-    for option, chosen, others in (("color", looks.colors, bar), ("line-width", looks.line_widths, [])):
-        known = list(dict.fromkeys([*(each for fmt in pictures for each in layers[fmt]), *others]))
-        for layer in (layer for layer, _ in chosen if layer not in known):
-            raise UsageError(f"--{option} {layer}: the picture has {', '.join(known)}; choose of these")
 
 
 def looks_of(

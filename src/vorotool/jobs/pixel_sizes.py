@@ -16,7 +16,6 @@ from vorotool.jobs.units import (
     PixelSize,
     lengths_in_steps,
     sides_of,
-    takes_spacing,
     unit_stats,
 )
 from vorotool.types.axis import UP
@@ -39,7 +38,7 @@ def with_pixel_size(run: Run, o: Options, given: JobInput, grid: PixelGrid | Non
         return o
     is_spacing = asked is not None and asked.is_spacing
     if not given.has_units and not is_spacing:
-        if grid is not None and grid.is_size and not grid.is_square and takes_spacing(o):
+        if grid is not None and grid.is_size and not grid.is_square and o.takes_spacing:
             run.note(_note_of_size(given, grid, o, "distances"))
         return o
     if grid is not None and grid.transform is not None:
@@ -61,7 +60,7 @@ def size_of_file(grid: PixelGrid | None, o: Options) -> PixelSize:
         return _spacing_of(grid)
     if not grid.is_square:
         instead = "give a number and its unit, such as --pixel-size 0.325um"
-        measure = "use --spacing auto, or " if takes_spacing(o) else ""
+        measure = "use --spacing auto, or " if o.takes_spacing else ""
         raise InputError(f"the image has pixels of {grid.size_text()}, which are no squares: {measure}{instead}")
     return PixelSize(grid.width, grid.unit)
 
@@ -82,7 +81,7 @@ def _spacing_of(grid: PixelGrid) -> PixelSize:
 def _note_of_size(given: JobInput, grid: PixelGrid, o: Options, what: str = "results") -> str:
     if grid.is_square:
         return f"{given.name} carries a pixel size of {grid.size_text()}: --pixel-size auto uses it"
-    measure = "; --spacing auto measures in their sides" if takes_spacing(o) else ""
+    measure = "; --spacing auto measures in their sides" if o.takes_spacing else ""
     return f"{given.name} has pixels of {grid.size_text()}, which are no squares: {what} are in pixels{measure}"
 
 
@@ -97,7 +96,7 @@ def _on_map(run: Run, given: JobInput, grid: PixelGrid, o: Options) -> PixelSize
         )
     if not grid.is_square and not is_spacing:
         if asked is not None:
-            measure = "use --spacing auto; " if takes_spacing(o) else ""
+            measure = "use --spacing auto; " if o.takes_spacing else ""
             raise InputError(
                 f"the image has pixels of {grid.size_text()}, which are no squares: {measure}{in_pixels}, and "
                 "gdalwarp -tr SIDE SIDE in.tif square.tif an image with squares"

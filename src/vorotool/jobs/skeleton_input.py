@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from vorotool.jobs.inputs import JobInput, opened_input, read_opened, refuse, report_no_geometry
+from vorotool.jobs.inputs import JobInput, opened_input, read_opened, report_no_geometry
 from vorotool.jobs.masks import settled_foreground
 from vorotool.jobs.options import Options, changed
 from vorotool.jobs.pixel_sizes import placed_polygons, with_pixel_size
+from vorotool.jobs.refusals import refuse
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.units import lengths_in_steps, sides_of
 

@@ -15,9 +15,9 @@ from vorotool.engines.tessellation.frames import label_dtype
 from vorotool.engines.tessellation.streamed_image import ObjectRows, StreamedImage
 from vorotool.errors import LimitError, UsageError
 from vorotool.formats.opening import Opened
-from vorotool.jobs.inputs import refuse
 from vorotool.jobs.options import Options
 from vorotool.jobs.pixel_sizes import written_grid
+from vorotool.jobs.refusals import refuse
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.streamed_output import Stream, check_chunks, scale_of_squares, write_file, write_store
 from vorotool.jobs.targets import Target

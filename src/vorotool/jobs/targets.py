@@ -12,10 +12,8 @@ from vorotool.formats.io.atomic_output import is_same_file, spoken
 from vorotool.formats.io.descriptors import STANDARD, descriptor_of, is_same_output, stream_kind
 from vorotool.formats.io.layer_names import output_name
 from vorotool.formats.io.sources import without_gz
-from vorotool.jobs.picture_style import check_style
 from vorotool.plain import plain
-from vorotool.products.formats import EXTENSIONS, FORMATS, TABLES, format_named, with_digits
-from vorotool.products.registry import NAMING_FEATURES
+from vorotool.products.formats import EXTENSIONS, FORMATS, format_named
 
 if TYPE_CHECKING:
     from vorotool.jobs.options import Options
@@ -93,63 +91,6 @@ def check_stats(options: Options, targets: Sequence[Target], source: str) -> Non
         if is_open and (target.path == STANDARD or descriptor_of(target.path) is not None):
             raise UsageError(f"--stats {stats} needs -o FILE: {spoken(target.path)} holds the result")
         raise UsageError(f"--stats {stats} is also the output of {target.what}: choose another name")
-
-
-def check_picture_options(
-    options: Options,
-    pictures: Sequence[str],
-    layers: Mapping[str, Sequence[str]],
-    *,
-    png_has_width: bool = False,
-) -> None:
-    """Refuse layers, a width and an image beneath that no picture would show."""
-    check_style(options, pictures, layers, is_of_lines=png_has_width)
-    if options.overlay is not None:
-        _check_overlay(options, pictures)
-    if options.width is not None and png_has_width and not pictures:
-        raise UsageError("--width is for pictures: use -f svg or -f png, or leave it out")
-    if options.width is not None and not png_has_width and "svg" not in pictures:
-        raise UsageError("--width is for SVG pictures: a PNG has the size of the image; use -f svg, or leave it out")
-    for fmt in pictures:
-        for layer in options.layers or ():
-            if layer not in layers[fmt]:
-                raise UsageError(
-                    f"--layers {layer}: a picture in {fmt.upper()} has {', '.join(layers[fmt])}; choose of these"
-                )
-
-
-def check_precision(options: Options, formats: Mapping[str, Sequence[str]], targets: Sequence[Target]) -> None:
-    """Refuse numbers of digits or decimals that no output would show."""
-    written = [FORMATS[target.fmt] for target in targets if target.fmt in FORMATS]
-    if options.decimals is not None and not any(each.has_digits or each.made_from for each in written):
-        raise UsageError("--decimals is for coordinates in tables and vectors: leave it out")
-    if options.precision is None or with_digits(target.fmt for target in targets):
-        return
-    possible = with_digits(dict.fromkeys(fmt for target in targets for fmt in formats[target.what]))
-    if not possible:
-        raise UsageError("--precision is for tables and vectors: use --what table, or leave it out")
-    *others, last = possible
-    instead = f"{', '.join(others)} or {last}" if others else last
-    raise UsageError(f"--precision is for numbers in text: use -f {instead}, or leave it out")
-
-
-def check_with(targets: Sequence[Target]) -> None:
-    """Refuse columns of the input that no output would show."""
-    shown = [target for target in targets if target.what in NAMING_FEATURES]
-    if not any(target.fmt in (*TABLES, "geojson", "graphml") or FORMATS[target.fmt].made_from for target in shown):
-        raise UsageError(
-            "--with is for tables and GeoJSON whose rows are parts of features or pairs, such as --what branches, "
-            "points or edges: rows that are features have all columns; leave it out"
-        )
-
-
-def _check_overlay(options: Options, pictures: Sequence[str]) -> None:
-    if not pictures:
-        raise UsageError("--overlay is for pictures: use -f svg or -f png, or leave it out")
-    if options.width is not None:
-        raise UsageError("a picture over an image has its size: leave out --width or --overlay")
-    if options.y_up is not None:
-        raise UsageError("a picture over an image has y downwards: leave out --y-up, --y-down or --overlay")
 
 
 def check_targets(options: Options, targets: Sequence[Target], source: str) -> None:

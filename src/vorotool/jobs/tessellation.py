@@ -24,19 +24,11 @@ from vorotool.jobs import animations
 from vorotool.jobs.checked_columns import check_columns
 from vorotool.jobs.contradictions import check_image_size
 from vorotool.jobs.input_lengths import lengths_of_image
-from vorotool.jobs.inputs import (
-    JobInput,
-    asked_frame,
-    frame_of,
-    no_seeds,
-    opened_input,
-    read_opened,
-    refuse,
-    seeds_of_image,
-)
+from vorotool.jobs.inputs import JobInput, asked_frame, frame_of, no_seeds, opened_input, read_opened, seeds_of_image
 from vorotool.jobs.map_cells import seeds_on_map
 from vorotool.jobs.options import Options
 from vorotool.jobs.pixel_sizes import with_pixel_size, written_grid
+from vorotool.jobs.refusals import refuse
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.silent_losses import tell_outside
 from vorotool.jobs.streamed_output import RowsOf, Stream, check_chunks, scale_of_squares, write_file, write_store

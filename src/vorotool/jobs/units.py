@@ -63,7 +63,7 @@ _NUMBERS = {2: "two numbers, SX,SY", 3: "three numbers, SX,SY,SZ"}
 
 def with_spacing(o: Options) -> Options:
     """Give options in which ``--spacing`` is the size of pixels."""
-    spacing: PixelSize | None = vars(o).get("spacing")
+    spacing: PixelSize | None = o.spacing
     if spacing is None:
         return o
     if o.unit is not None:
@@ -72,11 +72,6 @@ def with_spacing(o: Options) -> Options:
             "pixels are no squares"
         )
     return changed(o, pixel_size=spacing)
-
-
-def takes_spacing(o: Options) -> bool:
-    """Whether a command has ``--spacing``."""
-    return "spacing" in vars(o)
 
 
 def sides_of(o: Options, axes: int = 2) -> PixelSides:

@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 
 from vorotool.formats.io.sources import reading
 from vorotool.jobs.cuts import check_image_crs, in_one_crs, in_unit_of_image, polygons_among, read_cut
-from vorotool.jobs.inputs import JobInput, opened_input, read_opened, refuse, report_no_geometry
+from vorotool.jobs.inputs import JobInput, opened_input, read_opened, report_no_geometry
 from vorotool.jobs.options import Options
+from vorotool.jobs.refusals import refuse
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.second_files import in_first_unit, unit_of_vectors
 from vorotool.jobs.skeleton_input import outlined

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import field
 from importlib import import_module
 from typing import Any, NamedTuple
@@ -120,11 +120,6 @@ def format_named(name: str) -> str | None:
 def picture_format(name: str) -> str:
     """Give the format of a picture that a frame of an animation is like; of all else its own."""
     return "png" if name in ANIMATIONS else name
-
-
-def with_digits(possible: Iterable[str]) -> list[str]:
-    """Give the formats that have numbers in text."""
-    return [name for name in possible if FORMATS[name].has_digits]
 
 
 def resolved(function: str) -> Callable[..., Any]:

@@ -258,7 +258,7 @@ def test_shards_have_tables_and_statistics_of_their_own(run, inputs):
         ("--files-from missing --out-dir out", 3, "the list missing cannot be read"),
         ("--files-from /dev/null --out-dir out", 2, "no input given"),
         ("--files-from old.csv -0 --out-dir out", 3, "old.csv"),
-        ("points --out-dir=", 2, "'' is no name: name a folder, or . for this one"),
+        ("points --out-dir=", 2, "'': not a name: name a folder, or . for this one"),
         ("points/*.png --out-dir out", 3, "points/*.png"),
         ("nothing --out-dir out", 3, "nothing holds no file that is read here (avif, bmp, csv, "),
         ("points --out-dir points/p0.csv", 4, "points/p0.csv"),

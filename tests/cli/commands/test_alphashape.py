@@ -213,7 +213,7 @@ def test_images_by_both_pipelines(run, folder):
         (["-r", 3, "--alpha", -3], "r and alpha are given, but each sets the radius: give one of r, alpha and auto"),
         (["-r", 3, "--regions", 2], "--regions"),
         (["--rule", "printed"], "--rule"),
-        (["-r", 3, "--rule", "printed", "--verify"], "the printed rule fails the check, as it should"),
+        (["-r", 3, "--rule", "printed", "--verify"], "--verify cannot be combined with --rule printed"),
         (["-r", 3, "--method", "digital", "--what", "table"], "--method"),
         (["-r", 3, "--method", "digital", "-f", "html"], "--method"),
         (["--method", "digital"], "--method"),

@@ -95,7 +95,7 @@ def test_one_cluster_and_none(run, folder):
         (["delaunay", "--graph", "mst", "--what", "cells"], "--graph"),
         (["delaunay", "--graph", "mst", "--method", "digital"], "--graph"),
         (["delaunay", "--what", "statistics", "--method", "digital"], "--method"),
-        (["alphashape", "--what", "persistence", "--rule", "printed"], "need --rule corrected"),
+        (["alphashape", "--what", "persistence", "--rule", "printed"], "use --rule corrected"),
         (["alphashape", "--what", "persistence", "--method", "digital"], "--method"),
     ],
 )

@@ -58,13 +58,13 @@ def groups_of(svg):
 @pytest.mark.parametrize(
     ("options", "count", "layer", "other", "words"),
     [
-        ([], '"arcs": 43', "skeleton", "cells", "nodes, labels; choose of these"),
+        ([], '"arcs": 43', "skeleton", "cells", "nodes, labels"),
         (
             ["--what", "offset", "-d", "-20,10"],
             '"shapes": 5',
             "offset",
             "nodes",
-            "polygons, offset, labels; choose of these",
+            "polygons, offset, labels",
         ),
     ],
 )

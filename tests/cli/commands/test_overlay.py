@@ -131,11 +131,15 @@ def test_a_skeleton_from_a_file_is_drawn_over_an_image(run, folder, photo):
         (("delaunay", BLOBS, "--overlay", "dots.csv", "-o", "a.png"), 3, "dots.csv"),
         (("delaunay", BLOBS, "--overlay", "photo.png", "-o", "a.csv"), 2, "--overlay"),
         (("tessellate", BLOBS, "--overlay", "photo.png", "-o", "a.png"), 2, "--overlay"),
-        (("alphashape", BLOBS, "--what", "curves", "--overlay", "photo.png", "-o", "a.svg"), 2, "pictures of a shape"),
+        (
+            ("alphashape", BLOBS, "--what", "curves", "--overlay", "photo.png", "-o", "a.svg"),
+            2,
+            "--overlay applies to pictures",
+        ),
         (
             ("draw", DATA / "cells.png", "--overlay", "photo.png", "--width", "90", "-o", "a.svg"),
             2,
-            "leave out --width",
+            "--width",
         ),
         (("skeleton-exact", BLOBS, "--overlay", "photo.png", "--y-up", "-o", "a.svg"), 2, "y downwards"),
         (("skeleton-exact", BLOBS, "--overlay", "photo.png", "-o", "photo.png"), 2, "photo.png"),

@@ -8,8 +8,8 @@ import pytest
 from PIL import Image
 
 from support.oracles.oracles import nearest_labels, nearest_squares
-from vorotool.cli.commands.tessellate import FORMATS
 from vorotool.jobs.targets import plan_targets
+from vorotool.products.registry import formats_of
 
 X, Y = [2, 7, 1], [1, 5, 6]
 LABELS = nearest_labels(X, Y, [1, 2, 3], (0, 0, 8, 7))
@@ -198,5 +198,5 @@ def test_labels_of_a_column_are_kept(run, folder):
 )
 def test_targets(what, options, expected):
     given = {"output": None, "fmt": None, "out_dir": None, **options}
-    found = plan_targets(FORMATS, what, source="x/in.csv", **given)
+    found = plan_targets(formats_of("tessellate"), what, source="x/in.csv", **given)
     assert [(target.path, target.fmt) for target in found] == expected

@@ -102,7 +102,7 @@ def test_several_results_with_one_skeleton(run, folder):
         (["skeleton-exact", SHAPES], "--what"),
         (["skeleton-exact", BLOBS, "--gap", "0.1"], "--what"),
         (["skeleton-exact", BLOBS, "--side", "exterior"], "--side"),
-        (["skeleton-exact", BLOBS, "--prune", "angle=90"], "thickness is of all discs: leave it out"),
+        (["skeleton-exact", BLOBS, "--prune", "angle=90"], "--prune cannot be combined with --what thickness"),
     ],
 )
 def test_what_is_refused(run, arguments, said):

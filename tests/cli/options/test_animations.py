@@ -125,7 +125,7 @@ REFUSED = [
     (
         ["tessellate", "dots.csv", "--what", "color", "--method", "propagation", "-o", "a.gif"],
         2,
-        "animations are of the exact tessellation",
+        "an animation cannot be combined with --method propagation",
     ),
     (["alphashape", "dots.csv", "-r", "9", "--method", "digital", "-o", "a.gif"], 2, "--method"),
     (["skeleton-exact", "shapes.json", "-o", "a.gif"], 2, "skeleton cannot be written as gif: use --what offset"),

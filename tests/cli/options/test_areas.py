@@ -2,7 +2,7 @@
 
 import pytest
 
-from vorotool.cli.options.areas import with_hole_areas
+from vorotool.cli.values.lengths import with_hole_areas
 
 FILL = "--fill-holes"
 
@@ -31,4 +31,4 @@ FILL = "--fill-holes"
     ],
 )
 def test_which_argument_is_the_area(typed, expected):
-    assert with_hole_areas(typed, [FILL]) == expected
+    assert with_hole_areas(typed) == expected

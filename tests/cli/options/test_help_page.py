@@ -6,8 +6,9 @@ import click
 import pytest
 from click.testing import CliRunner
 
+from vorotool.cli.help_page import COMMON, MOST, GroupedCommand
 from vorotool.cli.main import COMMANDS, vorotool
-from vorotool.cli.options.help_page import COMMON, GROUPS, MOST, GroupedCommand
+from vorotool.products.options import GROUPS
 
 ROOT = click.Context(vorotool)
 GROUPED = [name for name in COMMANDS if isinstance(vorotool.get_command(ROOT, name), GroupedCommand)]
@@ -25,7 +26,8 @@ def said(*arguments):
 
 
 def test_each_option_has_one_group_and_no_group_has_more():
-    listed = [name for names in GROUPS.values() for name in names]
+    own = [{row.parameter for row in rows} for rows in GROUPS.values()]
+    listed = [name for names in own for name in names]
     assert len(listed) == len(set(listed))
     assert set(listed) == set.union(*map(options, GROUPED)) - OWN_HELP
     assert set(COMMON) < set(listed)
@@ -35,7 +37,7 @@ def test_each_option_has_one_group_and_no_group_has_more():
 def test_help_lists_every_option_under_its_title(name):
     text = said(name, "--help")
     titles = [line[:-1] for line in text.splitlines() if re.fullmatch(r"[A-Z][a-z ]+:", line)]
-    assert titles == [title for title in GROUPS if options(name) & set(GROUPS[title])] + ["Help"]
+    assert titles == [title for title in GROUPS if options(name) & {row.parameter for row in GROUPS[title]}] + ["Help"]
     for param in vorotool.get_command(ROOT, name).params:
         assert isinstance(param, click.Argument) or f"{param.opts[-1]}" in text
     assert "RANGE" not in text

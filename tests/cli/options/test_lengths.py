@@ -4,11 +4,11 @@ import json
 import shutil
 from fractions import Fraction
 
-import click
 import numpy as np
 import pytest
 
-from vorotool.cli.options.lengths import Distances, ExactLength, Length, Radius, measured
+from vorotool.cli.values.lengths import distances, exact_length, length, measured, radius
+from vorotool.cli.values.numbers import UnexpectedError
 from vorotool.jobs.options import Options, changed
 from vorotool.jobs.units import Measured, PixelSize, lengths_in_pixels
 from vorotool.numeric.length_units import METRES, is_known, ratio
@@ -145,15 +145,15 @@ def test_what_has_no_unit(text):
 )
 def test_what_has_one(text, number, unit):
     assert measured(text) == Measured(text, Fraction(number), unit, False)
-    assert Length(zero=False).convert(text, None, None) == Measured(text, Fraction(number), unit, False)
-    assert ExactLength().convert(text, None, None) == Measured(text, Fraction(number), unit, True)
+    assert length(text) == Measured(text, Fraction(number), unit, False)
+    assert exact_length(text) == Measured(text, Fraction(number), unit, True)
 
 
 def test_plain_numbers_are_what_they_were():
-    assert Length(zero=False).convert("0.5", None, None) == 0.5
-    assert ExactLength().convert("0.1", None, None) == Fraction(1, 10)
-    assert Radius().convert("inf", None, None) == float("inf")
-    assert Distances().convert("-2,5", None, None) == (-2.0, 5.0)
+    assert length("0.5") == 0.5
+    assert exact_length("0.1") == Fraction(1, 10)
+    assert radius("inf") == float("inf")
+    assert distances("-2,5") == (-2.0, 5.0)
 
 
 @pytest.mark.parametrize(
@@ -169,12 +169,12 @@ def test_plain_numbers_are_what_they_were():
     ],
 )
 def test_ranges_of_distances(text, expected):
-    assert list(Distances().convert(text, None, None)) == expected
+    assert list(distances(text)) == expected
 
 
 @pytest.mark.parametrize("text", ["1mm:3mm:1mm", "1:3:1mm", "1 : 3 : 1 mm"])
 def test_ranges_have_units(text):
-    found = Distances().convert(text, None, None)
+    found = distances(text)
     assert [(each.number, each.unit) for each in found] == [(1, "mm"), (2, "mm"), (3, "mm")]
 
 
@@ -182,13 +182,13 @@ def test_ranges_have_units(text):
     "text", ["1:2", "1:2:3:4", "1:3:0", "1:3:-1", "a:b:c", "1:3:", "1um:3mm:1mm", "-1:1:1", "1:1e9:1", "1:inf:1"]
 )
 def test_ranges_that_are_none(text):
-    with pytest.raises(click.BadParameter):
-        Distances().convert(text, None, None)
+    with pytest.raises(UnexpectedError):
+        distances(text)
 
 
 def test_options_without_units_are_the_same_value():
     options = Options("tessellate")
     assert lengths_in_pixels(options, None) is options
     size = PixelSize(Fraction("0.325"), "um")
-    given = changed(options, max_distance=ExactLength().convert("1.3um", None, None))
+    given = changed(options, max_distance=exact_length("1.3um"))
     assert lengths_in_pixels(given, size).max_distance == 4

@@ -14,12 +14,8 @@ import tifffile
 from PIL import Image
 
 from vorotool import read
+from vorotool.cli.command import Value
 from vorotool.cli.main import vorotool
-from vorotool.cli.options.areas import Area
-from vorotool.cli.options.lengths import Distances, ExactLength, Length
-from vorotool.cli.options.parameter_types import ParameterType
-from vorotool.cli.options.pruning import PruningType
-from vorotool.cli.options.shared import Decimal
 from vorotool.numeric.length_units import unit_name
 
 MASK = np.zeros((40, 60), np.uint8)
@@ -163,10 +159,21 @@ def options():
             yield command, option
 
 
+LENGTHS = {
+    f"lengths.{name}"
+    for name in ("length", "length_or_zero", "exact_length", "radius", "tolerance_or_auto", "distances", "pruning")
+}
+AREAS = {"lengths.area", "lengths.area_or_zero", "lengths.holes"}
+
+
+def kind_of(option):
+    return option.type.kind if isinstance(option.type, Value) else ""
+
+
 def lengths():
     """Command, option and further options of all that are lengths or areas."""
     for command, option in options():
-        if isinstance(option.type, Length | ExactLength | Distances | PruningType | Area):
+        if kind_of(option) in LENGTHS | AREAS:
             plain = "-o o.csv --step 1" if command == "skeleton-approx" else "-o o.csv"
             name = f"{command} {option.opts[0]}"
             yield from ((name, option, more) for more in WITH.get(name, [plain]))
@@ -177,19 +184,19 @@ def test_no_number_is_forgotten():
     plain = {
         option.name
         for _, option in options()
-        if type(option.type) is Decimal or isinstance(option.type, click.types.FloatParamType | click.FloatRange)
+        if kind_of(option) == "numbers.decimal"
+        or isinstance(option.type, click.types.FloatParamType | click.FloatRange)
     }
     assert plain == NO_LENGTHS
     lengths_of = {option.name for _, option, _ in lengths()}
     assert {"r", "distance", "max_distance", "every", "gap", "flatten", "step", "prune", "cell_size"} <= lengths_of
-    assert all(isinstance(option.type, ParameterType) for _, option, _ in lengths())
 
 
 def texts(option, length, number):
     """A length as this option takes it, with its unit and as a number."""
-    if isinstance(option.type, PruningType):
+    if option.name == "prune":
         return f"length={length}", f"length={number}"
-    if not isinstance(option.type, Area):
+    if kind_of(option) not in AREAS:
         return length, number
     digits = length.rstrip("cdkmnu")
     return f"{Number(digits) ** 2:f}{length[len(digits) :]}2", str(Number(number) ** 2)

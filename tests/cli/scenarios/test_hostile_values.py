@@ -1,7 +1,6 @@
 """Every option of every command is given values that are no numbers, or no numbers that fit anything."""
 
 import json
-from importlib import import_module
 
 import click
 import numpy as np
@@ -9,7 +8,8 @@ import pytest
 
 from support.few import few
 from vorotool.cli.main import COMMANDS
-from vorotool.cli.options.shared import OPTIONS
+from vorotool.cli.main import vorotool as group
+from vorotool.products.options import GROUPS
 
 DIGITS = "9" * 5000
 NUMBERS = (
@@ -35,7 +35,7 @@ VALUES = tuple(dict.fromkeys((*NUMBERS, *TEXTS, *LISTS)))
 FEW = 3
 """Commands whose copy of a shared option is tried."""
 
-SHARED = {name.replace("-", "_") for name in OPTIONS}
+SHARED = {row.parameter for rows in GROUPS.values() for row in rows if len(row.commands.split()) > 3}
 
 LEFT_OUT = {"cluster"}
 """Addresses are asked over the network."""
@@ -84,7 +84,7 @@ def cases():
     """Commands with options and the values of each: those of a shared option are dealt to a few of its commands."""
     takers = {}
     for name in COMMANDS:
-        command = import_module(f"vorotool.cli.commands.{name.replace('-', '_')}").command
+        command = group.get_command(None, name)
         for option in command.params:
             if isinstance(option, click.Option) and not option.is_flag and option.name not in LEFT_OUT:
                 takers.setdefault(option.name if option.name in SHARED else (name, option.name), []).append(

@@ -123,11 +123,11 @@ def test_pictures_on_a_map_have_north_on_top(run, tmp_path):
 @pytest.mark.parametrize(
     ("options", "code", "words"),
     [
-        ("in.geojson --like r.tif --size 5x5", 2, "--size contradicts --like"),
-        ("in.geojson --like r.tif --window 0,0,5,5", 2, "--window contradicts --like"),
-        ("in.geojson --like r.tif --cell-size 5", 2, "--cell-size contradicts --like"),
-        ("in.geojson --like r.tif --spacing 1,2", 2, "--spacing contradicts --like"),
-        ("in.geojson --like r.tif --volume", 2, "--like is for images"),
+        ("in.geojson --like r.tif --size 5x5", 2, "--size cannot be combined with --like"),
+        ("in.geojson --like r.tif --window 0,0,5,5", 2, "--window cannot be combined with --like"),
+        ("in.geojson --like r.tif --cell-size 5", 2, "--cell-size cannot be combined with --like"),
+        ("in.geojson --like r.tif --spacing 1,2", 2, "--spacing cannot be combined with --like"),
+        ("in.geojson --like r.tif --volume", 2, "--like cannot be combined with --volume"),
         ("r.tif --like r.tif", 2, "--like is for lists of points"),
         ("in.geojson --like -", 2, "is a stream"),
         ("in.geojson --like none.tif", 3, "none.tif"),

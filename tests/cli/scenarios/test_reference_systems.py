@@ -134,7 +134,7 @@ def test_a_system_is_declared_for_inputs_that_name_none(run, maps):
 def test_what_names_no_system_is_refused(run, maps, name):
     done = run("delaunay", "plain.csv", "--input-crs", name)
     assert done.code == 2
-    assert "write authority and code, such as EPSG:3857" in done.err
+    assert "write e.g. EPSG:3857" in done.err
 
 
 def test_images_have_no_system_to_declare(run, folder):

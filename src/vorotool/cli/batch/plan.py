@@ -28,14 +28,21 @@ from vorotool.jobs.targets import Target, plan_targets
 from vorotool.jobs.units import check_units, lengths_in_pixels
 from vorotool.plain import plain
 from vorotool.products.formats import EXTENSIONS
+from vorotool.products.options import GROUPS
 
-WITHOUT_EFFECT = frozenset(
-    (
-        *("inputs", "output", "out_dir", "threads", "quiet", "verbose", "stats", "no_clobber", "overwrite"),
-        *("files_from", "null", "jobs", "keep_going", "dry_run", "resume", "shard", "follow", "cluster"),
-        *("table", "table_inputs", "fields"),
-    )
-)
+_OF_MANY = {row.parameter for row in GROUPS["Many inputs"]}
+WITHOUT_EFFECT = {
+    *_OF_MANY,
+    "inputs",
+    "output",
+    "threads",
+    "quiet",
+    "verbose",
+    "stats",
+    "no_clobber",
+    "overwrite",
+    "sources",
+}
 """Options that change no byte of an output."""
 
 

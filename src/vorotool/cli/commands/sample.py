@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from vorotool.cli.options.suggestions import any_file, words
+from vorotool.cli.suggestions import candidates, words
 from vorotool.products.samples import SAMPLES
 
 
@@ -16,7 +16,7 @@ from vorotool.products.samples import SAMPLES
     "--output",
     metavar="FILE",
     help="Output file; by default standard output. With --all a folder; by default the current one.",
-    shell_complete=any_file,
+    shell_complete=candidates("sample", "any"),
 )
 def command(name: str | None, every: bool, output: str | None) -> None:
     """Write a small file to try commands on; without a name, list all.

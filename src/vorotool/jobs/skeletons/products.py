@@ -14,13 +14,14 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError, Kind, Message, RepairWarning, VorotoolWarning
 from vorotool.jobs.checked_columns import check_columns
-from vorotool.jobs.inputs import JobInput, refuse
+from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.options import Options, Place
 from vorotool.jobs.picture_style import styled_page
 from vorotool.jobs.picture_world import world_of_polygons
 from vorotool.jobs.pictures import write_layers
 from vorotool.jobs.pixel_sizes import placed_backdrop
 from vorotool.jobs.pruning_choice import CRITERIA, LENGTHS, Pruning, chosen_pruning
+from vorotool.jobs.refusals import refuse
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.skeleton_input import read_polygons
 from vorotool.jobs.skeletons.derived import Derived

@@ -8,27 +8,9 @@ from typing import Any
 
 import click
 
-from vorotool.cli.options.areas import HoleArea, with_hole_areas
-from vorotool.cli.options.shared import Names
 from vorotool.jobs.terminal import print_text
-
-_GROUPS = {
-    "Output": "output format what dtype chunk levels tiled flatten decimals precision with_columns no_properties "
-    "safe_csv no_clobber overwrite",
-    "Method": "method graph passes by max_distance r alpha auto regions rule hole_threshold region_threshold step "
-    "tolerance sampling compare boundary side gap complete features prune join_junctions start end ends smooth "
-    "distance every along count local neck",
-    "Input": "columns input_format input_layer input_crs crs y_up page volume pixel_size spacing seeds connectivity "
-    "threshold invert min_area fill_holes outline border simplify join_tolerance",
-    "Frame": "size window cell_size like frame clip enclosures",
-    "Pictures": "layers slice overlay width scale drawing_unit aspect extent background colors "
-    "line_widths label_by legend scale_bar animate frames fps",
-    "Many inputs": "out_dir files_from null jobs keep_going dry_run resume shard follow table table_inputs fields "
-    "cluster",
-    "Checks and resources": "verify strict stats threads max_pixels max_sites quiet verbose",
-}
-GROUPS = {title: names.split() for title, names in _GROUPS.items()}
-"""Names of parameters under the titles of their groups."""
+from vorotool.products.options import GROUPS
+from vorotool.products.registry import PRODUCTS
 
 _COMMON = (
     "output format what by enclosures size r step tolerance side prune distance seeds threshold layers out_dir jobs"
@@ -60,8 +42,10 @@ class GroupedCommand(click.Command):
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Say what to do instead where an option is one of other commands."""
-        holes = [name for param in self.params if isinstance(param.type, HoleArea) for name in param.opts]
-        args = with_hole_areas(args, holes)
+        if "--fill-holes" in args:
+            from vorotool.cli.values.lengths import with_hole_areas
+
+            args = with_hole_areas(args)
         typed = [*args]
         try:
             return super().parse_args(ctx, args)
@@ -88,7 +72,8 @@ class GroupedCommand(click.Command):
     def grouped(self, ctx: click.Context) -> dict[str, list[tuple[str, str]]]:
         """Options and what they are for, under the titles of their groups."""
         records = self._records(ctx)
-        groups = {title: [records.pop(name) for name in [*records] if name in names] for title, names in GROUPS.items()}
+        names = {title: {row.parameter for row in rows} for title, rows in GROUPS.items()}
+        groups = {title: [records.pop(each) for each in [*records] if each in names[title]] for title in names}
         return {title: rows for title, rows in groups.items() if rows} | {"Help": list(records.values())}
 
     def _records(self, ctx: click.Context) -> dict[str, tuple[str, str]]:
@@ -99,11 +84,10 @@ class GroupedCommand(click.Command):
 
     def _shortened(self, name: str, record: tuple[str, str]) -> tuple[str, str]:
         """Name the first of many products only."""
-        kind = next(param.type for param in self.params if param.name == name)
-        if name != "what" or not isinstance(kind, Names) or len(kind.choices) <= MOST_NAMES:
+        own = list(PRODUCTS.get(self.name or "", ()))
+        if name != "what" or len(own) <= MOST_NAMES:
             return record
-        first = ", ".join(kind.choices[:MOST_NAMES])
-        return record[0], f"What to write: {first}, and {len(kind.choices) - MOST_NAMES} more."
+        return record[0], f"What to write: {', '.join(own[:MOST_NAMES])}, and {len(own) - MOST_NAMES} more."
 
     def _show_short(self, ctx: click.Context, _param: click.Parameter, value: bool) -> None:
         if not value or ctx.resilient_parsing:

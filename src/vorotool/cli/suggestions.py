@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from vorotool.products.formats import EXTENSIONS
+from vorotool.products.inputs import NAMES_WITH, names_of
+from vorotool.products.registry import formats_of
 
 if TYPE_CHECKING:
     from click.shell_completion import CompletionItem
@@ -18,20 +20,26 @@ SEPARATOR = "|"
 """Between extensions."""
 
 
-def files(extensions: Iterable[str]) -> Candidates:
+def candidates(command: str, spec: str) -> Candidates:
+    """Return what offers the values of an option, as the table of options has it."""
+    kind, _, rest = spec.partition(":")
+    if kind in ("any", "folders"):
+        return lambda context, parameter, begun: [_item("_", "path" if kind == "any" else "dir")]
+    if kind == "words":
+        return words(rest.split())
+    if kind == "formats":
+        return _formats_of(formats_of(command))
+    if kind == "inputs":
+        held: Any = rest.split() or [None]
+        return _files([*NAMES_WITH[None]]) if held == [None] else _files([*names_of(*held)])
+    written = {fmt for possible in formats_of(command).values() for fmt in possible} if kind == "outputs" else set()
+    return _files(rest.split() or [ending[1:] for ending, fmt in EXTENSIONS.items() if fmt in written])
+
+
+def _files(extensions: Iterable[str]) -> Candidates:
     """Offer files with one of the extensions, and folders; the shell looks for them."""
     joined = SEPARATOR.join(extensions)
     return lambda context, parameter, begun: [_item(joined, "file")]
-
-
-def any_file(context: click.Context, parameter: click.Parameter, begun: str) -> list[CompletionItem[str]]:
-    """Offer files and folders."""
-    return [_item("_", "path")]
-
-
-def folders(context: click.Context, parameter: click.Parameter, begun: str) -> list[CompletionItem[str]]:
-    """Offer folders."""
-    return [_item("_", "dir")]
 
 
 def words(names: Collection[str]) -> Candidates:
@@ -39,13 +47,7 @@ def words(names: Collection[str]) -> Candidates:
     return lambda context, parameter, begun: [_item(name) for name in names if name.startswith(begun)]
 
 
-def outputs_of(formats: Mapping[str, Sequence[str]]) -> Candidates:
-    """Offer files with the extensions of formats, and folders."""
-    written = {fmt for possible in formats.values() for fmt in possible}
-    return files(extension[1:] for extension, fmt in EXTENSIONS.items() if fmt in written)
-
-
-def formats_of(formats: Mapping[str, Sequence[str]]) -> Candidates:
+def _formats_of(formats: Mapping[str, Sequence[str]]) -> Candidates:
     """Offer the formats of what ``--what`` names before, or of all."""
 
     def offer(context: click.Context, parameter: click.Parameter, begun: str) -> list[CompletionItem[str]]:

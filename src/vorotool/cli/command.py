@@ -1,0 +1,172 @@
+"""Commands for click, made from the tables of commands and of options."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import click
+from click.core import ParameterSource
+
+from vorotool.cli.help_page import GroupedCommand
+from vorotool.cli.suggestions import Candidates, candidates, listed
+from vorotool.products.commands import COMMANDS
+from vorotool.products.formats import FORMATS
+from vorotool.products.inputs import DRAWN_NAMES, NAMES_WITH
+from vorotool.products.options import options_of
+from vorotool.products.registry import PRODUCTS, all_layers
+
+if TYPE_CHECKING:
+    from click.shell_completion import CompletionItem
+
+    from vorotool.products.options.row import Option
+
+    ParameterType = click.ParamType[Any]
+else:
+    ParameterType = click.ParamType  # which only click from 8.4 on says what it converts to
+
+Convert = Callable[[str], Any]
+
+
+class Value(ParameterType):
+    """A value that a function of `vorotool.cli.values` takes from text."""
+
+    def __init__(self, kind: str, metavar: str, convert: Convert | None = None) -> None:
+        self.kind = self.name = kind
+        self._metavar, self._convert = metavar, convert
+
+    def get_metavar(self, param: click.Parameter, ctx: click.Context | None = None) -> str:
+        """Return it as it is written: ``WxH``, not ``WXH``."""
+        return self._metavar
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Convert text; while a shell completes what follows, numbers stay as they are."""
+        from vorotool.cli.values.numbers import UnexpectedError
+
+        if not isinstance(value, str) or (self._convert is None and ctx is not None and ctx.resilient_parsing):
+            return value
+        try:
+            return (self._convert or _function(self.kind))(value)
+        except UnexpectedError as error:
+            self.fail(f"{value!r}: {error}", param, ctx)
+
+
+class Names(Value):
+    """Names from a list, separated by commas."""
+
+    def __init__(self, metavar: str, choices: tuple[str, ...]) -> None:
+        from vorotool.cli.values.names import names_among
+
+        super().__init__("names", metavar, names_among(choices))
+        self.choices = choices
+
+    def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem[str]]:
+        """Offer what is not in the list yet."""
+        return listed(self.choices, incomplete)
+
+
+def _function(kind: str) -> Convert:
+    """Return a function of `vorotool.cli.values` by its name."""
+    from importlib import import_module
+
+    module, name = kind.split(".")
+    found: Convert = getattr(import_module(f"vorotool.cli.values.{module}"), name)
+    return found
+
+
+def _type_of(command: str, row: Option) -> ParameterType | None:
+    """Return the type of the values of an option; None for text."""
+    kind, _, rest = row.type.partition(":")
+    if kind == "choice":
+        return click.Choice(rest.split(), case_sensitive=False)
+    if kind in ("int", "float"):
+        number: Any = int if kind == "int" else float
+        least, most = (number(text) if text else None for text in rest.split(":"))
+        if least is None and most is None:
+            return click.INT
+        return click.IntRange(least, most) if kind == "int" else click.FloatRange(least, most)
+    if kind == "results":
+        return Names(row.metavar, tuple(PRODUCTS[command]))
+    if kind == "layers":
+        return Names(row.metavar, all_layers(command))
+    return Value(kind, row.metavar) if kind else None
+
+
+def _joined(_ctx: click.Context, _param: click.Parameter, value: tuple[tuple[Any, ...], ...]) -> Any:
+    """Join the lists of an option that is repeated; None where it is not given."""
+    return tuple(dict.fromkeys(each for values in value for each in values)) or None
+
+
+def _help_of(command: str, row: Option) -> str:
+    text = row.help
+    if "{" in text:
+        own = PRODUCTS[command]
+        names = {
+            "results": lambda: ", ".join(own),
+            "formats": lambda: ", ".join(dict.fromkeys(fmt for each in own.values() for fmt in each.formats)),
+            "layers": lambda: ", ".join(all_layers(command)),
+            "of_polygons": lambda: ", ".join(own["polygons"].usual_for),
+            "flattened": lambda: ", ".join(each.title for each in FORMATS.values() if each.flattens),
+        }
+        text = re.sub(r"\{(\w+)\}", lambda match: names[match[1]](), text)
+    return text
+
+
+def option(command: str, row: Option) -> click.Option:
+    """Make an option of a command."""
+    kind = _type_of(command, row)
+    more: dict[str, Any] = {}
+    if row.is_flag:
+        more = {"is_flag": True}
+    elif row.is_pair:
+        more = {"default": None}
+    else:
+        is_named = kind is None or row.type.partition(":")[0] in ("int", "float")
+        more = {"type": kind, "metavar": row.metavar if is_named else None, "multiple": bool(row.repeats)}
+    if row.repeats == "joined":
+        more["callback"] = _joined
+    if row.complete:
+        more["shell_complete"] = candidates(command, row.complete)
+    if row.env:
+        more |= {"envvar": f"VOROTOOL_{row.env}", "show_envvar": True}
+    if row.parameter == "what" and command != "alphashape":
+        more |= {"default": (next(iter(PRODUCTS[command])),), "show_default": True}
+    elif row.default is not None and not row.repeats:
+        more |= {"default": row.default, "show_default": row.default not in (False, 0.0) or row.env != ""}
+    return click.Option([*row.spellings, row.parameter], help=_help_of(command, row), **more)
+
+
+def _argument(name: str, metavar: str, complete: Candidates, **more: Any) -> click.Argument:
+    return click.Argument([name], metavar=metavar, shell_complete=complete, **more)
+
+
+def computing_command(name: str) -> click.Command:
+    """Make a command that reads inputs and writes results."""
+    about = COMMANDS[name]
+    names = DRAWN_NAMES if about.reads is None else NAMES_WITH[about.reads]
+    files = candidates(name, f"files:{' '.join(names)}")
+    if name == "distance":
+        arguments = [_argument("a", "A", files), _argument("b", "B", files)]
+    else:
+        arguments = [_argument("inputs", "INPUT...", files, nargs=-1)]
+    params: list[click.Parameter] = [*arguments, *(option(name, row) for row in options_of(name).values())]
+    return GroupedCommand(name, params=params, callback=_runner(name), help=about.text, instead=dict(about.instead))
+
+
+def _runner(name: str) -> Callable[..., None]:
+    def run(**given: Any) -> None:
+        from vorotool.cli.run import run_command
+        from vorotool.jobs.job import prepared
+
+        run_command(*prepared(name, given, _sources()))
+
+    return run
+
+
+def _sources() -> dict[str, str]:
+    """Return where options that are not at their defaults come from: ``typed`` or ``environment``, by parameter."""
+    context = click.get_current_context()
+    words = {ParameterSource.COMMANDLINE: "typed", ParameterSource.ENVIRONMENT: "environment"}
+    found = {name: context.get_parameter_source(name) for name in context.params}
+    return {name: words[source] for name, source in found.items() if source in words}

@@ -1,1 +1,0 @@
-"""Types of parameters, and options that commands share."""

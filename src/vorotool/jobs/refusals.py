@@ -1,0 +1,240 @@
+"""Options that do not go together, or that no output would show: refused by the table of options."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any
+
+from vorotool.errors import UsageError
+from vorotool.jobs.options import Options
+from vorotool.jobs.picture_style import SCALE_BAR
+from vorotool.jobs.targets import Target
+from vorotool.products.formats import ANIMATIONS, FORMATS, PICTURES, TABLES, picture_format
+from vorotool.products.options import flag, options_of
+from vorotool.products.options.row import Option
+from vorotool.products.options.rules import EXCLUDING, NEEDING, Rule
+from vorotool.products.registry import NAMING_FEATURES, PRODUCTS, Product
+
+Products = Mapping[str, Product]
+
+_KINDS = {
+    ".picture": "pictures: use -f svg or -f png",
+    ".page": "pictures: use -f svg or -f png",
+    ".amounts": "pictures of thickness",
+    ".sized": "pictures: use -f svg",
+    ".animation": "animations: use -f gif, -f apng or -f webp",
+    ".coordinates": "coordinates in tables and vectors",
+    ".digits": "numbers in text: use -f csv or another format of text",
+    ".parts": "tables and GeoJSON whose rows are parts of features or pairs: --what branches, points or edges",
+    ".curves": "formats that have no curves, such as GeoJSON and WKT",
+    "?may_be_drawn": "drawings that are read",
+    ".ome-zarr": "OME-Zarr: use -o NAME.ome.zarr",
+}
+"""Words for kinds of outputs."""
+
+
+def check_options(o: Options, targets: Sequence[Target], products: Products) -> None:
+    """Refuse what the table of options and its rules exclude."""
+    kinds = [_kinds_of(o, target, products[target.what]) for target in targets]
+    holding = _Holding(o, targets, kinds)
+    for rule in (each for each in EXCLUDING if o.command in each.commands.split()):
+        for one in filter(holding.holds, rule.these.split()):
+            for other in filter(holding.holds, rule.others.split()):
+                first, second = _words(o, one), _words(o, other)
+                raise UsageError(f"{second} cannot be combined with {first}: {rule.why}; {rule.instead}")
+    for rule in (each for each in NEEDING if o.command in each.commands.split()):
+        _check_need(o, rule, holding)
+    for row in options_of(o.command).values():
+        if row.acts_on and is_given(o, row) and not any(map(holding.holds, _conditions(row))):
+            name = flag(o.command, row.parameter, getattr(o, row.parameter))
+            raise UsageError(f"{name} applies to {_where(o, row)}; leave it out otherwise")
+    _check_values(o)
+    _check_layers(o, targets, products)
+
+
+def is_given(o: Options, row: Option) -> bool:
+    """Tell whether an option has another value than its default."""
+    value = getattr(o, row.parameter)
+    return value is not None and value != row.unset
+
+
+def _check_need(o: Options, rule: Rule, holding: _Holding) -> None:
+    for one in filter(holding.holds, rule.these.split()):
+        if not any(map(holding.holds, rule.others.split())):
+            needed = " or ".join(_needed(o, each) for each in rule.others.split() if not each.startswith("?"))
+            what = o.command if one == "inputs" else _words(o, one)
+            raise UsageError(f"{what} needs {needed}" + (f": {rule.why}" if rule.why else ""))
+
+
+def _needed(o: Options, condition: str) -> str:
+    """Write a condition that is to be met, with what stands for the value."""
+    row = options_of(o.command).get(condition)
+    return f"{_words(o, condition)} {'' if row is None else row.metavar}".rstrip()
+
+
+# ---- conditions ----------------------------------------------------------------------------------
+class _Holding:
+    """Which conditions hold for options and outputs."""
+
+    def __init__(self, o: Options, targets: Sequence[Target], kinds: Sequence[set[str]]) -> None:
+        self.o, self.rows = o, options_of(o.command)
+        self.outputs = {(target.what, kind) for target, own in zip(targets, kinds, strict=True) for kind in own}
+        self.kinds = {kind for _, kind in self.outputs}
+
+    def holds(self, condition: str) -> bool:
+        """Tell whether a condition holds; see `vorotool.products.options.rules`."""
+        return all(map(self._holds, condition.split("+")))
+
+    def _holds(self, condition: str) -> bool:
+        for sign, test in self._tests.items():
+            before, found, rest = condition.partition(sign)
+            if found:
+                return bool(test(before, rest))
+        return condition == "inputs" or (condition in self.rows and is_given(self.o, self.rows[condition]))
+
+    @property
+    def _tests(self) -> dict[str, Callable[[str, str], Any]]:
+        """What is tested of a condition with a sign, by what stands before and behind it."""
+        return {
+            ":": self._holds_names,
+            "?": lambda _, name: getattr(self.o, name),
+            "=": lambda name, value: getattr(self.o, name) == value,
+            ".": lambda what, kind: (what, kind) in self.outputs or (not what and kind in self.kinds),
+        }
+
+    def _holds_names(self, kind: str, names: str) -> bool:
+        if kind == "only":
+            return set(self.o.what) <= set(names.split(","))
+        return names in (self.o.what if kind == "what" else self.o.layers or ())
+
+
+def _conditions(row: Option) -> Iterator[str]:
+    """Give the conditions of which one is needed for an option to show."""
+    for word in row.acts_on.split():
+        is_result = not any(sign in word for sign in "=:.?")
+        yield f"what:{word}" if is_result else word
+
+
+def _kinds_of(o: Options, target: Target, product: Product) -> set[str]:
+    """Give what an output is, as conditions name it."""
+    fmt, shown = FORMATS[target.fmt], picture_format(target.fmt)
+    layers = product.layers.get(shown) if shown in PICTURES else None
+    is_drawn = target.what != "diagram" or o.command != "tessellate" or o.draws_diagram
+    is_picture = bool(layers) and target.what != "thickness" and is_drawn
+    is_sized = shown == "svg" if o.command == "tessellate" else is_picture or layers == ()
+    facts = {
+        target.fmt: True,
+        "picture": is_picture,
+        "png-picture": is_picture and target.fmt == "png",
+        "page": is_picture and o.overlay is None,
+        "amounts": target.what == "thickness" and target.fmt == "png",
+        "sized": layers is not None and is_sized,
+        "animation": target.fmt in ANIMATIONS,
+        "coordinates": fmt.has_digits or bool(fmt.made_from),
+        "digits": fmt.has_digits,
+        "curves": product.is_curved and fmt.flattens,
+        "parts": target.what in NAMING_FEATURES
+        and (target.fmt in (*TABLES, "geojson", "graphml") or bool(fmt.made_from)),
+        "ome-zarr": target.fmt == "zarr" and target.path.lower().endswith(".ome.zarr"),
+    }
+    return {name for name, holds in facts.items() if holds}
+
+
+# ---- words ---------------------------------------------------------------------------------------
+_PROPERTIES = {
+    "?is_of_volumes": "a volume",
+    "?is_digital": "--method digital",
+    "?has_pixel_size": "--pixel-size",
+    "?is_automatic": "the automatic choice of r",
+    "?has_bands_on_cluster": "--cluster",
+    "?has_several_results": "other results",
+    "?scale_in_millimetres": "--scale S",
+}
+
+
+def _words(o: Options, condition: str) -> str:
+    """Write a condition as the user typed it."""
+    condition = condition.partition("+")[0]
+    kind, colon, name = condition.partition(":")
+    if kind == "only":
+        return f"--what {','.join(o.what)}"
+    if colon:
+        return f"--{'what' if kind == 'what' else 'layers'} {name}"
+    if condition.startswith("?"):
+        return "--volume" if condition == "?is_of_volumes" and o.volume else _PROPERTIES[condition]
+    what, dot, fmt = condition.partition(".")
+    if dot:
+        word = {"animation": "an animation", "png-picture": "-f png"}.get(fmt, f"-f {fmt}")
+        return f"--what {what} {word}" if what else word
+    name, equals, value = condition.partition("=")
+    return f"{flag(o.command, name, getattr(o, name))}{' ' if equals else ''}{value}"
+
+
+def _where(o: Options, row: Option) -> str:
+    """Say what shows an option."""
+    results: dict[str, list[str]] = {}
+    others = []
+    for word in row.acts_on.split():
+        if word.startswith(".") and word[1:] in FORMATS:
+            others.append(f"{FORMATS[word[1:]].title}: use -f {word[1:]}")
+        elif word.startswith((".", "?")):
+            others.append(_KINDS[word])
+        elif "=" in word or ":" in word:
+            others.append(_words(o, word))
+        else:
+            what, _, fmt = word.partition(".")
+            results.setdefault(what, []).extend([fmt] if fmt else [])
+    plain = [what for what, formats in results.items() if not formats and what in PRODUCTS[o.command]]
+    said = [f"--what {', '.join(plain)}"] if plain else []
+    said += [f"--what {what} as {', '.join(formats)}" for what, formats in results.items() if formats]
+    return " or ".join(dict.fromkeys([*said, *others]))
+
+
+# ---- values --------------------------------------------------------------------------------------
+def _check_values(o: Options) -> None:
+    """Refuse a window in pixels that is no integers, and a frame too far away to compute with."""
+    if o.window is not None and o.cell_size is None and not all(isinstance(number, int) for number in o.window):
+        shown = ",".join(f"{float(number):g}" for number in o.window)
+        raise UsageError(f"invalid --window '{shown}': expected four integers X,Y,W,H, such as -10,-10,640,480")
+    if o.frame is not None and o.is_of_shapes:
+        from vorotool.types.magnitude import LARGEST
+
+        if max(map(abs, o.frame)) > LARGEST:
+            raise UsageError(f"--frame goes too far to compute with: use numbers of at most {LARGEST:g}")
+
+
+def _check_layers(o: Options, targets: Sequence[Target], products: Products) -> None:
+    """Refuse layers, and colors and widths of layers, that a picture has not."""
+    known: list[str] = []
+    for target in targets:
+        layers = products[target.what].layers.get(picture_format(target.fmt), ())
+        known += layers
+        if layers:
+            _check_chosen(o, target.fmt, target.what, layers)
+    _check_styles(o, known)
+
+
+def check_drawn_layers(o: Options, fmt: str, what: str, layers: Sequence[str]) -> None:
+    """Refuse layers that the picture of an input that is drawn again has not."""
+    _check_chosen(o, fmt, what, layers)
+    _check_styles(o, layers)
+
+
+def _check_chosen(o: Options, fmt: str, what: str, layers: Sequence[str]) -> None:
+    for layer in (each for each in (o.layers or ()) if each not in layers):
+        raise UsageError(f"--layers {layer}: a picture of {what} in {fmt.upper()} has {', '.join(layers)}")
+
+
+def _check_styles(o: Options, layers: Sequence[str]) -> None:
+    """Refuse colors and widths of layers that no picture has; the scale bar has a color, too."""
+    for option, chosen in (("color", o.colors), ("line-width", o.line_widths)):
+        names = list(dict.fromkeys([*layers, *([SCALE_BAR] if o.scale_bar and option == "color" else [])]))
+        for layer in (layer for layer, _ in chosen if layer not in names):
+            raise UsageError(f"--{option} {layer}: the picture has {', '.join(names)}")
+
+
+def refuse(options: Mapping[str, Any], reason: str) -> None:
+    """Refuse options that are given although they mean nothing here."""
+    for name, value in options.items():
+        if value is not None and value is not False:  # 0 is given, too
+            raise UsageError(f"--{name} {reason}")

@@ -1,0 +1,140 @@
+"""Which options, results and formats exclude or need each other.
+
+A rule is about conditions, each written as: ``option`` (it is given), ``option=value``, ``what:RESULT`` (the result is
+asked for), ``only:RESULT,RESULT`` (nothing but these), ``RESULT.FORMAT`` and ``.KIND`` (an output is such),
+``layer:NAME``, or ``?property`` of `vorotool.jobs.options.Options`; ``a+b`` holds where both do.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from vorotool.products.options.row import ALL, BATCHES, SITES, SKELETONS
+
+
+class Rule(NamedTuple):
+    """Conditions of one kind that exclude, or need, one of another."""
+
+    commands: str
+    these: str
+    others: str
+    why: str = ""
+    instead: str = "leave out one of the two"
+
+
+EXCLUDING = (
+    Rule(ALL, "size", "window", "both are the frame"),
+    # ---- pictures
+    Rule(ALL, "scale drawing_unit", "width overlay aspect .png-picture", "a picture to scale is SVG, and has its size"),
+    Rule(ALL, "aspect extent width y_up", "overlay", "a picture over an image has its size, and y downwards"),
+    Rule(ALL, "background", "overlay", "the image is the background"),
+    Rule(ALL, "?scale_in_millimetres", "drawing_unit", "--scale S is millimetres a unit"),
+    Rule(
+        "skeleton-exact",
+        "thickness.png",
+        "width overlay layers colors line_widths label_by aspect extent",
+        "a picture of thickness has the pixels of the image, and colors of its own",
+    ),
+    # ---- tessellations
+    Rule(
+        "tessellate",
+        "method=propagation",
+        "max_distance spacing what:distance what:distance2 .animation ?has_bands_on_cluster",
+        "the paper's propagation gives the labels of square pixels alone",
+    ),
+    Rule("tessellate", "like", "size window cell_size spacing", "the raster gives the frame and its pixels"),
+    Rule("tessellate", "cell_size", "spacing", "the cells are squares in the units of the map"),
+    Rule("tessellate", "cell_size", "size", "--size is in pixels", "give --window X,Y,W,H in the units of the map"),
+    Rule(
+        "tessellate",
+        "?is_of_volumes",
+        "method=propagation passes tiled like overlay y_up animate frames fps connectivity=8 connectivity=4",
+        "it is for images",
+    ),
+    Rule("tessellate", "?is_of_volumes", "cell_size input_layer input_crs crs", "it is for maps"),
+    Rule("tessellate", "?is_of_volumes", "page", "all pages are the volume"),
+    Rule("tessellate", "?is_of_volumes", "?has_pixel_size", "voxels have three sides", "give --spacing SX,SY,SZ"),
+    Rule(SITES, "connectivity", "seeds=pixels seeds=labels", "it is for components"),
+    # ---- triangulations and alpha shapes
+    Rule("delaunay", "what:compare", "method=digital-valid", "it is about the digital rule", "use --method digital"),
+    Rule(
+        "delaunay",
+        "what:compare+method=exact",
+        "?has_several_results",
+        "the comparison is about the digital rule",
+        "use --method digital",
+    ),
+    Rule("delaunay", "what:compare", "spacing", "differences are explained by the sides of square pixels"),
+    Rule(
+        "delaunay",
+        "?is_digital",
+        "layer:cells layer:diagram graph what:cells what:table what:statistics what:measures edges.edge triangles.ele",
+        "it finds edges and triangles that need be no triangulation",
+        "use --method exact or digital-valid",
+    ),
+    Rule("alphashape", "regions", "r alpha", "it is for the automatic choice of r"),
+    Rule("alphashape", "what:hull", "hole_threshold region_threshold", "the hull has no thresholds"),
+    Rule(
+        "alphashape",
+        "rule=printed",
+        "verify ?is_automatic what:curves what:persistence .html",
+        "it is the letter of the paper, for one -r",
+        "use --rule corrected",
+    ),
+    Rule(
+        "alphashape",
+        "method=digital",
+        "?is_automatic what:polygons what:general what:hull what:points what:table what:curves what:persistence .html "
+        ".animation hole_threshold region_threshold verify",
+        "it finds edges and triangles, which need be no triangulation",
+        "use --method exact or digital-valid",
+    ),
+    # ---- skeletons and Voronoi maps
+    Rule("skeleton-approx", "step", "tolerance", "either says how finely edges are sampled"),
+    Rule("skeleton-approx", "tolerance", "sampling=paper", "the paper's samples have one step everywhere"),
+    Rule(
+        SKELETONS,
+        "side=exterior",
+        "what:shape what:centerline along=centerline what:discs what:thickness",
+        "it is inside polygons",
+        "use --side interior or both",
+    ),
+    Rule(SKELETONS, "ends=middle+what:skeleton", "side=exterior side=both", "ends are extended only inside polygons"),
+    Rule(SKELETONS, "smooth ends=middle", "skeleton.graphml skeleton.html", "smoothed or extended lines are no graph"),
+    Rule(SKELETONS, "join_junctions", "skeleton.html", "the page shows all prunings"),
+    Rule(
+        "skeleton-exact",
+        "what:necks what:parts",
+        "side=exterior side=both",
+        "necks are inside polygons",
+        "use --side interior",
+    ),
+    Rule("skeleton-exact", "what:necks what:parts what:shape what:thickness", "gap", "a gap leaves the corners out"),
+    Rule("skeleton-exact", "only:offset,discs,necks,parts,thickness", "prune", "the result is of the shapes"),
+    Rule("skeleton-exact", "only:offset,discs", "gap", "the result is of the shapes"),
+    Rule("skeleton-exact", "only:offset", "side=exterior side=both", "offset curves are of the shapes"),
+    Rule(
+        "skeleton-exact",
+        "border=open",
+        "side=exterior side=both features=together gap simplify frame what:diagram what:elements what:offset "
+        "what:shape what:discs what:thickness what:necks what:parts",
+        "it is for what is inside each object as it is",
+        "use --what skeleton, branches, table, centerline, points or transects alone",
+    ),
+    Rule("voronoi", "by", "no_properties", "features are joined by a column"),
+    Rule("voronoi", "only:discs", "max_distance enclosures by", "discs are between all that there is"),
+)
+"""Of each rule, no condition of the first kind may hold with one of the second."""
+
+NEEDING = (
+    Rule("tessellate", "passes", "method=propagation"),
+    Rule("tessellate", "slice levels connectivity=26 connectivity=6", "volume ?is_of_volumes"),
+    Rule("delaunay", "size window", "method=digital method=digital-valid ?is_digital", "it is the frame of pixels"),
+    Rule("alphashape", "size window", "method=digital method=digital-valid", "it is the frame of pixels"),
+    Rule(SKELETONS, "what:points what:transects", "every"),
+    Rule("skeleton-approx", "inputs", "step tolerance"),
+    Rule("skeleton-exact", "what:offset", "distance"),
+    Rule("skeleton-exact", "complete", "gap", "without one nothing is missing"),
+    Rule(BATCHES, "null", "files_from", "it is about that list"),
+)
+"""Of each rule, a condition of the first kind needs one of the second."""
