@@ -9,7 +9,7 @@ PROPAGATION = ("tessellate", "dots.csv", "-o", "a.tif", "--method", "propagation
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["tessellate"], ["0 inputs"]),
+        (["tessellate"], ["no input given"]),
         (["tessellate", "dots.csv", "mask.pbm", "-o", "a.png"], ["2 inputs"]),
         (["tessellate", "dots.csv"], ["-o", "-f"]),
         (["tessellate", "dots.csv", "--what", "lables"], ["'lables'", "labels"]),
