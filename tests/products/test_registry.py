@@ -24,7 +24,7 @@ def test_products_have_what_they_name():
         assert set(product.formats) <= set(FORMATS)
         assert len(set(product.formats)) == len(product.formats)
         assert set(product.layers) <= set(PICTURES)
-        assert set(product.usual_for) <= set(product.data)
+        assert set(product.usual_for) <= set(product.formats)
         for layers in product.layers.values():
             assert set(product.usual_layers) <= set(layers)
 

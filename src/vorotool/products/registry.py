@@ -162,7 +162,7 @@ _ALPHASHAPE = (
         own=_POLYGON_FILES,
         has_page=True,
         moves=True,
-        usual_for=("geojson", "wkt", "poly"),
+        usual_for=("geojson", "wkt", "poly", "gpkg", "fgb", "shp", "parquet"),
     ),
     _product("complex", *_EDGES, "interior boundary singular points", has_page=True, moves=True),
     _product("general", *_GENERAL, "polygons boundary singular points", has_page=True, moves=True),

@@ -301,3 +301,15 @@ def test_rectangular_pixels_are_measured_before(run, folder):
     rows = run("alphashape", "t.csv", "-r", "50", "--what", "edges", "-q").rows
     places = {(float(row[f"x_{end}"]), float(row[f"y_{end}"])) for row in rows for end in "ab"}
     assert places == {(8, 14), (42, 21), (39.5, 57)}
+
+
+@pytest.mark.parametrize("ending", ["gpkg", "fgb", "shp", "parquet", "geojson", "wkt"])
+def test_files_of_maps_have_polygons(run, tmp_path, ending):
+    """As GeoJSON has: GIS users would look for areas."""
+    (tmp_path / "p.csv").write_text("x,y\n0,0\n4,0\n4,3\n0,3\n")
+    assert run("alphashape", "p.csv", "-r", "3", "-o", f"a.{ending}", "-q").code == 0
+    read = vorotool.read(tmp_path / f"a.{ending}")
+    assert len(read) == 1
+    assert not read.is_line.any()
+    vorotool.write(vorotool.alpha_shape([[0, 0], [4, 0], [4, 3], [0, 3]], r=3), tmp_path / f"b.{ending}")
+    assert not vorotool.read(tmp_path / f"b.{ending}").is_line.any()
