@@ -11,6 +11,8 @@ from click.core import ParameterSource
 
 from vorotool.cli.help_page import GroupedCommand
 from vorotool.cli.suggestions import Candidates, candidates, listed
+from vorotool.cli.values import UnexpectedError
+from vorotool.cli.values.names import names_among
 from vorotool.products.commands import COMMANDS
 from vorotool.products.formats import FORMATS
 from vorotool.products.inputs import DRAWN_NAMES, NAMES_WITH
@@ -42,8 +44,6 @@ class Value(ParameterType):
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         """Convert text; while a shell completes what follows, numbers stay as they are."""
-        from vorotool.cli.values.numbers import UnexpectedError
-
         if not isinstance(value, str) or (self._convert is None and ctx is not None and ctx.resilient_parsing):
             return value
         try:
@@ -56,8 +56,6 @@ class Names(Value):
     """Names from a list, separated by commas."""
 
     def __init__(self, metavar: str, choices: tuple[str, ...]) -> None:
-        from vorotool.cli.values.names import names_among
-
         super().__init__("names", metavar, names_among(choices))
         self.choices = choices
 

@@ -40,6 +40,14 @@ class GroupedCommand(click.Command):
         )
         self.params.append(short)
 
+    def make_parser(self, ctx: click.Context) -> Any:
+        """Let short options be found at first: click looks for long ones, and for others like them, before."""
+        parser = super().make_parser(ctx)
+        long, short = (vars(parser).get(name) for name in ("_long_opt", "_short_opt"))
+        if long is not None and short is not None:
+            long.update({name: each for name, each in short.items() if name not in long})
+        return parser
+
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Say what to do instead where an option is one of other commands."""
         if "--fill-holes" in args:

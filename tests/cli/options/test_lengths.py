@@ -7,8 +7,8 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
+from vorotool.cli.values import UnexpectedError
 from vorotool.cli.values.lengths import distances, exact_length, length, measured, radius
-from vorotool.cli.values.numbers import UnexpectedError
 from vorotool.jobs.options import Options, changed
 from vorotool.jobs.units import Measured, PixelSize, lengths_in_pixels
 from vorotool.numeric.length_units import METRES, is_known, ratio

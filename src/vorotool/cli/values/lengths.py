@@ -8,7 +8,8 @@ from fractions import Fraction
 from math import inf, isfinite
 from typing import TYPE_CHECKING, Any
 
-from vorotool.cli.values.numbers import UnexpectedError, decimal
+from vorotool.cli.values import UnexpectedError
+from vorotool.cli.values.numbers import decimal
 from vorotool.errors import UsageError
 from vorotool.jobs.pruning_choice import CRITERIA, LENGTHS, Pruning
 from vorotool.jobs.units import AUTO, AUTO_SPACING, Measured, PixelSize

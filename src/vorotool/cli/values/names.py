@@ -5,10 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 from math import isfinite
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from vorotool.cli.values.numbers import UnexpectedError, number_or_nan
-from vorotool.jobs.picture_style import Scale, color_code
+from vorotool.cli.values import UnexpectedError
+
+if TYPE_CHECKING:
+    from vorotool.jobs.picture_style import Scale
 
 SPELLINGS = (("colour", "color"), ("centre", "center"), ("neighbour", "neighbor"))
 """British spellings of what users type, and ours."""
@@ -68,6 +70,9 @@ def image(text: str) -> str:
 # ---- pictures ------------------------------------------------------------------------------------
 def scale(text: str) -> Scale:
     """Return ``S``, millimetres a unit, or ``1:N``."""
+    from vorotool.cli.values.numbers import number_or_nan
+    from vorotool.jobs.picture_style import Scale
+
     one, colon, rest = text.partition(":")
     number = number_or_nan(rest if colon else one)
     if (colon and number_or_nan(one) != 1) or not isfinite(number) or not number > 0:
@@ -77,6 +82,8 @@ def scale(text: str) -> Scale:
 
 def color(text: str) -> str:
     """Return a color, ``#rrggbb`` or a name as in CSS, as ``#rrggbb``."""
+    from vorotool.jobs.picture_style import color_code
+
     code = color_code(text)
     if code is None:
         raise UnexpectedError("expected a color such as #aa3344 or navy")
@@ -90,6 +97,8 @@ def color_or_none(text: str) -> str:
 
 def _width(text: str) -> float:
     """Return a width in px, or with ``mm``, in px."""
+    from vorotool.cli.values.numbers import number_or_nan
+
     match = re.fullmatch(r"\s*([0-9.]+(?:[eE][-+]?[0-9]+)?)\s*(px|mm)?\s*", text)
     number = number_or_nan(match[1]) if match else -1.0
     if match is None or not 0 <= number < 1e6:

@@ -7,6 +7,7 @@ from fractions import Fraction
 from math import isfinite, nan
 from typing import Any
 
+from vorotool.cli.values import UnexpectedError
 from vorotool.jobs.options import ALL_PAGES, AUTO_LEVELS
 
 LARGEST_EXPONENT = 400
@@ -15,10 +16,6 @@ MOST_LEVELS = 30
 """A side has at most 2^30 voxels."""
 LEAST_ASPECT = 0.001
 """Pictures that are a thousand times stretched show nothing."""
-
-
-class UnexpectedError(ValueError):
-    """A text that is no value of an option; carries what was expected."""
 
 
 def number_or_nan(text: str) -> float:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import shutil
 import sys
 import zlib
 from collections.abc import Iterator
@@ -143,6 +142,8 @@ def read_bytes(name: str) -> bytes:
 
 def copy_stream(name: str, out: BinaryIO) -> None:
     """Copy all that comes through a stream, or is in a file, without holding it."""
+    import shutil  # it brings compressors
+
     number = 0 if name == STANDARD else descriptor_of(name)
     if number is None:
         with Path(name).open("rb") as file:

@@ -23,7 +23,6 @@ from __future__ import annotations
 import errno
 import os
 import re
-import shutil
 import stat
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -33,6 +32,7 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import BinaryIO
+from zlib import crc32
 
 try:
     import fcntl
@@ -160,6 +160,8 @@ def remove_dead(folder: str | os.PathLike[str]) -> None:
 def remove(path: Path) -> None:
     """Remove a file or a folder with all that is in it, as far as it is there and can be removed."""
     if path.is_dir() and not path.is_symlink():
+        import shutil  # it brings compressors
+
         shutil.rmtree(path, ignore_errors=True)
     else:
         with suppress(OSError):
@@ -274,9 +276,9 @@ def _host() -> tuple[str, str]:
 
 
 def _digest(text: str) -> str:
-    import hashlib
-
-    return hashlib.sha256(text.encode()).hexdigest()[:12] if text else _UNKNOWN
+    """Return 48 bits of a text; hashlib would bring OpenSSL, at the start of every run."""
+    data = text.encode()
+    return f"{crc32(data):08x}{crc32(data[::-1]) & 0xFFFF:04x}" if text else _UNKNOWN
 
 
 def _text(path: Path) -> str:
