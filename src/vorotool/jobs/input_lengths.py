@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from vorotool.errors import InputError, UsageError
 from vorotool.jobs.options import Options, changed
 from vorotool.jobs.units import PixelSize, Sides, in_coordinates, measured, refuse_lengths
+from vorotool.products.options import flag
 
 if TYPE_CHECKING:
     from vorotool.convert.sites import Sites
@@ -47,10 +48,18 @@ def lengths_of_image(o: Options, grid: PixelGrid | None) -> Options:
         return _refused(o)
     if not unit.is_length:
         return _refused_degrees(o, grid.crs)
+    if grid.transform is not None:
+        _refuse_places(o)
     sides = unit.side * grid.height, unit.side * grid.width
     if grid.is_square:
         sides = sides[1], sides[1]
     return in_coordinates(o, Sides(unit.unit, sides, _step(o)))
+
+
+def _refuse_places(o: Options) -> None:
+    """Refuse places with a unit in an image on a map, whose own begin in the corner of the image."""
+    for name in (name for name in ("frame", "start", "end") if name in measured(o)):
+        raise UsageError(f"{flag(o.command, name)} of an image on a map is in its pixels: give numbers without a unit")
 
 
 def sized(grid: PixelGrid | None, o: Options) -> PixelGrid:

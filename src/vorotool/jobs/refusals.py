@@ -9,6 +9,7 @@ from vorotool.errors import UsageError
 from vorotool.jobs.options import Options
 from vorotool.jobs.picture_style import SCALE_BAR
 from vorotool.jobs.targets import Target
+from vorotool.jobs.units import Measured, check_frame
 from vorotool.products.formats import ANIMATIONS, FORMATS, PICTURES, TABLES, picture_format
 from vorotool.products.options import flag, options_of
 from vorotool.products.options.row import Option
@@ -196,11 +197,8 @@ def _check_values(o: Options) -> None:
     if o.window is not None and o.cell_size is None and not all(isinstance(number, int) for number in o.window):
         shown = ",".join(f"{float(number):g}" for number in o.window)
         raise UsageError(f"invalid --window '{shown}': expected four integers X,Y,W,H, such as -10,-10,640,480")
-    if o.frame is not None and o.is_of_shapes:
-        from vorotool.types.magnitude import LARGEST
-
-        if max(map(abs, o.frame)) > LARGEST:
-            raise UsageError(f"--frame goes too far to compute with: use numbers of at most {LARGEST:g}")
+    if o.frame is not None and o.is_of_shapes and not any(isinstance(each, Measured) for each in o.frame):
+        check_frame(o.frame)
 
 
 def _check_layers(o: Options, targets: Sequence[Target], products: Products) -> None:

@@ -17,6 +17,7 @@ from vorotool.jobs.pruning_choice import LENGTHS as PRUNED_LENGTHS
 from vorotool.jobs.pruning_choice import Pruning
 from vorotool.plain import plain
 from vorotool.products.formats import FORMATS
+from vorotool.products.options import flag
 
 if TYPE_CHECKING:
     from vorotool.jobs.options import Options
@@ -155,7 +156,7 @@ def lengths_in_pixels(o: Options, size: PixelSize | None) -> Options:
     """Give options whose lengths are numbers in the coordinates of the input, as far as a size of pixels tells."""
     names = measured(o)
     for name in names:
-        _in_pixels(name, getattr(o, name), partial(_check_unit, size))
+        _in_pixels(flag(o.command, name), getattr(o, name), partial(_check_unit, size))
     if size is None or size.is_auto or size.unit is None:
         return o  # the input may tell
     lengths = (size.factor,) * 2 if size.sides is None else size.sides.lengths
@@ -164,8 +165,20 @@ def lengths_in_pixels(o: Options, size: PixelSize | None) -> Options:
 
 def in_coordinates(o: Options, sides: Sides) -> Options:
     """Give options whose lengths are numbers in coordinates of which 1 is so long."""
-    lengths = {name: _in_pixels(name, getattr(o, name), partial(_number, sides)) for name in measured(o)}
+    lengths = {
+        name: _in_pixels(flag(o.command, name), getattr(o, name), partial(_number, sides)) for name in measured(o)
+    }
+    if "frame" in lengths:
+        check_frame(lengths["frame"])
     return changed(o, **lengths) if lengths else o
+
+
+def check_frame(frame: Sequence[float]) -> None:
+    """Refuse a frame too far away to compute with."""
+    from vorotool.types.magnitude import LARGEST
+
+    if max(map(abs, frame)) > LARGEST:
+        raise UsageError(f"--frame goes too far to compute with: use numbers of at most {LARGEST:g}")
 
 
 def refuse_lengths(o: Options, reason: str, kind: type[VorotoolError] = UsageError) -> None:
@@ -175,7 +188,7 @@ def refuse_lengths(o: Options, reason: str, kind: type[VorotoolError] = UsageErr
         raise kind(f"{option} {length.text} has a unit, but {reason}")
 
     for name in measured(o):
-        _in_pixels(name, getattr(o, name), refuse)
+        _in_pixels(flag(o.command, name), getattr(o, name), refuse)
 
 
 def measured(o: Options) -> list[str]:
@@ -187,16 +200,15 @@ def _has_unit(value: Any) -> bool:
     return isinstance(value, Measured) or (isinstance(value, tuple) and any(isinstance(x, Measured) for x in value))
 
 
-def _in_pixels(name: str, value: Any, converted: Callable[[str, Measured], Any]) -> Any:
+def _in_pixels(option: str, value: Any, converted: Callable[[str, Measured], Any]) -> Any:
     """Convert what has a unit in the value of an option, which messages name as users do."""
-    option = _OPTIONS.get(name, f"--{name}").replace("_", "-")
     if isinstance(value, Measured):
         return converted(option, value)
     if isinstance(value, Pruning):
         length = replace(value.threshold, text=f"{value.criterion}={value.threshold.text}")
         return value._replace(threshold=converted(option, length))
     if isinstance(value, tuple):
-        return tuple(_in_pixels(name, each, converted) for each in value)
+        return tuple(_in_pixels(option, each, converted) for each in value)
     return value
 
 
@@ -245,10 +257,6 @@ def _as_double(exact: Fraction) -> float | None:
     except OverflowError:
         return None
     return rounded if rounded or not exact else None
-
-
-_OPTIONS = {"r": "-r", "distance": "-d"}
-"""Options that are not called as their fields are."""
 
 
 def check_units(o: Options, targets: Sequence[Target]) -> None:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from vorotool.cli.values import UnexpectedError
-from vorotool.cli.values.lengths import distances, exact_length, length, measured, radius
+from vorotool.cli.values.lengths import distances, exact_length, length, measured, place, radius, rectangle
 from vorotool.jobs.options import Options, changed
 from vorotool.jobs.units import Measured, PixelSize, lengths_in_pixels
 from vorotool.numeric.length_units import METRES, is_known, ratio
@@ -192,3 +192,69 @@ def test_options_without_units_are_the_same_value():
     size = PixelSize(Fraction("0.325"), "um")
     given = changed(options, max_distance=exact_length("1.3um"))
     assert lengths_in_pixels(given, size).max_distance == 4
+
+
+# ---- places and frames
+@pytest.mark.parametrize(
+    ("text", "numbers"),
+    [("1,2.5um", (1, 2.5)), ("0.001mm,2.5um", (1, 2.5)), ("0, 7 um", (0, 7)), ("-3um,0um", (-3, 0)), ("1,0um", (1, 0))],
+)
+def test_places_have_one_unit(text, numbers):
+    found = place(text)
+    assert [(each.number, each.unit, each.text) for each in found] == [(Fraction(x), "um", text) for x in numbers]
+
+
+def test_places_without_unit_are_numbers():
+    assert place("1,-2e3") == (1.0, -2000.0)
+    assert rectangle("0,0,12.5,8") == (0.0, 0.0, 12.5, 8.0)
+
+
+@pytest.mark.parametrize(
+    "text", ["1um,2", "1um,2s2", "1um", "1,2,3um", "1kg,2um", "1um,2um,3", ",um", "um,um", "nan,1um"]
+)
+def test_places_that_are_none(text):
+    with pytest.raises(UnexpectedError):
+        place(text)
+
+
+@pytest.mark.parametrize("text", ["0,0,0,5mm", "0,0,-1mm,5mm", "0,0,1mm,0mm", "0,0,1,0", "0,0,inf,1", "0,0,1mm,5"])
+def test_frames_that_are_none(text):
+    with pytest.raises(UnexpectedError):
+        rectangle(text)
+
+
+FRAMED = [
+    "voronoi in.json -o {}.csv --frame",
+    "delaunay in.csv --what cells -o {}.csv --frame",
+    "skeleton-exact in.json --side both -o {}.json --frame",
+    "skeleton-approx in.json --step 1 --what diagram -o {}.json --frame",
+]
+
+
+@pytest.mark.parametrize("command", FRAMED, ids=lambda text: text.split()[0])
+def test_a_frame_is_its_numbers(run, inputs, command):
+    """A pixel is 0.5 um."""
+    for name, frame in (("unit", "-1um,-1um,10um,0.009mm"), ("plain", "-2,-2,20,18")):
+        words = command.format(name).split()
+        assert run(*words, frame, "--pixel-size", "0.5um", "-q").code == 0
+    kind = words[words.index("-o") + 1].rpartition(".")[2]
+    assert (inputs / f"unit.{kind}").read_bytes() == (inputs / f"plain.{kind}").read_bytes()
+
+
+def test_ends_of_a_centerline_are_their_numbers(run, inputs):
+    command = ["skeleton-exact", "in.json", "--what", "centerline", "--pixel-size", "0.5um", "-f", "csv", "-q"]
+    done = [run(*command, "--from", begin, "--to", end) for begin, end in (("1,1um", "4um,0um"), ("2,2", "8,0"))]
+    assert done[0].code == 0, done[0].err
+    assert done[0].out == done[1].out
+
+
+def test_places_on_a_map_are_in_pixels(run, tmp_path):
+    import rasterio
+
+    place = {"crs": "EPSG:2056", "transform": rasterio.Affine(2, 0, 2600000, 0, -2, 1200000)}
+    mask = np.zeros((20, 30), np.uint8)
+    mask[5:15, 5:25] = 255
+    with rasterio.open(tmp_path / "m.tif", "w", "GTiff", 30, 20, 1, dtype="uint8", **place) as out:
+        out.write(mask, 1)
+    done = run("voronoi", "m.tif", "--frame", "0,0,20,20m", "-f", "csv")
+    assert (done.code, "--frame" in done.err, "pixels" in done.err) == (2, True, True)

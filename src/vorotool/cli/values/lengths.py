@@ -116,6 +116,47 @@ def _one_or_range(part: str) -> Sequence[float | Measured]:
     return [Measured(f"{float(number):g}{unit[0]}", number, unit[0], is_exact=False) for number in numbers]
 
 
+# ---- places --------------------------------------------------------------------------------------
+def rectangle(text: str) -> tuple[Any, ...]:
+    """Return ``X,Y,W,H`` in the units of the input, or in a unit after the last number or each."""
+    numbers = _numbers(text, 4, "expected four numbers X,Y,W,H, such as 0,0,12.5,8 or 0,0,12.5,8mm")
+    if not all(float(each.number if isinstance(each, Measured) else each) > 0 for each in numbers[2:]):
+        raise UnexpectedError("expected finite numbers, W and H more than 0")
+    return numbers
+
+
+def place(text: str) -> tuple[Any, ...]:
+    """Return ``X,Y`` in the units of the input, or in a unit after the last number or each."""
+    return _numbers(text, 2, "expected two numbers X,Y, such as 12.5,8 or 12.5,8mm")
+
+
+def _numbers(text: str, count: int, expected: str) -> tuple[Any, ...]:
+    """Return finite numbers, all of them with a unit or none."""
+    parts = [part.strip() for part in text.split(",")]
+    found = [measured(part) for part in parts]
+    if any(each is not None for each in found):
+        units = [None if each is None else each.unit for each in found]
+        numbers = [decimal(part) if each is None else each.number for part, each in zip(parts, found, strict=True)]
+        if any(units[:-1]):  # each has its own, but 0 needs none
+            units = [unit if number else units[-1] for unit, number in zip(units, numbers, strict=True)]
+        ratios = _ratios(units)
+        if len(parts) != count or ratios is None:
+            raise UnexpectedError(f"{expected}, with one unit for all, after the last one or each")
+        last = str(units[-1])
+        return tuple(
+            Measured(text, number * ratio, last, is_exact=False) for number, ratio in zip(numbers, ratios, strict=True)
+        )
+    try:
+        plain = tuple(map(float, parts))
+    except ValueError:
+        plain = ()
+    if len(plain) != count:
+        raise UnexpectedError(expected)
+    if not all(map(isfinite, plain)):
+        raise UnexpectedError("expected finite numbers")
+    return plain
+
+
 # ---- areas ---------------------------------------------------------------------------------------
 def area(text: str, *, zero: bool = False) -> Measured | Fraction:
     """Return an area, or the volume of an object, exactly."""

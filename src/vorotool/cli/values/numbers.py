@@ -102,32 +102,6 @@ def window_or_volume(text: str) -> tuple[Any, ...]:
     return numbers
 
 
-def _floats(text: str, count: int, expected: str) -> tuple[float, ...]:
-    try:
-        numbers = tuple(map(float, text.split(",")))
-    except ValueError:
-        numbers = ()
-    if len(numbers) != count:
-        raise UnexpectedError(expected)
-    return numbers
-
-
-def rectangle(text: str) -> tuple[float, ...]:
-    """Return ``X,Y,W,H`` in the units of the input."""
-    x, y, w, h = numbers = _floats(text, 4, "expected four numbers X,Y,W,H, such as 0,0,12.5,8")
-    if not (all(map(isfinite, numbers)) and w > 0 and h > 0):
-        raise UnexpectedError("expected finite numbers, W and H more than 0")
-    return (x, y, w, h)
-
-
-def place(text: str) -> tuple[float, ...]:
-    """Return ``X,Y`` in the units of the input."""
-    numbers = _floats(text, 2, "expected two numbers X,Y, such as 12.5,8")
-    if not all(map(isfinite, numbers)):
-        raise UnexpectedError("expected finite numbers")
-    return numbers
-
-
 def shard(text: str) -> tuple[int, int]:
     """Return I and N of ``I/N``, the I-th of N parts."""
     match = re.fullmatch("([0-9]{1,9})/([0-9]{1,9})", text)

@@ -140,7 +140,10 @@ INPUT = (
     ),
 )
 
-_BOUNDS = "; default: the image, or the bounds and a tenth around them."
+_BOUNDS = (
+    ", in the units of the input or with a unit, such as 0,0,20,10mm; default: the image, or the bounds and a tenth "
+    "around them."
+)
 _PAGE = (
     "Rectangle that pictures show, and the page of SVG to scale; default: all there is, or the page of an SVG input."
 )
@@ -179,19 +182,19 @@ FRAME = (
         "--frame X,Y,W,H",
         "delaunay",
         f"Rectangle that cells are clipped to{_BOUNDS}",
-        "numbers.rectangle",
+        "lengths.rectangle",
         acts_on=f"{_CELLS} .page",
     ),
-    Option("--frame X,Y,W,H", "voronoi", f"Rectangle that cells are clipped to{_BOUNDS}", "numbers.rectangle"),
+    Option("--frame X,Y,W,H", "voronoi", f"Rectangle that cells are clipped to{_BOUNDS}", "lengths.rectangle"),
     Option(
         "--frame X,Y,W,H",
         SKELETONS,
         f"Rectangle that skeletons outside polygons are clipped to{_BOUNDS}",
-        "numbers.rectangle",
+        "lengths.rectangle",
         acts_on="diagram side=exterior side=both .page",
     ),
-    Option("--frame X,Y,W,H", "alphashape distance", _PAGE, "numbers.rectangle", acts_on=".page"),
-    Option("--frame X,Y,W,H", "draw", _PAGE, "numbers.rectangle"),
+    Option("--frame X,Y,W,H", "alphashape distance", _PAGE, "lengths.rectangle", acts_on=".page"),
+    Option("--frame X,Y,W,H", "draw", _PAGE, "lengths.rectangle"),
     Option(
         "--clip POLYGONS",
         "delaunay",
