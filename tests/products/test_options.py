@@ -1,0 +1,132 @@
+"""The table of options: rows that resolve, conditions that exist, and all that follows from a row."""
+
+import subprocess
+import sys
+from importlib import import_module
+
+import click
+import pytest
+
+from vorotool.cli.main import vorotool
+from vorotool.jobs.options import Options
+from vorotool.jobs.refusals import _KINDS, _PROPERTIES
+from vorotool.products.commands import COMMANDS
+from vorotool.products.formats import FORMATS, resolved
+from vorotool.products.options import DEFAULTS, GROUPS, options_of
+from vorotool.products.options.rules import EXCLUDING, NEEDING
+from vorotool.products.registry import PRODUCTS, VOLUME_PRODUCTS, all_layers
+
+ROWS = [row for rows in GROUPS.values() for row in rows]
+KNOWN = {*COMMANDS, "info"}
+
+
+@pytest.mark.parametrize("row", ROWS, ids=lambda row: f"{row.spellings[-1]} {row.commands.split()[0]}")
+def test_a_row_names_what_there_is(row):
+    assert set(row.commands.split()) <= KNOWN
+    kind = row.type.partition(":")[0]
+    if kind not in ("", "choice", "int", "float", "results", "layers"):
+        module, name = kind.split(".")
+        assert callable(getattr(import_module(f"vorotool.cli.values.{module}"), name))
+    assert row.repeats in ("", "joined", "each")
+    assert row.is_flag + row.is_pair + bool(row.metavar or row.type) == 1
+    for command in set(row.commands.split()) & set(COMMANDS):
+        for word in row.acts_on.split():
+            check_condition(command, word if set(word) & set("=:.?") else f"what:{word}", of_row=True)
+
+
+@pytest.mark.parametrize("rule", [*EXCLUDING, *NEEDING], ids=lambda rule: f"{rule.these} {rule.others}"[:60])
+def test_a_rule_names_what_there_is(rule):
+    """In one of its commands at least: the options of others may lack."""
+    for condition in (each for text in (rule.these, rule.others) for each in text.split()):
+        fitting = [command for command in rule.commands.split() if fits(command, condition)]
+        assert fitting, condition
+
+
+def fits(command, condition):
+    try:
+        check_condition(command, condition)
+    except AssertionError:
+        return False
+    return True
+
+
+def check_condition(command, condition, *, of_row=False):
+    for part in condition.split("+"):
+        kind, colon, names = part.partition(":")
+        results = {**PRODUCTS[command], **(VOLUME_PRODUCTS if command == "tessellate" else {})}
+        if colon:
+            known = all_layers(command) if kind == "layer" else results
+            assert kind in ("what", "only", "layer")
+            assert set(names.split(",")) <= set(known) or of_row
+        elif part.startswith("?"):
+            assert hasattr(Options, part[1:])
+            assert part in {**_PROPERTIES, **_KINDS}
+        elif part.startswith("."):
+            assert part in _KINDS or part[1:] in FORMATS or part == ".png-picture"
+        elif "=" in part:
+            name, value = part.split("=")
+            if of_row and name not in options_of(command):
+                continue
+            assert value in options_of(command)[name].type.partition(":")[2].split()
+        elif "." in part:
+            what, fmt = part.split(".")
+            assert fmt in FORMATS
+            assert of_row or fmt in results[what].formats
+        else:
+            assert part == "inputs" or part in options_of(command)
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_options_of_a_command_have_names_of_their_own(command):
+    rows = [row for row in ROWS if command in row.commands.split()]
+    assert len(options_of(command)) == len(rows)
+    flags = [flag for row in rows for spelling in row.spellings for flag in spelling.split("/")]
+    assert len(set(flags)) == len(flags)
+    assert callable(resolved(COMMANDS[command].job))
+    assert not COMMANDS[command].check or callable(resolved(COMMANDS[command].check))
+
+
+def test_defaults_are_those_of_every_row():
+    """What a command lacks has the default that others have."""
+    for row in ROWS:
+        assert DEFAULTS[row.parameter] == row.unset or row.parameter in ("method", "side", "complete"), row
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_click_has_what_the_table_has(command):
+    context = click.Context(vorotool)
+    made = {each.name: each for each in vorotool.get_command(context, command).params if isinstance(each, click.Option)}
+    assert [name for name in made if name != "short_help_page"] == list(options_of(command))
+    for name, row in options_of(command).items():
+        assert {*made[name].opts, *made[name].secondary_opts} == {f for s in row.spellings for f in s.split("/")}
+
+
+ADDED = """
+import sys
+from vorotool.products import options
+from vorotool.products.options.row import Option
+options.GROUPS["Method"] += (
+    Option("--wobble D", "delaunay voronoi", "Shake by D.", "lengths.length", acts_on="edges.csv cells"),
+)
+options.DEFAULTS["wobble"] = None
+from vorotool.cli.main import main
+main(sys.argv[1:])
+"""
+
+
+def called(folder, *arguments):
+    words = [sys.executable, "-c", ADDED, *arguments]
+    return subprocess.run(words, cwd=folder, capture_output=True, text=True, check=False)
+
+
+def test_an_option_is_one_row(tmp_path):
+    (tmp_path / "a.csv").write_text("x,y\n0,0\n4,0\n0,3\n")
+    assert "--wobble D" in called(tmp_path, "delaunay", "--help").stdout
+    assert "--wobble" not in called(tmp_path, "alphashape", "--help").stdout
+    assert called(tmp_path, "delaunay", "a.csv", "--wobble", "2", "-f", "csv").returncode == 0
+    refused = called(tmp_path, "delaunay", "a.csv", "--wobble", "2", "-f", "npz", "-o", "a.npz")
+    assert refused.returncode == 2
+    assert "--wobble applies to --what cells or --what edges as csv" in refused.stderr
+    wrong = called(tmp_path, "delaunay", "a.csv", "--wobble", "-1")
+    assert (wrong.returncode, "'--wobble': '-1': expected more than 0" in wrong.stderr) == (2, True)
+    assert "no such option" in called(tmp_path, "draw", "a.csv", "--wobble", "1").stderr.lower()
