@@ -19,17 +19,17 @@ from vorotool.products.registry import NAMING_FEATURES, PRODUCTS, Product
 Products = Mapping[str, Product]
 
 _KINDS = {
-    ".picture": "pictures: use -f svg or -f png",
-    ".page": "pictures: use -f svg or -f png",
+    ".picture": "pictures (-f svg, png)",
+    ".page": "pictures (-f svg, png)",
     ".amounts": "pictures of thickness",
-    ".sized": "pictures: use -f svg",
-    ".animation": "animations: use -f gif, -f apng or -f webp",
+    ".sized": "pictures (-f svg)",
+    ".animation": "animations (-f gif, apng, webp)",
     ".coordinates": "coordinates in tables and vectors",
-    ".digits": "numbers in text: use -f csv or another format of text",
-    ".parts": "tables and GeoJSON whose rows are parts of features or pairs: --what branches, points or edges",
+    ".digits": "formats of text, such as csv",
+    ".parts": "tables and GeoJSON whose rows are parts of features or pairs (--what branches, points, edges, ...)",
     ".curves": "formats that have no curves, such as GeoJSON and WKT",
     "?may_be_drawn": "drawings that are read",
-    ".ome-zarr": "OME-Zarr: use -o NAME.ome.zarr",
+    ".ome-zarr": "OME-Zarr (-o NAME.ome.zarr)",
 }
 """Words for kinds of outputs."""
 
@@ -48,7 +48,7 @@ def check_options(o: Options, targets: Sequence[Target], products: Products) -> 
     for row in options_of(o.command).values():
         if row.acts_on and is_given(o, row) and not any(map(holding.holds, _conditions(row))):
             name = flag(o.command, row.parameter, getattr(o, row.parameter))
-            raise UsageError(f"{name} applies to {_where(o, row)}; leave it out otherwise")
+            raise UsageError(f"{name} applies only to {_where(o, row)}")
     _check_values(o)
     _check_layers(o, targets, products)
 
@@ -177,7 +177,7 @@ def _where(o: Options, row: Option) -> str:
     others = []
     for word in row.acts_on.split():
         if word.startswith(".") and word[1:] in FORMATS:
-            others.append(f"{FORMATS[word[1:]].title}: use -f {word[1:]}")
+            others.append(f"{FORMATS[word[1:]].title} (-f {word[1:]})")
         elif word.startswith((".", "?")):
             others.append(_KINDS[word])
         elif "=" in word or ":" in word:
@@ -188,7 +188,8 @@ def _where(o: Options, row: Option) -> str:
     plain = [what for what, formats in results.items() if not formats and what in PRODUCTS[o.command]]
     said = [f"--what {', '.join(plain)}"] if plain else []
     said += [f"--what {what} as {', '.join(formats)}" for what, formats in results.items() if formats]
-    return " or ".join(dict.fromkeys([*said, *others]))
+    *first, last = dict.fromkeys([*said, *others])
+    return f"{', '.join(first)} or {last}" if first else last
 
 
 # ---- values --------------------------------------------------------------------------------------

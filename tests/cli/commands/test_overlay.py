@@ -134,7 +134,7 @@ def test_a_skeleton_from_a_file_is_drawn_over_an_image(run, folder, photo):
         (
             ("alphashape", BLOBS, "--what", "curves", "--overlay", "photo.png", "-o", "a.svg"),
             2,
-            "--overlay applies to pictures",
+            "--overlay applies only to pictures",
         ),
         (
             ("draw", DATA / "cells.png", "--overlay", "photo.png", "--width", "90", "-o", "a.svg"),

@@ -179,7 +179,7 @@ def test_pictures(run, folder):
     [
         (["--what", "offset"], "--what"),
         (["--what", "points,transects", "--out-dir", "x"], "--what points needs --every D"),
-        (["-d", "3"], "-d applies to --what offset"),
+        (["-d", "3"], "-d applies only to --what offset"),
         (["--what", "points", "--every", "3", "--along", "centerline", "--side", "exterior"], "inside polygons"),
         (["--every", "3"], "--every"),
         (["--what", "offset", "-d", "0"], "a distance is 0"),

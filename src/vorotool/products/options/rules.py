@@ -49,14 +49,20 @@ EXCLUDING = (
         "tessellate",
         "?is_of_volumes",
         "method=propagation passes tiled like overlay y_up animate frames fps connectivity=8 connectivity=4",
-        "it is for images",
+        "the option is for images",
     ),
-    Rule("tessellate", "?is_of_volumes", "cell_size input_layer input_crs crs", "it is for maps"),
+    Rule("tessellate", "?is_of_volumes", "cell_size input_layer input_crs crs", "the option is for maps"),
     Rule("tessellate", "?is_of_volumes", "page", "all pages are the volume"),
     Rule("tessellate", "?is_of_volumes", "?has_pixel_size", "voxels have three sides", "give --spacing SX,SY,SZ"),
-    Rule(SITES, "connectivity", "seeds=pixels seeds=labels", "it is for components"),
+    Rule(SITES, "connectivity", "seeds=pixels seeds=labels", "--connectivity is for components"),
     # ---- triangulations and alpha shapes
-    Rule("delaunay", "what:compare", "method=digital-valid", "it is about the digital rule", "use --method digital"),
+    Rule(
+        "delaunay",
+        "what:compare",
+        "method=digital-valid",
+        "the comparison is about the digital rule",
+        "use --method digital",
+    ),
     Rule(
         "delaunay",
         "what:compare+method=exact",
@@ -69,16 +75,16 @@ EXCLUDING = (
         "delaunay",
         "?is_digital",
         "layer:cells layer:diagram graph what:cells what:table what:statistics what:measures edges.edge triangles.ele",
-        "it finds edges and triangles that need be no triangulation",
+        "the digital rule finds edges and triangles that need be no triangulation",
         "use --method exact or digital-valid",
     ),
-    Rule("alphashape", "regions", "r alpha", "it is for the automatic choice of r"),
+    Rule("alphashape", "regions", "r alpha", "--regions is for the automatic choice of r"),
     Rule("alphashape", "what:hull", "hole_threshold region_threshold", "the hull has no thresholds"),
     Rule(
         "alphashape",
         "rule=printed",
         "verify ?is_automatic what:curves what:persistence .html",
-        "it is the letter of the paper, for one -r",
+        "the printed rule is the letter of the paper, for one -r",
         "use --rule corrected",
     ),
     Rule(
@@ -86,7 +92,7 @@ EXCLUDING = (
         "method=digital",
         "?is_automatic what:polygons what:general what:hull what:points what:table what:curves what:persistence .html "
         ".animation hole_threshold region_threshold verify",
-        "it finds edges and triangles, which need be no triangulation",
+        "the digital rule finds edges and triangles that need be no triangulation",
         "use --method exact or digital-valid",
     ),
     # ---- skeletons and Voronoi maps
@@ -96,7 +102,7 @@ EXCLUDING = (
         SKELETONS,
         "side=exterior",
         "what:shape what:centerline along=centerline what:discs what:thickness",
-        "it is inside polygons",
+        "shapes, centerlines, discs and thickness are inside polygons",
         "use --side interior or both",
     ),
     Rule(SKELETONS, "ends=middle+what:skeleton", "side=exterior side=both", "ends are extended only inside polygons"),
@@ -118,7 +124,7 @@ EXCLUDING = (
         "border=open",
         "side=exterior side=both features=together gap simplify frame what:diagram what:elements what:offset "
         "what:shape what:discs what:thickness what:necks what:parts",
-        "it is for what is inside each object as it is",
+        "an open border is for what is inside each object as it is",
         "use --what skeleton, branches, table, centerline, points or transects alone",
     ),
     Rule("voronoi", "by", "no_properties", "features are joined by a column"),
@@ -129,12 +135,19 @@ EXCLUDING = (
 NEEDING = (
     Rule("tessellate", "passes", "method=propagation"),
     Rule("tessellate", "slice levels connectivity=26 connectivity=6", "volume ?is_of_volumes"),
-    Rule("delaunay", "size window", "method=digital method=digital-valid ?is_digital", "it is the frame of pixels"),
-    Rule("alphashape", "size window", "method=digital method=digital-valid", "it is the frame of pixels"),
+    Rule(
+        "delaunay",
+        "size window",
+        "method=digital method=digital-valid ?is_digital",
+        "the frame is of the digital tessellation",
+    ),
+    Rule(
+        "alphashape", "size window", "method=digital method=digital-valid", "the frame is of the digital tessellation"
+    ),
     Rule(SKELETONS, "what:points what:transects", "every"),
     Rule("skeleton-approx", "inputs", "step tolerance"),
     Rule("skeleton-exact", "what:offset", "distance"),
-    Rule("skeleton-exact", "complete", "gap", "without one nothing is missing"),
-    Rule(BATCHES, "null", "files_from", "it is about that list"),
+    Rule("skeleton-exact", "complete", "gap", "without a gap nothing is missing"),
+    Rule(BATCHES, "null", "files_from", "NUL bytes end the names of that list"),
 )
 """Of each rule, a condition of the first kind needs one of the second."""
