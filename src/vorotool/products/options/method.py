@@ -177,8 +177,9 @@ METHOD = (
     Option(
         "--along",
         SKELETONS,
-        "What these are along: each branch of the skeleton (default), so that distances begin anew at junctions, or "
-        "the centerline of each polygon from end to end, with transects straight across it up to the outline.",
+        "What points and transects follow: each branch of the skeleton (default), so that distances begin anew at "
+        "junctions, or the centerline of each polygon from end to end, with transects straight across it up to the "
+        "outline.",
         "choice:branches centerline",
         acts_on=_ALONG,
     ),
